@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace coordreq {
+
+/// A fixed set of threads that run loops together. One object is passed down explicitly; there is no global.
+///
+/// Threads of our own rather than TBB or OpenMP: ThreadSanitizer cannot see the synchronisation inside
+/// those libraries and reports races that are none.
+///
+/// Thread safety: `for_each` may be called from one thread at a time and not from within a loop body.
+class ThreadTeam {
+ public:
+  /// A half-open range of loop indices.
+  struct Range {
+    std::int64_t begin = 0;
+    std::int64_t end = 0;
+  };
+  /// `worker` in [0, size()) names the thread that runs the range, for scratch memory.
+  using Body = std::function<void(Range range, int worker)>;
+
+  /// @param threads number of threads that work, the calling one included; 0 means all cores. Where the
+  /// system
+  ///   refuses some, the team is smaller.
+  explicit ThreadTeam(int threads = 0);
+  ~ThreadTeam();
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+  [[nodiscard]] int size() const;
+
+  /// Calls `body` on ranges of at most `grain` indices that together are [0, count), each index once.
+  /// Returns when all are done. An exception thrown by a body ends the loop early and is rethrown here; of
+  /// several the one of the lowest range, which is the same whatever the number of threads: ranges are handed
+  /// out in order.
+  void for_each(std::int64_t count, std::int64_t grain, const Body& body);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,30 @@
+#include "base/timer.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+
+namespace coordreq {
+
+void StageTimer::begin(std::string name) {
+  end();
+  const auto found =
+      std::find_if(seconds_.begin(), seconds_.end(), [&](const auto& s) { return s.first == name; });
+  current_ = static_cast<std::size_t>(found - seconds_.begin());
+  if (found == seconds_.end()) seconds_.emplace_back(std::move(name), 0.0);
+  started_ = Clock::now();
+  running_ = true;
+}
+
+void StageTimer::end() {
+  if (running_) seconds_[current_].second += std::chrono::duration<double>(Clock::now() - started_).count();
+  running_ = false;
+}
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+}  // namespace coordreq

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace coordreq {
+
+/// Wall time by stage, in the order in which the stages were begun.
+class StageTimer {
+ public:
+  /// Ends the stage under way, if any, and begins `name`; a name seen before is added to.
+  void begin(std::string name);
+  /// Ends the stage under way.
+  void end();
+  /// Stages and their seconds so far.
+  [[nodiscard]] const std::vector<std::pair<std::string, double>>& seconds() const { return seconds_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::vector<std::pair<std::string, double>> seconds_;
+  std::size_t current_ = 0;
+  bool running_ = false;
+  Clock::time_point started_;
+};
+
+/// The largest resident set of this process so far, in bytes; 0 where the system does not tell.
+[[nodiscard]] std::uint64_t peak_memory_bytes();
+
+}  // namespace coordreq

@@ -1,0 +1,33 @@
+# coordreq_module(<name> SOURCES <file>... [DEPENDS <target>...] [PRIVATE_DEPENDS <target>...])
+# One library target a module, coordreq_<name>; headers are included as "<name>/<file>.hpp".
+
+add_library(coordreq_options INTERFACE)
+target_compile_features(coordreq_options INTERFACE cxx_std_20)
+target_compile_options(coordreq_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
+  # Designated initialisers leave out what has a sensible default, on purpose.
+  -Wno-missing-field-initializers
+  # False alarms of g++ 12 on std::string (GCC bug 105651).
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  # Interval arithmetic relies on every operation being rounded once, as written.
+  -ffp-contract=off
+  $<$<BOOL:${COORDREQ_WARNINGS_AS_ERRORS}>:-Werror>)
+
+function(coordreq_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  set(target coordreq_${name})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/lib)
+  target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE coordreq_options ${ARG_PRIVATE_DEPENDS})
+endfunction()
+
+# coordreq_test(<name> SOURCES <file>... DEPENDS <target>...): one GoogleTest binary, every case a CTest test.
+function(coordreq_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  set(target test_${name})
+  add_executable(${target} ${ARG_SOURCES})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(${target} PRIVATE coordreq_options ${ARG_DEPENDS} GTest::gtest_main)
+  gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
+                       PROPERTIES TIMEOUT 600)
+endfunction()
