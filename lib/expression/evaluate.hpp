@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "expression/domains.hpp"
+#include "expression/program.hpp"
+#include "numeric/truth.hpp"
+
+namespace coordreq {
+
+/// Runs a program over any number type T ("abstract domain"). T must provide, found by argument-dependent
+/// lookup: `T from_rational(const T* tag, const Rational&)`, `T apply(Operator, const T&)` for the unary
+/// functions, `T apply(Operator, const T&, const T&)` for the binary ones, `Truth compare(Operator, const T&,
+/// const T&)` and `T select(Truth, const T&, const T&)` for `if`. `double`, `Interval` and `RationalInterval`
+/// do.
+///
+/// If T has a member `bool total`, an `if` whose condition may be undefined somewhere is not total, although
+/// a condition that is merely undecided leaves it so.
+///
+/// One evaluator holds the scratch memory; use one a thread.
+template <class T>
+class Evaluator {
+ public:
+  /// REQUIRES: `program` outlives the evaluator.
+  explicit Evaluator(const Program& program)
+      : program_(&program), numbers_(program.nodes.size()), truths_(program.nodes.size()) {
+    constants_.reserve(program.constants.size());
+    for (const Rational& q : program.constants) {
+      constants_.push_back(from_rational(static_cast<const T*>(nullptr), q));
+    }
+  }
+
+  /// REQUIRES: the program is a number; `slots` has a value for every variable.
+  [[nodiscard]] const T& number(std::span<const T> slots) {
+    run(slots);
+    return numbers_.back();
+  }
+  /// REQUIRES: the program is a condition; `slots` has a value for every variable.
+  [[nodiscard]] Truth condition(std::span<const T> slots) {
+    run(slots);
+    return truths_.back().value;
+  }
+
+ private:
+  struct Condition {
+    Truth value = Truth::undecided;
+    bool total = true;  ///< false if it is undecided and perhaps undefined
+  };
+
+  static Condition made(Truth value, bool total) { return {value, total || value != Truth::undecided}; }
+
+  static bool is_total(const T& number) {
+    if constexpr (requires { number.total; }) return number.total;
+    return true;
+  }
+
+  void run(std::span<const T> slots) {
+    const auto& nodes = program_->nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (is_condition(nodes[i].op)) {
+        truths_[i] = condition_of(nodes[i]);
+      } else {
+        number_of(nodes[i], slots, numbers_[i]);
+      }
+    }
+  }
+
+  void number_of(const Program::Node& node, std::span<const T> slots, T& result) const {
+    switch (node.op) {
+      case Operator::constant:
+        result = constants_[node.a];
+        return;
+      case Operator::variable:
+        result = slots[node.a];
+        return;
+      case Operator::if_else:
+        choose(node, result);
+        return;
+      default:
+        break;
+    }
+    if (is_unary_function(node.op)) {
+      result = apply(node.op, numbers_[node.a]);
+    } else {
+      result = apply(node.op, numbers_[node.a], numbers_[node.b]);
+    }
+  }
+
+  void choose(const Program::Node& node, T& result) const {
+    const Condition& condition = truths_[node.a];
+    result = select(condition.value, numbers_[node.b], numbers_[node.c]);
+    if constexpr (requires { result.total = false; }) {
+      if (!condition.total) result.total = false;
+    }
+  }
+
+  Condition condition_of(const Program::Node& node) const {
+    switch (node.op) {
+      case Operator::logical_and:
+        return both(node, truth_and(truths_[node.a].value, truths_[node.b].value));
+      case Operator::logical_or:
+        return both(node, truth_or(truths_[node.a].value, truths_[node.b].value));
+      case Operator::logical_not:
+        return {!truths_[node.a].value, truths_[node.a].total};
+      case Operator::literal_true:
+        return {Truth::yes, true};
+      case Operator::literal_false:
+        return {Truth::no, true};
+      default:
+        break;
+    }
+    const T& a = numbers_[node.a];
+    const T& b = numbers_[node.b];
+    return made(compare(node.op, a, b), is_total(a) && is_total(b));
+  }
+
+  Condition both(const Program::Node& node, Truth value) const {
+    return made(value, truths_[node.a].total && truths_[node.b].total);
+  }
+
+  const Program* program_;
+  std::vector<T> constants_;
+  std::vector<T> numbers_;
+  std::vector<Condition> truths_;
+};
+
+}  // namespace coordreq

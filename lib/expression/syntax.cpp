@@ -1,0 +1,225 @@
+#include "expression/syntax.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
+#include "expression/token.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr int kDeepest = 1000;
+
+/// How tightly operators bind, loosest first.
+enum Precedence : int { kNone = 0, kOr, kAnd, kNot, kComparison, kSum, kProduct, kPower };
+
+int binary_precedence(const Token& token) {
+  if (token.kind != TokenKind::op) return kNone;
+  if (is_comparison(token.op)) return kComparison;
+  switch (token.op) {
+    case Operator::logical_or:
+      return kOr;
+    case Operator::logical_and:
+      return kAnd;
+    case Operator::add:
+    case Operator::subtract:
+      return kSum;
+    case Operator::multiply:
+    case Operator::divide:
+      return kProduct;
+    case Operator::power:
+      return kPower;
+    default:
+      return kNone;
+  }
+}
+
+/// Precedence climbing by hand rather than a grammar in PEGTL: every error has to name what was found and
+/// what could have stood there, and a level of nesting must cost little stack (a PEGTL level of this grammar
+/// runs through some fifty frames, 1000 of which overflow 8 MiB under AddressSanitizer).
+class Parser {
+ public:
+  explicit Parser(const Place& place) : place_(place), token_(read_token(place.text, 0)) {}
+
+  SyntaxTree run() {
+    expression(kOr);
+    if (token_.kind != TokenKind::end) fail_expected("an operator or the end");
+    return std::move(tree_);
+  }
+
+ private:
+  /// Counts one level of nesting while it lives.
+  class Level {
+   public:
+    explicit Level(Parser& parser) : parser_(parser) {
+      if (++parser_.depth_ > kDeepest) {
+        parser_.place_.fail(fmt::format("the expression is nested deeper than {} levels", kDeepest),
+                            parser_.token_.offset);
+      }
+    }
+    ~Level() { --parser_.depth_; }
+    Level(const Level&) = delete;
+    Level& operator=(const Level&) = delete;
+
+   private:
+    Parser& parser_;
+  };
+
+  /// Reads operators that bind at least as tightly as `loosest`, and their operands.
+  void expression(int loosest) {
+    operand(loosest);
+    while (true) {
+      const int precedence = binary_precedence(token_);
+      if (precedence == kNone || precedence < loosest) return;
+      if (precedence == kComparison) {
+        comparison_chain();
+      } else if (precedence == kPower) {
+        exponent();
+      } else {
+        left_associative(precedence);
+      }
+    }
+  }
+
+  void left_associative(int precedence) {
+    const Operator op = token_.op;
+    const std::size_t start = tree_.nodes.back().offset;
+    advance();
+    expression(precedence + 1);
+    emit(op, 2, start);
+  }
+
+  void exponent() {
+    const Level level(*this);
+    const std::size_t start = tree_.nodes.back().offset;
+    advance();
+    expression(kPower);
+    emit(Operator::power, 2, start);
+  }
+
+  void comparison_chain() {
+    const std::size_t start = tree_.nodes.back().offset;
+    std::vector<Operator> comparisons;
+    while (binary_precedence(token_) == kComparison) {
+      comparisons.push_back(token_.op);
+      advance();
+      expression(kSum);
+    }
+    const auto first = static_cast<std::uint32_t>(tree_.comparisons.size());
+    const auto operands = static_cast<std::uint32_t>(comparisons.size() + 1);
+    tree_.comparisons.insert(tree_.comparisons.end(), comparisons.begin(), comparisons.end());
+    tree_.nodes.push_back({comparisons.front(), operands, first, start});
+  }
+
+  void operand(int loosest) {
+    switch (token_.kind) {
+      case TokenKind::number:
+        return number();
+      case TokenKind::name:
+        return name();
+      case TokenKind::open:
+        return parenthesis();
+      case TokenKind::op:
+        return prefix(loosest);
+      default:
+        fail_expected("a number, a name or '('");
+    }
+  }
+
+  void prefix(int loosest) {
+    const Token op = token_;
+    const bool is_not = op.op == Operator::logical_not && loosest <= kNot;
+    if (!is_not && op.op != Operator::subtract && op.op != Operator::add) {
+      fail_expected("a number, a name or '('");
+    }
+    const Level level(*this);
+    advance();
+    expression(is_not ? kNot : kPower);
+    if (is_not) return emit(Operator::logical_not, 1, op.offset);
+    emit(op.op == Operator::subtract ? Operator::negate : Operator::add, 1, op.offset);
+  }
+
+  void number() {
+    const std::optional<Rational> value = parse_decimal(token_.text);
+    if (!value) place_.fail(fmt::format("the number {} is out of range", quoted(token_.text)), token_.offset);
+    tree_.nodes.push_back(
+        {Operator::constant, 0, static_cast<std::uint32_t>(tree_.numbers.size()), token_.offset});
+    tree_.numbers.push_back(*value);
+    advance();
+  }
+
+  void name() {
+    const Token word = token_;
+    advance();
+    if (word.text == "true") return emit(Operator::literal_true, 0, word.offset);
+    if (word.text == "false") return emit(Operator::literal_false, 0, word.offset);
+    const std::optional<Function> function = find_function(word.text);
+    if (function) return call(*function, word.offset);
+    if (token_.kind == TokenKind::open) {
+      place_.fail(fmt::format("{} is not a function", quoted(word.text)), word.offset);
+    }
+    tree_.nodes.push_back(
+        {Operator::variable, 0, static_cast<std::uint32_t>(tree_.names.size()), word.offset});
+    tree_.names.push_back(word.text);
+  }
+
+  void parenthesis() {
+    const Level level(*this);
+    const std::size_t start = token_.offset;
+    advance();
+    expression(kOr);
+    if (token_.kind != TokenKind::close) fail_expected("an operator or ')'");
+    advance();
+    tree_.nodes.back().offset = start;
+  }
+
+  void call(const Function& function, std::size_t start) {
+    const Level level(*this);
+    if (token_.kind != TokenKind::open) fail_expected("'('");
+    advance();
+    std::size_t arguments = 0;
+    while (token_.kind != TokenKind::close || arguments > 0) {
+      expression(kOr);
+      ++arguments;
+      if (token_.kind == TokenKind::close) break;
+      if (token_.kind != TokenKind::comma) fail_expected("an operator, ',' or ')'");
+      advance();
+    }
+    advance();
+    if (arguments < function.fewest || arguments > function.most) fail_count(function, arguments, start);
+    emit(function.op, arguments, start);
+  }
+
+  void advance() { token_ = read_token(place_.text, token_.offset + token_.text.size()); }
+
+  void emit(Operator op, std::size_t operands, std::size_t start) {
+    tree_.nodes.push_back({op, static_cast<std::uint32_t>(operands), 0, start});
+  }
+
+  [[noreturn]] void fail_expected(std::string_view expected) const {
+    place_.fail(fmt::format("expected {}, found {}", expected, shown(token_)), token_.offset);
+  }
+
+  [[noreturn]] void fail_count(const Function& function, std::size_t found, std::size_t start) const {
+    const std::string_view more = function.most > function.fewest ? " or more" : "";
+    const std::string_view plural = function.most == 1 ? "" : "s";
+    place_.fail(fmt::format("{} takes {}{} argument{}, found {}", function.name, function.fewest, more,
+                            plural, found),
+                start);
+  }
+
+  const Place& place_;
+  Token token_;
+  SyntaxTree tree_;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+SyntaxTree parse(const Place& place) {
+  return Parser(place).run();
+}
+
+}  // namespace coordreq

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "expression/operators.hpp"
+#include "expression/place.hpp"
+#include "numeric/rational.hpp"
+
+namespace coordreq {
+
+/// What an expression says, before names and types are looked at: a tree in postfix order, so that whoever
+/// walks it needs a stack of values and no recursion.
+struct SyntaxTree {
+  struct Node {
+    Operator op = Operator::constant;
+    std::uint32_t operands =
+        0;                   ///< how many; a comparison with n of them is a chain, `add` with one is a sign
+    std::uint32_t item = 0;  ///< `constant`: index into numbers; `variable`: into names; comparison: the
+                             ///< first of its `operands - 1` entries in comparisons
+    std::size_t offset = 0;  ///< where it starts in the text
+  };
+  std::vector<Node> nodes;
+  std::vector<Rational> numbers;
+  std::vector<std::string_view> names;  ///< views into the text
+  std::vector<Operator> comparisons;
+};
+
+/// @throws SpecError if the text is no expression of the grammar
+[[nodiscard]] SyntaxTree parse(const Place& place);
+
+}  // namespace coordreq

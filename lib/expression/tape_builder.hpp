@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "expression/node_index.hpp"
+#include "expression/program.hpp"
+
+namespace coordreq {
+
+/// Builds the tape of a Program bottom-up. Equal nodes are stored once; operations on constants are carried
+/// out where the result is exact, and stay operations where it is not, so that intervals can enclose it.
+class TapeBuilder {
+ public:
+  using Index = std::uint32_t;
+
+  [[nodiscard]] Index constant(const Rational& value);
+  [[nodiscard]] Index variable(std::uint32_t slot);
+  [[nodiscard]] Index apply(Operator op, Index a = 0, Index b = 0, Index c = 0);
+  /// The result of `program`, its nodes copied in.
+  [[nodiscard]] Index merge(const Program& program);
+
+  /// The tape of everything `result` needs; `text` is left empty.
+  [[nodiscard]] Program extract(Index result) const;
+
+ private:
+  struct RationalHash {
+    std::size_t operator()(const Rational& q) const;
+  };
+
+  Index insert(const Program::Node& node);
+  Index insert_truth(bool value);
+  std::optional<Index> fold(const Program::Node& node);
+  std::optional<Index> fold_number(const Program::Node& node);
+  std::optional<Index> fold_condition(const Program::Node& node);
+  [[nodiscard]] const Rational* constant_at(Index index) const;
+  [[nodiscard]] std::optional<bool> truth_at(Index index) const;
+
+  std::vector<Program::Node> nodes_;
+  std::vector<Rational> constants_;
+  NodeIndex index_of_node_;
+  std::unordered_map<Rational, Index, RationalHash> index_of_constant_;
+};
+
+}  // namespace coordreq

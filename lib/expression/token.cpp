@@ -1,0 +1,141 @@
+#include "expression/token.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "expression/place.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
+
+constexpr std::array kFunctions{
+    Function{"sin", Operator::sine, 1, 1},
+    Function{"cos", Operator::cosine, 1, 1},
+    Function{"tan", Operator::tangent, 1, 1},
+    Function{"asin", Operator::arcsine, 1, 1},
+    Function{"acos", Operator::arccosine, 1, 1},
+    Function{"atan", Operator::arctangent, 1, 1},
+    Function{"sinh", Operator::hyperbolic_sine, 1, 1},
+    Function{"cosh", Operator::hyperbolic_cosine, 1, 1},
+    Function{"tanh", Operator::hyperbolic_tangent, 1, 1},
+    Function{"exp", Operator::exponential, 1, 1},
+    Function{"log", Operator::logarithm, 1, 1},
+    Function{"sqrt", Operator::square_root, 1, 1},
+    Function{"abs", Operator::absolute, 1, 1},
+    Function{"sign", Operator::sign, 1, 1},
+    Function{"min", Operator::minimum, 2, kAnyNumber},
+    Function{"max", Operator::maximum, 2, kAnyNumber},
+    Function{"pow", Operator::power, 2, 2},
+    Function{"if", Operator::if_else, 3, 3},
+};
+
+// Longer symbols first, so that `<=` is not read as `<`.
+constexpr std::array kSymbols{
+    std::pair{std::string_view("<="), Operator::less_equal},
+    std::pair{std::string_view(">="), Operator::greater_equal},
+    std::pair{std::string_view("=="), Operator::equal},
+    std::pair{std::string_view("!="), Operator::not_equal},
+    std::pair{std::string_view("&&"), Operator::logical_and},
+    std::pair{std::string_view("||"), Operator::logical_or},
+    std::pair{std::string_view("<"), Operator::less},
+    std::pair{std::string_view(">"), Operator::greater},
+    std::pair{std::string_view("!"), Operator::logical_not},
+    std::pair{std::string_view("+"), Operator::add},
+    std::pair{std::string_view("-"), Operator::subtract},
+    std::pair{std::string_view("*"), Operator::multiply},
+    std::pair{std::string_view("/"), Operator::divide},
+    std::pair{std::string_view("^"), Operator::power},
+};
+
+// The C library's classifications depend on the locale.
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_name_start(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+bool is_name_part(char c) {
+  return is_name_start(c) || is_digit(c);
+}
+bool is_space(char c) {
+  return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+template <class Predicate>
+std::size_t run_length(std::string_view text, Predicate predicate) {
+  return static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), predicate) - text.begin());
+}
+
+/// Length of the decimal literal at the start of `text`, 0 if there is none.
+std::size_t number_length(std::string_view text) {
+  std::size_t length = run_length(text, is_digit);
+  std::size_t digits = length;
+  if (length < text.size() && text[length] == '.') {
+    const std::size_t fraction = run_length(text.substr(length + 1), is_digit);
+    digits += fraction;
+    length += 1 + fraction;
+  }
+  if (digits == 0) return 0;
+  std::size_t exponent = length;
+  if (exponent == text.size() || (text[exponent] != 'e' && text[exponent] != 'E')) return length;
+  ++exponent;
+  if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
+  const std::size_t exponent_digits = run_length(text.substr(exponent), is_digit);
+  return exponent_digits == 0 ? length : exponent + exponent_digits;
+}
+
+Token word_token(std::string_view word, std::size_t offset) {
+  if (word == "and") return {TokenKind::op, Operator::logical_and, offset, word};
+  if (word == "or") return {TokenKind::op, Operator::logical_or, offset, word};
+  if (word == "not") return {TokenKind::op, Operator::logical_not, offset, word};
+  return {TokenKind::name, Operator::variable, offset, word};
+}
+
+Token symbol_token(std::string_view rest, std::size_t offset) {
+  switch (rest.front()) {
+    case '(':
+      return {TokenKind::open, Operator::constant, offset, rest.substr(0, 1)};
+    case ')':
+      return {TokenKind::close, Operator::constant, offset, rest.substr(0, 1)};
+    case ',':
+      return {TokenKind::comma, Operator::constant, offset, rest.substr(0, 1)};
+    default:
+      break;
+  }
+  for (const auto& [symbol, op] : kSymbols) {
+    if (rest.substr(0, symbol.size()) == symbol)
+      return {TokenKind::op, op, offset, rest.substr(0, symbol.size())};
+  }
+  return {TokenKind::unknown, Operator::constant, offset, rest.substr(0, code_point_size(rest))};
+}
+
+}  // namespace
+
+Token read_token(std::string_view text, std::size_t offset) {
+  offset += run_length(text.substr(offset), is_space);
+  const std::string_view rest = text.substr(offset);
+  if (rest.empty()) return {TokenKind::end, Operator::constant, offset, rest};
+  if (const std::size_t length = number_length(rest); length > 0) {
+    return {TokenKind::number, Operator::constant, offset, rest.substr(0, length)};
+  }
+  if (is_name_start(rest.front())) return word_token(rest.substr(0, run_length(rest, is_name_part)), offset);
+  return symbol_token(rest, offset);
+}
+
+std::string shown(const Token& token) {
+  if (token.kind == TokenKind::end) return "the end";
+  if (token.kind == TokenKind::unknown) return shown_character(token.text);
+  return quoted(token.text);
+}
+
+std::optional<Function> find_function(std::string_view name) {
+  const auto* const found =
+      std::find_if(kFunctions.begin(), kFunctions.end(), [&](const Function& f) { return f.name == name; });
+  return found == kFunctions.end() ? std::nullopt : std::optional<Function>(*found);
+}
+
+}  // namespace coordreq
