@@ -1,0 +1,56 @@
+#include "spec/check_limits.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr std::size_t kMostStates = 31;
+constexpr std::int64_t kMostValues = std::int64_t{1} << 20U;
+
+mpz_class power_of_two(unsigned exponent) {
+  mpz_class value;
+  mpz_ui_pow_ui(value.get_mpz_t(), 2, exponent);
+  return value;
+}
+
+/// All digits, or the magnitude if they would fill the line.
+std::string shown(const mpz_class& count) {
+  constexpr std::size_t kMostDigits = 40;
+  const std::string digits = count.get_str();
+  return digits.size() <= kMostDigits ? digits : fmt::format("about 10^{}", digits.size() - 1);
+}
+
+void refuse_above(const mpz_class& count, const mpz_class& limit, std::string_view what,
+                  const std::string& pointer) {
+  if (count <= limit) return;
+  throw LimitError(fmt::format("{} {}, at most {} are possible", shown(count), what, limit.get_str()),
+                   pointer);
+}
+
+}  // namespace
+
+void check_point_count(const mpz_class& count, const std::string& pointer) {
+  refuse_above(count, power_of_two(31) - 2, "grid points", pointer);
+}
+
+void check_value_count(std::int64_t count, const std::string& pointer) {
+  refuse_above(static_cast<long>(count), static_cast<long>(kMostValues), "values of one input", pointer);
+}
+
+void check_cell_count(const std::vector<StateSpec>& states) {
+  refuse_above(states.size(), kMostStates, "states", "/states");
+  mpz_class cells = 1;
+  for (const StateSpec& state : states) cells *= static_cast<long>(state.grid.count);
+  refuse_above(cells, power_of_two(62), "cells", "/states");
+}
+
+void check_joint_input_count(const std::vector<std::int64_t>& counts) {
+  mpz_class joint = 1;
+  for (const std::int64_t count : counts) joint *= static_cast<long>(count);
+  refuse_above(joint, power_of_two(31), "joint inputs", "/inputs");
+}
+
+}  // namespace coordreq

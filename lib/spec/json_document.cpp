@@ -1,0 +1,228 @@
+#include "spec/json_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "spec/json_text.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kDeepestNesting = 200;
+constexpr std::size_t kLongestKey = 200;
+
+/// What the parser wanted where it gave up, read off its message.
+std::string_view expected_words(std::string_view message) {
+  const auto mentions = [&](std::string_view part) { return message.find(part) != std::string_view::npos; };
+  if (mentions("parsing object key")) return "a key in double quotes";
+  if (mentions("parsing object separator")) return "':'";
+  if (mentions("parsing object -")) return "',' or '}'";
+  if (mentions("parsing array -")) return "',' or ']'";
+  if (mentions("; expected end of input")) return "the end of the file";
+  return "a value";
+}
+
+/// The lexer's own complaint, as "invalid string: missing closing quote".
+std::string lexer_complaint(std::string_view message) {
+  const std::size_t start = message.find(" - ");
+  if (start == std::string_view::npos) return std::string(message);
+  const std::string_view complaint = message.substr(start + 3);
+  return one_line(complaint.substr(0, complaint.find("; last read")));
+}
+
+bool is_word_part(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/// Where the token that ends before `end` starts.
+std::size_t token_start(std::string_view text, std::size_t end, std::size_t token_size,
+                        std::string_view message) {
+  if (end > text.size() || message.find("unexpected end of input") != std::string_view::npos)
+    return text.size();
+  // Only strings and numbers are recorded from their first character on.
+  const bool is_recorded = message.find("unexpected string") != std::string_view::npos ||
+                           message.find("unexpected number") != std::string_view::npos;
+  if (is_recorded) return end - std::min(end, token_size);
+  std::size_t start = end - std::min<std::size_t>(end, 1);
+  while (start > 0 && is_word_part(text[start]) && is_word_part(text[start - 1])) --start;
+  return start;
+}
+
+/// Turns the parser's position and message into one line for the author of the text.
+[[noreturn]] void fail_syntax(const JsonText& json, std::size_t end, std::size_t token_size,
+                              std::string_view message) {
+  const std::string complaint = lexer_complaint(message);
+  // "invalid literal" stands for any stray character; strings, numbers and comments have better explanations.
+  const bool is_stray = complaint.rfind("invalid literal", 0) == 0;
+  if (complaint.rfind("invalid", 0) == 0 && !is_stray) {
+    json.fail(complaint, end > json.text.size() ? json.text.size() : end - 1);
+  }
+  const std::size_t start = token_start(json.text, end, token_size, message);
+  json.fail(fmt::format("expected {}, found {}", expected_words(message), json.found_at(start)), start);
+}
+
+/// Receives the parser's events and builds the document.
+class Builder : public nlohmann::json_sax<Json> {
+ public:
+  Builder(const JsonText& json, Json& root, std::unordered_map<std::string, std::string>& tokens)
+      : json_(json), root_(root), tokens_(tokens) {}
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(number_integer_t value) override { return add(value); }
+  bool number_unsigned(number_unsigned_t value) override { return add(value); }
+  bool number_float(number_float_t value, const string_t& token) override {
+    add(value);
+    tokens_.emplace(last_pointer_, token);
+    return true;
+  }
+  bool string(string_t& value) override {
+    const bool has_nul = value.find('\0') != string_t::npos;
+    add(std::move(value));
+    if (has_nul) {
+      throw SpecError("a string may not contain the character U+0000", shown_pointer(last_pointer_));
+    }
+    return true;
+  }
+  bool binary(binary_t& /*value*/) override { return false; }  // JSON text has none
+
+  bool start_object(std::size_t /*count*/) override { return open(Json::object()); }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t /*count*/) override { return open(Json::array()); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t& name) override {
+    const Level& level = levels_.back();
+    const std::string where = shown_pointer(level.pointer);
+    if (name.size() > kLongestKey) throw SpecError("key longer than 200 bytes: " + quote_text(name), where);
+    if (level.value->contains(name)) throw SpecError("repeated key " + quote_text(name), where);
+    key_ = name;
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string& token,
+                   const nlohmann::detail::exception& error) override {
+    constexpr int kNumberOverflow = 406;
+    if (error.id == kNumberOverflow) {
+      json_.fail("number beyond the range of a double: " + quote_text(token), position - token.size());
+    }
+    fail_syntax(json_, position, token.size(), error.what());
+  }
+
+ private:
+  struct Level {
+    Json* value;
+    std::string pointer;
+  };
+
+  /// Puts a value where the document is being written.
+  bool add(Json value) {
+    place(std::move(value));
+    return true;
+  }
+
+  Json* place(Json value) {
+    if (levels_.empty()) {
+      last_pointer_.clear();
+      root_ = std::move(value);
+      return &root_;
+    }
+    const Level& level = levels_.back();
+    if (level.value->is_array()) {
+      last_pointer_ = level.pointer + "/" + std::to_string(level.value->size());
+      level.value->push_back(std::move(value));
+      return &level.value->back();
+    }
+    last_pointer_ = member_pointer(level.pointer, key_);
+    Json& member = (*level.value)[key_];
+    member = std::move(value);
+    return &member;
+  }
+
+  bool open(Json container) {
+    Json* const value = place(std::move(container));
+    if (levels_.size() == kDeepestNesting) {
+      throw SpecError("nested deeper than 200 levels", shown_pointer(levels_.front().pointer + first_step()));
+    }
+    levels_.push_back({value, last_pointer_});
+    return true;
+  }
+
+  /// The member of the document that is being written; the whole pointer of a deep place would fill a screen.
+  [[nodiscard]] std::string first_step() const { return last_pointer_.substr(0, last_pointer_.find('/', 1)); }
+
+  bool close() {
+    levels_.pop_back();
+    return true;
+  }
+
+  const JsonText& json_;
+  Json& root_;
+  std::unordered_map<std::string, std::string>& tokens_;
+  std::vector<Level> levels_;
+  std::string key_;
+  std::string last_pointer_;
+};
+
+}  // namespace
+
+JsonDocument JsonDocument::parse(std::string_view text, std::string_view source) {
+  const JsonText json{without_byte_order_mark(text), source};
+  check_encoding(json);
+  JsonDocument document;
+  Builder builder(json, document.value_, document.number_tokens_);
+  constexpr bool kStrict = true;
+  constexpr bool kIgnoreComments = true;
+  // The builder throws on every error, so the result says nothing new.
+  static_cast<void>(Json::sax_parse(json.text.begin(), json.text.end(), &builder,
+                                    nlohmann::detail::input_format_t::json, kStrict, kIgnoreComments));
+  return document;
+}
+
+JsonDocument::Node JsonDocument::root() const {
+  return {*this, value_, ""};
+}
+
+JsonDocument::Node JsonDocument::Node::operator[](const std::string& key) const {
+  return {*document_, value_->at(key), member_pointer(pointer_, key)};
+}
+
+JsonDocument::Node JsonDocument::Node::operator[](std::size_t index) const {
+  return {*document_, value_->at(index), pointer_ + "/" + std::to_string(index)};
+}
+
+std::vector<JsonDocument::Node> JsonDocument::Node::elements(const std::string& key) const {
+  return has(key) ? (*this)[key].elements() : std::vector<Node>();
+}
+
+std::vector<JsonDocument::Node> JsonDocument::Node::elements() const {
+  std::vector<Node> nodes;
+  for (std::size_t i = 0; i < size(); ++i) nodes.push_back((*this)[i]);
+  return nodes;
+}
+
+std::vector<std::string> JsonDocument::Node::keys() const {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : value_->items()) names.push_back(name);
+  return names;
+}
+
+std::string JsonDocument::Node::text_or(const std::string& key, std::string_view fallback) const {
+  return has(key) ? (*this)[key].text() : std::string(fallback);
+}
+
+bool JsonDocument::Node::flag(const std::string& key) const {
+  return has(key) && (*this)[key].value().get<bool>();
+}
+
+std::string JsonDocument::Node::token() const {
+  const auto typed = document_->number_tokens_.find(pointer_);
+  return typed == document_->number_tokens_.end() ? value_->dump() : typed->second;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+// The text of a JSON document as its author sees it: lines, columns, words.
+namespace coordreq {
+
+/// A text and what messages call it.
+struct JsonText {
+  std::string_view text;    ///< without a byte order mark
+  std::string_view source;  ///< file name
+
+  /// "circle.json, line 3, column 5" for the byte at `offset`; both count from 1, columns in code points.
+  [[nodiscard]] std::string at(std::size_t offset) const;
+
+  /// The token that starts at `offset`, quoted for a message; "the end of the file" behind the last byte.
+  [[nodiscard]] std::string found_at(std::size_t offset) const;
+
+  /// @throws SpecError with the place
+  [[noreturn]] void fail(std::string_view what, std::size_t offset) const;
+};
+
+/// `text` without a UTF-8 byte order mark.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
+
+/// @throws SpecError if the text is blank, is not UTF-8, or contains a NUL byte.
+void check_encoding(const JsonText& json);
+
+}  // namespace coordreq

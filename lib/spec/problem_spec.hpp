@@ -1,0 +1,169 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "expression/program.hpp"
+#include "numeric/rational.hpp"
+
+// The problem as plain data, contract section 2. Only read_spec() makes one, so every invariant named here
+// holds wherever a ProblemSpec is seen. All expressions share one numbering of variables ("slots"):
+// states first, then inputs, then disturbances, each in the order of the spec.
+namespace coordreq {
+
+enum class Outside : std::uint8_t { unsafe, safe, saturate, stop, periodic };
+
+/// The grid points first, first + step, ..., first + (count - 1) * step. REQUIRES count >= 1, step > 0.
+struct GridSpec {
+  Rational first;
+  Rational step;
+  std::int64_t count = 0;
+};
+
+struct StateSpec {
+  std::string name;
+  std::string unit;  ///< empty if none was given
+  GridSpec grid;
+  Rational lower;  ///< as written; for a periodic state [lower, upper) is one period
+  Rational upper;
+  bool discrete = false;
+  Rational measurement_error = 0;
+  Outside below = Outside::unsafe;
+  Outside above = Outside::unsafe;
+};
+
+struct InputSpec {
+  std::string name;
+  std::string unit;
+  std::vector<Rational> values;  ///< all different, in the order of the spec
+  std::optional<GridSpec> grid;  ///< set if the values were given as a grid
+};
+
+struct DisturbanceSpec {
+  std::string name;
+  std::string unit;
+  Rational lower;
+  Rational upper;
+};
+
+struct AgentSpec {
+  std::string name;
+  std::vector<std::int32_t> inputs;  ///< indices into ProblemSpec::inputs, ascending; not empty
+  std::optional<Program> prefer;     ///< over states and inputs
+};
+
+enum class Time : std::uint8_t { continuous, discrete };
+
+struct DynamicsSpec {
+  Time time = Time::continuous;
+  Rational period;                 ///< tau, > 0
+  std::string unit;                ///< of time, as written; empty if none was given
+  std::vector<Program> equations;  ///< one a state, in order: derivative or next value
+};
+
+enum class Cells : std::uint8_t { closed, half_open };
+enum class Membership : std::uint8_t { inner, center };
+
+struct AbstractionSpec {
+  Cells cells = Cells::closed;
+  Membership safe = Membership::inner;
+  bool between_samples = false;
+};
+
+enum class Synthesis : std::uint8_t { maximal, given };
+
+struct ControllerSpec {
+  Synthesis synthesis = Synthesis::maximal;
+  std::optional<Program> allow;  ///< over states and inputs; none: everything is allowed
+  std::optional<std::string> file;
+};
+
+/// Classes of agents that coordinate within a step. Canonical: agents ascending within a class, classes by
+/// their first agents; every agent is in exactly one class.
+struct PartitionSpec {
+  std::string name;       ///< the given name, else the canonical one
+  std::string canonical;  ///< "a+b|c"
+  std::vector<std::vector<std::int32_t>> classes;
+};
+
+struct LinkCostSpec {
+  std::int32_t first = 0;  ///< agent indices, first < second
+  std::int32_t second = 0;
+  Rational cost;
+};
+
+struct CoordinationSpec {
+  std::vector<PartitionSpec> partitions;  ///< at least one; empty only if `all_partitions`
+  bool all_partitions = false;
+  std::optional<std::int64_t> max_delay;  ///< steps
+  std::int64_t connection_delay = 0;      ///< D, steps
+  std::optional<std::int64_t> horizon;    ///< steps; from "horizon_time" by ceil(time / period)
+  std::optional<Rational> horizon_time;   ///< as written; `horizon` has its steps
+  std::vector<LinkCostSpec> link_cost;
+  bool convention = false;
+};
+
+/// How a mode or "up"/"down" names a partition: resolved to canonical classes.
+struct NetworkModeSpec {
+  std::string name;
+  PartitionSpec partition;
+};
+enum class NetworkKind : std::uint8_t { automaton, delay, burst, weakly_hard };
+struct NetworkSpec {
+  NetworkKind kind = NetworkKind::automaton;
+  std::vector<NetworkModeSpec> modes;
+  std::vector<std::pair<std::int32_t, std::int32_t>> transitions;  ///< indices into modes
+  std::int64_t delay = 0;
+  std::int64_t burst_length = 0, burst_gap = 0;
+  std::int64_t misses = 0, window = 0;
+  std::optional<PartitionSpec> up, down;
+  bool resynthesise = false;
+};
+
+struct RequirementSpec {
+  std::string name;
+  Program where;  ///< over states
+  std::optional<std::int32_t>
+      partition;  ///< index into partitions; none for `invariant` and `all_partitions`
+  std::optional<std::int64_t> min_delay;  ///< steps; from "min_delay_time" by ceil(time / period)
+  bool invariant = false;
+};
+
+struct OutputSpec {
+  bool controller = false;
+  bool actions = false;
+  bool layers = false;
+  bool abstraction = false;
+};
+
+struct ProblemSpec {
+  std::string text;  ///< the spec as read, UTF-8
+  std::string name;
+  std::string description;
+  std::vector<StateSpec> states;  ///< at least one
+  std::vector<InputSpec> inputs;  ///< at least one
+  std::vector<DisturbanceSpec> disturbances;
+  std::vector<AgentSpec> agents;  ///< at least one; every input belongs to exactly one
+  DynamicsSpec dynamics;
+  Program safe;  ///< a condition over states
+  AbstractionSpec abstraction;
+  ControllerSpec controller;
+  CoordinationSpec coordination;
+  std::optional<NetworkSpec> network;
+  std::vector<RequirementSpec> requirements;
+  OutputSpec output;
+
+  [[nodiscard]] std::uint32_t state_slot(std::size_t i) const { return static_cast<std::uint32_t>(i); }
+  [[nodiscard]] std::uint32_t input_slot(std::size_t i) const {
+    return static_cast<std::uint32_t>(states.size() + i);
+  }
+  [[nodiscard]] std::uint32_t disturbance_slot(std::size_t i) const {
+    return static_cast<std::uint32_t>(states.size() + inputs.size() + i);
+  }
+  [[nodiscard]] std::size_t slot_count() const { return states.size() + inputs.size() + disturbances.size(); }
+};
+
+}  // namespace coordreq

@@ -1,0 +1,88 @@
+#include "spec/read_grid.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "spec/check_limits.hpp"
+
+namespace coordreq {
+namespace {
+
+using Node = JsonDocument::Node;
+
+/// Greatest integer <= q and least integer >= q, of any size.
+mpz_class floor_of(const Rational& q) {
+  mpz_class result;
+  mpz_fdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
+  return result;
+}
+mpz_class ceil_of(const Rational& q) {
+  mpz_class result;
+  mpz_cdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
+  return result;
+}
+
+GridSpec grid_by_step(const Scope& scope, const Node& object, const Rational& lower, const Rational& upper) {
+  const Rational step = scope.number(object["step"]);
+  if (step <= 0) throw SpecError("expected a step > 0, found " + to_text(step), object["step"].pointer());
+  const Rational origin = object.has("origin") ? scope.number(object["origin"]) : Rational(0);
+  const mpz_class first = ceil_of((lower - origin) / step);
+  const mpz_class count = floor_of((upper - origin) / step) - first + 1;
+  if (count < 1) {
+    throw SpecError(fmt::format("no grid point {} + k*{} lies in [{}, {}]", to_text(origin), to_text(step),
+                                to_text(lower), to_text(upper)),
+                    object.pointer());
+  }
+  check_point_count(count, object.pointer());
+  return {origin + Rational(first) * step, step, count.get_si()};
+}
+
+GridSpec grid_by_count(const Node& object, const Rational& lower, const Rational& upper, bool is_periodic) {
+  const Node node = object["count"];
+  const mpz_class count(node.token());
+  check_point_count(count, node.pointer());
+  if (!is_periodic && count < 2) {
+    throw SpecError("expected a count >= 2 unless the state is periodic, found " + node.token(),
+                    node.pointer());
+  }
+  if (lower == upper) {
+    throw SpecError(fmt::format("expected upper > lower = {}, found the same", to_text(lower)),
+                    object["upper"].pointer());
+  }
+  return {lower, (upper - lower) / Rational(is_periodic ? count : mpz_class(count - 1)), count.get_si()};
+}
+
+/// The results file and the engines address points by doubles.
+void check_distinct(const GridSpec& grid, const std::string& pointer) {
+  if (grid.count < 2) return;
+  const Rational last = grid.first + grid.step * Rational(mpz_class(static_cast<long>(grid.count - 1)));
+  const bool is_distinct = nearest_double(grid.first) < nearest_double(grid.first + grid.step) &&
+                           nearest_double(last - grid.step) < nearest_double(last);
+  if (!is_distinct) {
+    throw SpecError(fmt::format("grid points {:.6g} apart near {:.6g} are equal as doubles",
+                                nearest_double(grid.step), nearest_double(last)),
+                    pointer);
+  }
+}
+
+}  // namespace
+
+GridReading read_grid(const Scope& scope, const Node& object, bool is_periodic) {
+  GridReading reading;
+  reading.lower = scope.number(object["lower"]);
+  reading.upper = scope.number(object["upper"]);
+  if (reading.upper < reading.lower) {
+    throw SpecError(
+        fmt::format("expected upper >= lower = {}, found {}", to_text(reading.lower), to_text(reading.upper)),
+        object["upper"].pointer());
+  }
+  if (is_periodic && !object.has("count")) {
+    throw SpecError("a periodic state is given with 'count', found 'step'", object["step"].pointer());
+  }
+  reading.grid = object.has("count") ? grid_by_count(object, reading.lower, reading.upper, is_periodic)
+                                     : grid_by_step(scope, object, reading.lower, reading.upper);
+  check_distinct(reading.grid, object.pointer());
+  return reading;
+}
+
+}  // namespace coordreq

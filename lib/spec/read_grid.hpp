@@ -1,0 +1,23 @@
+#pragma once
+
+#include "spec/problem_spec.hpp"
+#include "spec/scope.hpp"
+
+namespace coordreq {
+
+/// A dimension as written and the grid points that follow from it.
+struct GridReading {
+  Rational lower;
+  Rational upper;
+  GridSpec grid;
+};
+
+/// Reads lower, upper and step or count (contract, section 1, "Grid").
+/// With `step`: {origin + k*step : k integer} inside [lower, upper], both ends included. With `count`: that
+/// many points, evenly from lower to upper, both included; upper left out if periodic.
+/// @throws SpecError if there is no grid point, step <= 0, lower > upper, a periodic dimension has no count,
+/// or
+///   points lie closer than doubles can tell apart; LimitError beyond 2^31 - 2 points
+[[nodiscard]] GridReading read_grid(const Scope& scope, const JsonDocument::Node& object, bool is_periodic);
+
+}  // namespace coordreq

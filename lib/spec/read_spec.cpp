@@ -1,0 +1,112 @@
+#include "spec/read_spec.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.hpp"
+#include "spec/json_document.hpp"
+#include "spec/schema_check.hpp"
+#include "spec/scope.hpp"
+#include "spec/spec_parts.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+namespace {
+
+using Node = JsonDocument::Node;
+
+/// Before the schema: what another format means by its keys is not for this program to say.
+void check_format(const Node& root) {
+  if (!root.value().is_object() || !root.has("coordreq")) return;
+  const Node format = root["coordreq"];
+  if (!format.value().is_number() || format.token() == "1") return;
+  throw SpecError("this program reads spec format 1, found " + format.token(), format.pointer());
+}
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+char lower_case(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+bool contains_word(std::string text, std::string_view word) {
+  std::transform(text.begin(), text.end(), text.begin(), lower_case);
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !is_letter(text[at - 1])) && (end == text.size() || !is_letter(text[end]))) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string read_unit(const Node& object) {
+  if (!object.has("unit")) return {};
+  const Node unit = object["unit"];
+  if (contains_word(unit.text(), "since")) {
+    throw SpecError(
+        fmt::format("expected a unit without the word 'since', found {}", quote_text(unit.text())),
+        unit.pointer());
+  }
+  return unit.text();
+}
+
+std::int64_t read_integer(const Node& node) {
+  return node.value().get<std::int64_t>();
+}
+
+std::int64_t read_steps_of_time(const Scope& scope, const Node& time, const Rational& period) {
+  constexpr std::int64_t kMostSteps = 2'147'483'646;
+  const Rational value = scope.number(time);
+  if (value < 0) throw SpecError("expected a time >= 0, found " + to_text(value), time.pointer());
+  const std::int64_t steps = ceil_to_int(value / period);
+  if (steps > kMostSteps) {
+    throw SpecError(
+        fmt::format("expected a time of at most {} periods, found {}", kMostSteps, to_text(value)),
+        time.pointer());
+  }
+  return steps;
+}
+
+std::int32_t index_of_name(const Node& name, const std::vector<std::string>& known, const std::string& kind) {
+  const auto found = std::find(known.begin(), known.end(), name.text());
+  if (found != known.end()) return static_cast<std::int32_t>(found - known.begin());
+  throw SpecError(
+      fmt::format("{} is not {}{}", quote_text(name.text()), kind, suggestion(name.text(), known)),
+      name.pointer());
+}
+
+void check_new_name(const Node& name, const std::vector<std::string>& known, const std::string& kind) {
+  if (std::find(known.begin(), known.end(), name.text()) == known.end()) return;
+  throw SpecError(fmt::format("the {} {} is listed twice", kind, quote_text(name.text())), name.pointer());
+}
+
+ProblemSpec read_spec(std::string text, std::string_view source) {
+  const JsonDocument document = JsonDocument::parse(text, source);
+  const Node root = document.root();
+  check_format(root);
+  check_schema(document);
+  const Scope scope(root);
+  ProblemSpec spec;
+  spec.text = std::move(text);
+  spec.name = root["name"].text();
+  spec.description = root.text_or("description", "");
+  spec.states = read_states(scope, root);
+  spec.inputs = read_inputs(scope, root);
+  spec.disturbances = read_disturbances(scope, root);
+  spec.agents = read_agents(scope, root, spec.inputs);
+  spec.dynamics = read_dynamics(scope, root, spec.states);
+  spec.safe = scope.expression(root["safe"], ExpectedType::condition, Over::states);
+  spec.abstraction = read_abstraction(root);
+  spec.controller = read_controller(scope, root);
+  spec.coordination = read_coordination(scope, root, spec.agents, spec.dynamics.period);
+  if (root.has("network")) spec.network = read_network(root, spec.agents, spec.coordination);
+  spec.requirements = read_requirements(scope, root, spec.agents, spec.coordination, spec.dynamics.period);
+  spec.output = read_output(root);
+  return spec;
+}
+
+}  // namespace coordreq

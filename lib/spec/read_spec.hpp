@@ -1,0 +1,27 @@
+#pragma once
+
+#include <istream>
+#include <string>
+#include <string_view>
+
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// Reads and checks a problem spec, contract section 2, all of it.
+/// @param source the file name for messages, "standard input" for "-"
+/// @throws SpecError naming the line and column (syntax), the JSON pointer (everything else) and the place in
+///   an expression, with what was found and what was expected.
+[[nodiscard]] ProblemSpec read_spec(std::string text, std::string_view source);
+
+/// Reads the whole file and calls read_spec(); "-" reads `standard_input`.
+/// @throws IoError if it is not there, is a folder or cannot be read; SpecError as above.
+[[nodiscard]] ProblemSpec read_spec_file(const std::string& path, std::istream& standard_input);
+
+/// @throws SpecError "... is not supported yet" (JSON pointer) for the first thing this version cannot do.
+void refuse_unsupported(const ProblemSpec& spec);
+
+/// The JSON Schema (draft 7) that specs are validated with, as text ending in a newline.
+[[nodiscard]] std::string_view spec_schema();
+
+}  // namespace coordreq

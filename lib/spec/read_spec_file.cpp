@@ -1,0 +1,45 @@
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <istream>
+#include <system_error>
+
+#include "base/error.hpp"
+#include "spec/read_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+std::string read_all(std::istream& stream, const std::string& name) {
+  std::string text;
+  std::array<char, 65'536> block{};
+  do {
+    // read() turns a failing system call into badbit; an iterator over the buffer would let it throw.
+    stream.read(block.data(), block.size());
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  } while (stream);
+  if (stream.bad()) throw IoError("cannot be read", name);
+  return text;
+}
+
+/// Why a file could not be opened, in the system's words.
+std::string reason(int error) {
+  return error == 0 ? "cannot be read" : "cannot be read: " + std::generic_category().message(error);
+}
+
+}  // namespace
+
+ProblemSpec read_spec_file(const std::string& path, std::istream& standard_input) {
+  if (path == "-") return read_spec(read_all(standard_input, "standard input"), "standard input");
+  std::error_code ignored;  // what cannot be examined fails to open below
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (status.type() == std::filesystem::file_type::not_found) throw IoError("no such file", path);
+  if (std::filesystem::is_directory(status)) throw IoError("is a folder, expected a spec file", path);
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw IoError(reason(errno), path);
+  return read_spec(read_all(file, path), path);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <string>
+
+#include "base/error.hpp"
+#include "spec/read_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+[[noreturn]] void refuse(std::string_view what, const std::string& pointer) {
+  throw SpecError(fmt::format("{} is not supported yet", what), pointer);
+}
+
+void refuse_outside(const StateSpec& state, std::size_t index) {
+  const std::string pointer = fmt::format("/states/{}/outside", index);
+  for (const Outside side : {state.below, state.above}) {
+    if (side == Outside::stop) refuse("'stop'", pointer);
+    if (side == Outside::periodic) refuse("'periodic'", pointer);
+  }
+}
+
+void refuse_in_coordination(const CoordinationSpec& coordination) {
+  const std::string pointer = "/coordination/";
+  if (coordination.all_partitions) refuse("'all'", pointer + "partitions");
+  if (coordination.horizon_time) refuse("'horizon_time'", pointer + "horizon_time");
+  if (coordination.horizon) refuse("'horizon'", pointer + "horizon");
+  if (!coordination.link_cost.empty()) refuse("'link_cost'", pointer + "link_cost");
+  if (coordination.convention) refuse("'convention'", pointer + "convention");
+}
+
+}  // namespace
+
+void refuse_unsupported(const ProblemSpec& spec) {
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    refuse_outside(spec.states[i], i);
+    if (spec.states[i].measurement_error != 0) {
+      refuse("'measurement_error'", fmt::format("/states/{}/measurement_error", i));
+    }
+  }
+  for (std::size_t i = 0; i < spec.agents.size(); ++i) {
+    if (spec.agents[i].prefer) refuse("'prefer'", fmt::format("/agents/{}/prefer", i));
+  }
+  if (spec.abstraction.between_samples) refuse("'between_samples'", "/abstraction/between_samples");
+  if (spec.controller.file) refuse("'file'", "/controller/file");
+  refuse_in_coordination(spec.coordination);
+  if (spec.network) refuse("'network'", "/network");
+  if (!spec.requirements.empty()) refuse("'requirements'", "/requirements");
+}
+
+}  // namespace coordreq

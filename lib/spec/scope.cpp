@@ -1,0 +1,144 @@
+#include "spec/scope.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "spec/dependency_order.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+namespace {
+
+using Node = JsonDocument::Node;
+
+/// Long enough for every decimal that parse_decimal() takes; shorter than what a tower of powers would fill.
+constexpr std::size_t kMostBits = 65'536;
+
+void check_size(const Rational& value, const std::string& pointer) {
+  const std::size_t bits =
+      mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
+  if (bits > kMostBits) throw SpecError("number of more than 65536 bits", pointer);
+}
+
+/// Named expressions of one JSON object and who mentions whom.
+struct MentionGraph {
+  std::vector<std::string> names;
+  std::map<std::string, std::size_t> index_of;
+  std::vector<std::vector<std::size_t>> mentions;
+
+  explicit MentionGraph(const Node& object) : names(object.keys()) {
+    for (std::size_t i = 0; i < names.size(); ++i) index_of[names[i]] = i;
+    for (const std::string& name : names) mentions.push_back(mentioned_in(object[name]));
+  }
+
+  [[nodiscard]] std::vector<std::size_t> mentioned_in(const Node& node) const {
+    std::vector<std::size_t> found;
+    if (!node.value().is_string()) return found;
+    for (const std::string& name : mentioned_names(node.text(), node.pointer())) {
+      const auto known = index_of.find(name);
+      if (known != index_of.end()) found.push_back(known->second);
+    }
+    return found;
+  }
+};
+
+}  // namespace
+
+Scope::Scope(const Node& root) {
+  add_names(root);
+  if (root.has("constants")) evaluate_constants(root["constants"]);
+  definitions_ = Definitions(static_cast<std::uint32_t>(slot_names_.size()));
+  if (root.has("definitions")) link_definitions(root["definitions"]);
+}
+
+void Scope::add_names(const Node& root) {
+  add_variables(root, "states", NameKind::state);
+  add_variables(root, "inputs", NameKind::input);
+  add_variables(root, "disturbances", NameKind::disturbance);
+  const auto add_keys = [&](const std::string& object, NameKind kind) {
+    if (!root.has(object)) return;
+    for (const std::string& key : root[object].keys()) names_.add(key, kind, root[object][key].pointer());
+  };
+  add_keys("constants", NameKind::constant);
+  add_keys("definitions", NameKind::definition);
+}
+
+void Scope::add_variables(const Node& root, const std::string& list, NameKind kind) {
+  for (const Node& variable : root.elements(list)) {
+    const Node name = variable["name"];
+    names_.add(name.text(), kind, name.pointer());
+    slots_[name.text()] = static_cast<std::uint32_t>(slot_names_.size());
+    slot_names_.push_back(name.text());
+  }
+}
+
+void Scope::evaluate_constants(const Node& constants) {
+  const MentionGraph graph(constants);
+  for (const std::size_t i :
+       dependency_order(graph.mentions, graph.names, "constants", constants.pointer())) {
+    constants_[graph.names[i]] = number(constants[graph.names[i]]);
+  }
+}
+
+void Scope::link_definitions(const Node& object) {
+  const MentionGraph graph(object);
+  const auto lookup = [this](std::string_view name) { return find(name); };
+  for (const std::size_t i : dependency_order(graph.mentions, graph.names, "definitions", object.pointer())) {
+    const Node node = object[graph.names[i]];
+    definitions_.add(graph.names[i], link(node.text(), lookup, ExpectedType::any, node.pointer()));
+  }
+}
+
+Rational Scope::number(const Node& node) const {
+  if (node.value().is_string()) return constant_expression(node);
+  const std::optional<Rational> value = parse_decimal(node.token());
+  if (!value)
+    throw SpecError("number with an exponent beyond 5000: " + quote_text(node.token()), node.pointer());
+  check_size(*value, node.pointer());
+  return *value;
+}
+
+Rational Scope::constant_expression(const Node& node) const {
+  for (const std::string& name : mentioned_names(node.text(), node.pointer())) {
+    const std::optional<NameKind> kind = names_.find(name);
+    if (kind && *kind != NameKind::constant) {
+      throw SpecError(
+          fmt::format("expected constants only, found the {} {}", kind_in_words(*kind), quote_text(name)),
+          node.pointer());
+    }
+  }
+  const auto lookup = [this](std::string_view name) { return find(name); };
+  const Program program = link(node.text(), lookup, ExpectedType::number, node.pointer());
+  const Rational value = constant_value(program, node.pointer());
+  check_size(value, node.pointer());
+  return value;
+}
+
+Program Scope::expression(const Node& node, ExpectedType expected, Over over) const {
+  const auto lookup = [this](std::string_view name) { return find(name); };
+  Program program = definitions_.expand(link(node.text(), lookup, expected, node.pointer()));
+  check_dependence(program, over, node.pointer());
+  return program;
+}
+
+void Scope::check_dependence(const Program& program, Over over, const std::string& pointer) const {
+  for (const std::uint32_t slot : program.variables()) {
+    const std::string& name = slot_names_[slot];
+    const NameKind kind = names_.find(name).value();
+    const bool is_allowed = over == Over::everything || kind == NameKind::state ||
+                            (over == Over::states_and_inputs && kind == NameKind::input);
+    if (is_allowed) continue;
+    throw SpecError(fmt::format("expected an expression over {}, found the {} {}",
+                                over == Over::states ? "states" : "states and inputs", kind_in_words(kind),
+                                quote_text(name)),
+                    pointer);
+  }
+}
+
+Binding Scope::find(std::string_view name) const {
+  if (const auto slot = slots_.find(name); slot != slots_.end()) return slot->second;
+  if (const auto constant = constants_.find(name); constant != constants_.end()) return constant->second;
+  return definitions_.find(name);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "expression/program.hpp"
+#include "numeric/rational.hpp"
+#include "spec/definitions.hpp"
+#include "spec/json_document.hpp"
+#include "spec/names.hpp"
+
+namespace coordreq {
+
+/// What an expression of the spec may depend on.
+enum class Over : std::uint8_t { states, states_and_inputs, everything };
+
+/// Everything that expressions of one spec can name, and the way to read numbers and expressions with it.
+class Scope {
+ public:
+  /// Registers all names, evaluates the constants, links the definitions.
+  /// REQUIRES: the document follows the schema.
+  /// @throws SpecError for names that clash, cycles, and anything wrong in a constant or definition
+  explicit Scope(const JsonDocument::Node& root);
+
+  /// The exact value of a number or of a string with a constant expression.
+  /// @throws SpecError if it has none that is finite as a double, or one of more than 65536 bits
+  [[nodiscard]] Rational number(const JsonDocument::Node& node) const;
+
+  /// The linked expression in a string.
+  /// @throws SpecError for errors in it, and if it depends on more than `over`
+  [[nodiscard]] Program expression(const JsonDocument::Node& node, ExpectedType expected, Over over) const;
+
+ private:
+  void add_names(const JsonDocument::Node& root);
+  void add_variables(const JsonDocument::Node& root, const std::string& list, NameKind kind);
+  void evaluate_constants(const JsonDocument::Node& constants);
+  void link_definitions(const JsonDocument::Node& object);
+  void check_dependence(const Program& program, Over over, const std::string& pointer) const;
+  [[nodiscard]] Rational constant_expression(const JsonDocument::Node& node) const;
+  [[nodiscard]] Binding find(std::string_view name) const;
+
+  NameTable names_;
+  std::vector<std::string> slot_names_;
+  std::map<std::string, std::uint32_t, std::less<>> slots_;
+  std::map<std::string, Rational, std::less<>> constants_;
+  Definitions definitions_;
+};
+
+}  // namespace coordreq

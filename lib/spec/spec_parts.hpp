@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "spec/problem_spec.hpp"
+#include "spec/scope.hpp"
+
+// The readers of the parts of a spec. All REQUIRE a document that follows the schema, take `root`, the whole
+// document, and throw SpecError naming the JSON pointer; sizes beyond all bounds are LimitErrors.
+namespace coordreq {
+
+[[nodiscard]] Time read_time(const JsonDocument::Node& root);
+
+[[nodiscard]] std::vector<StateSpec> read_states(const Scope& scope, const JsonDocument::Node& root);
+[[nodiscard]] std::vector<InputSpec> read_inputs(const Scope& scope, const JsonDocument::Node& root);
+[[nodiscard]] std::vector<DisturbanceSpec> read_disturbances(const Scope& scope,
+                                                             const JsonDocument::Node& root);
+
+[[nodiscard]] std::vector<AgentSpec> read_agents(const Scope& scope, const JsonDocument::Node& root,
+                                                 const std::vector<InputSpec>& inputs);
+[[nodiscard]] DynamicsSpec read_dynamics(const Scope& scope, const JsonDocument::Node& root,
+                                         const std::vector<StateSpec>& states);
+[[nodiscard]] AbstractionSpec read_abstraction(const JsonDocument::Node& root);
+[[nodiscard]] ControllerSpec read_controller(const Scope& scope, const JsonDocument::Node& root);
+[[nodiscard]] OutputSpec read_output(const JsonDocument::Node& root);
+
+[[nodiscard]] CoordinationSpec read_coordination(const Scope& scope, const JsonDocument::Node& root,
+                                                 const std::vector<AgentSpec>& agents,
+                                                 const Rational& period);
+[[nodiscard]] NetworkSpec read_network(const JsonDocument::Node& root, const std::vector<AgentSpec>& agents,
+                                       const CoordinationSpec& coordination);
+[[nodiscard]] std::vector<RequirementSpec> read_requirements(const Scope& scope,
+                                                             const JsonDocument::Node& root,
+                                                             const std::vector<AgentSpec>& agents,
+                                                             const CoordinationSpec& coordination,
+                                                             const Rational& period);
+
+/// ceil(time / period), exactly, for a time >= 0.
+[[nodiscard]] std::int64_t read_steps_of_time(const Scope& scope, const JsonDocument::Node& time,
+                                              const Rational& period);
+
+/// The text of `unit`, empty if there is none. @throws SpecError if it contains the word "since", which
+/// readers of netCDF take for a calendar
+[[nodiscard]] std::string read_unit(const JsonDocument::Node& object);
+
+/// An integer that the schema keeps within 64 bits.
+[[nodiscard]] std::int64_t read_integer(const JsonDocument::Node& node);
+
+/// The index of a name in a list. @throws SpecError "'a' is not KIND", with the nearest spelling
+[[nodiscard]] std::int32_t index_of_name(const JsonDocument::Node& name,
+                                         const std::vector<std::string>& known, const std::string& kind);
+
+/// @throws SpecError "KIND 'a' is named twice" if `known` has the name
+void check_new_name(const JsonDocument::Node& name, const std::vector<std::string>& known,
+                    const std::string& kind);
+
+}  // namespace coordreq
