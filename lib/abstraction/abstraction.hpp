@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grid/input_space.hpp"
+#include "grid/outside.hpp"
+#include "grid/uniform_grid.hpp"
+
+namespace coordreq {
+
+/// Where one state can be at the next sample: the raw range of its grid indices, before `outside` is applied,
+/// as a table over only those states and inputs that it depends on.
+struct TransitionTable {
+  std::vector<std::int32_t> states;  ///< ascending
+  std::vector<std::int32_t> inputs;  ///< ascending
+  std::vector<IndexRange> entries;   ///< row-major over `states`, then `inputs`
+  /// Position of an entry: sum of state index * state_stride over all states, plus the same over inputs; the
+  /// stride of a variable that the table does not depend on is 0.
+  std::vector<std::int64_t> state_stride;
+  std::vector<std::int64_t> input_stride;
+};
+
+/// The finite abstraction f: for every cell x and joint input u a box of cells that meets a guaranteed
+/// enclosure of all states reachable at the next sample (contract, "Abstraction"). Immutable once built.
+struct Abstraction {
+  UniformGrid grid;
+  InputSpace inputs;
+  std::vector<TransitionTable> tables;  ///< one a state
+  bool exact = true;                    ///< every post is the exact hull
+
+  /// Raw range of state `i` at the next sample from cell `x` (linear index) under joint input `u`.
+  [[nodiscard]] IndexRange raw(std::size_t i, std::int64_t x, std::int64_t u) const;
+  /// The same after the rules for leaving the domain.
+  [[nodiscard]] ResolvedRange resolved(std::size_t i, std::int64_t x, std::int64_t u) const;
+};
+
+/// Fills in the strides of a table whose `states` and `inputs` are set and returns its number of entries.
+std::int64_t lay_out(TransitionTable& table, const UniformGrid& grid, const InputSpace& inputs);
+
+}  // namespace coordreq

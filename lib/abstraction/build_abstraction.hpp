@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "abstraction/abstraction.hpp"
+#include "base/thread_team.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// The tables' dependencies and numbers of entries, without the entries.
+struct TableShape {
+  std::vector<std::int32_t> states;
+  std::vector<std::int32_t> inputs;
+  std::vector<std::int32_t> disturbances;
+  double entries = 1;  ///< may be beyond what an integer holds
+};
+[[nodiscard]] std::vector<TableShape> table_shapes(const ProblemSpec& spec);
+
+/// Solves the dynamics for every input and parameter without building tables.
+/// @returns true if every post is an exact hull. @throws SpecError as build_abstraction() does, but for
+/// discrete states
+///   off their grid
+[[nodiscard]] bool check_dynamics(const ProblemSpec& spec);
+
+/// Builds the finite abstraction. Each post is the exact interval hull in rational arithmetic where the
+/// system is exact (contract, "Cells"), else rounded outward: never too small.
+/// @throws SpecError if a discrete state's next value can be off its grid (naming state and input), if an
+/// equation is
+///   undefined somewhere, or if the dynamics are beyond this version
+[[nodiscard]] Abstraction build_abstraction(const ProblemSpec& spec, ThreadTeam& team);
+
+}  // namespace coordreq

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "numeric/rational.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// What the next value of one state depends on; indices into the spec's lists, ascending.
+struct Dependencies {
+  std::vector<std::int32_t> moving;      ///< states in which the sampled map is affine
+  std::vector<std::int32_t> parameters;  ///< discrete states whose values are put in one by one
+  std::vector<std::int32_t> inputs;
+  std::vector<std::int32_t> disturbances;
+};
+
+/// The sampled map of one state for fixed parameters and inputs:
+/// x_i(tau) in sum_j coefficient[j] * x_{moving[j]}(0) + [lower, upper].
+struct SampledRow {
+  std::vector<Rational> coefficient;
+  Rational lower;  ///< constant part plus all that disturbances can add
+  Rational upper;
+  bool exact = true;  ///< [lower, upper] is the exact hull, both ends attained; else it is rounded outward
+};
+
+/// Systems whose sampled map is affine in the continuous states with rational coefficients for every fixed
+/// input and value of the discrete states (contract, "Cells"): discrete-time maps of that form, and
+/// differential equations of that form whose matrix is nilpotent, solved in rational arithmetic.
+///
+/// Immutable, so safe to share between threads.
+class AffineDynamics {
+ public:
+  /// REQUIRES: `spec` outlives this object.
+  explicit AffineDynamics(const ProblemSpec& spec);
+
+  [[nodiscard]] const Dependencies& dependencies(std::size_t state) const { return dependencies_[state]; }
+
+  /// @param slots exact values of all parameters and inputs of `state` at their slots; other entries are
+  /// ignored
+  /// @throws SpecError if the equation is not defined there, or if the system is not of the class above ("not
+  ///   supported yet"); the message names the state and the parameter values
+  [[nodiscard]] SampledRow row(std::size_t state, const std::vector<Rational>& slots) const;
+
+ private:
+  /// An equation for fixed parameters: sum_j state[j] * x_{moving[j]} + sum_l disturbance[l] * w_l + [lower,
+  /// upper].
+  struct AffineForm {
+    std::vector<Rational> state;
+    std::vector<Rational> disturbance;
+    Rational lower;
+    Rational upper;
+  };
+
+  [[nodiscard]] AffineForm affine_form(std::size_t equation, const Dependencies& dependencies,
+                                       const std::vector<Rational>& slots) const;
+  [[nodiscard]] SampledRow map_row(std::size_t state, const std::vector<Rational>& slots) const;
+  [[nodiscard]] SampledRow flow_row(std::size_t state, const std::vector<Rational>& slots) const;
+  [[nodiscard]] std::string place(const Dependencies& dependencies, const std::vector<Rational>& slots) const;
+
+  const ProblemSpec* spec_;
+  std::vector<Dependencies> dependencies_;
+};
+
+}  // namespace coordreq

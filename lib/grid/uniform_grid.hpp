@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "numeric/rational.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// One state dimension: grid points first + k * step, k = 0, ..., count - 1, and what lies beyond them.
+struct GridDimension {
+  std::string name;
+  Rational first;
+  Rational step;
+  std::int64_t count = 0;
+  bool discrete = false;  ///< cells are points
+  Outside below = Outside::unsafe;
+  Outside above = Outside::unsafe;
+
+  [[nodiscard]] Rational point(std::int64_t k) const { return first + step * Rational(static_cast<long>(k)); }
+  /// Half the width of a cell: step / 2, or 0 for a discrete dimension.
+  [[nodiscard]] Rational radius() const { return discrete ? Rational(0) : Rational(step / 2); }
+};
+
+/// The cells of a state space. Linear indices are row-major, the last dimension fastest, below 2^62.
+class UniformGrid {
+ public:
+  explicit UniformGrid(std::vector<GridDimension> dimensions);
+
+  [[nodiscard]] std::size_t size() const { return dimensions_.size(); }
+  [[nodiscard]] const GridDimension& operator[](std::size_t i) const { return dimensions_[i]; }
+  [[nodiscard]] const std::vector<GridDimension>& dimensions() const { return dimensions_; }
+  [[nodiscard]] std::int64_t cells() const { return cells_; }
+  /// Linear distance between neighbours in dimension i.
+  [[nodiscard]] std::int64_t stride(std::size_t i) const { return strides_[i]; }
+
+  /// Number of points of the last dimension, and of rows along it: cells() = rows() * row_length().
+  [[nodiscard]] std::int64_t row_length() const { return dimensions_.back().count; }
+  [[nodiscard]] std::int64_t rows() const { return cells_ / row_length(); }
+
+  [[nodiscard]] std::int64_t index(std::int64_t linear, std::size_t i) const {
+    return linear / strides_[i] % dimensions_[i].count;
+  }
+
+ private:
+  std::vector<GridDimension> dimensions_;
+  std::vector<std::int64_t> strides_;
+  std::int64_t cells_ = 1;
+};
+
+[[nodiscard]] UniformGrid make_grid(const ProblemSpec& spec);
+
+}  // namespace coordreq
