@@ -1,0 +1,69 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace coordreq {
+
+/// A set of cells of a grid, one bit a cell, in rows along the last dimension.
+///
+/// Row-major linear index = row * row_length + column. Each row starts at a word of its own, so that rows can
+/// be shifted and combined without looking at their neighbours and written by different threads; the price is
+/// padding of at most 63 bits a row. Invariant: padding bits are zero.
+class CellSet {
+ public:
+  using Word = std::uint64_t;
+  static constexpr std::int64_t kWordBits = 64;
+
+  CellSet() = default;
+  CellSet(std::int64_t rows, std::int64_t row_length)
+      : rows_(rows),
+        row_length_(row_length),
+        words_per_row_((row_length + kWordBits - 1) / kWordBits),
+        words_(static_cast<std::size_t>(rows * words_per_row_), 0) {}
+
+  [[nodiscard]] std::int64_t rows() const { return rows_; }
+  [[nodiscard]] std::int64_t row_length() const { return row_length_; }
+  [[nodiscard]] std::int64_t words_per_row() const { return words_per_row_; }
+  [[nodiscard]] std::int64_t cells() const { return rows_ * row_length_; }
+
+  [[nodiscard]] std::span<Word> row(std::int64_t r) {
+    return {words_.data() + r * words_per_row_, static_cast<std::size_t>(words_per_row_)};
+  }
+  [[nodiscard]] std::span<const Word> row(std::int64_t r) const {
+    return {words_.data() + r * words_per_row_, static_cast<std::size_t>(words_per_row_)};
+  }
+  [[nodiscard]] bool test(std::int64_t linear) const {
+    const std::int64_t column = linear % row_length_;
+    return (row(linear / row_length_)[static_cast<std::size_t>(column / kWordBits)] >> (column % kWordBits) &
+            1) != 0;
+  }
+  void set(std::int64_t linear) {
+    const std::int64_t column = linear % row_length_;
+    row(linear / row_length_)[static_cast<std::size_t>(column / kWordBits)] |= Word{1}
+                                                                               << (column % kWordBits);
+  }
+  void reset(std::int64_t linear) {
+    const std::int64_t column = linear % row_length_;
+    row(linear / row_length_)[static_cast<std::size_t>(column / kWordBits)] &=
+        ~(Word{1} << (column % kWordBits));
+  }
+  [[nodiscard]] std::int64_t count() const {
+    std::int64_t total = 0;
+    for (const Word word : words_) total += std::popcount(word);
+    return total;
+  }
+  [[nodiscard]] std::span<const Word> words() const { return words_; }
+  [[nodiscard]] std::span<Word> words() { return words_; }
+  [[nodiscard]] bool operator==(const CellSet&) const = default;
+
+ private:
+  std::int64_t rows_ = 0;
+  std::int64_t row_length_ = 0;
+  std::int64_t words_per_row_ = 0;
+  std::vector<Word> words_;
+};
+
+}  // namespace coordreq

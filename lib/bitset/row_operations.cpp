@@ -1,0 +1,91 @@
+#include "bitset/row_operations.hpp"
+
+#include <algorithm>
+
+namespace coordreq {
+namespace {
+
+constexpr std::int64_t kBits = CellSet::kWordBits;
+
+std::size_t word_of(std::int64_t bit) {
+  return static_cast<std::size_t>(bit / kBits);
+}
+
+/// Ones at [begin, end) of word w.
+Word mask_within(std::int64_t w, std::int64_t begin, std::int64_t end) {
+  const std::int64_t low = std::clamp<std::int64_t>(begin - w * kBits, 0, kBits);
+  const std::int64_t high = std::clamp<std::int64_t>(end - w * kBits, 0, kBits);
+  if (low >= high) return 0;
+  const Word up_to_high = high == kBits ? ~Word{0} : (Word{1} << high) - 1;
+  return up_to_high & (~Word{0} << low);
+}
+
+bool end_bit(Outside rule, ConstRow row, std::int64_t position) {
+  if (rule == Outside::saturate) return (row[word_of(position)] >> (position % kBits) & 1) != 0;
+  return rule == Outside::safe;
+}
+
+/// Word w of the bits shifted down by `distance` (towards bit 0); zeros come in above `size` words.
+Word shifted_down(const Word* words, std::size_t size, std::size_t w, std::int64_t distance) {
+  const std::size_t source = w + word_of(distance);
+  const std::int64_t rest = distance % kBits;
+  const Word low = source < size ? words[source] >> rest : 0;
+  if (rest == 0 || source + 1 >= size) return low;
+  return low | words[source + 1] << (kBits - rest);
+}
+
+}  // namespace
+
+void set_bits(MutableRow row, std::int64_t begin, std::int64_t end) {
+  if (begin >= end) return;
+  for (std::int64_t w = begin / kBits; w <= (end - 1) / kBits; ++w) {
+    row[static_cast<std::size_t>(w)] |= mask_within(w, begin, end);
+  }
+}
+
+bool all_set(ConstRow row, std::int64_t begin, std::int64_t end) {
+  if (begin >= end) return true;
+  for (std::int64_t w = begin / kBits; w <= (end - 1) / kBits; ++w) {
+    const Word mask = mask_within(w, begin, end);
+    if ((row[static_cast<std::size_t>(w)] & mask) != mask) return false;
+  }
+  return true;
+}
+
+bool any_set(ConstRow row) {
+  return std::any_of(row.begin(), row.end(), [](Word word) { return word != 0; });
+}
+
+void RowEroder::erode(ConstRow row, std::int64_t n, std::int32_t low, std::int32_t high, RowEnds ends,
+                      MutableRow out) {
+  // Beyond n everything looks the same, so larger offsets mean no more than +-n.
+  const std::int64_t first = std::clamp<std::int64_t>(low, -n, n);
+  const std::int64_t last = std::clamp<std::int64_t>(high, -n, n);
+  const std::int64_t left = std::max<std::int64_t>(0, -first);
+  const std::int64_t right = std::max<std::int64_t>(0, last);
+  const std::int64_t length = left + n + right;
+  const std::size_t size = word_of(length - 1) + 1;
+  buffer_.assign(size, 0);
+
+  for (std::size_t w = 0; w < row.size(); ++w) {
+    const std::size_t target = w + word_of(left);
+    const std::int64_t rest = left % kBits;
+    buffer_[target] |= row[w] << rest;
+    if (rest != 0 && target + 1 < size) buffer_[target + 1] |= row[w] >> (kBits - rest);
+  }
+  if (end_bit(ends.below, row, 0)) set_bits(buffer_, 0, left);
+  if (end_bit(ends.above, row, n - 1)) set_bits(buffer_, left + n, length);
+
+  const std::int64_t window = last - first + 1;
+  for (std::int64_t done = 1; done < window;) {
+    const std::int64_t step = std::min(done, window - done);
+    for (std::size_t w = 0; w < size; ++w) buffer_[w] &= shifted_down(buffer_.data(), size, w, step);
+    done += step;
+  }
+  for (std::size_t w = 0; w < out.size(); ++w) {
+    out[w] =
+        shifted_down(buffer_.data(), size, w, first + left) & mask_within(static_cast<std::int64_t>(w), 0, n);
+  }
+}
+
+}  // namespace coordreq

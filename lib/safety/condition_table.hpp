@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "base/thread_team.hpp"
+#include "bitset/cell_set.hpp"
+#include "grid/input_space.hpp"
+#include "grid/uniform_grid.hpp"
+#include "numeric/truth.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// Where the variables of a condition stand.
+enum class Sampling : std::uint8_t {
+  centres,       ///< grid points
+  closed_cells,  ///< the whole closed cell of each state, grid points of inputs
+};
+
+/// The truth of a condition over the grid, tabulated over only the states and inputs that it depends on.
+///
+/// One bit row along the last state dimension for each choice of the other states and inputs in use, so that
+/// rows serve all the cells that differ only in what the condition does not depend on.
+class ConditionTable {
+ public:
+  /// @param treat_as_true called for a case left undecided, with the indices by slot; its result counts (a
+  ///   callback may also throw)
+  using Undecided = std::function<bool(const std::vector<std::int64_t>& indices)>;
+
+  ConditionTable(const Program& condition, const UniformGrid& grid, const InputSpace& inputs,
+                 Sampling sampling, const Undecided& undecided, ThreadTeam& team);
+
+  /// The bits of all cells of grid row `row` under joint input `u` (any u if no input is in use).
+  [[nodiscard]] std::span<const CellSet::Word> row(std::int64_t row, std::int64_t u) const;
+  /// Position of that row in the table: equal positions mean equal bits.
+  [[nodiscard]] std::int64_t position(std::int64_t row, std::int64_t u) const;
+  [[nodiscard]] const CellSet& bits() const { return bits_; }
+
+  [[nodiscard]] const std::vector<std::int32_t>& states() const {
+    return states_;
+  }  ///< without the last dimension
+  [[nodiscard]] const std::vector<std::int32_t>& inputs() const { return inputs_; }
+  [[nodiscard]] const std::vector<std::int64_t>& state_stride() const { return state_stride_; }
+  [[nodiscard]] const std::vector<std::int64_t>& input_stride() const { return input_stride_; }
+
+ private:
+  const UniformGrid* grid_;
+  const InputSpace* input_space_;
+  std::vector<std::int32_t> states_;
+  std::vector<std::int32_t> inputs_;
+  std::vector<std::int64_t> state_stride_;  ///< in rows of the table; 0 where not in use
+  std::vector<std::int64_t> input_stride_;
+  CellSet bits_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,120 @@
+#include "safety/row_engine.hpp"
+
+#include <algorithm>
+
+namespace coordreq {
+
+using Kind = RowSegment::Kind;
+
+RowEngine::RowEngine(const Abstraction& abstraction, const ConditionTable* allow)
+    : abstraction_(&abstraction), allow_(allow) {
+  for (std::size_t i = 0; i < abstraction.tables.size(); ++i)
+    slices_.push_back(cut_into_rows(abstraction, i));
+}
+
+std::int64_t RowEngine::base(std::int64_t row, std::size_t table) const {
+  const UniformGrid& grid = abstraction_->grid;
+  std::int64_t result = 0;
+  for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
+    const std::int64_t stride = slices_[table].state_stride[i];
+    if (stride != 0) result += grid.index(row * grid.row_length(), i) * stride;
+  }
+  return result;
+}
+
+void RowEngine::inside(std::span<const std::uint32_t> ids, const CellSet& target, MutableRow out,
+                       Scratch& scratch) const {
+  const std::size_t tables = slices_.size();
+  const std::size_t last = tables - 1;
+  scratch.slices.resize(tables);
+  scratch.positions.assign(tables, 0);
+  scratch.box.resize(last);
+  for (std::size_t t = 0; t < tables; ++t) scratch.slices[t] = &slices_[t].slices[ids[t]];
+  std::fill(out.begin(), out.end(), Word{0});
+
+  const auto length = static_cast<std::int32_t>(row_length());
+  for (std::int32_t begin = 0; begin < length;) {
+    std::int32_t end = length;
+    bool blocked = false;
+    bool gone = false;
+    for (std::size_t t = 0; t < tables; ++t) {
+      while ((*scratch.slices[t])[scratch.positions[t]].end <= begin) ++scratch.positions[t];
+      const RowSegment& segment = (*scratch.slices[t])[scratch.positions[t]];
+      end = std::min(end, segment.end);
+      blocked = blocked || segment.kind == Kind::blocked;
+      gone = gone || (segment.kind == Kind::gone && t != last);
+      if (t != last) scratch.box[t] = segment.range;
+    }
+    if (!blocked) {
+      if (gone) {
+        // Nothing is left inside in one dimension, so any target will do; the last dimension may still block.
+        scratch.gathered.assign(out.size(), ~Word{0});
+        if (length % CellSet::kWordBits != 0)
+          scratch.gathered.back() = (Word{1} << (length % CellSet::kWordBits)) - 1;
+      } else {
+        gather(target, scratch);
+      }
+      place_segment((*scratch.slices[last])[scratch.positions[last]], begin, end, scratch, out);
+    }
+    begin = end;
+  }
+}
+
+/// scratch.gathered = AND of the rows of `target` in scratch.box.
+void RowEngine::gather(const CellSet& target, Scratch& scratch) const {
+  const UniformGrid& grid = abstraction_->grid;
+  const std::vector<IndexRange>& box = scratch.box;
+  std::vector<std::int64_t>& indices = scratch.indices;
+  indices.resize(box.size());
+  std::int64_t row = 0;
+  for (std::size_t i = 0; i < box.size(); ++i) {
+    indices[i] = box[i].first;
+    row += indices[i] * (grid.stride(i) / grid.row_length());
+  }
+  const auto first = target.row(row);
+  scratch.gathered.assign(first.begin(), first.end());
+  for (;;) {
+    std::size_t i = box.size();
+    for (;;) {
+      if (i == 0) return;
+      --i;
+      const std::int64_t step = grid.stride(i) / grid.row_length();
+      if (++indices[i] <= box[i].last) {
+        row += step;
+        break;
+      }
+      row -= (box[i].last - box[i].first) * step;
+      indices[i] = box[i].first;
+    }
+    const auto source = target.row(row);
+    for (std::size_t w = 0; w < source.size(); ++w) scratch.gathered[w] &= source[w];
+  }
+}
+
+void RowEngine::place_segment(const RowSegment& last, std::int32_t begin, std::int32_t end, Scratch& scratch,
+                              MutableRow out) const {
+  if (last.kind != Kind::shifted) {
+    const bool holds = last.kind == Kind::gone ||
+                       all_set(scratch.gathered, last.range.first, std::int64_t{last.range.last} + 1);
+    if (holds) set_bits(out, begin, end);
+    return;
+  }
+  const GridDimension& dimension = abstraction_->grid.dimensions().back();
+  scratch.eroded.assign(out.size(), 0);
+  scratch.eroder.erode(scratch.gathered, row_length(), last.range.first, last.range.last,
+                       {dimension.below, dimension.above}, scratch.eroded);
+  if (begin == 0 && end == row_length()) {
+    for (std::size_t w = 0; w < out.size(); ++w) out[w] |= scratch.eroded[w];
+    return;
+  }
+  const std::size_t first_word = static_cast<std::size_t>(begin / CellSet::kWordBits);
+  const std::size_t last_word = static_cast<std::size_t>((end - 1) / CellSet::kWordBits);
+  for (std::size_t w = first_word; w <= last_word; ++w) {
+    const std::int64_t low = std::max<std::int64_t>(begin - static_cast<std::int64_t>(w) * 64, 0);
+    const std::int64_t high = std::min<std::int64_t>(end - static_cast<std::int64_t>(w) * 64, 64);
+    const Word mask = (high == 64 ? ~Word{0} : (Word{1} << high) - 1) & (~Word{0} << low);
+    out[w] |= scratch.eroded[w] & mask;
+  }
+}
+
+}  // namespace coordreq

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "abstraction/abstraction.hpp"
+#include "bitset/row_operations.hpp"
+#include "safety/condition_table.hpp"
+#include "safety/row_slices.hpp"
+
+namespace coordreq {
+
+/// The one question that every operator asks, answered for a whole row of cells at once:
+/// {x in the row : empty != f(x, u) subset of Z}, and which u are allowed there.
+///
+/// A row is all cells that differ only in the last dimension. The post of a row is the AND of a box of rows
+/// of Z (other dimensions), eroded along the row (last dimension); see RowSlices for rows that fall into
+/// segments. Immutable once built, so safe to share between threads; scratch memory is the caller's.
+class RowEngine {
+ public:
+  struct Scratch {
+    RowEroder eroder;
+    std::vector<Word> gathered;
+    std::vector<Word> eroded;
+    std::vector<const std::vector<RowSegment>*> slices;
+    std::vector<std::size_t> positions;
+    std::vector<IndexRange> box;
+    std::vector<std::int64_t> indices;
+  };
+
+  /// REQUIRES: `abstraction` and `allow` (may be null: everything is allowed) outlive this object.
+  RowEngine(const Abstraction& abstraction, const ConditionTable* allow);
+
+  [[nodiscard]] const Abstraction& abstraction() const { return *abstraction_; }
+  [[nodiscard]] const std::vector<RowSlices>& slices() const { return slices_; }
+  [[nodiscard]] const ConditionTable* allow() const { return allow_; }
+  [[nodiscard]] std::int64_t rows() const { return abstraction_->grid.rows(); }
+  [[nodiscard]] std::int64_t row_length() const { return abstraction_->grid.row_length(); }
+  [[nodiscard]] std::size_t row_words() const {
+    return static_cast<std::size_t>((row_length() + CellSet::kWordBits - 1) / CellSet::kWordBits);
+  }
+
+  /// Number of tables of slices: one a state.
+  [[nodiscard]] std::size_t tables() const { return slices_.size(); }
+  /// Where the entries of `row` begin in slices()[table].ids.
+  [[nodiscard]] std::int64_t base(std::int64_t row, std::size_t table) const;
+
+  /// out = {x in `row` : not blocked and post inside `target`} for the slices with the numbers `ids` (one a
+  /// table).
+  void inside(std::span<const std::uint32_t> ids, const CellSet& target, MutableRow out,
+              Scratch& scratch) const;
+
+ private:
+  void gather(const CellSet& target, Scratch& scratch) const;
+  void place_segment(const RowSegment& last, std::int32_t begin, std::int32_t end, Scratch& scratch,
+                     MutableRow out) const;
+
+  const Abstraction* abstraction_;
+  const ConditionTable* allow_;
+  std::vector<RowSlices> slices_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "abstraction/abstraction.hpp"
+
+namespace coordreq {
+
+/// A stretch [begin, end) of the cells of a row for which one state's next range has one simple form.
+struct RowSegment {
+  enum class Kind : std::uint8_t {
+    fixed,    ///< the same cells `range` for all
+    shifted,  ///< cell c goes to the raw indices c + range.first, ..., c + range.last
+    gone,     ///< all left the domain through a safe side
+    blocked,  ///< left through an unsafe side
+  };
+  std::int32_t begin = 0;
+  std::int32_t end = 0;
+  Kind kind = Kind::fixed;
+  IndexRange range;
+  [[nodiscard]] auto operator<=>(const RowSegment&) const = default;
+};
+
+/// One state's transition table cut into rows along the last state dimension: for each choice of the other
+/// states and of the inputs in use the number of a slice, equal slices stored once.
+///
+/// A slice is a list of segments that together cover the row. `shifted` occurs only for the last dimension
+/// itself: there a whole row is eroded at once, and integrators (x' = x + c) give one segment a row.
+struct RowSlices {
+  std::vector<std::uint32_t> ids;  ///< row-major over states (without the last), then inputs
+  std::vector<std::vector<RowSegment>> slices;
+  std::vector<std::int64_t> state_stride;  ///< into `ids`; 0 where not in use, and for the last state
+  std::vector<std::int64_t> input_stride;
+  std::vector<std::int32_t> inputs;     ///< in use, ascending
+  std::int64_t input_combinations = 1;  ///< product of their counts; divides every state stride
+};
+
+[[nodiscard]] RowSlices cut_into_rows(const Abstraction& abstraction, std::size_t state);
+
+}  // namespace coordreq

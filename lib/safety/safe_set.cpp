@@ -1,0 +1,48 @@
+#include "safety/safe_set.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace coordreq {
+
+CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team) {
+  const Sampling sampling =
+      spec.abstraction.safe == Membership::inner ? Sampling::closed_cells : Sampling::centres;
+  const auto undecided_is_unsafe = [](const std::vector<std::int64_t>&) { return false; };
+  const ConditionTable table(spec.safe, abstraction.grid, abstraction.inputs, sampling, undecided_is_unsafe,
+                             team);
+  CellSet safe(abstraction.grid.rows(), abstraction.grid.row_length());
+  team.for_each(safe.rows(), 1024, [&](ThreadTeam::Range range, int) {
+    for (std::int64_t r = range.begin; r < range.end; ++r) {
+      const auto source = table.row(r, 0);
+      std::copy(source.begin(), source.end(), safe.row(r).begin());
+    }
+  });
+  return safe;
+}
+
+std::optional<ConditionTable> allow_table(const ProblemSpec& spec, const Abstraction& abstraction,
+                                          ThreadTeam& team) {
+  if (!spec.controller.allow) return std::nullopt;
+  const Program& allow = *spec.controller.allow;
+  if (allow.nodes.back().op == Operator::literal_true) return std::nullopt;
+  const auto refuse = [&](const std::vector<std::int64_t>& indices) -> bool {
+    std::string place;
+    for (const std::uint32_t slot : allow.variables()) {
+      const bool is_state = slot < spec.states.size();
+      const std::size_t i = is_state ? slot : slot - spec.states.size();
+      const auto k = indices[slot];
+      const Rational value =
+          is_state ? abstraction.grid[i].point(k) : abstraction.inputs[i].values[static_cast<std::size_t>(k)];
+      place += fmt::format("{}{} = {}", place.empty() ? "" : ", ",
+                           is_state ? spec.states[i].name : spec.inputs[i].name, to_text(value));
+    }
+    throw SpecError(fmt::format("'allow' cannot be decided at {}", place), "/controller/allow");
+  };
+  return ConditionTable(allow, abstraction.grid, abstraction.inputs, Sampling::centres, refuse, team);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "coordination/action_bits.hpp"
+#include "spec/read_spec.hpp"
+#include "support/fast_engine.hpp"
+#include "support/plain_engine.hpp"
+#include "support/random_problem.hpp"
+
+namespace coordreq {
+namespace {
+
+std::vector<bool> members(const CellSet& set) {
+  std::vector<bool> result;
+  for (std::int64_t x = 0; x < set.cells(); ++x) result.push_back(set.test(x));
+  return result;
+}
+
+/// The packed bits of the fast path as plain sets.
+std::vector<std::vector<bool>> unpacked(const FastAnalysis& fast, const ActionGrouping& grouping,
+                                        std::size_t c) {
+  const auto actions = static_cast<std::size_t>(grouping.actions(c));
+  const std::size_t bytes = (actions + 7) / 8;
+  const auto packed = action_bits(fast.controller, grouping, c, 0, fast.engine.rows());
+  std::vector<std::vector<bool>> result;
+  for (std::size_t x = 0; x < packed.size() / bytes; ++x) {
+    std::vector<bool>& set = result.emplace_back();
+    for (std::size_t a = 0; a < actions; ++a) set.push_back((packed[x * bytes + a / 8] >> (a % 8) & 1) != 0);
+  }
+  return result;
+}
+
+void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const PlainAnalysis& plain) {
+  RC_ASSERT(members(fast.safe) == plain.safe);
+  RC_ASSERT(fast.invariance.iterations == plain.iterations);
+  RC_ASSERT(members(fast.invariance.invariant) == plain.invariant);
+  RC_ASSERT(fast.invariance.collision_time == plain.collision_time);
+  for (std::size_t p = 0; p < plain.partitions.size(); ++p) {
+    const PlainAnalysis::Partition& expected = plain.partitions[p];
+    RC_ASSERT(fast.layers[p].sizes == expected.sizes);
+    RC_ASSERT(fast.layers[p].fixed_point_index == expected.fixed_point_index);
+    RC_ASSERT(fast.layers[p].truncated == expected.truncated);
+    RC_ASSERT(fast.layers[p].delay == expected.delay);
+    for (std::size_t c = 0; c < expected.projection.size(); ++c) {
+      RC_ASSERT(unpacked(fast, fast.groupings[p], c) == expected.projection[c]);
+    }
+  }
+  InputClass all;
+  for (std::size_t i = 0; i < spec.inputs.size(); ++i) all.push_back(static_cast<std::int32_t>(i));
+  RC_ASSERT(unpacked(fast, ActionGrouping(fast.engine, {all}), 0) == plain.controller);
+}
+
+TEST(Engines, RowsAndSinglePairsGiveTheSameBits) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("row engine equals plain engine", [&] {
+    const ProblemSpec spec = read_spec(draw_problem(), "random");
+    const FastAnalysis fast(spec, team);
+    const PlainAnalysis plain = analyze_plainly(spec, fast.abstraction);
+    RC_CLASSIFY(std::count(plain.invariant.begin(), plain.invariant.end(), true) > 0, "K not empty");
+    RC_CLASSIFY(!plain.partitions.empty() && plain.partitions[0].sizes.size() > 1, "more than one layer");
+    RC_CLASSIFY(plain.iterations > 2, "more than two sweeps for K");
+    expect_agreement(spec, fast, plain);
+  }));
+}
+
+TEST(Engines, LongRowsOverSeveralWordsAgree) {
+  // Rows of 150 cells, shifts beyond a word, all rules at the ends.
+  ThreadTeam team(2);
+  for (const std::string below : {"unsafe", "safe", "saturate"}) {
+    for (const std::string above : {"unsafe", "safe", "saturate"}) {
+      for (const std::string cells : {"closed", "half_open"}) {
+        std::string text = R"json({"coordreq": 1, "name": "long",
+"states": [{"name": "y", "lower": 0, "upper": 2, "step": 1, "outside": "saturate"},
+           {"name": "x", "lower": 0, "upper": 149, "step": 1, "outside": {"below": "BELOW", "above": "ABOVE"}}],
+"inputs": [{"name": "u", "values": [-70.5, -3, 0, 64, 200]}, {"name": "v", "values": [-1, 0.5]}],
+"agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
+"dynamics": {"time": "discrete", "period": 1, "equations": {"x": "if(v > 0, x + u, 149 - x)", "y": "y + v"}},
+"safe": "x <= 40 or x >= 100 or y >= 1", "abstraction": {"cells": "CELLS"}})json";
+        text.replace(text.find("BELOW"), 5, below);
+        text.replace(text.find("ABOVE"), 5, above);
+        text.replace(text.find("CELLS"), 5, cells);
+        const ProblemSpec spec = read_spec(text, "long");
+        const FastAnalysis fast(spec, team);
+        expect_agreement(spec, fast, analyze_plainly(spec, fast.abstraction));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace coordreq

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "abstraction/build_abstraction.hpp"
+#include "coordination/delay_layers.hpp"
+#include "coordination/projections.hpp"
+#include "safety/invariance.hpp"
+#include "safety/safe_set.hpp"
+
+namespace coordreq {
+
+/// All stages of the analysis that come before writing, with everything kept, for tests.
+struct FastAnalysis {
+  FastAnalysis(const ProblemSpec& spec, ThreadTeam& team)
+      : abstraction(build_abstraction(spec, team)),
+        safe(safe_set(spec, abstraction, team)),
+        allow(allow_table(spec, abstraction, team)),
+        engine(abstraction, allow ? &*allow : nullptr),
+        reach(engine),
+        invariance(find_invariance(engine, reach, safe, spec.controller.synthesis, {}, team)),
+        controller{&engine, &invariance.invariant, spec.controller.synthesis} {
+    for (const PartitionSpec& partition : spec.coordination.partitions) {
+      std::vector<InputClass> classes;
+      for (const auto& agents : partition.classes) {
+        InputClass& inputs = classes.emplace_back();
+        for (const std::int32_t agent : agents) {
+          const auto& own = spec.agents[static_cast<std::size_t>(agent)].inputs;
+          inputs.insert(inputs.end(), own.begin(), own.end());
+        }
+      }
+      groupings.emplace_back(engine, classes);
+      const Projections projections(controller, groupings.back(), team);
+      layers.push_back(find_delay_layers(engine, reach, safe, invariance.invariant, projections,
+                                         spec.coordination.max_delay, {}, team));
+    }
+  }
+  FastAnalysis(const FastAnalysis&) = delete;
+  FastAnalysis& operator=(const FastAnalysis&) = delete;
+
+  Abstraction abstraction;
+  CellSet safe;
+  std::optional<ConditionTable> allow;
+  RowEngine engine;
+  RowReach reach;
+  Invariance invariance;
+  Controller controller;
+  std::deque<ActionGrouping> groupings;
+  std::vector<DelayLayers> layers;
+};
+
+}  // namespace coordreq

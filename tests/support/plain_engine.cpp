@@ -1,0 +1,220 @@
+#include "support/plain_engine.hpp"
+
+#include <algorithm>
+
+#include "coordination/delay_layers.hpp"
+#include "expression/domains.hpp"
+#include "expression/evaluate.hpp"
+#include "safety/invariance.hpp"
+
+namespace coordreq {
+namespace {
+
+using Set = std::vector<bool>;
+
+class PlainEngine {
+ public:
+  PlainEngine(const ProblemSpec& spec, const Abstraction& abstraction)
+      : spec_(spec), a_(abstraction), cells_(abstraction.grid.cells()), inputs_(abstraction.inputs.count()) {}
+
+  PlainAnalysis run() {
+    find_safe();
+    find_allowed();
+    find_invariant();
+    find_controller();
+    for (const PartitionSpec& partition : spec_.coordination.partitions) layers(partition);
+    return result_;
+  }
+
+ private:
+  static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+  void find_safe() {
+    Evaluator<RationalInterval> safe(spec_.safe);
+    for (std::int64_t x = 0; x < cells_; ++x) {
+      std::vector<RationalInterval> box(spec_.slot_count());
+      for (std::size_t i = 0; i < a_.grid.size(); ++i) {
+        const Rational centre = a_.grid[i].point(a_.grid.index(x, i));
+        const Rational radius =
+            spec_.abstraction.safe == Membership::inner ? a_.grid[i].radius() : Rational(0);
+        box[i] = {.lower = centre - radius, .upper = centre + radius};
+      }
+      result_.safe.push_back(safe.condition(box) == Truth::yes);
+    }
+  }
+
+  void find_allowed() {
+    for (std::int64_t x = 0; x < cells_; ++x) {
+      allowed_.emplace_back(at(inputs_), true);
+      if (!spec_.controller.allow) continue;
+      Evaluator<RationalInterval> allow(*spec_.controller.allow);
+      std::vector<RationalInterval> point(spec_.slot_count());
+      for (std::size_t i = 0; i < a_.grid.size(); ++i) {
+        const Rational centre = a_.grid[i].point(a_.grid.index(x, i));
+        point[i] = {.lower = centre, .upper = centre};
+      }
+      for (std::int64_t u = 0; u < inputs_; ++u) {
+        for (std::size_t i = 0; i < a_.inputs.size(); ++i) {
+          const Rational& value = a_.inputs[i].values[at(a_.inputs.index(u, i))];
+          point[a_.grid.size() + i] = {.lower = value, .upper = value};
+        }
+        allowed_.back()[at(u)] = allow.condition(point) == Truth::yes;
+      }
+    }
+  }
+
+  /// empty != f(x, u) subset of `target`.
+  bool stays_in(std::int64_t x, std::int64_t u, const Set& target) const {
+    bool gone = false;
+    std::vector<IndexRange> box;
+    for (std::size_t i = 0; i < a_.grid.size(); ++i) {
+      const ResolvedRange range = a_.resolved(i, x, u);
+      if (range.blocked) return false;
+      gone = gone || range.all_left();
+      box.push_back(range.inside);
+    }
+    return gone || all_in(box, 0, 0, target);
+  }
+
+  bool all_in(const std::vector<IndexRange>& box, std::size_t i, std::int64_t cell, const Set& target) const {
+    if (i == box.size()) return target[at(cell)];
+    for (std::int64_t k = box[i].first; k <= box[i].last; ++k) {
+      if (!all_in(box, i + 1, cell + k * a_.grid.stride(i), target)) return false;
+    }
+    return true;
+  }
+
+  bool keeps(std::int64_t x, const Set& target) const {
+    bool some = false;
+    bool every = true;
+    bool any_allowed = false;
+    for (std::int64_t u = 0; u < inputs_; ++u) {
+      if (!allowed_[at(x)][at(u)]) continue;
+      any_allowed = true;
+      const bool stays = stays_in(x, u, target);
+      some = some || stays;
+      every = every && stays;
+    }
+    return spec_.controller.synthesis == Synthesis::maximal ? some : any_allowed && every;
+  }
+
+  void find_invariant() {
+    result_.invariant = result_.safe;
+    for (const bool safe : result_.safe) result_.collision_time.push_back(safe ? Invariance::kNever : 0);
+    for (bool changed = true; changed;) {
+      changed = false;
+      ++result_.iterations;
+      const Set before = result_.invariant;
+      for (std::int64_t x = 0; x < cells_; ++x) {
+        if (!before[at(x)] || keeps(x, before)) continue;
+        result_.invariant[at(x)] = false;
+        result_.collision_time[at(x)] = static_cast<std::int32_t>(result_.iterations);
+        changed = true;
+      }
+    }
+  }
+
+  void find_controller() {
+    for (std::int64_t x = 0; x < cells_; ++x) {
+      std::vector<bool>& c = result_.controller.emplace_back(at(inputs_), false);
+      for (std::int64_t u = 0; u < inputs_ && result_.invariant[at(x)]; ++u) {
+        c[at(u)] = allowed_[at(x)][at(u)] &&
+                   (spec_.controller.synthesis == Synthesis::given || stays_in(x, u, result_.invariant));
+      }
+    }
+  }
+
+  std::vector<std::size_t> class_inputs(const std::vector<std::int32_t>& agents) const {
+    std::vector<std::size_t> inputs;
+    for (const std::int32_t agent : agents) {
+      for (const std::int32_t input : spec_.agents[at(agent)].inputs) inputs.push_back(at(input));
+    }
+    std::sort(inputs.begin(), inputs.end());
+    return inputs;
+  }
+
+  /// Number of the joint action that joint input u gives to a class: row-major over its inputs.
+  std::int64_t action_of(std::int64_t u, const std::vector<std::size_t>& inputs) const {
+    std::int64_t action = 0;
+    for (const std::size_t i : inputs) action = action * a_.inputs[i].count() + a_.inputs.index(u, i);
+    return action;
+  }
+
+  void layers(const PartitionSpec& partition) {
+    PlainAnalysis::Partition& result = result_.partitions.emplace_back();
+    std::vector<std::vector<std::size_t>> classes;
+    for (const auto& agents : partition.classes) {
+      classes.push_back(class_inputs(agents));
+      std::int64_t actions = 1;
+      for (const std::size_t i : classes.back()) actions *= a_.inputs[i].count();
+      result.projection.emplace_back(at(cells_), std::vector<bool>(at(actions), false));
+    }
+    for (std::int64_t x = 0; x < cells_; ++x) {
+      for (std::int64_t u = 0; u < inputs_; ++u) {
+        if (!result_.controller[at(x)][at(u)]) continue;
+        for (std::size_t c = 0; c < classes.size(); ++c)
+          result.projection[c][at(x)][at(action_of(u, classes[c]))] = true;
+      }
+    }
+    const auto reasonable = [&](std::int64_t x, std::int64_t u) {
+      for (std::size_t c = 0; c < classes.size(); ++c) {
+        if (!result.projection[c][at(x)][at(action_of(u, classes[c]))]) return false;
+      }
+      return true;
+    };
+    iterate(result, reasonable);
+  }
+
+  template <class Reasonable>
+  void iterate(PlainAnalysis::Partition& result, const Reasonable& reasonable) {
+    Set layer = result_.invariant;
+    for (std::int64_t x = 0; x < cells_; ++x) {
+      result.delay.push_back(result_.safe[at(x)] ? (layer[at(x)] ? DelayLayers::kUnbounded : -1) : -2);
+    }
+    result.sizes.push_back(std::count(layer.begin(), layer.end(), true));
+    for (std::int64_t k = 0;; ++k) {
+      const bool stop =
+          spec_.coordination.max_delay && k == *spec_.coordination.max_delay && result.sizes.back() > 0;
+      if (stop) break;
+      Set next = layer;
+      for (std::int64_t x = 0; x < cells_; ++x) {
+        if (!layer[at(x)]) continue;
+        bool some = false;
+        bool every = true;
+        for (std::int64_t u = 0; u < inputs_ && every; ++u) {
+          if (!reasonable(x, u)) continue;
+          some = true;
+          every = stays_in(x, u, layer);
+        }
+        if (some && every) continue;
+        next[at(x)] = false;
+        result.delay[at(x)] = static_cast<std::int32_t>(k);
+      }
+      if (next == layer) {
+        result.fixed_point_index = static_cast<std::int32_t>(k);
+        return;
+      }
+      layer = next;
+      result.sizes.push_back(std::count(layer.begin(), layer.end(), true));
+    }
+    result.truncated = true;
+    for (std::int32_t& delay : result.delay) {
+      if (delay == DelayLayers::kUnbounded) delay = static_cast<std::int32_t>(*spec_.coordination.max_delay);
+    }
+  }
+
+  const ProblemSpec& spec_;
+  const Abstraction& a_;
+  std::int64_t cells_;
+  std::int64_t inputs_;
+  std::vector<std::vector<bool>> allowed_;
+  PlainAnalysis result_;
+};
+
+}  // namespace
+
+PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction) {
+  return PlainEngine(spec, abstraction).run();
+}
+
+}  // namespace coordreq

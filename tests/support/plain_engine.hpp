@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "abstraction/abstraction.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// The analysis done the plain way: one cell and one joint input at a time, straight from the definitions of
+/// the contract. Slow and obviously right; what every fast path is compared with, bit for bit.
+struct PlainAnalysis {
+  struct Partition {
+    std::vector<std::int32_t> delay;
+    std::vector<std::int64_t> sizes;
+    std::int32_t fixed_point_index = -1;
+    bool truncated = false;
+    /// [class][cell][joint action of the class]
+    std::vector<std::vector<std::vector<bool>>> projection;
+  };
+  std::vector<bool> safe;
+  std::vector<bool> invariant;
+  std::vector<std::int32_t> collision_time;
+  std::int64_t iterations = 0;
+  std::vector<std::vector<bool>> controller;  ///< [cell][joint input]
+  std::vector<Partition> partitions;
+};
+
+[[nodiscard]] PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction);
+
+}  // namespace coordreq
