@@ -1,0 +1,81 @@
+#include "results/array_writer.hpp"
+
+#include <algorithm>
+
+namespace coordreq {
+namespace {
+
+void write_whole(const hdf5::Handle& dataset, const std::string& path, std::uint64_t elements,
+                 const ResultArray& array) {
+  if (elements == 0) return;
+  std::vector<std::byte> data(elements * element_size(array.type));
+  array.fill(0, elements, data.data());
+  hdf5::check(
+      H5Dwrite(dataset.get(), hdf5::number_type(array.type), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()),
+      "write the dataset " + path);
+}
+
+hdf5::Storage storage_of(const ChunkLayout& layout, ElementType type) {
+  hdf5::Storage storage;
+  storage.chunk.assign(layout.chunk_shape().begin(), layout.chunk_shape().end());
+  storage.deflate_level = kDeflateLevel;
+  storage.shuffle = element_size(type) > 1;
+  return storage;
+}
+
+}  // namespace
+
+ArrayWriter::ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver)
+    : team_(team),
+      driver_(driver),
+      scratch_(static_cast<std::size_t>(team.size())),
+      packed_(static_cast<std::size_t>(team.size()) * kChunksPerThread) {}
+
+hdf5::Handle ArrayWriter::write(const hdf5::Handle& file, const std::string& path,
+                                const std::vector<hsize_t>& shape, const ResultArray& array) {
+  const ChunkLayout layout({shape.begin(), shape.end()}, element_size(array.type));
+  hdf5::Handle dataset = hdf5::create_dataset(file, path, hdf5::number_type(array.type),
+                                              hdf5::create_space(shape), storage_of(layout, array.type));
+  if (layout.chunked()) {
+    write_chunks(dataset, path, layout, array);
+  } else {
+    write_whole(dataset, path, layout.elements(), array);
+  }
+  driver_.check_written("write the dataset " + path);
+  return dataset;
+}
+
+void ArrayWriter::write_chunks(const hdf5::Handle& dataset, const std::string& path,
+                               const ChunkLayout& layout, const ResultArray& array) {
+  const std::uint64_t chunks = layout.chunk_count();
+  for (std::uint64_t first = 0; first < chunks; first += packed_.size()) {
+    const std::size_t count = std::min<std::uint64_t>(packed_.size(), chunks - first);
+    pack_batch(layout, array, first, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto offset = layout.stretch(first + i).offset;
+      const std::vector<hsize_t> place(offset.begin(), offset.end());
+      hdf5::check(
+          H5Dwrite_chunk(dataset.get(), H5P_DEFAULT, 0, place.data(), packed_[i].size(), packed_[i].data()),
+          "write the dataset " + path);
+    }
+    driver_.check_written("write the dataset " + path);
+  }
+}
+
+void ArrayWriter::pack_batch(const ChunkLayout& layout, const ResultArray& array, std::uint64_t first,
+                             std::size_t count) {
+  const std::size_t size = element_size(array.type);
+  team_.for_each(static_cast<std::int64_t>(count), 1, [&](ThreadTeam::Range range, int worker) {
+    Scratch& scratch = scratch_[static_cast<std::size_t>(worker)];
+    for (auto i = static_cast<std::size_t>(range.begin); i < static_cast<std::size_t>(range.end); ++i) {
+      const ChunkLayout::Stretch stretch = layout.stretch(first + i);
+      scratch.raw.resize(layout.chunk_elements() * size);
+      array.fill(stretch.begin, stretch.count, scratch.raw.data());
+      const auto padding = scratch.raw.begin() + static_cast<std::ptrdiff_t>(stretch.count * size);
+      std::fill(padding, scratch.raw.end(), std::byte{0});
+      scratch.codec.pack(scratch.raw, size, packed_[i]);
+    }
+  });
+}
+
+}  // namespace coordreq

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/thread_team.hpp"
+#include "results/chunk_codec.hpp"
+#include "results/chunk_layout.hpp"
+#include "results/hdf5_handle.hpp"
+#include "results/output_driver.hpp"
+#include "results/result_content.hpp"
+
+namespace coordreq {
+
+/// Writes arrays as datasets: small ones as they are, others in compressed chunks that are filled and packed
+/// by all threads and written in order by the caller's.
+///
+/// Memory: about 3 MiB a thread for the chunk at work, and the packed chunks of a batch, at most
+/// kChunksPerThread MiB a thread.
+class ArrayWriter {
+ public:
+  static constexpr std::size_t kChunksPerThread = 4;
+
+  /// @param driver the one that the files are written with; must outlive the writer
+  ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver);
+
+  /// Creates the dataset `path` and writes all its elements.
+  /// @throws hdf5::Failure, and what `array.fill` throws
+  [[nodiscard]] hdf5::Handle write(const hdf5::Handle& file, const std::string& path,
+                                   const std::vector<hsize_t>& shape, const ResultArray& array);
+
+ private:
+  struct Scratch {
+    ChunkCodec codec;
+    std::vector<std::byte> raw;
+  };
+
+  void write_chunks(const hdf5::Handle& dataset, const std::string& path, const ChunkLayout& layout,
+                    const ResultArray& array);
+  void pack_batch(const ChunkLayout& layout, const ResultArray& array, std::uint64_t first,
+                  std::size_t count);
+
+  ThreadTeam& team_;
+  const hdf5::OutputDriver& driver_;
+  std::vector<Scratch> scratch_;                // one a thread
+  std::vector<std::vector<std::byte>> packed_;  // one a chunk of the batch
+};
+
+}  // namespace coordreq

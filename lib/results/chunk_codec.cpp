@@ -1,0 +1,56 @@
+#include "results/chunk_codec.hpp"
+
+#include <libdeflate.h>
+
+#include <new>
+
+namespace coordreq {
+namespace {
+
+// The size is a constant here because the compiler then makes vector code of the inner loop.
+template <std::size_t size>
+void shuffle_fixed(std::span<const std::byte> raw, std::span<std::byte> shuffled) {
+  const std::size_t count = raw.size() / size;
+  for (std::size_t byte = 0; byte < size; ++byte) {
+    std::byte* out = shuffled.data() + byte * count;
+    for (std::size_t i = 0; i < count; ++i) out[i] = raw[i * size + byte];
+  }
+}
+
+}  // namespace
+
+void shuffle_bytes(std::span<const std::byte> raw, std::size_t element_size, std::span<std::byte> shuffled) {
+  switch (element_size) {
+    case 2:
+      return shuffle_fixed<2>(raw, shuffled);
+    case 4:
+      return shuffle_fixed<4>(raw, shuffled);
+    case 8:
+      return shuffle_fixed<8>(raw, shuffled);
+    default:
+      return shuffle_fixed<1>(raw, shuffled);
+  }
+}
+
+void ChunkCodec::Free::operator()(libdeflate_compressor* compressor) const {
+  libdeflate_free_compressor(compressor);
+}
+
+ChunkCodec::ChunkCodec() : compressor_(libdeflate_alloc_compressor(kDeflateLevel)) {
+  if (!compressor_) throw std::bad_alloc();
+}
+
+void ChunkCodec::pack(std::span<const std::byte> raw, std::size_t element_size,
+                      std::vector<std::byte>& packed) {
+  if (element_size > 1) {
+    shuffled_.resize(raw.size());
+    shuffle_bytes(raw, element_size, shuffled_);
+    raw = shuffled_;
+  }
+  scratch_.resize(libdeflate_zlib_compress_bound(compressor_.get(), raw.size()));
+  const std::size_t size =
+      libdeflate_zlib_compress(compressor_.get(), raw.data(), raw.size(), scratch_.data(), scratch_.size());
+  packed.assign(scratch_.begin(), scratch_.begin() + static_cast<std::ptrdiff_t>(size));
+}
+
+}  // namespace coordreq

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+struct libdeflate_compressor;
+
+namespace coordreq {
+
+/// The level named in the filter pipeline of the file; readers do not need it.
+inline constexpr int kDeflateLevel = 4;
+
+/// Packs chunks as HDF5's filters "shuffle" and "deflate" do, the first only for elements of several bytes.
+///
+/// libdeflate rather than HDF5's own filter: it is faster, and works on several chunks at a time while the
+/// HDF5 library admits one caller. The output depends on the input alone. One object a thread.
+class ChunkCodec {
+ public:
+  ChunkCodec();
+
+  /// Replaces `packed` by the zlib stream of `raw`, a whole number of elements.
+  /// @throws std::bad_alloc
+  void pack(std::span<const std::byte> raw, std::size_t element_size, std::vector<std::byte>& packed);
+
+ private:
+  struct Free {
+    void operator()(libdeflate_compressor* compressor) const;
+  };
+  std::unique_ptr<libdeflate_compressor, Free> compressor_;
+  std::vector<std::byte> shuffled_;
+  std::vector<std::byte> scratch_;
+};
+
+/// All first bytes of the elements, then all second bytes, and so on: HDF5's "shuffle" filter.
+/// REQUIRES: both of the same size, a multiple of `element_size`.
+void shuffle_bytes(std::span<const std::byte> raw, std::size_t element_size, std::span<std::byte> shuffled);
+
+}  // namespace coordreq

@@ -1,0 +1,119 @@
+#include "results/output_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+
+#include "base/error.hpp"
+
+namespace coordreq {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostLinks = 40;  // as the Linux kernel follows
+constexpr int kMostAttempts = 10000;
+
+std::string because(const std::string& what, int error) {
+  return what + ": " + std::strerror(error);
+}
+
+/// Where a chain of symbolic links ends, whether or not something is there.
+fs::path resolve_links(const std::string& path) {
+  fs::path result = path;
+  for (int i = 0; i < kMostLinks; ++i) {
+    std::error_code error;
+    if (!fs::is_symlink(fs::symlink_status(result, error))) return result;
+    const fs::path next = fs::read_symlink(result, error);
+    if (error) return result;
+    result = result.parent_path() / next;
+  }
+  throw IoError("cannot write the results: too many symbolic links", path);
+}
+
+void check_folder(const fs::path& folder) {
+  struct stat info {};
+  if (stat(folder.c_str(), &info) != 0) {
+    if (errno == ENOENT) throw IoError("the folder does not exist", folder.string());
+    throw IoError(because("cannot use the folder", errno), folder.string());
+  }
+  if (!S_ISDIR(info.st_mode)) throw IoError("not a folder", folder.string());
+}
+
+/// Permission bits of the file that would be replaced, if there is one.
+std::optional<mode_t> check_target(const std::string& target, const std::string& path) {
+  struct stat info {};
+  if (stat(target.c_str(), &info) != 0) {
+    if (errno == ENOENT) return std::nullopt;
+    throw IoError(because("cannot write the results", errno), path);
+  }
+  if (S_ISDIR(info.st_mode)) throw IoError("cannot write the results: this is a folder", path);
+  if (!S_ISREG(info.st_mode)) {
+    throw IoError("cannot write the results: this is a device, a pipe or a socket, not a regular file", path);
+  }
+  if (access(target.c_str(), W_OK) != 0) {
+    throw IoError(because("cannot replace the results", errno), path);
+  }
+  return info.st_mode & 07777U;
+}
+
+/// A new file in `folder` under a name that nobody else has. Its name does not depend on the target's, which
+/// may already be as long as names can be.
+std::string create_temporary(const fs::path& folder, std::optional<mode_t> mode) {
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    const std::string name = ".coordreq-" + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".tmp";
+    const std::string path = (folder / name).string();
+    const int file = open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (file < 0 && errno == EEXIST) continue;
+    if (file < 0) throw IoError(because("cannot create a file in the folder", errno), folder.string());
+    if (mode) static_cast<void>(fchmod(file, *mode));  // some file systems have no such bits
+    close(file);
+    return path;
+  }
+  throw IoError("cannot create a file in the folder: too many temporary files", folder.string());
+}
+
+/// @param flags of open()
+void sync(const std::string& path, int flags, const std::string& where) {
+  const int file = open(path.c_str(), flags | O_CLOEXEC);
+  const bool failed = file < 0 || fsync(file) != 0;
+  const int error = errno;
+  if (file >= 0) close(file);
+  if (failed) throw IoError(because("cannot bring the results to the disk", error), where);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path) {
+  if (path.empty()) throw IoError("cannot write the results: the path is empty");
+  const fs::path target = resolve_links(path);
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  check_folder(folder);
+  if (!target.has_filename()) throw IoError("cannot write the results: this is a folder", path);
+  target_ = target.string();
+  folder_ = folder.string();
+  const std::optional<mode_t> mode = check_target(target_, path);
+  temporary_ = create_temporary(folder, mode);
+}
+
+OutputFile::~OutputFile() {
+  if (!temporary_.empty()) unlink(temporary_.c_str());
+}
+
+void OutputFile::commit() {
+  sync(temporary_, O_RDONLY, target_);
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) {
+    throw IoError(because("cannot write the results", errno), target_);
+  }
+  temporary_.clear();
+  sync(folder_, O_RDONLY | O_DIRECTORY, target_);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace coordreq {
+
+struct ResultInfo {
+  struct Axis {
+    std::string name;
+    std::string unit;  ///< as UDUNITS spells it; empty if none
+    std::uint64_t points = 0;
+    double first = 0, last = 0;
+  };
+  struct Partition {
+    std::string name;
+    std::int32_t fixed_point_index = -1;  ///< F, -1 if truncated
+    std::vector<std::uint64_t> layer_sizes;
+  };
+  std::string path, name, coordreq_version, git_sha1, spec_sha256, guarantee, period_unit;
+  double period = 0;
+  std::vector<Axis> states, inputs;
+  std::uint64_t cells = 0, safe_cells = 0, invariant_cells = 0;
+  std::int64_t connection_delay = 0;
+  std::vector<Partition> partitions;
+  std::vector<std::string> datasets;  ///< paths, sorted; without bare dimensions, which hold no data
+};
+
+/// What `coordreq info` shows.
+/// @throws IoError if the file is not there or cannot be read; ResultsError if it is not a results file of a
+///   version this program reads, or a part that every file has is missing or has the wrong shape
+[[nodiscard]] ResultInfo read_info(const std::string& path);
+
+}  // namespace coordreq

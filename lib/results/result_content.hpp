@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+// What goes into a results file, contract section 4, as plain data. Large arrays are handed over as
+// functions that fill a stretch, so that nothing is held twice.
+namespace coordreq {
+
+enum class ElementType : std::uint8_t { uint8, int16, int32, uint32, uint64, float64 };
+
+/// Fills `out` with elements [begin, begin + count) of an array, row-major, in its element type.
+/// Called from several threads at once.
+using FillArray = std::function<void(std::uint64_t begin, std::uint64_t count, void* out)>;
+
+struct ResultArray {
+  ElementType type = ElementType::uint8;
+  FillArray fill;
+};
+
+/// A state or an input: one dimension scale.
+struct ResultAxis {
+  std::string name;
+  std::string unit;            ///< empty if none
+  std::vector<double> points;  ///< grid points
+  std::optional<double> step;  ///< none for listed input values
+  bool is_state = true;
+};
+
+/// The layers T(0), ..., T(F) of one partition as index lists; contract `/layers/PARTITION`.
+struct ResultLayers {
+  std::vector<std::uint64_t> start;  ///< F + 2 entries
+  ResultArray cell;                  ///< start.back() entries, uint32 or uint64
+};
+
+/// Admissible joint actions of a class (or joint inputs of all) per cell, bit-packed little-endian;
+/// contract `/actions/PARTITION/CLASS` and `/controller`.
+struct ResultBits {
+  std::string class_name;           ///< agents joined with "+"
+  std::vector<std::string> inputs;  ///< names of the inputs it ranges over, in spec order
+  std::uint64_t actions = 0;        ///< m; the last axis has ceil(m / 8) bytes
+  FillArray fill;                   ///< uint8 [n_1, ..., n_d, ceil(m / 8)]
+};
+
+struct ResultPartition {
+  std::string name;
+  std::vector<std::string> classes;        ///< names of the classes
+  std::vector<std::uint64_t> layer_sizes;  ///< |Z_0|, ..., |Z_F| (or to the last computed layer if truncated)
+  std::int32_t fixed_point_index = -1;     ///< F; -1 if truncated
+  bool truncated = false;
+  std::uint64_t unbounded = 0;  ///< |Z_F|; 0 if truncated
+  ResultArray delay;            ///< int16 or int32, [cells]; all partitions have the same type
+  ResultArray trigger;          ///< likewise
+  std::optional<ResultLayers> layers;
+  std::vector<ResultBits> actions;
+};
+
+/// The finite abstraction of one state dimension; contract `/abstraction/NAME/first` and `.../last`.
+struct ResultTable {
+  std::string state;
+  std::vector<std::string> depends_on;  ///< axis names, in the order of the arrays' axes; may be empty
+  std::vector<std::int32_t> first;      ///< row-major over `depends_on`
+  std::vector<std::int32_t> last;
+};
+
+struct ResultContent {
+  std::string name;  ///< of the spec; attribute `title`
+  std::string spec_text;
+  std::string guarantee;  ///< "samples", "samples-center", "continuous"
+  double period = 0;
+  std::string period_unit;  ///< as in the spec, empty if none
+  std::int64_t connection_delay = 0;
+  std::vector<ResultAxis> axes;  ///< states in order, then inputs in order
+  std::uint64_t safe_cells = 0, invariant_cells = 0;
+  ResultArray safe, invariant;  ///< uint8 [cells]
+  ResultArray collision_time;   ///< int16 or int32 [cells]
+  std::int64_t iterations = 0;
+  std::vector<ResultPartition> partitions;
+  std::optional<ResultBits> controller;
+  std::vector<ResultTable> abstraction;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "results/hdf5_handle.hpp"
+#include "results/result_content.hpp"
+
+namespace coordreq {
+
+/// A results file opened for reading. Whatever it does not find as the contract says is a ResultsError that
+/// names the file and the object in it; damage that HDF5 notices becomes an hdf5::Failure.
+class ResultsFile {
+ public:
+  /// @throws IoError if the file is not there or cannot be read; ResultsError if it is not a results file of
+  /// a version
+  ///   that this program reads
+  explicit ResultsFile(const std::string& path);
+
+  /// Attributes of the object at `path`; "/" for the file's own.
+  [[nodiscard]] std::string text(const std::string& path, const std::string& attribute) const;
+  [[nodiscard]] double number(const std::string& path, const std::string& attribute) const;
+  [[nodiscard]] std::int64_t integer(const std::string& path, const std::string& attribute) const;
+  [[nodiscard]] bool has(const std::string& path, const std::string& attribute) const;
+
+  [[nodiscard]] std::vector<std::uint64_t> shape(const std::string& dataset) const;
+  /// @throws ResultsError if the dataset has another shape than `expected`
+  void expect_shape(const std::string& dataset, const std::vector<std::uint64_t>& expected) const;
+
+  /// All elements of a short array.
+  [[nodiscard]] std::vector<double> numbers(const std::string& dataset) const;
+  [[nodiscard]] std::vector<std::int64_t> integers(const std::string& dataset) const;
+  [[nodiscard]] std::vector<std::string> texts(const std::string& dataset) const;
+
+  /// Names of the dimension scales of a dataset, one an axis.
+  [[nodiscard]] std::vector<std::string> axes(const std::string& dataset) const;
+  /// Names of what the group holds, in the order in which it was written.
+  [[nodiscard]] std::vector<std::string> members(const std::string& group) const;
+  /// Paths of all datasets but those that only give an axis its length; sorted.
+  [[nodiscard]] std::vector<std::string> datasets() const;
+
+  /// Where an error is: the file and an object in it.
+  [[nodiscard]] std::string place(const std::string& object) const;
+
+ private:
+  [[nodiscard]] hdf5::Handle open(const std::string& path) const;
+  [[nodiscard]] hdf5::Handle open_dataset(const std::string& path) const;
+  [[nodiscard]] hdf5::Handle open_attribute(const std::string& path, const std::string& attribute) const;
+  void check_format() const;
+  void read_attribute(const std::string& path, const std::string& attribute, hid_t type,
+                      std::initializer_list<H5T_class_t> classes, void* out) const;
+  template <typename Value>
+  [[nodiscard]] std::vector<Value> elements(const std::string& dataset, hid_t type) const;
+  void collect_datasets(const std::string& group, int depth, std::vector<std::string>& found) const;
+
+  std::string path_;
+  hdf5::Handle file_;
+};
+
+}  // namespace coordreq

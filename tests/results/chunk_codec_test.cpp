@@ -1,0 +1,64 @@
+#include "results/chunk_codec.hpp"
+
+#include <gtest/gtest.h>
+#include <libdeflate.h>
+
+#include <array>
+
+namespace coordreq {
+namespace {
+
+std::vector<std::byte> bytes(const std::vector<int>& values) {
+  std::vector<std::byte> result;
+  result.reserve(values.size());
+  for (const int value : values) result.push_back(static_cast<std::byte>(value));
+  return result;
+}
+
+std::vector<std::byte> shuffled(const std::vector<int>& values, std::size_t element_size) {
+  std::vector<std::byte> result(values.size());
+  shuffle_bytes(bytes(values), element_size, result);
+  return result;
+}
+
+std::vector<std::byte> unpack(const std::vector<std::byte>& packed, std::size_t size) {
+  std::vector<std::byte> raw(size);
+  libdeflate_decompressor* decompressor = libdeflate_alloc_decompressor();
+  std::size_t found = 0;
+  EXPECT_EQ(
+      libdeflate_zlib_decompress(decompressor, packed.data(), packed.size(), raw.data(), raw.size(), &found),
+      LIBDEFLATE_SUCCESS);
+  libdeflate_free_decompressor(decompressor);
+  EXPECT_EQ(found, size);
+  return raw;
+}
+
+TEST(ShuffleBytes, GroupsTheBytesOfAllElementsByPlace) {
+  EXPECT_EQ(shuffled({1, 2, 3, 4, 5, 6}, 2), bytes({1, 3, 5, 2, 4, 6}));
+  EXPECT_EQ(shuffled({1, 2, 3, 4, 5, 6, 7, 8}, 4), bytes({1, 5, 2, 6, 3, 7, 4, 8}));
+  EXPECT_EQ(shuffled({1, 2, 3, 4, 5, 6, 7, 8}, 8), bytes({1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(shuffled({1, 2, 3}, 1), bytes({1, 2, 3}));
+}
+
+TEST(ChunkCodec, PacksToAZlibStreamOfTheShuffledBytes) {
+  ChunkCodec codec;
+  std::vector<std::byte> packed(3);
+  codec.pack(bytes({1, 2, 3, 4, 5, 6}), 2, packed);
+  EXPECT_EQ(unpack(packed, 6), bytes({1, 3, 5, 2, 4, 6}));
+  codec.pack(bytes({1, 2, 3, 4, 5, 6}), 1, packed);
+  EXPECT_EQ(unpack(packed, 6), bytes({1, 2, 3, 4, 5, 6}));
+}
+
+TEST(ChunkCodec, WhatItPackedBeforeLeavesNoTrace) {
+  ChunkCodec used;
+  std::vector<std::byte> packed;
+  used.pack(std::vector<std::byte>(100000, std::byte{7}), 4, packed);
+  used.pack(bytes({1, 2, 3, 4}), 4, packed);
+  ChunkCodec fresh;
+  std::vector<std::byte> expected;
+  fresh.pack(bytes({1, 2, 3, 4}), 4, expected);
+  EXPECT_EQ(packed, expected);
+}
+
+}  // namespace
+}  // namespace coordreq
