@@ -1,0 +1,66 @@
+#include "analysis/analyze.hpp"
+
+#include <optional>
+
+#include "app/analyze_report.hpp"
+#include "app/commands.hpp"
+#include "app/interrupt.hpp"
+#include "app/load_spec.hpp"
+#include "app/memory_limit.hpp"
+#include "app/progress_line.hpp"
+#include "app/standard_streams.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Lets a signal end the program at once in every stage that has no temporary file.
+class InterruptPolicy {
+ public:
+  // The first thing an analysis does is to try whether it can write.
+  InterruptPolicy() { delay_.emplace(); }
+
+  void enter(const std::string& stage) {
+    if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
+    if (stage != "writing") {
+      delay_.reset();
+    } else if (!delay_) {
+      delay_.emplace();
+    }
+  }
+
+ private:
+  std::optional<InterruptDelay> delay_;
+};
+
+AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const CommandLine& line) {
+  InterruptPolicy interrupts;
+  ProgressLine shown(!line.quiet);
+  AnalysisOptions options;
+  options.output = line.output.value_or(spec.name + ".h5");
+  options.max_memory = line.max_memory ? line.max_memory : available_memory();
+  options.progress = [&shown, &interrupts](const Progress& progress) {
+    interrupts.enter(progress.stage);
+    shown.update(progress);
+  };
+  ThreadTeam team(line.threads);
+  AnalysisSummary summary = analyze(spec, options, team);
+  if (is_interrupted()) {
+    throw Error(ExitCode::interrupted, "interrupted when the results were complete", options.output);
+  }
+  return summary;
+}
+
+}  // namespace
+
+ExitCode run_analyze(const CommandLine& line) {
+  const ProblemSpec spec = load_spec(line.path);
+  const AnalysisSummary summary = analyze_with_progress(spec, line);
+  if (line.json) {
+    write_output(summary_json(summary));
+  } else if (!line.quiet) {
+    write_output(summary_text(summary, spec));
+  }
+  return ExitCode::success;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,134 @@
+#include "app/analyze_report.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "app/json_text.hpp"
+#include "app/text.hpp"
+
+namespace coordreq {
+namespace {
+
+/// "201 x 41 = 8,241", or "201" for a single factor.
+std::string product(const std::vector<std::int64_t>& factors, std::int64_t result) {
+  if (factors.size() == 1) return grouped(result);
+  std::string text;
+  for (const std::int64_t factor : factors) text += (text.empty() ? "" : " x ") + grouped(factor);
+  return text + " = " + grouped(result);
+}
+
+std::string sizes(const AnalysisSummary& summary, const ProblemSpec& spec) {
+  std::vector<std::int64_t> points, values;
+  for (const StateSpec& state : spec.states) points.push_back(state.grid.count);
+  for (const InputSpec& input : spec.inputs) values.push_back(static_cast<std::int64_t>(input.values.size()));
+  return fmt::format("{}: {} cells, {} joint inputs\n", summary.name, product(points, summary.states),
+                     product(values, summary.inputs));
+}
+
+std::string cells(std::int64_t count) {
+  return grouped(count) + (count == 1 ? " cell" : " cells");
+}
+
+/// One sentence: for how long the agents can do without coordination.
+std::string meaning(const PartitionSummary& partition, const AnalysisSummary& summary) {
+  const auto length = [&summary](std::int64_t steps) {
+    return duration(steps, summary.period, summary.period_unit);
+  };
+  if (partition.truncated) {
+    const auto limit = static_cast<std::int64_t>(partition.layers.size()) - 1;
+    return fmt::format("Stopped at max_delay: {} allow {} without coordination, perhaps more.",
+                       cells(partition.layers.back()), length(limit));
+  }
+  // The layers shrink strictly up to F, so the largest finite delay is F - 1.
+  const std::int64_t largest = partition.fixed_point_index - 1;
+  if (partition.fixed_point == 0) {
+    if (largest == 0) return "From no state is even one step without coordination safe.";
+    return fmt::format("From the best state, {} without coordination {} safe.", length(largest),
+                       largest == 1 ? "is" : "are");
+  }
+  if (largest < 0) return "The agents never need to coordinate: every delay is unbounded.";
+  return fmt::format(
+      "From {} the agents never need to coordinate; from the best of the others, {} without "
+      "coordination {} safe.",
+      cells(partition.fixed_point), length(largest), largest == 1 ? "is" : "are");
+}
+
+std::string partition_text(const PartitionSummary& partition, const AnalysisSummary& summary) {
+  Table table({Table::Align::left, Table::Align::left});
+  table.add({"  layers", shortened(partition.layers)});
+  table.add({"  fixed point",
+             partition.truncated ? "not reached" : fmt::format("F = {}", partition.fixed_point_index)});
+  table.add({"  unbounded", partition.truncated ? "unknown" : cells(partition.fixed_point)});
+  return fmt::format("\npartition {}\n{}  {}\n", partition.name, table.text(), meaning(partition, summary));
+}
+
+std::string sets_text(const AnalysisSummary& summary) {
+  Table table({Table::Align::left, Table::Align::left});
+  table.add({"safe set", cells(summary.safe)});
+  table.add({"invariance set", fmt::format("{} after {} sweep{}", cells(summary.invariant),
+                                           grouped(summary.iterations), summary.iterations == 1 ? "" : "s")});
+  table.add({"guarantee", guarantee_text(summary.guarantee)});
+  return table.text();
+}
+
+std::string partitions_text(const AnalysisSummary& summary) {
+  if (summary.safe == 0) return "\nThe safe set is empty: no cell satisfies \"safe\".\n";
+  if (summary.invariant == 0) {
+    return "\nThe invariance set is empty: no state can be kept safe, even if all agents always "
+           "coordinate.\n";
+  }
+  std::string text;
+  for (const PartitionSummary& partition : summary.partitions) text += partition_text(partition, summary);
+  return text;
+}
+
+std::string closing_text(const AnalysisSummary& summary) {
+  double seconds = 0;
+  for (const auto& stage : summary.seconds) seconds += stage.second;
+  return fmt::format("\nresults in {} ({:.2f} s on {} thread{}, {})\n", printable(summary.output), seconds,
+                     summary.threads, summary.threads == 1 ? "" : "s", byte_size(summary.peak_memory_bytes));
+}
+
+Json partition_json(const PartitionSummary& partition) {
+  Json json;
+  json["name"] = partition.name;
+  json["classes"] = partition.classes;
+  json["F"] = partition.truncated ? Json() : Json(partition.fixed_point_index);
+  json["fixed_point"] = partition.truncated ? Json() : Json(partition.fixed_point);
+  json["layers"] = partition.layers;
+  json["truncated"] = partition.truncated;
+  json["max_delay_time"] = partition.max_delay_time ? Json(*partition.max_delay_time) : Json();
+  return json;
+}
+
+}  // namespace
+
+std::string summary_text(const AnalysisSummary& summary, const ProblemSpec& spec) {
+  return sizes(summary, spec) + sets_text(summary) + partitions_text(summary) + closing_text(summary);
+}
+
+std::string summary_json(const AnalysisSummary& summary) {
+  Json json;
+  json["name"] = summary.name;
+  json["states"] = summary.states;
+  json["inputs"] = summary.inputs;
+  json["safe"] = summary.safe;
+  json["invariant"] = summary.invariant;
+  json["iterations"] = summary.iterations;
+  json["guarantee"] = summary.guarantee;
+  json["period"] = summary.period;
+  json["period_unit"] = summary.period_unit;
+  json["partitions"] = Json::array();
+  for (const PartitionSummary& partition : summary.partitions)
+    json["partitions"].push_back(partition_json(partition));
+  json["requirements"] = Json::array();
+  json["output"] = summary.output;
+  json["threads"] = summary.threads;
+  json["seconds"] = Json::object();
+  for (const auto& [stage, seconds] : summary.seconds) json["seconds"][stage] = seconds;
+  json["peak_memory_bytes"] = summary.peak_memory_bytes;
+  return json_text(json);
+}
+
+}  // namespace coordreq

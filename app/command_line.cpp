@@ -1,0 +1,229 @@
+#include "app/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/standard_streams.hpp"
+#include "numeric/rational.hpp"
+#include "results/version.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr int kMaxThreads = 1024;
+
+/// What CLI11 hands over, before it is checked. Numbers stay text so that the messages are ours.
+struct RawArguments {
+  std::string path, output, threads, max_memory;
+  bool json = false;
+  bool quiet = false;
+  bool version = false;
+};
+
+struct CommandInfo {
+  const char* name;
+  const char* description;
+  const char* argument;  ///< the positional argument, empty if there is none
+  const char* argument_description;
+  ExitCode (*run)(const CommandLine&);
+};
+
+constexpr CommandInfo kCommands[] = {
+    {"analyze", "Run the whole analysis and write a results file", "SPEC",
+     "The problem spec, a JSON file; - reads standard input", run_analyze},
+    {"validate", "Check a spec; print sizes, which state depends on what, and a memory estimate", "SPEC",
+     "The problem spec, a JSON file; - reads standard input", run_validate},
+    {"info", "Print what a results file holds", "RESULTS", "A file that analyze wrote", run_info},
+    {"schema", "Print the JSON Schema of specs", "", "", run_schema},
+};
+
+constexpr const char* kFooter =
+    "Exit codes: 0 done, 1 a requirement fails, 2 wrong usage, 3 invalid spec or results file,\n"
+    "4 a limit refused, 5 input or output failed, 70 a bug in coordreq, 130 interrupted.";
+
+void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
+  CLI::App* command = app.add_subcommand(info.name, info.description);
+  if (*info.argument != '\0') {
+    command->add_option(info.argument, raw.path, info.argument_description)->required()->type_name("");
+  }
+  if (info.run == run_analyze) {
+    command->add_option("-o,--output", raw.output, "Results file (default: NAME.h5 in the current folder)")
+        ->type_name("FILE");
+  }
+  command->add_option("--threads", raw.threads, "Threads to work with (default: all cores)")->type_name("N");
+  command
+      ->add_option("--max-memory", raw.max_memory,
+                   "Refuse what would need more, as 500M or 1.5G (default: the memory of the machine)")
+      ->type_name("SIZE");
+  command->add_flag("--json", raw.json, "Print one JSON document instead of text")->disable_flag_override();
+  command->add_flag("--quiet", raw.quiet, "No text summary and no progress")->disable_flag_override();
+  command->allow_extras();
+}
+
+std::string command_names() {
+  std::vector<std::string_view> names;
+  for (const CommandInfo& info : kCommands) names.emplace_back(info.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    if (!option->get_positional()) names.push_back("--" + option->get_lnames().front());
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+bool looks_like_option(const std::string& argument) {
+  return argument.size() > 1 && argument.front() == '-';
+}
+
+int parse_threads(const std::string& text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < 1 || value > kMaxThreads) {
+    throw UsageError(fmt::format("expected a whole number from 1 to {}, found '{}'", kMaxThreads, text),
+                     "--threads");
+  }
+  return value;
+}
+
+void check_global_arguments(const CLI::App& app) {
+  const std::vector<std::string> extra = app.remaining();
+  if (extra.empty()) throw UsageError(fmt::format("no command, expected one of {}", command_names()));
+  if (looks_like_option(extra.front())) {
+    throw UsageError(fmt::format("unknown option '{}', expected a command ({}) or {}", extra.front(),
+                                 command_names(), option_names(app)));
+  }
+  throw UsageError(fmt::format("unknown command '{}', expected one of {}", extra.front(), command_names()));
+}
+
+void check_command_arguments(const CLI::App& root, const CLI::App& command, const CommandInfo& info,
+                             const RawArguments& raw) {
+  const std::vector<std::string> before = root.remaining();
+  if (!before.empty()) {
+    throw UsageError(
+        fmt::format("'{}' stands before the command {}, expected it after", before.front(), info.name));
+  }
+  const std::vector<std::string> extra = command.remaining();
+  const auto unknown = std::find_if(extra.begin(), extra.end(), looks_like_option);
+  if (unknown != extra.end()) {
+    throw UsageError(fmt::format("unknown option '{}' of {}, expected one of {}", *unknown, info.name,
+                                 option_names(command)));
+  }
+  const bool takes_argument = *info.argument != '\0';
+  if (!extra.empty()) {
+    const std::string expected =
+        takes_argument ? fmt::format("one argument, {}", info.argument) : "no argument";
+    throw UsageError(
+        fmt::format("unexpected argument '{}', {} takes {}", extra.front(), info.name, expected));
+  }
+  if (takes_argument && raw.path.empty()) {
+    throw UsageError(
+        fmt::format("no {0}, expected the name of a file: coordreq {1} {0}", info.argument, info.name));
+  }
+}
+
+CommandLine checked(const RawArguments& raw, const CommandInfo& info, const CLI::App& command) {
+  CommandLine line;
+  line.path = raw.path;
+  line.json = raw.json;
+  line.quiet = raw.quiet;
+  line.command = info.run;
+  if (command.count("--threads") > 0) line.threads = parse_threads(raw.threads);
+  if (command.count("--max-memory") > 0) line.max_memory = parse_memory_size(raw.max_memory);
+  if (info.run == run_analyze && command.count("--output") > 0) {
+    if (raw.output.empty() || raw.output == "-") {
+      throw UsageError(fmt::format("expected the name of a file, found '{}'", raw.output), "--output");
+    }
+    line.output = raw.output;
+  }
+  return line;
+}
+
+CommandLine print_and_succeed(std::string text) {
+  CommandLine line;
+  line.command = [text = std::move(text)](const CommandLine&) {
+    write_output(text);
+    return ExitCode::success;
+  };
+  return line;
+}
+
+/// The parser's complaint as one of ours. Only options without their value, repeated options and flags with a
+/// value are left to it; everything else is checked here.
+UsageError translated(const CLI::ParseError& error) {
+  const std::string what = error.what();
+  const std::string option = what.substr(0, what.find_first_of(": "));
+  const auto says = [&what](const char* part) { return what.find(part) != std::string::npos; };
+  if (says(" required ") && says(" missing")) return UsageError("expected a value, found none", option);
+  if (says("At Most 1 required but received")) return UsageError("given more than once", option);
+  if (says("disallowed flag override")) return UsageError("expected no value, found one", "--" + option);
+  return UsageError(what);
+}
+
+std::string version_text() {
+  return fmt::format("coordreq {} ({})\n", program_version(), program_git_sha1());
+}
+
+}  // namespace
+
+std::uint64_t parse_memory_size(const std::string& text) {
+  const auto fail = [&text] {
+    return UsageError(
+        fmt::format("expected a size such as 500M, 1.5GiB or a number of bytes, found '{}'", text),
+        "--max-memory");
+  };
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
+  const std::optional<Rational> number = parse_decimal(std::string_view(text).substr(0, digits));
+  std::string unit = text.substr(digits);
+  for (char& c : unit) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  constexpr std::string_view kPrefixes = "KMGT";
+  std::int64_t factor = 1;
+  if (!unit.empty() && unit != "B") {
+    const std::size_t power = kPrefixes.find(unit.front());
+    const std::string rest = unit.substr(1);
+    if (power == std::string_view::npos || !(rest.empty() || rest == "B" || rest == "IB")) throw fail();
+    for (std::size_t i = 0; i <= power; ++i) factor *= 1024;
+  }
+  if (!number || *number * factor < 1) throw fail();
+  return static_cast<std::uint64_t>(floor_to_int(*number * factor));
+}
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+  CLI::App app("When must agents that share a safety task communicate?", "coordreq");
+  RawArguments raw;
+  app.add_flag("--version", raw.version, "Print the version")->disable_flag_override();
+  app.require_subcommand(0, 1);
+  app.allow_extras();
+  app.footer(kFooter);
+  for (const CommandInfo& info : kCommands) add_command(app, info, raw);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return print_and_succeed(app.help());
+  } catch (const CLI::RequiredError&) {
+    // Noticed again below, where the message can name the command.
+  } catch (const CLI::ParseError& error) {
+    throw translated(error);
+  }
+  if (raw.version) return print_and_succeed(version_text());
+  for (const CommandInfo& info : kCommands) {
+    const CLI::App* command = app.get_subcommand(info.name);
+    if (!command->parsed()) continue;
+    check_command_arguments(app, *command, info, raw);
+    return checked(raw, info, *command);
+  }
+  check_global_arguments(app);
+  return {};
+}
+
+}  // namespace coordreq

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "base/error.hpp"
+
+namespace coordreq {
+
+/// What the user asked for, read and checked.
+struct CommandLine {
+  std::string path;                         ///< SPEC or RESULTS
+  std::optional<std::string> output;        ///< -o
+  int threads = 0;                          ///< 0: all cores
+  std::optional<std::uint64_t> max_memory;  ///< bytes
+  bool json = false;
+  bool quiet = false;
+  std::function<ExitCode(const CommandLine&)> command;
+
+  /// Runs the command.
+  [[nodiscard]] ExitCode run() const { return command(*this); }
+};
+
+/// Help and version are commands too: they print and succeed.
+/// @throws UsageError saying what was found and what was expected
+[[nodiscard]] CommandLine parse_command_line(int argc, const char* const* argv);
+
+/// The bytes that "500M", "2G", "1.5GiB" or "1048576" stand for; K, M, G, T are powers of 1024, with or
+/// without "B" or "iB", in either case. Rounded down.
+/// @throws UsageError if it is no such text or less than one byte
+[[nodiscard]] std::uint64_t parse_memory_size(const std::string& text);
+
+}  // namespace coordreq

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "app/command_line.hpp"
+
+// One function a command: does the work and prints the result; errors are thrown.
+namespace coordreq {
+
+ExitCode run_analyze(const CommandLine& line);
+ExitCode run_validate(const CommandLine& line);
+ExitCode run_info(const CommandLine& line);
+ExitCode run_schema(const CommandLine& line);
+
+}  // namespace coordreq

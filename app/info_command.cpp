@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "app/json_text.hpp"
+#include "app/standard_streams.hpp"
+#include "app/text.hpp"
+#include "results/read_results.hpp"
+
+namespace coordreq {
+namespace {
+
+std::string head_table(const ResultInfo& info) {
+  Table table({Table::Align::left, Table::Align::left});
+  table.add({"name", printable(info.name)});
+  table.add({"written by",
+             fmt::format("coordreq {} ({})", printable(info.coordreq_version), printable(info.git_sha1))});
+  table.add({"spec SHA-256", printable(info.spec_sha256)});
+  table.add({"period", fmt::format("{:.6g} {}", info.period, printable(info.period_unit))});
+  table.add({"connection delay", duration(info.connection_delay, info.period, info.period_unit)});
+  table.add({"guarantee", guarantee_text(info.guarantee)});
+  table.add({"cells", grouped(info.cells)});
+  table.add({"safe set", grouped(info.safe_cells)});
+  table.add({"invariance set", grouped(info.invariant_cells)});
+  return table.text();
+}
+
+std::string axes_table(const ResultInfo& info) {
+  using Align = Table::Align;
+  Table table({Align::left, Align::left, Align::right, Align::right, Align::right, Align::left});
+  table.add({"axis", "kind", "points", "first", "last", "unit"});
+  const auto add = [&table](const std::vector<ResultInfo::Axis>& axes, const char* kind) {
+    for (const ResultInfo::Axis& axis : axes) {
+      table.add({printable(axis.name), kind, grouped(axis.points), fmt::format("{:.6g}", axis.first),
+                 fmt::format("{:.6g}", axis.last), printable(axis.unit)});
+    }
+  };
+  add(info.states, "state");
+  add(info.inputs, "input");
+  return table.text();
+}
+
+std::string partitions_table(const ResultInfo& info) {
+  using Align = Table::Align;
+  Table table({Align::left, Align::right, Align::left});
+  table.add({"partition", "F", "layers"});
+  for (const ResultInfo::Partition& partition : info.partitions) {
+    const std::vector<std::int64_t> sizes(partition.layer_sizes.begin(), partition.layer_sizes.end());
+    const std::int32_t index = partition.fixed_point_index;
+    table.add(
+        {printable(partition.name), index < 0 ? "not reached" : std::to_string(index), shortened(sizes)});
+  }
+  return table.text();
+}
+
+std::string info_text(const ResultInfo& info) {
+  std::string text =
+      head_table(info) + "\n" + axes_table(info) + "\n" + partitions_table(info) + "\ndatasets\n";
+  for (const std::string& dataset : info.datasets) text += "  " + printable(dataset) + "\n";
+  return text;
+}
+
+Json axes_json(const std::vector<ResultInfo::Axis>& axes) {
+  Json json = Json::array();
+  for (const ResultInfo::Axis& axis : axes) {
+    json.push_back(Json{{"name", axis.name},
+                        {"unit", axis.unit},
+                        {"points", axis.points},
+                        {"first", axis.first},
+                        {"last", axis.last}});
+  }
+  return json;
+}
+
+Json partition_json(const ResultInfo::Partition& partition) {
+  const bool truncated = partition.fixed_point_index < 0;
+  Json json;
+  json["name"] = partition.name;
+  json["F"] = truncated ? Json() : Json(partition.fixed_point_index);
+  json["layers"] = partition.layer_sizes;
+  json["truncated"] = truncated;
+  return json;
+}
+
+std::string info_json(const ResultInfo& info) {
+  Json json;
+  json["file"] = info.path;
+  json["name"] = info.name;
+  json["coordreq_version"] = info.coordreq_version;
+  json["git_sha1"] = info.git_sha1;
+  json["spec_sha256"] = info.spec_sha256;
+  json["guarantee"] = info.guarantee;
+  json["period"] = info.period;
+  json["period_unit"] = info.period_unit;
+  json["connection_delay"] = info.connection_delay;
+  json["states"] = axes_json(info.states);
+  json["inputs"] = axes_json(info.inputs);
+  json["cells"] = info.cells;
+  json["safe"] = info.safe_cells;
+  json["invariant"] = info.invariant_cells;
+  json["partitions"] = Json::array();
+  for (const ResultInfo::Partition& partition : info.partitions)
+    json["partitions"].push_back(partition_json(partition));
+  json["datasets"] = info.datasets;
+  return json_text(json);
+}
+
+}  // namespace
+
+ExitCode run_info(const CommandLine& line) {
+  const ResultInfo info = read_info(line.path);
+  if (line.json) {
+    write_output(info_json(info));
+  } else if (!line.quiet) {
+    write_output(info_text(info));
+  }
+  return ExitCode::success;
+}
+
+}  // namespace coordreq

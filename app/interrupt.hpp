@@ -1,0 +1,22 @@
+#pragma once
+
+namespace coordreq {
+
+/// From now on SIGINT and SIGTERM end the program at once with exit code 130 and one line on standard error,
+/// except while an InterruptDelay lives. A signal that the caller had set to be ignored stays ignored.
+void install_interrupt_handlers();
+
+/// Keeps a first signal waiting while there are temporary files that the program would leave behind; a second
+/// one ends it all the same. At most one at a time.
+class InterruptDelay {
+ public:
+  InterruptDelay();
+  ~InterruptDelay();
+  InterruptDelay(const InterruptDelay&) = delete;
+  InterruptDelay& operator=(const InterruptDelay&) = delete;
+};
+
+/// True if a signal is or was kept waiting. May be called from any thread.
+[[nodiscard]] bool is_interrupted();
+
+}  // namespace coordreq

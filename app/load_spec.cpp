@@ -1,0 +1,15 @@
+#include "app/load_spec.hpp"
+
+#include <iostream>
+
+#include "spec/read_spec.hpp"
+
+namespace coordreq {
+
+ProblemSpec load_spec(const std::string& path) {
+  ProblemSpec spec = read_spec_file(path, std::cin);
+  refuse_unsupported(spec);
+  return spec;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,15 @@
+#include "app/command_line.hpp"
+#include "app/interrupt.hpp"
+#include "app/report_error.hpp"
+#include "app/standard_streams.hpp"
+
+int main(int argc, char** argv) {
+  try {
+    coordreq::hold_standard_streams();
+    coordreq::install_interrupt_handlers();
+    const coordreq::CommandLine line = coordreq::parse_command_line(argc, argv);
+    return static_cast<int>(line.run());
+  } catch (...) {
+    return coordreq::report_current_exception();
+  }
+}

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string_view>
+
+// The only way out for text. Nothing here buffers, so that a failed write is noticed where it happens.
+namespace coordreq {
+
+/// Opens /dev/null in place of standard streams that the caller closed, so that no file of ours gets their
+/// numbers (and no message ends up inside it), and makes writing to a closed pipe an error instead of a
+/// signal.
+void hold_standard_streams();
+
+/// Writes all of `text` to standard output. @throws IoError if that fails (disk full, closed, broken pipe)
+void write_output(std::string_view text);
+
+/// Writes `text` to standard error as far as possible; there is nobody to tell about a failure.
+void write_diagnostics(std::string_view text) noexcept;
+
+/// Columns of the terminal that standard error is; 0 if it is none, or one that cannot rewrite a line.
+[[nodiscard]] int diagnostics_terminal_width();
+
+}  // namespace coordreq

@@ -1,0 +1,130 @@
+#include "app/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace coordreq {
+namespace {
+
+/// Bytes of the UTF-8 character that `text` begins with; 0 if it begins with none that may be printed.
+std::size_t printable_length(std::string_view text) {
+  const auto byte = [text](std::size_t i) -> std::uint32_t {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const std::uint32_t lead = byte(0);
+  if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
+  const std::size_t length = lead >= 0xf0 && lead < 0xf5   ? 4
+                             : lead >= 0xe0 && lead < 0xf0 ? 3
+                             : lead >= 0xc2 && lead < 0xe0 ? 2
+                                                           : 0;
+  if (length == 0) return 0;
+  std::uint32_t code = lead & (0x7fU >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80U) return 0;
+    code = code << 6U | (byte(i) & 0x3fU);
+  }
+  constexpr std::uint32_t kFirstOfLength[] = {0, 0, 0xa0, 0x800, 0x10000};  // U+0080 to U+009F are controls
+  const bool surrogate = code >= 0xd800 && code < 0xe000;
+  return code >= kFirstOfLength[length] && code < 0x110000 && !surrogate ? length : 0;
+}
+
+std::string spelt_out(char c) {
+  switch (c) {
+    case '\n':
+      return "\\n";
+    case '\r':
+      return "\\r";
+    case '\t':
+      return "\\t";
+    default:
+      return fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+  }
+}
+
+/// Columns on the terminal, near enough: characters, whatever their width.
+std::size_t character_count(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = printable_length(text);
+    result += length > 0 ? std::string(text.substr(0, length)) : spelt_out(text.front());
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return result;
+}
+
+std::string grouped(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, 1, ',');
+  return text;
+}
+
+std::string grouped(std::int64_t number) {
+  return grouped(static_cast<std::uint64_t>(number));
+}
+
+std::string byte_size(std::uint64_t bytes) {
+  constexpr const char* kUnits[] = {"bytes", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+  auto size = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  while (size >= 1024 && unit + 1 < std::size(kUnits)) {
+    size /= 1024;
+    ++unit;
+  }
+  return unit == 0 ? fmt::format("{} bytes", bytes)
+                   : fmt::format("{:.{}f} {}", size, size < 10 ? 1 : 0, kUnits[unit]);
+}
+
+std::string duration(std::int64_t steps, double period, std::string_view unit) {
+  const std::string count = fmt::format("{} step{}", grouped(steps), steps == 1 ? "" : "s");
+  if (unit.empty()) return count;
+  return fmt::format("{} ({:.6g} {})", count, static_cast<double>(steps) * period, printable(unit));
+}
+
+std::string guarantee_text(std::string_view guarantee) {
+  const std::string name = printable(guarantee);
+  if (guarantee == "samples") return name + ": at the sampling instants, for every point of a cell";
+  if (guarantee == "samples-center")
+    return name + ": at the sampling instants, where the centre of a cell is safe";
+  if (guarantee == "continuous") return name + ": at all times, for every point of a cell";
+  return name;
+}
+
+std::string shortened(const std::vector<std::int64_t>& numbers) {
+  constexpr std::size_t kHead = 6, kTail = 3, kSaved = 3;
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers.size() >= kHead + kTail + kSaved && i == kHead) {
+      text += " ...";
+      i = numbers.size() - kTail;
+    }
+    text += (text.empty() ? "" : " ") + grouped(numbers[i]);
+  }
+  return text;
+}
+
+std::string Table::text() const {
+  std::vector<std::size_t> widths(columns_.size(), 0);
+  for (const auto& row : rows_) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], character_count(row[i]));
+  }
+  std::string text;
+  for (const auto& row : rows_) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(widths[i] - character_count(row[i]), ' ');
+      line += (i == 0 ? "" : "  ") + (columns_[i] == Align::left ? row[i] + padding : padding + row[i]);
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+// Pieces of text for people.
+namespace coordreq {
+
+/// `text` on one line: control characters and what is not UTF-8 are spelt out (\n, \x1b), all else stays.
+[[nodiscard]] std::string printable(std::string_view text);
+
+/// 1234567 -> "1,234,567".
+[[nodiscard]] std::string grouped(std::uint64_t number);
+/// REQUIRES: number >= 0
+[[nodiscard]] std::string grouped(std::int64_t number);
+
+/// 1536 -> "1.5 KiB".
+[[nodiscard]] std::string byte_size(std::uint64_t bytes);
+
+/// "28 steps (0.28 s)", "1 step"; without the time if `unit` is empty. `unit` is user text.
+[[nodiscard]] std::string duration(std::int64_t steps, double period, std::string_view unit);
+
+/// The guarantee of a result in words: "samples" -> "samples: at the sampling instants, for every point of a
+/// cell".
+[[nodiscard]] std::string guarantee_text(std::string_view guarantee);
+
+/// The numbers with blanks between, the middle of a long list left out: "9 8 7 6 5 4 ... 2 1 0".
+[[nodiscard]] std::string shortened(const std::vector<std::int64_t>& numbers);
+
+/// Rows of cells in aligned columns, two blanks between; the first row is the heading.
+class Table {
+ public:
+  enum class Align : std::uint8_t { left, right };
+
+  /// @param columns their alignment; every row has that many cells
+  explicit Table(std::vector<Align> columns) : columns_(std::move(columns)) {}
+
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  /// Every line ends in a newline and has no blanks at its end.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::vector<Align> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+}  // namespace coordreq

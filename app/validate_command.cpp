@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include "analysis/analyze.hpp"
+#include "app/commands.hpp"
+#include "app/json_text.hpp"
+#include "app/load_spec.hpp"
+#include "app/standard_streams.hpp"
+#include "app/text.hpp"
+
+namespace coordreq {
+namespace {
+
+std::string states_table(const SpecReport& report) {
+  using Align = Table::Align;
+  Table table({Align::left, Align::right, Align::left, Align::right, Align::left});
+  table.add({"state", "points", "unit", "table entries", "next value depends on"});
+  for (const SpecReport::State& state : report.states) {
+    table.add({state.name, grouped(state.points), printable(state.unit), grouped(state.table_entries),
+               fmt::format("{}", fmt::join(state.depends_on, ", "))});
+  }
+  return table.text();
+}
+
+std::string inputs_table(const SpecReport& report) {
+  Table table({Table::Align::left, Table::Align::right, Table::Align::left});
+  table.add({"input", "points", "unit"});
+  for (const SpecReport::Input& input : report.inputs) {
+    table.add({input.name, grouped(input.points), printable(input.unit)});
+  }
+  return table.text();
+}
+
+std::string totals_table(const SpecReport& report) {
+  Table table({Table::Align::left, Table::Align::left});
+  table.add({"cells", grouped(report.cells)});
+  table.add({"joint inputs", grouped(report.joint_inputs)});
+  table.add({"partitions", fmt::format("{}", fmt::join(report.partitions, ", "))});
+  table.add({"reachable sets", report.exact ? "exact interval hulls" : "outward rounded"});
+  table.add({"memory of analyze", "about " + byte_size(report.memory_bytes)});
+  return table.text();
+}
+
+std::string report_text(const SpecReport& report) {
+  return fmt::format("{}: the spec is valid\n\n{}\n{}\n{}", report.name, states_table(report),
+                     inputs_table(report), totals_table(report));
+}
+
+Json state_json(const SpecReport::State& state) {
+  Json json;
+  json["name"] = state.name;
+  json["unit"] = state.unit;
+  json["points"] = state.points;
+  json["depends_on"] = state.depends_on;
+  json["table_entries"] = state.table_entries;
+  return json;
+}
+
+std::string report_json(const SpecReport& report) {
+  Json json;
+  json["name"] = report.name;
+  json["cells"] = report.cells;
+  json["joint_inputs"] = report.joint_inputs;
+  json["states"] = Json::array();
+  for (const SpecReport::State& state : report.states) json["states"].push_back(state_json(state));
+  json["inputs"] = Json::array();
+  for (const SpecReport::Input& input : report.inputs) {
+    json["inputs"].push_back(Json{{"name", input.name}, {"unit", input.unit}, {"points", input.points}});
+  }
+  json["partitions"] = report.partitions;
+  json["exact"] = report.exact;
+  json["memory_bytes"] = report.memory_bytes;
+  return json_text(json);
+}
+
+}  // namespace
+
+ExitCode run_validate(const CommandLine& line) {
+  const SpecReport report = inspect(load_spec(line.path));
+  if (line.json) {
+    write_output(report_json(report));
+  } else if (!line.quiet) {
+    write_output(report_text(report));
+  }
+  return ExitCode::success;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,256 @@
+#include "analysis/analyze.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+
+#include "abstraction/build_abstraction.hpp"
+#include "analysis/result_arrays.hpp"
+#include "base/error.hpp"
+#include "base/timer.hpp"
+#include "coordination/action_bits.hpp"
+#include "coordination/delay_layers.hpp"
+#include "results/write_results.hpp"
+#include "safety/invariance.hpp"
+#include "safety/safe_set.hpp"
+
+namespace coordreq {
+namespace {
+
+std::vector<InputClass> input_classes(const ProblemSpec& spec, const PartitionSpec& partition) {
+  std::vector<InputClass> classes;
+  for (const auto& agents : partition.classes) {
+    InputClass inputs;
+    for (const std::int32_t agent : agents) {
+      const auto& own = spec.agents[static_cast<std::size_t>(agent)].inputs;
+      inputs.insert(inputs.end(), own.begin(), own.end());
+    }
+    std::sort(inputs.begin(), inputs.end());
+    classes.push_back(std::move(inputs));
+  }
+  return classes;
+}
+
+std::string class_name(const ProblemSpec& spec, const std::vector<std::int32_t>& agents) {
+  std::string name;
+  for (const std::int32_t agent : agents) {
+    name += (name.empty() ? "" : "+") + spec.agents[static_cast<std::size_t>(agent)].name;
+  }
+  return name;
+}
+
+/// One partition with all that its arrays refer to while the results are written.
+struct PartitionResult {
+  const PartitionSpec* spec = nullptr;
+  ActionGrouping grouping;
+  DelayLayers layers;
+};
+
+/// The analysis from the spec to the results file, in the order of its stages.
+class Analysis {
+ public:
+  Analysis(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team)
+      : spec_(spec), options_(options), team_(team) {}
+
+  AnalysisSummary run() {
+    enter("abstraction");
+    const Abstraction abstraction = build_abstraction(spec_, team_);
+    enter("safe set");
+    const CellSet safe = safe_set(spec_, abstraction, team_);
+    const std::optional<ConditionTable> allow = allow_table(spec_, abstraction, team_);
+    const RowEngine engine(abstraction, allow ? &*allow : nullptr);
+    const RowReach reach(engine);
+    enter("invariance");
+    const Invariance invariance =
+        find_invariance(engine, reach, safe, spec_.controller.synthesis, stepper("invariance"), team_);
+    const Controller controller{&engine, &invariance.invariant, spec_.controller.synthesis};
+    std::deque<PartitionResult> partitions;  // a deque, so that references stay valid
+    for (const PartitionSpec& partition : spec_.coordination.partitions) {
+      const std::string stage = "layers " + partition.name;
+      enter(stage);
+      PartitionResult& result = partitions.emplace_back(
+          PartitionResult{&partition, ActionGrouping(engine, input_classes(spec_, partition)), {}});
+      const Projections projections(controller, result.grouping, team_);
+      result.layers = find_delay_layers(engine, reach, safe, invariance.invariant, projections,
+                                        spec_.coordination.max_delay, stepper(stage), team_);
+    }
+    enter("writing");
+    summarise(abstraction, safe, invariance, partitions);
+    write(controller, abstraction, safe, invariance, partitions);
+    timer_.end();
+    summary_.seconds = timer_.seconds();
+    summary_.peak_memory_bytes = peak_memory_bytes();
+    return std::move(summary_);
+  }
+
+ private:
+  void enter(const std::string& stage) {
+    timer_.begin(stage);
+    report({.stage = stage});
+  }
+
+  void report(const Progress& progress) const {
+    if (options_.progress) options_.progress(progress);
+  }
+
+  [[nodiscard]] std::function<void(std::int64_t, std::int64_t)> stepper(const std::string& stage) const {
+    return [this, stage](std::int64_t step, std::int64_t cells_left) { report({stage, step, cells_left}); };
+  }
+
+  [[nodiscard]] std::string guarantee() const {
+    return spec_.abstraction.safe == Membership::center ? "samples-center" : "samples";
+  }
+
+  void summarise(const Abstraction& abstraction, const CellSet& safe, const Invariance& invariance,
+                 const std::deque<PartitionResult>& partitions) {
+    summary_.name = spec_.name;
+    summary_.states = abstraction.grid.cells();
+    summary_.inputs = abstraction.inputs.count();
+    summary_.safe = safe.count();
+    summary_.invariant = invariance.invariant.count();
+    summary_.iterations = invariance.iterations;
+    summary_.guarantee = guarantee();
+    summary_.period = nearest_double(spec_.dynamics.period);
+    summary_.period_unit = spec_.dynamics.unit;
+    for (const PartitionResult& partition : partitions) summary_.partitions.push_back(summary_of(partition));
+    summary_.output = options_.output;
+    summary_.threads = team_.size();
+  }
+
+  [[nodiscard]] PartitionSummary summary_of(const PartitionResult& partition) const {
+    const DelayLayers& layers = partition.layers;
+    PartitionSummary result{.name = partition.spec->name,
+                            .fixed_point_index = layers.fixed_point_index,
+                            .fixed_point = layers.truncated ? 0 : layers.sizes.back(),
+                            .layers = layers.sizes,
+                            .truncated = layers.truncated};
+    for (const auto& agents : partition.spec->classes) result.classes.push_back(class_name(spec_, agents));
+    if (result.fixed_point == 0 && layers.sizes.front() > 0) {
+      // Z_k shrinks strictly, so the last layer that is not empty holds the largest delay.
+      const std::size_t steps = layers.sizes.size() - (layers.truncated ? 1 : 2);
+      result.max_delay_time =
+          nearest_double(spec_.dynamics.period * Rational(static_cast<unsigned long>(steps)));
+    }
+    return result;
+  }
+
+  void write(const Controller& controller, const Abstraction& abstraction, const CellSet& safe,
+             const Invariance& invariance, const std::deque<PartitionResult>& partitions) const {
+    ResultContent content{.name = spec_.name,
+                          .spec_text = spec_.text,
+                          .guarantee = guarantee(),
+                          .period = nearest_double(spec_.dynamics.period),
+                          .period_unit = spec_.dynamics.unit,
+                          .connection_delay = spec_.coordination.connection_delay,
+                          .axes = axes(abstraction),
+                          .safe_cells = static_cast<std::uint64_t>(summary_.safe),
+                          .invariant_cells = static_cast<std::uint64_t>(summary_.invariant),
+                          .safe = membership_array(safe),
+                          .invariant = membership_array(invariance.invariant),
+                          .iterations = invariance.iterations};
+    const ElementType collision_type = level_type(invariance.collision_time, Invariance::kNever);
+    content.collision_time = level_array(invariance.collision_time, Invariance::kNever, collision_type);
+    for (const PartitionResult& partition : partitions) {
+      content.partitions.push_back(partition_content(controller, partition, delay_type(partitions)));
+    }
+    const ActionGrouping all_inputs(*controller.engine, {all_input_indices()});
+    if (spec_.output.controller) content.controller = bits(controller, all_inputs, 0, "");
+    if (spec_.output.abstraction) content.abstraction = tables(abstraction);
+    write_results(options_.output, content, team_);
+  }
+
+  [[nodiscard]] static ElementType delay_type(const std::deque<PartitionResult>& partitions) {
+    const auto wide = [](const PartitionResult& partition) {
+      return level_type(partition.layers.delay, DelayLayers::kUnbounded) == ElementType::int32;
+    };
+    return std::any_of(partitions.begin(), partitions.end(), wide) ? ElementType::int32 : ElementType::int16;
+  }
+
+  [[nodiscard]] std::vector<ResultAxis> axes(const Abstraction& abstraction) const {
+    std::vector<ResultAxis> result;
+    for (std::size_t i = 0; i < spec_.states.size(); ++i) {
+      const GridDimension& dimension = abstraction.grid[i];
+      ResultAxis& axis = result.emplace_back(ResultAxis{
+          .name = dimension.name, .unit = spec_.states[i].unit, .step = nearest_double(dimension.step)});
+      for (std::int64_t k = 0; k < dimension.count; ++k)
+        axis.points.push_back(nearest_double(dimension.point(k)));
+    }
+    for (const InputSpec& input : spec_.inputs) {
+      ResultAxis& axis =
+          result.emplace_back(ResultAxis{.name = input.name, .unit = input.unit, .is_state = false});
+      if (input.grid) axis.step = nearest_double(input.grid->step);
+      for (const Rational& value : input.values) axis.points.push_back(nearest_double(value));
+    }
+    return result;
+  }
+
+  [[nodiscard]] ResultPartition partition_content(const Controller& controller,
+                                                  const PartitionResult& partition, ElementType type) const {
+    const DelayLayers& layers = partition.layers;
+    ResultPartition result{
+        .name = partition.spec->name,
+        .layer_sizes = {layers.sizes.begin(), layers.sizes.end()},
+        .fixed_point_index = layers.fixed_point_index,
+        .truncated = layers.truncated,
+        .unbounded = layers.truncated ? 0 : static_cast<std::uint64_t>(layers.sizes.back()),
+        .delay = level_array(layers.delay, DelayLayers::kUnbounded, type),
+        .trigger = trigger_array(layers.delay, spec_.coordination.connection_delay, type)};
+    for (const auto& agents : partition.spec->classes) result.classes.push_back(class_name(spec_, agents));
+    if (spec_.output.layers) result.layers = layer_lists(layers);
+    for (std::size_t c = 0; spec_.output.actions && c < result.classes.size(); ++c) {
+      result.actions.push_back(bits(controller, partition.grouping, c, result.classes[c]));
+    }
+    return result;
+  }
+
+  [[nodiscard]] InputClass all_input_indices() const {
+    InputClass all;
+    for (std::size_t i = 0; i < spec_.inputs.size(); ++i) all.push_back(static_cast<std::int32_t>(i));
+    return all;
+  }
+
+  [[nodiscard]] ResultBits bits(const Controller& controller, const ActionGrouping& grouping, std::size_t c,
+                                const std::string& name) const {
+    ResultBits result{.class_name = name, .actions = static_cast<std::uint64_t>(grouping.actions(c))};
+    for (const std::int32_t i : grouping.inputs(c))
+      result.inputs.push_back(spec_.inputs[static_cast<std::size_t>(i)].name);
+    result.fill = [controller, &grouping, c](std::uint64_t begin, std::uint64_t count, void* out) {
+      fill_action_bits(controller, grouping, c, begin, count, out);
+    };
+    return result;
+  }
+
+  [[nodiscard]] std::vector<ResultTable> tables(const Abstraction& abstraction) const {
+    std::vector<ResultTable> result;
+    for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
+      const TransitionTable& table = abstraction.tables[i];
+      ResultTable& stored = result.emplace_back(ResultTable{.state = abstraction.grid[i].name});
+      for (const std::int32_t j : table.states)
+        stored.depends_on.push_back(spec_.states[static_cast<std::size_t>(j)].name);
+      for (const std::int32_t j : table.inputs)
+        stored.depends_on.push_back(spec_.inputs[static_cast<std::size_t>(j)].name);
+      for (const IndexRange& range : table.entries) {
+        stored.first.push_back(range.first);
+        stored.last.push_back(range.last);
+      }
+    }
+    return result;
+  }
+
+  const ProblemSpec& spec_;
+  const AnalysisOptions& options_;
+  ThreadTeam& team_;
+  StageTimer timer_;
+  AnalysisSummary summary_;
+};
+
+}  // namespace
+
+AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team) {
+  check_memory(spec, options.max_memory);
+  check_writable(options.output);
+  return Analysis(spec, options, team).run();
+}
+
+}  // namespace coordreq

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/thread_team.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// What is under way; called from the calling thread only, often.
+struct Progress {
+  std::string stage;            ///< "abstraction", "safe set", "invariance", "layers PARTITION", "writing"
+  std::int64_t step = 0;        ///< sweep or layer number, 0 where there is none
+  std::int64_t cells_left = 0;  ///< cells still in the set that shrinks, 0 where there is none
+};
+
+struct AnalysisOptions {
+  std::string output;                             ///< path of the results file
+  std::optional<std::uint64_t> max_memory;        ///< bytes; refuse up front if the estimate is above
+  std::function<void(const Progress&)> progress;  ///< may be empty
+};
+
+struct PartitionSummary {
+  std::string name;
+  std::vector<std::string> classes;
+  std::int32_t fixed_point_index = -1;  ///< F; -1 if `truncated`
+  std::int64_t fixed_point = 0;         ///< |Z_F|
+  std::vector<std::int64_t> layers;     ///< |Z_0|, ..., |Z_F|
+  bool truncated = false;
+  /// largest finite delay times period, in `period_unit`; none if some cell is unbounded or K is empty
+  std::optional<double> max_delay_time;
+};
+
+/// The JSON summary of the contract, section 3, as data.
+struct AnalysisSummary {
+  std::string name;
+  std::int64_t states = 0;  ///< cells
+  std::int64_t inputs = 0;  ///< joint inputs
+  std::int64_t safe = 0;
+  std::int64_t invariant = 0;
+  std::int64_t iterations = 0;
+  std::string guarantee;
+  double period = 0;
+  std::string period_unit;
+  std::vector<PartitionSummary> partitions;
+  std::string output;
+  int threads = 1;
+  std::vector<std::pair<std::string, double>> seconds;  ///< by stage, in order, wall time
+  std::uint64_t peak_memory_bytes = 0;
+};
+
+/// The whole analysis: abstraction, S, K, layers, trigger tables, results file.
+/// @throws SpecError for what only shows when the system is built (undecidable `allow`, a discrete state off
+/// its
+///   grid, dynamics that this version cannot abstract); LimitError; IoError
+[[nodiscard]] AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options,
+                                      ThreadTeam& team);
+
+/// What `validate` prints, known before the analysis runs.
+struct SpecReport {
+  struct State {
+    std::string name;
+    std::string unit;
+    std::int64_t points = 0;
+    std::vector<std::string> depends_on;  ///< states, inputs and disturbances that its next value depends on
+    std::uint64_t table_entries = 0;
+  };
+  struct Input {
+    std::string name;
+    std::string unit;
+    std::int64_t points = 0;
+  };
+  std::string name;
+  std::vector<State> states;
+  std::vector<Input> inputs;
+  std::int64_t cells = 0;
+  std::int64_t joint_inputs = 0;
+  std::vector<std::string> partitions;
+  bool exact = false;              ///< posts are exact hulls
+  std::uint64_t memory_bytes = 0;  ///< estimate of the peak of `analyze`
+};
+
+/// @throws LimitError with the estimate if `analyze` needs more than `limit` bytes
+void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit);
+
+[[nodiscard]] SpecReport inspect(const ProblemSpec& spec);
+
+}  // namespace coordreq

@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "abstraction/build_abstraction.hpp"
+#include "analysis/analyze.hpp"
+#include "base/error.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Bytes that the program takes before any problem: code, libraries, stacks, buffers of the writer.
+constexpr double kFixedBytes = 24.0 * 1024 * 1024;
+
+double count_product(const ProblemSpec& spec) {
+  double cells = 1;
+  for (const StateSpec& state : spec.states) cells *= static_cast<double>(state.grid.count);
+  return cells;
+}
+
+/// Bytes of one bit row a choice of the states and inputs that a condition uses.
+double condition_bytes(const Program& condition, const ProblemSpec& spec) {
+  double rows = 1;
+  for (const std::uint32_t slot : condition.variables()) {
+    if (slot + 1 < spec.states.size()) rows *= static_cast<double>(spec.states[slot].grid.count);
+    if (slot >= spec.states.size() && slot < spec.states.size() + spec.inputs.size()) {
+      rows *= static_cast<double>(spec.inputs[slot - spec.states.size()].values.size());
+    }
+  }
+  return rows * 8 * std::ceil(static_cast<double>(spec.states.back().grid.count) / 64);
+}
+
+/// Joint actions of all classes together, of the partition with the most: one projected bit a cell each, at
+/// the most (actions that move every cell of a row alike share theirs).
+double projected_actions(const ProblemSpec& spec) {
+  double most = 0;
+  for (const PartitionSpec& partition : spec.coordination.partitions) {
+    double sum = 0;
+    for (const auto& agents : partition.classes) {
+      double actions = 1;
+      for (const std::int32_t agent : agents) {
+        for (const std::int32_t input : spec.agents[static_cast<std::size_t>(agent)].inputs) {
+          actions *= static_cast<double>(spec.inputs[static_cast<std::size_t>(input)].values.size());
+        }
+      }
+      sum += actions;
+    }
+    most = std::max(most, sum);
+  }
+  return most;
+}
+
+double estimate_memory(const ProblemSpec& spec) {
+  const double cells = count_product(spec);
+  const double row_length = static_cast<double>(spec.states.back().grid.count);
+  const double set_bytes = cells / row_length * 8 * std::ceil(row_length / 64);
+  double bytes = kFixedBytes;
+  for (const TableShape& shape : table_shapes(spec)) {
+    bytes += shape.entries * (sizeof(IndexRange) + sizeof(std::uint32_t));
+  }
+  bytes += condition_bytes(spec.safe, spec);
+  if (spec.controller.allow) bytes += condition_bytes(*spec.controller.allow, spec);
+  bytes += 3 * set_bytes;  // S, K and a layer
+  bytes += cells * 4 *
+           (1 + static_cast<double>(spec.coordination.partitions.size()));  // collision time and delays
+  bytes += set_bytes * projected_actions(spec);
+  bytes += cells / row_length * 80;  // bookkeeping of rows
+  return bytes;
+}
+
+std::string in_words(double bytes) {
+  const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB"};
+  std::size_t unit = 0;
+  while (bytes >= 1024 && unit + 1 < std::size(units)) {
+    bytes /= 1024;
+    ++unit;
+  }
+  return fmt::format("{:.1f} {}", bytes, units[unit]);
+}
+
+std::uint64_t to_bytes(double bytes) {
+  return bytes < 1.8e19 ? static_cast<std::uint64_t>(bytes) : UINT64_MAX;
+}
+
+}  // namespace
+
+void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit) {
+  const double bytes = estimate_memory(spec);
+  if (!limit || bytes <= static_cast<double>(*limit)) return;
+  throw LimitError(fmt::format("{:.3g} cells need about {} of memory, the limit is {}", count_product(spec),
+                               in_words(bytes), in_words(static_cast<double>(*limit))),
+                   "--max-memory");
+}
+
+SpecReport inspect(const ProblemSpec& spec) {
+  SpecReport report{.name = spec.name, .cells = 1, .joint_inputs = 1};
+  const std::vector<TableShape> shapes = table_shapes(spec);
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    const StateSpec& state = spec.states[i];
+    SpecReport::State& row =
+        report.states.emplace_back(SpecReport::State{.name = state.name,
+                                                     .unit = state.unit,
+                                                     .points = state.grid.count,
+                                                     .table_entries = to_bytes(shapes[i].entries)});
+    for (const std::int32_t j : shapes[i].states)
+      row.depends_on.push_back(spec.states[static_cast<std::size_t>(j)].name);
+    for (const std::int32_t j : shapes[i].inputs)
+      row.depends_on.push_back(spec.inputs[static_cast<std::size_t>(j)].name);
+    for (const std::int32_t j : shapes[i].disturbances) {
+      row.depends_on.push_back(spec.disturbances[static_cast<std::size_t>(j)].name);
+    }
+    report.cells *= state.grid.count;
+  }
+  for (const InputSpec& input : spec.inputs) {
+    const auto points = static_cast<std::int64_t>(input.values.size());
+    report.inputs.push_back({.name = input.name, .unit = input.unit, .points = points});
+    report.joint_inputs *= points;
+  }
+  for (const PartitionSpec& partition : spec.coordination.partitions)
+    report.partitions.push_back(partition.name);
+  report.exact = check_dynamics(spec);
+  report.memory_bytes = to_bytes(estimate_memory(spec));
+  return report;
+}
+
+}  // namespace coordreq

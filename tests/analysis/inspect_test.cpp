@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+
+#include "analysis/analyze.hpp"
+#include "base/error.hpp"
+#include "spec/read_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+ProblemSpec spec_of(const std::string& upper) {
+  return read_spec(R"({"coordreq": 1, "name": "t",
+"states": [{"name": "p", "lower": 0, "upper": )" +
+                       upper +
+                       R"(, "step": 1, "unit": "m"}, {"name": "v", "lower": 0, "upper": 9, "step": 1}],
+"inputs": [{"name": "u", "values": [-1, 0, 2]}, {"name": "b", "values": [0, 1]}], "disturbances": [{"name": "w", "lower": 0, "upper": 1}],
+"agents": [{"name": "a", "inputs": ["u"]}, {"name": "c", "inputs": ["b"]}],
+"dynamics": {"time": "continuous", "period": 1, "equations": {"p": "v", "v": "u + w"}}, "safe": "true"})",
+                   "test");
+}
+
+TEST(Inspect, ReportsSizesAndDependencies) {
+  const SpecReport report = inspect(spec_of("99"));
+  EXPECT_EQ(report.cells, 1000);
+  EXPECT_EQ(report.joint_inputs, 6);
+  EXPECT_EQ(report.states[0].depends_on, (std::vector<std::string>{"p", "v", "u", "w"}));
+  EXPECT_EQ(report.states[0].table_entries, 3000U);
+  EXPECT_EQ(report.states[1].depends_on, (std::vector<std::string>{"v", "u", "w"}));
+  EXPECT_EQ(report.partitions, (std::vector<std::string>{"a|c"}));
+  EXPECT_TRUE(report.exact);
+}
+
+TEST(Inspect, MemoryGrowsWithTheCells) {
+  EXPECT_GT(inspect(spec_of("9999999")).memory_bytes, inspect(spec_of("99")).memory_bytes + 1000000 * 80U);
+}
+
+TEST(CheckMemory, RefusesWithTheEstimateBeforeAnythingRuns) {
+  EXPECT_NO_THROW(check_memory(spec_of("99"), std::nullopt));
+  EXPECT_NO_THROW(check_memory(spec_of("99"), std::uint64_t{1} << 30));
+  try {
+    check_memory(spec_of("99999999"), std::uint64_t{1} << 30);
+    FAIL() << "expected a LimitError";
+  } catch (const LimitError& error) {
+    EXPECT_EQ(std::string(error.what()).substr(0, 22), "1e+09 cells need about");
+    EXPECT_EQ(error.exit_code(), ExitCode::limit);
+  }
+}
+
+}  // namespace
+}  // namespace coordreq

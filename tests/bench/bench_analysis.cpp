@@ -1,0 +1,62 @@
+// How long do the parts of an analysis take, and the whole? Compare the ratios of lines of one run, not runs.
+
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "abstraction/build_abstraction.hpp"
+#include "analysis/analyze.hpp"
+#include "coordination/delay_layers.hpp"
+#include "coordination/projections.hpp"
+#include "safety/invariance.hpp"
+#include "safety/safe_set.hpp"
+#include "spec/read_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+ProblemSpec circle() {
+  return read_spec_file(COORDREQ_CONFIGS "/circle.json", std::cin);
+}
+
+/// Question: what does building the tables cost next to using them?
+void abstraction(benchmark::State& state) {
+  const ProblemSpec spec = circle();
+  ThreadTeam team(static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(build_abstraction(spec, team));
+}
+BENCHMARK(abstraction)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Question: how many state-input pairs a second does one full sweep settle?
+void sweep(benchmark::State& state) {
+  const ProblemSpec spec = circle();
+  ThreadTeam team(static_cast<int>(state.range(0)));
+  const Abstraction built = build_abstraction(spec, team);
+  const CellSet safe = safe_set(spec, built, team);
+  const RowEngine engine(built, nullptr);
+  const RowReach reach(engine);
+  const CellSet invariant = find_invariance(engine, reach, safe, Synthesis::maximal, {}, team).invariant;
+  const ActionGrouping grouping(engine, {{0}, {1}});
+  const Controller controller{&engine, &invariant, Synthesis::maximal};
+  for (auto _ : state) benchmark::DoNotOptimize(Projections(controller, grouping, team));
+  state.counters["pairs/s"] =
+      benchmark::Counter(static_cast<double>(built.grid.cells()) * static_cast<double>(built.inputs.count()),
+                         benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(sweep)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Question: what does the whole circle cost, results file written?
+void whole_circle(benchmark::State& state) {
+  const ProblemSpec spec = circle();
+  ThreadTeam team(static_cast<int>(state.range(0)));
+  const std::filesystem::path output = std::filesystem::temp_directory_path() / "coordreq_bench_circle.h5";
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(analyze(spec, {.output = output.string()}, team));
+  }
+  std::filesystem::remove(output);
+}
+BENCHMARK(whole_circle)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace coordreq

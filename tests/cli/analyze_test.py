@@ -1,0 +1,259 @@
+"""What analyze prints and writes."""
+
+import json
+import unittest
+
+from program import CONFIGS, ROOT, SPEC, Case, spec_with
+
+CIRCLE = str(CONFIGS / "circle.json")
+GOLDEN = json.loads((ROOT / "tests/cli/circle_golden.json").read_text())
+
+
+class Cases(Case):
+    def check_circle(self, cells, safe):
+        """The tables come from a brute-force computation in whole numbers, independent of this program."""
+        text = (CONFIGS / "circle.json").read_text()
+        modes = f'"cells": "{cells}", "safe": "{safe}"'
+        summary = self.analyze("-", stdin=text.replace('"cells": "closed", "safe": "center"', modes).encode())
+        partition = summary["partitions"][0]
+        found = {key: summary[key] for key in ("safe", "invariant", "iterations")}
+        found.update({key: partition[key] for key in ("F", "layers")})
+        self.assertEqual(found, GOLDEN[f"{cells} {safe}"])
+        self.assertEqual(summary["guarantee"], {"center": "samples-center", "inner": "samples"}[safe])
+        self.assertEqual(partition["fixed_point"], 0)
+        self.assertEqual(partition["max_delay_time"], (partition["F"] - 1) / 100)
+
+    def test_circle_closed_center(self):
+        self.check_circle("closed", "center")
+
+    def test_circle_closed_inner(self):
+        self.check_circle("closed", "inner")
+
+    def test_circle_half_open_center(self):
+        self.check_circle("half_open", "center")
+
+    def test_circle_half_open_inner(self):
+        self.check_circle("half_open", "inner")
+
+    def test_circle_text(self):
+        result = self.run_program("analyze", CIRCLE, "--threads", "2")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        self.assertRegex(
+            result.stdout.decode(),
+            r"""^circle: 201 x 201 = 40,401 cells, 41 x 41 = 1,681 joint inputs
+safe set        20,081 cells
+invariance set  20,077 cells after 2 sweeps
+guarantee       samples-center: at the sampling instants, where the centre of a cell is safe
+
+partition horizontal\|vertical
+  layers       20,077 19,421 17,869 16,717 15,533 14,317 \.\.\. 61 5 0
+  fixed point  F = 29
+  unbounded    0 cells
+  From the best state, 28 steps \(0\.28 s\) without coordination are safe\.
+
+results in circle\.h5 \([0-9.]+ s on 2 threads, [0-9.]+ MiB\)
+$""",
+        )
+        self.assertEqual(self.files(), ["circle.h5"])
+
+    def test_lane_change(self):
+        summary = self.analyze(str(CONFIGS / "lane_change.json"))
+        self.assertEqual((summary["states"], summary["inputs"]), (28, 4))
+        self.assertEqual((summary["safe"], summary["invariant"], summary["iterations"]), (26, 26, 1))
+        self.assertEqual(summary["partitions"][0]["layers"], [26, 20, 16, 12, 8, 4, 0])
+        self.assertEqual(summary["partitions"][0]["F"], 6)
+        self.assertEqual(summary["partitions"][0]["max_delay_time"], 5)
+
+    def test_json_document(self):
+        self.write("spec.json", SPEC)
+        summary = self.analyze("spec.json", "-o", "out.h5", "--threads", "1")
+        self.assertEqual(
+            list(summary),
+            [
+                "name",
+                "states",
+                "inputs",
+                "safe",
+                "invariant",
+                "iterations",
+                "guarantee",
+                "period",
+                "period_unit",
+                "partitions",
+                "requirements",
+                "output",
+                "threads",
+                "seconds",
+                "peak_memory_bytes",
+            ],
+        )
+        self.assertEqual(
+            list(summary["partitions"][0]),
+            ["name", "classes", "F", "fixed_point", "layers", "truncated", "max_delay_time"],
+        )
+        self.assertEqual((summary["name"], summary["output"]), ("small", "out.h5"))
+        self.assertEqual((summary["period"], summary["period_unit"]), (0.5, "s"))
+        self.assertEqual((summary["requirements"], summary["threads"]), ([], 1))
+        self.assertEqual(
+            list(summary["seconds"]), ["abstraction", "safe set", "invariance", "layers a|b", "writing"]
+        )
+        self.assertTrue(all(seconds >= 0 for seconds in summary["seconds"].values()))
+        self.assertGreater(summary["peak_memory_bytes"], 2**20)
+
+    def test_max_delay_truncates(self):
+        self.write(
+            "spec.json",
+            (CONFIGS / "circle.json")
+            .read_text()
+            .replace('"safe": "r2 <= R^2",', '"safe": "r2 <= R^2", "coordination": {"max_delay": 3},'),
+        )
+        partition = self.analyze("spec.json")["partitions"][0]
+        self.assertEqual(partition["layers"], [20077, 19421, 17869, 16717])
+        self.assertEqual(
+            (partition["F"], partition["fixed_point"], partition["truncated"]), (None, None, True)
+        )
+        text = self.run_program("analyze", "spec.json").stdout.decode()
+        self.assertIn("  fixed point  not reached\n  unbounded    unknown\n", text)
+        self.assertIn(
+            "  Stopped at max_delay: 16,717 cells allow 3 steps (0.03 s) without coordination, "
+            "perhaps more.\n",
+            text,
+        )
+
+    def test_nothing_to_coordinate(self):
+        self.write("spec.json", spec_with(safe="x <= 9"))
+        text = self.run_program("analyze", "spec.json").stdout.decode()
+        summary = self.analyze("spec.json")
+        self.assertEqual(summary["partitions"][0]["layers"], [25])
+        self.assertEqual((summary["partitions"][0]["F"], summary["partitions"][0]["fixed_point"]), (0, 25))
+        self.assertIsNone(summary["partitions"][0]["max_delay_time"])
+        self.assertIn("  The agents never need to coordinate: every delay is unbounded.\n", text)
+
+    def test_some_delays_are_unbounded(self):
+        # Only at x = 1 must the two agree (not both may push); at x = 3 nobody can move anything.
+        self.write(
+            "spec.json",
+            spec_with(
+                states=[{"name": "x", "lower": 0, "upper": 3, "step": 1, "discrete": True}],
+                inputs=[{"name": "u", "values": [0, 1]}, {"name": "v", "values": [0, 1]}],
+                dynamics={
+                    "time": "discrete",
+                    "period": 1,
+                    "equations": {"x": "if(x == 1, if(u + v == 1, 1, 2), x)"},
+                },
+                safe="x != 2",
+                abstraction={},
+            ),
+        )
+        summary = self.analyze("spec.json")
+        self.assertEqual(summary["partitions"][0]["layers"], [3, 2])
+        text = self.run_program("analyze", "spec.json").stdout.decode()
+        self.assertIn(
+            "  From 2 cells the agents never need to coordinate; from the best of the others, 0 steps without "
+            "coordination are safe.\n",
+            text,
+        )
+
+    def test_empty_safe_set_is_a_result(self):
+        self.write("spec.json", spec_with(safe="x > 100"))
+        result = self.run_program("analyze", "spec.json")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        self.assertIn('\nThe safe set is empty: no cell satisfies "safe".\n', result.stdout.decode())
+        summary = self.analyze("spec.json")
+        self.assertEqual((summary["safe"], summary["invariant"]), (0, 0))
+        self.assertEqual(summary["partitions"][0]["layers"], [0])
+        self.assertEqual(self.files(), ["small.h5", "spec.json"])
+
+    def test_empty_invariance_set_is_a_result(self):
+        self.write(
+            "spec.json",
+            spec_with(
+                dynamics={"time": "discrete", "period": 1, "equations": {"x": "x + 1 + 0*u", "y": "y + 0*v"}}
+            ),
+        )
+        result = self.run_program("analyze", "spec.json")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        self.assertIn(
+            "\nThe invariance set is empty: no state can be kept safe, even if all agents always coordinate.\n",
+            result.stdout.decode(),
+        )
+        summary = self.analyze("spec.json")
+        self.assertEqual((summary["safe"], summary["invariant"]), (22, 0))
+
+    def test_quiet_prints_nothing(self):
+        self.assert_prints("", "analyze", CIRCLE, "--quiet")
+        self.assertEqual(self.files(), ["circle.h5"])
+
+    def test_quiet_json_prints_the_document(self):
+        self.assertEqual(self.analyze(CIRCLE, "--quiet")["name"], "circle")
+
+    def test_same_bytes_for_any_number_of_threads(self):
+        for threads in ("1", "2", "5"):
+            self.analyze(CIRCLE, "--threads", threads, "-o", f"{threads}.h5")
+        first = (self.folder / "1.h5").read_bytes()
+        self.assertEqual((self.folder / "2.h5").read_bytes(), first)
+        self.assertEqual((self.folder / "5.h5").read_bytes(), first)
+
+    def test_same_bytes_from_standard_input(self):
+        self.analyze(CIRCLE, "-o", "file.h5")
+        self.analyze("-", "-o", "stdin.h5", stdin=(CONFIGS / "circle.json").read_bytes())
+        self.assertEqual((self.folder / "file.h5").read_bytes(), (self.folder / "stdin.h5").read_bytes())
+
+    def test_existing_results_survive_a_failure(self):
+        self.write("small.h5", "precious")
+        self.write("spec.json", spec_with(safe="x <= nothing"))
+        self.assertEqual(self.run_program("analyze", "spec.json").returncode, 3)
+        self.assertEqual((self.folder / "small.h5").read_text(), "precious")
+        self.write("spec.json", SPEC)
+        self.assertEqual(self.run_program("analyze", "spec.json").returncode, 0)
+        self.assertEqual((self.folder / "small.h5").read_bytes()[:4], b"\x89HDF")
+
+    def test_output_folder_that_is_not_there(self):
+        self.write("spec.json", SPEC)
+        self.assert_fails(
+            5, "the folder does not exist (nowhere)", "analyze", "spec.json", "-o", "nowhere/out.h5"
+        )
+
+    def test_output_that_is_a_folder(self):
+        self.write("spec.json", SPEC)
+        (self.folder / "out.h5").mkdir()
+        self.assert_fails(
+            5, "cannot write the results: this is a folder (out.h5)", "analyze", "spec.json", "-o", "out.h5"
+        )
+
+    def test_output_folder_that_is_not_writable(self):
+        # Not even root may create a file there.
+        self.write("spec.json", SPEC)
+        result = self.run_program("analyze", "spec.json", "-o", "/sys/out.h5")
+        self.assertRegex(
+            result.stderr.decode(),
+            r"^coordreq: error: cannot create a file in the folder: "
+            r"(Permission denied|Read-only file system|Operation not permitted) \(/sys\)\n$",
+        )
+        self.assertEqual((result.returncode, result.stdout), (5, b""))
+
+    def test_too_little_memory(self):
+        self.write("spec.json", SPEC)
+        result = self.run_program("analyze", "spec.json", "--max-memory", "1M")
+        self.assertRegex(
+            result.stderr.decode(),
+            r"^coordreq: error: 25 cells need about [0-9.]+ MiB of memory, the limit is 1\.0 MiB \(--max-memory\)\n$",
+        )
+        self.assertEqual((result.returncode, result.stdout), (4, b""))
+        self.assertEqual(self.files(), ["spec.json"])
+
+    def test_too_many_cells(self):
+        states = [dict(state, upper=1, step="1/1000000") for state in SPEC["states"]]
+        self.write("spec.json", spec_with(states=states))
+        result = self.run_program("analyze", "spec.json")
+        self.assertRegex(
+            result.stderr.decode(),
+            r"^coordreq: error: 1e\+12 cells need about [0-9.]+ TiB of memory, the limit is [0-9.]+ [GT]iB "
+            r"\(--max-memory\)\n$",
+        )
+        self.assertEqual((result.returncode, result.stdout), (4, b""))
+        self.assertEqual(self.files(), ["spec.json"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,129 @@
+"""Wrong usage is exit code 2 and one line; help and version go to standard output."""
+
+import re
+import unittest
+
+from program import SPEC, Case
+
+
+class Cases(Case):
+    def test_no_command(self):
+        self.assert_fails(2, "no command, expected one of analyze, validate, info, schema")
+
+    def test_unknown_command(self):
+        self.assert_fails(
+            2, "unknown command 'solve', expected one of analyze, validate, info, schema", "solve"
+        )
+
+    def test_unknown_global_option(self):
+        self.assert_fails(
+            2,
+            "unknown option '--fast', expected a command (analyze, validate, info, schema) or "
+            "--help, --version",
+            "--fast",
+        )
+
+    def test_unknown_option_of_a_command(self):
+        self.assert_fails(
+            2,
+            "unknown option '--fast' of validate, expected one of --help, --threads, --max-memory, --json, --quiet",
+            "validate",
+            "--fast",
+            "spec.json",
+        )
+
+    def test_option_before_the_command(self):
+        self.assert_fails(
+            2,
+            "'--threads' stands before the command analyze, expected it after",
+            "--threads",
+            "2",
+            "analyze",
+            "spec.json",
+        )
+
+    def test_no_spec(self):
+        self.assert_fails(2, "no SPEC, expected the name of a file: coordreq analyze SPEC", "analyze")
+
+    def test_no_results(self):
+        self.assert_fails(2, "no RESULTS, expected the name of a file: coordreq info RESULTS", "info")
+
+    def test_two_specs(self):
+        self.assert_fails(2, "unexpected argument 'b', analyze takes one argument, SPEC", "analyze", "a", "b")
+
+    def test_argument_of_schema(self):
+        self.assert_fails(2, "unexpected argument 'a', schema takes no argument", "schema", "a")
+
+    def test_option_without_its_value(self):
+        self.assert_fails(2, "expected a value, found none (--threads)", "analyze", "spec.json", "--threads")
+
+    def test_option_given_twice(self):
+        self.assert_fails(
+            2, "given more than once (--threads)", "analyze", "spec.json", "--threads", "1", "--threads", "2"
+        )
+
+    def test_flag_with_a_value(self):
+        self.assert_fails(2, "expected no value, found one (--json)", "analyze", "spec.json", "--json=yes")
+
+    def test_threads_out_of_range(self):
+        for value in ("0", "-1", "1025", "99999999999999999999", "two", "2.5", ""):
+            with self.subTest(value=value):
+                message = f"expected a whole number from 1 to 1024, found '{value}' (--threads)"
+                self.assert_fails(2, message, "analyze", "spec.json", "--threads", value)
+
+    def test_most_threads_work(self):
+        self.write("spec.json", SPEC)
+        self.assertEqual(self.analyze("spec.json", "--threads", "1024")["threads"], 1024)
+
+    def test_memory_size_that_is_none(self):
+        for value in ("0", "-1", "M", "1Q", "1MiBs", "1e3", "0.5", ".", ""):
+            with self.subTest(value=value):
+                message = (
+                    "expected a size such as 500M, 1.5GiB or a number of bytes, "
+                    f"found '{value}' (--max-memory)"
+                )
+                self.assert_fails(2, message, "analyze", "spec.json", "--max-memory", value)
+
+    def test_memory_sizes_that_are_enough(self):
+        self.write("spec.json", SPEC)
+        for value in ("1073741824", "1073741824B", "1048576k", "1024M", "1G", "1.5GiB", "1gb", "0.5T"):
+            with self.subTest(value=value):
+                self.analyze("spec.json", "--max-memory", value)
+
+    def test_output_without_a_name(self):
+        for value in ("", "-"):
+            with self.subTest(value=value):
+                message = f"expected the name of a file, found '{value}' (--output)"
+                self.assert_fails(2, message, "analyze", "spec.json", "-o", value)
+
+    def test_user_text_stays_on_one_line(self):
+        self.assert_fails(
+            2,
+            r"unknown command 'a\nb\t\x1b[31m\x7f\xff é', expected one of analyze, validate, info, schema",
+            b"a\nb\t\x1b[31m\x7f\xff " + "é".encode(),
+        )
+
+    def test_help_lists_exactly_the_commands(self):
+        result = self.run_program("--help")
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.stderr, b"")
+        listed = result.stdout.decode().split("Subcommands:\n")[1].split("\n\n")[0]
+        self.assertEqual(re.findall(r"^  (\S+)", listed, re.M), ["analyze", "validate", "info", "schema"])
+
+    def test_help_of_every_command(self):
+        for command in ("analyze", "validate", "info", "schema"):
+            with self.subTest(command=command):
+                result = self.run_program(command, "--help")
+                self.assertEqual((result.returncode, result.stderr), (0, b""))
+                self.assertIn(f"Usage: coordreq {command} [OPTIONS]", result.stdout.decode())
+                for option in ("--threads N", "--max-memory SIZE", "--json", "--quiet"):
+                    self.assertIn(option, result.stdout.decode())
+
+    def test_version(self):
+        result = self.run_program("--version")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        self.assertRegex(result.stdout.decode(), r"^coordreq 0\.1\.0 \(([0-9a-f]{40}|unknown)\)\n$")
+
+
+if __name__ == "__main__":
+    unittest.main()

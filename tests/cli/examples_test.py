@@ -1,0 +1,89 @@
+"""Every problem in configs/ is a working example."""
+
+import json
+import re
+import unittest
+
+from program import CONFIGS, Case, without_comments
+
+EXAMPLES = sorted(CONFIGS.glob("*.json"))
+
+
+class Cases(Case):
+    def test_every_example_is_valid(self):
+        self.assertGreaterEqual(len(EXAMPLES), 3)
+        for path in EXAMPLES:
+            with self.subTest(example=path.name):
+                result = self.run_program("validate", str(path))
+                self.assertEqual((result.returncode, result.stderr), (0, b""))
+                self.assertTrue(result.stdout.decode().startswith(f"{path.stem}: the spec is valid\n"))
+
+    def test_every_example_says_what_it_shows(self):
+        for path in EXAMPLES:
+            with self.subTest(example=path.name):
+                text = path.read_text()
+                self.assertTrue(text.startswith("// "))
+                self.assertIn("description", json.loads(without_comments(text)))
+
+    def test_validate_circle(self):
+        result = self.run_program("validate", str(CONFIGS / "circle.json"))
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        self.assertRegex(
+            result.stdout.decode(),
+            r"""^circle: the spec is valid
+
+state  points  unit  table entries  next value depends on
+x1        201  m             8,241  x1, u1
+x2        201  m             8,241  x2, u2
+
+input  points  unit
+u1         41  m/s
+u2         41  m/s
+
+cells              40,401
+joint inputs       1,681
+partitions         horizontal\|vertical
+reachable sets     exact interval hulls
+memory of analyze  about [0-9.]+ MiB
+$""",
+        )
+        self.assertEqual(self.files(), [])
+
+    def test_validate_json(self):
+        result = self.run_program(
+            "validate", "-", "--json", stdin=(CONFIGS / "lane_change.json").read_bytes()
+        )
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        report = json.loads(result.stdout)
+        self.assertEqual(
+            list(report),
+            ["name", "cells", "joint_inputs", "states", "inputs", "partitions", "exact", "memory_bytes"],
+        )
+        self.assertEqual((report["name"], report["cells"], report["joint_inputs"]), ("lane_change", 28, 4))
+        self.assertEqual(
+            report["states"][1],
+            {
+                "name": "left_lane",
+                "unit": "",
+                "points": 2,
+                "depends_on": ["left_lane", "left_change"],
+                "table_entries": 4,
+            },
+        )
+        self.assertEqual(report["inputs"][0], {"name": "left_change", "unit": "", "points": 2})
+
+    def test_validate_quiet(self):
+        self.assert_prints("", "validate", str(CONFIGS / "circle.json"), "--quiet")
+
+    def test_schema_is_a_json_schema(self):
+        result = self.run_program("schema")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        schema = json.loads(result.stdout)
+        self.assertEqual(schema["$schema"], "http://json-schema.org/draft-07/schema#")
+        documented = re.findall(r'"([a-z]+)":', '"agents": "dynamics": "safe": "requirements": "network":')
+        for key in documented:
+            self.assertIn(key, schema["properties"])
+
+
+if __name__ == "__main__":
+    unittest.main()

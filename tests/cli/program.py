@@ -1,0 +1,90 @@
+"""Runs the program as a user does, in an empty folder of its own."""
+
+import copy
+import json
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["COORDREQ_PROGRAM"]
+ROOT = pathlib.Path(os.environ["COORDREQ_ROOT"])
+CONFIGS = ROOT / "configs"
+
+# Small and complete; tests change one thing in it.
+SPEC = {
+    "coordreq": 1,
+    "name": "small",
+    "states": [
+        {"name": "x", "lower": 0, "upper": 4, "step": 1, "unit": "m"},
+        {"name": "y", "lower": 0, "upper": 4, "step": 1, "unit": "m"},
+    ],
+    "inputs": [{"name": "u", "values": [-1, 0, 1]}, {"name": "v", "values": [-1, 0, 1]}],
+    "agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
+    "dynamics": {"time": "discrete", "period": 0.5, "unit": "s", "equations": {"x": "x + u", "y": "y + v"}},
+    "safe": "x + y <= 6",
+    "abstraction": {"cells": "half_open", "safe": "center"},
+}
+
+
+def spec_with(**changes):
+    """SPEC with some top-level keys replaced; a key set to None is left out."""
+    spec = copy.deepcopy(SPEC)
+    spec.update(changes)
+    return {key: value for key, value in spec.items() if value is not None}
+
+
+def without_comments(text):
+    """JSON text with // comments taken out; enough for our own example specs."""
+    return re.sub(r"(?m)^\s*//.*$", "", text)
+
+
+class Case(unittest.TestCase):
+    maxDiff = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, name, content):
+        """A file with text, bytes, or a spec given as a dictionary."""
+        if isinstance(content, dict):
+            content = json.dumps(content, indent=2)
+        if isinstance(content, str):
+            content = content.encode()
+        (self.folder / name).write_bytes(content)
+        return name
+
+    def run_program(self, *arguments, stdin=b"", **options):
+        return subprocess.run(
+            [PROGRAM, *arguments], input=stdin, capture_output=True, cwd=self.folder, timeout=280, **options
+        )
+
+    def files(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def assert_fails(self, code, message, *arguments, stdin=b"", **options):
+        """Exit code, one exact error line, nothing on standard output, and no file more than before."""
+        before = self.files()
+        result = self.run_program(*arguments, stdin=stdin, **options)
+        self.assertEqual(result.stderr.decode(), f"coordreq: error: {message}\n")
+        self.assertEqual(result.stdout, b"")
+        self.assertEqual(result.returncode, code)
+        self.assertEqual(self.files(), before)
+
+    def assert_prints(self, text, *arguments, **options):
+        """Success, this exact text on standard output and nothing on standard error."""
+        result = self.run_program(*arguments, **options)
+        self.assertEqual(result.stderr.decode(), "")
+        self.assertEqual(result.stdout.decode(), text)
+        self.assertEqual(result.returncode, 0)
+
+    def analyze(self, *arguments, stdin=b""):
+        """The JSON summary of a successful run."""
+        result = self.run_program("analyze", *arguments, "--json", stdin=stdin)
+        self.assertEqual(result.stderr.decode(), "")
+        self.assertEqual(result.returncode, 0)
+        return json.loads(result.stdout)

@@ -1,0 +1,66 @@
+"""What the README shows is what happens."""
+
+import os
+import pathlib
+import re
+import subprocess
+import unittest
+
+from program import CONFIGS, PROGRAM, ROOT, Case
+
+README = (ROOT / "README.md").read_text()
+
+
+def blocks(language):
+    return re.findall(rf"(?ms)^```{language}\n(.*?)^```$", README)
+
+
+class Cases(Case):
+    def test_sessions(self):
+        (self.folder / "configs").symlink_to(CONFIGS)
+        environment = dict(os.environ, PATH=f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}")
+        sessions = blocks("console")
+        self.assertEqual(len(sessions), 2)
+        for session in sessions:
+            command, expected = re.fullmatch(r"(?s)\$ ([^\n]*)\n(.*)", session).groups()
+            result = subprocess.run(
+                command,
+                shell=True,
+                cwd=self.folder,
+                env=environment,
+                text=True,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+            )
+            self.assertEqual(self.without_effort(result.stdout), self.without_effort(expected))
+
+    @staticmethod
+    def without_effort(text):
+        return re.sub(r"\([0-9.]+ s on [0-9]+ threads?, [0-9.]+ MiB\)", "(effort)", text)
+
+    def test_python(self):
+        self.analyze(str(CONFIGS / "circle.json"))
+        programs = blocks("python")
+        self.assertEqual(len(programs), 2)
+        for program, expected in zip(programs, ("25\n2029\n", "(1, 201, 201) m\n")):
+            result = subprocess.run(
+                ["/usr/bin/python3", "-c", program],
+                cwd=self.folder,
+                capture_output=True,
+                text=True,
+                check=True,
+            )
+            self.assertEqual(result.stdout, expected)
+
+    def test_spec(self):
+        (spec,) = blocks("jsonc")
+        result = self.run_program("validate", "-", stdin=spec.encode())
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+
+    def test_files_that_it_names(self):
+        for path in re.findall(r"`((?:configs|scripts|app|lib|tests)/[\w./]*)", README):
+            self.assertTrue((ROOT / path).exists(), path)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,99 @@
+"""Rules about the source tree that no compiler checks. Each rule is a function tree -> list of findings.
+
+Usage: style_checks.py RULE ROOT
+"""
+
+import pathlib
+import re
+import sys
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+PRINTING = re.compile(
+    r"\bstd::(cout|cerr|clog|print|println)\b|\b(f?printf|puts|fputs|putchar|perror)\s*\(|\bfmt::print\b"
+    r"|#\s*include\s*<(iostream|fmt/ostream\.h)>"
+)
+MAX_LINES = 400
+
+
+def sources(root, *folders):
+    """C++ files below the folders, as (path from root, lines)."""
+    for folder in folders:
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in (".cpp", ".hpp"):
+                yield path.relative_to(root), path.read_text(encoding="utf-8").splitlines()
+
+
+def includes(root, *folders):
+    """Every include as (path, line number, name)."""
+    for path, lines in sources(root, *folders):
+        for number, line in enumerate(lines, 1):
+            match = INCLUDE.match(line)
+            if match:
+                yield path, number, match.group(2)
+
+
+def without_comments(lines):
+    """The lines with comments and string literals blanked; enough for code that is formatted."""
+    for line in lines:
+        yield re.sub(r'"(\\.|[^"\\])*"', '""', line).split("//")[0]
+
+
+def module_order(root):
+    """The modules in the order in which lib/CMakeLists.txt adds them."""
+    text = (root / "lib/CMakeLists.txt").read_text(encoding="utf-8")
+    return re.search(r"foreach\(module([^)]*)\)", text).group(1).split()
+
+
+def includes_point_left(root):
+    order = module_order(root)
+    findings = []
+    for path, number, name in includes(root, "lib"):
+        module, target = path.parts[1], name.split("/")[0]
+        if module not in order:
+            findings.append(f"{path}: module {module} is not in lib/CMakeLists.txt")
+        elif target == "app" or (target in order and order.index(target) > order.index(module)):
+            findings.append(f"{path}:{number}: {module} may not include {name}")
+    return findings
+
+
+def only_results_uses_hdf5(root):
+    return [
+        f"{path}:{number}: only lib/results may include {name}"
+        for path, number, name in includes(root, "lib", "app")
+        if re.match(r"(hdf5/|hdf5|H5)", name) and path.parts[:2] != ("lib", "results")
+    ]
+
+
+def library_never_prints(root):
+    return [
+        f"{path}:{number}: lib/ must not print: {line.strip()}"
+        for path, lines in sources(root, "lib")
+        for number, line in enumerate(without_comments(lines), 1)
+        if PRINTING.search(line)
+    ]
+
+
+def files_are_short(root):
+    return [
+        f"{path}: {len(lines)} lines, at most {MAX_LINES} are allowed"
+        for path, lines in sources(root, "lib", "app", "tests")
+        if len(lines) > MAX_LINES
+    ]
+
+
+RULES = {
+    rule.__name__: rule
+    for rule in (includes_point_left, only_results_uses_hdf5, library_never_prints, files_are_short)
+}
+
+
+def main():
+    rule, root = RULES[sys.argv[1]], pathlib.Path(sys.argv[2])
+    findings = rule(root)
+    for finding in findings:
+        print(finding)
+    return 1 if findings else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,83 @@
+"""Each rule of style_checks.py finds what it forbids and passes what it allows."""
+
+import pathlib
+import tempfile
+import unittest
+
+import style_checks
+
+
+class StyleChecks(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        self.write(
+            "lib/CMakeLists.txt", "foreach(module base numeric results\n        analysis)\nendforeach()\n"
+        )
+
+    def write(self, path, text):
+        file = self.root / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+
+    def test_include_to_the_left_passes(self):
+        self.write(
+            "lib/numeric/a.cpp", '#include "base/error.hpp"\n#include "numeric/b.hpp"\n#include <vector>\n'
+        )
+        self.assertEqual(style_checks.includes_point_left(self.root), [])
+
+    def test_include_to_the_right_is_found(self):
+        self.write("lib/base/a.hpp", '#pragma once\n#include "numeric/b.hpp"\n')
+        self.assertEqual(
+            style_checks.includes_point_left(self.root),
+            ["lib/base/a.hpp:2: base may not include numeric/b.hpp"],
+        )
+
+    def test_include_of_the_app_is_found(self):
+        self.write("lib/analysis/a.cpp", '#include "app/text.hpp"\n')
+        self.assertEqual(
+            style_checks.includes_point_left(self.root),
+            ["lib/analysis/a.cpp:1: analysis may not include app/text.hpp"],
+        )
+
+    def test_unlisted_module_is_found(self):
+        self.write("lib/extra/a.cpp", "#include <vector>\n")
+        self.assertEqual(
+            style_checks.includes_point_left(self.root),
+            ["lib/extra/a.cpp: module extra is not in lib/CMakeLists.txt"],
+        )
+
+    def test_hdf5_outside_results_is_found(self):
+        self.write("lib/results/a.cpp", "#include <hdf5.h>\n")
+        self.write("lib/analysis/a.cpp", "#include <hdf5.h>\n#include <H5Cpp.h>\n")
+        self.assertEqual(
+            style_checks.only_results_uses_hdf5(self.root),
+            [
+                "lib/analysis/a.cpp:1: only lib/results may include hdf5.h",
+                "lib/analysis/a.cpp:2: only lib/results may include H5Cpp.h",
+            ],
+        )
+
+    def test_printing_is_found_but_not_in_text_or_comments(self):
+        self.write("lib/base/a.cpp", '// std::cout\nauto text = "printf(";\nstd::snprintf(buffer, 3, "");\n')
+        self.assertEqual(style_checks.library_never_prints(self.root), [])
+        self.write("lib/base/b.cpp", 'std::cerr << 1;\n  printf("x");\n')
+        self.assertEqual(
+            style_checks.library_never_prints(self.root),
+            [
+                "lib/base/b.cpp:1: lib/ must not print: std::cerr << 1;",
+                'lib/base/b.cpp:2: lib/ must not print: printf("");',
+            ],
+        )
+
+    def test_long_file_is_found(self):
+        self.write("app/a.cpp", "\n" * 400)
+        self.write("app/b.cpp", "\n" * 401)
+        self.assertEqual(
+            style_checks.files_are_short(self.root), ["app/b.cpp: 401 lines, at most 400 are allowed"]
+        )
+
+
+if __name__ == "__main__":
+    unittest.main()
