@@ -64,13 +64,14 @@ class Analysis {
     enter("invariance");
     const Invariance invariance =
         find_invariance(engine, reach, safe, spec_.controller.synthesis, stepper("invariance"), team_);
-    const Controller controller{&engine, &invariance.invariant, spec_.controller.synthesis};
+    const RowTarget invariant = engine.target(invariance.invariant, team_);
+    const Controller controller{&engine, &invariant, spec_.controller.synthesis};
     std::deque<PartitionResult> partitions;  // a deque, so that references stay valid
     for (const PartitionSpec& partition : spec_.coordination.partitions) {
       const std::string stage = "layers " + partition.name;
       enter(stage);
       PartitionResult& result = partitions.emplace_back(
-          PartitionResult{&partition, ActionGrouping(engine, input_classes(spec_, partition)), {}});
+          PartitionResult{&partition, ActionGrouping(engine, input_classes(spec_, partition), team_), {}});
       const Projections projections(controller, result.grouping, team_);
       result.layers = find_delay_layers(engine, reach, safe, invariance.invariant, projections,
                                         spec_.coordination.max_delay, stepper(stage), team_);
@@ -154,7 +155,7 @@ class Analysis {
     for (const PartitionResult& partition : partitions) {
       content.partitions.push_back(partition_content(controller, partition, delay_type(partitions)));
     }
-    const ActionGrouping all_inputs(*controller.engine, {all_input_indices()});
+    const ActionGrouping all_inputs(*controller.engine, {all_input_indices()}, team_);
     if (spec_.output.controller) content.controller = bits(controller, all_inputs, 0, "");
     if (spec_.output.abstraction) content.abstraction = tables(abstraction);
     write_results(options_.output, content, team_);

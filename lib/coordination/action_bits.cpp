@@ -22,19 +22,19 @@ std::vector<std::uint8_t> action_bits(const Controller& controller, const Action
   RowGroups groups;
   std::vector<Word> members(controller.engine->row_words());
   for (std::int64_t row = first_row; row < last_row; ++row) {
-    if (!any_set(controller.invariant->row(row))) continue;
+    if (!any_set(controller.invariant->set().row(row))) continue;
     std::uint8_t* cells = result.data() + (row - first_row) * length * bytes;
     grouping.group(row, groups);
-    std::vector<std::vector<Word>> projection(groups.classes[c].representative.size(),
+    std::vector<std::vector<Word>> projection(groups.classes[c]->size(),
                                               std::vector<Word>(members.size(), 0));
-    ActionGrouping::Tuples tuple(grouping, row, groups);
+    ActionGrouping::Tuples tuple(grouping, row, groups, ActionGrouping::all_groups(groups));
     do {
       controller_row(controller, row, tuple, members, scratch);
-      std::vector<Word>& target = projection[tuple.chosen()[c]];
+      std::vector<Word>& target = projection[tuple.chosen(c)];
       for (std::size_t w = 0; w < members.size(); ++w) target[w] |= members[w];
     } while (tuple.next());
-    for (std::size_t a = 0; a < groups.classes[c].group_of.size(); ++a) {
-      for_each_bit(projection[groups.classes[c].group_of[a]], [&](std::int64_t x) {
+    for (std::size_t a = 0; a < groups.classes[c]->group_of.size(); ++a) {
+      for_each_bit(projection[groups.classes[c]->group_of[a]], [&](std::int64_t x) {
         std::uint8_t& byte = cells[x * bytes + static_cast<std::int64_t>(a / 8)];
         byte = static_cast<std::uint8_t>(byte | 1U << (a % 8));
       });

@@ -13,22 +13,60 @@ struct Workspace {
   std::vector<Word> inside;
 };
 
+/// True if every cell of `keep` in `a` is in `b`.
+bool subset_within(ConstRow a, ConstRow b, ConstRow keep) {
+  for (std::size_t w = 0; w < keep.size(); ++w) {
+    if ((a[w] & ~b[w] & keep[w]) != 0) return false;
+  }
+  return true;
+}
+
+/// The groups of class c that can make a difference: reasonable somewhere in `keep`, and not with a post
+/// inside that of another group that is reasonable wherever they are.
+std::vector<std::uint32_t> worst_groups(const Projections& projections, std::int64_t row,
+                                        const RowGroups& groups, std::size_t c, ConstRow keep) {
+  const ActionGroups& own = *groups.classes[c];
+  const std::vector<Word> nowhere(keep.size(), 0);
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t g = 0; g < own.size(); ++g) {
+    const ConstRow projection = projections.row(row, groups, c, g);
+    bool needed = !subset_within(projection, nowhere, keep);
+    for (std::uint32_t h = 0; h < own.size() && needed; ++h) {
+      if (h == g || own.within[g * own.size() + h] == 0) continue;
+      const bool mutual = own.within[h * own.size() + g] != 0;
+      const ConstRow other = projections.row(row, groups, c, h);
+      // Of two that cover each other the lower one stays.
+      if (subset_within(projection, other, keep)) {
+        needed = mutual && g < h && subset_within(other, projection, keep);
+      }
+    }
+    if (needed) result.push_back(g);
+  }
+  return result;
+}
+
 /// Clears from `keep` the cells where some u in IND_C(x) has a post that is blocked or not inside `current`.
 void independent_predecessor(const RowEngine& engine, const Projections& projections, std::int64_t row,
-                             const CellSet& current, MutableRow keep, Workspace& work) {
+                             const RowTarget& current, MutableRow keep, Workspace& work) {
   const ActionGrouping& grouping = projections.grouping();
   grouping.group(row, work.groups);
   work.inside.resize(keep.size());
-  ActionGrouping::Tuples tuple(grouping, row, work.groups);
+  std::vector<std::vector<std::uint32_t>> candidates;
+  for (std::size_t c = 0; c < grouping.size(); ++c) {
+    candidates.push_back(worst_groups(projections, row, work.groups, c, keep));
+    if (candidates.back().empty()) return;
+  }
+  ActionGrouping::Tuples tuple(grouping, row, work.groups, std::move(candidates));
   do {
     work.reasonable.assign(keep.begin(), keep.end());
     for (std::size_t c = 0; c < grouping.size(); ++c) {
-      const ConstRow projection = projections.row(row, work.groups, c, tuple.chosen()[c]);
+      const ConstRow projection = projections.row(row, work.groups, c, tuple.chosen(c));
       for (std::size_t w = 0; w < keep.size(); ++w) work.reasonable[w] &= projection[w];
     }
     if (!any_set(work.reasonable)) continue;
     engine.inside(tuple.slice_ids(), current, work.inside, work.scratch);
     for (std::size_t w = 0; w < keep.size(); ++w) keep[w] &= ~(work.reasonable[w] & ~work.inside[w]);
+    if (!any_set(keep)) return;
   } while (tuple.next());
 }
 
@@ -54,7 +92,7 @@ DelayLayers find_delay_layers(const RowEngine& engine, const RowReach& reach, co
   CellSet layer = invariant;
   const Wave wave{
       .shrink =
-          [&](std::int64_t row, const CellSet& current, MutableRow keep, int worker) {
+          [&](std::int64_t row, const RowTarget& current, MutableRow keep, int worker) {
             independent_predecessor(engine, projections, row, current, keep,
                                     work[static_cast<std::size_t>(worker)]);
           },
@@ -68,7 +106,7 @@ DelayLayers find_delay_layers(const RowEngine& engine, const RowReach& reach, co
             if (cells_left != result.sizes.back()) result.sizes.push_back(cells_left);
             if (stepped) stepped(step, cells_left);
           }};
-  const WaveResult run = run_wave(layer, wave, reach, max_delay.value_or(-1), team);
+  const WaveResult run = run_wave(layer, wave, engine, reach, max_delay.value_or(-1), team);
   result.truncated = !run.fixed_point && result.sizes.back() != 0;
   result.fixed_point_index = result.truncated ? -1 : static_cast<std::int32_t>(result.sizes.size() - 1);
   if (result.truncated) {

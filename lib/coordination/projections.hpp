@@ -14,7 +14,7 @@ namespace coordreq {
 /// f(x,u) subset of K}, `given` C(x) = {u allowed}; empty outside K. Never stored, computed row by row.
 struct Controller {
   const RowEngine* engine = nullptr;
-  const CellSet* invariant = nullptr;
+  const RowTarget* invariant = nullptr;
   Synthesis synthesis = Synthesis::maximal;
 };
 

@@ -1,27 +1,21 @@
 #include "safety/action_groups.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <numeric>
+#include <tuple>
 #include <unordered_map>
 
 namespace coordreq {
 namespace {
 
+/// Above so many actions in all choices of states groups are found anew for each row.
+constexpr std::int64_t kMaxShared = std::int64_t{1} << 26;
+
 std::size_t at(std::int32_t i) {
   return static_cast<std::size_t>(i);
 }
-
-/// Numbers distinct keys 0, 1, ... in the order of their first appearance.
-template <class Key>
-class Numbering {
- public:
-  std::uint32_t operator()(Key key) {
-    return numbers_.try_emplace(std::move(key), static_cast<std::uint32_t>(numbers_.size())).first->second;
-  }
-
- private:
-  std::map<Key, std::uint32_t> numbers_;
-};
 
 /// The offset in a table of every joint action of some inputs, row-major over `inputs`.
 std::vector<std::int64_t> offsets(const InputSpace& space, const std::vector<std::int32_t>& inputs,
@@ -50,39 +44,23 @@ std::vector<std::int32_t> difference(const std::vector<std::int32_t>& a, const s
   return result;
 }
 
+/// True if for every cell of the row the range of `a` asks no more of the target than that of `b`.
+bool slice_within(const std::vector<RowSegment>& a, const std::vector<RowSegment>& b) {
+  using Kind = RowSegment::Kind;
+  if (a.size() != 1 || b.size() != 1) return a == b;
+  if (a[0].kind == Kind::gone || b[0].kind == Kind::blocked) return true;
+  return a[0].kind == b[0].kind && b[0].range.first <= a[0].range.first && a[0].range.last <= b[0].range.last;
+}
+
 }  // namespace
 
-ActionGrouping::ActionGrouping(const RowEngine& engine, std::vector<InputClass> classes) : engine_(&engine) {
-  add_sources();
+ActionGrouping::ActionGrouping(const RowEngine& engine, std::vector<InputClass> classes, ThreadTeam& team)
+    : engine_(&engine), sources_(action_sources(engine)) {
   for (InputClass& inputs : classes) {
     std::sort(inputs.begin(), inputs.end());
     classes_.push_back(make_class(std::move(inputs)));
+    share_groups(classes_.back(), team);
   }
-}
-
-void ActionGrouping::add_sources() {
-  for (const RowSlices& slices : engine_->slices()) {
-    Source source;
-    source.shared_ids = &slices.ids;
-    source.state_stride = slices.state_stride;
-    source.input_stride = slices.input_stride;
-    source.inputs = slices.inputs;
-    source.input_combinations = slices.input_combinations;
-    sources_.push_back(std::move(source));
-  }
-  const ConditionTable* allow = engine_->allow();
-  if (allow == nullptr) return;
-  Source source{.state_stride = allow->state_stride(),
-                .input_stride = allow->input_stride(),
-                .inputs = allow->inputs()};
-  for (const std::int32_t i : source.inputs)
-    source.input_combinations *= engine_->abstraction().inputs[at(i)].count();
-  Numbering<std::vector<Word>> numbering;
-  for (std::int64_t r = 0; r < allow->bits().rows(); ++r) {
-    const auto bits = allow->bits().row(r);
-    source.ids.push_back(numbering(std::vector<Word>(bits.begin(), bits.end())));
-  }
-  sources_.push_back(std::move(source));
 }
 
 ActionGrouping::ClassData ActionGrouping::make_class(InputClass inputs) const {
@@ -98,7 +76,7 @@ ActionGrouping::ClassData ActionGrouping::make_class(InputClass inputs) const {
 
 ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassData& data) const {
   const InputSpace& space = engine_->abstraction().inputs;
-  const Source& source = sources_[table];
+  const ActionSource& source = sources_[table];
   const std::vector<std::int32_t> own = intersection(source.inputs, data.inputs);
   const std::vector<std::int32_t> others = difference(source.inputs, data.inputs);
   View view{.table = table};
@@ -111,80 +89,191 @@ ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassDat
     own_stride[at(*it)] = stride;
     stride *= space[at(*it)].count();
   }
+  if (others.empty()) {
+    // The table's own layout is row-major over `own` too.
+    for (const std::int64_t c : offsets(space, data.inputs, source.input_stride)) {
+      view.combination.push_back(static_cast<std::int32_t>(c));
+    }
+    return view;
+  }
   for (const std::int64_t c : offsets(space, data.inputs, own_stride)) {
     view.combination.push_back(static_cast<std::int32_t>(c));
   }
-  if (others.empty()) return view;
-
   const std::vector<std::int64_t> own_offsets = offsets(space, own, source.input_stride);
   const std::vector<std::int64_t> other_offsets = offsets(space, others, source.input_stride);
-  const auto total = static_cast<std::int64_t>(source.all().size());
-  Numbering<std::vector<std::uint32_t>> numbering;
+  const auto total = static_cast<std::int64_t>(source.ids().size());
+  std::map<std::vector<std::uint32_t>, std::uint32_t> numbers;
   for (std::int64_t base = 0; base < total; base += source.input_combinations) {
     for (const std::int64_t offset : own_offsets) {
       std::vector<std::uint32_t> column;
       for (const std::int64_t other : other_offsets) {
-        column.push_back(source.all()[static_cast<std::size_t>(base + offset + other)]);
+        column.push_back(source.ids()[static_cast<std::size_t>(base + offset + other)]);
       }
-      view.partial.push_back(numbering(std::move(column)));
+      const auto next = static_cast<std::uint32_t>(numbers.size());
+      view.partial.push_back(numbers.try_emplace(std::move(column), next).first->second);
     }
   }
   return view;
 }
 
-std::int64_t ActionGrouping::source_base(std::int64_t row, std::size_t table) const {
-  const UniformGrid& grid = engine_->abstraction().grid;
-  std::int64_t base = 0;
-  for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
-    const std::int64_t stride = sources_[table].state_stride[i];
-    if (stride != 0) base += grid.index(row * grid.row_length(), i) * stride;
+const std::uint32_t* ActionGrouping::view_ids(const View& view, std::int64_t row) const {
+  const ActionSource& source = sources_[view.table];
+  const std::int64_t base = source.base(engine_->abstraction().grid, row);
+  if (view.partial.empty()) return source.ids().data() + base;
+  return view.partial.data() + base / source.input_combinations * view.width;
+}
+
+ActionGroups ActionGrouping::find_groups(const ClassData& data, std::int64_t row) const {
+  ActionGroups groups;
+  groups.group_of.assign(static_cast<std::size_t>(data.actions), 0);
+  std::unordered_map<std::uint64_t, std::uint32_t> numbers;
+  for (const View& view : data.views) {
+    const std::uint32_t* ids = view_ids(view, row);
+    numbers.clear();
+    for (std::size_t a = 0; a < groups.group_of.size(); ++a) {
+      const std::uint64_t key = std::uint64_t{groups.group_of[a]} << 32 | ids[view.combination[a]];
+      groups.group_of[a] = numbers.try_emplace(key, static_cast<std::uint32_t>(numbers.size())).first->second;
+    }
   }
-  return base;
+  for (std::size_t a = 0; a < groups.group_of.size(); ++a) {
+    if (groups.group_of[a] == groups.size()) groups.representative.push_back(static_cast<std::uint32_t>(a));
+  }
+  compare_groups(data, row, groups);
+  return groups;
+}
+
+void ActionGrouping::compare_groups(const ClassData& data, std::int64_t row, ActionGroups& groups) const {
+  const std::size_t size = groups.size();
+  groups.within.assign(size * size, 1);
+  for (const View& view : data.views) {
+    const std::uint32_t* ids = view_ids(view, row);
+    const bool is_slices = view.table < engine_->tables() && view.partial.empty();
+    for (std::size_t g = 0; g < size; ++g) {
+      for (std::size_t h = 0; h < size; ++h) {
+        std::uint8_t& within = groups.within[g * size + h];
+        if (within == 0) continue;
+        const std::uint32_t a = ids[view.combination[groups.representative[g]]];
+        const std::uint32_t b = ids[view.combination[groups.representative[h]]];
+        if (a == b) continue;
+        if (!is_slices) {
+          within = 0;
+          continue;
+        }
+        const auto& slices = engine_->slices()[view.table].slices;
+        within = slice_within(slices[a], slices[b]) ? 1 : 0;
+      }
+    }
+  }
+  for (std::uint32_t g = 0; g < size; ++g) {
+    bool minimal = true;
+    for (std::uint32_t h = 0; h < size && minimal; ++h) {
+      // Of two groups that are within each other the lower one stays.
+      const bool below = h != g && groups.within[h * size + g] != 0;
+      minimal = !below || (groups.within[g * size + h] != 0 && g < h);
+    }
+    if (minimal) groups.minimal.push_back(g);
+  }
+}
+
+void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
+  const UniformGrid& grid = engine_->abstraction().grid;
+  data.state_stride.assign(grid.size(), 0);
+  std::int64_t choices = 1;
+  for (std::size_t i = grid.size() - 1; i-- > 0;) {
+    const bool used = std::any_of(data.views.begin(), data.views.end(), [&](const View& view) {
+      return sources_[view.table].state_stride[i] != 0;
+    });
+    if (!used) continue;
+    data.state_stride[i] = choices;
+    choices *= grid[i].count;
+  }
+  if (choices > kMaxShared / data.actions) return;
+  std::vector<ActionGroups> found(static_cast<std::size_t>(choices));
+  team.for_each(choices, 16, [&](ThreadTeam::Range range, int) {
+    for (std::int64_t choice = range.begin; choice < range.end; ++choice) {
+      std::int64_t row = 0;  // any row with these states
+      for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
+        if (data.state_stride[i] == 0) continue;
+        row += choice / data.state_stride[i] % grid[i].count * (grid.stride(i) / grid.row_length());
+      }
+      found[static_cast<std::size_t>(choice)] = find_groups(data, row);
+    }
+  });
+  std::map<std::tuple<std::vector<std::uint32_t>, std::vector<std::uint8_t>>, std::uint32_t> numbers;
+  for (ActionGroups& groups : found) {
+    const auto next = static_cast<std::uint32_t>(numbers.size());
+    const auto [it, is_new] = numbers.try_emplace({groups.group_of, groups.within}, next);
+    data.shared.push_back(it->second);
+    if (is_new) data.distinct.push_back(std::move(groups));
+  }
 }
 
 void ActionGrouping::group(std::int64_t row, RowGroups& groups) const {
+  const UniformGrid& grid = engine_->abstraction().grid;
   groups.classes.resize(classes_.size());
-  std::unordered_map<std::uint64_t, std::uint32_t> numbers;
+  groups.own.resize(classes_.size());
   for (std::size_t c = 0; c < classes_.size(); ++c) {
     const ClassData& data = classes_[c];
-    RowGroups::Class& result = groups.classes[c];
-    result.group_of.assign(static_cast<std::size_t>(data.actions), 0);
-    for (const View& view : data.views) {
-      const Source& source = sources_[view.table];
-      const std::int64_t base = source_base(row, view.table);
-      const std::uint32_t* ids = view.partial.empty()
-                                     ? source.all().data() + base
-                                     : view.partial.data() + base / source.input_combinations * view.width;
-      numbers.clear();
-      for (std::size_t a = 0; a < result.group_of.size(); ++a) {
-        const std::uint64_t key = std::uint64_t{result.group_of[a]} << 32 | ids[view.combination[a]];
-        result.group_of[a] =
-            numbers.try_emplace(key, static_cast<std::uint32_t>(numbers.size())).first->second;
-      }
+    if (data.shared.empty()) {
+      groups.own[c] = find_groups(data, row);
+      groups.classes[c] = &groups.own[c];
+      continue;
     }
-    result.representative.clear();
-    for (std::size_t a = 0; a < result.group_of.size(); ++a) {
-      if (result.group_of[a] == result.representative.size()) {
-        result.representative.push_back(static_cast<std::uint32_t>(a));
-      }
+    std::int64_t choice = 0;
+    for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
+      if (data.state_stride[i] != 0) choice += grid.index(row * grid.row_length(), i) * data.state_stride[i];
     }
+    groups.classes[c] = &data.distinct[data.shared[static_cast<std::size_t>(choice)]];
   }
 }
 
-ActionGrouping::Tuples::Tuples(const ActionGrouping& grouping, std::int64_t row, const RowGroups& groups)
-    : grouping_(grouping), groups_(groups), chosen_(grouping.size(), 0), ids_(grouping.engine_->tables()) {
-  for (std::size_t t = 0; t < grouping.sources_.size(); ++t) bases_.push_back(grouping.source_base(row, t));
+std::vector<std::vector<std::uint32_t>> ActionGrouping::all_groups(const RowGroups& groups) {
+  std::vector<std::vector<std::uint32_t>> result;
+  for (const ActionGroups* c : groups.classes) {
+    std::vector<std::uint32_t>& all = result.emplace_back(c->size());
+    std::iota(all.begin(), all.end(), 0U);
+  }
+  return result;
 }
 
-std::int64_t ActionGrouping::Tuples::contribution(std::size_t c, std::size_t table) const {
-  return grouping_.classes_[c].contribution[table][groups_.classes[c].representative[chosen_[c]]];
+std::vector<std::vector<std::uint32_t>> ActionGrouping::minimal_groups(const RowGroups& groups) {
+  std::vector<std::vector<std::uint32_t>> result;
+  for (const ActionGroups* c : groups.classes) result.push_back(c->minimal);
+  return result;
+}
+
+ActionGrouping::Tuples::Tuples(const ActionGrouping& grouping, std::int64_t row, const RowGroups& groups,
+                               std::vector<std::vector<std::uint32_t>> candidates)
+    : grouping_(grouping),
+      candidates_(std::move(candidates)),
+      tables_(grouping.sources_.size()),
+      offset_(grouping.size()),
+      sum_((grouping.size() + 1) * tables_),
+      position_(grouping.size(), 0),
+      ids_(grouping.engine_->tables()) {
+  const UniformGrid& grid = grouping.engine_->abstraction().grid;
+  for (std::size_t t = 0; t < tables_; ++t) sum_[t] = grouping.sources_[t].base(grid, row);
+  for (std::size_t c = 0; c < grouping.size(); ++c) {
+    for (const std::uint32_t g : candidates_[c]) {
+      const std::uint32_t action = groups.classes[c]->representative[g];
+      for (std::size_t t = 0; t < tables_; ++t)
+        offset_[c].push_back(grouping.classes_[c].contribution[t][action]);
+    }
+  }
+  add_up(0);
+}
+
+void ActionGrouping::Tuples::add_up(std::size_t from_class) {
+  for (std::size_t c = from_class; c < position_.size(); ++c) {
+    const std::int64_t* offset = offset_[c].data() + position_[c] * tables_;
+    for (std::size_t t = 0; t < tables_; ++t) sum_[(c + 1) * tables_ + t] = sum_[c * tables_ + t] + offset[t];
+  }
 }
 
 std::span<const std::uint32_t> ActionGrouping::Tuples::slice_ids() {
+  const std::int64_t* sum = sum_.data() + position_.size() * tables_;
   for (std::size_t t = 0; t < ids_.size(); ++t) {
-    std::int64_t position = bases_[t];
-    for (std::size_t c = 0; c < chosen_.size(); ++c) position += contribution(c, t);
-    ids_[t] = grouping_.sources_[t].all()[static_cast<std::size_t>(position)];
+    ids_[t] = grouping_.sources_[t].ids()[static_cast<std::size_t>(sum[t])];
   }
   return ids_;
 }
@@ -192,25 +281,18 @@ std::span<const std::uint32_t> ActionGrouping::Tuples::slice_ids() {
 ConstRow ActionGrouping::Tuples::allowed() const {
   const ConditionTable* allow = grouping_.engine_->allow();
   if (allow == nullptr) return {};
-  const std::size_t t = ids_.size();
-  std::int64_t position = bases_[t];
-  for (std::size_t c = 0; c < chosen_.size(); ++c) position += contribution(c, t);
-  return allow->bits().row(position);
+  return allow->bits().row(sum_[position_.size() * tables_ + ids_.size()]);
 }
 
 bool ActionGrouping::Tuples::next() {
-  for (std::size_t c = chosen_.size(); c-- > 0;) {
-    if (++chosen_[c] < groups_.classes[c].representative.size()) return true;
-    chosen_[c] = 0;
+  for (std::size_t c = position_.size(); c-- > 0;) {
+    if (++position_[c] < candidates_[c].size()) {
+      add_up(c);
+      return true;
+    }
+    position_[c] = 0;
   }
   return false;
-}
-
-std::int64_t ActionGrouping::Tuples::count() const {
-  std::int64_t product = 1;
-  for (const RowGroups::Class& c : groups_.classes)
-    product *= static_cast<std::int64_t>(c.representative.size());
-  return product;
 }
 
 }  // namespace coordreq

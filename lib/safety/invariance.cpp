@@ -25,24 +25,28 @@ class Predecessor {
       : engine_(engine), grouping_(grouping) {}
 
   /// keep n {x : some allowed u has its post inside `current`}.
-  void some(std::int64_t row, const CellSet& current, MutableRow keep, Workspace& work) const {
+  void some(std::int64_t row, const RowTarget& current, MutableRow keep, Workspace& work) const {
     work.found.assign(keep.size(), 0);
-    for_each_tuple(row, work, [&](ActionGrouping::Tuples& tuple) {
-      inside(tuple, current, work);
-      bool all_found = true;
-      for (std::size_t w = 0; w < keep.size(); ++w) {
-        work.found[w] |= work.inside[w];
-        all_found = all_found && (keep[w] & ~work.found[w]) == 0;
-      }
-      return !all_found;
-    });
+    grouping_.group(row, work.groups);
+    // A larger post is never of use where a smaller one of the same class is allowed alike.
+    for_each_tuple(row, ActionGrouping::minimal_groups(work.groups), work,
+                   [&](ActionGrouping::Tuples& tuple) {
+                     inside(tuple, current, work);
+                     bool all_found = true;
+                     for (std::size_t w = 0; w < keep.size(); ++w) {
+                       work.found[w] |= work.inside[w];
+                       all_found = all_found && (keep[w] & ~work.found[w]) == 0;
+                     }
+                     return !all_found;
+                   });
     for (std::size_t w = 0; w < keep.size(); ++w) keep[w] &= work.found[w];
   }
 
   /// keep n {x : some u is allowed, and every allowed u has its post inside `current`}.
-  void every(std::int64_t row, const CellSet& current, MutableRow keep, Workspace& work) const {
+  void every(std::int64_t row, const RowTarget& current, MutableRow keep, Workspace& work) const {
     work.found.assign(keep.size(), 0);
-    for_each_tuple(row, work, [&](ActionGrouping::Tuples& tuple) {
+    grouping_.group(row, work.groups);
+    for_each_tuple(row, ActionGrouping::all_groups(work.groups), work, [&](ActionGrouping::Tuples& tuple) {
       const ConstRow allowed = tuple.allowed();
       engine_.inside(tuple.slice_ids(), current, prepared(work), work.scratch);
       Word left = 0;
@@ -63,7 +67,7 @@ class Predecessor {
     return work.inside;
   }
 
-  void inside(ActionGrouping::Tuples& tuple, const CellSet& current, Workspace& work) const {
+  void inside(ActionGrouping::Tuples& tuple, const RowTarget& current, Workspace& work) const {
     const ConstRow allowed = tuple.allowed();
     prepared(work);
     if (!allowed.empty() && !any_set(allowed)) {
@@ -76,9 +80,9 @@ class Predecessor {
 
   /// Until `visit` returns false.
   template <class Visit>
-  void for_each_tuple(std::int64_t row, Workspace& work, const Visit& visit) const {
-    grouping_.group(row, work.groups);
-    ActionGrouping::Tuples tuple(grouping_, row, work.groups);
+  void for_each_tuple(std::int64_t row, std::vector<std::vector<std::uint32_t>> candidates, Workspace& work,
+                      const Visit& visit) const {
+    ActionGrouping::Tuples tuple(grouping_, row, work.groups, std::move(candidates));
     do {
       if (!visit(tuple)) return;
     } while (tuple.next());
@@ -93,7 +97,7 @@ class Predecessor {
 Invariance find_invariance(const RowEngine& engine, const RowReach& reach, const CellSet& safe,
                            Synthesis synthesis,
                            const std::function<void(std::int64_t, std::int64_t)>& stepped, ThreadTeam& team) {
-  const ActionGrouping grouping(engine, single_inputs(engine.abstraction().inputs));
+  const ActionGrouping grouping(engine, single_inputs(engine.abstraction().inputs), team);
   const Predecessor predecessor(engine, grouping);
   std::vector<Workspace> work(static_cast<std::size_t>(team.size()));
 
@@ -105,7 +109,7 @@ Invariance find_invariance(const RowEngine& engine, const RowReach& reach, const
     });
   }
   const Wave wave{.shrink =
-                      [&](std::int64_t row, const CellSet& current, MutableRow keep, int worker) {
+                      [&](std::int64_t row, const RowTarget& current, MutableRow keep, int worker) {
                         Workspace& own = work[static_cast<std::size_t>(worker)];
                         if (synthesis == Synthesis::maximal) {
                           predecessor.some(row, current, keep, own);
@@ -121,7 +125,7 @@ Invariance find_invariance(const RowEngine& engine, const RowReach& reach, const
                         });
                       },
                   .stepped = stepped};
-  result.iterations = run_wave(result.invariant, wave, reach, -1, team).steps;
+  result.iterations = run_wave(result.invariant, wave, engine, reach, -1, team).steps;
   return result;
 }
 

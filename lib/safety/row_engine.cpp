@@ -8,8 +8,10 @@ using Kind = RowSegment::Kind;
 
 RowEngine::RowEngine(const Abstraction& abstraction, const ConditionTable* allow)
     : abstraction_(&abstraction), allow_(allow) {
-  for (std::size_t i = 0; i < abstraction.tables.size(); ++i)
+  for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
     slices_.push_back(cut_into_rows(abstraction, i));
+    row_stride_.push_back(abstraction.grid.stride(i) / abstraction.grid.row_length());
+  }
 }
 
 std::int64_t RowEngine::base(std::int64_t row, std::size_t table) const {
@@ -22,8 +24,32 @@ std::int64_t RowEngine::base(std::int64_t row, std::size_t table) const {
   return result;
 }
 
-void RowEngine::inside(std::span<const std::uint32_t> ids, const CellSet& target, MutableRow out,
+/// The common case: every slice is one segment and the erosion is at hand. @returns false if it is not that
+/// case
+bool RowEngine::inside_simple(std::span<const std::uint32_t> ids, const RowTarget& target, MutableRow out,
+                              Scratch& scratch) const {
+  const std::size_t last = slices_.size() - 1;
+  const CellSet* eroded = target.eroded(ids[last]);
+  if (eroded == nullptr) return false;
+  scratch.box.resize(last);
+  bool blocked = false;
+  for (std::size_t t = 0; t < last; ++t) {
+    const std::vector<RowSegment>& slice = slices_[t].slices[ids[t]];
+    if (slice.size() != 1 || slice[0].kind == Kind::gone) return false;
+    blocked = blocked || slice[0].kind == Kind::blocked;
+    scratch.box[t] = slice[0].range;
+  }
+  if (blocked) {
+    std::fill(out.begin(), out.end(), Word{0});
+  } else {
+    gather(*eroded, scratch.indices, scratch.box, out);
+  }
+  return true;
+}
+
+void RowEngine::inside(std::span<const std::uint32_t> ids, const RowTarget& target, MutableRow out,
                        Scratch& scratch) const {
+  if (inside_simple(ids, target, out, scratch)) return;
   const std::size_t tables = slices_.size();
   const std::size_t last = tables - 1;
   scratch.slices.resize(tables);
@@ -52,7 +78,8 @@ void RowEngine::inside(std::span<const std::uint32_t> ids, const CellSet& target
         if (length % CellSet::kWordBits != 0)
           scratch.gathered.back() = (Word{1} << (length % CellSet::kWordBits)) - 1;
       } else {
-        gather(target, scratch);
+        scratch.gathered.resize(out.size());
+        gather(target.set(), scratch.indices, scratch.box, scratch.gathered);
       }
       place_segment((*scratch.slices[last])[scratch.positions[last]], begin, end, scratch, out);
     }
@@ -60,34 +87,33 @@ void RowEngine::inside(std::span<const std::uint32_t> ids, const CellSet& target
   }
 }
 
-/// scratch.gathered = AND of the rows of `target` in scratch.box.
-void RowEngine::gather(const CellSet& target, Scratch& scratch) const {
-  const UniformGrid& grid = abstraction_->grid;
-  const std::vector<IndexRange>& box = scratch.box;
-  std::vector<std::int64_t>& indices = scratch.indices;
+/// out = AND of the rows of `target` in the box.
+void RowEngine::gather(const CellSet& target, std::vector<std::int64_t>& indices,
+                       const std::vector<IndexRange>& box, MutableRow out) const {
   indices.resize(box.size());
   std::int64_t row = 0;
   for (std::size_t i = 0; i < box.size(); ++i) {
     indices[i] = box[i].first;
-    row += indices[i] * (grid.stride(i) / grid.row_length());
+    row += indices[i] * row_stride_[i];
   }
-  const auto first = target.row(row);
-  scratch.gathered.assign(first.begin(), first.end());
+  const ConstRow first = target.row(row);
+  std::copy(first.begin(), first.end(), out.begin());
   for (;;) {
     std::size_t i = box.size();
     for (;;) {
       if (i == 0) return;
       --i;
-      const std::int64_t step = grid.stride(i) / grid.row_length();
       if (++indices[i] <= box[i].last) {
-        row += step;
+        row += row_stride_[i];
         break;
       }
-      row -= (box[i].last - box[i].first) * step;
+      row -= (box[i].last - box[i].first) * row_stride_[i];
       indices[i] = box[i].first;
     }
-    const auto source = target.row(row);
-    for (std::size_t w = 0; w < source.size(); ++w) scratch.gathered[w] &= source[w];
+    const ConstRow source = target.row(row);
+    Word left = 0;
+    for (std::size_t w = 0; w < source.size(); ++w) left |= (out[w] &= source[w]);
+    if (left == 0) return;
   }
 }
 

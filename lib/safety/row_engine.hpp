@@ -9,6 +9,7 @@
 #include "bitset/row_operations.hpp"
 #include "safety/condition_table.hpp"
 #include "safety/row_slices.hpp"
+#include "safety/row_target.hpp"
 
 namespace coordreq {
 
@@ -47,19 +48,27 @@ class RowEngine {
   /// Where the entries of `row` begin in slices()[table].ids.
   [[nodiscard]] std::int64_t base(std::int64_t row, std::size_t table) const;
 
-  /// out = {x in `row` : not blocked and post inside `target`} for the slices with the numbers `ids` (one a
-  /// table).
-  void inside(std::span<const std::uint32_t> ids, const CellSet& target, MutableRow out,
+  /// out = {x in the row : not blocked and post inside `target`} for the slices numbered `ids`, one a table.
+  void inside(std::span<const std::uint32_t> ids, const RowTarget& target, MutableRow out,
               Scratch& scratch) const;
 
+  /// A target for inside(). REQUIRES: `set` outlives it.
+  [[nodiscard]] RowTarget target(const CellSet& set, ThreadTeam& team) const {
+    return RowTarget(set, slices_.back(), abstraction_->grid.dimensions().back(), team);
+  }
+
  private:
-  void gather(const CellSet& target, Scratch& scratch) const;
+  [[nodiscard]] bool inside_simple(std::span<const std::uint32_t> ids, const RowTarget& target,
+                                   MutableRow out, Scratch& scratch) const;
+  void gather(const CellSet& target, std::vector<std::int64_t>& indices, const std::vector<IndexRange>& box,
+              MutableRow out) const;
   void place_segment(const RowSegment& last, std::int32_t begin, std::int32_t end, Scratch& scratch,
                      MutableRow out) const;
 
   const Abstraction* abstraction_;
   const ConditionTable* allow_;
   std::vector<RowSlices> slices_;
+  std::vector<std::int64_t> row_stride_;  ///< rows from one index of a dimension to the next
 };
 
 }  // namespace coordreq

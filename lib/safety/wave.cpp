@@ -14,8 +14,13 @@ struct ChangedRow {
 
 class WaveRunner {
  public:
-  WaveRunner(CellSet& set, const Wave& wave, const RowReach& reach, ThreadTeam& team)
-      : set_(set), wave_(wave), reach_(reach), team_(team), changed_(static_cast<std::size_t>(team.size())) {
+  WaveRunner(CellSet& set, const Wave& wave, const RowEngine& engine, const RowReach& reach, ThreadTeam& team)
+      : set_(set),
+        target_(engine.target(set, team)),
+        wave_(wave),
+        reach_(reach),
+        team_(team),
+        changed_(static_cast<std::size_t>(team.size())) {
     for (std::int64_t r = 0; r < set.rows(); ++r) {
       if (any_set(set.row(r))) pending_.push_back(r);
     }
@@ -41,7 +46,7 @@ class WaveRunner {
         const std::int64_t row = pending_[static_cast<std::size_t>(i)];
         const ConstRow current = std::as_const(set_).row(row);
         keep.assign(current.begin(), current.end());
-        wave_.shrink(row, set_, keep, worker);
+        wave_.shrink(row, target_, keep, worker);
         for (std::size_t w = 0; w < keep.size(); ++w) removed[w] = current[w] & ~keep[w];
         if (!any_set(removed)) continue;
         wave_.removed(row, removed, number);
@@ -53,9 +58,11 @@ class WaveRunner {
   bool commit() {
     bool any = false;
     changed_before_.assign(static_cast<std::size_t>(set_.rows()) + 1, 0);
+    std::vector<std::int64_t> changed_rows;
     for (std::vector<ChangedRow>& rows : changed_) {
       for (const ChangedRow& changed : rows) {
         any = true;
+        changed_rows.push_back(changed.row);
         changed_before_[static_cast<std::size_t>(changed.row) + 1] = 1;
         const MutableRow target = set_.row(changed.row);
         for (std::size_t w = 0; w < target.size(); ++w) {
@@ -65,6 +72,12 @@ class WaveRunner {
       }
       rows.clear();
     }
+    team_.for_each(static_cast<std::int64_t>(changed_rows.size()), 64, [&](ThreadTeam::Range range, int) {
+      RowEroder eroder;
+      for (std::int64_t i = range.begin; i < range.end; ++i) {
+        target_.refresh(changed_rows[static_cast<std::size_t>(i)], eroder);
+      }
+    });
     for (std::size_t r = 1; r < changed_before_.size(); ++r) changed_before_[r] += changed_before_[r - 1];
     return any;
   }
@@ -84,6 +97,7 @@ class WaveRunner {
   }
 
   CellSet& set_;
+  RowTarget target_;
   const Wave& wave_;
   const RowReach& reach_;
   ThreadTeam& team_;
@@ -95,9 +109,9 @@ class WaveRunner {
 
 }  // namespace
 
-WaveResult run_wave(CellSet& set, const Wave& wave, const RowReach& reach, std::int64_t max_steps,
-                    ThreadTeam& team) {
-  WaveRunner runner(set, wave, reach, team);
+WaveResult run_wave(CellSet& set, const Wave& wave, const RowEngine& engine, const RowReach& reach,
+                    std::int64_t max_steps, ThreadTeam& team) {
+  WaveRunner runner(set, wave, engine, reach, team);
   WaveResult result;
   while (max_steps < 0 || result.steps < max_steps) {
     ++result.steps;

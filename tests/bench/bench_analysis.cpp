@@ -37,8 +37,9 @@ void sweep(benchmark::State& state) {
   const RowEngine engine(built, nullptr);
   const RowReach reach(engine);
   const CellSet invariant = find_invariance(engine, reach, safe, Synthesis::maximal, {}, team).invariant;
-  const ActionGrouping grouping(engine, {{0}, {1}});
-  const Controller controller{&engine, &invariant, Synthesis::maximal};
+  const ActionGrouping grouping(engine, {{0}, {1}}, team);
+  const RowTarget target = engine.target(invariant, team);
+  const Controller controller{&engine, &target, Synthesis::maximal};
   for (auto _ : state) benchmark::DoNotOptimize(Projections(controller, grouping, team));
   state.counters["pairs/s"] =
       benchmark::Counter(static_cast<double>(built.grid.cells()) * static_cast<double>(built.inputs.count()),

@@ -30,7 +30,8 @@ std::vector<std::vector<bool>> unpacked(const FastAnalysis& fast, const ActionGr
   return result;
 }
 
-void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const PlainAnalysis& plain) {
+void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const PlainAnalysis& plain,
+                      ThreadTeam& team) {
   RC_ASSERT(members(fast.safe) == plain.safe);
   RC_ASSERT(fast.invariance.iterations == plain.iterations);
   RC_ASSERT(members(fast.invariance.invariant) == plain.invariant);
@@ -47,7 +48,7 @@ void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const P
   }
   InputClass all;
   for (std::size_t i = 0; i < spec.inputs.size(); ++i) all.push_back(static_cast<std::int32_t>(i));
-  RC_ASSERT(unpacked(fast, ActionGrouping(fast.engine, {all}), 0) == plain.controller);
+  RC_ASSERT(unpacked(fast, ActionGrouping(fast.engine, {all}, team), 0) == plain.controller);
 }
 
 TEST(Engines, RowsAndSinglePairsGiveTheSameBits) {
@@ -59,7 +60,7 @@ TEST(Engines, RowsAndSinglePairsGiveTheSameBits) {
     RC_CLASSIFY(std::count(plain.invariant.begin(), plain.invariant.end(), true) > 0, "K not empty");
     RC_CLASSIFY(!plain.partitions.empty() && plain.partitions[0].sizes.size() > 1, "more than one layer");
     RC_CLASSIFY(plain.iterations > 2, "more than two sweeps for K");
-    expect_agreement(spec, fast, plain);
+    expect_agreement(spec, fast, plain, team);
   }));
 }
 
@@ -81,7 +82,7 @@ TEST(Engines, LongRowsOverSeveralWordsAgree) {
         text.replace(text.find("CELLS"), 5, cells);
         const ProblemSpec spec = read_spec(text, "long");
         const FastAnalysis fast(spec, team);
-        expect_agreement(spec, fast, analyze_plainly(spec, fast.abstraction));
+        expect_agreement(spec, fast, analyze_plainly(spec, fast.abstraction), team);
       }
     }
   }

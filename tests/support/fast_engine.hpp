@@ -20,7 +20,8 @@ struct FastAnalysis {
         engine(abstraction, allow ? &*allow : nullptr),
         reach(engine),
         invariance(find_invariance(engine, reach, safe, spec.controller.synthesis, {}, team)),
-        controller{&engine, &invariance.invariant, spec.controller.synthesis} {
+        target(engine.target(invariance.invariant, team)),
+        controller{&engine, &target, spec.controller.synthesis} {
     for (const PartitionSpec& partition : spec.coordination.partitions) {
       std::vector<InputClass> classes;
       for (const auto& agents : partition.classes) {
@@ -30,7 +31,7 @@ struct FastAnalysis {
           inputs.insert(inputs.end(), own.begin(), own.end());
         }
       }
-      groupings.emplace_back(engine, classes);
+      groupings.emplace_back(engine, classes, team);
       const Projections projections(controller, groupings.back(), team);
       layers.push_back(find_delay_layers(engine, reach, safe, invariance.invariant, projections,
                                          spec.coordination.max_delay, {}, team));
@@ -45,6 +46,7 @@ struct FastAnalysis {
   RowEngine engine;
   RowReach reach;
   Invariance invariance;
+  RowTarget target;
   Controller controller;
   std::deque<ActionGrouping> groupings;
   std::vector<DelayLayers> layers;
