@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
+#include <algorithm>
 
 #include "app/json_text.hpp"
 #include "app/text.hpp"
@@ -30,28 +30,37 @@ std::string cells(std::int64_t count) {
   return grouped(count) + (count == 1 ? " cell" : " cells");
 }
 
-/// One sentence: for how long the agents can do without coordination.
+bool is_joint(const std::string& class_name) {
+  return class_name.find('+') != std::string::npos;
+}
+
+/// One sentence: for how long the classes can do without coordination, within which agents go on
+/// coordinating.
 std::string meaning(const PartitionSummary& partition, const AnalysisSummary& summary) {
   const auto length = [&summary](std::int64_t steps) {
     return duration(steps, summary.period, summary.period_unit);
   };
+  const bool alone = std::none_of(partition.classes.begin(), partition.classes.end(), is_joint);
+  const char* const who = alone ? "agents" : "classes";
+  const char* const without = alone ? "without coordination" : "without coordination between classes";
   if (partition.truncated) {
     const auto limit = static_cast<std::int64_t>(partition.layers.size()) - 1;
-    return fmt::format("Stopped at max_delay: {} allow {} without coordination, perhaps more.",
-                       cells(partition.layers.back()), length(limit));
+    return fmt::format("Stopped at max_delay: {} {} {} {}, perhaps more.", cells(partition.layers.back()),
+                       partition.layers.back() == 1 ? "allows" : "allow", length(limit), without);
   }
   // The layers shrink strictly up to F, so the largest finite delay is F - 1.
   const std::int64_t largest = partition.fixed_point_index - 1;
+  const char* const are = largest == 1 ? "is" : "are";
   if (partition.fixed_point == 0) {
-    if (largest == 0) return "From no state is even one step without coordination safe.";
-    return fmt::format("From the best state, {} without coordination {} safe.", length(largest),
-                       largest == 1 ? "is" : "are");
+    if (largest == 0) return fmt::format("From no state is even one step {} safe.", without);
+    return fmt::format("From the best state, {} {} {} safe.", length(largest), without, are);
   }
-  if (largest < 0) return "The agents never need to coordinate: every delay is unbounded.";
-  return fmt::format(
-      "From {} the agents never need to coordinate; from the best of the others, {} without "
-      "coordination {} safe.",
-      cells(partition.fixed_point), length(largest), largest == 1 ? "is" : "are");
+  if (!alone && partition.classes.size() == 1) {
+    return "All agents coordinate within every step, so every delay is unbounded.";
+  }
+  if (largest < 0) return fmt::format("The {} never need to coordinate: every delay is unbounded.", who);
+  return fmt::format("From {} the {} never need to coordinate; from the best of the others, {} {} {} safe.",
+                     cells(partition.fixed_point), who, length(largest), without, are);
 }
 
 std::string partition_text(const PartitionSummary& partition, const AnalysisSummary& summary) {
@@ -72,8 +81,13 @@ std::string sets_text(const AnalysisSummary& summary) {
   return table.text();
 }
 
-std::string partitions_text(const AnalysisSummary& summary) {
+std::string partitions_text(const AnalysisSummary& summary, const ProblemSpec& spec) {
   if (summary.safe == 0) return "\nThe safe set is empty: no cell satisfies \"safe\".\n";
+  if (summary.invariant == 0 && spec.controller.synthesis == Synthesis::given) {
+    return "\nThe invariance set is empty: there is no state from which every allowed action keeps the "
+           "system "
+           "safe.\n";
+  }
   if (summary.invariant == 0) {
     return "\nThe invariance set is empty: no state can be kept safe, even if all agents always "
            "coordinate.\n";
@@ -105,7 +119,7 @@ Json partition_json(const PartitionSummary& partition) {
 }  // namespace
 
 std::string summary_text(const AnalysisSummary& summary, const ProblemSpec& spec) {
-  return sizes(summary, spec) + sets_text(summary) + partitions_text(summary) + closing_text(summary);
+  return sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec) + closing_text(summary);
 }
 
 std::string summary_json(const AnalysisSummary& summary) {

@@ -13,7 +13,7 @@
 namespace coordreq {
 namespace {
 
-enum class Outcome : std::uint8_t { value, undefined, not_finite, too_large };
+enum class Outcome : std::uint8_t { value, undefined, zero_divisor, not_finite, too_large };
 
 /// The value of a node, or why it has none.
 struct Constant {
@@ -68,7 +68,8 @@ Constant unary(Operator op, const Constant& a) {
 
 /// a^b where exact_apply has no answer.
 Constant irrational_power(const Rational& a, const Rational& b) {
-  if (sgn(a) == 0 || (sgn(a) < 0 && !is_integer(b))) return {Outcome::undefined, 0};
+  if (sgn(a) == 0) return {Outcome::zero_divisor, 0};  // 0^b with b < 0
+  if (sgn(a) < 0 && !is_integer(b)) return {Outcome::undefined, 0};
   if (is_integer(b)) return {Outcome::too_large, 0};
   return from_double(nearest_power(a, b));
 }
@@ -79,7 +80,7 @@ Constant binary(Operator op, const Constant& a, const Constant& b) {
   if (std::optional<Rational> value = exact_apply(op, a.value, b.value)) return {Outcome::value, *value};
   if (op == Operator::power) return irrational_power(a.value, b.value);
   const bool by_zero = op == Operator::divide && sgn(b.value) == 0;
-  return {by_zero ? Outcome::undefined : Outcome::too_large, 0};
+  return {by_zero ? Outcome::zero_divisor : Outcome::too_large, 0};
 }
 
 Truth comparison(Operator op, const Constant& a, const Constant& b) {
@@ -140,7 +141,9 @@ Rational constant_value(const Program& program, std::string_view where) {
   const Constant result = evaluate(program);
   switch (result.outcome) {
     case Outcome::undefined:
-      throw SpecError(fmt::format("{} is not defined", text), where);
+      throw SpecError(fmt::format("{} has no real value", text), where);
+    case Outcome::zero_divisor:
+      throw SpecError(fmt::format("{} divides by zero", text), where);
     case Outcome::not_finite:
       throw SpecError(fmt::format("{} is not finite", text), where);
     case Outcome::too_large:

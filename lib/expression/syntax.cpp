@@ -39,6 +39,8 @@ int binary_precedence(const Token& token) {
 /// Precedence climbing by hand rather than a grammar in PEGTL: every error has to name what was found and
 /// what could have stood there, and a level of nesting must cost little stack (a PEGTL level of this grammar
 /// runs through some fifty frames, 1000 of which overflow 8 MiB under AddressSanitizer).
+///
+/// Functions with temporaries are out of line: inlined, those would be part of every frame of expression().
 class Parser {
  public:
   explicit Parser(const Place& place) : place_(place), token_(read_token(place.text, 0)) {}
@@ -54,10 +56,7 @@ class Parser {
   class Level {
    public:
     explicit Level(Parser& parser) : parser_(parser) {
-      if (++parser_.depth_ > kDeepest) {
-        parser_.place_.fail(fmt::format("the expression is nested deeper than {} levels", kDeepest),
-                            parser_.token_.offset);
-      }
+      if (++parser_.depth_ > kDeepest) parser_.fail_depth();
     }
     ~Level() { --parser_.depth_; }
     Level(const Level&) = delete;
@@ -99,7 +98,7 @@ class Parser {
     emit(Operator::power, 2, start);
   }
 
-  void comparison_chain() {
+  [[gnu::noinline]] void comparison_chain() {
     const std::size_t start = tree_.nodes.back().offset;
     std::vector<Operator> comparisons;
     while (binary_precedence(token_) == kComparison) {
@@ -107,10 +106,8 @@ class Parser {
       advance();
       expression(kSum);
     }
-    const auto first = static_cast<std::uint32_t>(tree_.comparisons.size());
-    const auto operands = static_cast<std::uint32_t>(comparisons.size() + 1);
+    emit(comparisons.front(), comparisons.size() + 1, start, tree_.comparisons.size());
     tree_.comparisons.insert(tree_.comparisons.end(), comparisons.begin(), comparisons.end());
-    tree_.nodes.push_back({comparisons.front(), operands, first, start});
   }
 
   void operand(int loosest) {
@@ -128,7 +125,7 @@ class Parser {
     }
   }
 
-  void prefix(int loosest) {
+  [[gnu::noinline]] void prefix(int loosest) {
     const Token op = token_;
     const bool is_not = op.op == Operator::logical_not && loosest <= kNot;
     if (!is_not && op.op != Operator::subtract && op.op != Operator::add) {
@@ -141,27 +138,23 @@ class Parser {
     emit(op.op == Operator::subtract ? Operator::negate : Operator::add, 1, op.offset);
   }
 
-  void number() {
+  [[gnu::noinline]] void number() {
     const std::optional<Rational> value = parse_decimal(token_.text);
-    if (!value) place_.fail(fmt::format("the number {} is out of range", quoted(token_.text)), token_.offset);
-    tree_.nodes.push_back(
-        {Operator::constant, 0, static_cast<std::uint32_t>(tree_.numbers.size()), token_.offset});
+    if (!value) fail_number();
+    emit(Operator::constant, 0, token_.offset, tree_.numbers.size());
     tree_.numbers.push_back(*value);
     advance();
   }
 
-  void name() {
+  [[gnu::noinline]] void name() {
     const Token word = token_;
     advance();
     if (word.text == "true") return emit(Operator::literal_true, 0, word.offset);
     if (word.text == "false") return emit(Operator::literal_false, 0, word.offset);
     const std::optional<Function> function = find_function(word.text);
     if (function) return call(*function, word.offset);
-    if (token_.kind == TokenKind::open) {
-      place_.fail(fmt::format("{} is not a function", quoted(word.text)), word.offset);
-    }
-    tree_.nodes.push_back(
-        {Operator::variable, 0, static_cast<std::uint32_t>(tree_.names.size()), word.offset});
+    if (token_.kind == TokenKind::open) fail_function(word);
+    emit(Operator::variable, 0, word.offset, tree_.names.size());
     tree_.names.push_back(word.text);
   }
 
@@ -192,17 +185,41 @@ class Parser {
     emit(function.op, arguments, start);
   }
 
-  void advance() { token_ = read_token(place_.text, token_.offset + token_.text.size()); }
+  [[gnu::noinline]] void advance() { token_ = read_token(place_.text, token_.offset + token_.text.size()); }
 
-  void emit(Operator op, std::size_t operands, std::size_t start) {
-    tree_.nodes.push_back({op, static_cast<std::uint32_t>(operands), 0, start});
+  [[gnu::noinline]] void emit(Operator op, std::size_t operands, std::size_t start, std::size_t item = 0) {
+    tree_.nodes.push_back(
+        {op, static_cast<std::uint32_t>(operands), static_cast<std::uint32_t>(item), start});
   }
 
-  [[noreturn]] void fail_expected(std::string_view expected) const {
-    place_.fail(fmt::format("expected {}, found {}", expected, shown(token_)), token_.offset);
+  [[noreturn, gnu::noinline]] void fail_depth() const {
+    place_.fail(fmt::format("the expression is nested deeper than {} levels", kDeepest), token_.offset);
   }
 
-  [[noreturn]] void fail_count(const Function& function, std::size_t found, std::size_t start) const {
+  [[noreturn, gnu::noinline]] void fail_expected(std::string_view expected) const {
+    place_.fail(fmt::format("expected {}, found {}{}", expected, shown(token_), hint()), token_.offset);
+  }
+
+  /// For those who write another language.
+  [[nodiscard]] std::string_view hint() const {
+    if (token_.text == "=") return ", did you mean '=='?";
+    if (token_.text == "&") return ", did you mean '&&'?";
+    if (token_.text == "|") return ", did you mean '||'?";
+    const bool is_second_star =
+        token_.text == "*" && token_.offset > 0 && place_.text[token_.offset - 1] == '*';
+    return is_second_star ? ", did you mean '^'?" : "";
+  }
+
+  [[noreturn, gnu::noinline]] void fail_number() const {
+    place_.fail(fmt::format("the number {} is out of range", quoted(token_.text)), token_.offset);
+  }
+
+  [[noreturn, gnu::noinline]] void fail_function(const Token& word) const {
+    place_.fail(fmt::format("{} is not a function", quoted(word.text)), word.offset);
+  }
+
+  [[noreturn, gnu::noinline]] void fail_count(const Function& function, std::size_t found,
+                                              std::size_t start) const {
     const std::string_view more = function.most > function.fewest ? " or more" : "";
     const std::string_view plural = function.most == 1 ? "" : "s";
     place_.fail(fmt::format("{} takes {}{} argument{}, found {}", function.name, function.fewest, more,

@@ -24,8 +24,8 @@ int operand_count(Operator op) {
 }  // namespace
 
 std::size_t TapeBuilder::RationalHash::operator()(const Rational& q) const {
-  const auto sign = static_cast<std::size_t>(sgn(q) + 1);
-  return mix(mix(sign, mpz_get_ui(q.get_num_mpz_t())), mpz_get_ui(q.get_den_mpz_t()));
+  const std::size_t negative = sgn(q) < 0 ? 1 : 0;
+  return mix(mix(negative, mpz_get_ui(q.get_num_mpz_t())), mpz_get_ui(q.get_den_mpz_t()));
 }
 
 TapeBuilder::Index TapeBuilder::constant(const Rational& value) {

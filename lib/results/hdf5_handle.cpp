@@ -53,6 +53,8 @@ void track_order_not_times(const Handle& list) {
 }  // namespace
 
 QuietErrors::QuietErrors() {
+  // What the library does at exit, it does aloud when memory is short; all that we open is closed by then.
+  static_cast<void>(H5dont_atexit());
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

@@ -145,16 +145,15 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   bool open(Json container) {
+    ++opened_;
     Json* const value = place(std::move(container));
     if (levels_.size() == kDeepestNesting) {
-      throw SpecError("nested deeper than 200 levels", shown_pointer(levels_.front().pointer + first_step()));
+      // Not the pointer: that of a deep place would fill a screen.
+      json_.fail(fmt::format("nested deeper than {} levels", kDeepestNesting), json_.bracket(opened_));
     }
     levels_.push_back({value, last_pointer_});
     return true;
   }
-
-  /// The member of the document that is being written; the whole pointer of a deep place would fill a screen.
-  [[nodiscard]] std::string first_step() const { return last_pointer_.substr(0, last_pointer_.find('/', 1)); }
 
   bool close() {
     levels_.pop_back();
@@ -165,6 +164,7 @@ class Builder : public nlohmann::json_sax<Json> {
   Json& root_;
   std::unordered_map<std::string, std::string>& tokens_;
   std::vector<Level> levels_;
+  std::size_t opened_ = 0;  ///< objects and lists so far
   std::string key_;
   std::string last_pointer_;
 };

@@ -76,6 +76,15 @@ std::string JsonText::found_at(std::size_t offset) const {
   return quote_text(text.substr(offset, token_end(text, offset) - offset));
 }
 
+std::size_t JsonText::bracket(std::size_t number) const {
+  for (std::size_t i = 0; i < text.size(); i = token_end(text, i)) {
+    if (text.substr(i, 2) == "//") i = std::min(text.find('\n', i), text.size() - 1);
+    if (text.substr(i, 2) == "/*") i = std::min(text.find("*/", i + 2), text.size() - 2) + 1;
+    if ((text[i] == '[' || text[i] == '{') && --number == 0) return i;
+  }
+  return text.size();
+}
+
 void JsonText::fail(std::string_view what, std::size_t offset) const {
   throw SpecError(what, at(std::min(offset, text.size())));
 }

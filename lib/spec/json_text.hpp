@@ -18,6 +18,10 @@ struct JsonText {
   /// The token that starts at `offset`, quoted for a message; "the end of the file" behind the last byte.
   [[nodiscard]] std::string found_at(std::size_t offset) const;
 
+  /// Where the `number`-th bracket (from 1) stands that opens an object or a list.
+  /// REQUIRES: the text is well-formed up to there.
+  [[nodiscard]] std::size_t bracket(std::size_t number) const;
+
   /// @throws SpecError with the place
   [[noreturn]] void fail(std::string_view what, std::size_t offset) const;
 };

@@ -12,13 +12,31 @@
 namespace coordreq {
 namespace {
 
-constexpr std::array<std::string_view, 23> kDatasetNames{
-    "abstraction",    "action",         "actions",    "agent",
-    "coalition",      "collision_time", "controller", "convention_freedom",
-    "counterexample", "critical_pair",  "delay",      "fixed_point_index",
-    "invariant",      "layer",          "layer_size", "layers",
-    "mode",           "network_safe",   "pair",       "partition",
-    "safe",           "spec",           "trigger"};
+constexpr std::array<std::string_view, 25> kDatasetNames{"abstraction",
+                                                         "action",
+                                                         "actions",
+                                                         "agent",
+                                                         "coalition",
+                                                         "collision_time",
+                                                         "controller",
+                                                         "convention_freedom",
+                                                         "counterexample",
+                                                         "critical_pair",
+                                                         "delay",
+                                                         "first",
+                                                         "fixed_point_index",
+                                                         "invariant",
+                                                         "last",
+                                                         "layer",
+                                                         "layer_size",
+                                                         "layers",
+                                                         "mode",
+                                                         "network_safe",
+                                                         "pair",
+                                                         "partition",
+                                                         "safe",
+                                                         "spec",
+                                                         "trigger"};
 
 }  // namespace
 

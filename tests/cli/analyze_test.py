@@ -154,6 +154,35 @@ $""",
             text,
         )
 
+    def test_classes_of_several_agents_are_told_apart(self):
+        agent = {name: {"name": name, "inputs": ["u" + name]} for name in "abc"}
+        spec = spec_with(
+            states=[{"name": name, "lower": 0, "upper": 7, "step": 1} for name in "xyz"],
+            inputs=[{"name": "u" + name, "values": [-1, 0, 1]} for name in "abc"],
+            agents=list(agent.values()),
+            dynamics={"time": "discrete", "period": 1, "equations": {"x": "x + ua", "y": "y + ub", "z": "z + uc"}},
+            safe="5 <= x + y + z <= 15",
+            coordination={
+                "partitions": [
+                    {"name": "alone", "classes": []},
+                    {"name": "pair", "classes": [["b", "a"]]},
+                    {"name": "mesh", "classes": [["a", "b", "c"]]},
+                ]
+            },
+        )
+        self.write("spec.json", spec)
+        sections = self.run_program("analyze", "spec.json").stdout.decode().split("\npartition ")
+        self.assertRegex(sections[1], r"  From the best state, \d steps without coordination are safe\.\n")
+        self.assertRegex(
+            sections[2], r"  From the best state, \d steps without coordination between classes are safe\.\n"
+        )
+        self.assertIn("  All agents coordinate within every step, so every delay is unbounded.\n", sections[3])
+        spec["safe"] = "z <= 5"
+        self.write("spec.json", spec)
+        sections = self.run_program("analyze", "spec.json").stdout.decode().split("\npartition ")
+        self.assertIn("  The agents never need to coordinate: every delay is unbounded.\n", sections[1])
+        self.assertIn("  The classes never need to coordinate: every delay is unbounded.\n", sections[2])
+
     def test_empty_safe_set_is_a_result(self):
         self.write("spec.json", spec_with(safe="x > 100"))
         result = self.run_program("analyze", "spec.json")
@@ -179,6 +208,14 @@ $""",
         )
         summary = self.analyze("spec.json")
         self.assertEqual((summary["safe"], summary["invariant"]), (22, 0))
+
+    def test_empty_invariance_set_of_a_given_controller(self):
+        self.write("spec.json", spec_with(controller={"synthesis": "given", "allow": "u == 1"}))
+        self.assertIn(
+            "\nThe invariance set is empty: there is no state from which every allowed action keeps the system "
+            "safe.\n",
+            self.run_program("analyze", "spec.json").stdout.decode(),
+        )
 
     def test_quiet_prints_nothing(self):
         self.assert_prints("", "analyze", CIRCLE, "--quiet")

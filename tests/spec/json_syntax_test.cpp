@@ -77,7 +77,11 @@ TEST(JsonSyntax, RepeatedKeysAreErrors) {
 }
 
 TEST(JsonSyntax, NestingIsLimited) {
-  EXPECT_EQ(error_of_text("{\"a\": " + std::string(100'000, '[')), "nested deeper than 200 levels (/a)");
+  const std::string deep(100'000, '[');
+  EXPECT_EQ(error_of_text("{\"a\": " + deep),
+            "nested deeper than 200 levels (test.json, line 1, column 206)");
+  EXPECT_EQ(error_of_text("// [[\n/* [ \" */ {\"[\": [{}, \"\\\"[\"],\n\"b\": " + deep),
+            "nested deeper than 200 levels (test.json, line 3, column 205)");
   EXPECT_EQ(error_of_text(std::string(199, '[') + std::string(199, ']')),
             "expected an object that describes a problem, found a list of 1 (top level)");
 }
