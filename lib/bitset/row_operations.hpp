@@ -22,8 +22,10 @@ void set_bits(MutableRow row, std::int64_t begin, std::int64_t end);
 
 /// The row as it goes on beyond its ends: what a post that leaves there meets.
 struct RowEnds {
-  Outside below = Outside::unsafe;  ///< unsafe: zeros; safe: ones; saturate: the first bit goes on
-  Outside above = Outside::unsafe;  ///< likewise with the last bit
+  /// unsafe: zeros; safe: ones; saturate and stop: the first bit goes on; periodic (both ends): the row
+  /// itself.
+  Outside below = Outside::unsafe;
+  Outside above = Outside::unsafe;  ///< likewise, with the last bit
 };
 
 /// Erosion by the window [low, high]: bit x of the result is the AND of bits x + low, ..., x + high of `row`
@@ -35,7 +37,9 @@ class RowEroder {
   void erode(ConstRow row, std::int64_t n, std::int32_t low, std::int32_t high, RowEnds ends, MutableRow out);
 
  private:
-  std::vector<Word> buffer_;
+  void place(ConstRow row, std::int64_t position);
+
+  std::vector<Word> buffer_;  ///< the row and as much of what lies beyond its ends as the window reaches
 };
 
 }  // namespace coordreq

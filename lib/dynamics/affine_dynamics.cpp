@@ -78,8 +78,8 @@ std::string AffineDynamics::place(const Dependencies& dependencies,
   return text.empty() ? "" : " at " + text;
 }
 
-AffineDynamics::AffineForm AffineDynamics::affine_form(std::size_t equation, const Dependencies& dependencies,
-                                                       const std::vector<Rational>& slots) const {
+std::optional<AffineDynamics::AffineForm> AffineDynamics::affine_form(
+    std::size_t equation, const Dependencies& dependencies, const std::vector<Rational>& slots) const {
   const std::string where = "/dynamics/equations/" + spec_->states[equation].name;
   std::vector<Polynomial> values(spec_->slot_count());
   const auto slot_of = [](std::int32_t i) { return static_cast<std::size_t>(i); };
@@ -105,13 +105,7 @@ AffineDynamics::AffineForm AffineDynamics::affine_form(std::size_t equation, con
                                 spec_->states[equation].name, place(dependencies, slots)),
                     where);
   }
-  if (!polynomial.known || polynomial.degree() > 1) {
-    throw SpecError(
-        fmt::format("the equation of '{}' is not affine in the continuous states and disturbances{}: "
-                    "nonlinear dynamics are not supported yet",
-                    spec_->states[equation].name, place(dependencies, slots)),
-        where);
-  }
+  if (!polynomial.known || polynomial.degree() > 1) return std::nullopt;
   AffineForm form{.state = std::vector<Rational>(dependencies.moving.size()),
                   .disturbance = std::vector<Rational>(dependencies.disturbances.size()),
                   .lower = polynomial.constant.lower,
@@ -129,13 +123,16 @@ AffineDynamics::AffineForm AffineDynamics::affine_form(std::size_t equation, con
   return form;
 }
 
-SampledRow AffineDynamics::row(std::size_t state, const std::vector<Rational>& slots) const {
+std::optional<SampledRow> AffineDynamics::row(std::size_t state, const std::vector<Rational>& slots) const {
   return spec_->dynamics.time == Time::discrete ? map_row(state, slots) : flow_row(state, slots);
 }
 
-SampledRow AffineDynamics::map_row(std::size_t state, const std::vector<Rational>& slots) const {
+std::optional<SampledRow> AffineDynamics::map_row(std::size_t state,
+                                                  const std::vector<Rational>& slots) const {
   const Dependencies& dependencies = dependencies_[state];
-  const AffineForm form = affine_form(state, dependencies, slots);
+  const std::optional<AffineForm> found = affine_form(state, dependencies, slots);
+  if (!found) return std::nullopt;
+  const AffineForm& form = *found;
   SampledRow row{
       .coefficient = form.state, .lower = form.lower, .upper = form.upper, .exact = form.lower == form.upper};
   for (std::size_t l = 0; l < form.disturbance.size(); ++l) {

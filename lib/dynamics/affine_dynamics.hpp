@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,11 +39,12 @@ class AffineDynamics {
 
   [[nodiscard]] const Dependencies& dependencies(std::size_t state) const { return dependencies_[state]; }
 
-  /// @param slots exact values of all parameters and inputs of `state` at their slots; other entries are
-  /// ignored
-  /// @throws SpecError if the equation is not defined there, or if the system is not of the class above ("not
-  ///   supported yet"); the message names the state and the parameter values
-  [[nodiscard]] SampledRow row(std::size_t state, const std::vector<Rational>& slots) const;
+  /// @param slots exact values of all parameters and inputs of `state` at their slots; others are ignored
+  /// @returns nothing if the system is not of the class above for these values, or if a state of it has a
+  /// `stop`
+  ///   limit
+  /// @throws SpecError if the equation is not defined there; the message names the state and the values
+  [[nodiscard]] std::optional<SampledRow> row(std::size_t state, const std::vector<Rational>& slots) const;
 
  private:
   /// An equation for fixed parameters: sum_j state[j] * x_{moving[j]} + sum_l disturbance[l] * w_l + [lower,
@@ -54,10 +56,12 @@ class AffineDynamics {
     Rational upper;
   };
 
-  [[nodiscard]] AffineForm affine_form(std::size_t equation, const Dependencies& dependencies,
-                                       const std::vector<Rational>& slots) const;
-  [[nodiscard]] SampledRow map_row(std::size_t state, const std::vector<Rational>& slots) const;
-  [[nodiscard]] SampledRow flow_row(std::size_t state, const std::vector<Rational>& slots) const;
+  [[nodiscard]] std::optional<AffineForm> affine_form(std::size_t equation, const Dependencies& dependencies,
+                                                      const std::vector<Rational>& slots) const;
+  [[nodiscard]] std::optional<SampledRow> map_row(std::size_t state,
+                                                  const std::vector<Rational>& slots) const;
+  [[nodiscard]] std::optional<SampledRow> flow_row(std::size_t state,
+                                                   const std::vector<Rational>& slots) const;
   [[nodiscard]] std::string place(const Dependencies& dependencies, const std::vector<Rational>& slots) const;
 
   const ProblemSpec* spec_;

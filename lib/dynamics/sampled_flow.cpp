@@ -4,11 +4,8 @@
 // The sums end because A is nilpotent, so everything is rational. A measurable w in a box reaches every value
 // of mid * integral(g) +- radius * integral(|g|), both ends included (bang-bang).
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "base/error.hpp"
 #include "dynamics/absolute_integral.hpp"
 #include "dynamics/affine_dynamics.hpp"
 
@@ -48,30 +45,29 @@ std::vector<Row> krylov_rows(std::size_t start, const std::vector<Row>& matrix) 
 
 }  // namespace
 
-SampledRow AffineDynamics::flow_row(std::size_t state, const std::vector<Rational>& slots) const {
+std::optional<SampledRow> AffineDynamics::flow_row(std::size_t state,
+                                                   const std::vector<Rational>& slots) const {
   const Dependencies& dependencies = dependencies_[state];
   const Rational& tau = spec_->dynamics.period;
   if (std::find(dependencies.moving.begin(), dependencies.moving.end(), static_cast<std::int32_t>(state)) ==
       dependencies.moving.end()) {
     const Rational& value = slots[spec_->state_slot(state)];  // a discrete state that stays what it is
-    return {.coefficient = Row(dependencies.moving.size()), .lower = value, .upper = value};
+    return SampledRow{.coefficient = Row(dependencies.moving.size()), .lower = value, .upper = value};
   }
   std::vector<AffineForm> forms;
   std::vector<Row> matrix;
   std::size_t start = 0;
   for (const std::int32_t j : dependencies.moving) {
     if (static_cast<std::size_t>(j) == state) start = forms.size();
-    forms.push_back(affine_form(static_cast<std::size_t>(j), dependencies, slots));
+    const StateSpec& moving = spec_->states[static_cast<std::size_t>(j)];
+    if (moving.below == Outside::stop || moving.above == Outside::stop) return std::nullopt;
+    const std::optional<AffineForm> form = affine_form(static_cast<std::size_t>(j), dependencies, slots);
+    if (!form) return std::nullopt;
+    forms.push_back(*form);
     matrix.push_back(forms.back().state);
   }
   const std::vector<Row> rows = krylov_rows(start, matrix);
-  if (rows.empty()) {
-    throw SpecError(
-        fmt::format("the matrix of the differential equations that '{}' depends on is not nilpotent: "
-                    "such dynamics are not supported yet",
-                    spec_->states[state].name),
-        "/dynamics/equations/" + spec_->states[state].name);
-  }
+  if (rows.empty()) return std::nullopt;
 
   SampledRow result{.coefficient = Row(forms.size()), .lower = 0, .upper = 0};
   std::vector<Row> kernels(

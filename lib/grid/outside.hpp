@@ -8,7 +8,8 @@
 namespace coordreq {
 
 /// Grid indices first, ..., last of the cells that a post meets in one dimension, on the lattice that goes on
-/// beyond the domain, so that they may be negative or too large ("raw"). Saturated to 32 bits.
+/// beyond the domain, so that they may be negative or too large ("raw"). Saturated to 32 bits. In a periodic
+/// dimension an index stands for itself modulo the number of points.
 struct IndexRange {
   std::int32_t first = 0;
   std::int32_t last = 0;
@@ -18,16 +19,26 @@ struct IndexRange {
 /// Narrows to 32 bits, saturating: an index that far out has left the domain all the same.
 [[nodiscard]] std::int32_t saturate_index(std::int64_t index);
 
+/// The cells of a periodic dimension that a raw range means, with 0 <= first < count. {0, count - 1} for a
+/// range as long as the period, and wherever 32 bits do not hold the place: an end that was saturated, or a
+/// sum beyond them. REQUIRES raw.first <= raw.last, count >= 1.
+[[nodiscard]] IndexRange wrap_range(IndexRange raw, std::int64_t count);
+
 /// A raw range after the rules of both sides.
 struct ResolvedRange {
   bool blocked = false;  ///< left through an unsafe side: the pair has no post
-  IndexRange inside;  ///< cells of the domain that must be in the target; first > last if all has left safely
+  /// Cells of the domain that must be in the target; first > last if all has left safely. In a periodic
+  /// dimension 0 <= first < count and `last` may be up to first + count - 2: index k >= count is cell k -
+  /// count.
+  IndexRange inside;
 
   [[nodiscard]] bool all_left() const { return inside.first > inside.last; }
 };
 
 /// Contract, "Leaving the domain": `unsafe` blocks, `safe` drops what left, `saturate` moves it to the
-/// boundary cell. REQUIRES raw.first <= raw.last, count >= 1, and sides that are unsafe, safe or saturate.
+/// boundary cell. `stop` has done its work in the dynamics; what measurement errors still put beyond the
+/// limit reads as the boundary cell, as with `saturate`. `periodic`: see wrap_range(). REQUIRES raw.first <=
+/// raw.last, count >= 1, `periodic` on both sides or none.
 [[nodiscard]] ResolvedRange resolve(IndexRange raw, std::int64_t count, Outside below, Outside above);
 
 }  // namespace coordreq

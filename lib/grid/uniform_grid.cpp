@@ -21,7 +21,10 @@ UniformGrid make_grid(const ProblemSpec& spec) {
                           .count = state.grid.count,
                           .discrete = state.discrete,
                           .below = state.below,
-                          .above = state.above});
+                          .above = state.above,
+                          .lower = state.lower,
+                          .upper = state.upper,
+                          .measurement_error = state.measurement_error});
   }
   return UniformGrid(std::move(dimensions));
 }

@@ -19,7 +19,12 @@ struct GridDimension {
   bool discrete = false;  ///< cells are points
   Outside below = Outside::unsafe;
   Outside above = Outside::unsafe;
+  Rational lower;  ///< as written in the spec; [lower, upper) is one period of a periodic dimension
+  Rational upper;
+  Rational measurement_error = 0;  ///< how far the true state may be from the measured one
 
+  /// The dimension wraps round: first = lower, count * step = upper - lower.
+  [[nodiscard]] bool periodic() const { return below == Outside::periodic; }
   [[nodiscard]] Rational point(std::int64_t k) const { return first + step * Rational(static_cast<long>(k)); }
   /// Half the width of a cell: step / 2, or 0 for a discrete dimension.
   [[nodiscard]] Rational radius() const { return discrete ? Rational(0) : Rational(step / 2); }

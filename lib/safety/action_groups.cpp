@@ -44,12 +44,21 @@ std::vector<std::int32_t> difference(const std::vector<std::int32_t>& a, const s
   return result;
 }
 
+bool range_within(IndexRange a, IndexRange b, const GridDimension& target) {
+  const auto inside = [&](std::int64_t shift) {
+    return b.first <= a.first + shift && a.last + shift <= b.last;
+  };
+  if (inside(0)) return true;
+  return target.periodic() && (inside(target.count) || std::int64_t{b.last} - b.first + 1 == target.count);
+}
+
 /// True if for every cell of the row the range of `a` asks no more of the target than that of `b`.
-bool slice_within(const std::vector<RowSegment>& a, const std::vector<RowSegment>& b) {
+bool slice_within(const std::vector<RowSegment>& a, const std::vector<RowSegment>& b,
+                  const GridDimension& target) {
   using Kind = RowSegment::Kind;
   if (a.size() != 1 || b.size() != 1) return a == b;
   if (a[0].kind == Kind::gone || b[0].kind == Kind::blocked) return true;
-  return a[0].kind == b[0].kind && b[0].range.first <= a[0].range.first && a[0].range.last <= b[0].range.last;
+  return a[0].kind == b[0].kind && range_within(a[0].range, b[0].range, target);
 }
 
 }  // namespace
@@ -160,7 +169,8 @@ void ActionGrouping::compare_groups(const ClassData& data, std::int64_t row, Act
           continue;
         }
         const auto& slices = engine_->slices()[view.table].slices;
-        within = slice_within(slices[a], slices[b]) ? 1 : 0;
+        const GridDimension& target = engine_->abstraction().grid[view.table];
+        within = slice_within(slices[a], slices[b], target) ? 1 : 0;
       }
     }
   }

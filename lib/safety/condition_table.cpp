@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bitset/row_operations.hpp"
+#include "grid/pieces.hpp"
 #include "safety/condition.hpp"
 
 namespace coordreq {
@@ -12,73 +13,115 @@ std::size_t at(std::int32_t i) {
   return static_cast<std::size_t>(i);
 }
 
-RationalInterval exact_interval(const Rational& lower, const Rational& upper) {
-  return {.lower = lower, .upper = upper};
+RationalInterval point_interval(const Rational& point) {
+  return {.lower = point, .upper = point};
 }
 
-Interval outward(const RationalInterval& q) {
-  return {.lower = lower_double(q.lower), .upper = upper_double(q.upper)};
-}
+/// The ranges of every index of every variable, exactly and in doubles: mostly one, two for a cell on a seam.
+struct Ranges {
+  std::vector<std::vector<std::vector<RationalInterval>>> exact;  // [slot][index][piece]
+  std::vector<std::vector<std::vector<Interval>>> fast;
+  bool in_parts = false;  // some index has two
 
-/// The box of every index of every variable, exactly and in doubles.
-struct Boxes {
-  std::vector<std::vector<RationalInterval>> exact;  // [slot][index]
-  std::vector<std::vector<Interval>> fast;
-
-  Boxes(const UniformGrid& grid, const InputSpace& inputs, Sampling sampling, const std::vector<bool>& used)
+  Ranges(const UniformGrid& grid, const InputSpace& inputs, Sampling sampling, const std::vector<bool>& used)
       : exact(grid.size() + inputs.size()), fast(exact.size()) {
     for (std::size_t i = 0; i < grid.size(); ++i) {
-      const Rational radius = sampling == Sampling::closed_cells ? grid[i].radius() : Rational(0);
-      for (std::int64_t k = 0; used[i] && k < grid[i].count; ++k) {
-        const Rational point = grid[i].point(k);
-        exact[i].push_back(exact_interval(point - radius, point + radius));
-      }
+      for (std::int64_t k = 0; used[i] && k < grid[i].count; ++k) add_state(i, grid[i], k, sampling);
     }
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-      for (std::size_t k = 0; used[grid.size() + i] && k < inputs[i].values.size(); ++k) {
-        exact[grid.size() + i].push_back(exact_interval(inputs[i].values[k], inputs[i].values[k]));
-      }
+      if (!used[grid.size() + i]) continue;
+      for (const Rational& value : inputs[i].values)
+        exact[grid.size() + i].push_back({point_interval(value)});
     }
     for (std::size_t slot = 0; slot < exact.size(); ++slot) {
-      for (const RationalInterval& q : exact[slot]) fast[slot].push_back(outward(q));
+      for (const std::vector<RationalInterval>& parts : exact[slot]) {
+        in_parts = in_parts || parts.size() > 1;
+        std::vector<Interval>& enclosed = fast[slot].emplace_back();
+        for (const RationalInterval& part : parts) enclosed.push_back(enclose(part));
+      }
     }
+  }
+
+ private:
+  void add_state(std::size_t i, const GridDimension& dimension, std::int64_t k, Sampling sampling) {
+    std::vector<RationalInterval>& parts = exact[i].emplace_back();
+    if (sampling == Sampling::centres) {
+      parts.push_back(point_interval(dimension.point(k)));
+      return;
+    }
+    for (const Piece& piece : pieces(dimension, k))
+      parts.push_back({.lower = piece.lower, .upper = piece.upper});
   }
 };
 
 /// Evaluates one bit of the table after the other; scratch of one thread.
 class Filler {
  public:
-  Filler(const Program& condition, const Boxes& boxes, const ConditionTable::Undecided& undecided)
-      : decider_(condition),
-        boxes_(boxes),
+  Filler(const Program& condition, const Ranges& ranges, const ConditionTable::Undecided& undecided,
+         Question question)
+      : decider_(condition, question),
+        ranges_(ranges),
         undecided_(undecided),
-        indices_(boxes.exact.size(), 0),
-        fast_(boxes.exact.size()),
-        exact_(boxes.exact.size()) {}
+        indices_(ranges.exact.size(), 0),
+        parts_(ranges.exact.size(), 0),
+        fast_(ranges.exact.size()),
+        exact_(ranges.exact.size()) {}
 
   void set(std::size_t slot, std::int64_t index) {
     indices_[slot] = index;
-    fast_[slot] = boxes_.fast[slot][static_cast<std::size_t>(index)];
+    set_part(slot, 0);
   }
 
   [[nodiscard]] bool holds() {
-    const Truth truth = decider_.decide(std::span<const Interval>(fast_), [&] { return exact_box(); });
+    const Truth truth = ranges_.in_parts ? on_all_parts() : on_these_parts();
     return truth == Truth::undecided ? undecided_(indices_) : truth == Truth::yes;
   }
 
  private:
+  void set_part(std::size_t slot, std::size_t part) {
+    parts_[slot] = part;
+    fast_[slot] = ranges_.fast[slot][static_cast<std::size_t>(indices_[slot])][part];
+  }
+
+  Truth on_all_parts() {
+    Truth truth = on_these_parts();
+    while (next_parts()) {
+      // After a difference only the parts are left to go round.
+      if (truth != Truth::undecided && on_these_parts() != truth) truth = Truth::undecided;
+    }
+    return truth;
+  }
+
+  /// Goes on to the next combination; @returns false back at the first one
+  bool next_parts() {
+    for (std::size_t slot = 0; slot < parts_.size(); ++slot) {
+      if (ranges_.exact[slot].empty()) continue;
+      const std::size_t count = ranges_.exact[slot][static_cast<std::size_t>(indices_[slot])].size();
+      if (count == 1) continue;
+      const bool more = parts_[slot] + 1 < count;
+      set_part(slot, more ? parts_[slot] + 1 : 0);
+      if (more) return true;
+    }
+    return false;
+  }
+
+  Truth on_these_parts() {
+    return decider_.decide(std::span<const Interval>(fast_), [&] { return exact_box(); });
+  }
+
   std::span<const RationalInterval> exact_box() {
     for (std::size_t slot = 0; slot < exact_.size(); ++slot) {
-      if (!boxes_.exact[slot].empty())
-        exact_[slot] = boxes_.exact[slot][static_cast<std::size_t>(indices_[slot])];
+      if (ranges_.exact[slot].empty()) continue;
+      exact_[slot] = ranges_.exact[slot][static_cast<std::size_t>(indices_[slot])][parts_[slot]];
     }
     return exact_;
   }
 
   ConditionDecider decider_;
-  const Boxes& boxes_;
+  const Ranges& ranges_;
   const ConditionTable::Undecided& undecided_;
   std::vector<std::int64_t> indices_;
+  std::vector<std::size_t> parts_;
   std::vector<Interval> fast_;
   std::vector<RationalInterval> exact_;
 };
@@ -86,7 +129,8 @@ class Filler {
 }  // namespace
 
 ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid, const InputSpace& inputs,
-                               Sampling sampling, const Undecided& undecided, ThreadTeam& team)
+                               Sampling sampling, const Undecided& undecided, ThreadTeam& team,
+                               Question question)
     : grid_(&grid), input_space_(&inputs), state_stride_(grid.size(), 0), input_stride_(inputs.size(), 0) {
   std::vector<bool> used(grid.size() + inputs.size(), false);
   for (const std::uint32_t slot : condition.variables()) used[slot] = true;
@@ -107,10 +151,10 @@ ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid
   }
   bits_ = CellSet(rows, grid.row_length());
 
-  const Boxes boxes(grid, inputs, sampling, used);
+  const Ranges ranges(grid, inputs, sampling, used);
   const std::int64_t grain = std::max<std::int64_t>(1, 4096 / grid.row_length());
   team.for_each(rows, grain, [&](ThreadTeam::Range range, int) {
-    Filler filler(condition, boxes, undecided);
+    Filler filler(condition, ranges, undecided, question);
     for (std::int64_t r = range.begin; r < range.end; ++r) {
       for (const std::int32_t i : states_) filler.set(at(i), r / state_stride_[at(i)] % grid[at(i)].count);
       for (const std::int32_t i : inputs_) {

@@ -9,14 +9,17 @@
 #include "grid/input_space.hpp"
 #include "grid/uniform_grid.hpp"
 #include "numeric/truth.hpp"
+#include "safety/sharp_condition.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
 /// Where the variables of a condition stand.
 enum class Sampling : std::uint8_t {
-  centres,       ///< grid points
-  closed_cells,  ///< the whole closed cell of each state, grid points of inputs
+  centres,  ///< grid points
+  /// The whole closed cell of each state, widened by its measurement error and cut at the seam of a periodic
+  /// dimension (pieces()); grid points of inputs. The condition has to hold on all pieces to be true.
+  closed_cells,
 };
 
 /// The truth of a condition over the grid, tabulated over only the states and inputs that it depends on.
@@ -29,8 +32,10 @@ class ConditionTable {
   ///   callback may also throw)
   using Undecided = std::function<bool(const std::vector<std::int64_t>& indices)>;
 
+  /// @param question `everywhere` saves work where `undecided` only ever answers false
   ConditionTable(const Program& condition, const UniformGrid& grid, const InputSpace& inputs,
-                 Sampling sampling, const Undecided& undecided, ThreadTeam& team);
+                 Sampling sampling, const Undecided& undecided, ThreadTeam& team,
+                 Question question = Question::truth);
 
   /// The bits of all cells of grid row `row` under joint input `u` (any u if no input is in use).
   [[nodiscard]] std::span<const CellSet::Word> row(std::int64_t row, std::int64_t u) const;

@@ -11,6 +11,7 @@ RowEngine::RowEngine(const Abstraction& abstraction, const ConditionTable* allow
   for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
     slices_.push_back(cut_into_rows(abstraction, i));
     row_stride_.push_back(abstraction.grid.stride(i) / abstraction.grid.row_length());
+    count_.push_back(abstraction.grid[i].count);
   }
 }
 
@@ -87,7 +88,7 @@ void RowEngine::inside(std::span<const std::uint32_t> ids, const RowTarget& targ
   }
 }
 
-/// out = AND of the rows of `target` in the box.
+/// out = AND of the rows of `target` in the box. On a ring indices beyond its last cell begin anew.
 void RowEngine::gather(const CellSet& target, std::vector<std::int64_t>& indices,
                        const std::vector<IndexRange>& box, MutableRow out) const {
   indices.resize(box.size());
@@ -105,9 +106,11 @@ void RowEngine::gather(const CellSet& target, std::vector<std::int64_t>& indices
       --i;
       if (++indices[i] <= box[i].last) {
         row += row_stride_[i];
+        if (indices[i] == count_[i]) row -= count_[i] * row_stride_[i];
         break;
       }
-      row -= (box[i].last - box[i].first) * row_stride_[i];
+      const std::int64_t last = box[i].last < count_[i] ? box[i].last : box[i].last - count_[i];
+      row -= (last - box[i].first) * row_stride_[i];
       indices[i] = box[i].first;
     }
     const ConstRow source = target.row(row);
@@ -117,12 +120,16 @@ void RowEngine::gather(const CellSet& target, std::vector<std::int64_t>& indices
   }
 }
 
+/// True if the row holds all cells of the range, which may go on at the other end of a ring.
+bool RowEngine::holds(ConstRow row, IndexRange range) const {
+  const std::int64_t end = std::int64_t{range.last} + 1;
+  return all_set(row, range.first, std::min(end, row_length())) && all_set(row, 0, end - row_length());
+}
+
 void RowEngine::place_segment(const RowSegment& last, std::int32_t begin, std::int32_t end, Scratch& scratch,
                               MutableRow out) const {
   if (last.kind != Kind::shifted) {
-    const bool holds = last.kind == Kind::gone ||
-                       all_set(scratch.gathered, last.range.first, std::int64_t{last.range.last} + 1);
-    if (holds) set_bits(out, begin, end);
+    if (last.kind == Kind::gone || holds(scratch.gathered, last.range)) set_bits(out, begin, end);
     return;
   }
   const GridDimension& dimension = abstraction_->grid.dimensions().back();

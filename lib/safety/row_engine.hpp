@@ -62,6 +62,7 @@ class RowEngine {
                                    MutableRow out, Scratch& scratch) const;
   void gather(const CellSet& target, std::vector<std::int64_t>& indices, const std::vector<IndexRange>& box,
               MutableRow out) const;
+  [[nodiscard]] bool holds(ConstRow row, IndexRange range) const;
   void place_segment(const RowSegment& last, std::int32_t begin, std::int32_t end, Scratch& scratch,
                      MutableRow out) const;
 
@@ -69,6 +70,7 @@ class RowEngine {
   const ConditionTable* allow_;
   std::vector<RowSlices> slices_;
   std::vector<std::int64_t> row_stride_;  ///< rows from one index of a dimension to the next
+  std::vector<std::int64_t> count_;       ///< indices of a dimension
 };
 
 }  // namespace coordreq

@@ -22,7 +22,7 @@ class RowReach {
 
   const RowEngine* engine_;
   std::vector<std::vector<IndexRange>>
-      ranges_;  ///< [dimension][row choice of its table]; first > last: meets none
+      ranges_;  ///< [dimension][row choice of its table], as in ResolvedRange; first > last: meets none
 };
 
 }  // namespace coordreq

@@ -1,6 +1,7 @@
 #include "safety/row_slices.hpp"
 
 #include <map>
+#include <utility>
 
 namespace coordreq {
 namespace {
@@ -42,16 +43,23 @@ class RowCutter {
       segment.end = next.end;
     }
     if (!is_row_dimension_) return segment;
-    // In 64 bits: an index that was saturated to 32 must not wrap round here.
-    const auto offset = [&](std::int32_t c) {
-      return std::pair(static_cast<std::int64_t>(raw(c).first) - c,
-                       static_cast<std::int64_t>(raw(c).last) - c);
-    };
     std::int32_t end = begin + 1;
-    while (end < length_ && offset(end) == offset(begin)) ++end;
+    while (end < length_ && offset(raw(end), end) == offset(raw(begin), begin)) ++end;
     if (end <= segment.end) return segment;
-    const auto [low, high] = offset(begin);
+    const auto [low, high] = offset(raw(begin), begin);
     return {begin, end, Kind::shifted, {saturate_index(low), saturate_index(high)}};
+  }
+
+  /// Where the range lies relative to cell c, in 64 bits: an index that was saturated to 32 must not wrap
+  /// round here. On a ring the first one is in [0, count).
+  [[nodiscard]] std::pair<std::int64_t, std::int64_t> offset(IndexRange raw, std::int32_t c) const {
+    if (!target_.periodic()) {
+      return {static_cast<std::int64_t>(raw.first) - c, static_cast<std::int64_t>(raw.last) - c};
+    }
+    const IndexRange range = wrap_range(raw, target_.count);
+    const std::int64_t ahead = std::int64_t{range.first} - c;
+    const std::int64_t low = ahead < 0 ? ahead + target_.count : ahead;
+    return {low, low + range.last - range.first};
   }
 
   static void append(std::vector<RowSegment>& segments, const RowSegment& next) {

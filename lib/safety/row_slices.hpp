@@ -11,7 +11,8 @@ namespace coordreq {
 struct RowSegment {
   enum class Kind : std::uint8_t {
     fixed,    ///< the same cells `range` for all
-    shifted,  ///< cell c goes to the raw indices c + range.first, ..., c + range.last
+    shifted,  ///< cell c goes to the raw indices c + range.first, ..., c + range.last (modulo count on a
+              ///< ring)
     gone,     ///< all left the domain through a safe side
     blocked,  ///< left through an unsafe side
   };
@@ -27,6 +28,8 @@ struct RowSegment {
 ///
 /// A slice is a list of segments that together cover the row. `shifted` occurs only for the last dimension
 /// itself: there a whole row is eroded at once, and integrators (x' = x + c) give one segment a row.
+///
+/// If the state is periodic, 0 <= range.first < count, and range.last may go beyond as in ResolvedRange.
 struct RowSlices {
   std::vector<std::uint32_t> ids;  ///< row-major over states (without the last), then inputs
   std::vector<std::vector<RowSegment>> slices;

@@ -13,7 +13,7 @@ CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, Thread
       spec.abstraction.safe == Membership::inner ? Sampling::closed_cells : Sampling::centres;
   const auto undecided_is_unsafe = [](const std::vector<std::int64_t>&) { return false; };
   const ConditionTable table(spec.safe, abstraction.grid, abstraction.inputs, sampling, undecided_is_unsafe,
-                             team);
+                             team, Question::everywhere);
   CellSet safe(abstraction.grid.rows(), abstraction.grid.row_length());
   team.for_each(safe.rows(), 1024, [&](ThreadTeam::Range range, int) {
     for (std::int64_t r = range.begin; r < range.end; ++r) {

@@ -10,8 +10,10 @@
 
 namespace coordreq {
 
-/// S, contract "Safe set". `inner`: cells whose whole closed box provably satisfies `safe`; never one with an
-/// unsafe point. `center`: cells whose centre does. What cannot be decided counts as unsafe.
+/// S, contract "Safe set". `inner`: cells whose whole closed box provably satisfies `safe` (see
+/// ConditionDecider), never one with an unsafe point. The box is widened by the measurement errors, for the
+/// true state may be that far outside of the cell that was measured; on the seam of a periodic dimension both
+/// parts count. `center`: cells whose centre satisfies it. What cannot be decided counts as unsafe.
 [[nodiscard]] CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team);
 
 /// `allow` at all grid points of states and inputs; nothing if everything is allowed.

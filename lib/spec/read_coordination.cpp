@@ -15,6 +15,7 @@ using Node = JsonDocument::Node;
 
 std::vector<std::string> names_of(const std::vector<AgentSpec>& agents) {
   std::vector<std::string> names;
+  names.reserve(agents.size());
   for (const AgentSpec& agent : agents) names.push_back(agent.name);
   return names;
 }

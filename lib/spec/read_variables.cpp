@@ -61,6 +61,9 @@ StateSpec read_state(const Scope& scope, const Node& object, Time time) {
     if (state.measurement_error < 0) {
       throw SpecError("expected an error >= 0, found " + to_text(state.measurement_error), error.pointer());
     }
+    if (state.discrete && state.measurement_error != 0) {
+      throw SpecError("a discrete state cannot have a measurement error", error.pointer());
+    }
   }
   return state;
 }

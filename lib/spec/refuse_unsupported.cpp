@@ -12,14 +12,6 @@ namespace {
   throw SpecError(fmt::format("{} is not supported yet", what), pointer);
 }
 
-void refuse_outside(const StateSpec& state, std::size_t index) {
-  const std::string pointer = fmt::format("/states/{}/outside", index);
-  for (const Outside side : {state.below, state.above}) {
-    if (side == Outside::stop) refuse("'stop'", pointer);
-    if (side == Outside::periodic) refuse("'periodic'", pointer);
-  }
-}
-
 void refuse_in_coordination(const CoordinationSpec& coordination) {
   const std::string pointer = "/coordination/";
   if (coordination.all_partitions) refuse("'all'", pointer + "partitions");
@@ -32,12 +24,6 @@ void refuse_in_coordination(const CoordinationSpec& coordination) {
 }  // namespace
 
 void refuse_unsupported(const ProblemSpec& spec) {
-  for (std::size_t i = 0; i < spec.states.size(); ++i) {
-    refuse_outside(spec.states[i], i);
-    if (spec.states[i].measurement_error != 0) {
-      refuse("'measurement_error'", fmt::format("/states/{}/measurement_error", i));
-    }
-  }
   for (std::size_t i = 0; i < spec.agents.size(); ++i) {
     if (spec.agents[i].prefer) refuse("'prefer'", fmt::format("/agents/{}/prefer", i));
   }

@@ -15,7 +15,13 @@ std::vector<Word> pack(const std::vector<bool>& bits) {
 }
 
 bool beyond(Outside rule, bool end) {
-  return rule == Outside::safe || (rule == Outside::saturate && end);
+  const bool goes_on = rule == Outside::saturate || rule == Outside::stop;
+  return rule == Outside::safe || (goes_on && end);
+}
+
+std::size_t on_ring(std::int64_t position, std::size_t n) {
+  const auto size = static_cast<std::int64_t>(n);
+  return static_cast<std::size_t>((position % size + size) % size);
 }
 
 /// Erosion by its definition, one bit at a time.
@@ -26,9 +32,10 @@ std::vector<bool> eroded_plainly(const std::vector<bool>& row, std::int64_t low,
   for (std::int64_t x = 0; x < n; ++x) {
     bool all = true;
     for (std::int64_t p = x + low; p <= x + high; ++p) {
-      const bool bit = p < 0    ? beyond(ends.below, row.front())
-                       : p >= n ? beyond(ends.above, row.back())
-                                : row[static_cast<std::size_t>(p)];
+      const bool bit = ends.below == Outside::periodic ? row[on_ring(p, row.size())]
+                       : p < 0                         ? beyond(ends.below, row.front())
+                       : p >= n                        ? beyond(ends.above, row.back())
+                                                       : row[static_cast<std::size_t>(p)];
       all = all && bit;
     }
     out.push_back(all);
@@ -44,8 +51,11 @@ TEST(RowEroder, EqualsTheDefinitionOnRowsOfEveryLengthAndOffset) {
     for (std::size_t i = 0; i < n; ++i) row.push_back(*rc::gen::inRange(0, 10) != 0 || !dense);
     const int low = *rc::gen::inRange(-350, 350);
     const int width = *rc::gen::inRange(0, *rc::gen::element(3, 40, 400));
-    const auto rule = [] { return *rc::gen::element(Outside::unsafe, Outside::safe, Outside::saturate); };
-    const RowEnds ends{rule(), rule()};
+    const auto rule = [] {
+      return *rc::gen::element(Outside::unsafe, Outside::safe, Outside::saturate, Outside::stop);
+    };
+    const bool is_ring = *rc::gen::inRange(0, 3) == 0;
+    const RowEnds ends = is_ring ? RowEnds{Outside::periodic, Outside::periodic} : RowEnds{rule(), rule()};
     std::vector<Word> out(pack(row).size());
     RowEroder().erode(pack(row), static_cast<std::int64_t>(n), low, low + width, ends, out);
     RC_ASSERT(out == pack(eroded_plainly(row, low, low + width, ends)));
@@ -59,6 +69,21 @@ TEST(RowEroder, ExtremeOffsetsDoNotOverflow) {
   EXPECT_EQ(out, row);
   RowEroder().erode(row, 70, INT32_MAX, INT32_MAX, {Outside::safe, Outside::unsafe}, out);
   EXPECT_EQ(out, pack(std::vector<bool>(70, false)));
+}
+
+TEST(RowEroder, OnARingTheWindowGoesOnAtTheOtherEnd) {
+  std::vector<bool> bits(130, true);
+  bits[129] = false;
+  const std::vector<Word> row = pack(bits);
+  const RowEnds ring{Outside::periodic, Outside::periodic};
+  std::vector<Word> out(row.size());
+  RowEroder().erode(row, 130, -1, 1, ring, out);
+  bits[128] = bits[0] = false;
+  EXPECT_EQ(out, pack(bits));
+  RowEroder().erode(row, 130, 390 - 1, 390 + 1, ring, out);
+  EXPECT_EQ(out, pack(bits));
+  RowEroder().erode(row, 130, -1000, 1000, ring, out);
+  EXPECT_EQ(out, pack(std::vector<bool>(130, false)));
 }
 
 TEST(RowBits, SettingAndTestingRanges) {

@@ -41,6 +41,34 @@ TEST(Outside, SaturateMovesToTheBoundaryCell) {
   EXPECT_TRUE(resolve({-9, -7}, 5, kSafe, kSaturate).all_left());
 }
 
+TEST(Outside, PeriodicTakesIndicesModuloTheirNumber) {
+  const auto inside = [](std::int32_t first, std::int32_t last) {
+    const ResolvedRange r = resolve({first, last}, 5, Outside::periodic, Outside::periodic);
+    EXPECT_FALSE(r.blocked);
+    EXPECT_FALSE(r.all_left());
+    return r.inside;
+  };
+  EXPECT_EQ(inside(1, 3), (IndexRange{1, 3}));
+  EXPECT_EQ(inside(-1, 1), (IndexRange{4, 6}));
+  EXPECT_EQ(inside(-11, -8), (IndexRange{4, 7}));
+  EXPECT_EQ(inside(23, 24), (IndexRange{3, 4}));
+  EXPECT_EQ(inside(3, 7), (IndexRange{0, 4}));
+  EXPECT_EQ(inside(-100, 100), (IndexRange{0, 4}));
+}
+
+TEST(Outside, OnARingAnIndexThatLostItsPlaceMeansAllCells) {
+  const std::int32_t far = saturate_index(std::int64_t{1} << 40);
+  const std::int32_t low = saturate_index(-(std::int64_t{1} << 40));
+  for (const IndexRange raw : {IndexRange{far, far}, IndexRange{low, low}, IndexRange{low, far}}) {
+    EXPECT_EQ(resolve(raw, 5, Outside::periodic, Outside::periodic).inside, (IndexRange{0, 4}));
+  }
+}
+
+TEST(Outside, StopReadsBeyondTheLimitAsTheBoundaryCell) {
+  EXPECT_EQ(resolve({-9, 9}, 5, Outside::stop, Outside::stop).inside, (IndexRange{0, 4}));
+  EXPECT_EQ(resolve({6, 9}, 5, Outside::unsafe, Outside::stop).inside, (IndexRange{4, 4}));
+}
+
 TEST(Outside, FarIndicesSaturateInsteadOfWrapping) {
   EXPECT_EQ(saturate_index(std::int64_t{1} << 40), std::numeric_limits<std::int32_t>::max());
   EXPECT_EQ(saturate_index(-(std::int64_t{1} << 40)), std::numeric_limits<std::int32_t>::min());

@@ -40,7 +40,7 @@ TEST(MaximalSpec, States) {
   EXPECT_EQ(states[0].lower, -1);
   EXPECT_EQ(states[0].upper, 1);
   EXPECT_FALSE(states[0].discrete);
-  EXPECT_EQ(states[0].measurement_error, 0);
+  EXPECT_EQ(states[0].measurement_error, Rational(1, 2));
   EXPECT_EQ(states[0].below, Outside::unsafe);
   EXPECT_EQ(states[0].above, Outside::unsafe);
 
@@ -48,7 +48,7 @@ TEST(MaximalSpec, States) {
   EXPECT_EQ(states[1].grid.step, Rational(1, 5));
   EXPECT_EQ(states[1].grid.count, 5);
   EXPECT_TRUE(states[1].discrete);
-  EXPECT_EQ(states[1].measurement_error, Rational(1, 2));
+  EXPECT_EQ(states[1].measurement_error, 0);
   EXPECT_EQ(states[1].below, Outside::saturate);
   EXPECT_EQ(states[1].above, Outside::safe);
 

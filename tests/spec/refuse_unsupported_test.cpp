@@ -20,12 +20,6 @@ std::string refusal(const nlohmann::json& spec) {
 
 TEST(RefuseUnsupported, NamesTheKey) {
   const std::vector<test::ErrorCase> cases{
-      {"/states/1/outside", "\"stop\"", "'stop' is not supported yet (/states/1/outside)"},
-      {"/states/1/outside", R"({"above": "stop"})", "'stop' is not supported yet (/states/1/outside)"},
-      {"/states/1", R"({"name": "x2", "lower": 0, "upper": 1, "count": 4, "outside": "periodic"})",
-       "'periodic' is not supported yet (/states/1/outside)"},
-      {"/states/0/measurement_error", "0.1",
-       "'measurement_error' is not supported yet (/states/0/measurement_error)"},
       {"/abstraction", R"({"between_samples": true})",
        "'between_samples' is not supported yet (/abstraction/between_samples)"},
       {"/agents/1/prefer", "\"x1^2\"", "'prefer' is not supported yet (/agents/1/prefer)"},
@@ -50,7 +44,7 @@ TEST(RefuseUnsupported, NamesTheKey) {
 TEST(RefuseUnsupported, TakesEverythingElse) {
   nlohmann::json spec = test::example();
   spec["states"][0]["outside"] = {{"below", "safe"}, {"above", "saturate"}};
-  spec["states"][0]["measurement_error"] = 0;
+  spec["states"][0]["measurement_error"] = 0.1;
   spec["states"][1]["discrete"] = true;
   spec["dynamics"]["time"] = "discrete";
   spec["abstraction"] = {{"cells", "half_open"}, {"safe", "center"}, {"between_samples", false}};

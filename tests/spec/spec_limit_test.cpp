@@ -55,8 +55,8 @@ TEST(SpecLimit, States) {
     spec["dynamics"]["equations"][name] = "0";
   }
   EXPECT_EQ(test::error_of(spec), "");
-  spec["states"].push_back({{"name", "last"}, {"lower", 0}, {"upper", 0}, {"step", 1}});
-  spec["dynamics"]["equations"]["last"] = "0";
+  spec["states"].push_back({{"name", "x32"}, {"lower", 0}, {"upper", 0}, {"step", 1}});
+  spec["dynamics"]["equations"]["x32"] = "0";
   expect_limit(spec, "32 states, at most 31 are possible (/states)");
 }
 

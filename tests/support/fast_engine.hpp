@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <optional>
+#include <utility>
 
 #include "abstraction/build_abstraction.hpp"
 #include "coordination/delay_layers.hpp"
@@ -14,7 +15,9 @@ namespace coordreq {
 /// All stages of the analysis that come before writing, with everything kept, for tests.
 struct FastAnalysis {
   FastAnalysis(const ProblemSpec& spec, ThreadTeam& team)
-      : abstraction(build_abstraction(spec, team)),
+      : FastAnalysis(spec, build_abstraction(spec, team), team) {}
+  FastAnalysis(const ProblemSpec& spec, Abstraction given, ThreadTeam& team)
+      : abstraction(std::move(given)),
         safe(safe_set(spec, abstraction, team)),
         allow(allow_table(spec, abstraction, team)),
         engine(abstraction, allow ? &*allow : nullptr),

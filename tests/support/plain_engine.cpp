@@ -1,10 +1,13 @@
 #include "support/plain_engine.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "abstraction/counter.hpp"
 #include "coordination/delay_layers.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
+#include "grid/pieces.hpp"
 #include "safety/invariance.hpp"
 
 namespace coordreq {
@@ -14,11 +17,14 @@ using Set = std::vector<bool>;
 
 class PlainEngine {
  public:
-  PlainEngine(const ProblemSpec& spec, const Abstraction& abstraction)
-      : spec_(spec), a_(abstraction), cells_(abstraction.grid.cells()), inputs_(abstraction.inputs.count()) {}
+  PlainEngine(const ProblemSpec& spec, const Abstraction& abstraction, const Set& safe)
+      : spec_(spec),
+        a_(abstraction),
+        safe_(safe),
+        cells_(abstraction.grid.cells()),
+        inputs_(abstraction.inputs.count()) {}
 
   PlainAnalysis run() {
-    find_safe();
     find_allowed();
     find_invariant();
     find_controller();
@@ -28,20 +34,6 @@ class PlainEngine {
 
  private:
   static std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-  void find_safe() {
-    Evaluator<RationalInterval> safe(spec_.safe);
-    for (std::int64_t x = 0; x < cells_; ++x) {
-      std::vector<RationalInterval> box(spec_.slot_count());
-      for (std::size_t i = 0; i < a_.grid.size(); ++i) {
-        const Rational centre = a_.grid[i].point(a_.grid.index(x, i));
-        const Rational radius =
-            spec_.abstraction.safe == Membership::inner ? a_.grid[i].radius() : Rational(0);
-        box[i] = {.lower = centre - radius, .upper = centre + radius};
-      }
-      result_.safe.push_back(safe.condition(box) == Truth::yes);
-    }
-  }
 
   void find_allowed() {
     for (std::int64_t x = 0; x < cells_; ++x) {
@@ -79,7 +71,7 @@ class PlainEngine {
   bool all_in(const std::vector<IndexRange>& box, std::size_t i, std::int64_t cell, const Set& target) const {
     if (i == box.size()) return target[at(cell)];
     for (std::int64_t k = box[i].first; k <= box[i].last; ++k) {
-      if (!all_in(box, i + 1, cell + k * a_.grid.stride(i), target)) return false;
+      if (!all_in(box, i + 1, cell + k % a_.grid[i].count * a_.grid.stride(i), target)) return false;
     }
     return true;
   }
@@ -99,8 +91,8 @@ class PlainEngine {
   }
 
   void find_invariant() {
-    result_.invariant = result_.safe;
-    for (const bool safe : result_.safe) result_.collision_time.push_back(safe ? Invariance::kNever : 0);
+    result_.invariant = safe_;
+    for (const bool safe : safe_) result_.collision_time.push_back(safe ? Invariance::kNever : 0);
     for (bool changed = true; changed;) {
       changed = false;
       ++result_.iterations;
@@ -169,7 +161,7 @@ class PlainEngine {
   void iterate(PlainAnalysis::Partition& result, const Reasonable& reasonable) {
     Set layer = result_.invariant;
     for (std::int64_t x = 0; x < cells_; ++x) {
-      result.delay.push_back(result_.safe[at(x)] ? (layer[at(x)] ? DelayLayers::kUnbounded : -1) : -2);
+      result.delay.push_back(safe_[at(x)] ? (layer[at(x)] ? DelayLayers::kUnbounded : -1) : -2);
     }
     result.sizes.push_back(std::count(layer.begin(), layer.end(), true));
     for (std::int64_t k = 0;; ++k) {
@@ -205,16 +197,81 @@ class PlainEngine {
 
   const ProblemSpec& spec_;
   const Abstraction& a_;
+  const Set& safe_;
   std::int64_t cells_;
   std::int64_t inputs_;
   std::vector<std::vector<bool>> allowed_;
   PlainAnalysis result_;
 };
 
+RationalInterval between(const Rational& lower, const Rational& upper) {
+  return {.lower = lower, .upper = upper};
+}
+
+/// Calls `visit` for every choice of one interval a state.
+template <class Visit>
+void for_each_choice(const std::vector<std::vector<RationalInterval>>& choices, const Visit& visit) {
+  std::vector<std::int64_t> counts;
+  for (const auto& one : choices) counts.push_back(static_cast<std::int64_t>(one.size()));
+  Counter choice(counts);
+  do {
+    std::vector<RationalInterval> box;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      box.push_back(choices[i][static_cast<std::size_t>(choice.indices()[i])]);
+    }
+    visit(box);
+  } while (choice.next());
+}
+
+/// What state i can be in cell k: as whole pieces, and as samples of them.
+struct Choices {
+  std::vector<RationalInterval> whole;
+  std::vector<RationalInterval> samples;
+
+  Choices(const ProblemSpec& spec, const GridDimension& dimension, std::int64_t k) {
+    if (spec.abstraction.safe == Membership::center) {
+      whole.push_back(between(dimension.point(k), dimension.point(k)));
+    } else {
+      for (const Piece& piece : pieces(dimension, k)) whole.push_back(between(piece.lower, piece.upper));
+    }
+    for (const RationalInterval& range : whole) {
+      const int steps = range.lower == range.upper ? 1 : 4;
+      for (int s = 0; s <= steps; ++s) {
+        const Rational point = range.lower + (range.upper - range.lower) * s / steps;
+        samples.push_back(between(point, point));
+      }
+    }
+  }
+};
+
 }  // namespace
 
-PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction) {
-  return PlainEngine(spec, abstraction).run();
+PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction,
+                              const std::vector<bool>& safe) {
+  return PlainEngine(spec, abstraction, safe).run();
+}
+
+SafeBounds bound_safe_plainly(const ProblemSpec& spec, const UniformGrid& grid) {
+  SafeBounds bounds;
+  Evaluator<RationalInterval> condition(spec.safe);
+  for (std::int64_t x = 0; x < grid.cells(); ++x) {
+    std::vector<std::vector<RationalInterval>> whole;
+    std::vector<std::vector<RationalInterval>> samples;
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      Choices choices(spec, grid[i], grid.index(x, i));
+      whole.push_back(std::move(choices.whole));
+      samples.push_back(std::move(choices.samples));
+    }
+    bool proven = true;
+    bool possible = true;
+    for_each_choice(whole,
+                    [&](const auto& box) { proven = proven && condition.condition(box) == Truth::yes; });
+    for_each_choice(
+        samples, [&](const auto& point) { possible = possible && condition.condition(point) == Truth::yes; });
+    bounds.natural.push_back(proven);
+    bounds.sampled.push_back(possible);
+  }
+  return bounds;
 }
 
 }  // namespace coordreq

@@ -8,8 +8,8 @@
 
 namespace coordreq {
 
-/// The analysis done the plain way: one cell and one joint input at a time, straight from the definitions of
-/// the contract. Slow and obviously right; what every fast path is compared with, bit for bit.
+/// The analysis from S on done the plain way: one cell and one joint input at a time, straight from the
+/// definitions of the contract. Slow and obviously right; what every fast path is compared with, bit for bit.
 struct PlainAnalysis {
   struct Partition {
     std::vector<std::int32_t> delay;
@@ -19,7 +19,6 @@ struct PlainAnalysis {
     /// [class][cell][joint action of the class]
     std::vector<std::vector<std::vector<bool>>> projection;
   };
-  std::vector<bool> safe;
   std::vector<bool> invariant;
   std::vector<std::int32_t> collision_time;
   std::int64_t iterations = 0;
@@ -27,6 +26,16 @@ struct PlainAnalysis {
   std::vector<Partition> partitions;
 };
 
-[[nodiscard]] PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction);
+[[nodiscard]] PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction,
+                                            const std::vector<bool>& safe);
+
+/// What S lies between, in plain terms.
+struct SafeBounds {
+  std::vector<bool>
+      natural;  ///< natural interval evaluation in rationals proves the cell: S has at least these
+  std::vector<bool> sampled;  ///< no unsafe point among corners, centre and some more: S has at most these
+};
+
+[[nodiscard]] SafeBounds bound_safe_plainly(const ProblemSpec& spec, const UniformGrid& grid);
 
 }  // namespace coordreq

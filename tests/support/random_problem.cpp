@@ -20,7 +20,8 @@ T pick(const std::vector<T>& choices) {
 
 class ProblemWriter {
  public:
-  std::string write(RandomTime kind) {
+  std::string write(RandomTime kind, RandomEdges edges) {
+    edges_ = edges;
     continuous_time_ = kind == RandomTime::any && draw(0, 3) == 0;
     // Half of the problems are agents that share a plane: those have layers.
     plane_ = draw(0, 1) == 0;
@@ -59,10 +60,19 @@ class ProblemWriter {
     const int count = plane_ ? draw(6, 11) : draw(0, 9) == 0 ? draw(1, 2) : draw(4, 9);
     const bool discrete = !continuous_time_ && !plane_ && draw(0, 2) == 0;
     discrete_.push_back(discrete);
+    const bool any_edge = edges_ == RandomEdges::any;
+    const std::string error = any_edge && !discrete && draw(0, 5) == 0 ? "0.25" : "0";
+    const std::string common = fmt::format(
+        R"("name": "x{}", "discrete": {}, "measurement_error": {}, "lower": 0)", i, discrete, error);
+    if (any_edge && draw(0, 3) == 0) {
+      state_text_.push_back(
+          fmt::format(R"({{{}, "upper": {}, "count": {}, "outside": "periodic"}})", common, count, count));
+      return;
+    }
     const auto side = [] { return pick<std::string>({"unsafe", "safe", "saturate"}); };
-    state_text_.push_back(fmt::format(
-        R"({{"name": "x{}", "lower": 0, "upper": {}, "step": 1, "discrete": {}, "outside": {{"below": "{}", "above": "{}"}}}})",
-        i, count - 1, discrete, side(), side()));
+    state_text_.push_back(
+        fmt::format(R"({{{}, "upper": {}, "step": 1, "outside": {{"below": "{}", "above": "{}"}}}})", common,
+                    count - 1, side(), side()));
   }
 
   void add_input(int i) {
@@ -138,7 +148,9 @@ class ProblemWriter {
     return pick<std::string>(
         {fmt::format("x{} >= {}", i, draw(0, 3)), fmt::format("x{} <= {}.5", i, draw(0, 6)),
          fmt::format("x{} != x{} or x{} < 3", i, j, j), fmt::format("x{}^2 + x{}^2 <= {}", i, j, draw(2, 60)),
-         fmt::format("abs(x{} - x{}) >= 0.5", i, j), "true"});
+         fmt::format("abs(x{} - x{}) >= 0.5", i, j), fmt::format("x{} * (5 - x{}) <= {}", i, i, draw(0, 7)),
+         fmt::format("x{}^2 - 2*x{}*x{} + x{}^2 <= {}", i, i, j, j, draw(1, 12)),
+         fmt::format("x{} >= {} or x{} <= 2.5", i, draw(1, 4), i), "true"});
   }
 
   std::string safe_condition() {
@@ -161,6 +173,7 @@ class ProblemWriter {
                               fmt::format("u{} + u{} <= 1 and x{} + u{} >= 0", u, v, i, v)});
   }
 
+  RandomEdges edges_ = RandomEdges::any;
   bool continuous_time_ = false;
   bool plane_ = false;
   int agents_ = 1;
@@ -171,8 +184,8 @@ class ProblemWriter {
 
 }  // namespace
 
-std::string draw_problem(RandomTime kind) {
-  return ProblemWriter().write(kind);
+std::string draw_problem(RandomTime kind, RandomEdges edges) {
+  return ProblemWriter().write(kind, edges);
 }
 
 }  // namespace coordreq

@@ -5,10 +5,16 @@
 namespace coordreq {
 
 enum class RandomTime { any, discrete };
+enum class RandomEdges {
+  any,
+  plain,  ///< no periodic states, no measurement errors
+};
 
 /// A random small problem spec as JSON text, exactly solvable, drawn inside a RapidCheck property: 1 to 3
-/// states (continuous and discrete), 1 to 3 inputs, 1 to 3 agents, disturbances, every `outside` rule of this
-/// version, both kinds of cells, `allow`, both kinds of synthesis, several partitions, max_delay.
-[[nodiscard]] std::string draw_problem(RandomTime kind = RandomTime::any);
+/// states (continuous and discrete), 1 to 3 inputs, 1 to 3 agents, disturbances, every `outside` rule but
+/// `stop`, measurement errors, both kinds of cells, `allow`, both kinds of synthesis, several partitions,
+/// max_delay.
+[[nodiscard]] std::string draw_problem(RandomTime kind = RandomTime::any,
+                                       RandomEdges edges = RandomEdges::any);
 
 }  // namespace coordreq

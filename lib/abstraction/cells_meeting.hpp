@@ -1,0 +1,25 @@
+#pragma once
+
+#include "grid/outside.hpp"
+#include "grid/uniform_grid.hpp"
+#include "numeric/interval.hpp"
+#include "numeric/rational.hpp"
+
+namespace coordreq {
+
+/// Raw indices of the cells of a continuous dimension that meet [lower, upper], contract "Cells". Exact.
+/// @param upper_attained whether `upper` itself is reached; only half-open cells ask
+[[nodiscard]] IndexRange cells_meeting(const GridDimension& dimension, Cells cells, const Rational& lower,
+                                       const Rational& upper, bool upper_attained);
+
+/// The same for an enclosure in doubles, widened by the dimension's measurement error.
+/// REQUIRES: the ends are finite.
+[[nodiscard]] IndexRange cells_meeting(const GridDimension& dimension, Cells cells,
+                                       const Interval& enclosure);
+
+/// Raw indices, relative to the own one, of the cells that meet the own cell moved by `shift`: the whole row
+/// of a table where x' = x + shift. Measurement errors before and after are included.
+[[nodiscard]] IndexRange cells_meeting_shifted(const GridDimension& dimension, Cells cells,
+                                               const Interval& shift);
+
+}  // namespace coordreq

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "abstraction/abstraction.hpp"
+#include "base/thread_team.hpp"
+#include "dynamics/affine_dynamics.hpp"
+
+namespace coordreq {
+
+/// Fills the table of one state of any system from guaranteed enclosures: of the map in discrete time
+/// (MapEnclosure), of the flow in continuous time (ValidatedFlow). Never too small.
+///
+/// Where x_i(tau) = x_i(0) + d and d does not depend on x_i, only d is enclosed, once for each choice of the
+/// other states, and the table is filled by shifting.
+/// @throws SpecError naming the state and a place if the state may be undefined there, may escape to infinity
+/// within a
+///   period (unless it has left through an unsafe side of its own before: then the pair is blocked), or if a
+///   discrete state may be off its grid
+void build_enclosure_table(const ProblemSpec& spec, const Dependencies& dependencies,
+                           Abstraction& abstraction, std::size_t state, ThreadTeam& team);
+
+}  // namespace coordreq

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "expression/program.hpp"
+#include "numeric/interval.hpp"
+
+namespace coordreq {
+
+/// x' = f(x, u, w) for a closed set of states: no equation mentions a state that is not among them.
+/// Slots that are neither states nor disturbances (inputs, parameters) are constant in time.
+struct FlowSystem {
+  /// `outside: "stop"`: the state never passes the limit; at it the derivative is 0 while f points out.
+  struct Limit {
+    bool below = false;  ///< whether there is a lower limit
+    bool above = false;
+    Interval lower;  ///< encloses the limit
+    Interval upper;
+  };
+
+  std::vector<const Program*> equations;  ///< one a state; they outlive whoever uses the system
+  std::vector<std::uint32_t> state_slots;
+  std::vector<std::uint32_t> disturbance_slots;
+  std::size_t slot_count = 0;
+  std::vector<Limit> stops;  ///< one a state, or none at all
+};
+
+}  // namespace coordreq

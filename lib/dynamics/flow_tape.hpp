@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "expression/program.hpp"
+
+namespace coordreq {
+
+/// Several equations as one tape, each common sub-expression once, together with the rules by which Taylor
+/// coefficients of every node follow from those of others (Moore 1966; Griewank and Walther 2008, ch. 13).
+///
+/// Invariants: value operands a, b, c stand before the nodes that use them; the series operands p, q of
+/// `chain` and `inverse_chain` may stand behind, as only their lower orders are needed. Immutable, so safe
+/// to share between threads.
+struct FlowTape {
+  /// How coefficient k of r follows; a' is the derivative in time.
+  enum class Rule : std::uint8_t {
+    fixed,          ///< no moving variable below: r_k = 0 for k > 0
+    variable,       ///< state p, or a disturbance (p = kNone), which is constant
+    sum,            ///< r = p + q
+    difference,     ///< r = p - q
+    negation,       ///< r = -p
+    product,        ///< r = p q
+    quotient,       ///< r = p / q
+    chain,          ///< r' = q p', as sin with q = cos
+    inverse_chain,  ///< q r' = p', as log with q = p
+    root,           ///< r^2 = p
+    power,          ///< r = p^q for a fixed q
+    pick,           ///< abs, sign, min, max, if: one of +-p, q or a constant, as the surroundings decide
+  };
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  struct Node {
+    Operator op;
+    std::uint32_t a = 0, b = 0, c = 0;  ///< as in Program::Node
+    Rule rule = Rule::fixed;
+    std::uint32_t p = 0, q = 0;
+  };
+
+  std::vector<Node> nodes;
+  std::vector<Rational> constants;
+  std::vector<std::uint32_t> state_slots;   ///< in the order of the equations
+  std::vector<std::uint32_t> outputs;       ///< node of each equation
+  std::vector<std::uint32_t> fixed_values;  ///< nodes without moving variables, ascending
+  std::vector<std::uint32_t> values;        ///< moving nodes that the equations' values need, ascending
+  std::vector<std::uint32_t> series;        ///< moving nodes that Taylor coefficients need, ascending
+  bool affine = true;                       ///< each equation has degree at most 1 in the moving variables
+
+  /// @param states slots of the states, in the order of the equations
+  /// @param disturbances slots of the other moving variables
+  FlowTape(std::span<const Program* const> equations, std::span<const std::uint32_t> states,
+           std::span<const std::uint32_t> disturbances);
+};
+
+}  // namespace coordreq

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "numeric/interval.hpp"
+
+namespace coordreq {
+
+/// Enclosures of the transition matrices of e' = (A(t) - diag(rho(t))) e, for every measurable A(t) in an
+/// interval matrix and every rho(t) >= 0 that is 0 but for the damped states.
+///
+/// Peano-Baker series of A + alpha I with alpha such that no diagonal entry is negative: then off-diagonal
+/// signs that are consistent (a system that is monotone in some order of the orthants) give entries whose
+/// sign is proved, and the magnitudes are the growth bound, exp of the Metzler matrix of A (Reissig, Weber,
+/// Rungger 2017, Thm VIII.5, DOI 10.1109/TAC.2016.2593947). Damping puts a factor in [0, 1] wherever a
+/// damped state is passed: what a `stop` does to the difference of two solutions, and what is left of a
+/// diagonal entry that is unbounded below.
+///
+/// Matrices are row-major, n x n. Over-approximates. Scratch memory for one thread.
+class TransitionMatrix {
+ public:
+  /// @param interval_terms how many terms of the series are multiplied out as intervals; beyond them only
+  ///   magnitudes count
+  TransitionMatrix(std::size_t dimension, std::size_t interval_terms);
+
+  static constexpr std::size_t kFewTerms = 5;    ///< enough where the Jacobian is an interval anyway
+  static constexpr std::size_t kManyTerms = 50;  ///< for a Jacobian known exactly
+
+  /// @param jacobian the interval matrix; damped diagonal entries count with their upper ends only
+  /// @returns false if no bound was found: entries are infinite, or the duration is too long
+  bool enclose(std::span<const Interval> jacobian, const Interval& duration, const std::vector<bool>& damped);
+
+  /// Phi(h, 0).
+  [[nodiscard]] std::span<const Interval> end() const { return end_; }
+  /// Phi(h, s) for all 0 <= s <= h.
+  [[nodiscard]] std::span<const Interval> range() const { return range_; }
+  /// At least the integral of |Phi(h, s)| over 0 <= s <= h, entry by entry.
+  [[nodiscard]] std::span<const double> integral() const { return integral_; }
+
+ private:
+  bool shift(std::span<const Interval> jacobian, double duration, const std::vector<bool>& damped);
+  void find_signs();
+  void apply_signs();
+  void start(const std::vector<bool>& damped);
+  void add_term(std::size_t k, const Interval& duration, const std::vector<bool>& damped);
+  [[nodiscard]] bool is_negligible() const;
+  bool add_tail(std::size_t k, double duration);
+  bool next_magnitude(std::size_t k, double duration);
+  void apply_shift(const Interval& duration);
+
+  std::size_t n_;
+  std::size_t interval_terms_;
+  Interval alpha_;
+  std::vector<Interval> shifted_;  ///< A + alpha I
+  std::vector<Interval> term_;     ///< the k-th power of it times h^k / k!
+  std::vector<Interval> product_;
+  std::vector<double> magnitude_;  ///< bounds of |A + alpha I|, and of the k-th term
+  std::vector<double> size_;
+  std::vector<double> next_size_;
+  std::vector<unsigned> signs_;  ///< which signs an entry of a power of A + alpha I can have
+  std::vector<Interval> end_;
+  std::vector<Interval> range_;
+  std::vector<double> integral_;
+};
+
+}  // namespace coordreq
