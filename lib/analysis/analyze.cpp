@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
 
 #include "abstraction/build_abstraction.hpp"
 #include "analysis/result_arrays.hpp"
@@ -155,8 +156,11 @@ class Analysis {
     for (const PartitionResult& partition : partitions) {
       content.partitions.push_back(partition_content(controller, partition, delay_type(partitions)));
     }
-    const ActionGrouping all_inputs(*controller.engine, {all_input_indices()}, team_);
-    if (spec_.output.controller) content.controller = bits(controller, all_inputs, 0, "");
+    std::optional<ActionGrouping> all_inputs;
+    if (spec_.output.controller) {
+      all_inputs.emplace(*controller.engine, std::vector<InputClass>{all_input_indices()}, team_);
+      content.controller = bits(controller, *all_inputs, 0, "");
+    }
     if (spec_.output.abstraction) content.abstraction = tables(abstraction);
     write_results(options_.output, content, team_);
   }

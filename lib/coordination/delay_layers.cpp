@@ -32,8 +32,8 @@ std::vector<std::uint32_t> worst_groups(const Projections& projections, std::int
     const ConstRow projection = projections.row(row, groups, c, g);
     bool needed = !subset_within(projection, nowhere, keep);
     for (std::uint32_t h = 0; h < own.size() && needed; ++h) {
-      if (h == g || own.within[g * own.size() + h] == 0) continue;
-      const bool mutual = own.within[h * own.size() + g] != 0;
+      if (h == g || !own.is_within(g, h)) continue;
+      const bool mutual = own.is_within(h, g);
       const ConstRow other = projections.row(row, groups, c, h);
       // Of two that cover each other the lower one stays.
       if (subset_within(projection, other, keep)) {

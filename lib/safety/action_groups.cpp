@@ -11,7 +11,10 @@ namespace coordreq {
 namespace {
 
 /// Above so many actions in all choices of states groups are found anew for each row.
-constexpr std::int64_t kMaxShared = std::int64_t{1} << 26;
+constexpr std::int64_t kMaxShared = std::int64_t{1} << 24;
+
+/// With more groups than this, comparing each with each costs more than it saves.
+constexpr std::size_t kMaxCompared = 128;
 
 std::size_t at(std::int32_t i) {
   return static_cast<std::size_t>(i);
@@ -153,6 +156,11 @@ ActionGroups ActionGrouping::find_groups(const ClassData& data, std::int64_t row
 
 void ActionGrouping::compare_groups(const ClassData& data, std::int64_t row, ActionGroups& groups) const {
   const std::size_t size = groups.size();
+  if (size > kMaxCompared) {
+    groups.minimal.resize(size);
+    std::iota(groups.minimal.begin(), groups.minimal.end(), 0U);
+    return;
+  }
   groups.within.assign(size * size, 1);
   for (const View& view : data.views) {
     const std::uint32_t* ids = view_ids(view, row);
@@ -178,8 +186,8 @@ void ActionGrouping::compare_groups(const ClassData& data, std::int64_t row, Act
     bool minimal = true;
     for (std::uint32_t h = 0; h < size && minimal; ++h) {
       // Of two groups that are within each other the lower one stays.
-      const bool below = h != g && groups.within[h * size + g] != 0;
-      minimal = !below || (groups.within[g * size + h] != 0 && g < h);
+      const bool below = h != g && groups.is_within(h, g);
+      minimal = !below || (groups.is_within(g, h) && g < h);
     }
     if (minimal) groups.minimal.push_back(g);
   }
@@ -197,7 +205,9 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
     data.state_stride[i] = choices;
     choices *= grid[i].count;
   }
-  if (choices > kMaxShared / data.actions) return;
+  const auto compared =
+      static_cast<std::int64_t>(std::min(static_cast<std::size_t>(data.actions), kMaxCompared));
+  if (choices > kMaxShared / (data.actions + compared * compared / 4)) return;
   std::vector<ActionGroups> found(static_cast<std::size_t>(choices));
   team.for_each(choices, 16, [&](ThreadTeam::Range range, int) {
     for (std::int64_t choice = range.begin; choice < range.end; ++choice) {

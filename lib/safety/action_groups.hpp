@@ -21,10 +21,14 @@ struct ActionGroups {
   /// Groups g for which no other group has its post inside that of g: enough wherever *some* action is asked
   /// for.
   std::vector<std::uint32_t> minimal;
-  /// [g * size() + h]: whatever the others do, the post under g lies inside the post under h, and `allow`
-  /// says the same of both. May be false where that is not easily seen.
+  /// [g * size() + h], see is_within(); empty if there are too many groups to compare.
   std::vector<std::uint8_t> within;
 
+  /// True if, whatever the others do, the post under g lies inside the post under h, and `allow` says the
+  /// same of both. May be false where that is not easily seen.
+  [[nodiscard]] bool is_within(std::uint32_t g, std::uint32_t h) const {
+    return !within.empty() && within[g * size() + h] != 0;
+  }
   [[nodiscard]] std::size_t size() const { return representative.size(); }
 };
 
