@@ -7,8 +7,10 @@ namespace coordreq {
 namespace {
 
 constexpr int kIterations = 12;
-/// What the first guess and every box that proved too small are widened by, as a part of their growth.
+/// What the first guess and every box that proved too small are widened by, as a part of their growth; later
+/// on twice as much each time, as growth from a singularity is slow to show its size.
 constexpr double kInflation = 0.125;
+constexpr int kModestIterations = 4;
 /// So that a box without growth is widened beyond what rounding adds.
 constexpr double kRelativeMargin = 1e-14;
 constexpr double kLeastMargin = 1e-290;
@@ -22,10 +24,10 @@ double margin(const Interval& a) {
 }
 
 /// Covers `grown` and goes on for a part of the way that it lies beyond `start`.
-Interval inflated(const Interval& start, const Interval& grown) {
+Interval inflated(const Interval& start, const Interval& grown, double inflation = kInflation) {
   const double more = margin(grown);
-  return {grown.lower - kInflation * std::max(start.lower - grown.lower, 0.0) - more,
-          grown.upper + kInflation * std::max(grown.upper - start.upper, 0.0) + more};
+  return {grown.lower - inflation * std::max(start.lower - grown.lower, 0.0) - more,
+          grown.upper + inflation * std::max(grown.upper - start.upper, 0.0) + more};
 }
 
 }  // namespace
@@ -99,7 +101,7 @@ Interval VectorField::image(std::size_t i, std::span<const Interval> start, cons
 
 /// Puts the image into `box` if that lies in it, else enlarges the box.
 bool VectorField::contract(std::span<const Interval> start, const Interval& time,
-                           std::span<const Interval> derivative, std::span<Interval> box) {
+                           std::span<const Interval> derivative, double inflation, std::span<Interval> box) {
   bool inside = true;
   for (std::size_t i = 0; i < start.size(); ++i) {
     if (is_inside(i, image(i, start, time, derivative[i]), box[i])) continue;
@@ -108,7 +110,7 @@ bool VectorField::contract(std::span<const Interval> start, const Interval& time
   }
   for (std::size_t i = 0; i < start.size(); ++i) {
     const Interval next = image(i, start, time, derivative[i]);
-    box[i] = inside ? next : hull(box[i], clipped(i, inflated(start[i], next)));
+    box[i] = inside ? next : hull(box[i], clipped(i, inflated(start[i], next, inflation)));
   }
   return inside;
 }
@@ -188,9 +190,11 @@ std::optional<FlowFailure> VectorField::enclose_solutions(std::span<const Interv
 std::optional<FlowFailure> VectorField::iterate(std::span<const Interval> start, const Interval& time,
                                                 std::span<Interval> box, std::span<Interval> derivative) {
   bool found = false;
+  double inflation = kInflation;
   for (int n = 0; n < kIterations && !found; ++n) {
     if (const auto failure = evaluate(box, derivative)) return failure;
-    found = contract(start, time, derivative, box);
+    found = contract(start, time, derivative, inflation, box);
+    if (n >= kModestIterations) inflation *= 2.0;
   }
   if (!found) return FlowFailure{false, worst_};
   // The image is an enclosure too, and a tighter one; once more is worth its price.

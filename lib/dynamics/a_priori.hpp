@@ -70,7 +70,7 @@ class VectorField {
   [[nodiscard]] Interval image(std::size_t i, std::span<const Interval> start, const Interval& time,
                                const Interval& derivative) const;
   bool contract(std::span<const Interval> start, const Interval& time, std::span<const Interval> derivative,
-                std::span<Interval> box);
+                double inflation, std::span<Interval> box);
 
   const FlowSystem* system_;
   const FlowTape* tape_;
