@@ -14,9 +14,9 @@ namespace coordreq {
 
 /// What is under way; called from the calling thread only, often.
 struct Progress {
-  std::string stage;            ///< "abstraction", "safe set", "invariance", "layers PARTITION", "writing"
-  std::int64_t step = 0;        ///< sweep or layer number, 0 where there is none
-  std::int64_t cells_left = 0;  ///< cells still in the set that shrinks, 0 where there is none
+  std::string stage;       ///< "abstraction", "safe set", "invariance", "layers PARTITION", "writing"
+  std::int64_t sweep = 0;  ///< number of the sweep that has ended, 0 where there is none
+  std::int64_t rows = 0;   ///< rows of cells that it has worked out
 };
 
 struct AnalysisOptions {
@@ -51,6 +51,14 @@ struct AnalysisSummary {
   std::string output;
   int threads = 1;
   std::vector<std::pair<std::string, double>> seconds;  ///< by stage, in order, wall time
+  /// What each fixed point took, by the names of their stages, in order.
+  struct Work {
+    std::string stage;
+    std::int64_t sweeps = 0;
+    std::int64_t rows_visited = 0;
+    std::int64_t rows_skipped = 0;
+  };
+  std::vector<Work> work;
   std::uint64_t peak_memory_bytes = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "coordination/projections.hpp"
 
 #include <algorithm>
+#include <deque>
 
 namespace coordreq {
 namespace {
@@ -13,56 +14,85 @@ std::size_t group_offset(const RowGroups& groups, std::size_t c) {
 
 }  // namespace
 
-void controller_row(const Controller& controller, std::int64_t row, ActionGrouping::Tuples& tuple,
-                    MutableRow out, RowEngine::Scratch& scratch) {
-  const ConstRow invariant = controller.invariant->set().row(row);
-  const ConstRow allowed = tuple.allowed();
-  if (controller.synthesis == Synthesis::maximal) {
-    controller.engine->inside(tuple.slice_ids(), *controller.invariant, out, scratch);
-    for (std::size_t w = 0; w < out.size(); ++w) out[w] &= invariant[w];
-  } else {
-    std::copy(invariant.begin(), invariant.end(), out.begin());
-  }
-  for (std::size_t w = 0; w < allowed.size(); ++w) out[w] &= allowed[w];
-}
+/// Works for one thread.
+template <class Level>
+class Projections::Builder {
+ public:
+  Builder(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
+          const LevelRows<Level>& levels)
+      : controller_(controller),
+        grouping_(grouping),
+        hull_(hull),
+        posts_(*controller.engine, levels),
+        lanes_(posts_.lanes(), 0),
+        members_(controller.engine->row_words()) {}
 
-Projections::Projections(const Controller& controller, const ActionGrouping& grouping, ThreadTeam& team)
+  void enter() { posts_.enter(); }
+
+  [[nodiscard]] bool is_full(const RowPlace& place) {
+    if (controller_.engine->allow() != nullptr) return false;
+    if (controller_.synthesis == Synthesis::given) return true;
+    hull_.box(place, box_);
+    if (!box_.covers) return false;
+    const std::int64_t n = controller_.engine->row_length();
+    posts_.kernels().spread(controller_.invariant->row(place.row).data(), lanes_.data(),
+                            static_cast<std::size_t>(n));
+    return posts_.kernels().is_top(posts_.minimum(box_), lanes_.data(), static_cast<std::size_t>(n));
+  }
+
+  void project(const RowPlace& place, std::vector<Word>& bits) {
+    const std::size_t words = members_.size();
+    grouping_.group(place, groups_);
+    bits.assign(group_offset(groups_, groups_.classes.size()) * words, 0);
+    for (std::size_t c = 0; c < groups_.classes.size(); ++c) {
+      // An action of class c is in the projection if some action of the others goes with it; their minimal
+      // ones do.
+      choose_groups(groups_, GroupChoice::minimal, candidates_);
+      candidates_[c] = groups_.classes[c]->all;
+      tuple_.begin(grouping_, place, groups_, candidates_);
+      do {
+        controller_row(controller_, place.row, tuple_, posts_, members_);
+        Word* target = bits.data() + (group_offset(groups_, c) + tuple_.chosen(c)) * words;
+        for (std::size_t w = 0; w < words; ++w) target[w] |= members_[w];
+      } while (tuple_.next());
+    }
+  }
+
+ private:
+  const Controller& controller_;
+  const ActionGrouping& grouping_;
+  const RowHull& hull_;
+  PostReader<Level> posts_;
+  RowGroups groups_;
+  TupleWalk::Candidates candidates_;
+  TupleWalk tuple_;
+  RowHull::Box box_;
+  std::vector<Level> lanes_;
+  std::vector<Word> members_;
+};
+
+Projections::Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
+                         ThreadTeam& team)
     : grouping_(&grouping),
       words_(controller.engine->row_words()),
       rows_(static_cast<std::size_t>(controller.engine->rows())) {
-  struct Workspace {
-    RowGroups groups;
-    RowEngine::Scratch scratch;
-  };
-  std::vector<Workspace> work(static_cast<std::size_t>(team.size()));
-  team.for_each(controller.engine->rows(), 4, [&](ThreadTeam::Range range, int worker) {
-    Workspace& own = work[static_cast<std::size_t>(worker)];
-    for (std::int64_t r = range.begin; r < range.end; ++r) {
-      if (any_set(controller.invariant->set().row(r))) project(controller, r, own.groups, own.scratch);
-    }
+  const RowEngine& engine = *controller.engine;
+  const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
+  controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
+    std::deque<Builder<Level>> builders;
+    for (int w = 0; w < team.size(); ++w) builders.emplace_back(controller, grouping, hull, levels);
+    team.for_each((engine.rows() + grain - 1) / grain, 1, [&](ThreadTeam::Range range, int worker) {
+      Builder<Level>& builder = builders[static_cast<std::size_t>(worker)];
+      const std::int64_t end = std::min(range.end * grain, engine.rows());
+      for (RowPlace place(engine.grid(), range.begin * grain); place.row < end;
+           place.advance(engine.grid())) {
+        // Minima are shared within a unit.
+        if (place.row == range.begin * grain || place.row % engine.unit_rows() == 0) builder.enter();
+        if (!any_set(controller.invariant->row(place.row)) || builder.is_full(place)) continue;
+        builder.project(place, rows_[static_cast<std::size_t>(place.row)]);
+      }
+    });
   });
-}
-
-void Projections::project(const Controller& controller, std::int64_t row, RowGroups& groups,
-                          RowEngine::Scratch& scratch) {
-  grouping_->group(row, groups);
-  std::vector<Word>& bits = rows_[static_cast<std::size_t>(row)];
-  bits.assign(group_offset(groups, groups.classes.size()) * words_, 0);
-  std::vector<Word> members(words_);
-  const auto all = ActionGrouping::all_groups(groups);
-  const auto minimal = ActionGrouping::minimal_groups(groups);
-  for (std::size_t c = 0; c < groups.classes.size(); ++c) {
-    // An action of class c is in the projection if some action of the others goes with it; their minimal ones
-    // do.
-    auto candidates = minimal;
-    candidates[c] = all[c];
-    ActionGrouping::Tuples tuple(*grouping_, row, groups, std::move(candidates));
-    do {
-      controller_row(controller, row, tuple, members, scratch);
-      Word* target = bits.data() + (group_offset(groups, c) + tuple.chosen(c)) * words_;
-      for (std::size_t w = 0; w < words_; ++w) target[w] |= members[w];
-    } while (tuple.next());
-  }
 }
 
 ConstRow Projections::row(std::int64_t row, const RowGroups& groups, std::size_t c, std::uint32_t g) const {

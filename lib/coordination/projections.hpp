@@ -5,43 +5,33 @@
 
 #include "base/thread_team.hpp"
 #include "bitset/cell_set.hpp"
-#include "safety/action_groups.hpp"
-#include "spec/problem_spec.hpp"
+#include "coordination/controller.hpp"
+#include "safety/row_hull.hpp"
 
 namespace coordreq {
 
-/// The controller C of an invariance set, contract "Controller": `maximal` C(x) = {u allowed : empty !=
-/// f(x,u) subset of K}, `given` C(x) = {u allowed}; empty outside K. Never stored, computed row by row.
-struct Controller {
-  const RowEngine* engine = nullptr;
-  const RowTarget* invariant = nullptr;
-  Synthesis synthesis = Synthesis::maximal;
-};
-
-/// {x in the row : u in C(x)} for all u in one choice of groups.
-/// REQUIRES: `out` has engine->row_words() words.
-void controller_row(const Controller& controller, std::int64_t row, ActionGrouping::Tuples& tuple,
-                    MutableRow out, RowEngine::Scratch& scratch);
-
 /// The projections of C onto the classes of one partition: IND_C(x) is their product (paper, Eq. for mesh
-/// networks). Held as one bit row for each group of actions of each class in each row of K.
+/// networks). Held as one bit row for each group of actions of each class in each row of K, but for rows
+/// where C(x) is all actions: deep inside K, that is most of them.
 class Projections {
  public:
-  Projections(const Controller& controller, const ActionGrouping& grouping, ThreadTeam& team);
+  Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
+              ThreadTeam& team);
 
   [[nodiscard]] const ActionGrouping& grouping() const { return *grouping_; }
   /// {x in the row : group g of class c is in the projection of C(x)}; groups as ActionGrouping::group
-  /// numbers them. REQUIRES: K has a cell in `row`.
+  /// numbers them. REQUIRES: K has a cell in `row`, and not is_full(row).
   [[nodiscard]] ConstRow row(std::int64_t row, const RowGroups& groups, std::size_t c, std::uint32_t g) const;
-  [[nodiscard]] bool has_row(std::int64_t row) const { return !rows_[static_cast<std::size_t>(row)].empty(); }
+  /// True if every action is in C(x) for all x of K in this row.
+  [[nodiscard]] bool is_full(std::int64_t row) const { return rows_[static_cast<std::size_t>(row)].empty(); }
 
  private:
-  void project(const Controller& controller, std::int64_t row, RowGroups& groups,
-               RowEngine::Scratch& scratch);
+  template <class Level>
+  class Builder;
 
   const ActionGrouping* grouping_;
   std::size_t words_;
-  std::vector<std::vector<Word>> rows_;  ///< by row: groups of class 0, then of class 1, ...; empty outside K
+  std::vector<std::vector<Word>> rows_;  ///< by row: groups of class 0, then of class 1, ...
 };
 
 }  // namespace coordreq

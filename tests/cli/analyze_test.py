@@ -84,6 +84,7 @@ $""",
                 "output",
                 "threads",
                 "seconds",
+                "work",
                 "peak_memory_bytes",
             ],
         )
@@ -98,6 +99,10 @@ $""",
             list(summary["seconds"]), ["abstraction", "safe set", "invariance", "layers a|b", "writing"]
         )
         self.assertTrue(all(seconds >= 0 for seconds in summary["seconds"].values()))
+        self.assertEqual(list(summary["work"]), ["invariance", "layers a|b"])
+        for work in summary["work"].values():
+            self.assertEqual(list(work), ["sweeps", "rows_visited", "rows_skipped"])
+            self.assertGreater(work["rows_visited"], 0)
         self.assertGreater(summary["peak_memory_bytes"], 2**20)
 
     def test_max_delay_truncates(self):

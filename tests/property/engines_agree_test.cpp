@@ -37,13 +37,13 @@ void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const P
                       ThreadTeam& team) {
   RC_ASSERT(fast.invariance.iterations == plain.iterations);
   RC_ASSERT(members(fast.invariance.invariant) == plain.invariant);
-  RC_ASSERT(fast.invariance.collision_time == plain.collision_time);
+  RC_ASSERT(fast.collision_times() == plain.collision_time);
   for (std::size_t p = 0; p < plain.partitions.size(); ++p) {
     const PlainAnalysis::Partition& expected = plain.partitions[p];
     RC_ASSERT(fast.layers[p].sizes == expected.sizes);
     RC_ASSERT(fast.layers[p].fixed_point_index == expected.fixed_point_index);
     RC_ASSERT(fast.layers[p].truncated == expected.truncated);
-    RC_ASSERT(fast.layers[p].delay == expected.delay);
+    RC_ASSERT(fast.delays(p) == expected.delay);
     for (std::size_t c = 0; c < expected.projection.size(); ++c) {
       RC_ASSERT(unpacked(fast, fast.groupings[p], c) == expected.projection[c]);
     }

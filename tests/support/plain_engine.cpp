@@ -92,7 +92,7 @@ class PlainEngine {
 
   void find_invariant() {
     result_.invariant = safe_;
-    for (const bool safe : safe_) result_.collision_time.push_back(safe ? Invariance::kNever : 0);
+    for (const bool safe : safe_) result_.collision_time.push_back(safe ? INT32_MAX : 0);
     for (bool changed = true; changed;) {
       changed = false;
       ++result_.iterations;
