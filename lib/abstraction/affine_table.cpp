@@ -9,6 +9,7 @@
 #include "abstraction/counter.hpp"
 #include "abstraction/index_form.hpp"
 #include "base/error.hpp"
+#include "dynamics/shift.hpp"
 #include "grid/pieces.hpp"
 
 namespace coordreq {
@@ -37,7 +38,8 @@ class TableBuilder {
                          dependencies_.parameters.end());
     std::sort(table_.states.begin(), table_.states.end());
     table_.inputs = dependencies_.inputs;
-    table_.entries.resize(static_cast<std::size_t>(lay_out(table_, grid_, inputs_)));
+    table_.shift = is_shift(spec_, dependencies_, state_);
+    table_.entries.resize(static_cast<std::size_t>(lay_out(table_, state_, grid_, inputs_)));
 
     std::atomic<bool> affine = true;
     std::atomic<bool> exact = true;
@@ -56,9 +58,15 @@ class TableBuilder {
   }
 
  private:
+  /// How many indices of a state are filled in: of a shift only 0 of its own, so that raw indices are
+  /// relative.
+  [[nodiscard]] std::int64_t filled_count(std::int32_t i) const {
+    return table_.shift && at(i) == state_ ? 1 : grid_[at(i)].count;
+  }
+
   [[nodiscard]] std::vector<std::int64_t> choice_counts() const {
     std::vector<std::int64_t> counts;
-    for (const std::int32_t i : dependencies_.parameters) counts.push_back(grid_[at(i)].count);
+    for (const std::int32_t i : dependencies_.parameters) counts.push_back(filled_count(i));
     for (const std::int32_t i : dependencies_.inputs) counts.push_back(inputs_[at(i)].count());
     return counts;
   }
@@ -119,7 +127,7 @@ class TableBuilder {
   template <class Entry>
   void for_each_cell(std::int64_t base, const Entry& entry) {
     std::vector<std::int64_t> counts;
-    for (const std::int32_t j : dependencies_.moving) counts.push_back(grid_[at(j)].count);
+    for (const std::int32_t j : dependencies_.moving) counts.push_back(filled_count(j));
     Counter cell(counts);
     do {
       std::int64_t position = base;
@@ -141,6 +149,14 @@ class TableBuilder {
     return false;
   }
 
+  /// A shifted cell need not be cut at its seam, for all goes round with it.
+  [[nodiscard]] std::vector<Piece> pieces_of(std::size_t state, std::int64_t k) const {
+    const GridDimension& dimension = grid_[state];
+    if (!table_.shift || state != state_) return pieces(dimension, k);
+    const Rational reach = dimension.radius() + dimension.measurement_error;
+    return {{dimension.point(k) - reach, dimension.point(k) + reach}};
+  }
+
   void fill_pieces(const SampledRow& row, std::int64_t base) {
     const GridDimension& target = grid_[state_];
     const bool attained = upper_end_attained(row);
@@ -148,7 +164,7 @@ class TableBuilder {
       std::vector<std::vector<Piece>> parts;
       std::vector<std::int64_t> counts;
       for (std::size_t j = 0; j < cell.size(); ++j) {
-        parts.push_back(pieces(grid_[at(dependencies_.moving[j])], cell[j]));
+        parts.push_back(pieces_of(at(dependencies_.moving[j]), cell[j]));
         counts.push_back(static_cast<std::int64_t>(parts.back().size()));
       }
       std::optional<IndexRange> range;

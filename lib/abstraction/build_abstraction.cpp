@@ -7,6 +7,7 @@
 #include "abstraction/counter.hpp"
 #include "abstraction/enclosure_table.hpp"
 #include "dynamics/affine_dynamics.hpp"
+#include "dynamics/shift.hpp"
 
 namespace coordreq {
 namespace {
@@ -24,10 +25,12 @@ std::vector<TableShape> table_shapes(const ProblemSpec& spec) {
     const Dependencies& dependencies = dynamics.dependencies(i);
     TableShape shape{.states = dependencies.moving,
                      .inputs = dependencies.inputs,
-                     .disturbances = dependencies.disturbances};
+                     .disturbances = dependencies.disturbances,
+                     .shift = is_shift(spec, dependencies, i)};
     shape.states.insert(shape.states.end(), dependencies.parameters.begin(), dependencies.parameters.end());
     std::sort(shape.states.begin(), shape.states.end());
     for (const std::int32_t j : shape.states) {
+      if (shape.shift && at(j) == i) continue;
       shape.entries *= static_cast<double>(spec.states[static_cast<std::size_t>(j)].grid.count);
     }
     for (const std::int32_t j : shape.inputs) {

@@ -11,6 +11,7 @@
 #include "abstraction/counter.hpp"
 #include "abstraction/state_enclosure.hpp"
 #include "base/error.hpp"
+#include "dynamics/shift.hpp"
 #include "grid/pieces.hpp"
 
 namespace coordreq {
@@ -40,15 +41,19 @@ class EnclosureTable {
       : spec_(spec),
         enclosure_(spec, dependencies, state),
         target_(abstraction.grid[state]),
-        table_(abstraction.tables[state]),
-        state_(state) {
+        table_(abstraction.tables[state]) {
     table_.states = dependencies.moving;
     table_.states.insert(table_.states.end(), dependencies.parameters.begin(), dependencies.parameters.end());
     std::sort(table_.states.begin(), table_.states.end());
     table_.inputs = dependencies.inputs;
-    table_.entries.resize(static_cast<std::size_t>(lay_out(table_, abstraction.grid, abstraction.inputs)));
+    table_.shift = is_shift(spec, dependencies, state);
+    table_.entries.resize(
+        static_cast<std::size_t>(lay_out(table_, state, abstraction.grid, abstraction.inputs)));
     for (const std::int32_t j : table_.states) {
-      if (!(enclosure_.shifts() && at(j) == state)) add_state(abstraction.grid[at(j)], at(j));
+      const bool own_of_shift = table_.shift && at(j) == state;
+      if (own_of_shift && enclosure_.shifts()) continue;
+      const GridDimension& dimension = abstraction.grid[at(j)];
+      add_state(dimension, at(j), own_of_shift ? 1 : dimension.count);
     }
     for (const std::int32_t j : table_.inputs) add_input(abstraction.inputs[at(j)], at(j));
   }
@@ -70,12 +75,13 @@ class EnclosureTable {
   }
 
  private:
-  void add_state(const GridDimension& dimension, std::size_t state) {
+  /// With its first `count` indices.
+  void add_state(const GridDimension& dimension, std::size_t state, std::int64_t count) {
     VariableBoxes& variable = variables_.emplace_back();
     variable.slot = spec_.state_slot(state);
     variable.name = dimension.name;
     variable.stride = table_.state_stride[state];
-    for (std::int64_t k = 0; k < dimension.count; ++k) {
+    for (std::int64_t k = 0; k < count; ++k) {
       variable.points.push_back(dimension.point(k));
       std::vector<Interval>& boxes = variable.pieces.emplace_back();
       for (const Piece& piece : pieces(dimension, k)) boxes.push_back(box_of(piece.lower, piece.upper));
@@ -110,14 +116,7 @@ class EnclosureTable {
       range = range ? merge_ranges(*range, next, target_) : next;
     } while (piece.next());
 
-    if (!enclosure_.shifts()) {
-      table_.entries[static_cast<std::size_t>(base)] = *range;
-      return;
-    }
-    for (std::int64_t k = 0; k < target_.count; ++k) {
-      table_.entries[static_cast<std::size_t>(base + k * table_.state_stride[state_])] = {
-          saturate_index(range->first + k), saturate_index(range->last + k)};
-    }
+    table_.entries[static_cast<std::size_t>(base)] = *range;
   }
 
   [[nodiscard]] const std::vector<Interval>& boxes_of(const std::vector<std::int64_t>& choice,
@@ -155,7 +154,8 @@ class EnclosureTable {
 
   [[nodiscard]] IndexRange index_of_point(const Interval& value,
                                           const std::vector<std::int64_t>& choice) const {
-    const Rational index = (exact(value.lower) - target_.first) / target_.step;
+    const Rational origin = enclosure_.shifts() ? Rational(0) : target_.first;
+    const Rational index = (exact(value.lower) - origin) / target_.step;
     if (!value.is_point() || !is_integer(index)) {
       throw SpecError(
           fmt::format("the next value of the discrete state '{}' is in [{}, {}]{}, expected one of {} + k * "
@@ -183,7 +183,6 @@ class EnclosureTable {
   StateEnclosure enclosure_;
   const GridDimension& target_;
   TransitionTable& table_;
-  std::size_t state_;
   std::vector<VariableBoxes> variables_;  ///< all that the table ranges over, but for a shifted own state
 };
 

@@ -40,7 +40,6 @@ class StateEnclosure {
  private:
   void prepare_map();
   void prepare_flow();
-  [[nodiscard]] bool map_shifts() const;
   [[nodiscard]] Result enclose_map();
   [[nodiscard]] Result enclose_flow();
 

@@ -249,7 +249,7 @@ class Analysis {
   [[nodiscard]] std::vector<ResultTable> tables(const Abstraction& abstraction) const {
     std::vector<ResultTable> result;
     for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
-      const TransitionTable& table = abstraction.tables[i];
+      const TransitionTable table = written_out(abstraction, i);
       ResultTable& stored = result.emplace_back(ResultTable{.state = abstraction.grid[i].name});
       for (const std::int32_t j : table.states)
         stored.depends_on.push_back(spec_.states[static_cast<std::size_t>(j)].name);

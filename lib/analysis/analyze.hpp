@@ -75,8 +75,12 @@ struct SpecReport {
     std::string name;
     std::string unit;
     std::int64_t points = 0;
-    std::vector<std::string> depends_on;  ///< states, inputs and disturbances that its next value depends on
+    std::vector<std::string> states;  ///< that its next value depends on; likewise inputs and disturbances
+    std::vector<std::string> inputs;
+    std::vector<std::string> disturbances;
+    bool shift = false;  ///< only as an offset to the present value, stored once for all present ones
     std::uint64_t table_entries = 0;
+    std::uint64_t table_bytes = 0;
   };
   struct Input {
     std::string name;

@@ -151,6 +151,9 @@ TEST(EnclosureTable, MeasurementErrorsWidenBeforeAndAfter) {
 TEST(EnclosureTable, IntegratorsAreShiftedAlongTheirRow) {
   const Abstraction a =
       build(read_spec(spec_text(kPlane, "continuous", R"json("x": "y^2 + u", "y": "sin(y)")json"), "t"));
+  EXPECT_TRUE(a.tables[0].shift);
+  EXPECT_EQ(a.tables[0].entries.size(), 9U * 3U);
+  EXPECT_FALSE(a.tables[1].shift);
   for (std::int64_t y = 0; y < 9; ++y) {
     for (std::int64_t u = 0; u < 3; ++u) {
       const IndexRange first = a.raw(0, y, u);
@@ -160,6 +163,18 @@ TEST(EnclosureTable, IntegratorsAreShiftedAlongTheirRow) {
       }
     }
   }
+}
+
+TEST(EnclosureTable, DiscreteStatesShiftFromPointToPoint) {
+  // sin(0) is not exact in general, so this is the interval route; 0.1 is no double.
+  const std::string states = R"({"name": "x", "lower": -2, "upper": 2, "step": 0.5},
+{"name": "k", "lower": 0.5, "upper": 4.5, "step": 1, "discrete": true, "outside": "saturate"})";
+  const ProblemSpec spec =
+      read_spec(spec_text(states, "discrete", R"json("x": "x", "k": "k + 1 + 0*sin(u)")json"), "t");
+  const Abstraction a = build(spec);
+  EXPECT_TRUE(a.tables[1].shift);
+  EXPECT_EQ(a.tables[1].entries, (std::vector<IndexRange>(3, IndexRange{1, 1})));
+  EXPECT_EQ(a.raw(1, 3, 0), (IndexRange{4, 4}));
 }
 
 TEST(EnclosureTable, VehicleThatBrakesToAStandstillDoesNotReverse) {
