@@ -2,22 +2,33 @@
 
 namespace coordreq {
 
-IndexRange Abstraction::raw(std::size_t i, std::int64_t x, std::int64_t u) const {
-  const TransitionTable& table = tables[i];
+namespace {
+
+IndexRange entry_of(const Abstraction& a, const TransitionTable& table, std::int64_t x, std::int64_t u) {
   std::int64_t entry = 0;
   for (const std::int32_t j : table.states) {
     const auto s = static_cast<std::size_t>(j);
-    entry += grid.index(x, s) * table.state_stride[s];
+    entry += a.grid.index(x, s) * table.state_stride[s];
   }
   for (const std::int32_t j : table.inputs) {
     const auto s = static_cast<std::size_t>(j);
-    entry += inputs.index(u, s) * table.input_stride[s];
+    entry += a.inputs.index(u, s) * table.input_stride[s];
   }
   return table.entries[static_cast<std::size_t>(entry)];
 }
 
+}  // namespace
+
+IndexRange Abstraction::raw(std::size_t i, std::int64_t x, std::int64_t u) const {
+  return entry_of(*this, tables[i], x, u);
+}
+
 ResolvedRange Abstraction::resolved(std::size_t i, std::int64_t x, std::int64_t u) const {
   return resolve(raw(i, x, u), grid[i].count, grid[i].below, grid[i].above);
+}
+
+ResolvedRange Abstraction::resolved_tube(std::size_t i, std::int64_t x, std::int64_t u) const {
+  return resolve(entry_of(*this, tubes[i], x, u), grid[i].count, grid[i].below, grid[i].above);
 }
 
 std::int64_t lay_out(TransitionTable& table, const UniformGrid& grid, const InputSpace& inputs) {

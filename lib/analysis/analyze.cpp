@@ -15,6 +15,7 @@
 #include "results/write_results.hpp"
 #include "safety/invariance.hpp"
 #include "safety/safe_set.hpp"
+#include "safety/tube_safe_set.hpp"
 
 namespace coordreq {
 namespace {
@@ -60,7 +61,8 @@ class Analysis {
     enter("safe set");
     const CellSet safe = safe_set(spec_, abstraction, team_);
     const std::optional<ConditionTable> allow = allow_table(spec_, abstraction, team_);
-    const RowEngine engine(abstraction, allow ? &*allow : nullptr);
+    const std::optional<CellSet> tube_safe = tube_safe_set(spec_, abstraction, safe, team_);
+    const RowEngine engine(abstraction, allow ? &*allow : nullptr, tube_safe ? &*tube_safe : nullptr, team_);
     const RowReach reach(engine);
     enter("invariance");
     const Invariance invariance =
@@ -101,7 +103,8 @@ class Analysis {
   }
 
   [[nodiscard]] std::string guarantee() const {
-    return spec_.abstraction.safe == Membership::center ? "samples-center" : "samples";
+    if (spec_.abstraction.safe == Membership::center) return "samples-center";
+    return spec_.abstraction.between_samples ? "continuous" : "samples";
   }
 
   void summarise(const Abstraction& abstraction, const CellSet& safe, const Invariance& invariance,

@@ -164,7 +164,7 @@ void ActionGrouping::compare_groups(const ClassData& data, std::int64_t row, Act
   groups.within.assign(size * size, 1);
   for (const View& view : data.views) {
     const std::uint32_t* ids = view_ids(view, row);
-    const bool is_slices = view.table < engine_->tables() && view.partial.empty();
+    const bool is_slices = view.table < engine_->slices().size() && view.partial.empty();
     for (std::size_t g = 0; g < size; ++g) {
       for (std::size_t h = 0; h < size; ++h) {
         std::uint8_t& within = groups.within[g * size + h];
@@ -177,7 +177,7 @@ void ActionGrouping::compare_groups(const ClassData& data, std::int64_t row, Act
           continue;
         }
         const auto& slices = engine_->slices()[view.table].slices;
-        const GridDimension& target = engine_->abstraction().grid[view.table];
+        const GridDimension& target = engine_->abstraction().grid[view.table % engine_->tables()];
         within = slice_within(slices[a], slices[b], target) ? 1 : 0;
       }
     }
@@ -270,7 +270,7 @@ ActionGrouping::Tuples::Tuples(const ActionGrouping& grouping, std::int64_t row,
       offset_(grouping.size()),
       sum_((grouping.size() + 1) * tables_),
       position_(grouping.size(), 0),
-      ids_(grouping.engine_->tables()) {
+      ids_(grouping.engine_->slices().size()) {
   const UniformGrid& grid = grouping.engine_->abstraction().grid;
   for (std::size_t t = 0; t < tables_; ++t) sum_[t] = grouping.sources_[t].base(grid, row);
   for (std::size_t c = 0; c < grouping.size(); ++c) {

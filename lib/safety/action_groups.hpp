@@ -13,19 +13,19 @@ namespace coordreq {
 /// Inputs that are chosen together; its joint actions are numbered row-major, the last input fastest.
 using InputClass = std::vector<std::int32_t>;
 
-/// The actions of one class in one row, sorted into groups that cannot be told apart there: same post and
-/// same `allow` whatever the other classes do. Groups are numbered by their first actions.
+/// The actions of one class in one row, sorted into groups that cannot be told apart there: same post, tube
+/// and `allow` whatever the other classes do. Groups are numbered by their first actions.
 struct ActionGroups {
   std::vector<std::uint32_t> group_of;        ///< [action]
   std::vector<std::uint32_t> representative;  ///< [group], its lowest action
-  /// Groups g for which no other group has its post inside that of g: enough wherever *some* action is asked
-  /// for.
+  /// Groups g for which no other group has its post (and tube) inside that of g: enough wherever *some*
+  /// action is asked for.
   std::vector<std::uint32_t> minimal;
   /// [g * size() + h], see is_within(); empty if there are too many groups to compare.
   std::vector<std::uint8_t> within;
 
-  /// True if, whatever the others do, the post under g lies inside the post under h, and `allow` says the
-  /// same of both. May be false where that is not easily seen.
+  /// True if, whatever the others do, the post under g lies inside the post under h (and so do the tubes),
+  /// and `allow` says the same of both. May be false where that is not easily seen.
   [[nodiscard]] bool is_within(std::uint32_t g, std::uint32_t h) const {
     return !within.empty() && within[g * size() + h] != 0;
   }
@@ -63,7 +63,7 @@ class ActionGrouping {
            std::vector<std::vector<std::uint32_t>> candidates);
     /// Group chosen in class c.
     [[nodiscard]] std::uint32_t chosen(std::size_t c) const { return candidates_[c][position_[c]]; }
-    /// Numbers of the slices, one a table, for RowEngine::inside.
+    /// Numbers of the slices, one for each of RowEngine::slices(), for RowEngine::inside.
     [[nodiscard]] std::span<const std::uint32_t> slice_ids();
     /// Allowed cells of the row; empty if everything is allowed.
     [[nodiscard]] ConstRow allowed() const;

@@ -6,12 +6,19 @@ namespace coordreq {
 
 using Kind = RowSegment::Kind;
 
-RowEngine::RowEngine(const Abstraction& abstraction, const ConditionTable* allow)
+RowEngine::RowEngine(const Abstraction& abstraction, const ConditionTable* allow, const CellSet* tube_safe,
+                     ThreadTeam& team)
     : abstraction_(&abstraction), allow_(allow) {
   for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
-    slices_.push_back(cut_into_rows(abstraction, i));
+    slices_.push_back(cut_into_rows(abstraction, abstraction.tables[i], i));
     row_stride_.push_back(abstraction.grid.stride(i) / abstraction.grid.row_length());
     count_.push_back(abstraction.grid[i].count);
+  }
+  for (std::size_t i = 0; i < abstraction.tubes.size(); ++i) {
+    slices_.push_back(cut_into_rows(abstraction, abstraction.tubes[i], i));
+  }
+  if (tube_safe != nullptr) {
+    tube_target_.emplace(*tube_safe, slices_.back(), abstraction.grid.dimensions().back(), team);
   }
 }
 
@@ -27,15 +34,15 @@ std::int64_t RowEngine::base(std::int64_t row, std::size_t table) const {
 
 /// The common case: every slice is one segment and the erosion is at hand. @returns false if it is not that
 /// case
-bool RowEngine::inside_simple(std::span<const std::uint32_t> ids, const RowTarget& target, MutableRow out,
-                              Scratch& scratch) const {
-  const std::size_t last = slices_.size() - 1;
+bool RowEngine::inside_simple(std::span<const RowSlices> slices, std::span<const std::uint32_t> ids,
+                              const RowTarget& target, MutableRow out, Scratch& scratch) const {
+  const std::size_t last = slices.size() - 1;
   const CellSet* eroded = target.eroded(ids[last]);
   if (eroded == nullptr) return false;
   scratch.box.resize(last);
   bool blocked = false;
   for (std::size_t t = 0; t < last; ++t) {
-    const std::vector<RowSegment>& slice = slices_[t].slices[ids[t]];
+    const std::vector<RowSegment>& slice = slices[t].slices[ids[t]];
     if (slice.size() != 1 || slice[0].kind == Kind::gone) return false;
     blocked = blocked || slice[0].kind == Kind::blocked;
     scratch.box[t] = slice[0].range;
@@ -50,13 +57,24 @@ bool RowEngine::inside_simple(std::span<const std::uint32_t> ids, const RowTarge
 
 void RowEngine::inside(std::span<const std::uint32_t> ids, const RowTarget& target, MutableRow out,
                        Scratch& scratch) const {
-  if (inside_simple(ids, target, out, scratch)) return;
-  const std::size_t tables = slices_.size();
+  const std::span<const RowSlices> all(slices_);
+  boxes_inside(all.first(tables()), ids.first(tables()), target, out, scratch);
+  if (!tube_target_ || !any_set(out)) return;
+  scratch.tube.resize(out.size());
+  boxes_inside(all.subspan(tables()), ids.subspan(tables()), *tube_target_, scratch.tube, scratch);
+  for (std::size_t w = 0; w < out.size(); ++w) out[w] &= scratch.tube[w];
+}
+
+/// out = {x in the row : the box of what the slices say is not blocked and inside `target`}.
+void RowEngine::boxes_inside(std::span<const RowSlices> slices, std::span<const std::uint32_t> ids,
+                             const RowTarget& target, MutableRow out, Scratch& scratch) const {
+  if (inside_simple(slices, ids, target, out, scratch)) return;
+  const std::size_t tables = slices.size();
   const std::size_t last = tables - 1;
   scratch.slices.resize(tables);
   scratch.positions.assign(tables, 0);
   scratch.box.resize(last);
-  for (std::size_t t = 0; t < tables; ++t) scratch.slices[t] = &slices_[t].slices[ids[t]];
+  for (std::size_t t = 0; t < tables; ++t) scratch.slices[t] = &slices[t].slices[ids[t]];
   std::fill(out.begin(), out.end(), Word{0});
 
   const auto length = static_cast<std::int32_t>(row_length());

@@ -25,16 +25,21 @@ class RowEngine {
     RowEroder eroder;
     std::vector<Word> gathered;
     std::vector<Word> eroded;
+    std::vector<Word> tube;
     std::vector<const std::vector<RowSegment>*> slices;
     std::vector<std::size_t> positions;
     std::vector<IndexRange> box;
     std::vector<std::int64_t> indices;
   };
 
-  /// REQUIRES: `abstraction` and `allow` (may be null: everything is allowed) outlive this object.
-  RowEngine(const Abstraction& abstraction, const ConditionTable* allow);
+  /// @param allow may be null: everything is allowed
+  /// @param tube_safe what tubes must stay in, if there are any, else null; see tube_safe_set()
+  /// REQUIRES: they outlive this object.
+  RowEngine(const Abstraction& abstraction, const ConditionTable* allow, const CellSet* tube_safe,
+            ThreadTeam& team);
 
   [[nodiscard]] const Abstraction& abstraction() const { return *abstraction_; }
+  /// Those of the posts, one a state, then those of the tubes, if there are any.
   [[nodiscard]] const std::vector<RowSlices>& slices() const { return slices_; }
   [[nodiscard]] const ConditionTable* allow() const { return allow_; }
   [[nodiscard]] std::int64_t rows() const { return abstraction_->grid.rows(); }
@@ -43,23 +48,26 @@ class RowEngine {
     return static_cast<std::size_t>((row_length() + CellSet::kWordBits - 1) / CellSet::kWordBits);
   }
 
-  /// Number of tables of slices: one a state.
-  [[nodiscard]] std::size_t tables() const { return slices_.size(); }
+  /// Number of tables of slices of posts: one a state.
+  [[nodiscard]] std::size_t tables() const { return count_.size(); }
   /// Where the entries of `row` begin in slices()[table].ids.
   [[nodiscard]] std::int64_t base(std::int64_t row, std::size_t table) const;
 
-  /// out = {x in the row : not blocked and post inside `target`} for the slices numbered `ids`, one a table.
+  /// out = {x in the row : not blocked, tube safe and post inside `target`} for the slices numbered `ids`,
+  /// one for each of slices().
   void inside(std::span<const std::uint32_t> ids, const RowTarget& target, MutableRow out,
               Scratch& scratch) const;
 
   /// A target for inside(). REQUIRES: `set` outlives it.
   [[nodiscard]] RowTarget target(const CellSet& set, ThreadTeam& team) const {
-    return RowTarget(set, slices_.back(), abstraction_->grid.dimensions().back(), team);
+    return RowTarget(set, slices_[tables() - 1], abstraction_->grid.dimensions().back(), team);
   }
 
  private:
-  [[nodiscard]] bool inside_simple(std::span<const std::uint32_t> ids, const RowTarget& target,
-                                   MutableRow out, Scratch& scratch) const;
+  void boxes_inside(std::span<const RowSlices> slices, std::span<const std::uint32_t> ids,
+                    const RowTarget& target, MutableRow out, Scratch& scratch) const;
+  [[nodiscard]] bool inside_simple(std::span<const RowSlices> slices, std::span<const std::uint32_t> ids,
+                                   const RowTarget& target, MutableRow out, Scratch& scratch) const;
   void gather(const CellSet& target, std::vector<std::int64_t>& indices, const std::vector<IndexRange>& box,
               MutableRow out) const;
   [[nodiscard]] bool holds(ConstRow row, IndexRange range) const;
@@ -71,6 +79,7 @@ class RowEngine {
   std::vector<RowSlices> slices_;
   std::vector<std::int64_t> row_stride_;  ///< rows from one index of a dimension to the next
   std::vector<std::int64_t> count_;       ///< indices of a dimension
+  std::optional<RowTarget> tube_target_;
 };
 
 }  // namespace coordreq

@@ -77,9 +77,8 @@ class RowCutter {
 
 }  // namespace
 
-RowSlices cut_into_rows(const Abstraction& abstraction, std::size_t state) {
+RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& table, std::size_t state) {
   const UniformGrid& grid = abstraction.grid;
-  const TransitionTable& table = abstraction.tables[state];
   const std::size_t last = grid.size() - 1;
   const std::int64_t length = grid.row_length();
   const std::int64_t column_stride = table.state_stride[last];

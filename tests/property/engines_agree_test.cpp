@@ -33,6 +33,11 @@ std::vector<std::vector<bool>> unpacked(const FastAnalysis& fast, const ActionGr
   return result;
 }
 
+PlainAnalysis plainly(const ProblemSpec& spec, const FastAnalysis& fast) {
+  const std::vector<bool> tube_safe = fast.tube_safe ? members(*fast.tube_safe) : std::vector<bool>{};
+  return analyze_plainly(spec, fast.abstraction, members(fast.safe), tube_safe);
+}
+
 void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const PlainAnalysis& plain,
                       ThreadTeam& team) {
   RC_ASSERT(fast.invariance.iterations == plain.iterations);
@@ -53,7 +58,8 @@ void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const P
   RC_ASSERT(unpacked(fast, ActionGrouping(fast.engine, {all}, team), 0) == plain.controller);
 }
 
-void classify(const PlainAnalysis& plain) {
+void classify(const PlainAnalysis& plain, const FastAnalysis& fast) {
+  RC_CLASSIFY(fast.tube_safe && plain.partitions[0].sizes.size() > 1, "between samples, more than one layer");
   RC_CLASSIFY(std::count(plain.invariant.begin(), plain.invariant.end(), true) > 0, "K not empty");
   RC_CLASSIFY(!plain.partitions.empty() && plain.partitions[0].sizes.size() > 1, "more than one layer");
   RC_CLASSIFY(plain.iterations > 2, "more than two sweeps for K");
@@ -64,8 +70,8 @@ TEST(Engines, RowsAndSinglePairsGiveTheSameBits) {
   EXPECT_TRUE(rc::check("row engine equals plain engine", [&] {
     const ProblemSpec spec = read_spec(draw_problem(), "random");
     const FastAnalysis fast(spec, team);
-    const PlainAnalysis plain = analyze_plainly(spec, fast.abstraction, members(fast.safe));
-    classify(plain);
+    const PlainAnalysis plain = plainly(spec, fast);
+    classify(plain, fast);
     expect_agreement(spec, fast, plain, team);
   }));
 }
@@ -99,13 +105,15 @@ TEST(Engines, AgreeOnAnyTablesOfRanges) {
     const ProblemSpec spec = read_spec(draw_problem(), "random");
     Abstraction abstraction = build_abstraction(spec, team);
     for (std::size_t i = 0; i < spec.states.size(); ++i) {
-      for (IndexRange& entry : abstraction.tables[i].entries) {
-        entry = disturbed(entry, abstraction.grid[i].count);
-      }
+      const auto disturb = [&](TransitionTable& table) {
+        for (IndexRange& entry : table.entries) entry = disturbed(entry, abstraction.grid[i].count);
+      };
+      disturb(abstraction.tables[i]);
+      if (!abstraction.tubes.empty()) disturb(abstraction.tubes[i]);
     }
     const FastAnalysis fast(spec, std::move(abstraction), team);
-    const PlainAnalysis plain = analyze_plainly(spec, fast.abstraction, members(fast.safe));
-    classify(plain);
+    const PlainAnalysis plain = plainly(spec, fast);
+    classify(plain, fast);
     expect_agreement(spec, fast, plain, team);
   }));
 }
@@ -153,7 +161,7 @@ TEST(Engines, LongRowsOverSeveralWordsAgree) {
     for (const std::string cells : {"closed", "half_open"}) {
       const ProblemSpec spec = read_spec(long_rows(cells, one), "long");
       const FastAnalysis fast(spec, team);
-      expect_agreement(spec, fast, analyze_plainly(spec, fast.abstraction, members(fast.safe)), team);
+      expect_agreement(spec, fast, plainly(spec, fast), team);
     }
   }
 }

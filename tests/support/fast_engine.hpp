@@ -9,6 +9,7 @@
 #include "coordination/projections.hpp"
 #include "safety/invariance.hpp"
 #include "safety/safe_set.hpp"
+#include "safety/tube_safe_set.hpp"
 
 namespace coordreq {
 
@@ -20,7 +21,8 @@ struct FastAnalysis {
       : abstraction(std::move(given)),
         safe(safe_set(spec, abstraction, team)),
         allow(allow_table(spec, abstraction, team)),
-        engine(abstraction, allow ? &*allow : nullptr),
+        tube_safe(tube_safe_set(spec, abstraction, safe, team)),
+        engine(abstraction, allow ? &*allow : nullptr, tube_safe ? &*tube_safe : nullptr, team),
         reach(engine),
         invariance(find_invariance(engine, reach, safe, spec.controller.synthesis, {}, team)),
         target(engine.target(invariance.invariant, team)),
@@ -46,6 +48,7 @@ struct FastAnalysis {
   Abstraction abstraction;
   CellSet safe;
   std::optional<ConditionTable> allow;
+  std::optional<CellSet> tube_safe;
   RowEngine engine;
   RowReach reach;
   Invariance invariance;

@@ -17,10 +17,11 @@ using Set = std::vector<bool>;
 
 class PlainEngine {
  public:
-  PlainEngine(const ProblemSpec& spec, const Abstraction& abstraction, const Set& safe)
+  PlainEngine(const ProblemSpec& spec, const Abstraction& abstraction, const Set& safe, const Set& tube_safe)
       : spec_(spec),
         a_(abstraction),
         safe_(safe),
+        tube_safe_(tube_safe),
         cells_(abstraction.grid.cells()),
         inputs_(abstraction.inputs.count()) {}
 
@@ -55,12 +56,19 @@ class PlainEngine {
     }
   }
 
-  /// empty != f(x, u) subset of `target`.
+  /// empty != f(x, u) subset of `target`; f is empty too where the tube is not safe.
   bool stays_in(std::int64_t x, std::int64_t u, const Set& target) const {
+    const auto post = [&](std::size_t i) { return a_.resolved(i, x, u); };
+    const auto tube = [&](std::size_t i) { return a_.resolved_tube(i, x, u); };
+    return box_in(post, target) && (a_.tubes.empty() || box_in(tube, tube_safe_));
+  }
+
+  template <class Box>
+  bool box_in(const Box& range_of, const Set& target) const {
     bool gone = false;
     std::vector<IndexRange> box;
     for (std::size_t i = 0; i < a_.grid.size(); ++i) {
-      const ResolvedRange range = a_.resolved(i, x, u);
+      const ResolvedRange range = range_of(i);
       if (range.blocked) return false;
       gone = gone || range.all_left();
       box.push_back(range.inside);
@@ -198,6 +206,7 @@ class PlainEngine {
   const ProblemSpec& spec_;
   const Abstraction& a_;
   const Set& safe_;
+  const Set& tube_safe_;
   std::int64_t cells_;
   std::int64_t inputs_;
   std::vector<std::vector<bool>> allowed_;
@@ -247,8 +256,8 @@ struct Choices {
 }  // namespace
 
 PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction,
-                              const std::vector<bool>& safe) {
-  return PlainEngine(spec, abstraction, safe).run();
+                              const std::vector<bool>& safe, const std::vector<bool>& tube_safe) {
+  return PlainEngine(spec, abstraction, safe, tube_safe).run();
 }
 
 SafeBounds bound_safe_plainly(const ProblemSpec& spec, const UniformGrid& grid) {

@@ -26,8 +26,10 @@ struct PlainAnalysis {
   std::vector<Partition> partitions;
 };
 
+/// @param tube_safe what tubes must stay in, if the abstraction has some
 [[nodiscard]] PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction,
-                                            const std::vector<bool>& safe);
+                                            const std::vector<bool>& safe,
+                                            const std::vector<bool>& tube_safe = {});
 
 /// What S lies between, in plain terms.
 struct SafeBounds {
