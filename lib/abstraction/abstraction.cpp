@@ -27,8 +27,12 @@ ResolvedRange Abstraction::resolved(std::size_t i, std::int64_t x, std::int64_t 
   return resolve(raw(i, x, u), grid[i].count, grid[i].below, grid[i].above);
 }
 
+IndexRange Abstraction::raw_tube(std::size_t i, std::int64_t x, std::int64_t u) const {
+  return entry_of(*this, tubes[i], x, u);
+}
+
 ResolvedRange Abstraction::resolved_tube(std::size_t i, std::int64_t x, std::int64_t u) const {
-  return resolve(entry_of(*this, tubes[i], x, u), grid[i].count, grid[i].below, grid[i].above);
+  return resolve(raw_tube(i, x, u), grid[i].count, grid[i].below, grid[i].above);
 }
 
 std::int64_t lay_out(TransitionTable& table, const UniformGrid& grid, const InputSpace& inputs) {

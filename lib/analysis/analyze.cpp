@@ -15,7 +15,7 @@
 #include "results/write_results.hpp"
 #include "safety/invariance.hpp"
 #include "safety/safe_set.hpp"
-#include "safety/tube_safe_set.hpp"
+#include "safety/safe_tubes.hpp"
 
 namespace coordreq {
 namespace {
@@ -61,8 +61,9 @@ class Analysis {
     enter("safe set");
     const CellSet safe = safe_set(spec_, abstraction, team_);
     const std::optional<ConditionTable> allow = allow_table(spec_, abstraction, team_);
-    const std::optional<CellSet> tube_safe = tube_safe_set(spec_, abstraction, safe, team_);
-    const RowEngine engine(abstraction, allow ? &*allow : nullptr, tube_safe ? &*tube_safe : nullptr, team_);
+    const std::optional<CellSet> beyond = safe_beyond_limits(spec_, abstraction, safe, team_);
+    const SafeTubes tubes{spec_.abstraction.between_samples ? &safe : nullptr, beyond ? &*beyond : nullptr};
+    const RowEngine engine(abstraction, allow ? &*allow : nullptr, tubes, team_);
     const RowReach reach(engine);
     enter("invariance");
     const Invariance invariance =

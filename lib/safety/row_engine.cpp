@@ -6,20 +6,39 @@ namespace coordreq {
 
 using Kind = RowSegment::Kind;
 
-RowEngine::RowEngine(const Abstraction& abstraction, const ConditionTable* allow, const CellSet* tube_safe,
+RowEngine::RowEngine(const Abstraction& abstraction, const ConditionTable* allow, const SafeTubes& tubes,
                      ThreadTeam& team)
     : abstraction_(&abstraction), allow_(allow) {
-  for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
-    slices_.push_back(cut_into_rows(abstraction, abstraction.tables[i], i));
+  std::vector<GridDimension> dimensions = abstraction.grid.dimensions();
+  for (std::size_t i = 0; i < dimensions.size(); ++i) {
     row_stride_.push_back(abstraction.grid.stride(i) / abstraction.grid.row_length());
-    count_.push_back(abstraction.grid[i].count);
+    count_.push_back(dimensions[i].count);
   }
-  for (std::size_t i = 0; i < abstraction.tubes.size(); ++i) {
-    slices_.push_back(cut_into_rows(abstraction, abstraction.tubes[i], i));
+  cut(abstraction.tables, dimensions);
+  if (tubes.inside == nullptr) return;
+  const auto demand = [&](const CellSet& set) {
+    cut(abstraction.tubes, dimensions);
+    tube_targets_.emplace_back(set, slices_.back(), dimensions.back(), team);
+  };
+  demand(tubes.beyond != nullptr ? *tubes.beyond : *tubes.inside);
+  if (tubes.beyond == nullptr) return;
+  // The same tubes again, now blocked where they pass a limit: what is left need not be safe beyond it.
+  for (GridDimension& dimension : dimensions) {
+    if (dimension.below == Outside::saturate) dimension.below = Outside::unsafe;
+    if (dimension.above == Outside::saturate) dimension.above = Outside::unsafe;
   }
-  if (tube_safe != nullptr) {
-    tube_target_.emplace(*tube_safe, slices_.back(), abstraction.grid.dimensions().back(), team);
+  demand(*tubes.inside);
+}
+
+void RowEngine::cut(const std::vector<TransitionTable>& tables, const std::vector<GridDimension>& targets) {
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    slices_.push_back(cut_into_rows(*abstraction_, tables[i], i, targets[i]));
   }
+  ends_.push_back({targets.back().below, targets.back().above});
+}
+
+RowEngine::Family RowEngine::family(std::size_t number) const {
+  return {std::span(slices_).subspan(number * tables(), tables()), ends_[number]};
 }
 
 std::int64_t RowEngine::base(std::int64_t row, std::size_t table) const {
@@ -57,17 +76,26 @@ bool RowEngine::inside_simple(std::span<const RowSlices> slices, std::span<const
 
 void RowEngine::inside(std::span<const std::uint32_t> ids, const RowTarget& target, MutableRow out,
                        Scratch& scratch) const {
-  const std::span<const RowSlices> all(slices_);
-  boxes_inside(all.first(tables()), ids.first(tables()), target, out, scratch);
-  if (!tube_target_ || !any_set(out)) return;
+  boxes_inside(family(0), ids.first(tables()), target, out, scratch);
+  if (!tube_targets_.empty() && any_set(out)) clear_unsafe_tubes(ids, out, scratch);
+}
+
+void RowEngine::clear_unsafe_tubes(std::span<const std::uint32_t> ids, MutableRow out,
+                                   Scratch& scratch) const {
   scratch.tube.resize(out.size());
-  boxes_inside(all.subspan(tables()), ids.subspan(tables()), *tube_target_, scratch.tube, scratch);
-  for (std::size_t w = 0; w < out.size(); ++w) out[w] &= scratch.tube[w];
+  scratch.safe_tubes.assign(out.size(), 0);
+  for (std::size_t f = 0; f < tube_targets_.size(); ++f) {
+    const auto own_ids = ids.subspan((f + 1) * tables(), tables());
+    boxes_inside(family(f + 1), own_ids, tube_targets_[f], scratch.tube, scratch);
+    for (std::size_t w = 0; w < out.size(); ++w) scratch.safe_tubes[w] |= scratch.tube[w];
+  }
+  for (std::size_t w = 0; w < out.size(); ++w) out[w] &= scratch.safe_tubes[w];
 }
 
 /// out = {x in the row : the box of what the slices say is not blocked and inside `target`}.
-void RowEngine::boxes_inside(std::span<const RowSlices> slices, std::span<const std::uint32_t> ids,
+void RowEngine::boxes_inside(const Family& family, std::span<const std::uint32_t> ids,
                              const RowTarget& target, MutableRow out, Scratch& scratch) const {
+  const std::span<const RowSlices> slices = family.slices;
   if (inside_simple(slices, ids, target, out, scratch)) return;
   const std::size_t tables = slices.size();
   const std::size_t last = tables - 1;
@@ -100,7 +128,7 @@ void RowEngine::boxes_inside(std::span<const RowSlices> slices, std::span<const 
         scratch.gathered.resize(out.size());
         gather(target.set(), scratch.indices, scratch.box, scratch.gathered);
       }
-      place_segment((*scratch.slices[last])[scratch.positions[last]], begin, end, scratch, out);
+      place_segment((*scratch.slices[last])[scratch.positions[last]], family.ends, begin, end, scratch, out);
     }
     begin = end;
   }
@@ -144,16 +172,15 @@ bool RowEngine::holds(ConstRow row, IndexRange range) const {
   return all_set(row, range.first, std::min(end, row_length())) && all_set(row, 0, end - row_length());
 }
 
-void RowEngine::place_segment(const RowSegment& last, std::int32_t begin, std::int32_t end, Scratch& scratch,
-                              MutableRow out) const {
+void RowEngine::place_segment(const RowSegment& last, const RowEnds& ends, std::int32_t begin,
+                              std::int32_t end, Scratch& scratch, MutableRow out) const {
   if (last.kind != Kind::shifted) {
     if (last.kind == Kind::gone || holds(scratch.gathered, last.range)) set_bits(out, begin, end);
     return;
   }
-  const GridDimension& dimension = abstraction_->grid.dimensions().back();
   scratch.eroded.assign(out.size(), 0);
-  scratch.eroder.erode(scratch.gathered, row_length(), last.range.first, last.range.last,
-                       {dimension.below, dimension.above}, scratch.eroded);
+  scratch.eroder.erode(scratch.gathered, row_length(), last.range.first, last.range.last, ends,
+                       scratch.eroded);
   if (begin == 0 && end == row_length()) {
     for (std::size_t w = 0; w < out.size(); ++w) out[w] |= scratch.eroded[w];
     return;

@@ -10,6 +10,7 @@
 #include "safety/condition_table.hpp"
 #include "safety/row_slices.hpp"
 #include "safety/row_target.hpp"
+#include "safety/safe_tubes.hpp"
 
 namespace coordreq {
 
@@ -26,6 +27,7 @@ class RowEngine {
     std::vector<Word> gathered;
     std::vector<Word> eroded;
     std::vector<Word> tube;
+    std::vector<Word> safe_tubes;
     std::vector<const std::vector<RowSegment>*> slices;
     std::vector<std::size_t> positions;
     std::vector<IndexRange> box;
@@ -33,13 +35,14 @@ class RowEngine {
   };
 
   /// @param allow may be null: everything is allowed
-  /// @param tube_safe what tubes must stay in, if there are any, else null; see tube_safe_set()
+  /// @param tubes what tubes must stay in, if there are any
   /// REQUIRES: they outlive this object.
-  RowEngine(const Abstraction& abstraction, const ConditionTable* allow, const CellSet* tube_safe,
+  RowEngine(const Abstraction& abstraction, const ConditionTable* allow, const SafeTubes& tubes,
             ThreadTeam& team);
 
   [[nodiscard]] const Abstraction& abstraction() const { return *abstraction_; }
-  /// Those of the posts, one a state, then those of the tubes, if there are any.
+  /// Those of the posts, one a state; then, if there are tubes, those of the tubes in the same order, once or
+  /// twice.
   [[nodiscard]] const std::vector<RowSlices>& slices() const { return slices_; }
   [[nodiscard]] const ConditionTable* allow() const { return allow_; }
   [[nodiscard]] std::int64_t rows() const { return abstraction_->grid.rows(); }
@@ -64,22 +67,31 @@ class RowEngine {
   }
 
  private:
-  void boxes_inside(std::span<const RowSlices> slices, std::span<const std::uint32_t> ids,
-                    const RowTarget& target, MutableRow out, Scratch& scratch) const;
+  /// Slices of all states that are tested against one target.
+  struct Family {
+    std::span<const RowSlices> slices;
+    RowEnds ends;  ///< rules of the last dimension
+  };
+  [[nodiscard]] Family family(std::size_t number) const;
+  void cut(const std::vector<TransitionTable>& tables, const std::vector<GridDimension>& targets);
+  void clear_unsafe_tubes(std::span<const std::uint32_t> ids, MutableRow out, Scratch& scratch) const;
+  void boxes_inside(const Family& family, std::span<const std::uint32_t> ids, const RowTarget& target,
+                    MutableRow out, Scratch& scratch) const;
   [[nodiscard]] bool inside_simple(std::span<const RowSlices> slices, std::span<const std::uint32_t> ids,
                                    const RowTarget& target, MutableRow out, Scratch& scratch) const;
   void gather(const CellSet& target, std::vector<std::int64_t>& indices, const std::vector<IndexRange>& box,
               MutableRow out) const;
   [[nodiscard]] bool holds(ConstRow row, IndexRange range) const;
-  void place_segment(const RowSegment& last, std::int32_t begin, std::int32_t end, Scratch& scratch,
-                     MutableRow out) const;
+  void place_segment(const RowSegment& last, const RowEnds& ends, std::int32_t begin, std::int32_t end,
+                     Scratch& scratch, MutableRow out) const;
 
   const Abstraction* abstraction_;
   const ConditionTable* allow_;
   std::vector<RowSlices> slices_;
+  std::vector<RowEnds> ends_;             ///< one a family: posts; tubes; tubes that pass no limit
   std::vector<std::int64_t> row_stride_;  ///< rows from one index of a dimension to the next
   std::vector<std::int64_t> count_;       ///< indices of a dimension
-  std::optional<RowTarget> tube_target_;
+  std::vector<RowTarget> tube_targets_;   ///< one for each family of tubes
 };
 
 }  // namespace coordreq

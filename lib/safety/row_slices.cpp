@@ -77,7 +77,8 @@ class RowCutter {
 
 }  // namespace
 
-RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& table, std::size_t state) {
+RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& table, std::size_t state,
+                        const GridDimension& target) {
   const UniformGrid& grid = abstraction.grid;
   const std::size_t last = grid.size() - 1;
   const std::int64_t length = grid.row_length();
@@ -99,7 +100,7 @@ RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& t
 
   const std::int64_t row_choices =
       static_cast<std::int64_t>(table.entries.size()) / (columns * result.input_combinations);
-  const RowCutter cutter(grid[state], state == last, length);
+  const RowCutter cutter(target, state == last, length);
   std::map<std::vector<RowSegment>, std::uint32_t> known;
   result.ids.reserve(static_cast<std::size_t>(row_choices * result.input_combinations));
   for (std::int64_t r = 0; r < row_choices; ++r) {

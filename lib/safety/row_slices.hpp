@@ -40,7 +40,8 @@ struct RowSlices {
 };
 
 /// @param table the one of `state` in abstraction.tables or abstraction.tubes
+/// @param target the dimension of `state`, maybe with other rules for leaving the domain
 [[nodiscard]] RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& table,
-                                      std::size_t state);
+                                      std::size_t state, const GridDimension& target);
 
 }  // namespace coordreq

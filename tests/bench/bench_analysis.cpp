@@ -34,7 +34,7 @@ void sweep(benchmark::State& state) {
   ThreadTeam team(static_cast<int>(state.range(0)));
   const Abstraction built = build_abstraction(spec, team);
   const CellSet safe = safe_set(spec, built, team);
-  const RowEngine engine(built, nullptr, nullptr, team);
+  const RowEngine engine(built, nullptr, {}, team);
   const RowReach reach(engine);
   const CellSet invariant = find_invariance(engine, reach, safe, Synthesis::maximal, {}, team).invariant;
   const ActionGrouping grouping(engine, {{0}, {1}}, team);

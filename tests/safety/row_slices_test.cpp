@@ -30,7 +30,7 @@ RowSlices slices(Outside edge, std::int64_t count, std::int64_t inputs, const En
   for (std::int32_t c = 0; c < count; ++c) {
     for (std::int32_t u = 0; u < inputs; ++u) table.entries.push_back(entry(c, u));
   }
-  return cut_into_rows(abstraction, abstraction.tables[0], 0);
+  return cut_into_rows(abstraction, abstraction.tables[0], 0, dimension);
 }
 
 TEST(RowSlices, OnARingTurnsThatDifferByWholeRoundsAreOneSlice) {

@@ -9,7 +9,7 @@
 #include "coordination/projections.hpp"
 #include "safety/invariance.hpp"
 #include "safety/safe_set.hpp"
-#include "safety/tube_safe_set.hpp"
+#include "safety/safe_tubes.hpp"
 
 namespace coordreq {
 
@@ -21,8 +21,9 @@ struct FastAnalysis {
       : abstraction(std::move(given)),
         safe(safe_set(spec, abstraction, team)),
         allow(allow_table(spec, abstraction, team)),
-        tube_safe(tube_safe_set(spec, abstraction, safe, team)),
-        engine(abstraction, allow ? &*allow : nullptr, tube_safe ? &*tube_safe : nullptr, team),
+        beyond(safe_beyond_limits(spec, abstraction, safe, team)),
+        engine(abstraction, allow ? &*allow : nullptr,
+               SafeTubes{abstraction.tubes.empty() ? nullptr : &safe, beyond ? &*beyond : nullptr}, team),
         reach(engine),
         invariance(find_invariance(engine, reach, safe, spec.controller.synthesis, {}, team)),
         target(engine.target(invariance.invariant, team)),
@@ -48,7 +49,7 @@ struct FastAnalysis {
   Abstraction abstraction;
   CellSet safe;
   std::optional<ConditionTable> allow;
-  std::optional<CellSet> tube_safe;
+  std::optional<CellSet> beyond;  ///< SafeTubes::beyond
   RowEngine engine;
   RowReach reach;
   Invariance invariance;

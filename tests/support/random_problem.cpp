@@ -22,8 +22,8 @@ class ProblemWriter {
  public:
   std::string write(RandomTime kind, RandomEdges edges) {
     edges_ = edges;
-    continuous_time_ = kind == RandomTime::any && draw(0, 2) == 0;
-    const bool between_samples = continuous_time_ && draw(0, 2) > 0;
+    const bool between_samples = kind == RandomTime::between_samples;
+    continuous_time_ = between_samples || (kind == RandomTime::any && draw(0, 3) == 0);
     // Half of the problems are agents that share a plane: those have layers.
     plane_ = draw(0, 1) == 0;
     const int states = plane_ ? draw(2, 3) : draw(1, 3);

@@ -4,7 +4,11 @@
 
 namespace coordreq {
 
-enum class RandomTime { any, discrete };
+enum class RandomTime {
+  any,
+  discrete,
+  between_samples,  ///< continuous, and safety is asked for between the samples
+};
 enum class RandomEdges {
   any,
   plain,  ///< no periodic states, no measurement errors

@@ -1,4 +1,4 @@
-#include "safety/tube_safe_set.hpp"
+#include "safety/safe_tubes.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -43,10 +43,14 @@ void remove_cells(CellSet& set, const UniformGrid& grid, std::size_t dimension, 
 
 }  // namespace
 
-std::optional<CellSet> tube_safe_set(const ProblemSpec& spec, const Abstraction& abstraction,
-                                     const CellSet& safe, ThreadTeam& team) {
-  if (abstraction.tubes.empty()) return std::nullopt;
-  if (spec.abstraction.safe == Membership::center) return safe;
+bool passes_a_limit(IndexRange raw, const GridDimension& state) {
+  return (state.below == Outside::saturate && raw.first < 0) ||
+         (state.above == Outside::saturate && raw.last >= state.count);
+}
+
+std::optional<CellSet> safe_beyond_limits(const ProblemSpec& spec, const Abstraction& abstraction,
+                                          const CellSet& safe, ThreadTeam& team) {
+  if (abstraction.tubes.empty() || spec.abstraction.safe == Membership::center) return std::nullopt;
   std::vector<GridDimension> dimensions = abstraction.grid.dimensions();
   std::vector<std::pair<std::size_t, std::int64_t>> lost;
   bool stretched = false;
@@ -59,9 +63,11 @@ std::optional<CellSet> tube_safe_set(const ProblemSpec& spec, const Abstraction&
     if (is_lost(excess.below, dimension.count)) lost.emplace_back(i, 0);
     if (is_lost(excess.above, dimension.count)) lost.emplace_back(i, dimension.count - 1);
   }
-  if (!stretched) return safe;
+  if (!stretched) return std::nullopt;
   CellSet result = safe_set(spec, UniformGrid(dimensions), abstraction.inputs, team);
   for (const auto& [dimension, index] : lost) remove_cells(result, abstraction.grid, dimension, index);
+  // More is asked of these cells, but a sharper evaluation may have more luck with a larger box.
+  for (std::size_t w = 0; w < result.words().size(); ++w) result.words()[w] &= safe.words()[w];
   return result;
 }
 
