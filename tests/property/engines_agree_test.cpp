@@ -172,5 +172,31 @@ TEST(Engines, LongRowsOverSeveralWordsAgree) {
   }
 }
 
+/// Moves that differ by a whole round are the same on a ring, and only there.
+TEST(Engines, OffTheRingMovesOfAWholeRoundAreNotTheSame) {
+  const auto line = [](const std::string& equation, const std::string& above, const std::string& safe) {
+    return read_spec(
+        R"({"coordreq": 1, "name": "line", "states": [{"name": "x", "lower": 0, "upper": 9, "step": 1,
+"outside": {"below": "saturate", "above": ")" +
+            above +
+            R"("}}], "inputs": [{"name": "u", "values": [-8, 2]}],
+"disturbances": [{"name": "w", "lower": -4.5, "upper": 4}],
+"agents": [{"name": "a", "inputs": ["u"]}], "dynamics": {"time": "discrete", "period": 1, "equations": {"x": ")" +
+            equation + R"("}}, "safe": ")" + safe + R"(", "abstraction": {"cells": "half_open"}})",
+        "line");
+  };
+  ThreadTeam team(1);
+  // Eight back, and two on: ten cells apart. Only two on is safe.
+  const ProblemSpec round = line("x + u", "saturate", "x >= 1.5");
+  const FastAnalysis fast(round, team);
+  EXPECT_EQ(fast.invariance.invariant.count(), 8);
+  expect_agreement(round, fast, plainly(round, fast), team);
+  // To any of ten cells, or nine on: that is as long as the line, but no whole ring.
+  const ProblemSpec wide = line("if(u > 0, x + 9, x + w)", "unsafe", "true");
+  const FastAnalysis other(wide, team);
+  EXPECT_EQ(other.invariance.collision_time[0], 3);
+  expect_agreement(wide, other, plainly(wide, other), team);
+}
+
 }  // namespace
 }  // namespace coordreq
