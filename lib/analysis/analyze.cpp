@@ -103,11 +103,6 @@ class Analysis {
     return [this, stage](std::int64_t step, std::int64_t cells_left) { report({stage, step, cells_left}); };
   }
 
-  [[nodiscard]] std::string guarantee() const {
-    if (spec_.abstraction.safe == Membership::center) return "samples-center";
-    return spec_.abstraction.between_samples ? "continuous" : "samples";
-  }
-
   void summarise(const Abstraction& abstraction, const CellSet& safe, const Invariance& invariance,
                  const std::deque<PartitionResult>& partitions) {
     summary_.name = spec_.name;
@@ -116,7 +111,7 @@ class Analysis {
     summary_.safe = safe.count();
     summary_.invariant = invariance.invariant.count();
     summary_.iterations = invariance.iterations;
-    summary_.guarantee = guarantee();
+    summary_.guarantee = guarantee_of(spec_);
     summary_.period = nearest_double(spec_.dynamics.period);
     summary_.period_unit = spec_.dynamics.unit;
     for (const PartitionResult& partition : partitions) summary_.partitions.push_back(summary_of(partition));
@@ -145,7 +140,7 @@ class Analysis {
              const Invariance& invariance, const std::deque<PartitionResult>& partitions) const {
     ResultContent content{.name = spec_.name,
                           .spec_text = spec_.text,
-                          .guarantee = guarantee(),
+                          .guarantee = guarantee_of(spec_),
                           .period = nearest_double(spec_.dynamics.period),
                           .period_unit = spec_.dynamics.unit,
                           .connection_delay = spec_.coordination.connection_delay,
