@@ -43,6 +43,7 @@ std::string totals_table(const SpecReport& report) {
   table.add({"joint inputs", grouped(report.joint_inputs)});
   table.add({"partitions", fmt::format("{}", fmt::join(report.partitions, ", "))});
   table.add({"reachable sets", report.exact ? "exact interval hulls" : "outward rounded"});
+  table.add({"guarantee", guarantee_text(report.guarantee)});
   table.add({"memory of analyze", "about " + byte_size(report.memory_bytes)});
   return table.text();
 }
@@ -78,6 +79,7 @@ std::string report_json(const SpecReport& report) {
   }
   json["partitions"] = report.partitions;
   json["exact"] = report.exact;
+  json["guarantee"] = report.guarantee;
   json["memory_bytes"] = report.memory_bytes;
   return json_text(json);
 }

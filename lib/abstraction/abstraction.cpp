@@ -3,23 +3,38 @@
 #include "abstraction/counter.hpp"
 
 namespace coordreq {
+namespace {
 
-IndexRange Abstraction::raw(std::size_t i, std::int64_t x, std::int64_t u) const {
-  const TransitionTable& table = tables[i];
+IndexRange entry_of(const Abstraction& a, const TransitionTable& table, std::size_t state, std::int64_t x,
+                    std::int64_t u) {
   std::int64_t entry = 0;
   for (const std::int32_t j : table.states) {
     const auto s = static_cast<std::size_t>(j);
-    entry += grid.index(x, s) * table.state_stride[s];
+    entry += a.grid.index(x, s) * table.state_stride[s];
   }
   for (const std::int32_t j : table.inputs) {
     const auto s = static_cast<std::size_t>(j);
-    entry += inputs.index(u, s) * table.input_stride[s];
+    entry += a.inputs.index(u, s) * table.input_stride[s];
   }
-  return table.range(entry, grid.index(x, i));
+  return table.range(entry, a.grid.index(x, state));
+}
+
+}  // namespace
+
+IndexRange Abstraction::raw(std::size_t i, std::int64_t x, std::int64_t u) const {
+  return entry_of(*this, tables[i], i, x, u);
 }
 
 ResolvedRange Abstraction::resolved(std::size_t i, std::int64_t x, std::int64_t u) const {
   return resolve(raw(i, x, u), grid[i].count, grid[i].below, grid[i].above);
+}
+
+IndexRange Abstraction::raw_tube(std::size_t i, std::int64_t x, std::int64_t u) const {
+  return entry_of(*this, tubes[i], i, x, u);
+}
+
+ResolvedRange Abstraction::resolved_tube(std::size_t i, std::int64_t x, std::int64_t u) const {
+  return resolve(raw_tube(i, x, u), grid[i].count, grid[i].below, grid[i].above);
 }
 
 std::int64_t lay_out(TransitionTable& table, std::size_t state, const UniformGrid& grid,

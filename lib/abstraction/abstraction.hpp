@@ -38,12 +38,20 @@ struct Abstraction {
   UniformGrid grid;
   InputSpace inputs;
   std::vector<TransitionTable> tables;  ///< one a state
-  bool exact = true;                    ///< every post is the exact hull
+  /// One a state if safety is asked for between the samples, else none: the fewest cells that together cover
+  /// (cells_covering()) an enclosure of all states at any time in [0, tau]; laid out as `tables`.
+  std::vector<TransitionTable> tubes;
+  bool exact = true;  ///< every post is the exact hull
 
   /// Raw range of state `i` at the next sample from cell `x` (linear index) under joint input `u`.
   [[nodiscard]] IndexRange raw(std::size_t i, std::int64_t x, std::int64_t u) const;
   /// The same after the rules for leaving the domain.
   [[nodiscard]] ResolvedRange resolved(std::size_t i, std::int64_t x, std::int64_t u) const;
+  /// Raw range of the tube. REQUIRES: there are tubes.
+  [[nodiscard]] IndexRange raw_tube(std::size_t i, std::int64_t x, std::int64_t u) const;
+  /// The cells that must be safe between the samples, likewise. The tube of a state that saturates may go on
+  /// beyond the boundary cell: see safe_beyond_limits().
+  [[nodiscard]] ResolvedRange resolved_tube(std::size_t i, std::int64_t x, std::int64_t u) const;
 };
 
 /// Fills in the strides of the table of `state`, whose `states`, `inputs` and `shift` are set, and returns

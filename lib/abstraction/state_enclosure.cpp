@@ -84,16 +84,20 @@ StateEnclosure::Result StateEnclosure::enclose_map() {
   return {.value = value - Interval{.lower = origin_, .upper = origin_}};
 }
 
+/// The state stays within its limits; what rounding adds beyond them is dropped.
+Interval StateEnclosure::within_limits(Interval value) const {
+  const FlowSystem::Limit limit = limit_of(spec_->states[state_]);
+  if (limit.below) value.lower = std::max(value.lower, limit.lower.lower);
+  if (limit.above) value.upper = std::min(value.upper, limit.upper.upper);
+  return value;
+}
+
 StateEnclosure::Result StateEnclosure::enclose_flow() {
   const FlowEnclosure& found = flow_->flow(slots_);
   if (found.status == FlowEnclosure::Status::ok) {
-    Interval value = found.end[position_];
-    const StateSpec& own = spec_->states[state_];
-    const Interval range = limit_of(own).lower;
-    // The state stays within its limits; what rounding adds beyond them is dropped.
-    if (own.below == Outside::stop) value.lower = std::max(value.lower, range.lower);
-    if (own.above == Outside::stop) value.upper = std::min(value.upper, limit_of(own).upper.upper);
-    return {.value = value};
+    return {.value = within_limits(found.end[position_]),
+            .tube = within_limits(found.tube[position_]),
+            .drift = found.drift[position_]};
   }
   Result result{
       .status = found.status == FlowEnclosure::Status::blows_up ? Status::blows_up : Status::undefined,

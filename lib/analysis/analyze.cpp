@@ -16,6 +16,7 @@
 #include "results/write_results.hpp"
 #include "safety/invariance.hpp"
 #include "safety/safe_set.hpp"
+#include "safety/safe_tubes.hpp"
 
 namespace coordreq {
 namespace {
@@ -61,7 +62,9 @@ class Analysis {
     enter("safe set");
     const CellSet safe = safe_set(spec_, abstraction, team_);
     const std::optional<ConditionTable> allow = allow_table(spec_, abstraction, team_);
-    const RowEngine engine(abstraction, allow ? &*allow : nullptr);
+    const std::optional<CellSet> beyond = safe_beyond_limits(spec_, abstraction, safe, team_);
+    const SafeTubes tubes{spec_.abstraction.between_samples ? &safe : nullptr, beyond ? &*beyond : nullptr};
+    const RowEngine engine(abstraction, allow ? &*allow : nullptr, tubes);
     const RowHull hull(engine);
     enter("invariance");
     const Invariance invariance =
@@ -105,10 +108,6 @@ class Analysis {
     return [this, stage](std::int64_t sweep, std::int64_t rows) { report({stage, sweep, rows}); };
   }
 
-  [[nodiscard]] std::string guarantee() const {
-    return spec_.abstraction.safe == Membership::center ? "samples-center" : "samples";
-  }
-
   void add_work(const std::string& stage, const WaveCounts& counts) {
     summary_.work.push_back({stage, counts.sweeps, counts.rows_visited, counts.rows_skipped});
   }
@@ -121,7 +120,7 @@ class Analysis {
     summary_.safe = safe.count();
     summary_.invariant = invariance.invariant.count();
     summary_.iterations = invariance.iterations;
-    summary_.guarantee = guarantee();
+    summary_.guarantee = guarantee_of(spec_);
     summary_.period = nearest_double(spec_.dynamics.period);
     summary_.period_unit = spec_.dynamics.unit;
     for (const PartitionResult& partition : partitions) summary_.partitions.push_back(summary_of(partition));
@@ -152,7 +151,7 @@ class Analysis {
     const LevelMap& collision_time = invariance.collision_time;
     ResultContent content{.name = spec_.name,
                           .spec_text = spec_.text,
-                          .guarantee = guarantee(),
+                          .guarantee = guarantee_of(spec_),
                           .period = nearest_double(spec_.dynamics.period),
                           .period_unit = spec_.dynamics.unit,
                           .connection_delay = spec_.coordination.connection_delay,

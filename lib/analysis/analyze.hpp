@@ -69,6 +69,10 @@ struct AnalysisSummary {
 [[nodiscard]] AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options,
                                       ThreadTeam& team);
 
+/// What a result of this spec guarantees: "samples", "samples-center" or "continuous" (contract, "What is
+/// guaranteed"). Centres say nothing of the way between the samples, so that they never make it "continuous".
+[[nodiscard]] std::string guarantee_of(const ProblemSpec& spec);
+
 /// What `validate` prints, known before the analysis runs.
 struct SpecReport {
   struct State {
@@ -94,6 +98,7 @@ struct SpecReport {
   std::int64_t joint_inputs = 0;
   std::vector<std::string> partitions;
   bool exact = false;              ///< posts are exact hulls
+  std::string guarantee;           ///< as in AnalysisSummary
   std::uint64_t memory_bytes = 0;  ///< estimate of the peak of `analyze`
 };
 

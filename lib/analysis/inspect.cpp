@@ -71,10 +71,15 @@ double estimate_memory(const ProblemSpec& spec) {
   double bytes = kFixedBytes;
   for (const TableShape& shape : table_shapes(spec)) {
     bytes += shape.entries * sizeof(IndexRange) + row_choices(shape, spec) * sizeof(std::uint32_t);
+    // The tubes, cut into rows twice where states saturate.
+    if (spec.abstraction.between_samples) {
+      bytes += shape.entries * sizeof(IndexRange) + 2 * row_choices(shape, spec) * sizeof(std::uint32_t);
+    }
   }
   bytes += condition_bytes(spec.safe, spec);
   if (spec.controller.allow) bytes += condition_bytes(*spec.controller.allow, spec);
   bytes += 3 * set_bytes;  // S, K and a layer
+  if (spec.abstraction.between_samples) bytes += set_bytes;
   bytes += cells * 4 *
            (1 + static_cast<double>(spec.coordination.partitions.size()));  // collision time and delays
   bytes += set_bytes * projected_actions(spec);
@@ -105,6 +110,11 @@ std::uint64_t to_bytes(double bytes) {
 }
 
 }  // namespace
+
+std::string guarantee_of(const ProblemSpec& spec) {
+  if (spec.abstraction.safe == Membership::center) return "samples-center";
+  return spec.abstraction.between_samples ? "continuous" : "samples";
+}
 
 void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit) {
   const double bytes = estimate_memory(spec);
@@ -139,6 +149,7 @@ SpecReport inspect(const ProblemSpec& spec) {
   for (const PartitionSpec& partition : spec.coordination.partitions)
     report.partitions.push_back(partition.name);
   report.exact = check_dynamics(spec);
+  report.guarantee = guarantee_of(spec);
   report.memory_bytes = to_bytes(estimate_memory(spec));
   return report;
 }

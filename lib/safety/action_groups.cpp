@@ -166,7 +166,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
   groups.within.assign(size * size, 1);
   for (const View& view : data.views) {
     const std::uint32_t* ids = view_ids(view, place);
-    const bool is_slices = view.table < engine_->tables() && view.partial.empty();
+    const bool is_slices = view.table < engine_->slices().size() && view.partial.empty();
     for (std::size_t g = 0; g < size; ++g) {
       for (std::size_t h = 0; h < size; ++h) {
         std::uint8_t& within = groups.within[g * size + h];
@@ -179,7 +179,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
           continue;
         }
         const auto& slices = engine_->slices()[view.table].slices;
-        const GridDimension& target = engine_->abstraction().grid[view.table];
+        const GridDimension& target = engine_->abstraction().grid[view.table % engine_->tables()];
         within = slice_within(slices[a], slices[b], target) ? 1 : 0;
       }
     }

@@ -13,13 +13,13 @@ namespace coordreq {
 /// Inputs that are chosen together; its joint actions are numbered row-major, the last input fastest.
 using InputClass = std::vector<std::int32_t>;
 
-/// The actions of one class in one row, sorted into groups that cannot be told apart there: same post and
-/// same `allow` whatever the other classes do. Groups are numbered by their first actions.
+/// The actions of one class in one row, sorted into groups that cannot be told apart there: same post, tube
+/// and `allow` whatever the other classes do. Groups are numbered by their first actions.
 struct ActionGroups {
   std::vector<std::uint32_t> group_of;        ///< [action]
   std::vector<std::uint32_t> representative;  ///< [group], its lowest action
-  /// Groups g for which no other group has its post inside that of g: enough wherever *some* action is asked
-  /// for.
+  /// Groups g for which no other group has its post (and tube) inside that of g: enough wherever *some*
+  /// action is asked for.
   std::vector<std::uint32_t> minimal;
   /// Groups g whose post is in that of no other group: enough where *every* action is asked for.
   std::vector<std::uint32_t> maximal;
@@ -27,8 +27,8 @@ struct ActionGroups {
   /// [g * size() + h], see is_within(); empty if there are too many groups to compare.
   std::vector<std::uint8_t> within;
 
-  /// True if, whatever the others do, the post under g lies inside the post under h, and `allow` says the
-  /// same of both. May be false where that is not easily seen.
+  /// True if, whatever the others do, the post under g lies inside the post under h (and so do the tubes),
+  /// and `allow` says the same of both. May be false where that is not easily seen.
   [[nodiscard]] bool is_within(std::uint32_t g, std::uint32_t h) const {
     return !within.empty() && within[g * size() + h] != 0;
   }
@@ -59,7 +59,8 @@ class ActionGrouping {
   void group(const RowPlace& place, RowGroups& groups) const;
 
   [[nodiscard]] const RowEngine& engine() const { return *engine_; }
-  /// What tells actions apart: the engine's tables in order, then `allow` if there is one.
+  /// What tells actions apart: the engine's slices in order (posts, then tubes), then `allow` if there is
+  /// one.
   [[nodiscard]] const std::vector<ActionSource>& sources() const { return sources_; }
   /// What action `a` of class c adds to an entry's position in source t.
   [[nodiscard]] std::int64_t contribution(std::size_t c, std::size_t t, std::uint32_t a) const {

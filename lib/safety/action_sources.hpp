@@ -22,7 +22,7 @@ struct ActionSource {
   [[nodiscard]] std::int64_t base(const RowPlace& place) const { return place.offset(state_stride); }
 };
 
-/// The engine's tables in order, then `allow` if there is one. They refer to the engine.
+/// The engine's slices in order (posts, then tubes), then `allow` if there is one. They refer to the engine.
 [[nodiscard]] std::vector<ActionSource> action_sources(const RowEngine& engine);
 
 }  // namespace coordreq

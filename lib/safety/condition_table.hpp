@@ -18,7 +18,9 @@ namespace coordreq {
 enum class Sampling : std::uint8_t {
   centres,  ///< grid points
   /// The whole closed cell of each state, widened by its measurement error and cut at the seam of a periodic
-  /// dimension (pieces()); grid points of inputs. The condition has to hold on all pieces to be true.
+  /// dimension (pieces()); grid points of inputs. The condition has to hold on all pieces to be true. That is
+  /// every true state that may be measured in the cell; so a requirement on a region asks this too (undecided
+  /// counts as true): of all cells that may be measured while the state is in the region.
   closed_cells,
 };
 

@@ -2,28 +2,22 @@
 
 #include <algorithm>
 
+#include "safety/set_levels.hpp"
+
 namespace coordreq {
 namespace {
 
 template <class Level>
 LevelRows<Level> top_levels(const RowEngine& engine, const CellSet& start, ThreadTeam& team) {
-  LevelRows<Level> levels = engine.make_levels<Level>();
-  const LevelKernels<Level>& kernels = level_kernels<Level>(best_instruction_set());
-  team.for_each(levels.rows(), 256, [&](ThreadTeam::Range range, int) {
-    std::vector<Level> lanes(static_cast<std::size_t>(levels.row_length()) + kLevelBlock / sizeof(Level));
-    for (std::int64_t r = range.begin; r < range.end; ++r) {
-      // By way of a buffer: the kernel writes whole blocks, beyond the row.
-      kernels.spread(start.row(r).data(), lanes.data(), static_cast<std::size_t>(levels.row_length()));
-      std::copy_n(lanes.begin(), levels.row_length(), levels.row(r));
-      levels.close(r);
-    }
-  });
+  LevelRows<Level> levels = engine.make_levels<Level>(engine.posts());
+  team.for_each(levels.rows(), 256,
+                [&](ThreadTeam::Range range, int) { set_levels(start, range.begin, range.end, levels); });
   return levels;
 }
 
 template <class Wide, class Narrow>
 LevelRows<Wide> widened(const RowEngine& engine, const LevelRows<Narrow>& narrow) {
-  LevelRows<Wide> levels = engine.make_levels<Wide>();
+  LevelRows<Wide> levels = engine.make_levels<Wide>(engine.posts());
   for (std::int64_t r = 0; r < levels.rows(); ++r) {
     const Narrow* source = narrow.row(r);
     std::transform(source, source + levels.row_length(), levels.row(r), [](Narrow level) {

@@ -4,14 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "bitset/level_rows.hpp"
-#include "safety/row_engine.hpp"
-#include "safety/row_hull.hpp"
+#include "safety/box_reader.hpp"
 
 namespace coordreq {
 
 /// The one question that every operator asks, answered for a whole row of cells at once: the least level in
-/// the post of each cell. 0 where the post is blocked, the greatest level where all has left for good.
+/// f(x, u) for each cell x. 0 where f(x, u) is empty: the post is blocked, or its tube is not safe.
 ///
 /// One object a thread. The levels may change between one enter() and the next, not in between.
 template <class Level>
@@ -19,57 +17,35 @@ class PostReader {
  public:
   static constexpr Level kTop = LevelRows<Level>::kTop;
 
-  /// REQUIRES: `engine` and `levels` (from engine.make_levels()) outlive this object.
+  /// REQUIRES: `engine` and `levels` (from engine.make_levels(engine.posts())) outlive this object.
   PostReader(const RowEngine& engine, const LevelRows<Level>& levels);
 
-  /// Begins with the rows of another unit: forgets the minima that rows of a unit share.
-  void enter();
+  /// Begins with the rows of another unit.
+  void enter() { posts_.enter(); }
 
-  /// Least levels of the posts given by the numbers of their slices, one a table. The row may be read up to
-  /// the next call; whole blocks, as LevelKernels ask.
-  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids);
+  /// For the slices numbered `ids`, one for each of engine.slices(). The row may be read up to the next call;
+  /// whole blocks, as LevelKernels ask.
+  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) {
+    const Level* levels = posts_.minimum(ids.first(engine_.tables()));
+    return tubes_.empty() ? levels : with_tubes(ids, levels);
+  }
   /// Least levels of the box around all posts of a row. REQUIRES box.covers.
-  [[nodiscard]] const Level* minimum(const RowHull::Box& box);
+  [[nodiscard]] const Level* minimum(const RowHull::Box& box) { return posts_.minimum(box); }
 
-  [[nodiscard]] const LevelKernels<Level>& kernels() const { return *kernels_; }
+  [[nodiscard]] const LevelKernels<Level>& kernels() const { return posts_.kernels(); }
   /// A row of this many levels holds the lanes of a row and the rest of its last block.
-  [[nodiscard]] std::size_t lanes() const { return lanes_; }
+  [[nodiscard]] std::size_t lanes() const { return posts_.lanes(); }
 
  private:
-  /// Rows of minima over the leading dimensions, by the number of the row within a unit.
-  struct Shared {
-    std::vector<IndexRange> ranges;
-    std::vector<const Level*> rows;  ///< null: not taken yet
-    std::vector<Level> storage;
-    std::uint64_t epoch = 0;
-  };
-
-  [[nodiscard]] bool fits_one_piece(std::span<const std::uint32_t> ids, bool& blocked, bool& gone);
-  void read_piece(const RowSegment& last, bool gone, std::int64_t begin, std::int64_t end, Level* out);
-  void read_window(IndexRange window, bool gone, std::int64_t begin, std::int64_t end, Level* out);
-  void read_fixed(IndexRange range, bool gone, std::int64_t begin, std::int64_t end, Level* out);
-  void read_in_pieces(std::span<const std::uint32_t> ids);
-  void collect_rows(bool gone);
-  [[nodiscard]] Shared& shared();
-  [[nodiscard]] const Level* shared_row(Shared& shared, std::int64_t inner);
+  [[nodiscard]] const Level* with_tubes(std::span<const std::uint32_t> ids, const Level* levels);
 
   const RowEngine& engine_;
-  const LevelRows<Level>& levels_;
-  const LevelKernels<Level>* kernels_;
-  std::size_t lanes_;
-  std::vector<IndexRange> ranges_;  ///< box of rows in question
-  std::vector<const Level*> rows_;  ///< the rows in it, the shared dimensions taken
-  std::vector<const Level*> sources_;
-  std::vector<std::int64_t> counter_;
-  std::vector<std::int64_t> shared_counter_;
-  std::vector<const std::vector<RowSegment>*> slices_;
-  std::vector<std::size_t> positions_;
-  std::vector<Level> gone_row_;  ///< a row of greatest levels with its margins
-  std::vector<Level> wide_;      ///< a row with margins, before the window is taken
+  BoxReader<Level> posts_;
+  std::vector<BoxReader<std::uint8_t>> tubes_;
+  std::vector<Word> safe_;
+  std::vector<Word> one_;
+  std::vector<Level> lanes_;
   std::vector<Level> result_;
-  std::vector<Shared> slots_;
-  std::uint64_t epoch_ = 1;
-  std::size_t recent_ = 0;  ///< slot used last
 };
 
 extern template class PostReader<std::uint8_t>;

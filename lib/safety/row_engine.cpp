@@ -4,6 +4,7 @@
 #include <set>
 
 #include "safety/row_window.hpp"
+#include "safety/set_levels.hpp"
 
 namespace coordreq {
 namespace {
@@ -42,26 +43,59 @@ TableProfile profile(const RowSlices& slices) {
 
 }  // namespace
 
-RowEngine::RowEngine(const Abstraction& abstraction, const ConditionTable* allow)
+RowEngine::RowEngine(const Abstraction& abstraction, const ConditionTable* allow, const SafeTubes& tubes)
     : abstraction_(&abstraction), allow_(allow) {
-  for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
-    slices_.push_back(cut_into_rows(abstraction, i));
+  std::vector<GridDimension> dimensions = abstraction.grid.dimensions();
+  for (std::size_t i = 0; i < dimensions.size(); ++i) {
     row_stride_.push_back(abstraction.grid.stride(i) / abstraction.grid.row_length());
   }
-  fit_offsets();
+  add_family(abstraction.tables, dimensions);
   choose_outer();
+  if (tubes.inside == nullptr) return;
+  add_demand(tubes.beyond != nullptr ? *tubes.beyond : *tubes.inside, dimensions);
+  if (tubes.beyond == nullptr) return;
+  // The same tubes again, now blocked where they pass a limit: what is left need not be safe beyond it.
+  for (GridDimension& dimension : dimensions) {
+    if (dimension.below == Outside::saturate) dimension.below = Outside::unsafe;
+    if (dimension.above == Outside::saturate) dimension.above = Outside::unsafe;
+  }
+  add_demand(*tubes.inside, dimensions);
+}
+
+void RowEngine::add_demand(const CellSet& inside, const std::vector<GridDimension>& targets) {
+  add_family(abstraction_->tubes, targets);
+  inside_.push_back(make_levels<std::uint8_t>(family(inside_.size() + 1)));
+  set_levels(inside, 0, rows(), inside_.back());
 }
 
 /// Offsets along the row are brought to the shortest that mean the same; they decide on the margins.
-void RowEngine::fit_offsets() {
+void RowEngine::add_family(const std::vector<TransitionTable>& tables,
+                           const std::vector<GridDimension>& targets) {
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    slices_.push_back(cut_into_rows(*abstraction_, tables[i], i, targets[i]));
+  }
+  const RowEnds ends{targets.back().below, targets.back().above};
+  RowMargins margins;
   for (std::vector<RowSegment>& slice : slices_.back().slices) {
     for (RowSegment& segment : slice) {
       if (segment.kind != Kind::shifted) continue;
-      segment.range = fit_window(segment.range, row_length(), ends());
-      margins_.before = std::max<std::int64_t>(margins_.before, -segment.range.first);
-      margins_.after = std::max<std::int64_t>(margins_.after, segment.range.last);
+      segment.range = fit_window(segment.range, row_length(), ends);
+      margins.before = std::max<std::int64_t>(margins.before, -segment.range.first);
+      margins.after = std::max<std::int64_t>(margins.after, segment.range.last);
     }
   }
+  ends_.push_back(ends);
+  margins_.push_back(margins);
+}
+
+RowFamily RowEngine::family(std::size_t number) const {
+  return {std::span(slices_).subspan(number * tables(), tables()), ends_[number], margins_[number]};
+}
+
+std::vector<RowEngine::Demand> RowEngine::demands() const {
+  std::vector<Demand> result;
+  for (std::size_t k = 0; k < inside_.size(); ++k) result.push_back({family(k + 1), &inside_[k]});
+  return result;
 }
 
 /// The first dimensions may be taken first if nothing that moves them depends on those that follow.
@@ -80,7 +114,7 @@ bool RowEngine::is_closed(std::size_t outer) const {
 void RowEngine::choose_outer() {
   const std::size_t last = tables() - 1;
   std::vector<TableProfile> profiles;
-  for (const RowSlices& slices : slices_) profiles.push_back(profile(slices));
+  for (const RowSlices& slices : posts().slices) profiles.push_back(profile(slices));
   const auto cost = [&](std::size_t outer) {
     double shared = outer == 0 ? 0 : 1;
     double choices = 1;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "abstraction/abstraction.hpp"
@@ -8,8 +9,17 @@
 #include "safety/condition_table.hpp"
 #include "safety/row_place.hpp"
 #include "safety/row_slices.hpp"
+#include "safety/safe_tubes.hpp"
 
 namespace coordreq {
+
+/// Slices of all states that are tested against one target.
+struct RowFamily {
+  /// One table a state. In the last one offsets are at most a row long, either way.
+  std::span<const RowSlices> slices;
+  RowEnds ends;        ///< rules of the last dimension
+  RowMargins margins;  ///< as far as offsets go
+};
 
 /// The abstraction laid out for whole rows of cells, and how work on it is cut up.
 ///
@@ -19,21 +29,31 @@ namespace coordreq {
 /// once. Immutable once built, so safe to share between threads.
 class RowEngine {
  public:
-  /// REQUIRES: `abstraction` and `allow` (may be null: everything is allowed) outlive this object.
-  RowEngine(const Abstraction& abstraction, const ConditionTable* allow);
+  /// @param allow may be null: everything is allowed
+  /// @param tubes what tubes must stay in, if there are any
+  /// REQUIRES: they outlive this object.
+  RowEngine(const Abstraction& abstraction, const ConditionTable* allow, const SafeTubes& tubes);
 
   [[nodiscard]] const Abstraction& abstraction() const { return *abstraction_; }
   [[nodiscard]] const UniformGrid& grid() const { return abstraction_->grid; }
-  /// One table of slices a state. In the last one offsets are at most a row long, either way.
+  /// Those of the posts, one a state; then, if there are tubes, those of the tubes in the same order, once or
+  /// twice.
   [[nodiscard]] const std::vector<RowSlices>& slices() const { return slices_; }
+  [[nodiscard]] RowFamily posts() const { return family(0); }
+  /// A post counts as blocked unless its tube is inside the set of one of these.
+  struct Demand {
+    RowFamily family;
+    const LevelRows<std::uint8_t>* inside;  ///< the greatest level for members, else 0
+  };
+  [[nodiscard]] std::vector<Demand> demands() const;
   [[nodiscard]] const ConditionTable* allow() const { return allow_; }
   [[nodiscard]] std::int64_t rows() const { return grid().rows(); }
   [[nodiscard]] std::int64_t row_length() const { return grid().row_length(); }
   [[nodiscard]] std::size_t row_words() const {
     return static_cast<std::size_t>((row_length() + CellSet::kWordBits - 1) / CellSet::kWordBits);
   }
-  /// Number of tables of slices: one a state.
-  [[nodiscard]] std::size_t tables() const { return slices_.size(); }
+  /// Number of tables of slices of posts: one a state.
+  [[nodiscard]] std::size_t tables() const { return row_stride_.size(); }
   /// Rows from one index of a dimension (not the last) to the next.
   [[nodiscard]] std::int64_t row_stride(std::size_t dimension) const { return row_stride_[dimension]; }
 
@@ -42,27 +62,26 @@ class RowEngine {
   /// Rows of a unit, which have neighbouring numbers. All rows if outer() is 0.
   [[nodiscard]] std::int64_t unit_rows() const { return unit_rows_; }
 
-  /// Levels of all rows, 0, with the margins that posts ask for.
+  /// Levels of all rows, 0, with the margins that a family asks for.
   template <class Level>
-  [[nodiscard]] LevelRows<Level> make_levels() const {
-    return {rows(), row_length(), margins_, ends()};
+  [[nodiscard]] LevelRows<Level> make_levels(const RowFamily& family) const {
+    return {rows(), row_length(), family.margins, family.ends};
   }
-  [[nodiscard]] RowEnds ends() const {
-    const GridDimension& last = grid().dimensions().back();
-    return {last.below, last.above};
-  }
-  [[nodiscard]] const RowMargins& margins() const { return margins_; }
 
  private:
-  void fit_offsets();
+  void add_family(const std::vector<TransitionTable>& tables, const std::vector<GridDimension>& targets);
+  void add_demand(const CellSet& inside, const std::vector<GridDimension>& targets);
+  [[nodiscard]] RowFamily family(std::size_t number) const;
   void choose_outer();
   [[nodiscard]] bool is_closed(std::size_t outer) const;
 
   const Abstraction* abstraction_;
   const ConditionTable* allow_;
   std::vector<RowSlices> slices_;
+  std::vector<LevelRows<std::uint8_t>> inside_;  ///< one for each family of tubes
+  std::vector<RowEnds> ends_;                    ///< one a family: posts; tubes; tubes that pass no limit
+  std::vector<RowMargins> margins_;
   std::vector<std::int64_t> row_stride_;
-  RowMargins margins_;
   std::size_t outer_ = 0;
   std::int64_t unit_rows_ = 1;
 };

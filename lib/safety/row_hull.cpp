@@ -36,7 +36,8 @@ RowHull::Entry RowHull::merged(std::size_t table, std::size_t base) const {
   const RowSlices& slices = engine_->slices()[table];
   const GridDimension& target = engine_->grid()[table];
   const bool is_last = table + 1 == engine_->tables();
-  Entry result{kNone, true};
+  // A tube can block a post whatever its box is inside of.
+  Entry result{kNone, engine_->demands().empty()};
   std::uint32_t previous = UINT32_MAX;
   for (std::int64_t u = 0; u < slices.input_combinations; ++u) {
     const std::uint32_t id = slices.ids[base + static_cast<std::size_t>(u)];
@@ -54,9 +55,9 @@ RowHull::Entry RowHull::merged(std::size_t table, std::size_t base) const {
   if (result.range == kNone) {
     result.covers = false;
   } else if (is_last) {
-    result.range = fit_window(result.range, target.count, engine_->ends());
+    result.range = fit_window(result.range, target.count, engine_->posts().ends);
     // On a ring the arc that holds two windows may begin with the other one, and reach beyond the margins.
-    const RowMargins& margins = engine_->margins();
+    const RowMargins margins = engine_->posts().margins;
     result.covers =
         result.covers && -result.range.first <= margins.before && result.range.last <= margins.after;
   } else if (target.periodic()) {

@@ -163,15 +163,15 @@ void lay_out_ids(RowSlices& slices, const UniformGrid& grid, const InputSpace& i
 
 }  // namespace
 
-RowSlices cut_into_rows(const Abstraction& abstraction, std::size_t state) {
+RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& table, std::size_t state,
+                        const GridDimension& target) {
   const UniformGrid& grid = abstraction.grid;
-  const TransitionTable& table = abstraction.tables[state];
   const std::size_t last = grid.size() - 1;
   const std::int64_t column_stride = table.state_stride[last];
 
   RowSlices result{.ids = {}, .slices = {}, .state_stride = {}, .input_stride = {}, .inputs = table.inputs};
   lay_out_ids(result, grid, abstraction.inputs, table);
-  const RowCutter cutter(grid[state], state == last, grid.row_length());
+  const RowCutter cutter(target, state == last, grid.row_length());
   std::map<std::vector<RowSegment>, std::uint32_t> known;
   RowChoices choice(abstraction, table, state);
   result.ids.reserve(static_cast<std::size_t>(choice.size()));

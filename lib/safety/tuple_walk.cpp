@@ -10,7 +10,7 @@ void TupleWalk::begin(const ActionGrouping& grouping, const RowPlace& place, con
   offset_.resize(grouping.size());
   sum_.resize((grouping.size() + 1) * sources_);
   position_.assign(grouping.size(), 0);
-  ids_.resize(grouping.engine().tables());
+  ids_.resize(grouping.engine().slices().size());
   for (std::size_t t = 0; t < sources_; ++t) sum_[t] = grouping.sources()[t].base(place);
   for (std::size_t c = 0; c < grouping.size(); ++c) {
     offset_[c].clear();

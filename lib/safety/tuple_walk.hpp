@@ -23,7 +23,7 @@ class TupleWalk {
 
   /// Group chosen in class c.
   [[nodiscard]] std::uint32_t chosen(std::size_t c) const { return candidates_[c][position_[c]]; }
-  /// Numbers of the slices, one a table, for PostReader::minimum.
+  /// Numbers of the slices, one for each of RowEngine::slices(), for PostReader::minimum.
   [[nodiscard]] std::span<const std::uint32_t> slice_ids();
   /// Allowed cells of the row; empty if everything is allowed.
   [[nodiscard]] ConstRow allowed() const;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "abstraction/abstraction.hpp"
 #include "analysis/analyze.hpp"
 #include "base/error.hpp"
 #include "spec/read_spec.hpp"
@@ -38,6 +39,17 @@ TEST(Inspect, ReportsSizesAndDependencies) {
   EXPECT_EQ(v.table_entries, 3U);
   EXPECT_EQ(report.partitions, (std::vector<std::string>{"a|c"}));
   EXPECT_TRUE(report.exact);
+}
+
+TEST(Inspect, SaysWhatAResultWouldGuarantee) {
+  ProblemSpec spec = spec_of("99");
+  EXPECT_EQ(inspect(spec).guarantee, "samples");
+  const std::uint64_t memory = inspect(spec).memory_bytes;
+  spec.abstraction.between_samples = true;
+  EXPECT_EQ(inspect(spec).guarantee, "continuous");
+  EXPECT_GT(inspect(spec).memory_bytes, memory + 3000 * sizeof(IndexRange));
+  spec.abstraction.safe = Membership::center;
+  EXPECT_EQ(inspect(spec).guarantee, "samples-center");
 }
 
 TEST(Inspect, MemoryGrowsWithTheCells) {

@@ -34,7 +34,7 @@ void sweep(benchmark::State& state) {
   ThreadTeam team(static_cast<int>(state.range(0)));
   const Abstraction built = build_abstraction(spec, team);
   const CellSet safe = safe_set(spec, built, team);
-  const RowEngine engine(built, nullptr);
+  const RowEngine engine(built, nullptr, {});
   const RowHull hull(engine);
   const Invariance invariance = find_invariance(engine, hull, safe, Synthesis::maximal, {}, team);
   const ActionGrouping grouping(engine, {{0}, {1}}, team);

@@ -44,6 +44,7 @@ cells              40,401
 joint inputs       1,681
 partitions         horizontal\|vertical
 reachable sets     exact interval hulls
+guarantee          samples-center: at the sampling instants, where the centre of a cell is safe
 memory of analyze  about [0-9.]+ MiB
 $""",
         )
@@ -57,7 +58,17 @@ $""",
         report = json.loads(result.stdout)
         self.assertEqual(
             list(report),
-            ["name", "cells", "joint_inputs", "states", "inputs", "partitions", "exact", "memory_bytes"],
+            [
+                "name",
+                "cells",
+                "joint_inputs",
+                "states",
+                "inputs",
+                "partitions",
+                "exact",
+                "guarantee",
+                "memory_bytes",
+            ],
         )
         self.assertEqual((report["name"], report["cells"], report["joint_inputs"]), ("lane_change", 28, 4))
         self.assertEqual(

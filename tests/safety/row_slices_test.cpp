@@ -31,7 +31,7 @@ RowSlices slices(Outside edge, std::int64_t count, std::int64_t inputs, const En
   for (std::int32_t c = 0; c < count; ++c) {
     for (std::int32_t u = 0; u < inputs; ++u) table.entries.push_back(entry(c, u));
   }
-  return cut_into_rows(abstraction, 0);
+  return cut_into_rows(abstraction, abstraction.tables[0], 0, dimension);
 }
 
 TEST(RowSlices, OnARingTurnsThatDifferByWholeRoundsAreOneSlice) {
@@ -68,7 +68,7 @@ RowSlices shift_slices(Outside edge, std::int64_t count, std::int64_t inputs, co
   table.shift = true;
   lay_out(table, 0, abstraction.grid, abstraction.inputs);
   for (std::int32_t u = 0; u < inputs; ++u) table.entries.push_back(entry(u));
-  return cut_into_rows(abstraction, 0);
+  return cut_into_rows(abstraction, abstraction.tables[0], 0, abstraction.grid[0]);
 }
 
 /// Where cell c can be next by the segment; a blocked one has no range.
@@ -123,7 +123,7 @@ TEST(RowSlices, ShiftAcrossTheRowsIsAFixedRangeInEach) {
   table.shift = true;
   lay_out(table, 0, abstraction.grid, abstraction.inputs);
   table.entries = {{0, 0}, {1, 2}};
-  const RowSlices cut = cut_into_rows(abstraction, 0);
+  const RowSlices cut = cut_into_rows(abstraction, abstraction.tables[0], 0, abstraction.grid[0]);
   EXPECT_EQ(cut.state_stride, (std::vector<std::int64_t>{2, 0}));
   ASSERT_EQ(cut.ids.size(), 8U);
   for (std::int32_t y = 0; y < 4; ++y) {

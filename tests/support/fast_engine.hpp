@@ -9,6 +9,7 @@
 #include "coordination/projections.hpp"
 #include "safety/invariance.hpp"
 #include "safety/safe_set.hpp"
+#include "safety/safe_tubes.hpp"
 
 namespace coordreq {
 
@@ -20,7 +21,9 @@ struct FastAnalysis {
       : abstraction(std::move(given)),
         safe(safe_set(spec, abstraction, team)),
         allow(allow_table(spec, abstraction, team)),
-        engine(abstraction, allow ? &*allow : nullptr),
+        beyond(safe_beyond_limits(spec, abstraction, safe, team)),
+        engine(abstraction, allow ? &*allow : nullptr,
+               SafeTubes{abstraction.tubes.empty() ? nullptr : &safe, beyond ? &*beyond : nullptr}),
         hull(engine),
         invariance(find_invariance(engine, hull, safe, spec.controller.synthesis, {}, team)),
         controller{&engine, &invariance.invariant, &invariance.collision_time, spec.controller.synthesis} {
@@ -67,6 +70,7 @@ struct FastAnalysis {
   Abstraction abstraction;
   CellSet safe;
   std::optional<ConditionTable> allow;
+  std::optional<CellSet> beyond;  ///< SafeTubes::beyond
   RowEngine engine;
   RowHull hull;
   Invariance invariance;
