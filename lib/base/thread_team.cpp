@@ -36,7 +36,7 @@ struct ThreadTeam::State {
   std::atomic<std::uint64_t> generation{0};  // counts loops; a helper runs each generation once
   std::atomic<int> busy{0};
   std::atomic<bool> stopping{false};
-  int sleeping = 0;           // helpers; under the mutex
+  int sleeping = 0;          // helpers; under the mutex
   bool main_sleeps = false;  // likewise
 
   const Body* body = nullptr;
