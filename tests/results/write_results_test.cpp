@@ -312,7 +312,8 @@ TEST(WriteResults, BytesDoNotDependOnThreadsOrRun) {
 }
 
 TEST(WriteResults, TriggersThatEqualDelaysAreReadAsIfWrittenForThemselves) {
-  for (const std::uint64_t points : {std::uint64_t{61}, std::uint64_t{3}}) {  // in chunks, and too small for any
+  for (const std::uint64_t points :
+       {std::uint64_t{61}, std::uint64_t{3}}) {  // in chunks, and too small for any
     ResultContent content = sample::make_content({.points = {points, 5, 40}});
     for (ResultPartition& partition : content.partitions) partition.trigger = partition.delay;
     const ScratchFolder folder;
