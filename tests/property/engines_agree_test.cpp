@@ -100,7 +100,8 @@ TEST(Engines, AgreeOnAnyTablesOfRanges) {
     Abstraction abstraction = build_abstraction(spec, team);
     for (std::size_t i = 0; i < spec.states.size(); ++i) {
       // Half of the time shifts are disturbed as such, else cell by cell.
-      if (*rc::gen::arbitrary<bool>()) abstraction.tables[i] = written_out(abstraction, i);
+      if (abstraction.tables[i].is_sum() || *rc::gen::arbitrary<bool>())
+        abstraction.tables[i] = written_out(abstraction, i);
       for (IndexRange& entry : abstraction.tables[i].entries) {
         entry = disturbed(entry, abstraction.grid[i].count);
       }
@@ -126,6 +127,31 @@ TEST(Engines, SafeSetsLieBetweenNaturalEvaluationAndSamples) {
       RC_ASSERT(!safe[x] || bounds.sampled[x]);
     }
   }));
+}
+
+TEST(Engines, AgreeOnTablesThatAreSums) {
+  const std::string text = R"json({"coordreq": 1, "name": "sums",
+"states": [{"name": "h", "lower": 0, "upper": "2*pi", "count": 7, "outside": "periodic"},
+           {"name": "y", "lower": -4, "upper": 4, "step": 1, "outside": {"below": "safe", "above": "saturate"}},
+           {"name": "x", "lower": -4, "upper": 4, "step": 0.5, "outside": "EDGE"}],
+"inputs": [{"name": "u", "values": [-1, 0, 1]}, {"name": "v", "values": [-1, 1]}],
+"agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
+"dynamics": {"time": "continuous", "period": 0.5,
+  "equations": {"x": "-1 + cos(h) + u*y", "y": "sin(h) - u*x", "h": "v - u"}},
+"safe": "x^2 + y^2 >= 1", "abstraction": {"cells": "CELLS"}})json";
+  ThreadTeam team(2);
+  for (const std::string edge : {"unsafe", "safe", "saturate"}) {
+    for (const std::string cells : {"closed", "half_open"}) {
+      std::string one = text;
+      one.replace(one.find("EDGE"), 4, edge);
+      one.replace(one.find("CELLS"), 5, cells);
+      const ProblemSpec spec = read_spec(one, "sums");
+      const FastAnalysis fast(spec, team);
+      EXPECT_TRUE(fast.abstraction.tables[1].is_sum());
+      EXPECT_TRUE(fast.abstraction.tables[2].is_sum());
+      expect_agreement(spec, fast, analyze_plainly(spec, fast.abstraction, members(fast.safe)), team);
+    }
+  }
 }
 
 /// Rows of 150 cells, shifts beyond a word.
