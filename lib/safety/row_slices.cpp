@@ -1,6 +1,6 @@
 #include "safety/row_slices.hpp"
 
-#include <map>
+#include <unordered_set>
 #include <utility>
 
 #include "abstraction/counter.hpp"
@@ -139,6 +139,44 @@ class RowChoices {
   std::vector<std::int64_t> inputs_;
 };
 
+/// Numbers slices in the order in which they are met, equal ones alike.
+class SliceNumbers {
+ public:
+  /// REQUIRES: `slices` outlives this object.
+  explicit SliceNumbers(std::vector<std::vector<RowSegment>>& slices)
+      : slices_(slices), known_(0, Hash{&slices}, Equal{&slices}) {}
+
+  std::uint32_t number(std::vector<RowSegment> slice) {
+    slices_.push_back(std::move(slice));
+    const auto [found, is_new] = known_.insert(static_cast<std::uint32_t>(slices_.size() - 1));
+    if (!is_new) slices_.pop_back();
+    return *found;
+  }
+
+ private:
+  struct Hash {
+    const std::vector<std::vector<RowSegment>>* slices;
+    std::size_t operator()(std::uint32_t i) const {
+      std::uint64_t sum = 0;
+      for (const RowSegment& s : (*slices)[i]) {
+        for (const std::int64_t part : {std::int64_t{s.begin} << 8U | static_cast<std::int64_t>(s.kind),
+                                        std::int64_t{s.range.first}, std::int64_t{s.range.last}}) {
+          sum = (sum ^ static_cast<std::uint64_t>(part)) * 0x9E3779B97F4A7C15U;
+          sum ^= sum >> 29U;
+        }
+      }
+      return sum;
+    }
+  };
+  struct Equal {
+    const std::vector<std::vector<RowSegment>>* slices;
+    bool operator()(std::uint32_t i, std::uint32_t j) const { return (*slices)[i] == (*slices)[j]; }
+  };
+
+  std::vector<std::vector<RowSegment>>& slices_;
+  std::unordered_set<std::uint32_t, Hash, Equal> known_;
+};
+
 /// Strides into `ids`, over what RowChoices counts.
 void lay_out_ids(RowSlices& slices, const UniformGrid& grid, const InputSpace& inputs,
                  const TransitionTable& table) {
@@ -168,18 +206,23 @@ RowSlices cut_into_rows(const Abstraction& abstraction, std::size_t state) {
   RowSlices result{.ids = {}, .slices = {}, .state_stride = {}, .input_stride = {}, .inputs = table.inputs};
   lay_out_ids(result, grid, abstraction.inputs, table);
   const RowCutter cutter(grid[state], state == last, grid.row_length());
-  std::map<std::vector<RowSegment>, std::uint32_t> known;
+  SliceNumbers numbers(result.slices);
   const TableRows rows(abstraction, state, last);
-  std::vector<IndexRange> row(
-      rows.is_constant() || rows.is_shift() ? 1 : static_cast<std::size_t>(grid.row_length()));
+  const bool one_range = rows.is_constant() || rows.is_shift();
+  std::vector<IndexRange> row(one_range ? 1 : static_cast<std::size_t>(grid.row_length()));
+  std::vector<IndexRange> before;
   RowChoices choice(abstraction, table);
   result.ids.reserve(static_cast<std::size_t>(choice.size()));
   do {
     rows.read(choice.states(), choice.inputs(), row);
-    const auto slice = rows.is_shift() ? std::vector{cutter.cut_shift(row[0])} : cutter.cut(row);
-    auto [found, is_new] = known.try_emplace(slice, static_cast<std::uint32_t>(result.slices.size()));
-    if (is_new) result.slices.push_back(found->first);
-    result.ids.push_back(found->second);
+    if (row == before) {  // neighbouring inputs often mean the same
+      result.ids.push_back(result.ids.back());
+      continue;
+    }
+    result.ids.push_back(
+        numbers.number(rows.is_shift() ? std::vector{cutter.cut_shift(row[0])} : cutter.cut(row)));
+    before.swap(row);
+    row.resize(before.size());
   } while (choice.next());
   return result;
 }

@@ -129,6 +129,24 @@ TEST(Engines, SafeSetsLieBetweenNaturalEvaluationAndSamples) {
   }));
 }
 
+TEST(Engines, SumsDoNotHideWhatAStateDependsOn) {
+  // y and x turn together, so that only h moves by itself; so fine that sharing more would seem to pay.
+  const ProblemSpec spec = read_spec(R"json({"coordreq": 1, "name": "turn",
+"states": [{"name": "h", "lower": 0, "upper": "2*pi", "count": 36, "outside": "periodic"},
+           {"name": "y", "lower": -10, "upper": 10, "step": 0.5, "outside": "safe"},
+           {"name": "x", "lower": -10, "upper": 10, "step": 0.5, "outside": "safe"}],
+"inputs": [{"name": "u", "lower": -1, "upper": 1, "step": 0.5}, {"name": "v", "lower": -1, "upper": 1, "step": 0.5}],
+"agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
+"dynamics": {"time": "continuous", "period": 0.2,
+  "equations": {"x": "-5 + 5*cos(h) + u*y", "y": "5*sin(h) - u*x", "h": "v - u"}},
+"safe": "x^2 + y^2 >= 4"})json",
+                                     "turn");
+  ThreadTeam team(2);
+  const Abstraction abstraction = build_abstraction(spec, team);
+  EXPECT_TRUE(abstraction.tables[1].is_sum());
+  EXPECT_LE(RowEngine(abstraction, nullptr).outer(), 1U);
+}
+
 TEST(Engines, AgreeOnTablesThatAreSums) {
   const std::string text = R"json({"coordreq": 1, "name": "sums",
 "states": [{"name": "h", "lower": 0, "upper": "2*pi", "count": 7, "outside": "periodic"},
