@@ -141,6 +141,21 @@ TEST(SumTable, MeasurementErrorsCountBeforeAndAfter) {
   check(problem(states, "continuous", R"json("x": "y + v", "y": "u - 0.5*y")json", "half_open"), {0, 1});
 }
 
+TEST(SumTable, MeasurementErrorsByHand) {
+  const std::string states =
+      R"({"name": "x", "lower": 0, "upper": 9, "step": 1, "measurement_error": 0.25}, {"name": "y", "lower": 0, "upper": 9, "step": 1})";
+  const std::string one = "y*sin(1)/sin(1)";  // y, but not exactly
+  const Abstraction shift = build(problem(states, "discrete", "\"x\": \"x + " + one + "\", \"y\": \"y\""));
+  ASSERT_TRUE(shift.tables[0].is_sum() && shift.tables[0].shift);
+  // [5 - 0.75, 5 + 0.75] + [-0.5, 0.5], widened again: [3.5, 6.5] touches cells 3 and 7.
+  EXPECT_EQ(shift.raw(0, 50, 0), (IndexRange{3, 7}));
+  const Abstraction scaled =
+      build(problem(states, "discrete", "\"x\": \"0.5*x + " + one + "\", \"y\": \"y\""));
+  ASSERT_TRUE(scaled.tables[0].is_sum() && !scaled.tables[0].shift);
+  // 0.5 * [4.25, 5.75] + [-0.5, 0.5], widened: [1.375, 3.625].
+  EXPECT_EQ(scaled.raw(0, 50, 0), (IndexRange{1, 4}));
+}
+
 TEST(SumTable, SourcesWithPointCells) {
   const std::string states =
       R"({"name": "x", "lower": -3, "upper": 3, "step": 0.5}, {"name": "k", "lower": 1, "upper": 3, "step": 1, "discrete": true})";
