@@ -22,7 +22,7 @@ constexpr int kMaxThreads = 1024;
 
 /// What CLI11 hands over, before it is checked. Numbers stay text so that the messages are ours.
 struct RawArguments {
-  std::string path, output, threads, max_memory;
+  std::string path, output, threads, max_memory, at;
   bool json = false;
   bool quiet = false;
   bool version = false;
@@ -42,6 +42,8 @@ constexpr CommandInfo kCommands[] = {
     {"validate", "Check a spec; print sizes, which state depends on what, and a memory estimate", "SPEC",
      "The problem spec, a JSON file; - reads standard input", run_validate},
     {"info", "Print what a results file holds", "RESULTS", "A file that analyze wrote", run_info},
+    {"query", "Tell everything that is known at a state: delay, countdown, allowed actions", "RESULTS",
+     "A file that analyze wrote", run_query},
     {"schema", "Print the JSON Schema of specs", "", "", run_schema},
 };
 
@@ -57,6 +59,12 @@ void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
   if (info.run == run_analyze) {
     command->add_option("-o,--output", raw.output, "Results file (default: NAME.h5 in the current folder)")
         ->type_name("FILE");
+  }
+  if (info.run == run_query) {
+    command
+        ->add_option("--at", raw.at,
+                     "The state, as x1=0.1,x2=1/3 (default: many from standard input, CSV or JSON lines)")
+        ->type_name("STATE");
   }
   command->add_option("--threads", raw.threads, "Threads to work with (default: all cores)")->type_name("N");
   command
@@ -140,6 +148,7 @@ CommandLine checked(const RawArguments& raw, const CommandInfo& info, const CLI:
   line.command = info.run;
   if (command.count("--threads") > 0) line.threads = parse_threads(raw.threads);
   if (command.count("--max-memory") > 0) line.max_memory = parse_memory_size(raw.max_memory);
+  if (info.run == run_query && command.count("--at") > 0) line.at = raw.at;
   if (info.run == run_analyze && command.count("--output") > 0) {
     if (raw.output.empty() || raw.output == "-") {
       throw UsageError(fmt::format("expected the name of a file, found '{}'", raw.output), "--output");

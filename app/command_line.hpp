@@ -13,6 +13,7 @@ namespace coordreq {
 struct CommandLine {
   std::string path;                         ///< SPEC or RESULTS
   std::optional<std::string> output;        ///< -o
+  std::optional<std::string> at;            ///< --at; none: states come from standard input
   int threads = 0;                          ///< 0: all cores
   std::optional<std::uint64_t> max_memory;  ///< bytes
   bool json = false;
