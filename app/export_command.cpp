@@ -13,6 +13,7 @@
 #include "export/scots_controller.hpp"
 #include "results/output_file.hpp"
 #include "results/results_reader.hpp"
+#include "results/write_results.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -91,24 +92,40 @@ Exporter exporter(const CommandLine& line, const ResultsReader& results, ThreadT
                    "--format");
 }
 
-/// The file appears whole or not at all; a signal that comes meanwhile leaves nothing behind.
-void write_to_file(const std::string& path, const Exporter& write) {
-  const InterruptDelay delay;
-  OutputFile file(path);
-  const auto fail = [&path] {
-    throw IoError("cannot write the export: " + std::generic_category().message(errno), path);
-  };
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  Blocks blocks([&](std::string_view text) {
+/// A file that appears whole or not at all, from its first text on: what comes before that may take long, and
+/// an interrupt then ends the program at once. Later a signal waits for the next text, so that nothing is
+/// left behind.
+class LateFile {
+ public:
+  explicit LateFile(std::string path) : path_(std::move(path)) { check_writable(path_); }
+
+  void write(std::string_view text) {
+    if (!file_) {
+      delay_.emplace();
+      file_.emplace(path_);
+      stream_.open(file_->temporary(), std::ios::binary);
+    }
     if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
-    if (!stream.write(text.data(), static_cast<std::streamsize>(text.size()))) fail();
-  });
-  write([&blocks](std::string_view text) { blocks.add(text); });
-  blocks.flush();
-  stream.close();
-  if (!stream) fail();
-  file.commit();
-}
+    if (!stream_.write(text.data(), static_cast<std::streamsize>(text.size()))) fail();
+  }
+
+  /// REQUIRES: write() was called.
+  void commit() {
+    stream_.close();
+    if (!stream_) fail();
+    file_->commit();
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw IoError("cannot write the export: " + std::generic_category().message(errno), path_);
+  }
+
+  std::string path_;
+  std::optional<InterruptDelay> delay_;
+  std::optional<OutputFile> file_;
+  std::ofstream stream_;
+};
 
 }  // namespace
 
@@ -116,13 +133,12 @@ ExitCode run_export(const CommandLine& line) {
   const ResultsReader results(line.path);
   ThreadTeam team(line.threads);
   const Exporter write = exporter(line, results, team);
-  if (line.output) {
-    write_to_file(*line.output, write);
-  } else {
-    Blocks blocks(write_output);
-    write([&blocks](std::string_view text) { blocks.add(text); });
-    blocks.flush();
-  }
+  std::optional<LateFile> file;
+  if (line.output) file.emplace(*line.output);
+  Blocks blocks([&file](std::string_view text) { file ? file->write(text) : write_output(text); });
+  write([&blocks](std::string_view text) { blocks.add(text); });
+  blocks.flush();
+  if (file) file->commit();
   return ExitCode::success;
 }
 

@@ -112,8 +112,12 @@ std::vector<Rational> StateReader::json_state() const {
     }
     return state;
   } catch (const SpecError& error) {
-    // Its place is one in the line.
-    throw UsageError(fmt::format("line {}: {}", line_number_, error.what()));
+    // Its place is one in this line alone, or none.
+    const std::string what = error.what();
+    const std::size_t cut = what.rfind(" (");
+    const std::size_t column = what.find(", column ", cut);
+    const std::string tail = column == std::string::npos ? "" : what.substr(column, what.size() - 1 - column);
+    throw UsageError(what.substr(0, cut), place() + tail);
   }
 }
 

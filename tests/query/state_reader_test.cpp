@@ -60,7 +60,9 @@ TEST(StateReader, ErrorsOfJsonNameTheLine) {
   EXPECT_EQ(defect("{\"x\":1,\"y\":2}\n[1, 2]\n"), "expected a JSON object a line (input, line 2)");
   EXPECT_EQ(defect("{\"x\":1,\"y\":2,\"z\":3}\n"), "'z' is no state, expected 'x' or 'y' (input, line 1)");
   EXPECT_EQ(defect("{\"x\":true,\"y\":2}\n"), "expected a number or a string (input, line 1, x)");
-  EXPECT_NE(defect("{\"x\":1,\"y\":2}\n{\"x\":1,\n").find("line 2: "), std::string::npos);
+  EXPECT_EQ(defect("{\"x\":1,\"y\":2}\n{\"x\":1,\"y\":}\n"),
+            "expected a value, found '}' (input, line 2, column 12)");
+  EXPECT_EQ(defect("{\"x\":1,\"y\":2}\n\n{\"x\":1,\"x\":2}\n"), "repeated key 'x' (input, line 3)");
 }
 
 }  // namespace
