@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 
@@ -13,6 +14,11 @@ namespace coordreq {
 struct CommandLine {
   std::string path;                         ///< SPEC or RESULTS
   std::optional<std::string> output;        ///< -o
+  std::optional<std::string> at;            ///< --at; none: states come from standard input
+  std::string format;                       ///< --format
+  std::optional<std::string> partition;     ///< --partition
+  std::vector<std::string> slices;          ///< --slice
+  std::vector<std::string> projections;     ///< --project
   int threads = 0;                          ///< 0: all cores
   std::optional<std::uint64_t> max_memory;  ///< bytes
   bool json = false;
