@@ -16,6 +16,7 @@ class IndependentActions final : public RowOperator<Level> {
       : projections_(projections),
         grouping_(projections.grouping()),
         hull_(hull),
+        boxes_(grouping_),
         invariant_(invariant),
         work_(static_cast<std::size_t>(workers)) {}
 
@@ -26,11 +27,17 @@ class IndependentActions final : public RowOperator<Level> {
     hull_.box(place, work.box);
     if (work.box.covers && posts.kernels().is_settled(posts.minimum(work.box), old, n)) return false;
     std::fill_n(next, posts.lanes(), PostReader<Level>::kTop);
-    grouping_.group(place, work.groups);
-    if (projections_.is_full(place.row)) {
-      lower_by_all(place, posts, next, work);
-    } else {
-      lower_by_projections(place, posts, next, work);
+    switch (projections_.form(place.row)) {
+      case Projections::Form::product:
+        lower_by_boxes(place, posts, next, work);
+        break;
+      case Projections::Form::full:
+        grouping_.group(place, work.groups);
+        lower_by_all(place, posts, next, work);
+        break;
+      case Projections::Form::masks:
+        grouping_.group(place, work.groups);
+        lower_by_projections(place, posts, next, work);
     }
     return true;
   }
@@ -42,9 +49,56 @@ class IndependentActions final : public RowOperator<Level> {
     TupleWalk::Candidates candidates;
     TupleWalk tuple;
     RowHull::Box box;
+    std::vector<std::vector<IndependentPosts::Entry>> entries;
+    std::vector<std::vector<Word>> masks;
     std::vector<Word> reasonable;
     std::vector<Level> lanes;
   };
+
+  void lower_by_boxes(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const {
+    const std::size_t classes = grouping_.size();
+    work.entries.resize(classes);
+    IndependentPosts::unpack(projections_.packed(place.row), boxes_, grouping_.engine().row_words(),
+                             work.entries);
+    for (const auto& entries : work.entries) {
+      if (entries.empty()) return;  // all that this class may do leaves for good
+    }
+    work.box.ranges.resize(grouping_.engine().tables() - 1);
+    work.masks.assign(classes + 1, {});
+    lower_by_class(0, posts, next, work);
+  }
+
+  /// Chooses a box for class c and those after it, in all ways.
+  void lower_by_class(std::size_t c, PostReader<Level>& posts, Level* next, Workspace& work) const {
+    if (c == grouping_.size()) return lower_by_box(posts, next, work.masks[c], work);
+    for (const IndependentPosts::Entry& entry : work.entries[c]) {
+      boxes_.put(c, entry.ranges, work.box);
+      std::vector<Word>& mask = work.masks[c + 1];
+      mask = work.masks[c];
+      if (mask.empty()) {
+        mask.assign(entry.mask.begin(), entry.mask.end());
+      } else {
+        for (std::size_t w = 0; w < entry.mask.size(); ++w) mask[w] &= entry.mask[w];
+        if (!any_set(mask)) continue;
+      }
+      lower_by_class(c + 1, posts, next, work);
+    }
+  }
+
+  /// @param mask empty: all cells of K
+  void lower_by_box(PostReader<Level>& posts, Level* next, const std::vector<Word>& mask,
+                    Workspace& work) const {
+    const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
+    const Level* levels = posts.minimum(work.box);
+    if (mask.empty()) {
+      const Level* pair[] = {next, levels};
+      posts.kernels().minimum(pair, 2, next, n);
+    } else {
+      work.lanes.resize(posts.lanes(), 0);
+      posts.kernels().spread(mask.data(), work.lanes.data(), n);
+      posts.kernels().lower_where(levels, work.lanes.data(), next, n);
+    }
+  }
 
   void lower_by_all(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const {
     const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
@@ -72,7 +126,7 @@ class IndependentActions final : public RowOperator<Level> {
       const ConstRow invariant = invariant_.row(place.row);
       work.reasonable.assign(invariant.begin(), invariant.end());
       for (std::size_t c = 0; c < grouping_.size(); ++c) {
-        const ConstRow projection = projections_.row(place.row, work.groups, c, work.tuple.chosen(c));
+        const ConstRow projection = projections_.mask(place.row, work.groups, c, work.tuple.chosen(c));
         for (std::size_t w = 0; w < projection.size(); ++w) work.reasonable[w] &= projection[w];
       }
       if (!any_set(work.reasonable)) continue;
@@ -89,11 +143,11 @@ class IndependentActions final : public RowOperator<Level> {
     const ActionGroups& own = *groups.classes[c];
     result.clear();
     for (std::uint32_t g = 0; g < own.size(); ++g) {
-      const ConstRow projection = projections_.row(row, groups, c, g);
+      const ConstRow projection = projections_.mask(row, groups, c, g);
       bool needed = any_set(projection);
       for (std::uint32_t h = 0; h < own.size() && needed; ++h) {
         if (h == g || !own.is_within(g, h)) continue;
-        const ConstRow other = projections_.row(row, groups, c, h);
+        const ConstRow other = projections_.mask(row, groups, c, h);
         if (!is_subset(projection, other)) continue;
         // Of two that cover each other the lower one stays.
         needed = own.is_within(h, g) && g < h && is_subset(other, projection);
@@ -105,6 +159,7 @@ class IndependentActions final : public RowOperator<Level> {
   const Projections& projections_;
   const ActionGrouping& grouping_;
   const RowHull& hull_;
+  RowBoxes boxes_;
   const CellSet& invariant_;
   std::vector<Workspace> work_;
 };

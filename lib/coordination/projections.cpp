@@ -23,45 +23,90 @@ class Projections::Builder {
       : controller_(controller),
         grouping_(grouping),
         hull_(hull),
+        boxes_(grouping),
+        independent_(controller.engine->row_words()),
         posts_(*controller.engine, levels),
         lanes_(posts_.lanes(), 0),
-        members_(controller.engine->row_words()) {}
+        members_(controller.engine->row_words()),
+        masks_(grouping.size()) {}
 
   void enter() { posts_.enter(); }
 
-  [[nodiscard]] bool is_full(const RowPlace& place) {
+  /// @returns whether `packed` are boxes of posts
+  bool project(const RowPlace& place, std::vector<Word>& packed) {
+    const ConstRow invariant = controller_.invariant->row(place.row);
+    const bool is_full = everything_is_allowed(place);
+    if (is_full && !boxes_.is_product()) return false;
+    grouping_.group(place, groups_);
+    const bool is_product = boxes_.is_product() && boxes_.fill(place, groups_);
+    if (is_full && !is_product) return false;
+    for (std::size_t c = 0; c < masks_.size(); ++c) {
+      is_full ? fill_masks(c, invariant) : find_masks(place, c);
+    }
+    if (is_product) {
+      independent_.pack(boxes_, groups_, masks_, invariant, controller_.engine->grid(), scratch_);
+      packed.assign(scratch_.begin(), scratch_.end());
+      return true;
+    }
+    for (const std::vector<Word>& own : masks_) packed.insert(packed.end(), own.begin(), own.end());
+    return false;
+  }
+
+ private:
+  [[nodiscard]] bool everything_is_allowed(const RowPlace& place) {
     if (controller_.engine->allow() != nullptr) return false;
     if (controller_.synthesis == Synthesis::given) return true;
     hull_.box(place, box_);
     if (!box_.covers) return false;
-    const std::int64_t n = controller_.engine->row_length();
-    posts_.kernels().spread(controller_.invariant->row(place.row).data(), lanes_.data(),
-                            static_cast<std::size_t>(n));
-    return posts_.kernels().is_top(posts_.minimum(box_), lanes_.data(), static_cast<std::size_t>(n));
+    const auto n = static_cast<std::size_t>(controller_.engine->row_length());
+    posts_.kernels().spread(controller_.invariant->row(place.row).data(), lanes_.data(), n);
+    return posts_.kernels().is_top(posts_.minimum(box_), lanes_.data(), n);
   }
 
-  void project(const RowPlace& place, std::vector<Word>& bits) {
-    const std::size_t words = members_.size();
-    grouping_.group(place, groups_);
-    bits.assign(group_offset(groups_, groups_.classes.size()) * words, 0);
-    for (std::size_t c = 0; c < groups_.classes.size(); ++c) {
-      // An action of class c is in the projection if some action of the others goes with it; their minimal
-      // ones do.
-      choose_groups(groups_, GroupChoice::minimal, candidates_);
-      candidates_[c] = groups_.classes[c]->all;
-      tuple_.begin(grouping_, place, groups_, candidates_);
-      do {
-        controller_row(controller_, place.row, tuple_, posts_, members_);
-        Word* target = bits.data() + (group_offset(groups_, c) + tuple_.chosen(c)) * words;
-        for (std::size_t w = 0; w < words; ++w) target[w] |= members_[w];
-      } while (tuple_.next());
+  void fill_masks(std::size_t c, ConstRow invariant) {
+    masks_[c].clear();
+    for (std::size_t g = 0; g < groups_.classes[c]->size(); ++g) {
+      masks_[c].insert(masks_[c].end(), invariant.begin(), invariant.end());
     }
   }
 
- private:
+  /// The larger posts first: what is reasonable with them is so with those inside.
+  void find_masks(const RowPlace& place, std::size_t c) {
+    const ActionGroups& own = *groups_.classes[c];
+    masks_[c].assign(own.size() * members_.size(), 0);
+    known_.assign(own.size(), 0);
+    for (const std::uint32_t g : own.maximal) find_mask(place, c, g);
+    for (const std::uint32_t g : own.all) {
+      if (known_[g] == 0) find_mask(place, c, g);
+    }
+  }
+
+  void find_mask(const RowPlace& place, std::size_t c, std::uint32_t g) {
+    const ActionGroups& own = *groups_.classes[c];
+    const ConstRow invariant = controller_.invariant->row(place.row);
+    const MutableRow mask(masks_[c].data() + g * members_.size(), members_.size());
+    for (const std::uint32_t h : own.maximal) {
+      if (known_[h] == 0 || !own.is_within(g, h)) continue;
+      for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= masks_[c][h * mask.size() + w];
+    }
+    known_[g] = 1;
+    if (is_subset(invariant, mask)) return;
+    // An action of class c is in the projection if some action of the others goes with it; their minimal ones
+    // do.
+    choose_groups(groups_, GroupChoice::minimal, candidates_);
+    candidates_[c] = {&g, 1};
+    tuple_.begin(grouping_, place, groups_, candidates_);
+    do {
+      controller_row(controller_, place.row, tuple_, posts_, members_);
+      for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= members_[w];
+    } while (!is_subset(invariant, mask) && tuple_.next());
+  }
+
   const Controller& controller_;
   const ActionGrouping& grouping_;
   const RowHull& hull_;
+  RowBoxes boxes_;
+  IndependentPosts independent_;
   PostReader<Level> posts_;
   RowGroups groups_;
   TupleWalk::Candidates candidates_;
@@ -69,13 +114,17 @@ class Projections::Builder {
   RowHull::Box box_;
   std::vector<Level> lanes_;
   std::vector<Word> members_;
+  std::vector<std::vector<Word>> masks_;
+  std::vector<std::uint8_t> known_;
+  std::vector<Word> scratch_;
 };
 
 Projections::Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
                          ThreadTeam& team)
     : grouping_(&grouping),
       words_(controller.engine->row_words()),
-      rows_(static_cast<std::size_t>(controller.engine->rows())) {
+      rows_(static_cast<std::size_t>(controller.engine->rows())),
+      is_product_(rows_.size(), 0) {
   const RowEngine& engine = *controller.engine;
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
@@ -88,14 +137,15 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
            place.advance(engine.grid())) {
         // Minima are shared within a unit.
         if (place.row == range.begin * grain || place.row % engine.unit_rows() == 0) builder.enter();
-        if (!any_set(controller.invariant->row(place.row)) || builder.is_full(place)) continue;
-        builder.project(place, rows_[static_cast<std::size_t>(place.row)]);
+        if (!any_set(controller.invariant->row(place.row))) continue;
+        const auto row = static_cast<std::size_t>(place.row);
+        is_product_[row] = builder.project(place, rows_[row]) ? 1 : 0;
       }
     });
   });
 }
 
-ConstRow Projections::row(std::int64_t row, const RowGroups& groups, std::size_t c, std::uint32_t g) const {
+ConstRow Projections::mask(std::int64_t row, const RowGroups& groups, std::size_t c, std::uint32_t g) const {
   return {rows_[static_cast<std::size_t>(row)].data() + (group_offset(groups, c) + g) * words_, words_};
 }
 

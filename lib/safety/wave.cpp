@@ -9,13 +9,15 @@
 namespace coordreq {
 namespace {
 
-/// A batch has about this part of all rows: few enough that most rows see what was found just before,
-/// enough to keep the threads busy between two meetings.
-constexpr std::int64_t kBatches = 8192;
-constexpr std::int64_t kSmallestBatch = 16;
-constexpr std::int64_t kLargestBatch = 8192;
+/// Rows of a batch, if units are not larger: so few that most rows see what was found just before (on the
+/// intersection of the paper 31 instead of 3,000 rows take a tenth of the visits), enough for some threads.
+constexpr std::int64_t kBatchRows = 32;
 /// Rows to a unit of work where the engine's units are too large to be one.
 constexpr std::int64_t kBlockRows = 32;
+/// Rows that one thread takes at a time.
+constexpr std::int64_t kPieceRows = 8;
+/// Below this many levels, handing out the copying costs more than doing it.
+constexpr std::size_t kFewLevels = std::size_t{1} << 18;
 
 template <class Level>
 class WaveRunner {
@@ -25,8 +27,7 @@ class WaveRunner {
       : levels_(levels), engine_(engine), hull_(hull), limit_(limit), op_(op), team_(team) {
     unit_rows_ = std::min(engine.unit_rows(), engine.outer() == 0 ? kBlockRows : engine.unit_rows());
     units_ = (engine.rows() + unit_rows_ - 1) / unit_rows_;
-    const std::int64_t batch = std::clamp(engine.rows() / kBatches, kSmallestBatch, kLargestBatch);
-    batch_units_ = std::max<std::int64_t>(1, batch / unit_rows_);
+    batch_units_ = std::max<std::int64_t>(1, kBatchRows / unit_rows_);
     changed_.assign(static_cast<std::size_t>(engine.rows()), 0);
     unit_changed_.assign(static_cast<std::size_t>(units_), 0);
     unit_seen_.assign(static_cast<std::size_t>(units_), 0);
@@ -56,6 +57,12 @@ class WaveRunner {
     std::int64_t row;
     std::size_t position;  ///< in the worker's storage
   };
+  /// Rows of one unit that one thread looks at.
+  struct Piece {
+    std::int64_t unit;
+    std::int64_t begin;
+    std::int64_t end;
+  };
   struct Worker {
     Worker(const RowEngine& engine, const LevelRows<Level>& levels)
         : posts(engine, levels), old(posts.lanes(), 0), next(posts.lanes(), 0), result(posts.lanes(), 0) {}
@@ -69,6 +76,8 @@ class WaveRunner {
     std::vector<std::int64_t> counter;
     RowHull::Box box;
     std::int64_t visited = 0;
+    std::uint32_t batch = 0;  ///< and unit: what the reader has entered
+    std::int64_t unit = -1;
   };
 
   /// Rows without a cell in the set never change.
@@ -109,13 +118,12 @@ class WaveRunner {
       worker.storage.clear();
       worker.visited = 0;
     }
-    team_.for_each(static_cast<std::int64_t>(batch.size()), 1, [&](ThreadTeam::Range range, int w) {
-      for (std::int64_t i = range.begin; i < range.end; ++i) visit(batch[static_cast<std::size_t>(i)], w);
+    cut_into_pieces(batch);
+    team_.for_each(static_cast<std::int64_t>(pieces_.size()), 1, [&](ThreadTeam::Range range, int w) {
+      for (std::int64_t i = range.begin; i < range.end; ++i) visit(pieces_[static_cast<std::size_t>(i)], w);
     });
     for (const std::int64_t unit : batch) unit_seen_[static_cast<std::size_t>(unit)] = batch_;
-    team_.for_each(team_.size(), 1, [&](ThreadTeam::Range range, int) {
-      for (std::int64_t w = range.begin; w < range.end; ++w) commit(workers_[static_cast<std::size_t>(w)]);
-    });
+    commit_all();
     std::int64_t visited = 0;
     for (const Worker& worker : workers_) {
       visited += worker.visited;
@@ -127,15 +135,27 @@ class WaveRunner {
     return visited;
   }
 
-  void visit(std::int64_t unit, int w) {
+  void cut_into_pieces(const std::vector<std::int64_t>& batch) {
+    pieces_.clear();
+    for (const std::int64_t unit : batch) {
+      const std::int64_t end = std::min((unit + 1) * unit_rows_, engine_.rows());
+      for (std::int64_t begin = unit * unit_rows_; begin < end; begin += kPieceRows) {
+        pieces_.push_back({unit, begin, std::min(begin + kPieceRows, end)});
+      }
+    }
+  }
+
+  void visit(const Piece& piece, int w) {
     Worker& worker = workers_[static_cast<std::size_t>(w)];
-    worker.posts.enter();
-    const std::int64_t begin = unit * unit_rows_;
-    const std::int64_t end = std::min(begin + unit_rows_, engine_.rows());
-    const std::uint32_t seen = unit_seen_[static_cast<std::size_t>(unit)];
-    if (seen != 0) merge_changes(begin, worker);
-    RowPlace place(engine_.grid(), begin);
-    for (; place.row < end; place.advance(engine_.grid())) {
+    if (worker.batch != batch_ || worker.unit != piece.unit) {
+      worker.posts.enter();
+      worker.batch = batch_;
+      worker.unit = piece.unit;
+    }
+    const std::uint32_t seen = unit_seen_[static_cast<std::size_t>(piece.unit)];
+    if (seen != 0) merge_changes(piece.unit * unit_rows_, worker);
+    RowPlace place(engine_.grid(), piece.begin);
+    for (; place.row < piece.end; place.advance(engine_.grid())) {
       if (alive_[static_cast<std::size_t>(place.row)] == 0) continue;
       if (seen == 0 || meets_change(place, seen, worker)) visit_row(place, worker, w);
     }
@@ -180,6 +200,18 @@ class WaveRunner {
                           worker.result.begin() + static_cast<std::ptrdiff_t>(n));
   }
 
+  void commit_all() {
+    std::size_t levels = 0;
+    for (const Worker& worker : workers_) levels += worker.storage.size();
+    if (levels < kFewLevels) {
+      for (const Worker& worker : workers_) commit(worker);
+      return;
+    }
+    team_.for_each(team_.size(), 1, [&](ThreadTeam::Range range, int) {
+      for (std::int64_t w = range.begin; w < range.end; ++w) commit(workers_[static_cast<std::size_t>(w)]);
+    });
+  }
+
   void commit(const Worker& worker) {
     for (const Change& change : worker.changes) {
       std::copy_n(worker.storage.data() + change.position, levels_.row_length(), levels_.row(change.row));
@@ -206,6 +238,7 @@ class WaveRunner {
   std::vector<std::uint8_t> alive_;
   std::vector<std::uint8_t> unit_alive_;
   std::deque<Worker> workers_;
+  std::vector<Piece> pieces_;
   RowHull::Box box_;
   std::vector<std::int64_t> counter_;
 };
