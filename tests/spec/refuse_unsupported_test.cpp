@@ -22,7 +22,6 @@ TEST(RefuseUnsupported, NamesTheKey) {
   const std::vector<test::ErrorCase> cases{
       {"/abstraction", R"({"between_samples": true})",
        "'between_samples' is not supported yet (/abstraction/between_samples)"},
-      {"/agents/1/prefer", "\"x1^2\"", "'prefer' is not supported yet (/agents/1/prefer)"},
       {"/controller", R"({"file": "other.h5"})", "'file' is not supported yet (/controller/file)"},
       {"/coordination", R"({"partitions": "all"})", "'all' is not supported yet (/coordination/partitions)"},
       {"/coordination", R"({"horizon": 3})", "'horizon' is not supported yet (/coordination/horizon)"},
@@ -46,6 +45,7 @@ TEST(RefuseUnsupported, TakesEverythingElse) {
   spec["states"][0]["outside"] = {{"below", "safe"}, {"above", "saturate"}};
   spec["states"][0]["measurement_error"] = 0.1;
   spec["states"][1]["discrete"] = true;
+  spec["agents"][1]["prefer"] = "x1^2";
   spec["dynamics"]["time"] = "discrete";
   spec["abstraction"] = {{"cells", "half_open"}, {"safe", "center"}, {"between_samples", false}};
   spec["controller"] = {{"synthesis", "given"}, {"allow", "u1 < 1"}};
