@@ -27,6 +27,7 @@ struct RawArguments {
   bool json = false;
   bool quiet = false;
   bool version = false;
+  SimulateArguments simulate;
 };
 
 struct CommandInfo {
@@ -45,13 +46,15 @@ constexpr CommandInfo kCommands[] = {
     {"info", "Print what a results file holds", "RESULTS", "A file that analyze wrote", run_info},
     {"query", "Tell everything that is known at a state: delay, countdown, allowed actions", "RESULTS",
      "A file that analyze wrote", run_query},
+    {"simulate", "Run the self-triggered closed loop on the system itself", "RESULTS",
+     "A file that analyze wrote", run_simulate},
     {"export", "Write the result in the format of another tool", "RESULTS", "A file that analyze wrote",
      run_export},
     {"schema", "Print the JSON Schema of specs", "", "", run_schema},
 };
 
 constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 a requirement fails, 2 wrong usage, 3 invalid spec or results file,\n"
+    "Exit codes: 0 done, 1 a requirement or a run fails, 2 wrong usage, 3 invalid spec or results file,\n"
     "4 a limit refused, 5 input or output failed, 70 a bug in coordreq, 130 interrupted.";
 
 void add_export_options(CLI::App& command, RawArguments& raw) {
@@ -73,6 +76,23 @@ void add_export_options(CLI::App& command, RawArguments& raw) {
       ->take_all();
 }
 
+void add_simulate_options(CLI::App& command, RawArguments& raw) {
+  SimulateArguments& simulate = raw.simulate;
+  const auto add = [&command](const char* name, auto& target, const char* text, const char* type) {
+    command.add_option(name, target, text)->type_name(type);
+  };
+  add("--from", simulate.from, "State to start from, as x1=0.1,x2=0", "STATE");
+  add("--start", simulate.start, "random: start anywhere in the invariance set", "HOW");
+  add("--steps", simulate.steps, "Length of a run", "N");
+  add("--runs", simulate.runs, "Number of runs (default: 1)", "N");
+  add("--seed", simulate.seed, "Seed of all that is random (default: 1)", "N");
+  add("--policy", simulate.policy, "random (default), adversarial or prefer", "NAME");
+  add("--disturbance", simulate.disturbance,
+      "random (default), extremes, constant or constant values as w1=0.1,w2=0", "HOW");
+  add("--partition", simulate.partition, "Partition (default: the only one)", "NAME");
+  add("-o,--output", raw.output, "File for the runs (default: none)", "FILE");
+}
+
 void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
   CLI::App* command = app.add_subcommand(info.name, info.description);
   if (*info.argument != '\0') {
@@ -89,6 +109,7 @@ void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
                      "The state, as x1=0.1,x2=1/3 (default: many from standard input, CSV or JSON lines)")
         ->type_name("STATE");
   }
+  if (info.run == run_simulate) add_simulate_options(*command, raw);
   command->add_option("--threads", raw.threads, "Threads to work with (default: all cores)")->type_name("N");
   command
       ->add_option("--max-memory", raw.max_memory,
@@ -179,7 +200,8 @@ CommandLine checked(const RawArguments& raw, const CommandInfo& info, const CLI:
     line.slices = raw.slices;
     line.projections = raw.projections;
   }
-  const bool has_output = info.run == run_analyze || info.run == run_export;
+  line.simulate = raw.simulate;
+  const bool has_output = info.run == run_analyze || info.run == run_export || info.run == run_simulate;
   if (has_output && command.count("--output") > 0) {
     if (raw.output.empty() || raw.output == "-") {
       throw UsageError(fmt::format("expected the name of a file, found '{}'", raw.output), "--output");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/simulate_arguments.hpp"
 #include "base/error.hpp"
 
 namespace coordreq {
@@ -23,6 +24,7 @@ struct CommandLine {
   std::optional<std::uint64_t> max_memory;  ///< bytes
   bool json = false;
   bool quiet = false;
+  SimulateArguments simulate;
   std::function<ExitCode(const CommandLine&)> command;
 
   /// Runs the command.
