@@ -40,6 +40,9 @@ class Projections::Builder {
     grouping_.group(place, groups_);
     const bool is_product = boxes_.is_product() && boxes_.fill(place, groups_);
     if (is_full && !is_product) return false;
+    is_simple_ = is_product && !boxes_.has_gone() && controller_.engine->allow() == nullptr &&
+                 controller_.synthesis == Synthesis::maximal;
+    box_.ranges.resize(controller_.engine->tables() - 1);
     for (std::size_t c = 0; c < masks_.size(); ++c) {
       is_full ? fill_masks(c, invariant) : find_masks(place, c);
     }
@@ -95,6 +98,10 @@ class Projections::Builder {
     // do.
     choose_groups(groups_, GroupChoice::minimal, candidates_);
     candidates_[c] = {&g, 1};
+    if (is_simple_) {
+      add_boxes(0, place, mask);
+      return;
+    }
     tuple_.begin(grouping_, place, groups_, candidates_);
     do {
       controller_row(controller_, place.row, tuple_, posts_, members_);
@@ -102,10 +109,29 @@ class Projections::Builder {
     } while (!is_subset(invariant, mask) && tuple_.next());
   }
 
+  /// Adds the cells whose post is in K, for all candidates of class c and those after it, to `mask`.
+  /// @returns false if that is all of K
+  bool add_boxes(std::size_t c, const RowPlace& place, MutableRow mask) {
+    const ConstRow invariant = controller_.invariant->row(place.row);
+    if (c == candidates_.size()) {
+      const auto n = static_cast<std::size_t>(controller_.engine->row_length());
+      posts_.kernels().top_bits(posts_.minimum(box_), members_.data(), n);
+      for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= members_[w] & invariant[w];
+      return !is_subset(invariant, mask);
+    }
+    for (const std::uint32_t g : candidates_[c]) {
+      if (boxes_.kind(c, g) == RowBoxes::Kind::blocked) continue;
+      boxes_.put(c, boxes_.ranges(c, g), box_);
+      if (!add_boxes(c + 1, place, mask)) return false;
+    }
+    return true;
+  }
+
   const Controller& controller_;
   const ActionGrouping& grouping_;
   const RowHull& hull_;
   RowBoxes boxes_;
+  bool is_simple_ = false;  ///< all joint posts of the row are boxes, and everything is allowed
   IndependentPosts independent_;
   PostReader<Level> posts_;
   RowGroups groups_;

@@ -28,6 +28,7 @@ RowBoxes::RowBoxes(const ActionGrouping& grouping)
 
 bool RowBoxes::fill(const RowPlace& place, const RowGroups& groups) {
   for (std::size_t t = 0; t < base_.size(); ++t) base_[t] = grouping_.sources()[t].base(place);
+  has_gone_ = false;
   for (std::size_t c = 0; c < moved_.size(); ++c) {
     kinds_[c].clear();
     ranges_[c].clear();
@@ -52,7 +53,15 @@ bool RowBoxes::add(std::size_t c, std::uint32_t action) {
     if (slice[0].kind == RowSegment::Kind::gone && kind != Kind::blocked) kind = Kind::gone;
   }
   kinds_[c].push_back(kind);
+  has_gone_ = has_gone_ || kind == Kind::gone;
   return true;
+}
+
+void RowBoxes::put(std::size_t c, std::span<const IndexRange> ranges, RowHull::Box& box) const {
+  for (std::size_t k = 0; k < moved_[c].size(); ++k) {
+    const std::size_t t = moved_[c][k];
+    (t + 1 == base_.size() ? box.window : box.ranges[t]) = ranges[k];
+  }
 }
 
 void RowBoxes::put(std::size_t c, std::span<const Word> ranges, RowHull::Box& box) const {

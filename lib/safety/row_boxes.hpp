@@ -45,8 +45,12 @@ class RowBoxes {
   /// Dimensions that class c moves; those that nothing moves count with the first class.
   [[nodiscard]] const std::vector<std::size_t>& moved(std::size_t c) const { return moved_[c]; }
 
+  /// True if a group of the row leaves for good in some dimension.
+  [[nodiscard]] bool has_gone() const { return has_gone_; }
+
   /// Writes the part of class c into a box of all dimensions; `ranges` packed by pack_range().
   void put(std::size_t c, std::span<const Word> ranges, RowHull::Box& box) const;
+  void put(std::size_t c, std::span<const IndexRange> ranges, RowHull::Box& box) const;
 
  private:
   bool add(std::size_t c, std::uint32_t action);
@@ -54,6 +58,7 @@ class RowBoxes {
   const ActionGrouping& grouping_;
   std::vector<std::vector<std::size_t>> moved_;
   bool is_product_ = true;
+  bool has_gone_ = false;
   std::vector<std::int64_t> base_;  ///< by table, of the row
   std::vector<std::vector<Kind>> kinds_;
   std::vector<std::vector<IndexRange>> ranges_;
