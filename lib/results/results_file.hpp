@@ -33,6 +33,16 @@ class ResultsFile {
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& dataset) const;
 
+  /// The elements offset[i], ..., offset[i] + count[i] - 1 of every dimension, row-major, into `out`; only
+  /// the chunks that hold them are read. @throws ResultsError if they are stored as another type than `type`,
+  /// or damaged. REQUIRES: they lie inside shape(); `out` has room for them.
+  void read_block(const std::string& dataset, ElementType type, const std::vector<std::uint64_t>& offset,
+                  const std::vector<std::uint64_t>& count, void* out) const;
+  /// @throws ResultsError if it is none of ours
+  [[nodiscard]] ElementType element_type(const std::string& dataset) const;
+  /// Whether there is an object at `path`, that is: whether what is stored on request was asked for.
+  [[nodiscard]] bool exists(const std::string& path) const;
+
   /// Names of the dimension scales of a dataset, one an axis.
   [[nodiscard]] std::vector<std::string> axes(const std::string& dataset) const;
   /// Names of what the group holds, in the order in which it was written.

@@ -1,0 +1,48 @@
+// Parts of large arrays.
+
+#include <array>
+
+#include "base/error.hpp"
+#include "results/results_file.hpp"
+
+namespace coordreq {
+
+bool ResultsFile::exists(const std::string& path) const {
+  // The library wants every group on the way to be there.
+  for (std::size_t end = path.find('/', 1); end != std::string::npos; end = path.find('/', end + 1)) {
+    if (H5Lexists(file_.get(), path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+  }
+  return H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT) > 0;
+}
+
+ElementType ResultsFile::element_type(const std::string& dataset) const {
+  const hdf5::Handle handle = open_dataset(dataset);
+  const hdf5::Handle stored(H5Dget_type(handle.get()), H5Tclose, "read a type");
+  for (const ElementType type : {ElementType::uint8, ElementType::int16, ElementType::int32,
+                                 ElementType::uint32, ElementType::uint64, ElementType::float64}) {
+    if (H5Tequal(stored.get(), hdf5::number_type(type)) > 0) return type;
+  }
+  throw ResultsError("elements of an unknown type", place(dataset));
+}
+
+void ResultsFile::read_block(const std::string& dataset, ElementType type,
+                             const std::vector<std::uint64_t>& offset,
+                             const std::vector<std::uint64_t>& count, void* out) const {
+  if (element_type(dataset) != type) throw ResultsError("elements of another type", place(dataset));
+  const hdf5::Handle handle = open_dataset(dataset);
+  const hdf5::Handle stored(H5Dget_space(handle.get()), H5Sclose, "read a shape");
+  const std::vector<hsize_t> start(offset.begin(), offset.end());
+  const std::vector<hsize_t> lengths(count.begin(), count.end());
+  const hdf5::Handle wanted = hdf5::create_space(lengths);
+  // A scalar has no hyperslabs.
+  if (!start.empty()) {
+    hdf5::check(
+        H5Sselect_hyperslab(stored.get(), H5S_SELECT_SET, start.data(), nullptr, lengths.data(), nullptr),
+        "select a part of " + dataset);
+  }
+  if (H5Dread(handle.get(), hdf5::number_type(type), wanted.get(), stored.get(), H5P_DEFAULT, out) < 0) {
+    throw ResultsError("cannot read the numbers: damaged", place(dataset));
+  }
+}
+
+}  // namespace coordreq
