@@ -1,6 +1,6 @@
 // Parts of large arrays.
 
-#include <array>
+#include <utility>
 
 #include "base/error.hpp"
 #include "results/results_file.hpp"
@@ -15,22 +15,29 @@ bool ResultsFile::exists(const std::string& path) const {
   return H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT) > 0;
 }
 
-ElementType ResultsFile::element_type(const std::string& dataset) const {
-  const hdf5::Handle handle = open_dataset(dataset);
-  const hdf5::Handle stored(H5Dget_type(handle.get()), H5Tclose, "read a type");
+const ResultsFile::OpenDataset& ResultsFile::open_for_parts(const std::string& path) const {
+  const auto known = open_.find(path);
+  if (known != open_.end()) return known->second;
+  hdf5::Handle dataset = open_dataset(path);
+  const hdf5::Handle stored(H5Dget_type(dataset.get()), H5Tclose, "read a type");
   for (const ElementType type : {ElementType::uint8, ElementType::int16, ElementType::int32,
                                  ElementType::uint32, ElementType::uint64, ElementType::float64}) {
-    if (H5Tequal(stored.get(), hdf5::number_type(type)) > 0) return type;
+    if (H5Tequal(stored.get(), hdf5::number_type(type)) <= 0) continue;
+    return open_.emplace(path, OpenDataset{std::move(dataset), type}).first->second;
   }
-  throw ResultsError("elements of an unknown type", place(dataset));
+  throw ResultsError("elements of an unknown type", place(path));
+}
+
+ElementType ResultsFile::element_type(const std::string& dataset) const {
+  return open_for_parts(dataset).type;
 }
 
 void ResultsFile::read_block(const std::string& dataset, ElementType type,
                              const std::vector<std::uint64_t>& offset,
                              const std::vector<std::uint64_t>& count, void* out) const {
-  if (element_type(dataset) != type) throw ResultsError("elements of another type", place(dataset));
-  const hdf5::Handle handle = open_dataset(dataset);
-  const hdf5::Handle stored(H5Dget_space(handle.get()), H5Sclose, "read a shape");
+  const OpenDataset& open = open_for_parts(dataset);
+  if (open.type != type) throw ResultsError("elements of another type", place(dataset));
+  const hdf5::Handle stored(H5Dget_space(open.dataset.get()), H5Sclose, "read a shape");
   const std::vector<hsize_t> start(offset.begin(), offset.end());
   const std::vector<hsize_t> lengths(count.begin(), count.end());
   const hdf5::Handle wanted = hdf5::create_space(lengths);
@@ -40,7 +47,8 @@ void ResultsFile::read_block(const std::string& dataset, ElementType type,
         H5Sselect_hyperslab(stored.get(), H5S_SELECT_SET, start.data(), nullptr, lengths.data(), nullptr),
         "select a part of " + dataset);
   }
-  if (H5Dread(handle.get(), hdf5::number_type(type), wanted.get(), stored.get(), H5P_DEFAULT, out) < 0) {
+  if (H5Dread(open.dataset.get(), hdf5::number_type(type), wanted.get(), stored.get(), H5P_DEFAULT, out) <
+      0) {
     throw ResultsError("cannot read the numbers: damaged", place(dataset));
   }
 }

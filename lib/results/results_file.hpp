@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -64,8 +65,16 @@ class ResultsFile {
   [[nodiscard]] std::vector<Value> elements(const std::string& dataset, hid_t type) const;
   void collect_datasets(const std::string& group, int depth, std::vector<std::string>& found) const;
 
+  /// A dataset that parts are read of. It stays open, so that the chunk that was unpacked last stays there.
+  struct OpenDataset {
+    hdf5::Handle dataset;
+    ElementType type;
+  };
+  [[nodiscard]] const OpenDataset& open_for_parts(const std::string& path) const;
+
   std::string path_;
   hdf5::Handle file_;
+  mutable std::map<std::string, OpenDataset> open_;  // by path; closed before the file
 };
 
 }  // namespace coordreq

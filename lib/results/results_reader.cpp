@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "results/reading.hpp"
+#include "results/results_file.hpp"
 #include "results/results_paths.hpp"
 
 namespace coordreq {
@@ -31,7 +32,9 @@ ResultsReader::ResultsReader(const std::string& path)
       parts_(read_parts(path)),
       grid_(make_grid(parts_.spec)),
       inputs_(make_input_space(parts_.spec)),
-      file_(reading(path, [&path] { return ResultsFile(path); })) {}
+      file_(reading(path, [&path] { return std::make_unique<ResultsFile>(path); })) {}
+
+ResultsReader::~ResultsReader() = default;
 
 template <class Value>
 std::vector<Value> ResultsReader::elements(const std::string& dataset, ElementType type,
@@ -41,7 +44,7 @@ std::vector<Value> ResultsReader::elements(const std::string& dataset, ElementTy
   for (const std::uint64_t length : count) product *= length;
   std::vector<Value> values(product);
   if (product == 0) return values;
-  reading(path_, [&] { file_.read_block(dataset, type, offset, count, values.data()); });
+  reading(path_, [&] { file_->read_block(dataset, type, offset, count, values.data()); });
   return values;
 }
 
@@ -49,7 +52,7 @@ std::vector<std::uint8_t> ResultsReader::members(const std::string& dataset, con
   const std::vector<std::uint8_t> values =
       elements<std::uint8_t>(dataset, ElementType::uint8, unsigned_of(block.first), unsigned_of(block.count));
   if (std::any_of(values.begin(), values.end(), [](std::uint8_t value) { return value > 1; })) {
-    throw ResultsError("a value other than 0 and 1: damaged", file_.place(dataset));
+    throw ResultsError("a value other than 0 and 1: damaged", file_->place(dataset));
   }
   return values;
 }
@@ -71,14 +74,14 @@ std::vector<std::int32_t> ResultsReader::steps(const std::string& dataset,
     offset.insert(offset.begin(), *partition);
     count.insert(count.begin(), 1);
   }
-  const ElementType type = reading(path_, [&] { return file_.element_type(dataset); });
+  const ElementType type = reading(path_, [&] { return file_->element_type(dataset); });
   const std::vector<std::int32_t> values =
       type == ElementType::int16 ? widened(elements<std::int16_t>(dataset, type, offset, count))
                                  : widened(elements<std::int32_t>(dataset, type, offset, count));
   const auto found = std::find_if(values.begin(), values.end(), [&](std::int32_t v) { return v < lowest; });
   if (found != values.end()) {
     throw ResultsError("found " + std::to_string(*found) + ", expected at least " + std::to_string(lowest),
-                       file_.place(dataset));
+                       file_->place(dataset));
   }
   return values;
 }
@@ -96,15 +99,15 @@ std::vector<std::int32_t> ResultsReader::trigger(std::size_t partition, const Ce
 }
 
 bool ResultsReader::has_actions(std::size_t partition) const {
-  return file_.exists(paths::actions(parts_.partitions[partition]));
+  return file_->exists(paths::actions(parts_.partitions[partition]));
 }
 
 bool ResultsReader::has_controller() const {
-  return file_.exists(paths::kController);
+  return file_->exists(paths::kController);
 }
 
 bool ResultsReader::has_layers(std::size_t partition) const {
-  return file_.exists(paths::layers(parts_.partitions[partition]));
+  return file_->exists(paths::layers(parts_.partitions[partition]));
 }
 
 bool ResultsReader::has_abstraction() const {
@@ -131,8 +134,8 @@ std::vector<std::uint8_t> ResultsReader::controller_bits(const CellBlock& block)
 }
 
 std::vector<std::uint64_t> ResultsReader::whole(const std::string& dataset) const {
-  const auto shape = reading(path_, [&] { return file_.shape(dataset); });
-  const auto type = reading(path_, [&] { return file_.element_type(dataset); });
+  const auto shape = reading(path_, [&] { return file_->shape(dataset); });
+  const auto type = reading(path_, [&] { return file_->element_type(dataset); });
   const std::vector<std::uint64_t> origin(shape.size(), 0);
   if (type == ElementType::uint64) return elements<std::uint64_t>(dataset, type, origin, shape);
   const std::vector<std::uint32_t> values = elements<std::uint32_t>(dataset, type, origin, shape);
@@ -144,11 +147,11 @@ StoredLayers ResultsReader::layers(std::size_t partition) const {
   StoredLayers layers{whole(path + "/start"), whole(path + "/cell")};
   if (!std::is_sorted(layers.start.begin(), layers.start.end()) || layers.start.front() != 0 ||
       layers.start.back() != layers.cell.size()) {
-    throw ResultsError("does not ascend from 0 to the number of cells", file_.place(path + "/start"));
+    throw ResultsError("does not ascend from 0 to the number of cells", file_->place(path + "/start"));
   }
   const auto cells = static_cast<std::uint64_t>(grid_.cells());
   if (std::any_of(layers.cell.begin(), layers.cell.end(), [&](std::uint64_t x) { return x >= cells; })) {
-    throw ResultsError("a cell that the grid does not have", file_.place(path + "/cell"));
+    throw ResultsError("a cell that the grid does not have", file_->place(path + "/cell"));
   }
   return layers;
 }
@@ -169,7 +172,7 @@ Abstraction ResultsReader::abstraction() const {
     const auto last =
         elements<std::int32_t>(paths::abstraction(grid_[i].name, "last"), ElementType::int32, origin, shape);
     for (std::size_t e = 0; e < entries; ++e) {
-      if (first[e] > last[e]) throw ResultsError("an empty range of indices", file_.place(first_path));
+      if (first[e] > last[e]) throw ResultsError("an empty range of indices", file_->place(first_path));
       table.entries.push_back({first[e], last[e]});
     }
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +11,6 @@
 #include "grid/input_space.hpp"
 #include "grid/uniform_grid.hpp"
 #include "results/result_content.hpp"
-#include "results/results_file.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -40,6 +40,8 @@ struct StoredLayers {
   std::vector<std::uint64_t> start;
   std::vector<std::uint64_t> cell;
 };
+
+class ResultsFile;
 
 /// Everything in a results file but the arrays over cells.
 struct ResultsParts {
@@ -74,6 +76,9 @@ class ResultsReader {
   /// @throws IoError if the file is not there or cannot be read; ResultsError if it is no results file of a
   ///   version that this program reads, or is damaged, or its spec is none
   explicit ResultsReader(const std::string& path);
+  ~ResultsReader();
+  ResultsReader(const ResultsReader&) = delete;
+  ResultsReader& operator=(const ResultsReader&) = delete;
 
   [[nodiscard]] const std::string& path() const { return path_; }
   /// The embedded spec, read by read_spec(). It may hold keys that this version does not support: whoever
@@ -142,7 +147,7 @@ class ResultsReader {
   ResultsParts parts_;
   UniformGrid grid_;
   InputSpace inputs_;
-  ResultsFile file_;
+  std::unique_ptr<ResultsFile> file_;  // HDF5 stays inside this module
 };
 
 }  // namespace coordreq
