@@ -22,7 +22,7 @@ constexpr int kMaxThreads = 1024;
 
 /// What CLI11 hands over, before it is checked. Numbers stay text so that the messages are ours.
 struct RawArguments {
-  std::string path, output, threads, max_memory;
+  std::string path, output, threads, max_memory, sample;
   bool json = false;
   bool quiet = false;
   bool version = false;
@@ -42,11 +42,14 @@ constexpr CommandInfo kCommands[] = {
     {"validate", "Check a spec; print sizes, which state depends on what, and a memory estimate", "SPEC",
      "The problem spec, a JSON file; - reads standard input", run_validate},
     {"info", "Print what a results file holds", "RESULTS", "A file that analyze wrote", run_info},
+    {"verify", "Check a results file by an independent method", "RESULTS", "A file that analyze wrote",
+     run_verify},
     {"schema", "Print the JSON Schema of specs", "", "", run_schema},
 };
 
 constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 a requirement fails, 2 wrong usage, 3 invalid spec or results file,\n"
+    "Exit codes: 0 done, 1 a requirement or a verification fails, 2 wrong usage, 3 invalid spec or results "
+    "file,\n"
     "4 a limit refused, 5 input or output failed, 70 a bug in coordreq, 130 interrupted.";
 
 void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
@@ -57,6 +60,10 @@ void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
   if (info.run == run_analyze) {
     command->add_option("-o,--output", raw.output, "Results file (default: NAME.h5 in the current folder)")
         ->type_name("FILE");
+  }
+  if (info.run == run_verify) {
+    command->add_option("--sample", raw.sample, "Look at so many cells, evenly drawn (default: all)")
+        ->type_name("N");
   }
   command->add_option("--threads", raw.threads, "Threads to work with (default: all cores)")->type_name("N");
   command
@@ -92,6 +99,15 @@ int parse_threads(const std::string& text) {
   if (error != std::errc() || end != text.data() + text.size() || value < 1 || value > kMaxThreads) {
     throw UsageError(fmt::format("expected a whole number from 1 to {}, found '{}'", kMaxThreads, text),
                      "--threads");
+  }
+  return value;
+}
+
+std::int64_t parse_sample(const std::string& text) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < 1) {
+    throw UsageError(fmt::format("expected a whole number from 1, found '{}'", text), "--sample");
   }
   return value;
 }
@@ -140,6 +156,7 @@ CommandLine checked(const RawArguments& raw, const CommandInfo& info, const CLI:
   line.command = info.run;
   if (command.count("--threads") > 0) line.threads = parse_threads(raw.threads);
   if (command.count("--max-memory") > 0) line.max_memory = parse_memory_size(raw.max_memory);
+  if (info.run == run_verify && command.count("--sample") > 0) line.sample = parse_sample(raw.sample);
   if (info.run == run_analyze && command.count("--output") > 0) {
     if (raw.output.empty() || raw.output == "-") {
       throw UsageError(fmt::format("expected the name of a file, found '{}'", raw.output), "--output");

@@ -15,6 +15,7 @@ struct CommandLine {
   std::optional<std::string> output;        ///< -o
   int threads = 0;                          ///< 0: all cores
   std::optional<std::uint64_t> max_memory;  ///< bytes
+  std::optional<std::int64_t> sample;       ///< --sample: cells that verify looks at
   bool json = false;
   bool quiet = false;
   std::function<ExitCode(const CommandLine&)> command;
