@@ -22,7 +22,7 @@ constexpr int kMaxThreads = 1024;
 
 /// What CLI11 hands over, before it is checked. Numbers stay text so that the messages are ours.
 struct RawArguments {
-  std::string path, output, threads, max_memory, at, format, partition;
+  std::string path, output, threads, max_memory, at, format, partition, sample;
   std::vector<std::string> slices, projections;
   bool json = false;
   bool quiet = false;
@@ -48,14 +48,17 @@ constexpr CommandInfo kCommands[] = {
      "A file that analyze wrote", run_query},
     {"simulate", "Run the self-triggered closed loop on the system itself", "RESULTS",
      "A file that analyze wrote", run_simulate},
+    {"verify", "Check a results file by an independent method", "RESULTS", "A file that analyze wrote",
+     run_verify},
     {"export", "Write the result in the format of another tool", "RESULTS", "A file that analyze wrote",
      run_export},
     {"schema", "Print the JSON Schema of specs", "", "", run_schema},
 };
 
 constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 a requirement or a run fails, 2 wrong usage, 3 invalid spec or results file,\n"
-    "4 a limit refused, 5 input or output failed, 70 a bug in coordreq, 130 interrupted.";
+    "Exit codes: 0 done, 1 a requirement, a verification or a run fails, 2 wrong usage,\n"
+    "3 invalid spec or results file, 4 a limit refused, 5 input or output failed,\n"
+    "70 a bug in coordreq, 130 interrupted.";
 
 void add_export_options(CLI::App& command, RawArguments& raw) {
   command.add_option("--format", raw.format, "csv, scs (SCOTS) or c-header")->type_name("FORMAT");
@@ -110,6 +113,10 @@ void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
         ->type_name("STATE");
   }
   if (info.run == run_simulate) add_simulate_options(*command, raw);
+  if (info.run == run_verify) {
+    command->add_option("--sample", raw.sample, "Look at so many cells, evenly drawn (default: all)")
+        ->type_name("N");
+  }
   command->add_option("--threads", raw.threads, "Threads to work with (default: all cores)")->type_name("N");
   command
       ->add_option("--max-memory", raw.max_memory,
@@ -144,6 +151,15 @@ int parse_threads(const std::string& text) {
   if (error != std::errc() || end != text.data() + text.size() || value < 1 || value > kMaxThreads) {
     throw UsageError(fmt::format("expected a whole number from 1 to {}, found '{}'", kMaxThreads, text),
                      "--threads");
+  }
+  return value;
+}
+
+std::int64_t parse_sample(const std::string& text) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < 1) {
+    throw UsageError(fmt::format("expected a whole number from 1, found '{}'", text), "--sample");
   }
   return value;
 }
@@ -193,6 +209,7 @@ CommandLine checked(const RawArguments& raw, const CommandInfo& info, const CLI:
   if (command.count("--threads") > 0) line.threads = parse_threads(raw.threads);
   if (command.count("--max-memory") > 0) line.max_memory = parse_memory_size(raw.max_memory);
   if (info.run == run_query && command.count("--at") > 0) line.at = raw.at;
+  if (info.run == run_verify && command.count("--sample") > 0) line.sample = parse_sample(raw.sample);
   if (info.run == run_export) {
     if (command.count("--format") == 0) throw UsageError("no --format, expected csv, scs or c-header");
     line.format = raw.format;

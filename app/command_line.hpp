@@ -22,6 +22,7 @@ struct CommandLine {
   std::vector<std::string> projections;     ///< --project
   int threads = 0;                          ///< 0: all cores
   std::optional<std::uint64_t> max_memory;  ///< bytes
+  std::optional<std::int64_t> sample;       ///< --sample: cells that verify looks at
   bool json = false;
   bool quiet = false;
   SimulateArguments simulate;

@@ -44,7 +44,9 @@ class ResultsFile {
   /// Whether there is an object at `path`, that is: whether what is stored on request was asked for.
   [[nodiscard]] bool exists(const std::string& path) const;
 
-  /// Names of the dimension scales of a dataset, one an axis.
+  /// Paths of the dimension scales of a dataset, one an axis.
+  [[nodiscard]] std::vector<std::string> axis_paths(const std::string& dataset) const;
+  /// The same without their groups.
   [[nodiscard]] std::vector<std::string> axes(const std::string& dataset) const;
   /// Names of what the group holds, in the order in which it was written.
   [[nodiscard]] std::vector<std::string> members(const std::string& group) const;
