@@ -29,11 +29,15 @@ ProgressLine::~ProgressLine() {
 }
 
 void ProgressLine::update(const Progress& progress) {
+  update(describe(progress));
+}
+
+void ProgressLine::update(const std::string& text) {
   if (width_ == 0) return;
   const Clock::time_point now = Clock::now();
   if (now < next_) return;
   next_ = now + kPause;
-  rewrite(describe(progress).substr(0, static_cast<std::size_t>(width_)));
+  rewrite(text.substr(0, static_cast<std::size_t>(width_)));
 }
 
 void ProgressLine::rewrite(const std::string& text) {

@@ -18,6 +18,7 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void update(const Progress& progress);
+  void update(const std::string& text);
 
  private:
   void rewrite(const std::string& text);

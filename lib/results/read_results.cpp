@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "results/hdf5_handle.hpp"
+#include "results/child_trial.hpp"
+#include "results/reading.hpp"
 #include "results/results_file.hpp"
 
 namespace coordreq {
@@ -97,13 +98,8 @@ ResultInfo read(const std::string& path) {
 }  // namespace
 
 ResultInfo read_info(const std::string& path) {
-  const hdf5::QuietErrors quiet;
-  try {
-    return read(path);
-  } catch (const hdf5::Failure& failure) {
-    if (failure.system_error() != 0) throw IoError(failure.what(), path);
-    throw ResultsError(std::string("damaged results file: ") + failure.what(), path);
-  }
+  try_in_child(path, [&] { static_cast<void>(reading(path, [&] { return read(path); })); });
+  return reading(path, [&] { return read(path); });
 }
 
 }  // namespace coordreq

@@ -241,7 +241,7 @@ std::vector<std::string> ResultsFile::texts(const std::string& dataset) const {
   return strings.copy();
 }
 
-std::vector<std::string> ResultsFile::axes(const std::string& dataset) const {
+std::vector<std::string> ResultsFile::axis_paths(const std::string& dataset) const {
   const std::size_t rank = shape(dataset).size();
   const hdf5::Handle attribute = open_attribute(dataset, "DIMENSION_LIST");
   const hdf5::Handle space = space_of_attribute(attribute);
@@ -255,8 +255,14 @@ std::vector<std::string> ResultsFile::axes(const std::string& dataset) const {
     if (path.empty()) {
       throw ResultsError("axis " + std::to_string(axis) + " has no dimension scale", place(dataset));
     }
-    names.push_back(path.substr(path.rfind('/') + 1));
+    names.push_back(path);
   }
+  return names;
+}
+
+std::vector<std::string> ResultsFile::axes(const std::string& dataset) const {
+  std::vector<std::string> names = axis_paths(dataset);
+  for (std::string& name : names) name.erase(0, name.rfind('/') + 1);
   return names;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,19 @@ class ResultsFile {
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& dataset) const;
 
-  /// Names of the dimension scales of a dataset, one an axis.
+  /// The elements offset[i], ..., offset[i] + count[i] - 1 of every dimension, row-major, into `out`; only
+  /// the chunks that hold them are read. @throws ResultsError if they are stored as another type than `type`,
+  /// or damaged. REQUIRES: they lie inside shape(); `out` has room for them.
+  void read_block(const std::string& dataset, ElementType type, const std::vector<std::uint64_t>& offset,
+                  const std::vector<std::uint64_t>& count, void* out) const;
+  /// @throws ResultsError if it is none of ours
+  [[nodiscard]] ElementType element_type(const std::string& dataset) const;
+  /// Whether there is an object at `path`, that is: whether what is stored on request was asked for.
+  [[nodiscard]] bool exists(const std::string& path) const;
+
+  /// Paths of the dimension scales of a dataset, one an axis.
+  [[nodiscard]] std::vector<std::string> axis_paths(const std::string& dataset) const;
+  /// The same without their groups.
   [[nodiscard]] std::vector<std::string> axes(const std::string& dataset) const;
   /// Names of what the group holds, in the order in which it was written.
   [[nodiscard]] std::vector<std::string> members(const std::string& group) const;
@@ -54,8 +67,16 @@ class ResultsFile {
   [[nodiscard]] std::vector<Value> elements(const std::string& dataset, hid_t type) const;
   void collect_datasets(const std::string& group, int depth, std::vector<std::string>& found) const;
 
+  /// A dataset that parts are read of. It stays open, so that the chunk that was unpacked last stays there.
+  struct OpenDataset {
+    hdf5::Handle dataset;
+    ElementType type;
+  };
+  [[nodiscard]] const OpenDataset& open_for_parts(const std::string& path) const;
+
   std::string path_;
   hdf5::Handle file_;
+  mutable std::map<std::string, OpenDataset> open_;  // by path; closed before the file
 };
 
 }  // namespace coordreq

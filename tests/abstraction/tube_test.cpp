@@ -173,7 +173,9 @@ TEST(Tube, ThereIsNoneUnlessAskedFor) {
 
 /// States that move each other share a flow: each gets the tube that it would have got alone.
 TEST(Tube, IsTheSameFromASharedFlow) {
-  const ProblemSpec spec = flow(kPlane + ", " + kHeading,
+  const std::string coarse =
+      R"({"name": "x", "lower": -2, "upper": 2, "step": 1}, {"name": "y", "lower": -2, "upper": 2, "step": 1})";
+  const ProblemSpec spec = flow(coarse + ", " + kHeading,
                                 R"json("x": "sin(h) - u*y", "y": "cos(h) + x*y + u", "h": "x - 0.3*h")json");
   const AffineDynamics dynamics(spec);
   const Abstraction together = test::build(spec);

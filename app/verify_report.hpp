@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "verify/verify.hpp"
+
+namespace coordreq {
+
+/// What `verify` prints for people. @param seconds wall time; @param path of the results file
+[[nodiscard]] std::string verification_text(const Verification& result, const std::string& path,
+                                            double seconds, int threads);
+
+/// What `verify --json` prints: one document, keys in a fixed order, ending in a newline.
+[[nodiscard]] std::string verification_json(const Verification& result, const std::string& path,
+                                            double seconds, int threads);
+
+}  // namespace coordreq

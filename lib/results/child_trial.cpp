@@ -1,0 +1,99 @@
+#include "results/child_trial.hpp"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <exception>
+
+#include "base/error.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr char kDone = '+';
+constexpr rlim_t kMostSeconds = 60;  // of the processor; a damaged list can be endless
+
+void send(int pipe, const std::string& text) {
+  std::size_t sent = 0;
+  while (sent < text.size()) {
+    const ssize_t count = write(pipe, text.data() + sent, text.size() - sent);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return;
+    sent += static_cast<std::size_t>(count);
+  }
+}
+
+std::string receive(int pipe) {
+  std::string text;
+  std::array<char, 4096> block{};
+  for (;;) {
+    const ssize_t count = ::read(pipe, block.data(), block.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return text;
+    text.append(block.data(), static_cast<std::size_t>(count));
+  }
+}
+
+/// The child leaves no traces: no message of a signal handler, no report of a sanitizer, no core.
+void silence() {
+  for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) {
+    static_cast<void>(std::signal(number, SIG_DFL));
+  }
+  const int null = open("/dev/null", O_RDWR | O_CLOEXEC);
+  if (null >= 0) {
+    static_cast<void>(dup2(null, STDOUT_FILENO));
+    static_cast<void>(dup2(null, STDERR_FILENO));
+  }
+  const rlimit no_core{0, 0};
+  const rlimit time{kMostSeconds, kMostSeconds};
+  static_cast<void>(setrlimit(RLIMIT_CORE, &no_core));
+  static_cast<void>(setrlimit(RLIMIT_CPU, &time));
+}
+
+/// What the parent has to know: kDone, or the exit code and text of an Error.
+std::string outcome_of(const std::function<void()>& read) {
+  try {
+    read();
+    return {kDone};
+  } catch (const Error& error) {
+    return static_cast<char>(error.exit_code()) + std::string(error.what());
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+[[noreturn]] void rethrow(const std::string& outcome, const std::string& path) {
+  if (outcome.empty()) throw ResultsError("damaged results file: the HDF5 library cannot read it", path);
+  const auto code = static_cast<ExitCode>(outcome.front());
+  const std::string text = outcome.substr(1);
+  if (code == ExitCode::invalid_input) throw ResultsError(text);
+  if (code == ExitCode::input_output) throw IoError(text);
+  throw Error(code, text, "");
+}
+
+}  // namespace
+
+void try_in_child(const std::string& path, const std::function<void()>& read) {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) return;
+  const pid_t child = fork();
+  if (child == 0) {
+    silence();
+    send(ends[1], outcome_of(read));
+    _exit(0);
+  }
+  close(ends[1]);
+  const std::string outcome = child > 0 ? receive(ends[0]) : std::string{kDone};
+  close(ends[0]);
+  int status = 0;
+  while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (outcome != std::string{kDone}) rethrow(outcome, path);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,182 @@
+#include "results/results_reader.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/error.hpp"
+#include "results/reading.hpp"
+#include "results/results_file.hpp"
+#include "results/results_paths.hpp"
+
+namespace coordreq {
+namespace {
+
+std::vector<std::uint64_t> unsigned_of(const std::vector<std::int64_t>& values) {
+  return {values.begin(), values.end()};
+}
+
+/// `values` with the type's largest value, which stands for infinity, as kNever.
+template <class Integer>
+std::vector<std::int32_t> widened(const std::vector<Integer>& values) {
+  std::vector<std::int32_t> result(values.size());
+  std::transform(values.begin(), values.end(), result.begin(), [](Integer value) {
+    return value == std::numeric_limits<Integer>::max() ? ResultsReader::kNever : std::int32_t{value};
+  });
+  return result;
+}
+
+}  // namespace
+
+ResultsReader::ResultsReader(const std::string& path)
+    : path_(path),
+      parts_(read_parts(path)),
+      grid_(make_grid(parts_.spec)),
+      inputs_(make_input_space(parts_.spec)),
+      file_(reading(path, [&path] { return std::make_unique<ResultsFile>(path); })) {}
+
+ResultsReader::~ResultsReader() = default;
+
+template <class Value>
+std::vector<Value> ResultsReader::elements(const std::string& dataset, ElementType type,
+                                           const std::vector<std::uint64_t>& offset,
+                                           const std::vector<std::uint64_t>& count) const {
+  std::uint64_t product = 1;
+  for (const std::uint64_t length : count) product *= length;
+  std::vector<Value> values(product);
+  if (product == 0) return values;
+  reading(path_, [&] { file_->read_block(dataset, type, offset, count, values.data()); });
+  return values;
+}
+
+std::vector<std::uint8_t> ResultsReader::members(const std::string& dataset, const CellBlock& block) const {
+  const std::vector<std::uint8_t> values =
+      elements<std::uint8_t>(dataset, ElementType::uint8, unsigned_of(block.first), unsigned_of(block.count));
+  if (std::any_of(values.begin(), values.end(), [](std::uint8_t value) { return value > 1; })) {
+    throw ResultsError("a value other than 0 and 1: damaged", file_->place(dataset));
+  }
+  return values;
+}
+
+std::vector<std::uint8_t> ResultsReader::safe(const CellBlock& block) const {
+  return members("/safe", block);
+}
+
+std::vector<std::uint8_t> ResultsReader::invariant(const CellBlock& block) const {
+  return members("/invariant", block);
+}
+
+std::vector<std::int32_t> ResultsReader::steps(const std::string& dataset,
+                                               std::optional<std::size_t> partition, std::int32_t lowest,
+                                               const CellBlock& block) const {
+  std::vector<std::uint64_t> offset = unsigned_of(block.first);
+  std::vector<std::uint64_t> count = unsigned_of(block.count);
+  if (partition) {
+    offset.insert(offset.begin(), *partition);
+    count.insert(count.begin(), 1);
+  }
+  const ElementType type = reading(path_, [&] { return file_->element_type(dataset); });
+  const std::vector<std::int32_t> values =
+      type == ElementType::int16 ? widened(elements<std::int16_t>(dataset, type, offset, count))
+                                 : widened(elements<std::int32_t>(dataset, type, offset, count));
+  const auto found = std::find_if(values.begin(), values.end(), [&](std::int32_t v) { return v < lowest; });
+  if (found != values.end()) {
+    throw ResultsError("found " + std::to_string(*found) + ", expected at least " + std::to_string(lowest),
+                       file_->place(dataset));
+  }
+  return values;
+}
+
+std::vector<std::int32_t> ResultsReader::collision_time(const CellBlock& block) const {
+  return steps("/collision_time", std::nullopt, 0, block);
+}
+
+std::vector<std::int32_t> ResultsReader::delay(std::size_t partition, const CellBlock& block) const {
+  return steps("/delay", partition, -2, block);
+}
+
+std::vector<std::int32_t> ResultsReader::trigger(std::size_t partition, const CellBlock& block) const {
+  return steps("/trigger", partition, -3, block);
+}
+
+bool ResultsReader::has_actions(std::size_t partition) const {
+  return file_->exists(paths::actions(parts_.partitions[partition]));
+}
+
+bool ResultsReader::has_controller() const {
+  return file_->exists(paths::kController);
+}
+
+bool ResultsReader::has_layers(std::size_t partition) const {
+  return file_->exists(paths::layers(parts_.partitions[partition]));
+}
+
+bool ResultsReader::has_abstraction() const {
+  return !parts_.tables.empty();
+}
+
+std::vector<std::uint8_t> ResultsReader::bits(const std::string& dataset, std::int64_t actions,
+                                              const CellBlock& block) const {
+  std::vector<std::uint64_t> offset = unsigned_of(block.first);
+  std::vector<std::uint64_t> count = unsigned_of(block.count);
+  offset.push_back(0);
+  count.push_back(static_cast<std::uint64_t>((actions + 7) / 8));
+  return elements<std::uint8_t>(dataset, ElementType::uint8, offset, count);
+}
+
+std::vector<std::uint8_t> ResultsReader::action_bits(std::size_t partition, std::size_t class_number,
+                                                     const CellBlock& block) const {
+  const StoredPartition& stored = parts_.partitions[partition];
+  return bits(paths::actions(stored, class_number), stored.actions[class_number], block);
+}
+
+std::vector<std::uint8_t> ResultsReader::controller_bits(const CellBlock& block) const {
+  return bits(paths::kController, inputs_.count(), block);
+}
+
+std::vector<std::uint64_t> ResultsReader::whole(const std::string& dataset) const {
+  const auto shape = reading(path_, [&] { return file_->shape(dataset); });
+  const auto type = reading(path_, [&] { return file_->element_type(dataset); });
+  const std::vector<std::uint64_t> origin(shape.size(), 0);
+  if (type == ElementType::uint64) return elements<std::uint64_t>(dataset, type, origin, shape);
+  const std::vector<std::uint32_t> values = elements<std::uint32_t>(dataset, type, origin, shape);
+  return {values.begin(), values.end()};
+}
+
+StoredLayers ResultsReader::layers(std::size_t partition) const {
+  const std::string path = paths::layers(parts_.partitions[partition]);
+  StoredLayers layers{whole(path + "/start"), whole(path + "/cell")};
+  if (!std::is_sorted(layers.start.begin(), layers.start.end()) || layers.start.front() != 0 ||
+      layers.start.back() != layers.cell.size()) {
+    throw ResultsError("does not ascend from 0 to the number of cells", file_->place(path + "/start"));
+  }
+  const auto cells = static_cast<std::uint64_t>(grid_.cells());
+  if (std::any_of(layers.cell.begin(), layers.cell.end(), [&](std::uint64_t x) { return x >= cells; })) {
+    throw ResultsError("a cell that the grid does not have", file_->place(path + "/cell"));
+  }
+  return layers;
+}
+
+Abstraction ResultsReader::abstraction() const {
+  Abstraction abstraction{.grid = grid_, .inputs = inputs_, .tables = parts_.tables};
+  for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
+    TransitionTable& table = abstraction.tables[i];
+    const auto entries = static_cast<std::size_t>(lay_out(table, i, grid_, inputs_));
+    std::vector<std::uint64_t> shape;
+    for (const std::int32_t j : table.states)
+      shape.push_back(static_cast<std::uint64_t>(grid_[static_cast<std::size_t>(j)].count));
+    for (const std::int32_t j : table.inputs)
+      shape.push_back(static_cast<std::uint64_t>(inputs_[static_cast<std::size_t>(j)].count()));
+    const std::vector<std::uint64_t> origin(shape.size(), 0);
+    const std::string first_path = paths::abstraction(grid_[i].name, "first");
+    const auto first = elements<std::int32_t>(first_path, ElementType::int32, origin, shape);
+    const auto last =
+        elements<std::int32_t>(paths::abstraction(grid_[i].name, "last"), ElementType::int32, origin, shape);
+    for (std::size_t e = 0; e < entries; ++e) {
+      if (first[e] > last[e]) throw ResultsError("an empty range of indices", file_->place(first_path));
+      table.entries.push_back({first[e], last[e]});
+    }
+  }
+  return abstraction;
+}
+
+}  // namespace coordreq

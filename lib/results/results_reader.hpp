@@ -1,0 +1,153 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "abstraction/abstraction.hpp"
+#include "grid/cell_block.hpp"
+#include "grid/input_space.hpp"
+#include "grid/uniform_grid.hpp"
+#include "results/result_content.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// What a results file says of itself, as stored; contract section 4.
+struct StoredAttributes {
+  std::string title, conventions, coordreq_version, git_sha1, spec_sha256, guarantee, period_unit;
+  double period = 0;
+  std::uint64_t safe_cells = 0, invariant_cells = 0;  ///< attributes `cells`
+  std::int64_t iterations = 0;
+  std::int64_t connection_delay = 0;
+};
+
+/// What is stored of a partition besides arrays over cells.
+struct StoredPartition {
+  std::string name;
+  std::vector<std::string> classes;         ///< names of the classes, in the order of the spec
+  std::vector<std::int64_t> actions;        ///< joint actions of each class
+  std::int32_t fixed_point_index = -1;      ///< F; -1 if truncated
+  std::vector<std::uint64_t> layer_sizes;   ///< |Z_0|, ..., |Z_F|; as far as stored if truncated
+  std::vector<std::uint64_t> padded_sizes;  ///< the whole row of /layer_size
+  [[nodiscard]] bool truncated() const { return fixed_point_index < 0; }
+};
+
+/// /layers/PARTITION: T(k) is cell[start[k]], ..., cell[start[k + 1] - 1].
+struct StoredLayers {
+  std::vector<std::uint64_t> start;
+  std::vector<std::uint64_t> cell;
+};
+
+class ResultsFile;
+
+/// Everything in a results file but the arrays over cells.
+struct ResultsParts {
+  ProblemSpec spec;
+  StoredAttributes attributes;
+  std::vector<StoredPartition> partitions;  ///< as many as the spec has, in its order
+  std::vector<TransitionTable> tables;      ///< without entries; none unless stored
+};
+
+/// Reads them, and checks that the arrays are there, have their shapes and types, and that grid points,
+/// partitions and digest fit the spec. Tried in a child process first (see try_in_child()).
+/// @throws as ResultsReader::ResultsReader()
+[[nodiscard]] ResultsParts read_parts(const std::string& path);
+
+/// A results file opened for reading, together with its spec.
+///
+/// 1. The constructor reads everything but the arrays over cells: in a child process first, because damaged
+///    files can crash the HDF5 library (see try_in_child()). It checks that the file fits its spec: digest,
+///    grid points, partitions, shapes and types. Values of attributes are only read; whether they are right
+///    is for a verification.
+/// 2. Arrays over cells are read on demand, for a block or a stretch of cells; only the chunks concerned are
+///    unpacked. Numbers are checked to be ones that the contract knows.
+///
+/// Every member function throws ResultsError naming the file and the object where something is missing,
+/// damaged or not as the contract says, IoError where the system cannot read. Not thread-safe, and no two
+/// objects may be used at the same time from different threads: the HDF5 library admits one caller.
+class ResultsReader {
+ public:
+  /// Infinite delays, triggers and collision times, whatever type they are stored as.
+  static constexpr std::int32_t kNever = INT32_MAX;
+
+  /// @throws IoError if the file is not there or cannot be read; ResultsError if it is no results file of a
+  ///   version that this program reads, or is damaged, or its spec is none
+  explicit ResultsReader(const std::string& path);
+  ~ResultsReader();
+  ResultsReader(const ResultsReader&) = delete;
+  ResultsReader& operator=(const ResultsReader&) = delete;
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+  /// The embedded spec, read by read_spec(). It may hold keys that this version does not support: whoever
+  /// computes with it calls refuse_unsupported().
+  [[nodiscard]] const ProblemSpec& spec() const { return parts_.spec; }
+  [[nodiscard]] const UniformGrid& grid() const { return grid_; }
+  [[nodiscard]] const InputSpace& inputs() const { return inputs_; }
+  [[nodiscard]] const StoredAttributes& attributes() const { return parts_.attributes; }
+  /// As many as the spec has, in its order.
+  [[nodiscard]] const std::vector<StoredPartition>& partitions() const { return parts_.partitions; }
+
+  /// Membership in S and K: 0 or 1.
+  [[nodiscard]] std::vector<std::uint8_t> safe(const CellBlock& block) const;
+  [[nodiscard]] std::vector<std::uint8_t> invariant(const CellBlock& block) const;
+  /// Steps; 0 outside S, kNever inside K.
+  [[nodiscard]] std::vector<std::int32_t> collision_time(const CellBlock& block) const;
+  /// Steps; -2 outside S, -1 in S but not in K, kNever: unbounded. REQUIRES: partition < partitions().size().
+  [[nodiscard]] std::vector<std::int32_t> delay(std::size_t partition, const CellBlock& block) const;
+  /// Steps; -2 and -1 likewise, -3: a connection must stand already, kNever: never.
+  [[nodiscard]] std::vector<std::int32_t> trigger(std::size_t partition, const CellBlock& block) const;
+
+  /// What is stored on request.
+  [[nodiscard]] bool has_actions(std::size_t partition) const;
+  [[nodiscard]] bool has_controller() const;
+  [[nodiscard]] bool has_layers(std::size_t partition) const;
+  [[nodiscard]] bool has_abstraction() const;
+
+  /// Admissible joint actions of a class: bytes [cells of the block, ceil(m / 8)], action a is bit a % 8 of
+  /// byte a / 8. REQUIRES: has_actions(partition).
+  [[nodiscard]] std::vector<std::uint8_t> action_bits(std::size_t partition, std::size_t class_number,
+                                                      const CellBlock& block) const;
+  /// The same for C(x) over the joint inputs. REQUIRES: has_controller().
+  [[nodiscard]] std::vector<std::uint8_t> controller_bits(const CellBlock& block) const;
+  /// REQUIRES: has_layers(partition). `start` is checked to ascend from 0 to the number of cells, `cell` to
+  /// hold cells of the grid.
+  [[nodiscard]] StoredLayers layers(std::size_t partition) const;
+  /// The finite abstraction. `exact` is not stored and left true. REQUIRES: has_abstraction().
+  [[nodiscard]] Abstraction abstraction() const;
+
+  /// The cells begin, ..., end - 1 by linear index: `read(block)` for each of the blocks that they are,
+  /// joined. Example: results.stretch(0, 1000, [&](const CellBlock& b) { return results.safe(b); })
+  template <class Read>
+  [[nodiscard]] auto stretch(std::int64_t begin, std::int64_t end, const Read& read) const {
+    decltype(read(CellBlock())) all;
+    for (const CellBlock& block : blocks_of_stretch(grid_, begin, end)) {
+      const auto part = read(block);
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }
+
+ private:
+  template <class Value>
+  [[nodiscard]] std::vector<Value> elements(const std::string& dataset, ElementType type,
+                                            const std::vector<std::uint64_t>& offset,
+                                            const std::vector<std::uint64_t>& count) const;
+  [[nodiscard]] std::vector<std::uint8_t> members(const std::string& dataset, const CellBlock& block) const;
+  [[nodiscard]] std::vector<std::int32_t> steps(const std::string& dataset,
+                                                std::optional<std::size_t> partition, std::int32_t lowest,
+                                                const CellBlock& block) const;
+  [[nodiscard]] std::vector<std::uint8_t> bits(const std::string& dataset, std::int64_t actions,
+                                               const CellBlock& block) const;
+  [[nodiscard]] std::vector<std::uint64_t> whole(const std::string& dataset) const;
+
+  std::string path_;
+  ResultsParts parts_;
+  UniformGrid grid_;
+  InputSpace inputs_;
+  std::unique_ptr<ResultsFile> file_;  // HDF5 stays inside this module
+};
+
+}  // namespace coordreq

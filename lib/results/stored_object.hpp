@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace coordreq {
+
+/// What a results file says about one of its objects besides its elements, as stored.
+struct StoredObject {
+  std::string path;
+  std::map<std::string, std::string> texts;  ///< attributes that are strings
+  std::map<std::string, std::vector<std::int64_t>>
+      integers;                                        ///< attributes that are integers, or lists of them
+  std::map<std::string, std::vector<double>> numbers;  ///< the same with floating point
+  std::vector<std::string>
+      axes;                ///< paths of the dimension scales, one an axis; none if it is a scale itself
+  bool is_scale = false;   ///< gives others their axis
+  std::string scale_name;  ///< what a scale calls itself
+};
+
+/// Reads the objects at these paths, in a child process first (see try_in_child()).
+/// @throws IoError, ResultsError as ResultsReader does
+[[nodiscard]] std::vector<StoredObject> read_objects(const std::string& file,
+                                                     const std::vector<std::string>& paths);
+
+}  // namespace coordreq

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "verify/post_table.hpp"
+
+namespace coordreq {
+
+/// Infinite delays, triggers and collision times, whatever type they are stored as.
+inline constexpr std::int32_t kForever = INT32_MAX;
+
+/// What a results file says about one partition. Arrays over all cells, row-major.
+struct PartitionClaims {
+  std::string name;
+  std::vector<std::int32_t> delay;
+  std::vector<std::int32_t> trigger;
+  std::int32_t fixed_point_index = -1;     ///< F; -1: unknown because max_delay stopped the iteration
+  std::vector<std::uint64_t> layer_sizes;  ///< the whole row of the file
+  std::vector<std::vector<std::uint8_t>>
+      actions;  ///< [class]: bytes [cells, ceil(m / 8)]; empty if not stored
+  bool has_layers = false;
+  std::vector<std::uint64_t> layer_start;
+  std::vector<std::uint64_t> layer_cell;
+};
+
+/// What a results file says, all of it to be doubted.
+struct Claims {
+  std::vector<std::uint8_t> safe;       ///< 0 or 1
+  std::vector<std::uint8_t> invariant;  ///< 0 or 1
+  std::vector<std::int32_t> collision_time;
+  std::vector<PartitionClaims> partitions;  ///< those of the spec, in its order
+  bool has_controller = false;
+  std::vector<std::uint8_t> controller;  ///< bytes [cells, ceil(joint inputs / 8)]
+  std::vector<PostTable> abstraction;    ///< one a state, or none
+  bool same_version = true;              ///< written by this version of the program
+  std::uint64_t safe_cells = 0;
+  std::uint64_t invariant_cells = 0;
+  std::int64_t iterations = 0;
+};
+
+}  // namespace coordreq

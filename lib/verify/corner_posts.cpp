@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "base/error.hpp"
+#include "grid/pieces.hpp"
+#include "verify/odometer.hpp"
+#include "verify/post_table.hpp"
+
+namespace coordreq {
+namespace {
+
+/// What one moving state adds to the value of the map: at the two ends of each piece of each of its cells.
+struct Contribution {
+  struct Ends {
+    Rational one;
+    Rational other;
+  };
+  std::int64_t stride = 0;
+  std::vector<std::vector<Ends>> cells;  ///< [cell][piece]
+};
+
+class CornerPosts {
+ public:
+  CornerPosts(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, std::size_t state)
+      : spec_(spec),
+        grid_(grid),
+        inputs_(inputs),
+        state_(state),
+        target_(grid[state]),
+        influences_(influences_on(spec, state)),
+        table_(empty_table(grid, inputs, influences_)) {}
+
+  std::optional<PostTable> run(ThreadTeam& team) {
+    std::vector<std::int64_t> counts;
+    std::int64_t choices = 1;
+    for (const std::size_t j : influences_.parameters) counts.push_back(grid_[j].count);
+    for (const std::size_t j : influences_.inputs) counts.push_back(inputs_[j].count());
+    for (const std::int64_t count : counts) choices *= count;
+    std::atomic<bool> affine = true;
+    std::atomic<bool> exact = true;
+    team.for_each(choices, 1, [&](ThreadTeam::Range range, int) {
+      Odometer choice(counts, range.begin);
+      for (std::int64_t i = range.begin; i < range.end && affine; ++i, choice.advance()) {
+        const std::optional<SampledMap> map = map_of(choice);
+        if (!map) {
+          affine = false;
+        } else {
+          fill(*map, base_of(choice));
+          if (!map->exact) exact = false;
+        }
+      }
+    });
+    if (!affine) return std::nullopt;
+    table_.exact = exact;
+    return std::move(table_);
+  }
+
+ private:
+  [[nodiscard]] std::optional<SampledMap> map_of(const Odometer& choice) const {
+    std::vector<Rational> slots(spec_.slot_count());
+    std::size_t digit = 0;
+    for (const std::size_t j : influences_.parameters)
+      slots[spec_.state_slot(j)] = grid_[j].point(choice[digit++]);
+    for (const std::size_t j : influences_.inputs)
+      slots[spec_.input_slot(j)] = inputs_[j].values[static_cast<std::size_t>(choice[digit++])];
+    return sampled_map(spec_, influences_, state_, slots);
+  }
+
+  [[nodiscard]] std::int64_t base_of(const Odometer& choice) const {
+    std::int64_t base = 0;
+    std::size_t digit = 0;
+    for (const std::size_t j : influences_.parameters) base += choice[digit++] * table_.state_stride[j];
+    for (const std::size_t j : influences_.inputs) base += choice[digit++] * table_.input_stride[j];
+    return base;
+  }
+
+  void fill(const SampledMap& map, std::int64_t base) {
+    std::vector<Contribution> parts;
+    std::vector<std::int64_t> counts;
+    const bool cut = jumps_at_a_seam(map);
+    for (std::size_t j = 0; j < influences_.moving.size(); ++j) {
+      parts.push_back(contribution(influences_.moving[j], map.coefficient[j], cut));
+      counts.push_back(grid_[influences_.moving[j]].count);
+    }
+    const bool attained = !map.exact || !grows_with_an_open_cell(map);
+    Odometer cell(counts);
+    do {
+      std::int64_t position = base;
+      for (std::size_t j = 0; j < parts.size(); ++j) position += cell[j] * parts[j].stride;
+      table_.entries[static_cast<std::size_t>(position)] = post(map, parts, cell, attained);
+    } while (cell.advance());
+  }
+
+  /// Equations see the representative in [lower, upper) of a periodic state, so that a value jumps at the
+  /// seam, unless it is this state itself, turned a whole number of times.
+  [[nodiscard]] bool jumps_at_a_seam(const SampledMap& map) const {
+    for (std::size_t j = 0; j < influences_.moving.size(); ++j) {
+      const std::size_t source = influences_.moving[j];
+      const bool turns = source == state_ && is_integer(map.coefficient[j]);
+      if (grid_[source].periodic() && map.coefficient[j] != 0 && !turns) return true;
+    }
+    return false;
+  }
+
+  /// The upper end of a half-open cell is not in it, so neither is the greatest value of the map.
+  [[nodiscard]] bool grows_with_an_open_cell(const SampledMap& map) const {
+    for (std::size_t j = 0; j < influences_.moving.size(); ++j) {
+      if (map.coefficient[j] > 0 && !grid_[influences_.moving[j]].discrete) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] Contribution contribution(std::size_t source, const Rational& factor, bool cut) const {
+    const GridDimension& dimension = grid_[source];
+    Contribution result{.stride = table_.state_stride[source]};
+    const Rational reach = dimension.radius() + dimension.measurement_error;
+    for (std::int64_t k = 0; k < dimension.count; ++k) {
+      auto& ends = result.cells.emplace_back();
+      if (!cut) {
+        const Rational centre = dimension.point(k);
+        ends.push_back({Rational(factor * (centre - reach)), Rational(factor * (centre + reach))});
+        continue;
+      }
+      for (const Piece& piece : pieces(dimension, k))
+        ends.push_back({Rational(factor * piece.lower), Rational(factor * piece.upper)});
+    }
+    return result;
+  }
+
+  /// The cells met from all pieces of one cell.
+  [[nodiscard]] IndexRange post(const SampledMap& map, const std::vector<Contribution>& parts,
+                                const Odometer& cell, bool attained) const {
+    std::vector<const std::vector<Contribution::Ends>*> ends;
+    std::vector<std::int64_t> counts;
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      ends.push_back(&parts[j].cells[static_cast<std::size_t>(cell[j])]);
+      counts.push_back(static_cast<std::int64_t>(ends.back()->size()));
+    }
+    std::optional<IndexRange> range;
+    Odometer piece(counts);
+    do {
+      std::vector<const Contribution::Ends*> box;
+      for (std::size_t j = 0; j < ends.size(); ++j)
+        box.push_back(&(*ends[j])[static_cast<std::size_t>(piece[j])]);
+      const IndexRange next = met_from(map, box, attained);
+      range = range ? merge_ranges(*range, next, target_) : next;
+    } while (piece.advance());
+    return *range;
+  }
+
+  [[nodiscard]] IndexRange met_from(const SampledMap& map, const std::vector<const Contribution::Ends*>& box,
+                                    bool attained) const {
+    Rational least = 0;
+    Rational greatest = 0;
+    for (std::uint64_t corner = 0; corner < std::uint64_t{1} << box.size(); ++corner) {
+      Rational value = 0;
+      for (std::size_t j = 0; j < box.size(); ++j)
+        value += (corner >> j & 1U) != 0 ? box[j]->one : box[j]->other;
+      if (corner == 0 || value < least) least = value;
+      if (corner == 0 || value > greatest) greatest = value;
+    }
+    const Rational error = target_.measurement_error;
+    if (target_.discrete) return index_of(least + map.lower, greatest + map.upper);
+    return cells_met(target_, spec_.abstraction.cells, least + map.lower - error,
+                     greatest + map.upper + error, attained);
+  }
+
+  [[nodiscard]] IndexRange index_of(const Rational& lower, const Rational& upper) const {
+    const Rational index = (lower - target_.first) / target_.step;
+    if (lower != upper || !is_integer(index)) {
+      throw SpecError(fmt::format("the discrete state '{}' can leave its grid", target_.name),
+                      "/dynamics/equations/" + target_.name);
+    }
+    const std::int32_t k = saturate_index(floor_to_int(index));
+    return {k, k};
+  }
+
+  const ProblemSpec& spec_;
+  const UniformGrid& grid_;
+  const InputSpace& inputs_;
+  std::size_t state_;
+  const GridDimension& target_;
+  Influences influences_;
+  PostTable table_;
+};
+
+}  // namespace
+
+std::optional<PostTable> corner_posts(const ProblemSpec& spec, const UniformGrid& grid,
+                                      const InputSpace& inputs, std::size_t state, ThreadTeam& team) {
+  return CornerPosts(spec, grid, inputs, state).run(team);
+}
+
+}  // namespace coordreq

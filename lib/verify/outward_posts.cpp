@@ -1,0 +1,229 @@
+#include "verify/outward_posts.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+
+#include "grid/pieces.hpp"
+#include "verify/check_abstraction.hpp"
+#include "verify/flow_bounds.hpp"
+#include "verify/map_bounds.hpp"
+#include "verify/odometer.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr int kMostHalvings = 6;
+
+Interval box_of(const Rational& lower, const Rational& upper) {
+  return {lower_double(lower), upper_double(upper)};
+}
+
+/// Encloses a map or a flow, whichever the spec has.
+class Bounds {
+ public:
+  Bounds(const ProblemSpec& spec, const Influences& influences, std::size_t state) {
+    if (spec.dynamics.time == Time::continuous) {
+      flow_ = std::make_unique<FlowBounds>(spec, influences, state);
+      return;
+    }
+    std::vector<std::uint32_t> variables;
+    for (const std::size_t j : influences.moving) variables.push_back(spec.state_slot(j));
+    for (const std::size_t l : influences.disturbances) variables.push_back(spec.disturbance_slot(l));
+    map_ = std::make_unique<MapBounds>(spec.dynamics.equations[state], variables);
+  }
+
+  [[nodiscard]] std::optional<Interval> operator()(const std::vector<Interval>& slots, int halvings) {
+    return flow_ ? flow_->after_period(slots, halvings) : map_->over(slots, halvings);
+  }
+  [[nodiscard]] MapBounds& map() { return *map_; }
+
+ private:
+  std::unique_ptr<FlowBounds> flow_;
+  std::unique_ptr<MapBounds> map_;
+};
+
+class OutwardPosts {
+ public:
+  OutwardPosts(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, std::size_t state,
+               const PostTable& claimed)
+      : spec_(spec),
+        grid_(grid),
+        inputs_(inputs),
+        state_(state),
+        target_(grid[state]),
+        claimed_(claimed),
+        influences_(influences_on(spec, state)),
+        table_(empty_table(grid, inputs, influences_)),
+        slots_(spec.slot_count()) {
+    table_.exact = false;
+    for (const std::size_t l : influences_.disturbances)
+      slots_[spec.disturbance_slot(l)] = box_of(spec.disturbances[l].lower, spec.disturbances[l].upper);
+  }
+
+  std::optional<PostTable> run(ThreadTeam& team) {
+    if (stops() || claimed_.entries.size() != table_.entries.size()) return std::nullopt;
+    shifts_ = follows_itself();
+    for (const std::size_t j : table_.states) {
+      if (!(shifts_ && j == state_)) add(spec_.state_slot(j), table_.state_stride[j], boxes_of(grid_[j]));
+    }
+    for (const std::size_t j : table_.inputs)
+      add(spec_.input_slot(j), table_.input_stride[j], boxes_of(inputs_[j]));
+    std::vector<std::int64_t> counts;
+    std::int64_t choices = 1;
+    for (const Variable& variable : variables_) {
+      counts.push_back(static_cast<std::int64_t>(variable.boxes.size()));
+      choices *= counts.back();
+    }
+    std::atomic<bool> enclosed = true;
+    std::vector<std::unique_ptr<Bounds>> bounds(static_cast<std::size_t>(team.size()));
+    team.for_each(choices, 64, [&](ThreadTeam::Range range, int worker) {
+      auto& own = bounds[static_cast<std::size_t>(worker)];
+      if (!own) own = std::make_unique<Bounds>(spec_, influences_, state_);
+      Odometer choice(counts, range.begin);
+      for (std::int64_t i = range.begin; i < range.end && enclosed; ++i, choice.advance()) {
+        if (!fill(choice, *own)) enclosed = false;
+      }
+    });
+    if (!enclosed) return std::nullopt;
+    return std::move(table_);
+  }
+
+ private:
+  /// What the table ranges over, with the boxes of each of its indices: mostly one, two on a seam.
+  struct Variable {
+    std::uint32_t slot = 0;
+    std::int64_t stride = 0;
+    std::vector<std::vector<Interval>> boxes;
+  };
+
+  void add(std::uint32_t slot, std::int64_t stride, std::vector<std::vector<Interval>> boxes) {
+    variables_.push_back({slot, stride, std::move(boxes)});
+  }
+
+  [[nodiscard]] static std::vector<std::vector<Interval>> boxes_of(const GridDimension& dimension) {
+    std::vector<std::vector<Interval>> result;
+    for (std::int64_t k = 0; k < dimension.count; ++k) {
+      auto& boxes = result.emplace_back();
+      for (const Piece& piece : pieces(dimension, k)) boxes.push_back(box_of(piece.lower, piece.upper));
+    }
+    return result;
+  }
+
+  [[nodiscard]] static std::vector<std::vector<Interval>> boxes_of(const InputSpace::Dimension& input) {
+    std::vector<std::vector<Interval>> result;
+    for (const Rational& value : input.values) result.push_back({box_of(value, value)});
+    return result;
+  }
+
+  [[nodiscard]] bool stops() const {
+    return std::any_of(influences_.moving.begin(), influences_.moving.end(), [&](std::size_t j) {
+      return spec_.states[j].below == Outside::stop || spec_.states[j].above == Outside::stop;
+    });
+  }
+
+  /// The next value is the present one and something that does not depend on it.
+  [[nodiscard]] bool follows_itself() const {
+    const std::uint32_t own = spec_.state_slot(state_);
+    if (target_.discrete) return false;
+    if (spec_.dynamics.time == Time::continuous) {
+      return std::none_of(influences_.moving.begin(), influences_.moving.end(), [&](std::size_t j) {
+        const std::vector<std::uint32_t> used = spec_.dynamics.equations[j].variables();
+        return std::find(used.begin(), used.end(), own) != used.end();
+      });
+    }
+    std::vector<Interval> everything = slots_;
+    for (std::size_t j = 0; j < grid_.size(); ++j) {
+      const Rational reach = grid_[j].radius() + grid_[j].measurement_error;
+      const Rational last = grid_[j].point(grid_[j].count - 1);
+      everything[spec_.state_slot(j)] = box_of(std::min(Rational(grid_[j].first - reach), grid_[j].lower),
+                                               std::max(Rational(last + reach), grid_[j].upper));
+    }
+    for (std::size_t j = 0; j < inputs_.size(); ++j) {
+      const auto ends = std::minmax_element(inputs_[j].values.begin(), inputs_[j].values.end());
+      everything[spec_.input_slot(j)] = box_of(*ends.first, *ends.second);
+    }
+    return Bounds(spec_, influences_, state_).map().follows(everything, own);
+  }
+
+  bool fill(const Odometer& choice, Bounds& bounds) {
+    std::int64_t base = 0;
+    for (std::size_t v = 0; v < variables_.size(); ++v) base += choice[v] * variables_[v].stride;
+    for (const int halvings : {0, 1, 3, kMostHalvings}) {
+      const std::optional<IndexRange> range = met_from(choice, bounds, halvings);
+      if (!range) return false;
+      store(base, *range);
+      if (holds(target_, claimed_.entries[static_cast<std::size_t>(base)], *range)) break;
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::optional<IndexRange> met_from(const Odometer& choice, Bounds& bounds,
+                                                   int halvings) const {
+    std::vector<Interval> slots = slots_;
+    std::vector<std::int64_t> counts;
+    for (std::size_t v = 0; v < variables_.size(); ++v)
+      counts.push_back(static_cast<std::int64_t>(boxes_of(choice, v).size()));
+    if (shifts_) slots[spec_.state_slot(state_)] = {0.0, 0.0};
+    std::optional<IndexRange> met;
+    Odometer piece(counts);
+    do {
+      for (std::size_t v = 0; v < variables_.size(); ++v)
+        slots[variables_[v].slot] = boxes_of(choice, v)[static_cast<std::size_t>(piece[v])];
+      const std::optional<Interval> next = bounds(slots, halvings);
+      if (!next) return std::nullopt;
+      const IndexRange range = cells_met_by(*next);
+      met = met ? merge_ranges(*met, range, target_) : range;
+    } while (piece.advance());
+    return met;
+  }
+
+  [[nodiscard]] const std::vector<Interval>& boxes_of(const Odometer& choice, std::size_t v) const {
+    return variables_[v].boxes[static_cast<std::size_t>(choice[v])];
+  }
+
+  /// Of the cell at `first` if the state follows itself.
+  [[nodiscard]] IndexRange cells_met_by(const Interval& next) const {
+    const Rational& error = target_.measurement_error;
+    if (!shifts_) {
+      return cells_met(target_, spec_.abstraction.cells, exact(next.lower) - error, exact(next.upper) + error,
+                       true);
+    }
+    const Rational reach = target_.radius() + 2 * error;
+    return cells_met(target_, spec_.abstraction.cells, target_.first - reach + exact(next.lower),
+                     target_.first + reach + exact(next.upper), false);
+  }
+
+  void store(std::int64_t base, IndexRange range) {
+    if (!shifts_) {
+      table_.entries[static_cast<std::size_t>(base)] = range;
+      return;
+    }
+    for (std::int64_t k = 0; k < target_.count; ++k) {
+      table_.entries[static_cast<std::size_t>(base + k * table_.state_stride[state_])] = {
+          saturate_index(range.first + k), saturate_index(range.last + k)};
+    }
+  }
+
+  const ProblemSpec& spec_;
+  const UniformGrid& grid_;
+  const InputSpace& inputs_;
+  std::size_t state_;
+  const GridDimension& target_;
+  const PostTable& claimed_;
+  Influences influences_;
+  PostTable table_;
+  std::vector<Interval> slots_;
+  std::vector<Variable> variables_;
+  bool shifts_ = false;
+};
+
+}  // namespace
+
+std::optional<PostTable> outward_posts(const ProblemSpec& spec, const UniformGrid& grid,
+                                       const InputSpace& inputs, std::size_t state, const PostTable& claimed,
+                                       ThreadTeam& team) {
+  return OutwardPosts(spec, grid, inputs, state, claimed).run(team);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,38 @@
+#include "verify/post_table.hpp"
+
+#include <algorithm>
+
+namespace coordreq {
+
+PostTable empty_table(const UniformGrid& grid, const InputSpace& inputs, const Influences& influences) {
+  PostTable table{.states = influences.moving, .inputs = influences.inputs};
+  table.states.insert(table.states.end(), influences.parameters.begin(), influences.parameters.end());
+  std::sort(table.states.begin(), table.states.end());
+  table.state_stride.assign(grid.size(), 0);
+  table.input_stride.assign(inputs.size(), 0);
+  std::int64_t entries = 1;
+  for (auto j = table.inputs.rbegin(); j != table.inputs.rend(); ++j) {
+    table.input_stride[*j] = entries;
+    entries *= inputs[*j].count();
+  }
+  for (auto j = table.states.rbegin(); j != table.states.rend(); ++j) {
+    table.state_stride[*j] = entries;
+    entries *= grid[*j].count;
+  }
+  table.entries.resize(static_cast<std::size_t>(entries));
+  return table;
+}
+
+IndexRange cells_met(const GridDimension& dimension, Cells cells, const Rational& lower,
+                     const Rational& upper, bool upper_attained) {
+  const Rational half = Rational(1) / 2;
+  // In steps: cell k reaches from k - 1/2 to k + 1/2.
+  const Rational low = (lower - dimension.first) / dimension.step - half;
+  const Rational high = (upper - dimension.first) / dimension.step + half;
+  const bool closed = cells == Cells::closed;
+  const std::int64_t first = closed ? ceil_to_int(low) : floor_to_int(low) + 1;
+  const std::int64_t last = closed || upper_attained ? floor_to_int(high) : ceil_to_int(high) - 1;
+  return {saturate_index(first), saturate_index(last)};
+}
+
+}  // namespace coordreq

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/thread_team.hpp"
+#include "grid/input_space.hpp"
+#include "grid/outside.hpp"
+#include "grid/uniform_grid.hpp"
+#include "numeric/rational.hpp"
+#include "spec/problem_spec.hpp"
+#include "verify/sampled_map.hpp"
+
+namespace coordreq {
+
+/// Where one state can be a period later: raw ranges of grid indices, before `outside` is applied, remembered
+/// for each choice of what they depend on.
+struct PostTable {
+  std::vector<std::size_t> states;         ///< ascending
+  std::vector<std::size_t> inputs;         ///< ascending
+  std::vector<IndexRange> entries;         ///< row-major over `states`, then `inputs`
+  std::vector<std::int64_t> state_stride;  ///< one for each state of the spec; 0 if it has no influence
+  std::vector<std::int64_t> input_stride;
+  bool exact = true;  ///< the ranges are those of the contract, not only enclosures of them
+};
+
+/// A table of the right size without its entries.
+[[nodiscard]] PostTable empty_table(const UniformGrid& grid, const InputSpace& inputs,
+                                    const Influences& influences);
+
+/// Raw indices of the cells that meet [lower, upper] (contract, "Cells"); the upper end alone may be missing.
+[[nodiscard]] IndexRange cells_met(const GridDimension& dimension, Cells cells, const Rational& lower,
+                                   const Rational& upper, bool upper_attained);
+
+/// The table of a state by corner evaluation: the values of its sampled map at all corners of each cell.
+/// @returns nothing if the map is not affine for some inputs or parameters
+/// @throws SpecError if a discrete state may leave its grid
+[[nodiscard]] std::optional<PostTable> corner_posts(const ProblemSpec& spec, const UniformGrid& grid,
+                                                    const InputSpace& inputs, std::size_t state,
+                                                    ThreadTeam& team);
+
+}  // namespace coordreq

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "numeric/rational.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// What the next value of a state depends on: the variables of its equation in discrete time, in continuous
+/// time also those of the equations of all states it depends on. Indices into the spec's lists, ascending.
+struct Influences {
+  std::vector<std::size_t> moving;      ///< states that vary over a cell, or between samples
+  std::vector<std::size_t> parameters;  ///< discrete states, put in value by value
+  std::vector<std::size_t> inputs;
+  std::vector<std::size_t> disturbances;
+};
+[[nodiscard]] Influences influences_on(const ProblemSpec& spec, std::size_t state);
+
+/// One state a period later, as a function of the moving states x now:
+/// { sum_j coefficient[j] x_j + r : lower <= r <= upper }.
+struct SampledMap {
+  std::vector<Rational> coefficient;  ///< one for each of Influences::moving
+  Rational lower;
+  Rational upper;
+  bool exact = true;  ///< every r is taken by some disturbance; else the range is an enclosure
+};
+
+/// Solves one state for fixed inputs and parameters in rational arithmetic. In continuous time by the matrix
+/// exponential as the finite sum of A^k tau^k / k!, A nilpotent; a disturbance of range m +- r adds
+/// m integral(g) +- r integral(|g|), g(s) its entry of exp(A s) B.
+/// @param slots values of parameters and inputs at their slots
+/// @returns nothing if the equations are not of this kind for these values, or a limit stops a state
+[[nodiscard]] std::optional<SampledMap> sampled_map(const ProblemSpec& spec, const Influences& influences,
+                                                    std::size_t state, const std::vector<Rational>& slots);
+
+}  // namespace coordreq

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace coordreq {
+
+/// What became of one kind of check.
+struct Finding {
+  std::string check;                  ///< "S", "K", "delay PARTITION", ...
+  std::int64_t checked = 0;           ///< how many cells, entries or attributes were looked at
+  std::int64_t wrong = 0;             ///< how many of them are not as they should be
+  std::int64_t unproven = 0;          ///< how many could be neither confirmed nor refuted
+  std::vector<std::string> examples;  ///< the first few wrong ones: where, what was found, what was expected
+  std::string note;                   ///< what the check rests on, or why something is unproven; may be empty
+};
+
+/// Counts what several threads find, and keeps the first few wrong ones by their number.
+class Tally {
+ public:
+  static constexpr std::size_t kMostExamples = 3;
+
+  explicit Tally(std::string check) : check_(std::move(check)) {}
+
+  void add_checked(std::int64_t count) { checked_ += count; }
+  void add_unproven() { ++unproven_; }
+  /// @param describe called only where its text is kept
+  template <class Describe>
+  void add_wrong(std::int64_t number, const Describe& describe) {
+    ++wrong_;
+    const std::lock_guard lock(mutex_);
+    if (examples_.size() == kMostExamples && examples_.rbegin()->first <= number) return;
+    examples_.try_emplace(number, describe());
+    if (examples_.size() > kMostExamples) examples_.erase(std::prev(examples_.end()));
+  }
+  void set_note(std::string note) { note_ = std::move(note); }
+
+  [[nodiscard]] Finding finding() const {
+    Finding result{
+        .check = check_, .checked = checked_, .wrong = wrong_, .unproven = unproven_, .note = note_};
+    for (const auto& example : examples_) result.examples.push_back(example.second);
+    return result;
+  }
+
+ private:
+  std::string check_;
+  std::string note_;
+  std::atomic<std::int64_t> checked_{0};
+  std::atomic<std::int64_t> wrong_{0};
+  std::atomic<std::int64_t> unproven_{0};
+  std::mutex mutex_;
+  std::map<std::int64_t, std::string> examples_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/thread_team.hpp"
+#include "spec/problem_spec.hpp"
+#include "verify/claims.hpp"
+#include "verify/tally.hpp"
+
+namespace coordreq {
+
+/// What is under way; called from the calling thread only.
+struct VerifyProgress {
+  std::string stage;      ///< "reading", "posts", "cells"
+  std::int64_t done = 0;  ///< of `all`; both 0 where that is not known
+  std::int64_t all = 0;
+};
+
+struct VerifyOptions {
+  std::optional<std::int64_t> sample;                   ///< check so many cells, evenly drawn; all if none
+  std::function<void(const VerifyProgress&)> progress;  ///< may be empty
+};
+
+/// What the checks of cells rest on.
+enum class PostBasis : std::uint8_t {
+  exact,     ///< the verifier's own posts, which are those of the contract: a complete certificate
+  stored,    ///< the abstraction in the file, which holds the verifier's own enclosures
+  computed,  ///< the abstraction that the analysis makes of the spec, which holds the verifier's own
+             ///< enclosures
+};
+
+struct Verification {
+  std::string name;        ///< of the spec
+  std::int64_t cells = 0;  ///< of the grid
+  std::int64_t cells_checked = 0;
+  PostBasis basis = PostBasis::exact;
+  /// States whose reachable sets are only those of the analysis, computed anew: the verifier's own integrator
+  /// does not do for them.
+  std::vector<std::string> borrowed;
+  std::vector<Finding> findings;
+
+  [[nodiscard]] bool holds() const;
+};
+
+/// Checks the claims of a results file against its spec by another route than the analysis took (see
+/// check_cells.hpp): posts from corners of cells in rational arithmetic where that is exact. Else
+/// the abstraction in the file, or one that is computed anew, after enclosures of its own have shown it to be
+/// sound.
+/// @throws SpecError if the spec is beyond what it can be asked
+[[nodiscard]] Verification verify_claims(const ProblemSpec& spec, const Claims& claims,
+                                         const VerifyOptions& options, ThreadTeam& team);
+
+}  // namespace coordreq

@@ -1,0 +1,120 @@
+#include "verify/verify_file.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "base/error.hpp"
+#include "results/results_reader.hpp"
+#include "results/version.hpp"
+#include "spec/read_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+static_assert(ResultsReader::kNever == kForever);
+
+std::vector<std::size_t> indices(const std::vector<std::int32_t>& numbers) {
+  return {numbers.begin(), numbers.end()};
+}
+
+std::vector<PostTable> stored_tables(const ResultsReader& results) {
+  std::vector<PostTable> tables;
+  Abstraction abstraction = results.abstraction();
+  for (TransitionTable& table : abstraction.tables) {
+    tables.push_back({.states = indices(table.states),
+                      .inputs = indices(table.inputs),
+                      .entries = std::move(table.entries),
+                      .state_stride = table.state_stride,
+                      .input_stride = table.input_stride,
+                      .exact = false});
+  }
+  return tables;
+}
+
+PartitionClaims read_partition(const ResultsReader& results, std::size_t p, const CellBlock& all) {
+  const StoredPartition& stored = results.partitions()[p];
+  PartitionClaims claims{.name = stored.name,
+                         .delay = results.delay(p, all),
+                         .trigger = results.trigger(p, all),
+                         .fixed_point_index = stored.fixed_point_index,
+                         .layer_sizes = stored.padded_sizes,
+                         .has_layers = results.has_layers(p)};
+  for (std::size_t c = 0; results.has_actions(p) && c < stored.classes.size(); ++c)
+    claims.actions.push_back(results.action_bits(p, c, all));
+  if (claims.has_layers) {
+    StoredLayers layers = results.layers(p);
+    claims.layer_start = std::move(layers.start);
+    claims.layer_cell = std::move(layers.cell);
+  }
+  return claims;
+}
+
+Claims read_all(const ResultsReader& results) {
+  const CellBlock all = all_cells(results.grid());
+  Claims claims{.safe = results.safe(all),
+                .invariant = results.invariant(all),
+                .collision_time = results.collision_time(all),
+                .has_controller = results.has_controller(),
+                .same_version = results.attributes().coordreq_version == program_version(),
+                .safe_cells = results.attributes().safe_cells,
+                .invariant_cells = results.attributes().invariant_cells,
+                .iterations = results.attributes().iterations};
+  for (std::size_t p = 0; p < results.partitions().size(); ++p)
+    claims.partitions.push_back(read_partition(results, p, all));
+  if (claims.has_controller) claims.controller = results.controller_bits(all);
+  if (results.has_abstraction()) claims.abstraction = stored_tables(results);
+  return claims;
+}
+
+StoredExtras extras_of(const ResultsReader& results) {
+  StoredExtras extras{.controller = results.has_controller(), .abstraction = results.has_abstraction()};
+  for (std::size_t p = 0; p < results.partitions().size(); ++p) {
+    extras.actions.push_back(results.has_actions(p));
+    extras.layers.push_back(results.has_layers(p));
+  }
+  return extras;
+}
+
+/// Bytes of the claims, with a copy of each array while it is read.
+std::uint64_t memory_need(const ResultsReader& results) {
+  std::uint64_t bytes_of_cell = 2 + 2 * sizeof(std::int32_t);
+  for (std::size_t p = 0; p < results.partitions().size(); ++p) {
+    bytes_of_cell += 2 * sizeof(std::int32_t);
+    if (results.has_layers(p)) bytes_of_cell += 4 * sizeof(std::uint64_t);
+    for (const std::int64_t actions : results.partitions()[p].actions)
+      bytes_of_cell += results.has_actions(p) ? static_cast<std::uint64_t>((actions + 7) / 8) : 0;
+  }
+  if (results.has_controller())
+    bytes_of_cell += static_cast<std::uint64_t>((results.inputs().count() + 7) / 8);
+  return bytes_of_cell * static_cast<std::uint64_t>(results.grid().cells());
+}
+
+void check_memory(const ResultsReader& results, std::optional<std::uint64_t> max_memory) {
+  const std::uint64_t need = memory_need(results);
+  if (!max_memory || need <= *max_memory) return;
+  throw LimitError(fmt::format("verifying needs about {} MiB of memory, more than the limit of {} MiB",
+                               need >> 20U, *max_memory >> 20U),
+                   results.path());
+}
+
+}  // namespace
+
+ClaimedFile read_claims(const std::string& path, std::optional<std::uint64_t> max_memory) {
+  const ResultsReader results(path);
+  refuse_unsupported(results.spec());
+  check_memory(results, max_memory);
+  const std::vector<StoredObject> expected = expected_objects(results.spec(), extras_of(results));
+  std::vector<std::string> paths;
+  for (const StoredObject& object : expected) paths.push_back(object.path);
+  Finding attributes = check_objects(expected, read_objects(path, paths));
+  return {results.spec(), read_all(results), std::move(attributes)};
+}
+
+Verification verify_file(const ClaimedFile& file, const VerifyOptions& options, ThreadTeam& team) {
+  Verification result = verify_claims(file.spec, file.claims, options, team);
+  result.findings.insert(result.findings.begin(), file.attributes);
+  return result;
+}
+
+}  // namespace coordreq

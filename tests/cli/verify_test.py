@@ -1,0 +1,294 @@
+"""verify: right results hold, and every other bit that means something is found."""
+
+import json
+import re
+import shutil
+import unittest
+
+import h5py
+import numpy as np
+from program import CONFIGS, SPEC, Case, spec_with, without_comments
+
+EVERYTHING = {"controller": True, "actions": True, "layers": True, "abstraction": True}
+# Free text, where a file comes from, and what only HDF5's own bookkeeping looks at.
+MEANINGLESS = {"long_name", "coordreq_version", "git_sha1", "REFERENCE_LIST"}
+SMALL_TEXT = """check           checked  result
+attributes           82  holds
+sizes                 4  holds
+layers a|b            6  holds
+S                    25  holds
+K                    25  holds
+collision time       25  holds
+delay a|b            25  holds
+trigger a|b          25  holds
+
+reachable sets: exact, from the corners of the cells
+
+small.h5 holds (TIME)
+"""
+
+
+def config(name, **changes):
+    return dict(json.loads(without_comments((CONFIGS / name).read_text())), **changes)
+
+
+def flipped(array, place, bit):
+    """The array with one bit of one element the other way."""
+    data = np.array(array).copy()
+    raw = data.reshape(-1).view(np.uint8)
+    size = data.dtype.itemsize
+    raw[place * size + bit // 8] ^= 1 << bit % 8
+    return data
+
+
+def other_text(text):
+    """The text with one bit of its first letter the other way; another one if it is empty."""
+    return chr(ord(text[0]) ^ 1) + text[1:] if text else "x"
+
+
+class Cases(Case):
+    def results(self, spec, *arguments):
+        self.write("spec.json", spec)
+        self.analyze("spec.json", "-o", "results.h5", *arguments)
+        return self.folder / "results.h5"
+
+    def verify(self, *arguments):
+        return self.run_program("verify", *arguments)
+
+    def assert_found(self, path, what):
+        result = self.verify(str(path), "--quiet")
+        self.assertIn(result.returncode, (1, 3), f"{what}: {result.stderr.decode()}")
+
+    def test_text(self):
+        self.write("small.json", SPEC)
+        self.analyze("small.json")
+        result = self.verify("small.h5", "--threads", "1")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        text = re.sub(r"\([0-9.]+ s on 1 thread\)", "(TIME)", result.stdout.decode())
+        self.assertEqual(text, SMALL_TEXT)
+
+    def test_json(self):
+        self.results(SPEC)
+        result = self.verify("results.h5", "--json", "--threads", "2")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        summary = json.loads(result.stdout)
+        self.assertEqual(
+            list(summary),
+            ["file", "name", "holds", "cells", "cells_checked", "reachable_sets", "not_independent", "checks",
+             "threads", "seconds"],
+        )  # fmt: skip
+        self.assertEqual((summary["name"], summary["holds"], summary["reachable_sets"]), ("small", True, "exact"))
+        self.assertEqual(
+            summary["checks"][3],
+            {"check": "S", "status": "holds", "checked": 25, "wrong": 0, "not_checked": 0, "examples": []},
+        )
+
+    def test_quiet(self):
+        self.results(SPEC)
+        self.assert_prints("", "verify", "results.h5", "--quiet")
+
+    def test_what_is_wrong_is_said(self):
+        path = self.results(SPEC)
+        with h5py.File(path, "r+") as file:
+            file["delay"][0, 1, 2] += 1
+        result = self.verify("results.h5", "--threads", "1")
+        self.assertEqual((result.returncode, result.stderr), (1, b""))
+        text = result.stdout.decode()
+        self.assertIn("\ndelay a|b\n  x = 0, y = 1: 2, expected 3\n  x = 1, y = 2: 2, expected 1\n", text)
+        self.assertIn("\nlayers a|b\n  |Z_2|: 10, expected 11\n", text)
+        self.assertRegex(text, r"\ndelay a\|b +25  2 wrong\n")
+        self.assertRegex(text, r"\nresults\.h5 does not hold \([0-9.]+ s on 1 thread\)\n$")
+
+    def test_sample(self):
+        self.results(config("circle.json"))
+        result = self.verify("results.h5", "--sample", "100", "--json")
+        self.assertEqual(result.returncode, 0)
+        summary = json.loads(result.stdout)
+        self.assertEqual((summary["cells"], summary["cells_checked"]), (40401, 100))
+        self.assertIn(b"100 of 40,401 cells of results.h5 holds", self.verify("results.h5", "--sample", "100").stdout)
+        for wrong in ("0", "-1", "1.5", "many"):
+            self.assert_fails(2, f"expected a whole number from 1, found '{wrong}' (--sample)", "verify", "results.h5",
+                              "--sample", wrong)  # fmt: skip
+
+    def test_no_results_file(self):
+        self.write("results.h5", "not HDF5")
+        self.assert_fails(
+            3, "not a coordreq results file: it is not HDF5, or cut short (results.h5)", "verify", "results.h5"
+        )
+        self.assert_fails(5, "cannot read the results: No such file or directory (none.h5)", "verify", "none.h5")
+
+    def test_memory_is_refused_up_front(self):
+        self.results(config("circle.json"))
+        result = self.verify("results.h5", "--max-memory", "100K")
+        self.assertEqual((result.returncode, result.stdout), (4, b""))
+        self.assertIn(b"verifying needs about", result.stderr)
+
+    def check_example(self, name, basis):
+        self.results(config(name))
+        result = self.verify("results.h5", "--json")
+        summary = json.loads(result.stdout)
+        wrong = [check for check in summary["checks"] if check["status"] != "holds"]
+        self.assertEqual((result.returncode, wrong), (0, []))
+        self.assertEqual((summary["reachable_sets"], summary["not_independent"]), (basis, []))
+
+    def test_exact_examples_hold(self):
+        for name in ("circle.json", "circle_half_open_inner.json", "lane_change.json", "platoon.json"):
+            with self.subTest(example=name):
+                self.check_example(name, "exact")
+
+    def test_gridworld_holds(self):
+        self.check_example("gridworld_coarse.json", "exact")
+
+    def test_intersection_and_load_hold(self):
+        for name in ("intersection_coarse.json", "load.json"):
+            with self.subTest(example=name):
+                self.check_example(name, "computed")
+
+    def test_aircraft_holds(self):
+        spec = config("aircraft.json")
+        spec["states"][0]["count"] = 12
+        self.write("aircraft.json", dict(spec, output=EVERYTHING))
+        self.analyze("aircraft.json")
+        result = self.verify("aircraft.h5", "--json")
+        self.assertEqual((result.returncode, json.loads(result.stdout)["reachable_sets"]), (0, "stored"))
+
+    def test_limits_that_stop_are_said_to_be_not_independent(self):
+        spec = config("intersection_coarse.json")
+        for state in spec["states"]:
+            if state["name"].startswith("v"):
+                state["outside"] = "stop"
+        self.results(spec)
+        result = self.verify("results.h5", "--json", "--sample", "1000")
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(json.loads(result.stdout)["not_independent"], ["p1", "v1", "v2", "p2"])
+        self.assertIn(b"(but for p1, v1, v2, p2)", self.verify("results.h5", "--sample", "10").stdout)
+
+    def flip_everything(self, spec):
+        """One file after the other in which one bit is the other way; all but free text has to be found."""
+        original = self.results(spec)
+        self.assertEqual(self.verify("results.h5", "--quiet").returncode, 0)
+        random = np.random.default_rng(20180410)
+        copy = self.folder / "flipped.h5"
+        for change in self.changes(original, random):
+            shutil.copy(original, copy)
+            with h5py.File(copy, "r+") as file:
+                what = change(file)
+            with self.subTest(change=what):
+                self.assert_found(copy, what)
+
+    def changes(self, path, random):
+        """Functions that make one change in an open file and say which."""
+        found = []
+        with h5py.File(path) as file:
+            objects = ["/"]
+            file.visit(lambda name: objects.append("/" + name))
+            for name in objects:
+                for attribute in file[name].attrs:
+                    if attribute not in MEANINGLESS and attribute != "DIMENSION_LIST":
+                        found.append(self.attribute_change(name, attribute, random))
+                if isinstance(file[name], h5py.Dataset):
+                    found += self.dataset_changes(file[name], random)
+        return found
+
+    @staticmethod
+    def attribute_change(name, attribute, random):
+        seed = int(random.integers(1 << 30))
+
+        def change(file):
+            value = file[name].attrs[attribute]
+            if isinstance(value, (str, bytes)):
+                text = value.decode() if isinstance(value, bytes) else value
+                handle = h5py.h5a.open(file[name].id, attribute.encode())
+                if isinstance(value, bytes):
+                    handle.write(np.array(other_text(text).encode(), dtype=f"S{len(text) + 1}"))
+                else:
+                    file[name].attrs.modify(attribute, other_text(text))
+                return f"{name}@{attribute}"
+            array = np.atleast_1d(value)
+            place, bit = seed % array.size, seed // 7 % (8 * array.dtype.itemsize)
+            h5py.h5a.open(file[name].id, attribute.encode()).write(flipped(array, place, bit).reshape(np.shape(value)))
+            return f"{name}@{attribute}[{place}] bit {bit}"
+
+        return change
+
+    @staticmethod
+    def dataset_changes(dataset, random, most=6):
+        name = dataset.name
+        if dataset.attrs.get("NAME", b"").startswith(b"This is a netCDF dimension"):
+            return []  # holds no data
+        if dataset.dtype == object:
+
+            def change_text(file):
+                values = np.atleast_1d(file[name].asstr()[()])
+                values[-1] = other_text(values[-1])
+                file[name][()] = values if file[name].shape else values[0]
+                return name
+
+            return [change_text]
+        found = []
+        for _ in range(most):
+            place, bit = int(random.integers(dataset.size)), int(random.integers(8 * dataset.dtype.itemsize))
+
+            def change(file, place=place, bit=bit):
+                file[name][...] = flipped(file[name][...], place, bit)
+                return f"{name}[{place}] bit {bit}"
+
+            found.append(change)
+        return found
+
+    def test_every_flipped_bit_of_a_finite_system_is_found(self):
+        partitions = [{"classes": []}, {"name": "both", "classes": [["right", "left"]]}]
+        coordination = {"partitions": partitions, "connection_delay": 2}
+        self.flip_everything(config("lane_change.json", output=EVERYTHING, coordination=coordination))
+
+    def test_every_flipped_bit_of_a_disc_is_found(self):
+        spec = config("circle.json")
+        for state in spec["states"]:
+            state.update(step=0.1, outside={"below": "unsafe", "above": "saturate"})
+        for action in spec["inputs"]:
+            action["step"] = 0.5
+        spec["dynamics"]["period"] = 0.1
+        self.flip_everything(spec)
+
+    def test_axes_that_are_mixed_up_are_found(self):
+        path = self.results(SPEC)
+        with h5py.File(path, "r+") as file:
+            file["safe"].dims[0].detach_scale(file["x"])
+            file["safe"].dims[0].attach_scale(file["y"])
+        self.assert_found(path, "axes of /safe")
+
+    def test_flipped_bytes_of_the_file_are_found(self):
+        """The data lie plainly in the file of a small system: any bit of it can be hit from outside."""
+        path = self.results(spec_with(output=EVERYTHING))
+        raw = path.read_bytes()
+        random = np.random.default_rng(5)
+        with h5py.File(path) as file:
+            places = {}
+            file.visititems(lambda name, item: places.update({name: item.id.get_offset()})
+                            if isinstance(item, h5py.Dataset) else None)  # fmt: skip
+            for name in ("safe", "invariant", "collision_time", "delay", "trigger", "controller", "x"):
+                for _ in range(4):
+                    place = places[name] + int(random.integers(file[name].size * file[name].dtype.itemsize))
+                    changed = bytearray(raw)
+                    changed[place] ^= 1 << int(random.integers(8))
+                    copy = self.folder / "flipped.h5"
+                    copy.write_bytes(changed)
+                    with self.subTest(dataset=name, place=place):
+                        self.assert_found(copy, name)
+
+    def test_a_spec_of_other_numbers_is_found(self):
+        """A result under the spec of another one, digest and all."""
+        first = self.results(SPEC)
+        other = self.folder / "other.h5"
+        self.write("other.json", spec_with(safe="x + y <= 5"))
+        self.analyze("other.json", "-o", "other.h5")
+        with h5py.File(first, "r+") as file, h5py.File(other) as source:
+            file["spec"][()] = source["spec"][()]
+            file.attrs.modify("spec_sha256", source.attrs["spec_sha256"])
+        result = self.verify("results.h5")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(b"in S, but it is not safe", result.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,185 @@
+// The paper's propositions on random systems, by walking through the finite abstraction with the choices that
+// the results file grants (Kim, Arcak, Seshia, Kim, Shiraishi, SCAV 2018, section 4).
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "abstraction/build_abstraction.hpp"
+#include "support/analysed_file.hpp"
+#include "support/random_problem.hpp"
+#include "verify/class_actions.hpp"
+
+namespace coordreq {
+namespace {
+
+int draw(int low, int high) {
+  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
+}
+
+/// The absorbing cell that stands for having left safely.
+constexpr std::int64_t kGone = -1;
+
+class World {
+ public:
+  World(const std::string& text, ThreadTeam& team)
+      : file_(analysed_file(storing_everything(text), team)),
+        abstraction_(build_abstraction(file_.spec, team)) {}
+
+  [[nodiscard]] const Claims& claims() const { return file_.claims; }
+  [[nodiscard]] std::int64_t cells() const { return abstraction_.grid.cells(); }
+  [[nodiscard]] const CoordinationSpec& coordination() const { return file_.spec.coordination; }
+
+  /// Every cell that can be next; nothing if the pair is blocked.
+  [[nodiscard]] std::optional<std::vector<std::int64_t>> post(std::int64_t x, std::int64_t u) const {
+    std::vector<std::int64_t> cells = {0};
+    bool left = false;
+    for (std::size_t i = 0; i < abstraction_.grid.size(); ++i) {
+      const GridDimension& dimension = abstraction_.grid[i];
+      const IndexRange raw = abstraction_.raw(i, x, u);
+      const ResolvedRange range = abstraction_.resolved(i, x, u);
+      if (range.blocked) return std::nullopt;
+      left = left || (raw.first < 0 && dimension.below == Outside::safe) ||
+             (raw.last >= dimension.count && dimension.above == Outside::safe);
+      std::vector<std::int64_t> next;
+      for (const std::int64_t cell : cells) {
+        for (std::int64_t k = range.inside.first; k <= range.inside.last; ++k)
+          next.push_back(cell + k % dimension.count * abstraction_.grid.stride(i));
+      }
+      cells = next;
+    }
+    if (left) cells.push_back(kGone);
+    return cells;
+  }
+
+  /// C(x), or IND_C(x) of a partition.
+  [[nodiscard]] std::vector<std::int64_t> choices(std::int64_t x,
+                                                  std::optional<std::size_t> partition) const {
+    std::vector<std::int64_t> result;
+    for (std::int64_t u = 0; u < abstraction_.inputs.count(); ++u) {
+      if (partition ? independent(x, u, *partition)
+                    : bit(claims().controller, x, u, abstraction_.inputs.count()))
+        result.push_back(u);
+    }
+    return result;
+  }
+
+ private:
+  static bool bit(const std::vector<std::uint8_t>& bytes, std::int64_t x, std::int64_t a,
+                  std::int64_t count) {
+    return (bytes[static_cast<std::size_t>(x * ((count + 7) / 8) + a / 8)] >> (a % 8) & 1) != 0;
+  }
+
+  [[nodiscard]] bool independent(std::int64_t x, std::int64_t u, std::size_t p) const {
+    const auto& classes = coordination().partitions[p].classes;
+    for (std::size_t c = 0; c < classes.size(); ++c) {
+      const ClassActions actions = class_actions(file_.spec, abstraction_.inputs, classes[c]);
+      const std::int32_t action = actions.of_input[static_cast<std::size_t>(u)];
+      if (!bit(claims().partitions[p].actions[c], x, action, actions.count)) return false;
+    }
+    return true;
+  }
+
+  ClaimedFile file_;
+  Abstraction abstraction_;
+};
+
+std::int64_t pick(const std::vector<std::int64_t>& values) {
+  return values[static_cast<std::size_t>(draw(0, static_cast<int>(values.size()) - 1))];
+}
+
+/// A cell of K, if there is one.
+std::optional<std::int64_t> draw_invariant(const World& world) {
+  std::vector<std::int64_t> cells;
+  for (std::int64_t x = 0; x < world.cells(); ++x) {
+    if (world.claims().invariant[static_cast<std::size_t>(x)] != 0) cells.push_back(x);
+  }
+  if (cells.empty()) return std::nullopt;
+  return pick(cells);
+}
+
+std::size_t draw_partition(const World& world) {
+  return static_cast<std::size_t>(draw(0, static_cast<int>(world.claims().partitions.size()) - 1));
+}
+
+TEST(Propositions, AStateOfDelayKSurvivesKStepsOfAnyChoices) {
+  ThreadTeam team(1);
+  EXPECT_TRUE(rc::check("k steps of IND_C stay in K", [&] {
+    const World world(draw_problem(), team);
+    const std::size_t p = draw_partition(world);
+    const std::optional<std::int64_t> start = draw_invariant(world);
+    RC_PRE(start.has_value());
+    for (int run = 0; run < 20; ++run) {
+      std::int64_t x = *start;
+      const std::int32_t delay = world.claims().partitions[p].delay[static_cast<std::size_t>(x)];
+      for (std::int32_t step = 0; step < std::min(delay, 25) && x != kGone; ++step) {
+        const std::vector<std::int64_t> choices = world.choices(x, p);
+        RC_ASSERT(!choices.empty());
+        const auto next = world.post(x, pick(choices));
+        RC_ASSERT((next.has_value() && !next->empty()));
+        x = pick(*next);
+        RC_ASSERT((x == kGone || world.claims().invariant[static_cast<std::size_t>(x)] != 0));
+      }
+    }
+  }));
+}
+
+TEST(Propositions, AStateThatLeavesTheLayersHasAChoiceThatLeavesItsOwn) {
+  ThreadTeam team(1);
+  EXPECT_TRUE(rc::check("x in T(k), k < F: some post is not inside Z_k", [&] {
+    const World world(draw_problem(), team);
+    const std::size_t p = draw_partition(world);
+    const PartitionClaims& claims = world.claims().partitions[p];
+    for (std::int64_t x = 0; x < world.cells(); ++x) {
+      const std::int32_t k = claims.delay[static_cast<std::size_t>(x)];
+      if (k < 0 || k == kForever || (claims.fixed_point_index < 0 && k == *world.coordination().max_delay))
+        continue;
+      const auto leaves = [&](std::int64_t u) {
+        const auto next = world.post(x, u);
+        const auto outside = [&](std::int64_t y) {
+          return y != kGone && claims.delay[static_cast<std::size_t>(y)] < k;
+        };
+        return !next || std::any_of(next->begin(), next->end(), outside);
+      };
+      const std::vector<std::int64_t> choices = world.choices(x, p);
+      RC_ASSERT((choices.empty() || std::any_of(choices.begin(), choices.end(), leaves)));
+    }
+  }));
+}
+
+/// Definition 3: count down, choose alone until 0, then coordinate one step and begin again.
+TEST(Propositions, NoSelfTriggeredRunFromKLeavesS) {
+  ThreadTeam team(1);
+  EXPECT_TRUE(rc::check("self-triggered runs stay in S", [&] {
+    const World world(draw_problem(), team);
+    const std::size_t p = draw_partition(world);
+    const std::vector<std::int32_t>& delay = world.claims().partitions[p].delay;
+    const std::optional<std::int64_t> start = draw_invariant(world);
+    RC_PRE(start.has_value());
+    std::int64_t x = *start;
+    std::int32_t countdown = delay[static_cast<std::size_t>(x)];
+    int coordinated = 0;
+    for (int step = 0; step < 100 && x != kGone; ++step) {
+      const bool alone = countdown > 0;
+      coordinated += alone ? 0 : 1;
+      const std::vector<std::int64_t> choices = world.choices(x, alone ? std::optional(p) : std::nullopt);
+      RC_ASSERT(!choices.empty());
+      const auto next = world.post(x, pick(choices));
+      RC_ASSERT((next.has_value() && !next->empty()));
+      x = pick(*next);
+      if (x == kGone) break;
+      RC_ASSERT(world.claims().safe[static_cast<std::size_t>(x)] != 0);
+      if (!alone) {
+        countdown = delay[static_cast<std::size_t>(x)];
+      } else if (countdown != kForever) {
+        --countdown;
+      }
+    }
+    RC_CLASSIFY(coordinated > 0, "coordinated at times");
+  }));
+}
+
+}  // namespace
+}  // namespace coordreq

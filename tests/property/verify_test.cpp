@@ -1,0 +1,112 @@
+// Results of random systems hold, and do not once a number in them is another one.
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "support/analysed_file.hpp"
+#include "support/random_problem.hpp"
+
+namespace coordreq {
+namespace {
+
+int draw(int low, int high) {
+  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
+}
+
+template <class T>
+T& pick(std::vector<T>& values) {
+  return values[static_cast<std::size_t>(draw(0, static_cast<int>(values.size()) - 1))];
+}
+
+TEST(Verify, ResultsOfRandomSystemsHold) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("what analyze writes holds", [&] {
+    const std::string text = draw_problem();
+    const ClaimedFile file = analysed_file(draw(0, 1) == 0 ? text : storing_everything(text), team);
+    const Verification result = verify_file(file, {}, team);
+    RC_LOG(complaints(result));
+    RC_CLASSIFY(result.basis == PostBasis::exact, "exact");
+    RC_ASSERT(result.holds());
+  }));
+}
+
+/// Another number that the file could also hold at one place. @returns false if there is no such place
+bool corrupt(Claims& claims) {
+  PartitionClaims& partition = pick(claims.partitions);
+  const std::int32_t step = draw(0, 1) == 0 ? 1 : -1;
+  switch (draw(0, 9)) {
+    case 0:
+      pick(claims.safe) ^= 1U;
+      return true;
+    case 1:
+      pick(claims.invariant) ^= 1U;
+      return true;
+    case 2: {
+      std::int32_t& time = pick(claims.collision_time);
+      time = time == kForever ? 1 : time + 1;
+      return true;
+    }
+    case 3: {
+      std::int32_t& delay = pick(partition.delay);
+      delay = delay == kForever ? draw(0, 3) : std::max(delay + step, -2 + (delay == -2 ? 1 : 0));
+      return true;
+    }
+    case 4: {
+      std::int32_t& trigger = pick(partition.trigger);
+      trigger = trigger == kForever ? 0 : trigger + 1;
+      return true;
+    }
+    case 5:
+      partition.fixed_point_index += 1;
+      return true;
+    case 6:
+      pick(partition.layer_sizes) += 1;
+      return true;
+    case 7:
+      pick(claims.controller) ^= static_cast<std::uint8_t>(1U << draw(0, 7));
+      return true;
+    case 8:
+      pick(pick(partition.actions)) ^= static_cast<std::uint8_t>(1U << draw(0, 7));
+      return true;
+    default:
+      if (partition.layer_cell.empty()) return false;
+      pick(partition.layer_cell) += 1;
+      return true;
+  }
+}
+
+TEST(Verify, OneOtherNumberIsFound) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("a corrupted result does not hold", [&] {
+    ClaimedFile file = analysed_file(storing_everything(draw_problem()), team);
+    RC_PRE(corrupt(file.claims));
+    RC_ASSERT(!verify_file(file, {}, team).holds());
+  }));
+}
+
+/// A wrong solver is worse than a flipped bit: what it writes fits together. Here all delays of a layer and
+/// everything that counts them are one too long.
+TEST(Verify, ALayerThatIsTooLargeIsFoundThoughAllCountsAgree) {
+  ThreadTeam team(2);
+  const auto found = [&] {
+    ClaimedFile file = analysed_file(draw_problem(), team);
+    PartitionClaims& partition = file.claims.partitions.front();
+    RC_PRE(partition.fixed_point_index >= 1);
+    const std::int32_t layer = draw(0, partition.fixed_point_index - 1);
+    std::uint64_t moved = 0;
+    for (std::size_t x = 0; x < partition.delay.size(); ++x) {
+      if (partition.delay[x] != layer) continue;
+      partition.delay[x] = kForever;
+      partition.trigger[x] = kForever;
+      ++moved;
+      break;
+    }
+    for (std::size_t k = static_cast<std::size_t>(layer) + 1; k < partition.layer_sizes.size(); ++k)
+      partition.layer_sizes[k] += moved;
+    RC_ASSERT(!verify_file(file, {}, team).holds());
+  };
+  EXPECT_TRUE(rc::check("one cell that claims to be unbounded", found));
+}
+
+}  // namespace
+}  // namespace coordreq

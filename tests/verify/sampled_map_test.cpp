@@ -1,0 +1,68 @@
+#include "verify/sampled_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include "spec/read_spec.hpp"
+#include "verify/switching_integral.hpp"
+
+namespace coordreq {
+namespace {
+
+ProblemSpec chain(const std::string& equations, const std::string& disturbances = "") {
+  return read_spec(R"json({"coordreq": 1, "name": "chain",
+"states": [{"name": "p", "lower": 0, "upper": 4, "step": 1}, {"name": "v", "lower": 0, "upper": 4, "step": 1},
+           {"name": "a", "lower": 0, "upper": 4, "step": 1}],
+"inputs": [{"name": "u", "values": [2]}], "agents": [{"name": "one", "inputs": ["u"]}],
+"disturbances": [)json" +
+                       disturbances +
+                       R"json(], "dynamics": {"time": "continuous", "period": 0.5, "equations": {)json" +
+                       equations + R"json(}}, "safe": "true"})json",
+                   "chain");
+}
+
+SampledMap solved(const ProblemSpec& spec, std::size_t state) {
+  std::vector<Rational> slots(spec.slot_count());
+  slots[spec.input_slot(0)] = 2;
+  return sampled_map(spec, influences_on(spec, state), state, slots).value();
+}
+
+TEST(SampledMap, AChainOfIntegratorsIsAPolynomialInThePeriod) {
+  const ProblemSpec spec = chain(R"("p": "v", "v": "a", "a": "u")");
+  const SampledMap p = solved(spec, 0);
+  // p + tau v + tau^2/2 a + tau^3/6 u with tau = 1/2, u = 2
+  EXPECT_EQ(p.coefficient, (std::vector<Rational>{1, Rational(1) / 2, Rational(1) / 8}));
+  EXPECT_EQ(p.lower, Rational(1) / 24);
+  EXPECT_EQ(p.upper, p.lower);
+  EXPECT_TRUE(p.exact);
+  EXPECT_EQ(influences_on(spec, 1).moving, (std::vector<std::size_t>{1, 2}));
+}
+
+TEST(SampledMap, ADisturbanceAddsWhatItCanAddUp) {
+  const ProblemSpec spec =
+      chain(R"("p": "v", "v": "w", "a": "0")", R"({"name": "w", "lower": -1, "upper": 3})");
+  const SampledMap p = solved(spec, 0);
+  EXPECT_EQ(p.lower, -Rational(1) / 8);
+  EXPECT_EQ(p.upper, Rational(3) / 8);
+}
+
+TEST(SampledMap, AMatrixThatIsNotNilpotentIsNotSolved) {
+  const ProblemSpec spec = chain(R"("p": "v", "v": "-p", "a": "0")");
+  EXPECT_FALSE(sampled_map(spec, influences_on(spec, 0), 0, std::vector<Rational>(spec.slot_count())));
+}
+
+TEST(SwitchingIntegral, SplitsWhereTheSignChanges) {
+  const SwitchingIntegral half = integrate_switching({-1, 2}, 1);  // 2s - 1
+  EXPECT_EQ(half.plain, 0);
+  EXPECT_EQ(half.absolute, Rational(1) / 2);
+  EXPECT_TRUE(half.exact);
+}
+
+TEST(SwitchingIntegral, ErrsUpwardsAtARootItCannotHit) {
+  const SwitchingIntegral third = integrate_switching({-1, 3}, 1);  // the root 1/3 is not dyadic
+  EXPECT_FALSE(third.exact);
+  EXPECT_GE(third.absolute, Rational(5) / 6);
+  EXPECT_LT(third.absolute, Rational(5) / 6 + Rational(1) / 1000000);
+}
+
+}  // namespace
+}  // namespace coordreq

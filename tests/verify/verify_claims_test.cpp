@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "support/analysed_file.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Two states that agents push along; the load of configs/load.json in small: an enclosure, no exact hull.
+const std::string kFriction = R"json({"coordreq": 1, "name": "friction",
+"states": [{"name": "v", "lower": -1, "upper": 1, "step": 0.25, "outside": "saturate"},
+           {"name": "p", "lower": -2, "upper": 2, "step": 0.25}],
+"inputs": [{"name": "left", "values": [-1, 0, 1]}, {"name": "right", "values": [-1, 0, 1]}],
+"agents": [{"name": "a", "inputs": ["left"]}, {"name": "b", "inputs": ["right"]}],
+"dynamics": {"time": "continuous", "period": 0.25, "equations": {"v": "left + right - 0.5*v", "p": "v"}},
+"safe": "abs(p) <= 1.5", "abstraction": {"cells": "half_open"}})json";
+
+bool has_wrong(const Verification& result, const std::string& check) {
+  for (const Finding& finding : result.findings) {
+    if (finding.check == check) return finding.wrong > 0;
+  }
+  return false;
+}
+
+TEST(VerifyClaims, EnclosuresHoldWithAndWithoutTheStoredAbstraction) {
+  ThreadTeam team(2);
+  const Verification computed = verify_file(analysed_file(kFriction, team), {}, team);
+  EXPECT_EQ(complaints(computed), "");
+  EXPECT_EQ(computed.basis, PostBasis::computed);
+  const Verification stored = verify_file(analysed_file(storing_everything(kFriction), team), {}, team);
+  EXPECT_EQ(complaints(stored), "");
+  EXPECT_EQ(stored.basis, PostBasis::stored);
+  EXPECT_TRUE(stored.borrowed.empty());
+}
+
+TEST(VerifyClaims, AStoredRangeThatLeavesOutACellIsFound) {
+  ThreadTeam team(2);
+  const ClaimedFile file = analysed_file(storing_everything(kFriction), team);
+  for (std::size_t entry = 0; entry < file.claims.abstraction[0].entries.size(); entry += 7) {
+    ClaimedFile changed = file;
+    IndexRange& range = changed.claims.abstraction[0].entries[entry];
+    if (range.first == range.last) continue;
+    ++range.first;
+    EXPECT_TRUE(has_wrong(verify_file(changed, {}, team), "abstraction v")) << entry;
+  }
+}
+
+TEST(VerifyClaims, OfAnotherVersionLessSafetyIsLeftOpenAndMoreIsWrong) {
+  ThreadTeam team(2);
+  ClaimedFile file = analysed_file(kFriction, team);
+  file.claims.same_version = false;
+  std::vector<std::int32_t>& times = file.claims.collision_time;
+  const auto late =
+      std::find_if(times.begin(), times.end(), [](std::int32_t t) { return t >= 2 && t != kForever; });
+  ASSERT_NE(late, times.end());
+  *late -= 1;
+  const Verification less = verify_file(file, {}, team);
+  EXPECT_FALSE(has_wrong(less, "collision time"));
+  *late += 2;
+  const Verification more = verify_file(file, {}, team);
+  EXPECT_TRUE(has_wrong(more, "collision time"));
+}
+
+TEST(VerifyClaims, ASampleLooksAtSoManyCells) {
+  ThreadTeam team(2);
+  const ClaimedFile file = analysed_file(kFriction, team);
+  const Verification result = verify_file(file, {.sample = 10}, team);
+  EXPECT_EQ(result.cells_checked, 10);
+  EXPECT_EQ(result.findings.back().checked, 10);
+  EXPECT_TRUE(result.holds());
+}
+
+TEST(VerifyClaims, AGreaterKThanThereIsIsFound) {
+  ThreadTeam team(2);
+  ClaimedFile file = analysed_file(kFriction, team);
+  const auto outside = std::find(file.claims.collision_time.begin(), file.claims.collision_time.end(), 1);
+  ASSERT_NE(outside, file.claims.collision_time.end());
+  const auto x = static_cast<std::size_t>(outside - file.claims.collision_time.begin());
+  file.claims.invariant[x] = 1;
+  file.claims.invariant_cells += 1;
+  file.claims.collision_time[x] = kForever;
+  for (PartitionClaims& partition : file.claims.partitions) {
+    partition.delay[x] = 0;
+    partition.trigger[x] = 0;
+    partition.layer_sizes[0] += 1;
+  }
+  EXPECT_TRUE(has_wrong(verify_file(file, {}, team), "K"));
+}
+
+TEST(VerifyClaims, ASmallerKThanThereIsIsFoundThoughItIsSafe) {
+  ThreadTeam team(2);
+  ClaimedFile file = analysed_file(kFriction, team);
+  // Nobody in K at all: safe, but by far not the greatest.
+  std::fill(file.claims.invariant.begin(), file.claims.invariant.end(), 0);
+  file.claims.invariant_cells = 0;
+  for (std::int32_t& time : file.claims.collision_time) time = time == kForever ? 1 : time;
+  for (PartitionClaims& partition : file.claims.partitions) {
+    for (std::int32_t& delay : partition.delay) delay = std::min(delay, -1);
+    partition.trigger = partition.delay;
+    partition.fixed_point_index = 0;
+    partition.layer_sizes = {0};
+  }
+  EXPECT_TRUE(has_wrong(verify_file(file, {}, team), "collision time"));
+}
+
+TEST(VerifyClaims, WhatIsAskedBetweenTheSamplesIsRefused) {
+  ThreadTeam team(1);
+  ClaimedFile file = analysed_file(kFriction, team);
+  file.spec.abstraction.between_samples = true;
+  EXPECT_THROW(static_cast<void>(verify_file(file, {}, team)), SpecError);
+}
+
+}  // namespace
+}  // namespace coordreq
