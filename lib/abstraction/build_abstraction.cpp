@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "abstraction/affine_table.hpp"
+#include "abstraction/cells_meeting.hpp"
 #include "abstraction/counter.hpp"
 #include "abstraction/enclosure_table.hpp"
 #include "dynamics/affine_dynamics.hpp"
@@ -13,6 +14,22 @@ namespace {
 
 std::size_t at(std::int32_t i) {
   return static_cast<std::size_t>(i);
+}
+
+/// What saturates is at the last (first) grid point when it is measured, however far out the post lies; an
+/// error of half a cell or more then shows it in another cell than the boundary one.
+void include_measurements_of_saturated(const GridDimension& dimension, Cells cells, TransitionTable& table) {
+  const Rational& error = dimension.measurement_error;
+  if (error == 0) return;
+  if (dimension.above == Outside::saturate) {
+    const Rational last = dimension.point(dimension.count - 1);
+    const IndexRange seen = cells_meeting(dimension, cells, last - error, last, true);
+    for (IndexRange& entry : table.entries) entry.first = std::min(entry.first, seen.first);
+  }
+  if (dimension.below == Outside::saturate) {
+    const IndexRange seen = cells_meeting(dimension, cells, dimension.first, dimension.first + error, true);
+    for (IndexRange& entry : table.entries) entry.last = std::max(entry.last, seen.last);
+  }
 }
 
 }  // namespace
@@ -76,6 +93,7 @@ Abstraction build_abstraction(const ProblemSpec& spec, ThreadTeam& team) {
     const std::optional<bool> exact = build_affine_table(spec, dynamics, abstraction, i, team);
     if (!exact) build_enclosure_table(spec, dynamics.dependencies(i), abstraction, i, team);
     abstraction.exact = abstraction.exact && exact.value_or(false);
+    include_measurements_of_saturated(abstraction.grid[i], spec.abstraction.cells, abstraction.tables[i]);
   }
   return abstraction;
 }

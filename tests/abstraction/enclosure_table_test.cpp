@@ -148,6 +148,18 @@ TEST(EnclosureTable, MeasurementErrorsWidenBeforeAndAfter) {
   attack(read_spec(spec_text(state, "continuous", R"json("x": "u - 0.1*x^2")json"), "t"), 500);
 }
 
+TEST(EnclosureTable, SaturatedStatesAreMeasuredAroundTheirGridPoint) {
+  const std::string state =
+      R"({"name": "x", "lower": 0, "upper": 9, "step": 1, "measurement_error": 1.75, "outside": "saturate"})";
+  for (const std::string equation : {"x + 40*u", "x + 40*sin(u)/sin(1)"}) {
+    const Abstraction a =
+        build(read_spec(spec_text(state, "discrete", R"json("x": ")json" + equation + "\""), "t"));
+    // All is far below 0 then, so the state is 0, and what is measured is in [-1.75, 1.75].
+    EXPECT_EQ(a.resolved(0, 5, 0).inside, (IndexRange{0, 2}));
+    EXPECT_EQ(a.resolved(0, 5, 2).inside, (IndexRange{7, 9}));
+  }
+}
+
 TEST(EnclosureTable, IntegratorsAreShiftedAlongTheirRow) {
   const Abstraction a =
       build(read_spec(spec_text(kPlane, "continuous", R"json("x": "y^2 + u", "y": "sin(y)")json"), "t"));
