@@ -10,7 +10,6 @@
 
 #include "abstraction/build_abstraction.hpp"
 #include "base/error.hpp"
-#include "grid/pieces.hpp"
 #include "property/random_dynamics.hpp"
 
 namespace coordreq {
@@ -76,10 +75,12 @@ class Attack {
 
   long double draw_start(std::size_t i) const {
     const GridDimension& dimension = a_.grid[i];
-    const std::vector<Piece> parts = pieces(dimension, a_.grid.index(x_, i));
-    const Piece& part = parts[static_cast<std::size_t>(pick(static_cast<int>(parts.size())))];
-    const long double middle = 0.5L * (number(part.lower) + number(part.upper));
-    long double value = middle + draw_share() * (number(part.upper) - middle);
+    const long double reach = number(dimension.radius()) + number(dimension.measurement_error);
+    long double value = number(dimension.point(a_.grid.index(x_, i))) + draw_share() * reach;
+    if (dimension.periodic()) {
+      const long double period = number(dimension.upper) - number(dimension.lower);
+      value -= period * std::floor((value - number(dimension.lower)) / period);
+    }
     if (dimension.below == Outside::stop) value = std::max(value, number(dimension.first));
     if (dimension.above == Outside::stop) value = std::min(value, last_point(i));
     return value;
