@@ -11,6 +11,7 @@
 #include "abstraction/counter.hpp"
 #include "abstraction/state_enclosure.hpp"
 #include "base/error.hpp"
+#include "expression/place.hpp"
 #include "grid/pieces.hpp"
 
 namespace coordreq {
@@ -106,7 +107,7 @@ class EnclosureTable {
       for (std::size_t v = 0; v < choice.size(); ++v) {
         enclosure.set(variables_[v].slot, boxes_of(choice, v)[static_cast<std::size_t>(piece.indices()[v])]);
       }
-      const IndexRange next = indices(enclosure.enclose(), choice);
+      const IndexRange next = indices(enclosure, choice);
       range = range ? merge_ranges(*range, next, target_) : next;
     } while (piece.next());
 
@@ -125,12 +126,13 @@ class EnclosureTable {
     return variables_[v].pieces[static_cast<std::size_t>(choice[v])];
   }
 
-  [[nodiscard]] IndexRange indices(const StateEnclosure::Result& result,
-                                   const std::vector<std::int64_t>& choice) const {
-    if (result.status != StateEnclosure::Status::ok) return indices_of_failure(result, choice);
+  [[nodiscard]] IndexRange indices(StateEnclosure& enclosure, const std::vector<std::int64_t>& choice) const {
+    const StateEnclosure::Result result = enclosure.enclose();
+    if (result.status != StateEnclosure::Status::ok) return indices_of_failure(enclosure, result, choice);
     const Interval& value = result.value;
     if (!std::isfinite(value.lower) || !std::isfinite(value.upper)) {
-      throw SpecError(fmt::format("the next value of '{}' has no bound{}", target_.name, place(choice)),
+      throw SpecError(fmt::format("the next value of '{}', {}, has no bound{}", target_.name,
+                                  equation_text(state_), place(choice)),
                       where());
     }
     if (target_.discrete) return index_of_point(value, choice);
@@ -140,17 +142,26 @@ class EnclosureTable {
 
   /// A solution without an enclosure is no harm where its state has left the domain through an unsafe side by
   /// then.
-  [[nodiscard]] IndexRange indices_of_failure(const StateEnclosure::Result& result,
+  [[nodiscard]] IndexRange indices_of_failure(const StateEnclosure& enclosure,
+                                              const StateEnclosure::Result& result,
                                               const std::vector<std::int64_t>& choice) const {
     if (result.left_unsafely) {
       return {std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()};
     }
     const std::string& name = spec_.states[result.culprit].name;
-    const std::string what =
-        result.status == StateEnclosure::Status::undefined
-            ? fmt::format("the equation of '{}' is not defined everywhere", name)
-            : fmt::format("the solution of '{}' may escape to infinity within one period", name);
-    throw SpecError(what + place(choice), "/dynamics/equations/" + name);
+    const std::string equation = equation_text(result.culprit);
+    const std::string pointer = "/dynamics/equations/" + name;
+    if (result.status == StateEnclosure::Status::undefined) {
+      const std::string reason = enclosure.reason(result);
+      throw SpecError(fmt::format("the equation of '{}', {}, is not defined everywhere{}{}{}", name, equation,
+                                  place(choice), reason.empty() ? "" : ": ", reason),
+                      pointer);
+    }
+    throw SpecError(fmt::format("the solution of '{}', with the equation {}, may escape to infinity within "
+                                "one period{}, or change "
+                                "too fast to be followed that long",
+                                name, equation, place(choice)),
+                    pointer);
   }
 
   [[nodiscard]] IndexRange index_of_point(const Interval& value,
@@ -166,6 +177,10 @@ class EnclosureTable {
     }
     const std::int32_t k = saturate_index(floor_to_int(index));
     return {k, k};
+  }
+
+  [[nodiscard]] std::string equation_text(std::size_t state) const {
+    return quoted(spec_.dynamics.equations[state].text);
   }
 
   [[nodiscard]] std::string place(const std::vector<std::int64_t>& choice) const {

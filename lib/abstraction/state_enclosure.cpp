@@ -5,6 +5,7 @@
 
 #include "dynamics/dual.hpp"
 #include "expression/evaluate.hpp"
+#include "expression/undefined_reason.hpp"
 
 namespace coordreq {
 namespace {
@@ -123,9 +124,16 @@ StateEnclosure::Result StateEnclosure::enclose() {
   return map_ ? enclose_map() : enclose_flow();
 }
 
+std::string StateEnclosure::reason(const Result& result) const {
+  return undefined_reason(spec_->dynamics.equations[result.culprit], undefined_at_);
+}
+
 StateEnclosure::Result StateEnclosure::enclose_map() {
   const Interval value = map_->enclose(slots_);
-  if (!value.total) return {.status = Status::undefined, .culprit = state_};
+  if (!value.total) {
+    undefined_at_ = slots_;
+    return {.status = Status::undefined, .culprit = state_};
+  }
   if (!shifts_) return {.value = value};
   return {.value = value - Interval{.lower = origin_, .upper = origin_}};
 }
@@ -141,6 +149,7 @@ StateEnclosure::Result StateEnclosure::enclose_flow() {
     if (own.above == Outside::stop) value.upper = std::min(value.upper, limit_of(own).upper.upper);
     return {.value = value};
   }
+  undefined_at_ = found.undefined_at;
   Result result{
       .status = found.status == FlowEnclosure::Status::blows_up ? Status::blows_up : Status::undefined,
       .culprit = at(dependencies_.moving[found.culprit])};

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "dynamics/affine_dynamics.hpp"
@@ -37,6 +38,10 @@ class StateEnclosure {
 
   [[nodiscard]] Result enclose();
 
+  /// What made the equation at fault undefined in the last enclose(), or nothing known. REQUIRES: something
+  /// did.
+  [[nodiscard]] std::string reason(const Result& result) const;
+
  private:
   void prepare_map();
   void prepare_flow();
@@ -51,6 +56,7 @@ class StateEnclosure {
   bool shifts_ = false;
   double origin_ = 0;  ///< the present value put in where the map shifts
   std::vector<Interval> slots_;
+  std::vector<Interval> undefined_at_;
   std::optional<MapEnclosure> map_;
   std::optional<ValidatedFlow> flow_;
 };

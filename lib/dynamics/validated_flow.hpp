@@ -13,13 +13,14 @@ namespace coordreq {
 struct FlowEnclosure {
   enum class Status : std::uint8_t {
     ok,
-    blows_up,   ///< no enclosure was found: solutions may escape in finite time
+    blows_up,   ///< no enclosure was found: solutions may escape in finite time, or change too fast
     undefined,  ///< the right-hand side is not defined at a state that may be reached
   };
   Status status = Status::ok;
   std::size_t culprit = 0;     ///< index of the equation at fault, unless ok
   std::vector<Interval> end;   ///< states reachable at tau; unless ok: at the time up to which all is known
   std::vector<Interval> tube;  ///< states reachable in [0, tau], or up to that time
+  std::vector<Interval> undefined_at;  ///< if undefined: the slots over which the right-hand side is so
 };
 
 /// Guaranteed enclosures of the states that a differential equation reaches after tau, for every initial
