@@ -7,6 +7,7 @@
 #include <rapidcheck.h>
 
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "abstraction/build_abstraction.hpp"
@@ -19,6 +20,8 @@ namespace {
 constexpr int kSpecs = 3;  ///< a case of RapidCheck
 constexpr int kAttempts = 30;
 constexpr int kSteps = 240;
+constexpr IndexRange kEverything{std::numeric_limits<std::int32_t>::min(),
+                                 std::numeric_limits<std::int32_t>::max()};
 
 long double number(const Rational& q) {
   const double high = q.get_d();
@@ -37,6 +40,10 @@ class Attack {
   void run() {
     x_ = pick(static_cast<int>(a_.grid.cells()));
     u_ = pick(static_cast<int>(a_.inputs.count()));
+    for (std::size_t i = 0; i < a_.grid.size(); ++i) {
+      // May escape to infinity, after it has left: the pair is blocked.
+      if (a_.raw(i, x_, u_) == kEverything) return;
+    }
     move();
     bool blocked = false;
     for (std::size_t i = 0; i < a_.grid.size(); ++i) blocked = blocked || a_.resolved(i, x_, u_).blocked;
