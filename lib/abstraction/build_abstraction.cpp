@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "abstraction/affine_table.hpp"
+#include "abstraction/cells_meeting.hpp"
 #include "abstraction/counter.hpp"
 #include "abstraction/enclosure_table.hpp"
 #include "abstraction/sum_table.hpp"
@@ -70,7 +71,7 @@ void for_each_row(const ProblemSpec& spec, const AffineDynamics& dynamics, std::
 /// are no sums: a tube is an entry for every choice in any case, found by the same flow as that of the table.
 std::vector<std::int32_t> states_of_sum(const ProblemSpec& spec, const AffineDynamics& dynamics,
                                         const AffinePart& part, std::size_t state) {
-  if (spec.abstraction.between_samples) return {};
+  if (spec.abstraction.between_samples || has_measured_limit(spec.states[state])) return {};
   std::vector<std::int32_t> summed = summed_states(spec, dynamics.dependencies(state), part, state);
   if (summed.empty()) return summed;
   bool exact = true;  // then the table holds exact hulls
@@ -101,6 +102,22 @@ void measure(const ProblemSpec& spec, const AffineDynamics& dynamics, std::size_
   }
   shape.bytes =
       shape.entries * static_cast<double>(shape.sum ? 2 * sizeof(std::int64_t) : sizeof(IndexRange));
+}
+
+/// What saturates is at the last (first) grid point when it is measured, however far out the post lies; an
+/// error of half a cell or more then shows it in another cell than the boundary one.
+void include_measurements_of_saturated(const GridDimension& dimension, Cells cells, TransitionTable& table) {
+  const Rational& error = dimension.measurement_error;
+  if (error == 0) return;
+  if (dimension.above == Outside::saturate) {
+    const Rational last = dimension.point(dimension.count - 1);
+    const IndexRange seen = cells_meeting(dimension, cells, last - error, last, true);
+    for (IndexRange& entry : table.entries) entry.first = std::min(entry.first, seen.first);
+  }
+  if (dimension.below == Outside::saturate) {
+    const IndexRange seen = cells_meeting(dimension, cells, dimension.first, dimension.first + error, true);
+    for (IndexRange& entry : table.entries) entry.last = std::max(entry.last, seen.last);
+  }
 }
 
 }  // namespace
@@ -203,6 +220,10 @@ Abstraction build_abstraction(const ProblemSpec& spec, ThreadTeam& team) {
   }
   std::sort(full.begin(), full.end());
   build_in_full(spec, dynamics, abstraction, full, team);
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    if (!has_measured_limit(spec.states[i])) continue;
+    include_measurements_of_saturated(abstraction.grid[i], spec.abstraction.cells, abstraction.tables[i]);
+  }
   return abstraction;
 }
 

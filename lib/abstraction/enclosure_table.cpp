@@ -12,6 +12,7 @@
 #include "abstraction/state_enclosure.hpp"
 #include "base/error.hpp"
 #include "dynamics/shift.hpp"
+#include "expression/place.hpp"
 #include "grid/pieces.hpp"
 
 namespace coordreq {
@@ -57,25 +58,26 @@ class EnclosureTable {
   }
 
   /// Widens the entry by an enclosure of one choice of pieces.
-  void add(std::int64_t entry, bool first, const StateEnclosure::Result& result,
+  void add(std::int64_t entry, bool first, const StateEnclosure& enclosure,
            const std::vector<std::int64_t>& choice, const std::vector<std::int64_t>& piece) {
+    const StateEnclosure::Result result = enclosure.result(state_);
     const auto widen = [&](TransitionTable& table, IndexRange next) {
       IndexRange& range = table.entries[static_cast<std::size_t>(entry)];
       range = first ? next : merge_ranges(range, next, target_);
     };
-    widen(table_, indices(result, choice));
+    widen(table_, indices(result, enclosure, choice));
     if (tube_ != nullptr) widen(*tube_, tube_indices(result, choice, piece));
   }
 
  private:
-  [[nodiscard]] IndexRange indices(const StateEnclosure::Result& result,
+  [[nodiscard]] IndexRange indices(const StateEnclosure::Result& result, const StateEnclosure& enclosure,
                                    const std::vector<std::int64_t>& choice) const {
-    if (result.status != StateEnclosure::Status::ok) return indices_of_failure(result, choice);
+    if (result.status != StateEnclosure::Status::ok) return indices_of_failure(enclosure, result, choice);
     const Interval& value = result.value;
     if (!std::isfinite(value.lower) || !std::isfinite(value.upper)) {
-      throw SpecError(
-          fmt::format("the next value of '{}' has no bound{}", target_.name, choices_.place(choice)),
-          where());
+      throw SpecError(fmt::format("the next value of '{}', {}, has no bound{}", target_.name,
+                                  equation_text(state_), choices_.place(choice)),
+                      where());
     }
     if (target_.discrete) return index_of_point(value, choice);
     if (differences_) return cells_meeting_shifted(target_, spec_.abstraction.cells, value);
@@ -100,15 +102,23 @@ class EnclosureTable {
 
   /// A solution without an enclosure is no harm where its state has left the domain through an unsafe side by
   /// then.
-  [[nodiscard]] IndexRange indices_of_failure(const StateEnclosure::Result& result,
+  [[nodiscard]] IndexRange indices_of_failure(const StateEnclosure& enclosure,
+                                              const StateEnclosure::Result& result,
                                               const std::vector<std::int64_t>& choice) const {
     if (result.left_unsafely) return kEverywhere;
     const std::string& name = spec_.states[result.culprit].name;
-    const std::string what =
-        result.status == StateEnclosure::Status::undefined
-            ? fmt::format("the equation of '{}' is not defined everywhere", name)
-            : fmt::format("the solution of '{}' may escape to infinity within one period", name);
-    throw SpecError(what + choices_.place(choice), "/dynamics/equations/" + name);
+    const std::string equation = equation_text(result.culprit);
+    const std::string pointer = "/dynamics/equations/" + name;
+    if (result.status == StateEnclosure::Status::undefined) {
+      const std::string reason = enclosure.reason(result);
+      throw SpecError(fmt::format("the equation of '{}', {}, is not defined everywhere{}{}{}", name, equation,
+                                  choices_.place(choice), reason.empty() ? "" : ": ", reason),
+                      pointer);
+    }
+    throw SpecError(fmt::format("the solution of '{}', with the equation {}, may escape to infinity within "
+                                "one period{}, or change too fast to be followed that long",
+                                name, equation, choices_.place(choice)),
+                    pointer);
   }
 
   [[nodiscard]] IndexRange index_of_point(const Interval& value,
@@ -125,6 +135,10 @@ class EnclosureTable {
     }
     const std::int32_t k = saturate_index(floor_to_int(index));
     return {k, k};
+  }
+
+  [[nodiscard]] std::string equation_text(std::size_t state) const {
+    return quoted(spec_.dynamics.equations[state].text);
   }
 
   [[nodiscard]] std::string where() const { return "/dynamics/equations/" + target_.name; }
@@ -181,7 +195,7 @@ void build_enclosure_tables(const ProblemSpec& spec, const Dependencies& depende
       choices.for_each_piece(choice.indices(), mine, [&](const std::vector<std::int64_t>& piece) {
         mine.enclose();
         for (EnclosureTable& table : tables) {
-          table.add(entry, first, mine.result(table.state()), choice.indices(), piece);
+          table.add(entry, first, mine, choice.indices(), piece);
         }
         first = false;
       });

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "dynamics/dual.hpp"
 #include "dynamics/shift.hpp"
+#include "expression/evaluate.hpp"
+#include "expression/undefined_reason.hpp"
 
 namespace coordreq {
 namespace {
@@ -85,6 +88,10 @@ void StateEnclosure::enclose() {
   } else {
     found_ = &flow_->flow(slots_);
   }
+}
+
+std::string StateEnclosure::reason(const Result& result) const {
+  return undefined_reason(spec_->dynamics.equations[result.culprit], map_ ? slots_ : found_->undefined_at);
 }
 
 StateEnclosure::Result StateEnclosure::result(std::size_t state) const {

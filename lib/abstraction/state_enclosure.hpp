@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "dynamics/affine_dynamics.hpp"
@@ -42,6 +43,10 @@ class StateEnclosure {
   /// @param state the one of the constructor; in continuous time any moving one that it depends on, if this
   ///   does not shift
   [[nodiscard]] Result result(std::size_t state) const;
+
+  /// What made the equation at fault undefined in the last enclose(), or nothing known. REQUIRES: something
+  /// did.
+  [[nodiscard]] std::string reason(const Result& result) const;
 
  private:
   void prepare_map();

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "dynamics/polynomial.hpp"
 #include "expression/evaluate.hpp"
+#include "expression/place.hpp"
 
 namespace coordreq {
 namespace {
@@ -101,9 +102,10 @@ std::optional<AffineDynamics::AffineForm> AffineDynamics::affine_form(
   Evaluator<Polynomial> evaluator(spec_->dynamics.equations[equation]);
   const Polynomial polynomial = evaluator.number(values);
   if (polynomial.known && (!polynomial.constant.total || !polynomial.constant.bounded)) {
-    throw SpecError(fmt::format("the equation of '{}' is not defined or not finite{}",
-                                spec_->states[equation].name, place(dependencies, slots)),
-                    where);
+    throw SpecError(
+        fmt::format("the equation of '{}', {}, is not defined or not finite{}", spec_->states[equation].name,
+                    quoted(spec_->dynamics.equations[equation].text), place(dependencies, slots)),
+        where);
   }
   if (!polynomial.known || polynomial.degree() > 1) return std::nullopt;
   AffineForm form{.state = std::vector<Rational>(dependencies.moving.size()),

@@ -9,6 +9,8 @@ namespace {
 /// The period is divided into at most so many parts; if one of them has no enclosure, nothing helps.
 constexpr std::uint32_t kParts = 1U << 20U;
 constexpr std::size_t kMostTries = 20000;
+/// No box of initial states may take more of them, nor much longer than a second.
+constexpr std::size_t kMostSteps = 30000;
 /// Longer steps are tried again after so many that went well.
 constexpr int kPatience = 3;
 /// Steps this small are taken although the sensitivity stays unbounded.
@@ -92,6 +94,10 @@ bool ValidatedFlow::Solver::run_steps() {
       left -= parts;
       finish_step(left == 0);
       if (++successes % kPatience == 0) parts *= 2;
+      if (tries_ >= kMostSteps && left > 0) {
+        fail(FlowFailure{false, fastest()});
+        return false;
+      }
     } else if (parts > 1 && tries_ < kMostTries) {
       parts /= 2;
       successes = 0;
@@ -103,9 +109,17 @@ bool ValidatedFlow::Solver::run_steps() {
   return true;
 }
 
+/// The state that changes most in the last step.
+std::size_t ValidatedFlow::Solver::fastest() const {
+  const auto slower = [](const Interval& a, const Interval& b) { return magnitude(a) < magnitude(b); };
+  const auto found = std::max_element(derivative_.begin(), derivative_.end(), slower);
+  return static_cast<std::size_t>(found - derivative_.begin());
+}
+
 void ValidatedFlow::Solver::fail(const FlowFailure& failure) {
   result_.status = failure.undefined ? FlowEnclosure::Status::undefined : FlowEnclosure::Status::blows_up;
   result_.culprit = failure.equation;
+  if (failure.undefined) result_.undefined_at.assign(field_.slots().begin(), field_.slots().end());
   result_.end = now_;
 }
 

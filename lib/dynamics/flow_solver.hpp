@@ -50,6 +50,7 @@ class ValidatedFlow::Solver {
   bool append_sensitivity(const Interval& duration, bool divisible);
   void finish_step(bool last);
   void restart();
+  [[nodiscard]] std::size_t fastest() const;
   void fail(const FlowFailure& failure);
   FlowStep& next_step();
 

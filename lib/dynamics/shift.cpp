@@ -140,8 +140,14 @@ Interval range_of(const InputSpec& input) {
   return box_of(*low, *high);
 }
 
+bool has_measured_limit(const StateSpec& state) {
+  const bool saturates = state.below == Outside::saturate || state.above == Outside::saturate;
+  return saturates && state.measurement_error > 0;
+}
+
 bool is_shift(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state) {
   if (!contains(dependencies.moving, state) && !contains(dependencies.parameters, state)) return false;
+  if (has_measured_limit(spec.states[state])) return false;
   if (spec.dynamics.time == Time::continuous) return flow_shifts(spec, dependencies, state);
   const std::optional<Rational> slope =
       SlopeFinder(spec.dynamics.equations[state], spec.state_slot(state)).find();

@@ -13,7 +13,7 @@ namespace coordreq {
 struct FlowEnclosure {
   enum class Status : std::uint8_t {
     ok,
-    blows_up,   ///< no enclosure was found: solutions may escape in finite time
+    blows_up,   ///< no enclosure was found: solutions may escape in finite time, or change too fast
     undefined,  ///< the right-hand side is not defined at a state that may be reached
   };
   Status status = Status::ok;
@@ -23,6 +23,7 @@ struct FlowEnclosure {
   /// x(t) - x(0) during that time, 0 included; an end is 0 exactly where f never points that way. For the
   /// rounding of the initial box alone widens `tube`.
   std::vector<Interval> drift;
+  std::vector<Interval> undefined_at;  ///< if undefined: the slots over which the right-hand side is so
 };
 
 /// Guaranteed enclosures of the states that a differential equation reaches after tau, for every initial

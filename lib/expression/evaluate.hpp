@@ -42,6 +42,10 @@ class Evaluator {
     run(slots);
     return truths_.back().value;
   }
+  /// The value of a node in the last run. REQUIRES: the node is a number.
+  [[nodiscard]] const T& at(std::uint32_t node) const { return numbers_[node]; }
+  /// The same of a node that is a condition.
+  [[nodiscard]] Truth truth_at(std::uint32_t node) const { return truths_[node].value; }
 
  private:
   struct Condition {

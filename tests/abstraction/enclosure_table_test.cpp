@@ -62,6 +62,18 @@ TEST(EnclosureTable, MeasurementErrorsWidenBeforeAndAfter) {
   attack(read_spec(spec_text(state, "continuous", R"json("x": "u - 0.1*x^2")json"), "t"), 500);
 }
 
+TEST(EnclosureTable, SaturatedStatesAreMeasuredAroundTheirGridPoint) {
+  const std::string state =
+      R"({"name": "x", "lower": 0, "upper": 9, "step": 1, "measurement_error": 1.75, "outside": "saturate"})";
+  for (const std::string equation : {"x + 40*u", "x + 40*sin(u)/sin(1)"}) {
+    const Abstraction a =
+        build(read_spec(spec_text(state, "discrete", R"json("x": ")json" + equation + "\""), "t"));
+    // All is far below 0 then, so the state is 0, and what is measured is in [-1.75, 1.75].
+    EXPECT_EQ(a.resolved(0, 5, 0).inside, (IndexRange{0, 2}));
+    EXPECT_EQ(a.resolved(0, 5, 2).inside, (IndexRange{7, 9}));
+  }
+}
+
 TEST(EnclosureTable, IntegratorsAreShiftedAlongTheirRow) {
   const Abstraction a =
       build(read_spec(spec_text(kPlane, "continuous", R"json("x": "y^2 + u", "y": "sin(y)")json"), "t"));
@@ -113,9 +125,10 @@ std::string error_of(const std::string& text) {
 
 TEST(EnclosureTable, FiniteEscapeIsAnErrorOrBlocksOutsideTheDomain) {
   const std::string saturated = R"({"name": "x", "lower": -9, "upper": 9, "step": 1, "outside": "saturate"})";
-  EXPECT_EQ(error_of(spec_text(saturated, "continuous", R"json("x": "x^2 + u")json")),
-            "the solution of 'x' may escape to infinity within one period near x = 2, u = -1 "
-            "(/dynamics/equations/x)");
+  EXPECT_EQ(
+      error_of(spec_text(saturated, "continuous", R"json("x": "x^2 + u")json")),
+      "the solution of 'x', with the equation 'x^2 + u', may escape to infinity within one period near x = "
+      "2, u = -1, or change too fast to be followed that long (/dynamics/equations/x)");
   // With unsafe sides the state has left before it escapes.
   const std::string bounded = R"({"name": "x", "lower": -9, "upper": 9, "step": 1})";
   const Abstraction a = build(read_spec(spec_text(bounded, "continuous", R"json("x": "x^2 + u")json"), "t"));
@@ -124,10 +137,12 @@ TEST(EnclosureTable, FiniteEscapeIsAnErrorOrBlocksOutsideTheDomain) {
 }
 
 TEST(EnclosureTable, UndefinedEquationsNameTheStateAndThePlace) {
-  EXPECT_EQ(error_of(spec_text(kPlane, "discrete", R"json("x": "sqrt(x) + u", "y": "y")json")),
-            "the equation of 'x' is not defined everywhere near x = -2, u = -1 (/dynamics/equations/x)");
-  EXPECT_EQ(error_of(spec_text(kPlane, "discrete", R"json("x": "1/(x*y)", "y": "y")json")).substr(0, 52),
-            "the equation of 'x' is not defined everywhere near x");
+  EXPECT_EQ(
+      error_of(spec_text(kPlane, "discrete", R"json("x": "sqrt(x) + u", "y": "y")json")),
+      "the equation of 'x', 'sqrt(x) + u', is not defined everywhere near x = -2, u = -1: square root of a "
+      "number in [-2.25, -1.75] (/dynamics/equations/x)");
+  EXPECT_EQ(error_of(spec_text(kPlane, "discrete", R"json("x": "1/(x*y)", "y": "y")json")).substr(0, 60),
+            "the equation of 'x', '1/(x*y)', is not defined everywhere ne");
 }
 
 TEST(EnclosureTable, ThreadsDoNotChangeTheTables) {

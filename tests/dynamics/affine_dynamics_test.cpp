@@ -106,8 +106,9 @@ TEST(AffineDynamics, OtherSystemsAreLeftToTheGeneralEnclosures) {
 }
 
 TEST(AffineDynamics, UndefinedEquationsNameTheInput) {
-  EXPECT_EQ(message_of(spec_with("discrete", "p + 1/(u - 2)", "v")),
-            "the equation of 'p' is not defined or not finite at u = 2 (/dynamics/equations/p)");
+  EXPECT_EQ(
+      message_of(spec_with("discrete", "p + 1/(u - 2)", "v")),
+      "the equation of 'p', 'p + 1/(u - 2)', is not defined or not finite at u = 2 (/dynamics/equations/p)");
 }
 
 }  // namespace

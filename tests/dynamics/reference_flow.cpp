@@ -21,9 +21,15 @@ class ReferenceFlow {
     for (std::size_t l = 0; l < values.size(); ++l) slots_[kDisturbanceSlot + l].value = values[l];
   }
 
-  void step(States& x, long double h) {
+  /// In halves, and so on, where the slope changes much on the way.
+  void step(States& x, long double h, int halvings = 0) {
     const States k1 = derivative(x);
     const States k2 = derivative(moved(x, k1, h / 2));
+    if (halvings < kMostHalvings && is_rough(x, k1, k2, h)) {
+      step(x, h / 2, halvings + 1);
+      step(x, h / 2, halvings + 1);
+      return;
+    }
     const States k3 = derivative(moved(x, k2, h / 2));
     const States k4 = derivative(moved(x, k3, h));
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
@@ -31,6 +37,15 @@ class ReferenceFlow {
   }
 
  private:
+  static constexpr int kMostHalvings = 14;
+
+  static bool is_rough(const States& x, const States& k1, const States& k2, long double h) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!(h * std::fabs(k2[i] - k1[i]) <= 0.01L * (1.0L + std::fabs(x[i])))) return true;
+    }
+    return false;
+  }
+
   States moved(const States& x, const States& slope, long double h) const {
     States result = x;
     for (std::size_t i = 0; i < x.size(); ++i) result[i] += h * slope[i];

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <random>
 
 #include "numeric/interval.hpp"
@@ -11,10 +12,11 @@
 namespace coordreq {
 
 /// Doubles and intervals that provoke rounding: moderate, tiny, huge, subnormal, integers, neighbours of
-/// multiples of a quarter turn and the ends of the range. Seeded, so every run sees the same.
+/// multiples of a quarter turn and the ends of the range. Seeded, so every run sees the same, unless the
+/// environment variable COORDREQ_ATTACK asks for others (scripts/attack).
 class RandomDoubles {
  public:
-  explicit RandomDoubles(std::uint64_t seed) : engine_(seed) {}
+  explicit RandomDoubles(std::uint64_t seed) : engine_(seed + (attack() << 8U)) {}
 
   [[nodiscard]] double uniform(double lower, double upper) {
     return std::uniform_real_distribution<double>(lower, upper)(engine_);
@@ -78,6 +80,11 @@ class RandomDoubles {
   }
 
  private:
+  static std::uint64_t attack() {
+    const char* text = std::getenv("COORDREQ_ATTACK");
+    return text == nullptr ? 0 : std::strtoull(text, nullptr, 10);
+  }
+
   double finite_bits() {
     while (true) {
       const double value = std::bit_cast<double>(engine_());
