@@ -22,7 +22,10 @@ std::string states_table(const SpecReport& report) {
   Table table({Align::left, Align::right, Align::left, Align::left, Align::right, Align::right, Align::left});
   table.add({"state", "points", "unit", "table", "entries", "memory", "next value depends on"});
   for (const SpecReport::State& state : report.states) {
-    table.add({state.name, grouped(state.points), printable(state.unit), state.shift ? "shift" : "full",
+    table.add({state.name, grouped(state.points), printable(state.unit),
+               state.sum     ? "sum"
+               : state.shift ? "shift"
+                             : "full",
                grouped(state.table_entries), byte_size(state.table_bytes), dependencies(state)});
   }
   return table.text();
@@ -61,6 +64,7 @@ Json state_json(const SpecReport::State& state) {
   json["depends_on"] =
       Json{{"states", state.states}, {"inputs", state.inputs}, {"disturbances", state.disturbances}};
   json["shift"] = state.shift;
+  json["sum"] = state.sum;
   json["table_entries"] = state.table_entries;
   json["table_bytes"] = state.table_bytes;
   return json;

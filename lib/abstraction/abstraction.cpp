@@ -1,28 +1,35 @@
 #include "abstraction/abstraction.hpp"
 
+#include <algorithm>
+
 #include "abstraction/counter.hpp"
 
 namespace coordreq {
 namespace {
 
-IndexRange entry_of(const Abstraction& a, const TransitionTable& table, std::size_t state, std::int64_t x,
-                    std::int64_t u) {
-  std::int64_t entry = 0;
-  for (const std::int32_t j : table.states) {
-    const auto s = static_cast<std::size_t>(j);
-    entry += a.grid.index(x, s) * table.state_stride[s];
-  }
-  for (const std::int32_t j : table.inputs) {
-    const auto s = static_cast<std::size_t>(j);
-    entry += a.inputs.index(u, s) * table.input_stride[s];
-  }
-  return table.range(entry, a.grid.index(x, state));
+IndexRange read(const Abstraction& a, const TransitionTable& table, std::size_t state, std::int64_t x,
+                std::int64_t u) {
+  return table.range(
+      state, [&](std::size_t s) { return a.grid.index(x, s); },
+      [&](std::size_t s) { return a.inputs.index(u, s); });
 }
 
 }  // namespace
 
+bool TransitionTable::has_term(std::size_t state) const {
+  return std::any_of(terms.begin(), terms.end(), [&](const TransitionTerm& term) {
+    return static_cast<std::size_t>(term.state) == state;
+  });
+}
+
+std::uint64_t TransitionTable::bytes() const {
+  std::uint64_t numbers = base_lower.size() + base_upper.size();
+  for (const TransitionTerm& term : terms) numbers += term.lower.size() + term.upper.size();
+  return entries.size() * sizeof(IndexRange) + numbers * sizeof(std::int64_t);
+}
+
 IndexRange Abstraction::raw(std::size_t i, std::int64_t x, std::int64_t u) const {
-  return entry_of(*this, tables[i], i, x, u);
+  return read(*this, tables[i], i, x, u);
 }
 
 ResolvedRange Abstraction::resolved(std::size_t i, std::int64_t x, std::int64_t u) const {
@@ -30,7 +37,7 @@ ResolvedRange Abstraction::resolved(std::size_t i, std::int64_t x, std::int64_t 
 }
 
 IndexRange Abstraction::raw_tube(std::size_t i, std::int64_t x, std::int64_t u) const {
-  return entry_of(*this, tubes[i], i, x, u);
+  return read(*this, tubes[i], i, x, u);
 }
 
 ResolvedRange Abstraction::resolved_tube(std::size_t i, std::int64_t x, std::int64_t u) const {
@@ -49,7 +56,7 @@ std::int64_t lay_out(TransitionTable& table, std::size_t state, const UniformGri
   }
   for (auto it = table.states.rbegin(); it != table.states.rend(); ++it) {
     const auto j = static_cast<std::size_t>(*it);
-    if (table.shift && j == state) continue;
+    if ((table.shift && j == state) || table.has_term(j)) continue;
     table.state_stride[j] = entries;
     entries *= grid[j].count;
   }
@@ -58,29 +65,26 @@ std::int64_t lay_out(TransitionTable& table, std::size_t state, const UniformGri
 
 TransitionTable written_out(const Abstraction& abstraction, std::size_t state) {
   const TransitionTable& table = abstraction.tables[state];
-  if (!table.shift) return table;
+  if (!table.shift && !table.is_sum()) return table;
   TransitionTable result{.states = table.states, .inputs = table.inputs};
   result.entries.reserve(
       static_cast<std::size_t>(lay_out(result, state, abstraction.grid, abstraction.inputs)));
   std::vector<std::int64_t> counts;
-  std::vector<std::int64_t> strides;
-  std::size_t own = 0;
+  std::vector<std::size_t> of_state(abstraction.grid.size());  // positions among the counts
+  std::vector<std::size_t> of_input(abstraction.inputs.size());
   for (const std::int32_t j : table.states) {
-    const auto s = static_cast<std::size_t>(j);
-    if (s == state) own = counts.size();
-    counts.push_back(abstraction.grid[s].count);
-    strides.push_back(table.state_stride[s]);
+    of_state[static_cast<std::size_t>(j)] = counts.size();
+    counts.push_back(abstraction.grid[static_cast<std::size_t>(j)].count);
   }
   for (const std::int32_t j : table.inputs) {
-    const auto s = static_cast<std::size_t>(j);
-    counts.push_back(abstraction.inputs[s].count());
-    strides.push_back(table.input_stride[s]);
+    of_input[static_cast<std::size_t>(j)] = counts.size();
+    counts.push_back(abstraction.inputs[static_cast<std::size_t>(j)].count());
   }
   Counter choice(counts);
   do {
-    std::int64_t position = 0;
-    for (std::size_t v = 0; v < counts.size(); ++v) position += choice.indices()[v] * strides[v];
-    result.entries.push_back(table.range(position, choice.indices()[own]));
+    result.entries.push_back(table.range(
+        state, [&](std::size_t s) { return choice.indices()[of_state[s]]; },
+        [&](std::size_t s) { return choice.indices()[of_input[s]]; }));
   } while (choice.next());
   return result;
 }

@@ -8,6 +8,7 @@
 #include "abstraction/affine_table.hpp"
 #include "abstraction/counter.hpp"
 #include "abstraction/enclosure_table.hpp"
+#include "abstraction/sum_table.hpp"
 #include "base/error.hpp"
 #include "dynamics/affine_dynamics.hpp"
 #include "dynamics/shift.hpp"
@@ -33,6 +34,75 @@ void check_between_samples(const ProblemSpec& spec, const AffineDynamics& dynami
   }
 }
 
+bool contains(const std::vector<std::int32_t>& list, std::int32_t value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+/// Calls `visit` with the exact row of a state for each choice of its parameters and inputs, until it returns
+/// false.
+template <class Visit>
+void for_each_row(const ProblemSpec& spec, const AffineDynamics& dynamics, std::size_t state,
+                  const Visit& visit) {
+  const Dependencies& dependencies = dynamics.dependencies(state);
+  std::vector<std::int64_t> counts;
+  for (const std::int32_t j : dependencies.parameters) counts.push_back(spec.states[at(j)].grid.count);
+  for (const std::int32_t j : dependencies.inputs) {
+    counts.push_back(static_cast<std::int64_t>(spec.inputs[at(j)].values.size()));
+  }
+  Counter choice(counts);
+  do {
+    std::vector<Rational> slots(spec.slot_count());
+    std::size_t position = 0;
+    for (const std::int32_t j : dependencies.parameters) {
+      const GridSpec& grid = spec.states[at(j)].grid;
+      slots[spec.state_slot(at(j))] =
+          grid.first + grid.step * Rational(static_cast<long>(choice.indices()[position++]));
+    }
+    for (const std::int32_t j : dependencies.inputs) {
+      slots[spec.input_slot(at(j))] =
+          spec.inputs[at(j)].values[static_cast<std::size_t>(choice.indices()[position++])];
+    }
+    if (!visit(dynamics.row(state, slots))) return;
+  } while (choice.next());
+}
+
+/// The states that get terms if the table of `state` is a sum; empty if it is to be none. With tubes there
+/// are no sums: a tube is an entry for every choice in any case, found by the same flow as that of the table.
+std::vector<std::int32_t> states_of_sum(const ProblemSpec& spec, const AffineDynamics& dynamics,
+                                        const AffinePart& part, std::size_t state) {
+  if (spec.abstraction.between_samples) return {};
+  std::vector<std::int32_t> summed = summed_states(spec, dynamics.dependencies(state), part, state);
+  if (summed.empty()) return summed;
+  bool exact = true;  // then the table holds exact hulls
+  for_each_row(spec, dynamics, state, [&](const std::optional<SampledRow>& row) {
+    exact = row.has_value();
+    return exact;
+  });
+  return exact ? std::vector<std::int32_t>() : summed;
+}
+
+/// Finds out in which form the table will be stored, and how large it gets.
+void measure(const ProblemSpec& spec, const AffineDynamics& dynamics, std::size_t state, TableShape& shape) {
+  const AffinePart part = find_affine_part(spec, dynamics.dependencies(state), state);
+  const std::vector<std::int32_t> summed = states_of_sum(spec, dynamics, part, state);
+  shape.sum = !summed.empty();
+  const auto count = [&](std::int32_t j) { return static_cast<double>(spec.states[at(j)].grid.count); };
+  const auto values = [&](std::int32_t j) { return static_cast<double>(spec.inputs[at(j)].values.size()); };
+  for (const std::int32_t j : shape.states) {
+    const bool left_out = (shape.shift && at(j) == state) || contains(summed, j);
+    if (!left_out) shape.entries *= count(j);
+  }
+  for (const std::int32_t j : shape.inputs) shape.entries *= values(j);
+  for (const std::int32_t term : summed) {
+    double size = count(term);
+    for (const std::int32_t j : part.parameters) size *= count(j);
+    for (const std::int32_t j : part.inputs) size *= values(j);
+    shape.entries += size;
+  }
+  shape.bytes =
+      shape.entries * static_cast<double>(shape.sum ? 2 * sizeof(std::int64_t) : sizeof(IndexRange));
+}
+
 }  // namespace
 
 std::vector<TableShape> table_shapes(const ProblemSpec& spec) {
@@ -46,13 +116,7 @@ std::vector<TableShape> table_shapes(const ProblemSpec& spec) {
                      .shift = is_shift(spec, dependencies, i)};
     shape.states.insert(shape.states.end(), dependencies.parameters.begin(), dependencies.parameters.end());
     std::sort(shape.states.begin(), shape.states.end());
-    for (const std::int32_t j : shape.states) {
-      if (shape.shift && at(j) == i) continue;
-      shape.entries *= static_cast<double>(spec.states[static_cast<std::size_t>(j)].grid.count);
-    }
-    for (const std::int32_t j : shape.inputs) {
-      shape.entries *= static_cast<double>(spec.inputs[static_cast<std::size_t>(j)].values.size());
-    }
+    measure(spec, dynamics, i, shape);
     shapes.push_back(std::move(shape));
   }
   return shapes;
@@ -63,31 +127,58 @@ bool check_dynamics(const ProblemSpec& spec) {
   if (spec.abstraction.between_samples) check_between_samples(spec, dynamics);
   bool exact = true;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
-    const Dependencies& dependencies = dynamics.dependencies(i);
-    std::vector<std::int64_t> counts;
-    for (const std::int32_t j : dependencies.parameters) counts.push_back(spec.states[at(j)].grid.count);
-    for (const std::int32_t j : dependencies.inputs) {
-      counts.push_back(static_cast<std::int64_t>(spec.inputs[at(j)].values.size()));
-    }
-    Counter choice(counts);
-    do {
-      std::vector<Rational> slots(spec.slot_count());
-      std::size_t position = 0;
-      for (const std::int32_t j : dependencies.parameters) {
-        const GridSpec& grid = spec.states[at(j)].grid;
-        slots[spec.state_slot(at(j))] =
-            grid.first + grid.step * Rational(static_cast<long>(choice.indices()[position++]));
-      }
-      for (const std::int32_t j : dependencies.inputs) {
-        slots[spec.input_slot(at(j))] =
-            spec.inputs[at(j)].values[static_cast<std::size_t>(choice.indices()[position++])];
-      }
-      const std::optional<SampledRow> row = dynamics.row(i, slots);
+    for_each_row(spec, dynamics, i, [&](const std::optional<SampledRow>& row) {
       exact = exact && row && row->exact;
-    } while (choice.next());
+      return true;
+    });
   }
   return exact;
 }
+
+namespace {
+
+/// Lists of states with the same dependencies, so that one flow serves them all; in discrete time of one
+/// each.
+std::vector<std::vector<std::size_t>> group_by_flow(const ProblemSpec& spec, const AffineDynamics& dynamics,
+                                                    const std::vector<std::size_t>& states) {
+  const auto share = [&](std::size_t i, std::size_t j) {
+    return spec.dynamics.time == Time::continuous && dynamics.dependencies(i) == dynamics.dependencies(j);
+  };
+  std::vector<std::vector<std::size_t>> groups;
+  for (const std::size_t i : states) {
+    const auto group =
+        std::find_if(groups.begin(), groups.end(), [&](const auto& one) { return share(one.front(), i); });
+    if (group == groups.end()) {
+      groups.push_back({i});
+    } else {
+      group->push_back(i);
+    }
+  }
+  return groups;
+}
+
+bool build_sums(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
+                const std::vector<std::size_t>& states, ThreadTeam& team) {
+  const Dependencies& dependencies = dynamics.dependencies(states.front());
+  return build_sum_tables(spec, dependencies, find_affine_part(spec, dependencies, states.front()),
+                          abstraction, states, team);
+}
+
+void build_in_full(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
+                   const std::vector<std::size_t>& states, ThreadTeam& team) {
+  std::vector<std::size_t> others;
+  for (const std::size_t i : states) {
+    abstraction.tables[i] = {};
+    const std::optional<bool> exact = build_affine_table(spec, dynamics, abstraction, i, team);
+    abstraction.exact = abstraction.exact && exact.value_or(false);
+    if (!exact) others.push_back(i);
+  }
+  for (const std::vector<std::size_t>& group : group_by_flow(spec, dynamics, others)) {
+    build_enclosure_tables(spec, dynamics.dependencies(group.front()), abstraction, group, team);
+  }
+}
+
+}  // namespace
 
 Abstraction build_abstraction(const ProblemSpec& spec, ThreadTeam& team) {
   const AffineDynamics dynamics(spec);
@@ -97,11 +188,21 @@ Abstraction build_abstraction(const ProblemSpec& spec, ThreadTeam& team) {
     check_between_samples(spec, dynamics);
     abstraction.tubes.resize(spec.states.size());
   }
+  std::vector<std::size_t> sums;
+  std::vector<std::size_t> full;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
-    const std::optional<bool> exact = build_affine_table(spec, dynamics, abstraction, i, team);
-    if (!exact) build_enclosure_table(spec, dynamics.dependencies(i), abstraction, i, team);
-    abstraction.exact = abstraction.exact && exact.value_or(false);
+    const AffinePart part = find_affine_part(spec, dynamics.dependencies(i), i);
+    (states_of_sum(spec, dynamics, part, i).empty() ? full : sums).push_back(i);
   }
+  for (const std::vector<std::size_t>& states : group_by_flow(spec, dynamics, sums)) {
+    if (build_sums(spec, dynamics, abstraction, states, team)) {
+      abstraction.exact = false;
+    } else {
+      full.insert(full.end(), states.begin(), states.end());
+    }
+  }
+  std::sort(full.begin(), full.end());
+  build_in_full(spec, dynamics, abstraction, full, team);
   return abstraction;
 }
 

@@ -9,13 +9,15 @@
 
 namespace coordreq {
 
-/// The tables' dependencies and numbers of entries, without the entries.
+/// The tables' dependencies and sizes, without the entries.
 struct TableShape {
   std::vector<std::int32_t> states;
   std::vector<std::int32_t> inputs;
   std::vector<std::int32_t> disturbances;
   bool shift = false;  ///< as in TransitionTable
+  bool sum = false;    ///< likewise; if that fails the table is in full after all
   double entries = 1;  ///< that are stored; may be beyond what an integer holds
+  double bytes = 0;
 };
 [[nodiscard]] std::vector<TableShape> table_shapes(const ProblemSpec& spec);
 

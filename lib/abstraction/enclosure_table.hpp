@@ -1,13 +1,16 @@
 #pragma once
 
+#include <vector>
+
 #include "abstraction/abstraction.hpp"
 #include "base/thread_team.hpp"
 #include "dynamics/affine_dynamics.hpp"
 
 namespace coordreq {
 
-/// Fills the table of one state of any system from guaranteed enclosures: of the map in discrete time
+/// Fills the tables of states of any system from guaranteed enclosures: of the map in discrete time
 /// (MapEnclosure), of the flow in continuous time (ValidatedFlow). Never too small.
+/// @param states with the same `dependencies`, so that one flow serves them all; in discrete time one
 ///
 /// Where x_i(tau) = x_i(0) + d and d does not depend on x_i, only d is enclosed, once for each choice of the
 /// other states, and the table is filled by shifting.
@@ -15,7 +18,8 @@ namespace coordreq {
 /// within a
 ///   period (unless it has left through an unsafe side of its own before: then the pair is blocked), or if a
 ///   discrete state may be off its grid
-void build_enclosure_table(const ProblemSpec& spec, const Dependencies& dependencies,
-                           Abstraction& abstraction, std::size_t state, ThreadTeam& team);
+void build_enclosure_tables(const ProblemSpec& spec, const Dependencies& dependencies,
+                            Abstraction& abstraction, const std::vector<std::size_t>& states,
+                            ThreadTeam& team);
 
 }  // namespace coordreq

@@ -25,6 +25,13 @@ FlowSystem::Limit limit_of(const StateSpec& state) {
           .upper = box_of(last, last)};
 }
 
+/// The state stays within its limits; what rounding adds beyond them is dropped.
+Interval within_limits(const StateSpec& state, Interval value) {
+  if (state.below == Outside::stop) value.lower = std::max(value.lower, limit_of(state).lower.lower);
+  if (state.above == Outside::stop) value.upper = std::min(value.upper, limit_of(state).upper.upper);
+  return value;
+}
+
 }  // namespace
 
 StateEnclosure::StateEnclosure(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state)
@@ -61,7 +68,6 @@ void StateEnclosure::prepare_flow() {
   FlowSystem system;
   system.slot_count = spec_->slot_count();
   for (const std::int32_t j : dependencies_.moving) {
-    if (at(j) == state_) position_ = system.equations.size();
     system.equations.push_back(&spec_->dynamics.equations[at(j)]);
     system.state_slots.push_back(spec_->state_slot(at(j)));
     system.stops.push_back(limit_of(spec_->states[at(j)]));
@@ -73,39 +79,40 @@ void StateEnclosure::prepare_flow() {
                 upper_double(spec_->dynamics.period));
 }
 
-StateEnclosure::Result StateEnclosure::enclose() {
-  return map_ ? enclose_map() : enclose_flow();
+void StateEnclosure::enclose() {
+  if (map_) {
+    map_value_ = map_->enclose(slots_);
+  } else {
+    found_ = &flow_->flow(slots_);
+  }
 }
 
-StateEnclosure::Result StateEnclosure::enclose_map() {
-  const Interval value = map_->enclose(slots_);
-  if (!value.total) return {.status = Status::undefined, .culprit = state_};
-  if (!shifts_) return {.value = value};
-  return {.value = value - Interval{.lower = origin_, .upper = origin_}};
+StateEnclosure::Result StateEnclosure::result(std::size_t state) const {
+  return map_ ? result_of_map() : result_of_flow(state);
 }
 
-/// The state stays within its limits; what rounding adds beyond them is dropped.
-Interval StateEnclosure::within_limits(Interval value) const {
-  const FlowSystem::Limit limit = limit_of(spec_->states[state_]);
-  if (limit.below) value.lower = std::max(value.lower, limit.lower.lower);
-  if (limit.above) value.upper = std::min(value.upper, limit.upper.upper);
-  return value;
+StateEnclosure::Result StateEnclosure::result_of_map() const {
+  if (!map_value_.total) return {.status = Status::undefined, .culprit = state_};
+  if (!shifts_) return {.value = map_value_};
+  return {.value = map_value_ - Interval{.lower = origin_, .upper = origin_}};
 }
 
-StateEnclosure::Result StateEnclosure::enclose_flow() {
-  const FlowEnclosure& found = flow_->flow(slots_);
-  if (found.status == FlowEnclosure::Status::ok) {
-    return {.value = within_limits(found.end[position_]),
-            .tube = within_limits(found.tube[position_]),
-            .drift = found.drift[position_]};
+StateEnclosure::Result StateEnclosure::result_of_flow(std::size_t state) const {
+  const StateSpec& own = spec_->states[state];
+  const auto place =
+      std::find(dependencies_.moving.begin(), dependencies_.moving.end(), static_cast<std::int32_t>(state));
+  const auto position = static_cast<std::size_t>(place - dependencies_.moving.begin());
+  if (found_->status == FlowEnclosure::Status::ok) {
+    return {.value = within_limits(own, found_->end[position]),
+            .tube = within_limits(own, found_->tube[position]),
+            .drift = found_->drift[position]};
   }
   Result result{
-      .status = found.status == FlowEnclosure::Status::blows_up ? Status::blows_up : Status::undefined,
-      .culprit = at(dependencies_.moving[found.culprit])};
-  if (!shifts_ && position_ < found.tube.size()) {
-    const StateSpec& own = spec_->states[state_];
+      .status = found_->status == FlowEnclosure::Status::blows_up ? Status::blows_up : Status::undefined,
+      .culprit = at(dependencies_.moving[found_->culprit])};
+  if (!shifts_ && position < found_->tube.size()) {
     const Interval domain = range_of(own);
-    const Interval& tube = found.tube[position_];
+    const Interval& tube = found_->tube[position];
     result.left_unsafely = (own.below == Outside::unsafe && tube.lower < domain.lower) ||
                            (own.above == Outside::unsafe && tube.upper > domain.upper);
   }

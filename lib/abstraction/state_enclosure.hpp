@@ -31,30 +31,34 @@ class StateEnclosure {
   /// REQUIRES: `spec` outlives this object.
   StateEnclosure(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state);
 
-  /// x_i(tau) - x_i(0) does not depend on x_i: enclose() then gives the difference and needs no box of x_i.
+  /// x_i(tau) - x_i(0) does not depend on x_i: result() then gives the difference and needs no box of x_i.
   [[nodiscard]] bool shifts() const { return shifts_; }
 
   /// Sets the box of a state, input or parameter; disturbances are set already.
   void set(std::uint32_t slot, const Interval& box) { slots_[slot] = box; }
 
-  [[nodiscard]] Result enclose();
+  /// Finds out what result() tells.
+  void enclose();
+  /// @param state the one of the constructor; in continuous time any moving one that it depends on, if this
+  ///   does not shift
+  [[nodiscard]] Result result(std::size_t state) const;
 
  private:
   void prepare_map();
   void prepare_flow();
-  [[nodiscard]] Result enclose_map();
-  [[nodiscard]] Result enclose_flow();
-  [[nodiscard]] Interval within_limits(Interval value) const;
+  [[nodiscard]] Result result_of_map() const;
+  [[nodiscard]] Result result_of_flow(std::size_t state) const;
 
   const ProblemSpec* spec_;
   Dependencies dependencies_;
   std::size_t state_;
-  std::size_t position_ = 0;  ///< of the state among the moving ones
   bool shifts_ = false;
   double origin_ = 0;  ///< the present value put in where the map shifts
   std::vector<Interval> slots_;
   std::optional<MapEnclosure> map_;
   std::optional<ValidatedFlow> flow_;
+  Interval map_value_;                    ///< by the last enclose()
+  const FlowEnclosure* found_ = nullptr;  ///< likewise, within flow_
 };
 
 }  // namespace coordreq

@@ -83,7 +83,8 @@ struct SpecReport {
     std::vector<std::string> inputs;
     std::vector<std::string> disturbances;
     bool shift = false;  ///< only as an offset to the present value, stored once for all present ones
-    std::uint64_t table_entries = 0;
+    bool sum = false;    ///< a term for each state in which it is affine, plus a base over the rest
+    std::uint64_t table_entries = 0;  ///< numbers of ranges or, in a sum, of pairs of summands
     std::uint64_t table_bytes = 0;
   };
   struct Input {

@@ -70,10 +70,10 @@ double estimate_memory(const ProblemSpec& spec) {
   const double set_bytes = cells / row_length * 8 * std::ceil(row_length / 64);
   double bytes = kFixedBytes;
   for (const TableShape& shape : table_shapes(spec)) {
-    bytes += shape.entries * sizeof(IndexRange) + row_choices(shape, spec) * sizeof(std::uint32_t);
-    // The tubes, cut into rows twice where states saturate.
+    bytes += shape.bytes + row_choices(shape, spec) * sizeof(std::uint32_t);
+    // The tubes, as large as the tables, which are no sums then; cut into rows twice where states saturate.
     if (spec.abstraction.between_samples) {
-      bytes += shape.entries * sizeof(IndexRange) + 2 * row_choices(shape, spec) * sizeof(std::uint32_t);
+      bytes += shape.bytes + 2 * row_choices(shape, spec) * sizeof(std::uint32_t);
     }
   }
   bytes += condition_bytes(spec.safe, spec);
@@ -137,8 +137,9 @@ SpecReport inspect(const ProblemSpec& spec) {
                           .inputs = names(spec.inputs, shapes[i].inputs),
                           .disturbances = names(spec.disturbances, shapes[i].disturbances),
                           .shift = shapes[i].shift,
+                          .sum = shapes[i].sum,
                           .table_entries = to_bytes(shapes[i].entries),
-                          .table_bytes = to_bytes(shapes[i].entries * sizeof(IndexRange))});
+                          .table_bytes = to_bytes(shapes[i].bytes)});
     report.cells *= state.grid.count;
   }
   for (const InputSpec& input : spec.inputs) {

@@ -93,7 +93,8 @@ class Projections::Builder {
       for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= masks_[c][h * mask.size() + w];
     }
     known_[g] = 1;
-    if (is_subset(invariant, mask)) return;
+    find_reachable(c, g, invariant);
+    if (is_subset(reachable_, mask)) return;
     // An action of class c is in the projection if some action of the others goes with it; their minimal ones
     // do.
     choose_groups(groups_, GroupChoice::minimal, candidates_);
@@ -106,18 +107,33 @@ class Projections::Builder {
     do {
       controller_row(controller_, place.row, tuple_, posts_, members_);
       for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= members_[w];
-    } while (!is_subset(invariant, mask) && tuple_.next());
+    } while (!is_subset(reachable_, mask) && tuple_.next());
+  }
+
+  /// The cells of K whose post under group g does not leave an unsafe end of the row, whatever the others do:
+  /// no more than these can be found.
+  void find_reachable(std::size_t c, std::uint32_t g, ConstRow invariant) {
+    reachable_.assign(invariant.begin(), invariant.end());
+    const std::size_t last = controller_.engine->tables() - 1;
+    if (!is_simple_ || boxes_.moved(c).empty() || boxes_.moved(c).back() != last) return;
+    const IndexRange window = boxes_.ranges(c, g).back();
+    const RowEnds ends = controller_.engine->posts().ends;
+    const std::int64_t n = controller_.engine->row_length();
+    left_.assign(reachable_.size(), 0);
+    if (ends.below == Outside::unsafe) set_bits(left_, 0, std::clamp<std::int64_t>(-window.first, 0, n));
+    if (ends.above == Outside::unsafe) set_bits(left_, n - std::clamp<std::int64_t>(window.last, 0, n), n);
+    for (std::size_t w = 0; w < left_.size(); ++w) reachable_[w] &= ~left_[w];
   }
 
   /// Adds the cells whose post is in K, for all candidates of class c and those after it, to `mask`.
-  /// @returns false if that is all of K
+  /// @returns false if there is no more to find
   bool add_boxes(std::size_t c, const RowPlace& place, MutableRow mask) {
     const ConstRow invariant = controller_.invariant->row(place.row);
     if (c == candidates_.size()) {
       const auto n = static_cast<std::size_t>(controller_.engine->row_length());
       posts_.kernels().top_bits(posts_.minimum(box_), members_.data(), n);
       for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= members_[w] & invariant[w];
-      return !is_subset(invariant, mask);
+      return !is_subset(reachable_, mask);
     }
     for (const std::uint32_t g : candidates_[c]) {
       if (boxes_.kind(c, g) == RowBoxes::Kind::blocked) continue;
@@ -143,6 +159,8 @@ class Projections::Builder {
   std::vector<std::vector<Word>> masks_;
   std::vector<std::uint8_t> known_;
   std::vector<Word> scratch_;
+  std::vector<Word> reachable_;
+  std::vector<Word> left_;
 };
 
 Projections::Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,

@@ -16,6 +16,7 @@ struct Dependencies {
   std::vector<std::int32_t> parameters;  ///< discrete states whose values are put in one by one
   std::vector<std::int32_t> inputs;
   std::vector<std::int32_t> disturbances;
+  [[nodiscard]] bool operator==(const Dependencies&) const = default;
 };
 
 /// The sampled map of one state for fixed parameters and inputs:

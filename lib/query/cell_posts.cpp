@@ -13,16 +13,20 @@ bool contains(const std::vector<std::int32_t>& list, std::size_t value) {
   return std::find(list.begin(), list.end(), static_cast<std::int32_t>(value)) != list.end();
 }
 
-double whole_entries(const ProblemSpec& spec) {
+/// Entries to compute from which on all are computed. Sums have few, and no others hold the same ranges.
+double most_entries(const ProblemSpec& spec) {
   double entries = 0;
-  for (const TableShape& shape : table_shapes(spec)) entries += shape.entries;
+  for (const TableShape& shape : table_shapes(spec)) {
+    if (shape.sum) return 0;
+    entries += shape.entries;
+  }
   return entries;
 }
 
 }  // namespace
 
 CellPosts::CellPosts(const ResultsReader& results, ThreadTeam& team)
-    : results_(results), team_(team), dynamics_(results.spec()) {
+    : results_(results), team_(team), dynamics_(results.spec()), most_entries_(most_entries(results.spec())) {
   const bool wants_tubes = results.spec().abstraction.between_samples;
   if (results.has_abstraction() && !wants_tubes) whole_ = results.abstraction();
 }
@@ -38,7 +42,7 @@ const Abstraction& CellPosts::whole() {
 
 void CellPosts::move_to(std::int64_t cell) {
   if (cell == cell_) return;
-  if (!whole_ && entries_built_ >= whole_entries(results_.spec())) prepare_all();
+  if (!whole_ && entries_built_ >= most_entries_) prepare_all();
   if (!whole_) build_parts(cell);
   cell_ = cell;
 }
@@ -68,7 +72,7 @@ void CellPosts::build_parts(std::int64_t cell) {
   for (std::size_t i = 0; i < results_.grid().size(); ++i) {
     Abstraction& part = parts_.emplace_back(part_of(i, cell));
     const bool is_affine = build_affine_table(results_.spec(), dynamics_, part, i, team_).has_value();
-    if (!is_affine) build_enclosure_table(results_.spec(), dynamics_.dependencies(i), part, i, team_);
+    if (!is_affine) build_enclosure_tables(results_.spec(), dynamics_.dependencies(i), part, {i}, team_);
     std::int64_t place = 0;
     for (std::size_t j = 0; j < part.grid.size(); ++j) {
       if (part.grid[j].count > 1) place += results_.grid().index(cell, j) * part.grid.stride(j);

@@ -101,9 +101,10 @@ std::vector<RowEngine::Demand> RowEngine::demands() const {
 /// The first dimensions may be taken first if nothing that moves them depends on those that follow.
 bool RowEngine::is_closed(std::size_t outer) const {
   for (std::size_t t = 0; t < outer; ++t) {
-    const std::vector<std::int64_t>& stride = abstraction_->tables[t].state_stride;
-    if (std::any_of(stride.begin() + static_cast<std::ptrdiff_t>(outer), stride.end(),
-                    [](std::int64_t s) { return s != 0; })) {
+    // Not its strides: they are 0, too, for what a table depends on in another way than by its entries.
+    const std::vector<std::int32_t>& states = abstraction_->tables[t].states;
+    if (std::any_of(states.begin(), states.end(),
+                    [&](std::int32_t j) { return static_cast<std::size_t>(j) >= outer; })) {
       return false;
     }
   }

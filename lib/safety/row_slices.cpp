@@ -1,24 +1,24 @@
 #include "safety/row_slices.hpp"
 
-#include <map>
+#include <unordered_set>
 #include <utility>
 
 #include "abstraction/counter.hpp"
+#include "abstraction/table_rows.hpp"
 
 namespace coordreq {
 namespace {
 
 using Kind = RowSegment::Kind;
 
-/// Cuts one row of raw ranges; `raw(c)` is that of cell c.
+/// Cuts one row of raw ranges, given cell by cell, or one range for all cells.
 class RowCutter {
  public:
   RowCutter(const GridDimension& target, bool is_row_dimension, std::int64_t length)
       : target_(target), is_row_dimension_(is_row_dimension), length_(static_cast<std::int32_t>(length)) {}
 
-  template <class Raw>
-  [[nodiscard]] std::vector<RowSegment> cut(const Raw& raw, bool all_alike) const {
-    if (all_alike) return {fixed(0, length_, raw(0))};
+  [[nodiscard]] std::vector<RowSegment> cut(const std::vector<IndexRange>& raw) const {
+    if (raw.size() == 1) return {fixed(0, length_, raw[0])};
     std::vector<RowSegment> result;
     for (std::int32_t begin = 0; begin < length_;) {
       const RowSegment next = longest_segment(raw, begin);
@@ -50,8 +50,8 @@ class RowCutter {
     return {begin, end, Kind::fixed, r.inside};
   }
 
-  template <class Raw>
-  [[nodiscard]] RowSegment longest_segment(const Raw& raw, std::int32_t begin) const {
+  [[nodiscard]] RowSegment longest_segment(const std::vector<IndexRange>& ranges, std::int32_t begin) const {
+    const auto raw = [&](std::int32_t c) { return ranges[static_cast<std::size_t>(c)]; };
     RowSegment segment = fixed(begin, begin + 1, raw(begin));
     while (segment.end < length_) {
       RowSegment next = fixed(begin, segment.end + 1, raw(segment.end));
@@ -94,33 +94,30 @@ class RowCutter {
 /// Counts through what the slices of one table range over: its states without the last one, then its inputs.
 class RowChoices {
  public:
-  RowChoices(const Abstraction& abstraction, const TransitionTable& table, std::size_t state)
-      : counter_(counts(abstraction, table)) {
-    const std::size_t last = abstraction.grid.size() - 1;
-    for (const std::int32_t i : table.states) {
-      const auto s = static_cast<std::size_t>(i);
-      if (s == last) continue;
-      if (s == state) own_ = static_cast<std::int32_t>(strides_.size());
-      strides_.push_back(table.state_stride[s]);
-    }
-    for (const std::int32_t i : table.inputs)
-      strides_.push_back(table.input_stride[static_cast<std::size_t>(i)]);
-  }
+  RowChoices(const Abstraction& abstraction, const TransitionTable& table)
+      : table_(table),
+        counter_(counts(abstraction, table)),
+        states_(abstraction.grid.size(), 0),
+        inputs_(abstraction.inputs.size(), 0) {}
 
   [[nodiscard]] std::int64_t size() const { return counter_.size(); }
-  bool next() { return counter_.next(); }
 
-  /// Of the entry of the row's first cell.
-  [[nodiscard]] std::int64_t position() const {
-    std::int64_t sum = 0;
-    for (std::size_t v = 0; v < strides_.size(); ++v) sum += counter_.indices()[v] * strides_[v];
-    return sum;
+  bool next() {
+    const bool more = counter_.next();
+    std::size_t v = 0;
+    for (const std::int32_t i : table_.states) {
+      if (static_cast<std::size_t>(i) + 1 != states_.size())
+        states_[static_cast<std::size_t>(i)] = counter_.indices()[v++];
+    }
+    for (const std::int32_t i : table_.inputs) {
+      inputs_[static_cast<std::size_t>(i)] = counter_.indices()[v++];
+    }
+    return more;
   }
 
-  /// Index of the table's own state; 0 if that is the last one or not in use.
-  [[nodiscard]] std::int64_t own() const {
-    return own_ < 0 ? 0 : counter_.indices()[static_cast<std::size_t>(own_)];
-  }
+  /// Indices of all states and inputs, 0 where not in use.
+  [[nodiscard]] const std::vector<std::int64_t>& states() const { return states_; }
+  [[nodiscard]] const std::vector<std::int64_t>& inputs() const { return inputs_; }
 
  private:
   static std::vector<std::int64_t> counts(const Abstraction& abstraction, const TransitionTable& table) {
@@ -136,9 +133,48 @@ class RowChoices {
     return result;
   }
 
+  const TransitionTable& table_;
   Counter counter_;
-  std::vector<std::int64_t> strides_;
-  std::int32_t own_ = -1;
+  std::vector<std::int64_t> states_;
+  std::vector<std::int64_t> inputs_;
+};
+
+/// Numbers slices in the order in which they are met, equal ones alike.
+class SliceNumbers {
+ public:
+  /// REQUIRES: `slices` outlives this object.
+  explicit SliceNumbers(std::vector<std::vector<RowSegment>>& slices)
+      : slices_(slices), known_(0, Hash{&slices}, Equal{&slices}) {}
+
+  std::uint32_t number(std::vector<RowSegment> slice) {
+    slices_.push_back(std::move(slice));
+    const auto [found, is_new] = known_.insert(static_cast<std::uint32_t>(slices_.size() - 1));
+    if (!is_new) slices_.pop_back();
+    return *found;
+  }
+
+ private:
+  struct Hash {
+    const std::vector<std::vector<RowSegment>>* slices;
+    std::size_t operator()(std::uint32_t i) const {
+      std::uint64_t sum = 0;
+      for (const RowSegment& s : (*slices)[i]) {
+        for (const std::int64_t part : {std::int64_t{s.begin} << 8U | static_cast<std::int64_t>(s.kind),
+                                        std::int64_t{s.range.first}, std::int64_t{s.range.last}}) {
+          sum = (sum ^ static_cast<std::uint64_t>(part)) * 0x9E3779B97F4A7C15U;
+          sum ^= sum >> 29U;
+        }
+      }
+      return sum;
+    }
+  };
+  struct Equal {
+    const std::vector<std::vector<RowSegment>>* slices;
+    bool operator()(std::uint32_t i, std::uint32_t j) const { return (*slices)[i] == (*slices)[j]; }
+  };
+
+  std::vector<std::vector<RowSegment>>& slices_;
+  std::unordered_set<std::uint32_t, Hash, Equal> known_;
 };
 
 /// Strides into `ids`, over what RowChoices counts.
@@ -167,25 +203,26 @@ RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& t
                         const GridDimension& target) {
   const UniformGrid& grid = abstraction.grid;
   const std::size_t last = grid.size() - 1;
-  const std::int64_t column_stride = table.state_stride[last];
-
   RowSlices result{.ids = {}, .slices = {}, .state_stride = {}, .input_stride = {}, .inputs = table.inputs};
   lay_out_ids(result, grid, abstraction.inputs, table);
   const RowCutter cutter(target, state == last, grid.row_length());
-  std::map<std::vector<RowSegment>, std::uint32_t> known;
-  RowChoices choice(abstraction, table, state);
+  SliceNumbers numbers(result.slices);
+  const TableRows rows(table, state, last);
+  const bool one_range = rows.is_constant() || rows.is_shift();
+  std::vector<IndexRange> row(one_range ? 1 : static_cast<std::size_t>(grid.row_length()));
+  std::vector<IndexRange> before;
+  RowChoices choice(abstraction, table);
   result.ids.reserve(static_cast<std::size_t>(choice.size()));
   do {
-    const std::int64_t position = choice.position();
-    const auto slice =
-        table.shift && state == last
-            ? std::vector{cutter.cut_shift(table.range(position, 0))}
-            : cutter.cut(
-                  [&](std::int32_t c) { return table.range(position + c * column_stride, choice.own()); },
-                  column_stride == 0);
-    auto [found, is_new] = known.try_emplace(slice, static_cast<std::uint32_t>(result.slices.size()));
-    if (is_new) result.slices.push_back(found->first);
-    result.ids.push_back(found->second);
+    rows.read(choice.states(), choice.inputs(), row);
+    if (row == before) {  // neighbouring inputs often mean the same
+      result.ids.push_back(result.ids.back());
+      continue;
+    }
+    result.ids.push_back(
+        numbers.number(rows.is_shift() ? std::vector{cutter.cut_shift(row[0])} : cutter.cut(row)));
+    before.swap(row);
+    row.resize(before.size());
   } while (choice.next());
   return result;
 }

@@ -27,11 +27,10 @@ Excess find_excess(const TransitionTable& tube, const GridDimension& dimension) 
       excess.above = std::max(excess.above, std::int64_t{raw.last} - (dimension.count - 1));
     }
   };
-  const auto size = static_cast<std::int64_t>(tube.entries.size());
-  for (std::int64_t position = 0; position < size; ++position) {
+  for (const IndexRange entry : tube.entries) {
+    if (!tube.shift) add(entry);
     // The entry of a shift serves every index of its own.
-    for (std::int64_t own = 0; own < (tube.shift ? dimension.count : 1); ++own)
-      add(tube.range(position, own));
+    for (std::int64_t own = 0; tube.shift && own < dimension.count; ++own) add(moved(entry, own));
   }
   return excess;
 }

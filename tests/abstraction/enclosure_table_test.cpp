@@ -2,40 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include "abstraction/attack.hpp"
+#include "abstraction/simulated_flow.hpp"
 #include "base/error.hpp"
-#include "simulated_flow.hpp"
 
 namespace coordreq {
 namespace {
 
+using test::attack;
 using test::build;
 using test::spec_text;
-
-/// True if the value lies in the raw range, cells taken as closed; modulo the count where periodic.
-bool in_range(const GridDimension& dimension, IndexRange range, double value) {
-  const double position = (value - dimension.first.get_d()) / dimension.step.get_d();
-  const double slack = 1e-9;  // of the simulation
-  for (int turn = dimension.periodic() ? -3 : 0; turn <= (dimension.periodic() ? 3 : 0); ++turn) {
-    const double k = position + turn * static_cast<double>(dimension.count);
-    if (range.first - 0.5 - slack <= k && k <= range.last + 0.5 + slack) return true;
-  }
-  return false;
-}
-
-/// Points of random cells, on corners and inside, must land in the posts.
-void attack(const ProblemSpec& spec, int cases) {
-  const Abstraction a = build(spec);
-  std::mt19937_64 random(20180410);
-  for (int c = 0; c < cases; ++c) {
-    const test::RandomStart start = test::random_start(spec, a, random);
-    const std::vector<double> next = test::simulate(spec, start.slots).back();
-    for (std::size_t i = 0; i < a.grid.size(); ++i) {
-      ASSERT_TRUE(in_range(a.grid[i], a.raw(i, start.cell, start.input), next[i]))
-          << a.grid[i].name << " = " << next[i] << " from cell " << start.cell << " under input "
-          << start.input;
-    }
-  }
-}
 
 const std::string kHeading =
     R"({"name": "h", "lower": "-pi", "upper": "pi", "count": 12, "outside": "periodic"})";

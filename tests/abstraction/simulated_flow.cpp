@@ -1,5 +1,6 @@
-#include "simulated_flow.hpp"
+#include "abstraction/simulated_flow.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "expression/evaluate.hpp"
@@ -15,6 +16,20 @@ std::vector<double> right_hand_side(const ProblemSpec& spec, std::vector<double>
     result.push_back(evaluator.number(slots));
   }
   return result;
+}
+
+double uniform(double low, double high, std::mt19937_64& random) {
+  return std::uniform_real_distribution<>(low, high)(random);
+}
+
+/// New values of the disturbances, at their ends more often than not.
+void switch_disturbances(const ProblemSpec& spec, std::mt19937_64& random, std::vector<double>& slots) {
+  for (std::size_t l = 0; l < spec.disturbances.size(); ++l) {
+    const double lower = spec.disturbances[l].lower.get_d();
+    const double upper = spec.disturbances[l].upper.get_d();
+    slots[spec.disturbance_slot(l)] =
+        std::clamp(uniform(2 * lower - upper, 2 * upper - lower, random), lower, upper);
+  }
 }
 
 }  // namespace
@@ -33,7 +48,9 @@ Abstraction build(const ProblemSpec& spec) {
   return build_abstraction(spec, team);
 }
 
-std::vector<std::vector<double>> simulate(const ProblemSpec& spec, std::vector<double> slots) {
+std::vector<std::vector<double>> simulate(const ProblemSpec& spec, std::vector<double> slots,
+                                          std::mt19937_64& random) {
+  switch_disturbances(spec, random, slots);
   if (spec.dynamics.time == Time::discrete) return {right_hand_side(spec, slots)};
   const int steps = 400;
   const double h = spec.dynamics.period.get_d() / steps;
@@ -45,6 +62,7 @@ std::vector<std::vector<double>> simulate(const ProblemSpec& spec, std::vector<d
   };
   std::vector<std::vector<double>> path;
   for (int s = 0; s < steps; ++s) {
+    if (uniform(0, steps, random) < 3) switch_disturbances(spec, random, slots);
     const auto k1 = right_hand_side(spec, slots);
     const auto k2 = right_hand_side(spec, moved(k1, h / 2));
     const auto k3 = right_hand_side(spec, moved(k2, h / 2));
@@ -56,9 +74,6 @@ std::vector<std::vector<double>> simulate(const ProblemSpec& spec, std::vector<d
 }
 
 RandomStart random_start(const ProblemSpec& spec, const Abstraction& a, std::mt19937_64& random) {
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<>(low, high)(random);
-  };
   RandomStart start;
   start.cell = std::uniform_int_distribution<std::int64_t>(0, a.grid.cells() - 1)(random);
   start.input = std::uniform_int_distribution<std::int64_t>(0, a.inputs.count() - 1)(random);
@@ -67,7 +82,7 @@ RandomStart random_start(const ProblemSpec& spec, const Abstraction& a, std::mt1
   for (std::size_t i = 0; i < a.grid.size(); ++i) {
     const GridDimension& dimension = a.grid[i];
     const double reach = Rational(dimension.radius() + dimension.measurement_error).get_d();
-    const double where = corner ? std::round(uniform(-1, 1)) : uniform(-1, 1);
+    const double where = corner ? std::round(uniform(-1, 1, random)) : uniform(-1, 1, random);
     double& value = start.slots[i];
     value = dimension.point(a.grid.index(start.cell, i)).get_d() + where * reach;
     const double period = Rational(dimension.upper - dimension.lower).get_d();

@@ -16,8 +16,10 @@ namespace coordreq::test {
 [[nodiscard]] Abstraction build(const ProblemSpec& spec);
 
 /// Follows a solution with classical Runge-Kutta steps, far finer than the cells; in discrete time one step.
-/// @param slots states, inputs and disturbances @returns the states after each step
-[[nodiscard]] std::vector<std::vector<double>> simulate(const ProblemSpec& spec, std::vector<double> slots);
+/// Disturbances switch a few times at random, to their ends more often than not.
+/// @param slots states and inputs @returns the states after each step
+[[nodiscard]] std::vector<std::vector<double>> simulate(const ProblemSpec& spec, std::vector<double> slots,
+                                                        std::mt19937_64& random);
 
 /// A cell, a joint input, and a true state that can be measured in the cell: a corner one time in three.
 struct RandomStart {

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "abstraction/enclosure_table.hpp"
+#include "abstraction/simulated_flow.hpp"
 #include "base/error.hpp"
-#include "simulated_flow.hpp"
 
 namespace coordreq {
 namespace {
@@ -36,7 +37,7 @@ void attack(const ProblemSpec& spec, int cases) {
   std::mt19937_64 random(20180410);
   for (int c = 0; c < cases; ++c) {
     const test::RandomStart start = test::random_start(spec, a, random);
-    for (const std::vector<double>& state : test::simulate(spec, start.slots)) {
+    for (const std::vector<double>& state : test::simulate(spec, start.slots, random)) {
       for (std::size_t i = 0; i < a.grid.size(); ++i) {
         ASSERT_TRUE(is_covered(a.grid[i], a.raw_tube(i, start.cell, start.input), state[i]))
             << a.grid[i].name << " = " << state[i] << " from cell " << start.cell << " under input "
@@ -168,6 +169,39 @@ TEST(Tube, OfADiscreteStateIsItsCell) {
 TEST(Tube, ThereIsNoneUnlessAskedFor) {
   EXPECT_TRUE(
       test::build(read_spec(test::spec_text(kLine, "continuous", R"json("x": "u")json"), "t")).tubes.empty());
+}
+
+/// States that move each other share a flow: each gets the tube that it would have got alone.
+TEST(Tube, IsTheSameFromASharedFlow) {
+  const ProblemSpec spec = flow(kPlane + ", " + kHeading,
+                                R"json("x": "sin(h) - u*y", "y": "cos(h) + x*y + u", "h": "x - 0.3*h")json");
+  const AffineDynamics dynamics(spec);
+  const Abstraction together = test::build(spec);
+  ThreadTeam team(2);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_TRUE(dynamics.dependencies(i) == dynamics.dependencies(0));
+    Abstraction alone = together;
+    alone.tables[i] = {};
+    alone.tubes[i] = {};
+    build_enclosure_tables(spec, dynamics.dependencies(i), alone, {i}, team);
+    EXPECT_EQ(alone.tables[i].entries, together.tables[i].entries);
+    EXPECT_EQ(alone.tubes[i].entries, together.tubes[i].entries);
+  }
+}
+
+TEST(Tube, NeedsTablesInFullInsteadOfSums) {
+  const std::string equations = R"json("x": "y + u", "y": "-2*x")json";
+  const Abstraction sums = test::build(read_spec(test::spec_text(kPlane, "continuous", equations), "t"));
+  const ProblemSpec spec = flow(kPlane, equations);
+  const Abstraction full = test::build(spec);
+  const std::vector<TableShape> shapes = table_shapes(spec);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(sums.tables[i].is_sum());
+    EXPECT_FALSE(full.tables[i].is_sum());
+    EXPECT_EQ(full.tubes[i].entries.size(), full.tables[i].entries.size());
+    EXPECT_FALSE(shapes[i].sum);
+    EXPECT_EQ(shapes[i].bytes, static_cast<double>(full.tubes[i].bytes()));
+  }
 }
 
 TEST(Tube, ThreadsDoNotChangeIt) {

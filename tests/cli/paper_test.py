@@ -44,8 +44,8 @@ class Cases(Case):
         found = self.check("platoon", 162000, 28512, 74, [28512, 19440, 0])
         self.assertEqual(found["F"], 2)
 
-    def test_aircraft(self):
-        summary = self.summary("aircraft")
+    def test_aircraft_coarse(self):
+        summary = self.summary("aircraft_coarse")
         self.assertEqual(summary["safe"], 10080)
         # Enclosures depend on the C library's last digits; more than the exact hull can never come out.
         self.assertLessEqual(summary["invariant"], 8700)

@@ -112,7 +112,9 @@ TEST(Engines, AgreeOnAnyTablesOfRanges) {
     Abstraction abstraction = build_abstraction(spec, team);
     for (std::size_t i = 0; i < spec.states.size(); ++i) {
       // Half of the time shifts are disturbed as such, else cell by cell.
-      if (*rc::gen::arbitrary<bool>()) abstraction.tables[i] = written_out(abstraction, i);
+      // A sum is disturbed cell by cell in any case.
+      const bool by_cells = abstraction.tables[i].is_sum() || *rc::gen::arbitrary<bool>();
+      if (by_cells) abstraction.tables[i] = written_out(abstraction, i);
       const auto disturb = [&](TransitionTable& table) {
         for (IndexRange& entry : table.entries) entry = disturbed(entry, abstraction.grid[i].count);
       };
@@ -140,6 +142,49 @@ TEST(Engines, SafeSetsLieBetweenNaturalEvaluationAndSamples) {
       RC_ASSERT(!safe[x] || bounds.sampled[x]);
     }
   }));
+}
+
+TEST(Engines, SumsDoNotHideWhatAStateDependsOn) {
+  // y and x turn together, so that only h moves by itself; so fine that sharing more would seem to pay.
+  const ProblemSpec spec = read_spec(R"json({"coordreq": 1, "name": "turn",
+"states": [{"name": "h", "lower": 0, "upper": "2*pi", "count": 36, "outside": "periodic"},
+           {"name": "y", "lower": -10, "upper": 10, "step": 0.5, "outside": "safe"},
+           {"name": "x", "lower": -10, "upper": 10, "step": 0.5, "outside": "safe"}],
+"inputs": [{"name": "u", "lower": -1, "upper": 1, "step": 0.5}, {"name": "v", "lower": -1, "upper": 1, "step": 0.5}],
+"agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
+"dynamics": {"time": "continuous", "period": 0.2,
+  "equations": {"x": "-5 + 5*cos(h) + u*y", "y": "5*sin(h) - u*x", "h": "v - u"}},
+"safe": "x^2 + y^2 >= 4"})json",
+                                     "turn");
+  ThreadTeam team(2);
+  const Abstraction abstraction = build_abstraction(spec, team);
+  EXPECT_TRUE(abstraction.tables[1].is_sum());
+  EXPECT_LE(RowEngine(abstraction, nullptr, {}).outer(), 1U);
+}
+
+TEST(Engines, AgreeOnTablesThatAreSums) {
+  const std::string text = R"json({"coordreq": 1, "name": "sums",
+"states": [{"name": "h", "lower": 0, "upper": "2*pi", "count": 7, "outside": "periodic"},
+           {"name": "y", "lower": -4, "upper": 4, "step": 1, "outside": {"below": "safe", "above": "saturate"}},
+           {"name": "x", "lower": -4, "upper": 4, "step": 0.5, "outside": "EDGE"}],
+"inputs": [{"name": "u", "values": [-1, 0, 1]}, {"name": "v", "values": [-1, 1]}],
+"agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
+"dynamics": {"time": "continuous", "period": 0.5,
+  "equations": {"x": "-1 + cos(h) + u*y", "y": "sin(h) - u*x", "h": "v - u"}},
+"safe": "x^2 + y^2 >= 1", "abstraction": {"cells": "CELLS"}})json";
+  ThreadTeam team(2);
+  for (const std::string edge : {"unsafe", "safe", "saturate"}) {
+    for (const std::string cells : {"closed", "half_open"}) {
+      std::string one = text;
+      one.replace(one.find("EDGE"), 4, edge);
+      one.replace(one.find("CELLS"), 5, cells);
+      const ProblemSpec spec = read_spec(one, "sums");
+      const FastAnalysis fast(spec, team);
+      EXPECT_TRUE(fast.abstraction.tables[1].is_sum());
+      EXPECT_TRUE(fast.abstraction.tables[2].is_sum());
+      expect_agreement(spec, fast, plainly(spec, fast), team);
+    }
+  }
 }
 
 /// Rows of 150 cells, shifts beyond a word.

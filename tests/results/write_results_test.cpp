@@ -311,6 +311,21 @@ TEST(WriteResults, BytesDoNotDependOnThreadsOrRun) {
   }
 }
 
+TEST(WriteResults, TriggersThatEqualDelaysAreReadAsIfWrittenForThemselves) {
+  for (const std::uint64_t points :
+       {std::uint64_t{61}, std::uint64_t{3}}) {  // in chunks, and too small for any
+    ResultContent content = sample::make_content({.points = {points, 5, 40}});
+    for (ResultPartition& partition : content.partitions) partition.trigger = partition.delay;
+    const ScratchFolder folder;
+    write(folder / "twice.h5", content);
+    content.triggers_are_delays = true;
+    write(folder / "once.h5", content);
+    const Handle once = open_file(folder / "once.h5");
+    EXPECT_EQ(elements(once, "/trigger"), elements(once, "/delay"));
+    EXPECT_EQ(bytes_of(folder / "once.h5"), bytes_of(folder / "twice.h5"));
+  }
+}
+
 TEST(WriteResults, ReplacesOnSuccess) {
   const ScratchFolder folder;
   sample::write_bytes(folder / "a.h5", "old");
