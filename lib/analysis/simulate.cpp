@@ -127,7 +127,7 @@ void check_simulation_memory(const ResultsReader& results, const SimulationOptio
   const auto disturbances = static_cast<double>(spec.disturbances.size());
   double bytes = 32e6 + 4 * static_cast<double>(results.grid().cells());
   const double tables = spec.abstraction.between_samples ? 2 : 1;  // of posts, of tubes
-  for (const TableShape& shape : table_shapes(spec)) bytes += tables * 8 * shape.entries;
+  for (const TableShape& shape : table_shapes(spec)) bytes += tables * shape.bytes;
   const double sample = sizeof(RunTrace::Sample) + 2 * (16 + 8 * states);
   const double step = sizeof(RunTrace::Step) + (disturbances > 0 ? 16 + 8 * disturbances : 0);
   bytes += static_cast<double>(options.runs) * (static_cast<double>(options.steps) + 1) * 2 * (sample + step);

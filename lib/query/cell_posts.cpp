@@ -13,16 +13,20 @@ bool contains(const std::vector<std::int32_t>& list, std::size_t value) {
   return std::find(list.begin(), list.end(), static_cast<std::int32_t>(value)) != list.end();
 }
 
-double whole_entries(const ProblemSpec& spec) {
+/// Entries to compute from which on all are computed. Sums have few, and no others hold the same ranges.
+double most_entries(const ProblemSpec& spec) {
   double entries = 0;
-  for (const TableShape& shape : table_shapes(spec)) entries += shape.entries;
+  for (const TableShape& shape : table_shapes(spec)) {
+    if (shape.sum) return 0;
+    entries += shape.entries;
+  }
   return entries;
 }
 
 }  // namespace
 
 CellPosts::CellPosts(const ResultsReader& results, ThreadTeam& team)
-    : results_(results), team_(team), dynamics_(results.spec()) {
+    : results_(results), team_(team), dynamics_(results.spec()), most_entries_(most_entries(results.spec())) {
   const bool wants_tubes = results.spec().abstraction.between_samples;
   if (results.has_abstraction() && !wants_tubes) whole_ = results.abstraction();
 }
@@ -38,7 +42,7 @@ const Abstraction& CellPosts::whole() {
 
 void CellPosts::move_to(std::int64_t cell) {
   if (cell == cell_) return;
-  if (!whole_ && entries_built_ >= whole_entries(results_.spec())) prepare_all();
+  if (!whole_ && entries_built_ >= most_entries_) prepare_all();
   if (!whole_) build_parts(cell);
   cell_ = cell;
 }

@@ -41,6 +41,7 @@ class CellPosts {
   const ResultsReader& results_;
   ThreadTeam& team_;
   AffineDynamics dynamics_;
+  double most_entries_;
   std::int64_t cell_ = -1;
   std::optional<Abstraction> whole_;
   /// One a state: the abstraction of a grid that has only this cell's index where the state's table does not

@@ -145,7 +145,7 @@ class Cases(Case):
         self.assertEqual(self.at("distance=1,left_lane=1,right_lane=0")["cell"]["lower"]["left_lane"], 1)
 
     def test_a_periodic_state_wraps(self):
-        self.example("aircraft.json", output={"abstraction": False})
+        self.example("aircraft_coarse.json", output={"abstraction": False})
         cells = {self.at(f"h={h},x=5,y=5")["cell"]["number"] for h in ("-pi", "pi", "3*pi", "-pi - 0.1")}
         self.assertEqual(len(cells), 1)
 

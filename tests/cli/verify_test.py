@@ -145,10 +145,10 @@ class Cases(Case):
                 self.check_example(name, "computed")
 
     def test_aircraft_holds(self):
-        spec = config("aircraft.json")
+        spec = config("aircraft_coarse.json")
         spec["states"][0]["count"] = 12
         self.write("aircraft.json", dict(spec, output=EVERYTHING))
-        self.analyze("aircraft.json")
+        self.analyze("aircraft.json", "-o", "aircraft.h5")
         result = self.verify("aircraft.h5", "--json")
         self.assertEqual((result.returncode, json.loads(result.stdout)["reachable_sets"]), (0, "stored"))
 
