@@ -25,6 +25,25 @@ FlowSystem::Limit limit_of(const StateSpec& state) {
           .upper = box_of(last, last)};
 }
 
+std::optional<Ring> ring_of(const StateSpec& state) {
+  if (state.below != Outside::periodic) return std::nullopt;
+  return Ring{.lower = state.lower, .upper = state.upper};
+}
+
+StateEnclosure::Status status_of(FlowEnclosure::Status status) {
+  switch (status) {
+    case FlowEnclosure::Status::ok:
+      return StateEnclosure::Status::ok;
+    case FlowEnclosure::Status::blows_up:
+      return StateEnclosure::Status::blows_up;
+    case FlowEnclosure::Status::undefined:
+      return StateEnclosure::Status::undefined;
+    case FlowEnclosure::Status::winds:
+      return StateEnclosure::Status::winds;
+  }
+  return StateEnclosure::Status::undefined;
+}
+
 }  // namespace
 
 StateEnclosure::StateEnclosure(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state)
@@ -59,17 +78,19 @@ void StateEnclosure::prepare_map() {
 
 void StateEnclosure::prepare_flow() {
   FlowSystem system;
+  std::vector<std::optional<Ring>> rings;
   system.slot_count = spec_->slot_count();
   for (const std::int32_t j : dependencies_.moving) {
     if (at(j) == state_) position_ = system.equations.size();
     system.equations.push_back(&spec_->dynamics.equations[at(j)]);
     system.state_slots.push_back(spec_->state_slot(at(j)));
     system.stops.push_back(limit_of(spec_->states[at(j)]));
+    rings.push_back(ring_of(spec_->states[at(j)]));
   }
   for (const std::int32_t l : dependencies_.disturbances) {
     system.disturbance_slots.push_back(spec_->disturbance_slot(at(l)));
   }
-  flow_.emplace(std::move(system), lower_double(spec_->dynamics.period),
+  flow_.emplace(std::move(system), rings, lower_double(spec_->dynamics.period),
                 upper_double(spec_->dynamics.period));
 }
 
@@ -99,10 +120,8 @@ StateEnclosure::Result StateEnclosure::enclose_flow() {
             .tube = within_limits(found.tube[position_]),
             .drift = found.drift[position_]};
   }
-  Result result{
-      .status = found.status == FlowEnclosure::Status::blows_up ? Status::blows_up : Status::undefined,
-      .culprit = at(dependencies_.moving[found.culprit])};
-  if (!shifts_ && position_ < found.tube.size()) {
+  Result result{.status = status_of(found.status), .culprit = at(dependencies_.moving[found.culprit])};
+  if (result.status != Status::winds && !shifts_ && position_ < found.tube.size()) {
     const StateSpec& own = spec_->states[state_];
     const Interval domain = range_of(own);
     const Interval& tube = found.tube[position_];

@@ -6,7 +6,7 @@
 
 #include "dynamics/affine_dynamics.hpp"
 #include "dynamics/map_enclosure.hpp"
-#include "dynamics/validated_flow.hpp"
+#include "dynamics/periodic_flow.hpp"
 #include "numeric/interval.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -17,10 +17,10 @@ namespace coordreq {
 /// Over-approximates. Not thread-safe: use a copy a thread.
 class StateEnclosure {
  public:
-  enum class Status : std::uint8_t { ok, blows_up, undefined };
+  enum class Status : std::uint8_t { ok, blows_up, undefined, winds };
   struct Result {
     Status status = Status::ok;
-    std::size_t culprit = 0;  ///< state whose equation is at fault, unless ok
+    std::size_t culprit = 0;  ///< state at fault, or whose equation is, unless ok
     bool left_unsafely =
         false;       ///< unless ok: by then this state may have left through an unsafe side of its own
     Interval value;  ///< of the next state; of the difference to the present one if shifts()
@@ -54,7 +54,7 @@ class StateEnclosure {
   double origin_ = 0;  ///< the present value put in where the map shifts
   std::vector<Interval> slots_;
   std::optional<MapEnclosure> map_;
-  std::optional<ValidatedFlow> flow_;
+  std::optional<PeriodicFlow> flow_;
 };
 
 }  // namespace coordreq

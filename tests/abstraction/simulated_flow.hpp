@@ -16,6 +16,7 @@ namespace coordreq::test {
 [[nodiscard]] Abstraction build(const ProblemSpec& spec);
 
 /// Follows a solution with classical Runge-Kutta steps, far finer than the cells; in discrete time one step.
+/// The equations see the representatives of periodic states, the result is not wrapped.
 /// @param slots states, inputs and disturbances @returns the states after each step
 [[nodiscard]] std::vector<std::vector<double>> simulate(const ProblemSpec& spec, std::vector<double> slots);
 
