@@ -173,12 +173,6 @@ class EnclosureTable {
                                               const std::vector<std::int64_t>& choice) const {
     if (result.left_unsafely) return kEverywhere;
     const std::string& name = spec_.states[result.culprit].name;
-    if (result.status == StateEnclosure::Status::winds) {
-      throw SpecError(fmt::format("the periodic state '{}' may go round more than {} times within one period"
-                                  "{}, expected fewer where an equation uses it",
-                                  name, kMostTurns, place(choice)),
-                      "/dynamics/equations/" + name);
-    }
     const std::string what =
         result.status == StateEnclosure::Status::undefined
             ? fmt::format("the equation of '{}' is not defined everywhere", name)

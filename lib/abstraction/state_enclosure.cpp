@@ -30,20 +30,6 @@ std::optional<Ring> ring_of(const StateSpec& state) {
   return Ring{.lower = state.lower, .upper = state.upper};
 }
 
-StateEnclosure::Status status_of(FlowEnclosure::Status status) {
-  switch (status) {
-    case FlowEnclosure::Status::ok:
-      return StateEnclosure::Status::ok;
-    case FlowEnclosure::Status::blows_up:
-      return StateEnclosure::Status::blows_up;
-    case FlowEnclosure::Status::undefined:
-      return StateEnclosure::Status::undefined;
-    case FlowEnclosure::Status::winds:
-      return StateEnclosure::Status::winds;
-  }
-  return StateEnclosure::Status::undefined;
-}
-
 }  // namespace
 
 StateEnclosure::StateEnclosure(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state)
@@ -120,8 +106,10 @@ StateEnclosure::Result StateEnclosure::enclose_flow() {
             .tube = within_limits(found.tube[position_]),
             .drift = found.drift[position_]};
   }
-  Result result{.status = status_of(found.status), .culprit = at(dependencies_.moving[found.culprit])};
-  if (result.status != Status::winds && !shifts_ && position_ < found.tube.size()) {
+  Result result{
+      .status = found.status == FlowEnclosure::Status::blows_up ? Status::blows_up : Status::undefined,
+      .culprit = at(dependencies_.moving[found.culprit])};
+  if (!shifts_ && position_ < found.tube.size()) {
     const StateSpec& own = spec_->states[state_];
     const Interval domain = range_of(own);
     const Interval& tube = found.tube[position_];

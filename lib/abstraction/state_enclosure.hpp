@@ -17,10 +17,10 @@ namespace coordreq {
 /// Over-approximates. Not thread-safe: use a copy a thread.
 class StateEnclosure {
  public:
-  enum class Status : std::uint8_t { ok, blows_up, undefined, winds };
+  enum class Status : std::uint8_t { ok, blows_up, undefined };
   struct Result {
     Status status = Status::ok;
-    std::size_t culprit = 0;  ///< state at fault, or whose equation is, unless ok
+    std::size_t culprit = 0;  ///< state whose equation is at fault, unless ok
     bool left_unsafely =
         false;       ///< unless ok: by then this state may have left through an unsafe side of its own
     Interval value;  ///< of the next state; of the difference to the present one if shifts()

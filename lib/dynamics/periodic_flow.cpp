@@ -6,6 +6,9 @@
 namespace coordreq {
 namespace {
 
+/// Rounding errors of so many periods still do no harm.
+constexpr std::int64_t kVeryManyTurns = 1000000;
+
 bool is_mentioned(const FlowSystem& system, std::uint32_t slot) {
   return std::any_of(system.equations.begin(), system.equations.end(), [&](const Program* equation) {
     const auto used = equation->variables();
@@ -17,71 +20,73 @@ Rational period_of(const Ring& ring) {
   return ring.upper - ring.lower;
 }
 
-/// By how many periods a state leaves its ring at most, and one more.
-int turns_allowed(const Ring& ring, const Interval& tube) {
-  const double period = lower_double(period_of(ring));
-  const double beyond =
-      std::max(tube.upper - lower_double(ring.upper), upper_double(ring.lower) - tube.lower);
-  constexpr double kMost = 1e6;  // far more has no enclosure that says anything
-  return 1 + static_cast<int>(std::min(std::ceil(std::max(beyond / period, 0.0)), kMost));
-}
-
 }  // namespace
 
 PeriodicFlow::PeriodicFlow(FlowSystem system, const std::vector<std::optional<Ring>>& rings, double tau_lower,
                            double tau_upper)
     : plain_(system, tau_lower, tau_upper) {
-  wind_equations(system, rings);
-  if (!windings_.empty()) wound_.emplace(wound_system(system), tau_lower, tau_upper);
+  find_windings(system, rings);
+  slots_.resize(system.slot_count + 2 * windings_.size());
+  if (windings_.empty()) return;
+  const Interval period{tau_lower, tau_upper};
+  followed_.emplace(wind_system(system, Representative::followed, period));
+  anywhere_.emplace(wind_system(system, Representative::anywhere, period));
 }
 
-void PeriodicFlow::wind_equations(const FlowSystem& system, const std::vector<std::optional<Ring>>& rings) {
-  std::vector<Program> equations;
-  for (const Program* equation : system.equations) equations.push_back(*equation);
+void PeriodicFlow::find_windings(const FlowSystem& system, const std::vector<std::optional<Ring>>& rings) {
   for (std::size_t i = 0; i < rings.size(); ++i) {
     if (!rings[i] || !is_mentioned(system, system.state_slots[i])) continue;
-    Winding winding{.state = i, .ring = *rings[i]};
-    winding.error_slot = static_cast<std::uint32_t>(system.slot_count + windings_.size());
-    for (Program& equation : equations) {
-      WoundEquation wound = wind(equation, system.state_slots[i], winding.ring, winding.error_slot);
-      winding.as_number = winding.as_number || wound.as_number;
-      winding.mismatch = std::max(winding.mismatch, wound.mismatch);
-      equation = std::move(wound.program);
-    }
-    windings_.push_back(std::move(winding));
+    const auto first = static_cast<std::uint32_t>(system.slot_count + 2 * windings_.size());
+    windings_.push_back({.state = i, .ring = *rings[i], .slots = {.error = first, .anywhere = first + 1}});
   }
-  slots_.resize(system.slot_count + windings_.size());
-  equations_ = std::make_shared<const std::vector<Program>>(std::move(equations));
 }
 
-FlowSystem PeriodicFlow::wound_system(const FlowSystem& system) const {
+PeriodicFlow::Wound PeriodicFlow::wind_system(const FlowSystem& system, Representative representative,
+                                              const Interval& period) {
+  std::vector<Program> equations;
+  for (const Program* equation : system.equations) equations.push_back(*equation);
   FlowSystem wound = system;
   wound.slot_count = slots_.size();
-  wound.seams.resize(system.equations.size());
-  for (std::size_t i = 0; i < equations_->size(); ++i) wound.equations[i] = &(*equations_)[i];
-  for (const Winding& winding : windings_) {
-    if (winding.mismatch > 0) wound.disturbance_slots.push_back(winding.error_slot);
+  wound.seams.resize(equations.size());
+  for (Winding& winding : windings_) {
+    for (Program& equation : equations) {
+      WoundEquation next =
+          wind(equation, system.state_slots[winding.state], winding.ring, winding.slots, representative);
+      winding.as_number = winding.as_number || next.as_number;
+      winding.mismatch = std::max(winding.mismatch, next.mismatch);
+      equation = std::move(next.program);
+    }
+    if (winding.mismatch > 0) wound.disturbance_slots.push_back(winding.slots.error);
     if (!winding.as_number) continue;
+    if (representative == Representative::anywhere) {
+      wound.disturbance_slots.push_back(winding.slots.anywhere);
+      continue;
+    }
     for (int k = -kMostTurns; k <= kMostTurns + 1; ++k) {
       wound.seams[winding.state].push_back(enclose(winding.ring.lower + k * period_of(winding.ring)));
     }
   }
-  return wound;
+  const auto shared = std::make_shared<const std::vector<Program>>(std::move(equations));
+  for (std::size_t i = 0; i < shared->size(); ++i) wound.equations[i] = &(*shared)[i];
+  return {shared, ValidatedFlow(std::move(wound), period.lower, period.upper)};
 }
 
 const FlowEnclosure& PeriodicFlow::flow(std::span<const Interval> slots) {
   const FlowEnclosure& plain = plain_.flow(slots);
   if (windings_.empty() || stays(plain)) return plain;
   std::copy(slots.begin(), slots.end(), slots_.begin());
-  allow_for_turns(plain);
-  const FlowEnclosure& wound = wound_->flow(slots_);
-  for (const Winding& winding : windings_) {
-    if (is_within(winding, wound.tube[winding.state])) continue;
-    failure_.status = FlowEnclosure::Status::winds;
-    failure_.culprit = winding.state;
-    return failure_;
+  for (Winding& winding : windings_) {
+    const bool by_plain = !winding.as_number && plain.status == FlowEnclosure::Status::ok;
+    allow_for(by_plain ? turns_of(winding, plain) + 1 : kMostTurns, winding);
   }
-  return wound;
+  const FlowEnclosure& followed = followed_->flow.flow(slots_);
+  if (!find_excess(followed)) return followed;
+  for (Winding& winding : windings_) allow_for(kVeryManyTurns, winding);
+  const FlowEnclosure& anywhere = anywhere_->flow.flow(slots_);
+  const std::optional<std::size_t> excess = find_excess(anywhere);
+  if (!excess) return anywhere;
+  failure_ = {.status = FlowEnclosure::Status::blows_up, .culprit = *excess};
+  return failure_;
 }
 
 /// Whether no state can be at its seam after the start. What only falls does not get to its upper end, which
@@ -96,19 +101,31 @@ bool PeriodicFlow::stays(const FlowEnclosure& plain) const {
   });
 }
 
-void PeriodicFlow::allow_for_turns(const FlowEnclosure& plain) {
-  for (Winding& winding : windings_) {
-    const bool by_plain = !winding.as_number && plain.status == FlowEnclosure::Status::ok;
-    winding.turns = by_plain ? turns_allowed(winding.ring, plain.tube[winding.state]) : kMostTurns;
-    const double error = upper_double(winding.turns * winding.mismatch);
-    slots_[winding.error_slot] = {-error, error};
-  }
+/// Sets the boxes of the new variables.
+void PeriodicFlow::allow_for(std::int64_t turns, Winding& winding) {
+  winding.turns = turns;
+  const double error = upper_double(Rational(static_cast<long>(turns)) * winding.mismatch);
+  slots_[winding.slots.error] = {-error, error};
+  slots_[winding.slots.anywhere] = {lower_double(winding.ring.lower), upper_double(winding.ring.upper)};
 }
 
-bool PeriodicFlow::is_within(const Winding& winding, const Interval& tube) {
-  const Rational reach = winding.turns * period_of(winding.ring);
-  return tube.lower >= upper_double(winding.ring.lower - reach) &&
-         tube.upper < lower_double(winding.ring.upper + reach);
+/// How many periods a state is beyond its ring at most; on the upper end of one it is in the next.
+std::int64_t PeriodicFlow::turns_of(const Winding& winding, const FlowEnclosure& found) {
+  const Interval& tube = found.tube[winding.state];
+  if (!std::isfinite(tube.lower) || !std::isfinite(tube.upper)) return kVeryManyTurns + 1;
+  const Rational above = exact(tube.upper) - winding.ring.upper;
+  const Rational below = winding.ring.lower - exact(tube.lower);
+  const Rational turns = std::max(above, below) / period_of(winding.ring);
+  if (turns > kVeryManyTurns) return kVeryManyTurns + 1;
+  return turns < 0 ? 0 : floor_to_int(turns) + 1;
+}
+
+/// A state that winds more often than is allowed for.
+std::optional<std::size_t> PeriodicFlow::find_excess(const FlowEnclosure& found) const {
+  for (const Winding& winding : windings_) {
+    if (turns_of(winding, found) > winding.turns) return winding.state;
+  }
+  return std::nullopt;
 }
 
 }  // namespace coordreq

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,7 +16,8 @@ namespace coordreq {
 ///
 /// Where no state leaves its ring that is the flow of the equations as they are. Else they are wound
 /// (seam.hpp), the rounding error of a period being one more disturbance, and seams that an equation jumps
-/// at are passed in small steps that keep boxes only.
+/// at are passed in small steps that keep boxes only. Where a state winds too often, its representative is a
+/// disturbance.
 ///
 /// Over-approximates always. Not thread-safe: use a copy a thread.
 class PeriodicFlow {
@@ -34,22 +36,29 @@ class PeriodicFlow {
   struct Winding {
     std::size_t state = 0;  ///< index into the system's
     Ring ring;
-    std::uint32_t error_slot = 0;
+    SeamSlots slots;
     bool as_number = false;
     Rational mismatch = 0;
-    int turns = 0;  ///< that the present enclosure allows for
+    std::int64_t turns = 0;  ///< that the present enclosure allows for
+  };
+  /// The system with equations of its own.
+  struct Wound {
+    std::shared_ptr<const std::vector<Program>> equations;
+    ValidatedFlow flow;
   };
 
-  void wind_equations(const FlowSystem& system, const std::vector<std::optional<Ring>>& rings);
-  [[nodiscard]] FlowSystem wound_system(const FlowSystem& system) const;
+  void find_windings(const FlowSystem& system, const std::vector<std::optional<Ring>>& rings);
+  [[nodiscard]] Wound wind_system(const FlowSystem& system, Representative representative,
+                                  const Interval& period);
   [[nodiscard]] bool stays(const FlowEnclosure& plain) const;
-  void allow_for_turns(const FlowEnclosure& plain);
-  [[nodiscard]] static bool is_within(const Winding& winding, const Interval& tube);
+  void allow_for(std::int64_t turns, Winding& winding);
+  [[nodiscard]] static std::int64_t turns_of(const Winding& winding, const FlowEnclosure& found);
+  [[nodiscard]] std::optional<std::size_t> find_excess(const FlowEnclosure& found) const;
 
   ValidatedFlow plain_;
   std::vector<Winding> windings_;
-  std::shared_ptr<const std::vector<Program>> equations_;  ///< of `wound_`
-  std::optional<ValidatedFlow> wound_;
+  std::optional<Wound> followed_;
+  std::optional<Wound> anywhere_;
   std::vector<Interval> slots_;
   FlowEnclosure failure_;
 };

@@ -47,11 +47,13 @@ std::size_t operand_count(Operator op) {
 
 class Winder {
  public:
-  Winder(const Program& equation, std::uint32_t slot, const Ring& ring, std::uint32_t error_slot)
+  Winder(const Program& equation, std::uint32_t slot, const Ring& ring, const SeamSlots& slots,
+         Representative representative)
       : equation_(equation),
         slot_(slot),
         ring_(ring),
-        error_slot_(error_slot),
+        slots_(slots),
+        representative_(representative),
         period_(ring.upper - ring.lower),
         slopes_(find_slopes(equation, slot)) {}
 
@@ -128,13 +130,14 @@ class Winder {
   Index write_variable(std::uint32_t slot, Use use) {
     const Index variable = tape_.variable(slot);
     if (slot != slot_) return variable;
-    if (use == kInTurns) return tape_.apply(Operator::add, variable, tape_.variable(error_slot_));
+    if (use == kInTurns) return tape_.apply(Operator::add, variable, tape_.variable(slots_.error));
     result_.as_number = true;
-    return representative(variable);
+    if (representative_ == Representative::anywhere) return tape_.variable(slots_.anywhere);
+    return followed(variable);
   }
 
   /// Of a state exactly on a seam from below it is `upper`, so that a box which just touches it is not cut.
-  Index representative(Index x) {
+  Index followed(Index x) {
     Index value = x;
     for (int k = 1; k <= kMostTurns; ++k) {
       const Index beyond = tape_.apply(Operator::greater, x, tape_.constant(ring_.upper + (k - 1) * period_));
@@ -152,7 +155,8 @@ class Winder {
   const Program& equation_;
   std::uint32_t slot_;
   const Ring& ring_;
-  std::uint32_t error_slot_;
+  const SeamSlots& slots_;
+  Representative representative_;
   Rational period_;
   std::vector<Slope> slopes_;
   std::array<Copy, 2> copies_;  ///< [Use][node]
@@ -162,8 +166,9 @@ class Winder {
 
 }  // namespace
 
-WoundEquation wind(const Program& equation, std::uint32_t slot, const Ring& ring, std::uint32_t error_slot) {
-  return Winder(equation, slot, ring, error_slot).run();
+WoundEquation wind(const Program& equation, std::uint32_t slot, const Ring& ring, const SeamSlots& slots,
+                   Representative representative) {
+  return Winder(equation, slot, ring, slots, representative).run();
 }
 
 }  // namespace coordreq

@@ -18,7 +18,19 @@ struct Ring {
 /// How many times a state that is used as a number is followed round, in either direction.
 inline constexpr int kMostTurns = 4;
 
-/// An equation over a state that may be up to kMostTurns periods beyond its ring.
+/// What stands for the representative of a state that is used as a number.
+enum class Representative : std::uint8_t {
+  followed,  ///< the value that it has, up to kMostTurns periods beyond the ring
+  anywhere,  ///< a new variable, to be taken for anything in [lower, upper]
+};
+
+/// New variables that wind() puts in.
+struct SeamSlots {
+  std::uint32_t error = 0;
+  std::uint32_t anywhere = 0;
+};
+
+/// An equation over a state that may be beyond its ring.
 struct WoundEquation {
   Program program;
   /// The state is used other than in sin, cos or tan of whole turns: the equation jumps at the seams.
@@ -35,6 +47,6 @@ struct WoundEquation {
 /// with a new variable e at `error_slot`. Of x that is k periods beyond the ring the value is that of the
 /// representative for some e in k * [-mismatch, mismatch].
 [[nodiscard]] WoundEquation wind(const Program& equation, std::uint32_t slot, const Ring& ring,
-                                 std::uint32_t error_slot);
+                                 const SeamSlots& slots, Representative representative);
 
 }  // namespace coordreq

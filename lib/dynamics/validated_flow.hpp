@@ -15,10 +15,9 @@ struct FlowEnclosure {
     ok,
     blows_up,   ///< no enclosure was found: solutions may escape in finite time
     undefined,  ///< the right-hand side is not defined at a state that may be reached
-    winds,      ///< a periodic state may go round more often than is followed; nothing else is known
   };
   Status status = Status::ok;
-  std::size_t culprit = 0;     ///< index of the equation or state at fault, unless ok
+  std::size_t culprit = 0;     ///< index of the equation at fault, unless ok
   std::vector<Interval> end;   ///< states reachable at tau; unless ok: at the time up to which all is known
   std::vector<Interval> tube;  ///< states reachable in [0, tau], or up to that time
   /// x(t) - x(0) during that time, 0 included; an end is 0 exactly where f never points that way. For the

@@ -13,7 +13,8 @@ namespace {
 constexpr std::uint32_t kErrorSlot = 7;
 
 WoundEquation wound(const std::string& text, const Ring& ring) {
-  return wind(link(text, look_up_flow, ExpectedType::number, "/dynamics"), 0, ring, kErrorSlot);
+  return wind(link(text, look_up_flow, ExpectedType::number, "/dynamics"), 0, ring, {.error = kErrorSlot},
+              Representative::followed);
 }
 
 Ring heading() {
@@ -91,6 +92,17 @@ TEST(PeriodicFlow, NumberJumpsOnTheWay) {
   EXPECT_LT(found.end[0].upper, end(2.9) + 0.3);
   EXPECT_LE(found.end[1].lower, 3.4);
   EXPECT_GE(found.end[1].upper, 3.6);
+}
+
+TEST(PeriodicFlow, StateThatWindsTooOftenIsAnywhere) {
+  FlowCase system({"y", "100"});
+  system.slots[1] = {-M_PI, M_PI};
+  system.tau = 0.5;
+  const FlowEnclosure found =
+      PeriodicFlow(system.system(), {std::nullopt, heading()}, 0.5, 0.5).flow(system.slots);
+  ASSERT_EQ(found.status, FlowEnclosure::Status::ok);
+  EXPECT_NEAR(found.end[0].lower, -0.5 * M_PI, 1e-12);
+  EXPECT_NEAR(found.end[0].upper, 0.5 * M_PI, 1e-12);
 }
 
 TEST(PeriodicFlow, WholeTurnsAreAsTightAsWithoutASeam) {
