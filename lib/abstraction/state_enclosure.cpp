@@ -35,6 +35,11 @@ Interval within_limits(const StateSpec& state, Interval value) {
   return value;
 }
 
+std::optional<Ring> ring_of(const StateSpec& state) {
+  if (state.below != Outside::periodic) return std::nullopt;
+  return Ring{.lower = state.lower, .upper = state.upper};
+}
+
 }  // namespace
 
 StateEnclosure::StateEnclosure(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state)
@@ -69,16 +74,18 @@ void StateEnclosure::prepare_map() {
 
 void StateEnclosure::prepare_flow() {
   FlowSystem system;
+  std::vector<std::optional<Ring>> rings;
   system.slot_count = spec_->slot_count();
   for (const std::int32_t j : dependencies_.moving) {
     system.equations.push_back(&spec_->dynamics.equations[at(j)]);
     system.state_slots.push_back(spec_->state_slot(at(j)));
     system.stops.push_back(limit_of(spec_->states[at(j)]));
+    rings.push_back(ring_of(spec_->states[at(j)]));
   }
   for (const std::int32_t l : dependencies_.disturbances) {
     system.disturbance_slots.push_back(spec_->disturbance_slot(at(l)));
   }
-  flow_.emplace(std::move(system), lower_double(spec_->dynamics.period),
+  flow_.emplace(std::move(system), rings, lower_double(spec_->dynamics.period),
                 upper_double(spec_->dynamics.period));
 }
 

@@ -7,7 +7,7 @@
 
 #include "dynamics/affine_dynamics.hpp"
 #include "dynamics/map_enclosure.hpp"
-#include "dynamics/validated_flow.hpp"
+#include "dynamics/periodic_flow.hpp"
 #include "numeric/interval.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -61,7 +61,7 @@ class StateEnclosure {
   double origin_ = 0;  ///< the present value put in where the map shifts
   std::vector<Interval> slots_;
   std::optional<MapEnclosure> map_;
-  std::optional<ValidatedFlow> flow_;
+  std::optional<PeriodicFlow> flow_;
   Interval map_value_;                    ///< by the last enclose()
   const FlowEnclosure* found_ = nullptr;  ///< likewise, within flow_
 };

@@ -80,6 +80,15 @@ Interval VectorField::clipped(std::size_t i, const Interval& a) const {
   return result;
 }
 
+bool VectorField::is_on_seam(std::span<const Interval> box) const {
+  for (std::size_t i = 0; i < system_->seams.size(); ++i) {
+    for (const Interval& seam : system_->seams[i]) {
+      if (box[i].lower < seam.upper && box[i].upper > seam.lower) return true;
+    }
+  }
+  return false;
+}
+
 /// In the interior, or at a limit or a wall that cannot be passed.
 bool VectorField::is_inside(std::size_t i, const Interval& a, const Interval& box) const {
   const FlowSystem::Limit limit = system_->stops.empty() ? FlowSystem::Limit{} : system_->stops[i];
@@ -122,13 +131,14 @@ void VectorField::guess(std::span<const Interval> start, const Interval& time,
   }
 }
 
-/// Only where f has both signs over the start it may point inward at a side and outward elsewhere.
+/// Only where f has both signs over the start it may point inward at a side and outward elsewhere. A wall at
+/// a seam would hide the equations' value on it from the box.
 /// @returns whether there are any
 bool VectorField::find_walls(std::span<const Interval> start, std::span<const Interval> derivative,
                              std::span<Interval> box) {
   bool any = false;
   for (std::size_t i = 0; i < start.size(); ++i) {
-    if (derivative[i].lower > 0.0 || derivative[i].upper < 0.0) continue;
+    if (derivative[i].lower > 0.0 || derivative[i].upper < 0.0 || has_seams(i)) continue;
     const Interval whole = box[i];
     // Layers just outside of the sides.
     box[i] = {start[i].lower - margin(start[i]), start[i].lower};

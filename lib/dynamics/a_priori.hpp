@@ -46,6 +46,13 @@ class VectorField {
   /// The part of `a` that state i can take.
   [[nodiscard]] Interval clipped(std::size_t i, const Interval& a) const;
 
+  /// Whether the equations jump in state i where it goes round.
+  [[nodiscard]] bool has_seams(std::size_t i) const {
+    return !system_->seams.empty() && !system_->seams[i].empty();
+  }
+  /// Whether a seam runs through the interior of the box.
+  [[nodiscard]] bool is_on_seam(std::span<const Interval> box) const;
+
   [[nodiscard]] std::size_t dimension() const { return tape_->outputs.size(); }
   [[nodiscard]] const TapeValues<Interval>& values() const { return values_; }
   [[nodiscard]] std::span<const Interval> slots() const { return slots_; }

@@ -42,8 +42,7 @@ class AffineDynamics {
 
   /// @param slots exact values of all parameters and inputs of `state` at their slots; others are ignored
   /// @returns nothing if the system is not of the class above for these values, or if a state of it has a
-  /// `stop`
-  ///   limit
+  ///   `stop` limit or, in continuous time, is periodic and used in an equation
   /// @throws SpecError if the equation is not defined there; the message names the state and the values
   [[nodiscard]] std::optional<SampledRow> row(std::size_t state, const std::vector<Rational>& slots) const;
 
@@ -72,7 +71,9 @@ class AffineDynamics {
     std::vector<std::vector<Rational>> kernels;
   };
 
-  /// @returns nothing if it is not of that form or has a `stop` limit. REQUIRES: `state` is a moving one.
+  [[nodiscard]] bool jumps_at_a_seam(const AffineForm& form, const Dependencies& dependencies) const;
+  /// @returns nothing if it is not of that form, has a `stop` limit or a periodic state that an equation
+  /// uses. REQUIRES: `state` is a moving one.
   [[nodiscard]] std::optional<NilpotentFlow> nilpotent_flow(std::size_t state,
                                                             const std::vector<Rational>& slots) const;
   /// A discrete state that stays what it is; nothing for one that moves.

@@ -16,6 +16,8 @@ constexpr int kPatience = 3;
 /// Steps this small are taken although the sensitivity stays unbounded.
 constexpr std::uint32_t kSmallWithoutBound = kParts / 32;
 constexpr std::uint32_t kSmallWithoutRemainder = kParts / 4096;
+/// Seams are passed in steps as small.
+constexpr std::uint32_t kSmallOnSeam = kParts / 64;
 /// What the remainder of a step may add, relative to the width of the initial box and to the magnitude.
 constexpr double kWidthTolerance = 1e-7;
 constexpr double kMagnitudeTolerance = 1e-15;
@@ -135,6 +137,7 @@ FlowStep& ValidatedFlow::Solver::next_step() {
 /// @returns why the step is too long; nothing if it is done
 std::optional<FlowFailure> ValidatedFlow::Solver::try_step(const Interval& duration, bool divisible) {
   if (const auto failure = field_.enclose_solutions(now_, duration, box_, derivative_)) return failure;
+  if (field_.is_on_seam(box_)) return try_step_on_seam(duration);
   FlowStep& step = next_step();
   step.duration = duration;
   find_damping(duration);
@@ -147,6 +150,16 @@ std::optional<FlowFailure> ValidatedFlow::Solver::try_step(const Interval& durat
     if (!step.smooth && divisible && step.remainder.bounded) return FlowFailure{};
   }
   if (!append_sensitivity(duration, divisible)) return FlowFailure{};
+  ++step_count_;
+  return std::nullopt;
+}
+
+/// Where a right-hand side jumps by a whole period, all that is kept is the box and f over it.
+std::optional<FlowFailure> ValidatedFlow::Solver::try_step_on_seam(const Interval& duration) {
+  if (duration.upper * kParts > period_.upper * kSmallOnSeam) return FlowFailure{};
+  next_step().duration = duration;
+  find_damping(duration);
+  sensitivity_.lose();
   ++step_count_;
   return std::nullopt;
 }
@@ -194,6 +207,10 @@ void ValidatedFlow::Solver::finish_step(bool last) {
     next_[i] = intersect(next_[i], box_[i]).value_or(next_[i]);
   }
   if (sensitivity_.is_bounded()) follow_extremes(last);
+  for (std::size_t i = 0; i < n_; ++i) {
+    // On the seam itself the equations see its other side: what may just have reached it must be beyond it.
+    if (field_.has_seams(i) && derivative_[i].upper > 0.0) next_[i].upper = outward::next_up(next_[i].upper);
+  }
   for (std::size_t i = 0; i < n_; ++i) {
     const bool one_way = derivative_[i].lower >= 0.0 || derivative_[i].upper <= 0.0;
     result_.tube[i] = hull(result_.tube[i], one_way ? hull(now_[i], next_[i]) : box_[i]);

@@ -45,6 +45,7 @@ class ValidatedFlow::Solver {
   void begin(std::span<const Interval> slots);
   bool run_steps();
   std::optional<FlowFailure> try_step(const Interval& duration, bool divisible);
+  std::optional<FlowFailure> try_step_on_seam(const Interval& duration);
   void set_tolerance();
   void find_damping(const Interval& duration);
   bool append_sensitivity(const Interval& duration, bool divisible);

@@ -24,6 +24,9 @@ struct FlowSystem {
   std::vector<std::uint32_t> disturbance_slots;
   std::size_t slot_count = 0;
   std::vector<Limit> stops;  ///< one a state, or none at all
+  /// Enclosures of where the equations jump in a state that goes round (see seam.hpp): one list a state, or
+  /// none at all.
+  std::vector<std::vector<Interval>> seams;
 };
 
 }  // namespace coordreq

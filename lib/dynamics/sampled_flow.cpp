@@ -65,6 +65,15 @@ std::optional<SampledRow> AffineDynamics::constant_row(std::size_t state,
   return SampledRow{.coefficient = Row(moving.size()), .lower = value, .upper = value};
 }
 
+/// An equation that uses a periodic state as a number is affine only until that passes its seam.
+bool AffineDynamics::jumps_at_a_seam(const AffineForm& form, const Dependencies& dependencies) const {
+  for (std::size_t j = 0; j < form.state.size(); ++j) {
+    const StateSpec& used = spec_->states[static_cast<std::size_t>(dependencies.moving[j])];
+    if (form.state[j] != 0 && used.above == Outside::periodic) return true;
+  }
+  return false;
+}
+
 std::optional<AffineDynamics::NilpotentFlow> AffineDynamics::nilpotent_flow(
     std::size_t state, const std::vector<Rational>& slots) const {
   const Dependencies& dependencies = dependencies_[state];
@@ -76,7 +85,7 @@ std::optional<AffineDynamics::NilpotentFlow> AffineDynamics::nilpotent_flow(
     const StateSpec& moving = spec_->states[static_cast<std::size_t>(j)];
     if (moving.below == Outside::stop || moving.above == Outside::stop) return std::nullopt;
     const std::optional<AffineForm> form = affine_form(static_cast<std::size_t>(j), dependencies, slots);
-    if (!form) return std::nullopt;
+    if (!form || jumps_at_a_seam(*form, dependencies)) return std::nullopt;
     flow.forms.push_back(*form);
     matrix.push_back(form->state);
   }

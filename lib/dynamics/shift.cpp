@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/dual.hpp"
+#include "dynamics/slope.hpp"
 #include "expression/evaluate.hpp"
 
 namespace coordreq {
@@ -26,74 +27,6 @@ bool mentions(const Program& program, std::uint32_t slot) {
   const auto used = program.variables();
   return std::binary_search(used.begin(), used.end(), slot);
 }
-
-/// Finds r with f = r * x + (what does not depend on x) for an expression f and one of its variables x.
-class SlopeFinder {
- public:
-  SlopeFinder(const Program& program, std::uint32_t variable) : program_(program), variable_(variable) {}
-
-  /// Nothing if no such r is seen.
-  std::optional<Rational> find() {
-    for (const Program::Node& node : program_.nodes) slopes_.push_back(slope_of(node));
-    return slopes_.back();
-  }
-
- private:
-  using Slope = std::optional<Rational>;  ///< of a condition 0 if it does not depend on x
-
-  [[nodiscard]] bool is_constant(std::uint32_t i) const { return program_.nodes[i].op == Operator::constant; }
-  [[nodiscard]] const Rational& constant(std::uint32_t i) const {
-    return program_.constants[program_.nodes[i].a];
-  }
-
-  [[nodiscard]] Slope slope_of(const Program::Node& node) const {
-    if (node.op == Operator::constant || node.op == Operator::literal_true ||
-        node.op == Operator::literal_false) {
-      return Rational(0);
-    }
-    if (node.op == Operator::variable) return Rational(node.a == variable_ ? 1 : 0);
-    const Slope& a = slopes_[node.a];
-    if (!a) return std::nullopt;
-    if (node.op == Operator::negate) return Rational(-*a);
-    if (is_unary_function(node.op) || node.op == Operator::logical_not) return where(*a == 0, 0);
-    const Slope& b = slopes_[node.b];
-    if (!b) return std::nullopt;
-    if (node.op == Operator::if_else) {
-      const Slope& c = slopes_[node.c];
-      return where(*a == 0 && c && *b == *c, *b);
-    }
-    if (is_comparison(node.op)) return where(*a == *b, 0);
-    return slope_of_pair(node, *a, *b);
-  }
-
-  [[nodiscard]] Slope slope_of_pair(const Program::Node& node, const Rational& a, const Rational& b) const {
-    switch (node.op) {
-      case Operator::add:
-        return Rational(a + b);
-      case Operator::subtract:
-        return Rational(a - b);
-      case Operator::minimum:
-      case Operator::maximum:
-        return where(a == b, a);
-      case Operator::multiply:
-        if (is_constant(node.a)) return Rational(constant(node.a) * b);
-        if (is_constant(node.b)) return Rational(a * constant(node.b));
-        break;
-      case Operator::divide:
-        if (is_constant(node.b) && constant(node.b) != 0) return Rational(a / constant(node.b));
-        break;
-      default:
-        break;
-    }
-    return where(a == 0 && b == 0, 0);
-  }
-
-  static Slope where(bool known, const Rational& slope) { return known ? Slope(slope) : std::nullopt; }
-
-  const Program& program_;
-  std::uint32_t variable_;
-  std::vector<Slope> slopes_;
-};
 
 /// The same found over the domain: the derivative is 1 wherever the state can be.
 bool derivative_is_one(const ProblemSpec& spec, std::size_t state) {
@@ -149,8 +82,7 @@ bool is_shift(const ProblemSpec& spec, const Dependencies& dependencies, std::si
   if (!contains(dependencies.moving, state) && !contains(dependencies.parameters, state)) return false;
   if (has_measured_limit(spec.states[state])) return false;
   if (spec.dynamics.time == Time::continuous) return flow_shifts(spec, dependencies, state);
-  const std::optional<Rational> slope =
-      SlopeFinder(spec.dynamics.equations[state], spec.state_slot(state)).find();
+  const Slope slope = find_slopes(spec.dynamics.equations[state], spec.state_slot(state)).back();
   return slope ? *slope == 1 : derivative_is_one(spec, state);
 }
 

@@ -37,6 +37,53 @@ TEST(EnclosureTable, ValueThatJumpsAtTheSeamIsEnclosed) {
          3000);
 }
 
+const std::string kRoad = R"({"name": "x", "lower": -9, "upper": 9, "step": 0.125}, )";
+
+TEST(EnclosureTable, HeadingThatIsUsedAsANumberJumpsWithinThePeriod) {
+  for (const std::string equations : {
+           R"json("x": "h", "h": "3*u")json",
+           R"json("x": "h^2 + u*h", "h": "1 + 2*u")json",
+           R"json("x": "if(h > 0, 3, -1) + u", "h": "2*u + 0.3*cos(h)")json",
+           R"json("x": "h*cos(h) + u", "h": "0.4*h - 1.5")json",
+           R"json("x": "sin(h/2)", "h": "3*u")json",
+           R"json("x": "h", "h": "-20*u")json",
+       }) {
+    SCOPED_TRACE(equations);
+    attack(read_spec(spec_text(kRoad + kHeading, "continuous", equations), "t"), 300);
+  }
+}
+
+TEST(EnclosureTable, CoupledStatesJumpTogether) {
+  const std::string coarse = R"({"name": "x", "lower": -4, "upper": 4, "step": 0.5}, )";
+  attack(read_spec(spec_text(coarse + kHeading, "continuous",
+                             R"json("x": "sin(h/2) - 0.1*x", "h": "3*u + 0.1*x")json"),
+                   "t"),
+         300);
+  const std::string second = R"({"name": "g", "lower": 0, "upper": 0.7, "count": 7, "outside": "periodic"})";
+  attack(read_spec(spec_text(kRoad + kHeading + ", " + second, "continuous",
+                             R"json("x": "h*g", "h": "2*u + g", "g": "0.5 + 0.2*sin(h)")json"),
+                   "t"),
+         300);
+}
+
+TEST(EnclosureTable, CellsThatMeetNoSeamKeepTheExactHull) {
+  const std::string ring = R"({"name": "h", "lower": -8, "upper": 8, "count": 16, "outside": "periodic"})";
+  const Abstraction a = build(read_spec(
+      spec_text(kRoad + ring, "continuous", R"json("x": "h", "h": "u")json", R"({"cells": "half_open"})"),
+      "t"));
+  // x in 0 +- 1/16, h in 1 +- 1/2: with u = 1/2 x gets to x + h / 2 + 1/16, in [1/4, 7/8].
+  EXPECT_EQ(a.raw(0, 72 * 16 + 9, 2), (IndexRange{72 + 2, 72 + 7}));
+}
+
+TEST(EnclosureTable, StateMayWindManyTimes) {
+  for (const std::string equations :
+       {R"json("x": "h", "h": "100*u")json", R"json("x": "sin(h)", "h": "100*u")json",
+        R"json("x": "sin(h) + h", "h": "100*u + cos(h)")json"}) {
+    SCOPED_TRACE(equations);
+    attack(read_spec(spec_text(kRoad + kHeading, "continuous", equations), "t"), 100);
+  }
+}
+
 TEST(EnclosureTable, PiecewiseMapsAreEnclosed) {
   attack(
       read_spec(

@@ -16,7 +16,8 @@ namespace coordreq::test {
 [[nodiscard]] Abstraction build(const ProblemSpec& spec);
 
 /// Follows a solution with classical Runge-Kutta steps, far finer than the cells; in discrete time one step.
-/// Disturbances switch a few times at random, to their ends more often than not.
+/// Disturbances switch a few times at random, to their ends more often than not. The equations see the
+/// representatives of periodic states, the result is not wrapped.
 /// @param slots states and inputs @returns the states after each step
 [[nodiscard]] std::vector<std::vector<double>> simulate(const ProblemSpec& spec, std::vector<double> slots,
                                                         std::mt19937_64& random);

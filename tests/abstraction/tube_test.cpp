@@ -148,6 +148,9 @@ TEST(Tube, SolutionsStayInIt) {
   attack(flow(R"({"name": "x", "lower": -9, "upper": 9, "step": 0.5}, )" + kHeading,
               R"json("x": "h", "h": "0*u")json"),
          300);
+  attack(flow(R"({"name": "x", "lower": -9, "upper": 9, "step": 0.125}, )" + kHeading,
+              R"json("x": "h", "h": "3*u")json"),
+         300);
 }
 
 TEST(Tube, OfADiscreteStateIsItsCell) {

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
+
 #include "abstraction/build_abstraction.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
@@ -83,6 +85,25 @@ bool covers(IndexRange range, const GridDimension& target, const Rational& value
   return false;
 }
 
+/// Whether an equation jumps where state i passes its seam.
+bool jumps_at_seam(const ProblemSpec& spec, std::size_t i) {
+  if (spec.states[i].below != Outside::periodic) return false;
+  return std::any_of(spec.dynamics.equations.begin(), spec.dynamics.equations.end(),
+                     [&](const Program& equation) {
+                       const auto used = equation.variables();
+                       return std::find(used.begin(), used.end(), spec.state_slot(i)) != used.end();
+                     });
+}
+
+/// Behind a seam at which an equation jumps the steps are not exact any more.
+bool is_before_seams(const ProblemSpec& spec, const Slots& slots) {
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    if (!jumps_at_seam(spec, i)) continue;
+    if (slots[i].lower < spec.states[i].lower || slots[i].lower >= spec.states[i].upper) return false;
+  }
+  return true;
+}
+
 TEST(Abstraction, SolutionsStayInTheirTubesBetweenTheSamples) {
   ThreadTeam team(1);
   EXPECT_TRUE(rc::check("solutions stay in tubes", [&] {
@@ -93,13 +114,14 @@ TEST(Abstraction, SolutionsStayInTheirTubesBetweenTheSamples) {
       const std::int64_t x = draw(0, a.grid.cells() - 1);
       const std::int64_t u = draw(0, a.inputs.count() - 1);
       Slots slots = draw_start(spec, a, x, u);
-      for (int segment = 0; segment < kSegments; ++segment) {
+      for (int segment = 0; segment < kSegments && is_before_seams(spec, slots); ++segment) {
         for (std::size_t l = 0; l < spec.disturbances.size(); ++l) {
           const DisturbanceSpec& w = spec.disturbances[l];
           slots[spec.disturbance_slot(l)] = point(draw_between(w.lower, w.upper));
         }
         for (int part = 0; part < 3; ++part) {
           slots = step(spec, slots, spec.dynamics.period / (3 * kSegments));
+          if (!is_before_seams(spec, slots)) break;
           for (std::size_t i = 0; i < a.grid.size(); ++i) {
             RC_ASSERT(covers(a.raw_tube(i, x, u), a.grid[i], slots[i].lower));
           }
