@@ -254,17 +254,17 @@ TYPED_TEST(BoxReaderTest, BoxesAreReadAsCellByCell) {
 
 /// So many levels that only two sets of shared minima are kept, which must give way to one another.
 TYPED_TEST(BoxReaderTest, SharedMinimaGiveWay) {
-  EXPECT_TRUE(rc::check("least levels with few slots", [] {
-    Problem problem({dimension(8, Outside::saturate, Outside::saturate),
-                     dimension(1024 / sizeof(TypeParam), Outside::saturate, Outside::saturate),
-                     dimension(80, Outside::saturate, Outside::saturate)},
-                    1);
-    LevelRows<TypeParam> rows = problem.engine.template make_levels<TypeParam>(problem.family);
-    for (std::int64_t r = 0; r < rows.rows(); ++r) {
-      for (std::int64_t c = 0; c < rows.row_length(); ++c)
-        rows.row(r)[c] = static_cast<TypeParam>((r * 31 + c * 7) % 251);
-      rows.close(r);
-    }
+  Problem problem({dimension(8, Outside::saturate, Outside::saturate),
+                   dimension(1024 / sizeof(TypeParam), Outside::saturate, Outside::saturate),
+                   dimension(80, Outside::saturate, Outside::saturate)},
+                  1);
+  LevelRows<TypeParam> rows = problem.engine.template make_levels<TypeParam>(problem.family);
+  for (std::int64_t r = 0; r < rows.rows(); ++r) {
+    for (std::int64_t c = 0; c < rows.row_length(); ++c)
+      rows.row(r)[c] = static_cast<TypeParam>((r * 31 + c * 7) % 251);
+    rows.close(r);
+  }
+  EXPECT_TRUE(rc::check("least levels with few slots", [&] {
     const std::int64_t second = problem.dimensions[1].count;
     BoxReader<TypeParam> reader(problem.engine, problem.family, 1, rows);
     std::vector<RowHull::Box> boxes(5);
@@ -283,6 +283,35 @@ TYPED_TEST(BoxReaderTest, SharedMinimaGiveWay) {
       }
     }
   }));
+}
+
+/// A shared row that fills its last block, read from its second lane on (for the address sanitiser).
+TEST(BoxReader, TheLastSharedRowIsReadToTheEndOfABlock) {
+  const auto line = [](std::int64_t count) { return dimension(count, Outside::saturate, Outside::saturate); };
+  Abstraction abstraction{.grid = UniformGrid({line(4), line(3), line(62)}),
+                          .inputs = InputSpace({{"u", {0, 1}}, {"v", {0, 1, 2}}})};
+  for (std::int32_t i = 0; i < 3; ++i) {
+    TransitionTable& table = abstraction.tables.emplace_back();
+    table.states = {i};
+    if (i < 2) table.inputs = {i};
+    table.shift = true;
+    const auto entries = static_cast<std::int32_t>(
+        lay_out(table, static_cast<std::size_t>(i), abstraction.grid, abstraction.inputs));
+    for (std::int32_t k = 0; k < entries; ++k)
+      table.entries.push_back(i == 0   ? IndexRange{k - 1, k}
+                              : i == 1 ? IndexRange{k - 1, k - 1}
+                                       : IndexRange{-1, 1});
+  }
+  const RowEngine engine(abstraction, nullptr, {});
+  ASSERT_EQ(engine.outer(), 1U);
+  auto levels = engine.make_levels<std::uint8_t>(engine.posts());
+  for (std::int64_t r = 0; r < levels.rows(); ++r) {
+    for (std::int64_t c = 0; c < 62; ++c) levels.row(r)[c] = static_cast<std::uint8_t>(200 - c - r);
+    levels.close(r);
+  }
+  BoxReader<std::uint8_t> reader(engine, engine.posts(), engine.outer(), levels);
+  const std::uint8_t* row = reader.minimum(RowHull::Box{{{0, 1}, {2, 2}}, {0, 1}, true});
+  for (std::int64_t c = 0; c < 62; ++c) EXPECT_EQ(row[c], 200 - std::min<std::int64_t>(c + 1, 61) - 5);
 }
 
 }  // namespace
