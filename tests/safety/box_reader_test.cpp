@@ -257,7 +257,7 @@ TYPED_TEST(BoxReaderTest, SharedMinimaGiveWay) {
   Problem problem({dimension(8, Outside::saturate, Outside::saturate),
                    dimension(1024 / sizeof(TypeParam), Outside::saturate, Outside::saturate),
                    dimension(80, Outside::saturate, Outside::saturate)},
-                  1);
+                  0);
   LevelRows<TypeParam> rows = problem.engine.template make_levels<TypeParam>(problem.family);
   for (std::int64_t r = 0; r < rows.rows(); ++r) {
     for (std::int64_t c = 0; c < rows.row_length(); ++c)

@@ -183,7 +183,7 @@ class ProblemWriter {
     const int u = draw(0, static_cast<int>(input_text_.size()) - 1);
     const int v = draw(0, static_cast<int>(input_text_.size()) - 1);
     if (plane_ && draw(0, 1) == 0) return "true";
-    return pick<std::string>({"true", "true", fmt::format("u{} <= 0", u),
+    return pick<std::string>({"true", "true", fmt::format("u{} <= 0", u), fmt::format("x{} != 3", i),
                               fmt::format("x{} >= 2 or u{} != 1", i, u),
                               fmt::format("u{} + u{} <= 1 and x{} + u{} >= 0", u, v, i, v)});
   }
