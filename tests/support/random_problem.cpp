@@ -74,7 +74,8 @@ class ProblemWriter {
     // Where nothing can be lost at the edges of the plane, all actions are possible far from obstacles.
     const bool harmless = plane_ && draw(0, 1) == 0;
     const auto side = [&] {
-      return harmless ? std::string("saturate") : pick<std::string>({"unsafe", "safe", "saturate"});
+      return harmless ? pick<std::string>({"safe", "saturate"})
+                      : pick<std::string>({"unsafe", "safe", "saturate"});
     };
     state_text_.push_back(
         fmt::format(R"({{{}, "upper": {}, "step": 1, "outside": {{"below": "{}", "above": "{}"}}}})", common,
