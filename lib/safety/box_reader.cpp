@@ -218,10 +218,12 @@ const Level* BoxReader<Level>::shared_row(Shared& shared, std::int64_t inner) {
   for_each_row(engine_, 0, shared.ranges, shared_counter_,
                [&](std::int64_t first) { sources_.push_back(levels_.row(first + inner)); });
   if (sources_.size() == 1) return known = sources_[0];
-  // Whole blocks are written, so a row has its last block to itself.
+  // Whole blocks are written, so a row has its last block to itself; and read from any lane on, so that
+  // another one follows the last row.
   constexpr auto kBlock = static_cast<std::int64_t>(kLevelBlock / sizeof(Level));
   const std::int64_t stride = (levels_.stride() + kBlock - 1) / kBlock * kBlock;
-  if (shared.storage.empty()) shared.storage.resize(static_cast<std::size_t>(engine_.unit_rows() * stride));
+  if (shared.storage.empty())
+    shared.storage.resize(static_cast<std::size_t>(engine_.unit_rows() * stride + kBlock));
   Level* target = shared.storage.data() + inner * stride;
   const std::int64_t before = levels_.margins().before;
   for (const Level*& source : sources_) source -= before;

@@ -37,8 +37,8 @@ struct FastAnalysis {
         }
       }
       groupings.emplace_back(engine, classes, team);
-      const Projections projections(controller, groupings.back(), hull, team);
-      layers.push_back(find_delay_layers(engine, hull, invariance.invariant, projections,
+      projections.emplace_back(controller, groupings.back(), hull, team);
+      layers.push_back(find_delay_layers(engine, hull, invariance.invariant, projections.back(),
                                          spec.coordination.max_delay, {}, team));
     }
   }
@@ -76,6 +76,7 @@ struct FastAnalysis {
   Invariance invariance;
   Controller controller;
   std::deque<ActionGrouping> groupings;
+  std::deque<Projections> projections;
   std::vector<DelayLayers> layers;
 };
 

@@ -24,11 +24,12 @@ class ProblemWriter {
     edges_ = edges;
     const bool between_samples = kind == RandomTime::between_samples;
     continuous_time_ = between_samples || (kind == RandomTime::any && draw(0, 3) == 0);
-    // Half of the problems are agents that share a plane: those have layers.
-    plane_ = draw(0, 1) == 0;
+    // Most problems are agents that share a plane: those have layers.
+    plane_ = draw(0, 2) > 0;
+    coupled_ = draw(0, 2) == 0;
     const int states = plane_ ? draw(2, 3) : draw(1, 3);
     for (int i = 0; i < states; ++i) add_state(i);
-    const int inputs = plane_ ? states : draw(1, 3);
+    const int inputs = !plane_ ? draw(1, 3) : states == 2 && draw(0, 2) == 0 ? 3 : states;
     for (int i = 0; i < inputs; ++i) add_input(i);
     const bool disturbed = draw(0, 2) == 0;
     const std::string cells = pick<std::string>({"closed", "half_open"});
@@ -70,7 +71,12 @@ class ProblemWriter {
           fmt::format(R"({{{}, "upper": {}, "count": {}, "outside": "periodic"}})", common, count, count));
       return;
     }
-    const auto side = [] { return pick<std::string>({"unsafe", "safe", "saturate"}); };
+    // Where nothing can be lost at the edges of the plane, all actions are possible far from obstacles.
+    const bool harmless = plane_ && draw(0, 1) == 0;
+    const auto side = [&] {
+      return harmless ? pick<std::string>({"safe", "saturate"})
+                      : pick<std::string>({"unsafe", "safe", "saturate"});
+    };
     state_text_.push_back(
         fmt::format(R"({{{}, "upper": {}, "step": 1, "outside": {{"below": "{}", "above": "{}"}}}})", common,
                     count - 1, side(), side()));
@@ -85,7 +91,8 @@ class ProblemWriter {
 
   std::string agents() {
     const auto inputs = static_cast<int>(input_text_.size());
-    agents_ = plane_ ? inputs : draw(1, inputs);
+    const auto states = static_cast<int>(discrete_.size());
+    agents_ = plane_ ? draw(std::min(states, inputs), inputs) : draw(1, inputs);
     std::vector<std::vector<std::string>> owned(static_cast<std::size_t>(agents_));
     for (int i = 0; i < inputs; ++i) {
       const int owner = i < agents_ ? i : draw(0, agents_ - 1);
@@ -113,12 +120,18 @@ class ProblemWriter {
     return join(parts);
   }
 
+  /// Each agent moves a state of its own, mostly; at times another input joins in, or nothing moves a state.
+  std::string plane_equation(std::size_t i, bool disturbed) {
+    std::string text = continuous_time_ ? "0" : fmt::format("x{}", i);
+    const auto inputs = static_cast<int>(input_text_.size());
+    if (draw(0, 9) > 0) text += fmt::format(" + {}u{}", pick<std::string>({"", "0.5*", "0.25*"}), i);
+    const int other = (static_cast<int>(i) + draw(1, inputs - 1)) % inputs;
+    if (coupled_ && draw(0, 1) == 0) text += fmt::format(" + 0.5*u{}", other);
+    return text + (disturbed && draw(0, 3) == 0 ? " + 0.25*w" : "");
+  }
+
   std::string equation(std::size_t i, bool disturbed) {
-    if (plane_) {
-      const std::string slow = pick<std::string>({"", "0.5*", "0.25*"});
-      return fmt::format("{}{}u{}{}", continuous_time_ ? "" : fmt::format("x{} + ", i), slow, i,
-                         disturbed && draw(0, 3) == 0 ? " + 0.25*w" : "");
-    }
+    if (plane_) return plane_equation(i, disturbed);
     const std::string u = fmt::format("u{}", draw(0, static_cast<int>(input_text_.size()) - 1));
     if (discrete_[i]) {
       // Whole numbers whatever the input is, so that the next value is on the grid.
@@ -158,6 +171,7 @@ class ProblemWriter {
     if (plane_) {
       return pick<std::string>({fmt::format("(x0 - 4)^2 + (x1 - 4)^2 <= {}", draw(9, 30)),
                                 fmt::format("abs(x0 - x1) >= {}.5", draw(0, 2)), "x0 <= 3 or x1 >= 4",
+                                "(x0 - 4)^2 + (x1 - 5)^2 >= 3", "x0 >= 2.5 or x1 >= 2",
                                 "abs(x0 - 4) >= 1.5 or abs(x1 - 4) >= 1.5",
                                 "x0 + x1 >= 5 and x0 + x1 <= 13"});
     }
@@ -169,7 +183,8 @@ class ProblemWriter {
     const int i = draw(0, static_cast<int>(discrete_.size()) - 1);
     const int u = draw(0, static_cast<int>(input_text_.size()) - 1);
     const int v = draw(0, static_cast<int>(input_text_.size()) - 1);
-    return pick<std::string>({"true", "true", fmt::format("u{} <= 0", u),
+    if (plane_ && draw(0, 1) == 0) return "true";
+    return pick<std::string>({"true", "true", fmt::format("u{} <= 0", u), fmt::format("x{} != 3", i),
                               fmt::format("x{} >= 2 or u{} != 1", i, u),
                               fmt::format("u{} + u{} <= 1 and x{} + u{} >= 0", u, v, i, v)});
   }
@@ -177,6 +192,7 @@ class ProblemWriter {
   RandomEdges edges_ = RandomEdges::any;
   bool continuous_time_ = false;
   bool plane_ = false;
+  bool coupled_ = false;  ///< in a plane: states may be moved by several agents
   int agents_ = 1;
   std::vector<bool> discrete_;
   std::vector<std::string> state_text_;

@@ -1,0 +1,176 @@
+// The parts that the row engine is made of, against the abstraction cell by cell.
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "safety/box_reader.hpp"
+#include "safety/tuple_walk.hpp"
+#include "spec/read_spec.hpp"
+#include "support/fast_engine.hpp"
+#include "support/random_problem.hpp"
+
+namespace coordreq {
+namespace {
+
+int draw(int low, int high) {
+  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
+}
+
+/// f(x, u) as the rules for leaving the domain leave it.
+struct Post {
+  bool blocked = false;
+  bool gone = false;
+  std::vector<IndexRange> box;
+
+  Post(const Abstraction& abstraction, std::int64_t x, std::int64_t u) {
+    for (std::size_t i = 0; i < abstraction.grid.size(); ++i) {
+      const ResolvedRange range = abstraction.resolved(i, x, u);
+      blocked = blocked || range.blocked;
+      gone = gone || range.all_left();
+      box.push_back(range.inside);
+    }
+  }
+  /// Calls visit(cell) for every cell of the post.
+  template <class Visit>
+  void for_each(const UniformGrid& grid, const Visit& visit) const {
+    if (!blocked && !gone) go(grid, 0, 0, visit);
+  }
+
+ private:
+  template <class Visit>
+  void go(const UniformGrid& grid, std::size_t i, std::int64_t cell, const Visit& visit) const {
+    if (i == box.size()) return visit(cell);
+    for (std::int64_t k = box[i].first; k <= box[i].last; ++k)
+      go(grid, i + 1, cell + k % grid[i].count * grid.stride(i), visit);
+  }
+};
+
+struct RandomEngine {
+  ProblemSpec spec = read_spec(draw_problem(), "random");
+  ThreadTeam team{1};
+  Abstraction abstraction = build_abstraction(spec, team);
+  std::optional<ConditionTable> allow = allow_table(spec, abstraction, team);
+  RowEngine engine{abstraction, allow ? &*allow : nullptr, {}};
+};
+
+bool holds(const IndexRange& range, std::int64_t count, std::int64_t k) {
+  return (range.first <= k && k <= range.last) || (range.first <= k + count && k + count <= range.last);
+}
+
+/// What is skipped, and what is not looked at in detail, rests on this box.
+TEST(RowHull, HoldsThePostsOfTheRow) {
+  EXPECT_TRUE(rc::check("rows of posts, and levels where it covers them", [] {
+    const RandomEngine random;
+    const Abstraction& f = random.abstraction;
+    const UniformGrid& grid = f.grid;
+    const RowHull hull(random.engine);
+    LevelRows<std::uint8_t> levels = random.engine.make_levels<std::uint8_t>(random.engine.posts());
+    for (std::int64_t x = 0; x < grid.cells(); ++x)
+      levels.row(x / grid.row_length())[x % grid.row_length()] =
+          static_cast<std::uint8_t>(draw(0, 3) == 0 ? draw(0, 9) : 255);
+    for (std::int64_t r = 0; r < grid.rows(); ++r) levels.close(r);
+    BoxReader<std::uint8_t> reader(random.engine, random.engine.posts(), random.engine.outer(), levels);
+    bool covers = false;
+    for (RowPlace place(grid, 0); place.row < grid.rows(); place.advance(grid)) {
+      RowHull::Box box;
+      hull.box(place, box);
+      covers = covers || box.covers;
+      reader.enter();
+      const std::uint8_t* bound = box.covers ? reader.minimum(box) : nullptr;
+      for (std::int64_t c = 0; c < grid.row_length(); ++c) {
+        for (std::int64_t u = 0; u < f.inputs.count(); ++u) {
+          const Post post(f, place.row * grid.row_length() + c, u);
+          std::uint8_t least = post.blocked ? 0 : 255;
+          post.for_each(grid, [&](std::int64_t cell) {
+            for (std::size_t i = 0; i + 1 < grid.size(); ++i)
+              RC_ASSERT(holds(box.ranges[i], grid[i].count, grid.index(cell, i)));
+            least = std::min(least, levels.row(cell / grid.row_length())[cell % grid.row_length()]);
+          });
+          if (bound != nullptr) RC_ASSERT(bound[c] <= least);
+        }
+      }
+    }
+    RC_CLASSIFY(covers, "covers the posts of some row");
+  }));
+}
+
+/// The joint input of one action a class, row-major over the inputs of each.
+std::int64_t joint_input(const ActionGrouping& grouping, const InputSpace& inputs,
+                         const std::vector<std::uint32_t>& actions) {
+  std::int64_t u = 0;
+  for (std::size_t c = 0; c < grouping.size(); ++c) {
+    std::int64_t rest = actions[c];
+    for (std::size_t k = grouping.inputs(c).size(); k-- > 0;) {
+      const auto i = static_cast<std::size_t>(grouping.inputs(c)[k]);
+      u += rest % inputs[i].count() * inputs.stride(i);
+      rest /= inputs[i].count();
+    }
+  }
+  return u;
+}
+
+/// The segment of a slice says the same as the resolved range of cell c.
+bool says(const RowSegment& segment, const ResolvedRange& range, const GridDimension& target,
+          std::int64_t c) {
+  using Kind = RowSegment::Kind;
+  if (segment.kind == Kind::blocked) return range.blocked;
+  if (segment.kind == Kind::gone) return !range.blocked && range.all_left();
+  if (segment.kind == Kind::fixed) return !range.blocked && segment.range == range.inside;
+  // A shifted one is resolved at the ends of the row, by margins; it may be shortened to what is in sight.
+  const ResolvedRange moved = resolve(
+      {static_cast<std::int32_t>(c + segment.range.first), static_cast<std::int32_t>(c + segment.range.last)},
+      target.count, target.below, target.above);
+  if (moved.blocked || range.blocked) return moved.blocked == range.blocked;
+  return moved.inside == range.inside || (moved.all_left() && range.all_left());
+}
+
+TEST(TupleWalk, GoesThroughAllJointGroupsOfARow) {
+  EXPECT_TRUE(rc::check("slices and `allow` of every choice of groups", [] {
+    const RandomEngine random;
+    const Abstraction& f = random.abstraction;
+    const UniformGrid& grid = f.grid;
+    std::vector<InputClass> classes(static_cast<std::size_t>(draw(1, static_cast<int>(f.inputs.size()))));
+    for (std::size_t i = 0; i < f.inputs.size(); ++i) {
+      const std::size_t c =
+          i < classes.size() ? i : static_cast<std::size_t>(draw(0, static_cast<int>(classes.size()) - 1));
+      classes[c].push_back(static_cast<std::int32_t>(i));
+    }
+    ThreadTeam team(1);
+    const ActionGrouping grouping(random.engine, classes, team);
+    RowGroups groups;
+    TupleWalk::Candidates candidates;
+    TupleWalk walk;
+    for (RowPlace place(grid, 0); place.row < grid.rows(); place.advance(grid)) {
+      grouping.group(place, groups);
+      choose_groups(groups, GroupChoice::all, candidates);
+      walk.begin(grouping, place, groups, candidates);
+      std::vector<std::uint32_t> expected(grouping.size(), 0);
+      for (bool more = true; more;) {
+        std::vector<std::uint32_t> actions;
+        for (std::size_t c = 0; c < grouping.size(); ++c) {
+          RC_ASSERT(walk.chosen(c) == expected[c]);
+          actions.push_back(groups.classes[c]->representative[expected[c]]);
+        }
+        const std::int64_t u = joint_input(grouping, f.inputs, actions);
+        const auto ids = walk.slice_ids();
+        for (std::size_t t = 0; t < grid.size(); ++t) {
+          for (const RowSegment& segment : random.engine.slices()[t].slices[ids[t]]) {
+            for (std::int64_t c = segment.begin; c < segment.end; ++c)
+              RC_ASSERT(says(segment, f.resolved(t, place.row * grid.row_length() + c, u), grid[t], c));
+          }
+        }
+        RC_ASSERT(walk.allowed().empty() == (random.engine.allow() == nullptr));
+        if (random.engine.allow() != nullptr)
+          RC_ASSERT(std::ranges::equal(walk.allowed(), random.engine.allow()->row(place.row, u)));
+        // The last class is the fastest.
+        std::size_t c = grouping.size();
+        while (c > 0 && ++expected[c - 1] == groups.classes[c - 1]->size()) expected[--c] = 0;
+        more = walk.next();
+        RC_ASSERT(more == (c > 0));
+      }
+    }
+  }));
+}
+
+}  // namespace
+}  // namespace coordreq
