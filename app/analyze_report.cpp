@@ -141,6 +141,11 @@ std::string summary_json(const AnalysisSummary& summary) {
   json["threads"] = summary.threads;
   json["seconds"] = Json::object();
   for (const auto& [stage, seconds] : summary.seconds) json["seconds"][stage] = seconds;
+  json["work"] = Json::object();
+  for (const AnalysisSummary::Work& work : summary.work) {
+    json["work"][work.stage] = {
+        {"sweeps", work.sweeps}, {"rows_visited", work.rows_visited}, {"rows_skipped", work.rows_skipped}};
+  }
   json["peak_memory_bytes"] = summary.peak_memory_bytes;
   return json_text(json);
 }

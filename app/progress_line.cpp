@@ -12,8 +12,9 @@ constexpr std::chrono::milliseconds kPause{100};
 
 std::string describe(const Progress& progress) {
   std::string text = printable(progress.stage);
-  if (progress.step > 0) text += ", step " + grouped(progress.step);
-  if (progress.cells_left > 0) text += ", " + grouped(progress.cells_left) + " cells left";
+  if (progress.sweep > 0) {
+    text += ", sweep " + grouped(progress.sweep) + ", " + grouped(progress.rows) + " rows";
+  }
   return text;
 }
 

@@ -10,13 +10,20 @@
 namespace coordreq {
 namespace {
 
+std::string dependencies(const SpecReport::State& state) {
+  std::vector<std::string> all = state.states;
+  all.insert(all.end(), state.inputs.begin(), state.inputs.end());
+  all.insert(all.end(), state.disturbances.begin(), state.disturbances.end());
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
 std::string states_table(const SpecReport& report) {
   using Align = Table::Align;
-  Table table({Align::left, Align::right, Align::left, Align::right, Align::left});
-  table.add({"state", "points", "unit", "table entries", "next value depends on"});
+  Table table({Align::left, Align::right, Align::left, Align::left, Align::right, Align::right, Align::left});
+  table.add({"state", "points", "unit", "table", "entries", "memory", "next value depends on"});
   for (const SpecReport::State& state : report.states) {
-    table.add({state.name, grouped(state.points), printable(state.unit), grouped(state.table_entries),
-               fmt::format("{}", fmt::join(state.depends_on, ", "))});
+    table.add({state.name, grouped(state.points), printable(state.unit), state.shift ? "shift" : "full",
+               grouped(state.table_entries), byte_size(state.table_bytes), dependencies(state)});
   }
   return table.text();
 }
@@ -36,6 +43,7 @@ std::string totals_table(const SpecReport& report) {
   table.add({"joint inputs", grouped(report.joint_inputs)});
   table.add({"partitions", fmt::format("{}", fmt::join(report.partitions, ", "))});
   table.add({"reachable sets", report.exact ? "exact interval hulls" : "outward rounded"});
+  table.add({"guarantee", guarantee_text(report.guarantee)});
   table.add({"memory of analyze", "about " + byte_size(report.memory_bytes)});
   return table.text();
 }
@@ -50,8 +58,11 @@ Json state_json(const SpecReport::State& state) {
   json["name"] = state.name;
   json["unit"] = state.unit;
   json["points"] = state.points;
-  json["depends_on"] = state.depends_on;
+  json["depends_on"] =
+      Json{{"states", state.states}, {"inputs", state.inputs}, {"disturbances", state.disturbances}};
+  json["shift"] = state.shift;
   json["table_entries"] = state.table_entries;
+  json["table_bytes"] = state.table_bytes;
   return json;
 }
 
@@ -68,6 +79,7 @@ std::string report_json(const SpecReport& report) {
   }
   json["partitions"] = report.partitions;
   json["exact"] = report.exact;
+  json["guarantee"] = report.guarantee;
   json["memory_bytes"] = report.memory_bytes;
   return json_text(json);
 }

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <atomic>
 
+#include "abstraction/affine_post.hpp"
+#include "abstraction/affine_tube.hpp"
 #include "abstraction/cells_meeting.hpp"
 #include "abstraction/counter.hpp"
-#include "abstraction/index_form.hpp"
 #include "base/error.hpp"
+#include "dynamics/shift.hpp"
 #include "grid/pieces.hpp"
 
 namespace coordreq {
@@ -29,6 +31,8 @@ class TableBuilder {
         inputs_(abstraction.inputs),
         dependencies_(dynamics.dependencies(state)),
         table_(abstraction.tables[state]),
+        tube_(abstraction.tubes.empty() ? nullptr : &abstraction.tubes[state]),
+        post_{grid_, dependencies_.moving, state},
         state_(state) {}
 
   std::optional<bool> build(ThreadTeam& team) {
@@ -37,7 +41,10 @@ class TableBuilder {
                          dependencies_.parameters.end());
     std::sort(table_.states.begin(), table_.states.end());
     table_.inputs = dependencies_.inputs;
-    table_.entries.resize(static_cast<std::size_t>(lay_out(table_, grid_, inputs_)));
+    table_.shift = is_shift(spec_, dependencies_, state_);
+    post_.shift = table_.shift;
+    table_.entries.resize(static_cast<std::size_t>(lay_out(table_, state_, grid_, inputs_)));
+    if (tube_ != nullptr) *tube_ = table_;
 
     std::atomic<bool> affine = true;
     std::atomic<bool> exact = true;
@@ -58,7 +65,7 @@ class TableBuilder {
  private:
   [[nodiscard]] std::vector<std::int64_t> choice_counts() const {
     std::vector<std::int64_t> counts;
-    for (const std::int32_t i : dependencies_.parameters) counts.push_back(grid_[at(i)].count);
+    for (const std::int32_t i : dependencies_.parameters) counts.push_back(post_.filled_count(at(i)));
     for (const std::int32_t i : dependencies_.inputs) counts.push_back(inputs_[at(i)].count());
     return counts;
   }
@@ -86,26 +93,14 @@ class TableBuilder {
     } else {
       fill_cells(*row, base);
     }
+    if (tube_ != nullptr) fill_affine_tube(post_, dynamics_.tube_rows(state_, slots).value(), base, *tube_);
     return row->exact;
   }
 
-  /// Lower and upper end of the post, less `shift`, in units of the grid step, as forms of the cells'
-  /// indices.
+  /// Lower or upper end of the post, measurement error included, plus `shift`.
   [[nodiscard]] IndexForm end_form(const SampledRow& row, bool upper, const Rational& shift) const {
-    const GridDimension& target = grid_[state_];
-    std::vector<Rational> factors;
-    std::vector<std::int64_t> counts;
-    const Rational error = upper ? target.measurement_error : Rational(-target.measurement_error);
-    Rational offset = (upper ? row.upper : row.lower) + error - target.first;
-    for (std::size_t j = 0; j < dependencies_.moving.size(); ++j) {
-      const GridDimension& source = grid_[at(dependencies_.moving[j])];
-      const Rational& m = row.coefficient[j];
-      const Rational spread = abs(m) * (source.radius() + source.measurement_error);
-      offset += m * source.first + (upper ? spread : Rational(-spread));
-      factors.push_back(m * source.step / target.step);
-      counts.push_back(source.count);
-    }
-    return IndexForm(factors, offset / target.step + shift, counts);
+    const Rational error = grid_[state_].measurement_error / grid_[state_].step;
+    return post_.end_form(row, upper, shift + (upper ? error : Rational(-error)));
   }
 
   [[nodiscard]] bool upper_end_attained(const SampledRow& row) const {
@@ -114,20 +109,6 @@ class TableBuilder {
       if (row.coefficient[j] > 0 && !grid_[at(dependencies_.moving[j])].discrete) return false;
     }
     return true;
-  }
-
-  template <class Entry>
-  void for_each_cell(std::int64_t base, const Entry& entry) {
-    std::vector<std::int64_t> counts;
-    for (const std::int32_t j : dependencies_.moving) counts.push_back(grid_[at(j)].count);
-    Counter cell(counts);
-    do {
-      std::int64_t position = base;
-      for (std::size_t j = 0; j < counts.size(); ++j) {
-        position += cell.indices()[j] * table_.state_stride[at(dependencies_.moving[j])];
-      }
-      table_.entries[static_cast<std::size_t>(position)] = entry(cell.indices());
-    } while (cell.next());
   }
 
   /// The value jumps where a periodic state does, unless it is that state itself, turned a whole number of
@@ -144,27 +125,15 @@ class TableBuilder {
   void fill_pieces(const SampledRow& row, std::int64_t base) {
     const GridDimension& target = grid_[state_];
     const bool attained = upper_end_attained(row);
-    for_each_cell(base, [&](const std::vector<std::int64_t>& cell) {
-      std::vector<std::vector<Piece>> parts;
-      std::vector<std::int64_t> counts;
-      for (std::size_t j = 0; j < cell.size(); ++j) {
-        parts.push_back(pieces(grid_[at(dependencies_.moving[j])], cell[j]));
-        counts.push_back(static_cast<std::int64_t>(parts.back().size()));
-      }
+    post_.fill(table_, base, [&](const std::vector<std::int64_t>& cell) {
       std::optional<IndexRange> range;
-      Counter choice(counts);
-      do {
-        Rational lower = row.lower - target.measurement_error;
-        Rational upper = row.upper + target.measurement_error;
-        for (std::size_t j = 0; j < cell.size(); ++j) {
-          const Piece& piece = parts[j][static_cast<std::size_t>(choice.indices()[j])];
-          const Rational& m = row.coefficient[j];
-          lower += m * (m > 0 ? piece.lower : piece.upper);
-          upper += m * (m > 0 ? piece.upper : piece.lower);
-        }
-        const IndexRange next = cells_meeting(target, spec_.abstraction.cells, lower, upper, attained);
+      post_.for_each_choice_of_pieces(cell, [&](const std::vector<Piece>& pieces) {
+        const Piece values = post_.from_pieces(row, pieces);
+        const IndexRange next =
+            cells_meeting(target, spec_.abstraction.cells, values.lower - target.measurement_error,
+                          values.upper + target.measurement_error, attained);
         range = range ? merge_ranges(*range, next, target) : next;
-      } while (choice.next());
+      });
       return *range;
     });
   }
@@ -176,7 +145,7 @@ class TableBuilder {
     const bool attained = closed || upper_end_attained(row);
     const IndexForm lower = end_form(row, false, closed ? Rational(-half) : half);
     const IndexForm upper = end_form(row, true, half);
-    for_each_cell(base, [&](const std::vector<std::int64_t>& cell) {
+    post_.fill(table_, base, [&](const std::vector<std::int64_t>& cell) {
       const std::int64_t first = closed ? lower.ceil(cell) : lower.floor(cell);
       const std::int64_t last = attained ? upper.floor(cell) : upper.ceil(cell) - 1;
       return IndexRange{saturate_index(first), saturate_index(last)};
@@ -189,7 +158,7 @@ class TableBuilder {
       if (row.coefficient[j] != 0 && !grid_[at(dependencies_.moving[j])].discrete) spread = true;
     }
     const IndexForm form = end_form(row, false, 0);
-    for_each_cell(base, [&](const std::vector<std::int64_t>& cell) {
+    post_.fill(table_, base, [&](const std::vector<std::int64_t>& cell) {
       if (spread || !form.integral(cell)) throw off_grid(row, slots, cell, spread);
       const std::int32_t index = saturate_index(form.floor(cell));
       return IndexRange{index, index};
@@ -227,6 +196,8 @@ class TableBuilder {
   const InputSpace& inputs_;
   const Dependencies& dependencies_;
   TransitionTable& table_;
+  TransitionTable* tube_;  ///< null if not asked for
+  AffinePost post_;
   std::size_t state_;
 };
 

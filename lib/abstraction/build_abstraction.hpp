@@ -14,7 +14,8 @@ struct TableShape {
   std::vector<std::int32_t> states;
   std::vector<std::int32_t> inputs;
   std::vector<std::int32_t> disturbances;
-  double entries = 1;  ///< may be beyond what an integer holds
+  bool shift = false;  ///< as in TransitionTable
+  double entries = 1;  ///< that are stored; may be beyond what an integer holds
 };
 [[nodiscard]] std::vector<TableShape> table_shapes(const ProblemSpec& spec);
 

@@ -1,5 +1,7 @@
 #include "abstraction/cells_meeting.hpp"
 
+#include <algorithm>
+
 namespace coordreq {
 
 IndexRange cells_meeting(const GridDimension& dimension, Cells cells, const Rational& lower,
@@ -23,6 +25,19 @@ IndexRange cells_meeting_shifted(const GridDimension& dimension, Cells cells, co
   const Rational reach = dimension.step / 2 + 2 * dimension.measurement_error;
   return cells_meeting(dimension, cells, dimension.first - reach + exact(shift.lower),
                        dimension.first + reach + exact(shift.upper), false);
+}
+
+IndexRange cells_covering(const GridDimension& dimension, const Rational& lower, const Rational& upper) {
+  const Rational reach = dimension.radius() + dimension.measurement_error;
+  const std::int64_t first = floor_to_int((lower + reach - dimension.first) / dimension.step);
+  const std::int64_t last = ceil_to_int((upper - reach - dimension.first) / dimension.step);
+  // Where cells overlap, each of several may cover all.
+  return {saturate_index(first), saturate_index(std::max(first, last))};
+}
+
+IndexRange cells_covering_shifted(const GridDimension& dimension, const Interval& shift) {
+  return {saturate_index(floor_to_int(exact(shift.lower) / dimension.step)),
+          saturate_index(ceil_to_int(exact(shift.upper) / dimension.step))};
 }
 
 }  // namespace coordreq

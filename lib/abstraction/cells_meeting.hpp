@@ -22,4 +22,13 @@ namespace coordreq {
 [[nodiscard]] IndexRange cells_meeting_shifted(const GridDimension& dimension, Cells cells,
                                                const Interval& shift);
 
+/// Raw indices first, ..., last of cells that together cover [lower, upper], as few as possible: cells are
+/// closed in either mode and widened by the measurement error, as S knows them (see safe_set()). A set that
+/// ends on a face does not need the neighbour. Exact.
+[[nodiscard]] IndexRange cells_covering(const GridDimension& dimension, const Rational& lower,
+                                        const Rational& upper);
+
+/// The same relative to the own cell for all of it moved by `shift`. REQUIRES: 0 in `shift`.
+[[nodiscard]] IndexRange cells_covering_shifted(const GridDimension& dimension, const Interval& shift);
+
 }  // namespace coordreq

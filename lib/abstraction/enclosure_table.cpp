@@ -11,6 +11,7 @@
 #include "abstraction/counter.hpp"
 #include "abstraction/state_enclosure.hpp"
 #include "base/error.hpp"
+#include "dynamics/shift.hpp"
 #include "grid/pieces.hpp"
 
 namespace coordreq {
@@ -19,6 +20,9 @@ namespace {
 std::size_t at(std::int32_t i) {
   return static_cast<std::size_t>(i);
 }
+
+constexpr IndexRange kEverywhere{std::numeric_limits<std::int32_t>::min(),
+                                 std::numeric_limits<std::int32_t>::max()};
 
 Interval box_of(const Rational& lower, const Rational& upper) {
   return {.lower = lower_double(lower), .upper = upper_double(upper)};
@@ -41,14 +45,22 @@ class EnclosureTable {
         enclosure_(spec, dependencies, state),
         target_(abstraction.grid[state]),
         table_(abstraction.tables[state]),
+        tube_(abstraction.tubes.empty() ? nullptr : &abstraction.tubes[state]),
         state_(state) {
     table_.states = dependencies.moving;
     table_.states.insert(table_.states.end(), dependencies.parameters.begin(), dependencies.parameters.end());
     std::sort(table_.states.begin(), table_.states.end());
     table_.inputs = dependencies.inputs;
-    table_.entries.resize(static_cast<std::size_t>(lay_out(table_, abstraction.grid, abstraction.inputs)));
+    table_.shift = is_shift(spec, dependencies, state);
+    table_.entries.resize(
+        static_cast<std::size_t>(lay_out(table_, state, abstraction.grid, abstraction.inputs)));
+    if (tube_ != nullptr) *tube_ = table_;
     for (const std::int32_t j : table_.states) {
-      if (!(enclosure_.shifts() && at(j) == state)) add_state(abstraction.grid[at(j)], at(j));
+      const bool own_of_shift = table_.shift && at(j) == state;
+      if (own_of_shift && enclosure_.shifts()) continue;
+      if (at(j) == state) own_ = variables_.size();
+      const GridDimension& dimension = abstraction.grid[at(j)];
+      add_state(dimension, at(j), own_of_shift ? 1 : dimension.count);
     }
     for (const std::int32_t j : table_.inputs) add_input(abstraction.inputs[at(j)], at(j));
   }
@@ -70,15 +82,18 @@ class EnclosureTable {
   }
 
  private:
-  void add_state(const GridDimension& dimension, std::size_t state) {
+  /// With its first `count` indices.
+  void add_state(const GridDimension& dimension, std::size_t state, std::int64_t count) {
     VariableBoxes& variable = variables_.emplace_back();
     variable.slot = spec_.state_slot(state);
     variable.name = dimension.name;
     variable.stride = table_.state_stride[state];
-    for (std::int64_t k = 0; k < dimension.count; ++k) {
+    for (std::int64_t k = 0; k < count; ++k) {
       variable.points.push_back(dimension.point(k));
       std::vector<Interval>& boxes = variable.pieces.emplace_back();
-      for (const Piece& piece : pieces(dimension, k)) boxes.push_back(box_of(piece.lower, piece.upper));
+      const std::vector<Piece> parts = pieces(dimension, k);
+      for (const Piece& piece : parts) boxes.push_back(box_of(piece.lower, piece.upper));
+      if (state == state_) own_pieces_.push_back(parts);
     }
   }
 
@@ -101,23 +116,21 @@ class EnclosureTable {
       piece_counts.push_back(static_cast<std::int64_t>(boxes_of(choice, v).size()));
     }
     std::optional<IndexRange> range;
+    std::optional<IndexRange> tube;
+    const auto add = [&](std::optional<IndexRange>& sum, IndexRange next) {
+      sum = sum ? merge_ranges(*sum, next, target_) : next;
+    };
     Counter piece(piece_counts);
     do {
       for (std::size_t v = 0; v < choice.size(); ++v) {
         enclosure.set(variables_[v].slot, boxes_of(choice, v)[static_cast<std::size_t>(piece.indices()[v])]);
       }
-      const IndexRange next = indices(enclosure.enclose(), choice);
-      range = range ? merge_ranges(*range, next, target_) : next;
+      const StateEnclosure::Result result = enclosure.enclose();
+      add(range, indices(result, choice));
+      if (tube_ != nullptr) add(tube, tube_indices(result, choice, piece.indices()));
     } while (piece.next());
-
-    if (!enclosure_.shifts()) {
-      table_.entries[static_cast<std::size_t>(base)] = *range;
-      return;
-    }
-    for (std::int64_t k = 0; k < target_.count; ++k) {
-      table_.entries[static_cast<std::size_t>(base + k * table_.state_stride[state_])] = {
-          saturate_index(range->first + k), saturate_index(range->last + k)};
-    }
+    table_.entries[static_cast<std::size_t>(base)] = *range;
+    if (tube_ != nullptr) tube_->entries[static_cast<std::size_t>(base)] = *tube;
   }
 
   [[nodiscard]] const std::vector<Interval>& boxes_of(const std::vector<std::int64_t>& choice,
@@ -138,13 +151,27 @@ class EnclosureTable {
     return cells_meeting(target_, spec_.abstraction.cells, value);
   }
 
+  /// From both bounds: where the state is, and how far it can have moved from the exact piece it started in.
+  [[nodiscard]] IndexRange tube_indices(const StateEnclosure::Result& result,
+                                        const std::vector<std::int64_t>& choice,
+                                        const std::vector<std::int64_t>& piece) const {
+    if (result.status != StateEnclosure::Status::ok) return kEverywhere;  // and so is its post
+    if (enclosure_.shifts()) {
+      return cells_covering_shifted(target_, intersect(result.tube, result.drift).value_or(result.tube));
+    }
+    const Piece& start =
+        own_pieces_[static_cast<std::size_t>(choice[own_])][static_cast<std::size_t>(piece[own_])];
+    const Rational from_below = start.lower + exact(result.drift.lower);
+    const Rational from_above = start.upper + exact(result.drift.upper);
+    return cells_covering(target_, std::max(from_below, exact(result.tube.lower)),
+                          std::min(from_above, exact(result.tube.upper)));
+  }
+
   /// A solution without an enclosure is no harm where its state has left the domain through an unsafe side by
   /// then.
   [[nodiscard]] IndexRange indices_of_failure(const StateEnclosure::Result& result,
                                               const std::vector<std::int64_t>& choice) const {
-    if (result.left_unsafely) {
-      return {std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()};
-    }
+    if (result.left_unsafely) return kEverywhere;
     const std::string& name = spec_.states[result.culprit].name;
     const std::string what =
         result.status == StateEnclosure::Status::undefined
@@ -155,7 +182,8 @@ class EnclosureTable {
 
   [[nodiscard]] IndexRange index_of_point(const Interval& value,
                                           const std::vector<std::int64_t>& choice) const {
-    const Rational index = (exact(value.lower) - target_.first) / target_.step;
+    const Rational origin = enclosure_.shifts() ? Rational(0) : target_.first;
+    const Rational index = (exact(value.lower) - origin) / target_.step;
     if (!value.is_point() || !is_integer(index)) {
       throw SpecError(
           fmt::format("the next value of the discrete state '{}' is in [{}, {}]{}, expected one of {} + k * "
@@ -183,8 +211,11 @@ class EnclosureTable {
   StateEnclosure enclosure_;
   const GridDimension& target_;
   TransitionTable& table_;
+  TransitionTable* tube_;  ///< null if not asked for
   std::size_t state_;
   std::vector<VariableBoxes> variables_;  ///< all that the table ranges over, but for a shifted own state
+  std::size_t own_ = 0;                   ///< among them, unless shifted
+  std::vector<std::vector<Piece>> own_pieces_;  ///< [index][piece], exactly
 };
 
 }  // namespace

@@ -24,6 +24,8 @@ class StateEnclosure {
     bool left_unsafely =
         false;       ///< unless ok: by then this state may have left through an unsafe side of its own
     Interval value;  ///< of the next state; of the difference to the present one if shifts()
+    Interval tube;   ///< in continuous time: the same at all times in [0, tau]
+    Interval drift;  ///< in continuous time: the difference to the present one, see FlowEnclosure::drift
   };
 
   /// REQUIRES: `spec` outlives this object.
@@ -40,9 +42,9 @@ class StateEnclosure {
  private:
   void prepare_map();
   void prepare_flow();
-  [[nodiscard]] bool map_shifts() const;
   [[nodiscard]] Result enclose_map();
   [[nodiscard]] Result enclose_flow();
+  [[nodiscard]] Interval within_limits(Interval value) const;
 
   const ProblemSpec* spec_;
   Dependencies dependencies_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <numeric>
 #include <optional>
 
 #include "abstraction/build_abstraction.hpp"
@@ -15,6 +16,7 @@
 #include "results/write_results.hpp"
 #include "safety/invariance.hpp"
 #include "safety/safe_set.hpp"
+#include "safety/safe_tubes.hpp"
 
 namespace coordreq {
 namespace {
@@ -60,26 +62,32 @@ class Analysis {
     enter("safe set");
     const CellSet safe = safe_set(spec_, abstraction, team_);
     const std::optional<ConditionTable> allow = allow_table(spec_, abstraction, team_);
-    const RowEngine engine(abstraction, allow ? &*allow : nullptr);
-    const RowReach reach(engine);
+    const std::optional<CellSet> beyond = safe_beyond_limits(spec_, abstraction, safe, team_);
+    const SafeTubes tubes{spec_.abstraction.between_samples ? &safe : nullptr, beyond ? &*beyond : nullptr};
+    const RowEngine engine(abstraction, allow ? &*allow : nullptr, tubes);
+    const RowHull hull(engine);
     enter("invariance");
     const Invariance invariance =
-        find_invariance(engine, reach, safe, spec_.controller.synthesis, stepper("invariance"), team_);
-    const RowTarget invariant = engine.target(invariance.invariant, team_);
-    const Controller controller{&engine, &invariant, spec_.controller.synthesis};
+        find_invariance(engine, hull, safe, spec_.controller.synthesis, stepper("invariance"), team_);
+    const Controller controller{&engine, &invariance.invariant, &invariance.collision_time,
+                                spec_.controller.synthesis};
     std::deque<PartitionResult> partitions;  // a deque, so that references stay valid
     for (const PartitionSpec& partition : spec_.coordination.partitions) {
       const std::string stage = "layers " + partition.name;
       enter(stage);
       PartitionResult& result = partitions.emplace_back(
           PartitionResult{&partition, ActionGrouping(engine, input_classes(spec_, partition), team_), {}});
-      const Projections projections(controller, result.grouping, team_);
-      result.layers = find_delay_layers(engine, reach, safe, invariance.invariant, projections,
+      const Projections projections(controller, result.grouping, hull, team_);
+      result.layers = find_delay_layers(engine, hull, invariance.invariant, projections,
                                         spec_.coordination.max_delay, stepper(stage), team_);
     }
     enter("writing");
+    add_work("invariance", invariance.counts);
+    for (const PartitionResult& partition : partitions) {
+      add_work("layers " + partition.spec->name, partition.layers.counts);
+    }
     summarise(abstraction, safe, invariance, partitions);
-    write(controller, abstraction, safe, invariance, partitions);
+    write(controller, abstraction, invariance, partitions);
     timer_.end();
     summary_.seconds = timer_.seconds();
     summary_.peak_memory_bytes = peak_memory_bytes();
@@ -97,11 +105,11 @@ class Analysis {
   }
 
   [[nodiscard]] std::function<void(std::int64_t, std::int64_t)> stepper(const std::string& stage) const {
-    return [this, stage](std::int64_t step, std::int64_t cells_left) { report({stage, step, cells_left}); };
+    return [this, stage](std::int64_t sweep, std::int64_t rows) { report({stage, sweep, rows}); };
   }
 
-  [[nodiscard]] std::string guarantee() const {
-    return spec_.abstraction.safe == Membership::center ? "samples-center" : "samples";
+  void add_work(const std::string& stage, const WaveCounts& counts) {
+    summary_.work.push_back({stage, counts.sweeps, counts.rows_visited, counts.rows_skipped});
   }
 
   void summarise(const Abstraction& abstraction, const CellSet& safe, const Invariance& invariance,
@@ -112,7 +120,7 @@ class Analysis {
     summary_.safe = safe.count();
     summary_.invariant = invariance.invariant.count();
     summary_.iterations = invariance.iterations;
-    summary_.guarantee = guarantee();
+    summary_.guarantee = guarantee_of(spec_);
     summary_.period = nearest_double(spec_.dynamics.period);
     summary_.period_unit = spec_.dynamics.unit;
     for (const PartitionResult& partition : partitions) summary_.partitions.push_back(summary_of(partition));
@@ -137,24 +145,25 @@ class Analysis {
     return result;
   }
 
-  void write(const Controller& controller, const Abstraction& abstraction, const CellSet& safe,
-             const Invariance& invariance, const std::deque<PartitionResult>& partitions) const {
+  void write(const Controller& controller, const Abstraction& abstraction, const Invariance& invariance,
+             const std::deque<PartitionResult>& partitions) const {
+    const CellOrder order(abstraction.grid, spec_order());
+    const LevelMap& collision_time = invariance.collision_time;
     ResultContent content{.name = spec_.name,
                           .spec_text = spec_.text,
-                          .guarantee = guarantee(),
+                          .guarantee = guarantee_of(spec_),
                           .period = nearest_double(spec_.dynamics.period),
                           .period_unit = spec_.dynamics.unit,
                           .connection_delay = spec_.coordination.connection_delay,
                           .axes = axes(abstraction),
                           .safe_cells = static_cast<std::uint64_t>(summary_.safe),
                           .invariant_cells = static_cast<std::uint64_t>(summary_.invariant),
-                          .safe = membership_array(safe),
-                          .invariant = membership_array(invariance.invariant),
+                          .safe = safe_array(collision_time, order),
+                          .invariant = invariant_array(collision_time, order),
                           .iterations = invariance.iterations};
-    const ElementType collision_type = level_type(invariance.collision_time, Invariance::kNever);
-    content.collision_time = level_array(invariance.collision_time, Invariance::kNever, collision_type);
+    content.collision_time = collision_array(collision_time, order, level_type(invariance.iterations - 1));
     for (const PartitionResult& partition : partitions) {
-      content.partitions.push_back(partition_content(controller, partition, delay_type(partitions)));
+      content.partitions.push_back(partition_content(controller, partition, order, delay_type(partitions)));
     }
     std::optional<ActionGrouping> all_inputs;
     if (spec_.output.controller) {
@@ -165,11 +174,19 @@ class Analysis {
     write_results(options_.output, content, team_);
   }
 
+  /// One type for all partitions, which share an array.
   [[nodiscard]] static ElementType delay_type(const std::deque<PartitionResult>& partitions) {
-    const auto wide = [](const PartitionResult& partition) {
-      return level_type(partition.layers.delay, DelayLayers::kUnbounded) == ElementType::int32;
-    };
-    return std::any_of(partitions.begin(), partitions.end(), wide) ? ElementType::int32 : ElementType::int16;
+    std::size_t layers = 0;
+    for (const PartitionResult& partition : partitions)
+      layers = std::max(layers, partition.layers.sizes.size());
+    return level_type(static_cast<std::int64_t>(layers) - 1);
+  }
+
+  /// Where each state of the spec stands in the grid.
+  [[nodiscard]] std::vector<std::size_t> spec_order() const {
+    std::vector<std::size_t> order(spec_.states.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    return order;
   }
 
   [[nodiscard]] std::vector<ResultAxis> axes(const Abstraction& abstraction) const {
@@ -191,18 +208,20 @@ class Analysis {
   }
 
   [[nodiscard]] ResultPartition partition_content(const Controller& controller,
-                                                  const PartitionResult& partition, ElementType type) const {
+                                                  const PartitionResult& partition, const CellOrder& order,
+                                                  ElementType type) const {
     const DelayLayers& layers = partition.layers;
+    const LevelMap& collision_time = *controller.collision_time;
     ResultPartition result{
         .name = partition.spec->name,
         .layer_sizes = {layers.sizes.begin(), layers.sizes.end()},
         .fixed_point_index = layers.fixed_point_index,
         .truncated = layers.truncated,
         .unbounded = layers.truncated ? 0 : static_cast<std::uint64_t>(layers.sizes.back()),
-        .delay = level_array(layers.delay, DelayLayers::kUnbounded, type),
-        .trigger = trigger_array(layers.delay, spec_.coordination.connection_delay, type)};
+        .delay = delay_array(layers, collision_time, order, type),
+        .trigger = trigger_array(layers, collision_time, spec_.coordination.connection_delay, order, type)};
     for (const auto& agents : partition.spec->classes) result.classes.push_back(class_name(spec_, agents));
-    if (spec_.output.layers) result.layers = layer_lists(layers);
+    if (spec_.output.layers) result.layers = layer_lists(layers, order);
     for (std::size_t c = 0; spec_.output.actions && c < result.classes.size(); ++c) {
       result.actions.push_back(bits(controller, partition.grouping, c, result.classes[c]));
     }
@@ -229,7 +248,7 @@ class Analysis {
   [[nodiscard]] std::vector<ResultTable> tables(const Abstraction& abstraction) const {
     std::vector<ResultTable> result;
     for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
-      const TransitionTable& table = abstraction.tables[i];
+      const TransitionTable table = written_out(abstraction, i);
       ResultTable& stored = result.emplace_back(ResultTable{.state = abstraction.grid[i].name});
       for (const std::int32_t j : table.states)
         stored.depends_on.push_back(spec_.states[static_cast<std::size_t>(j)].name);

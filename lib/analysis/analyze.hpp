@@ -14,9 +14,9 @@ namespace coordreq {
 
 /// What is under way; called from the calling thread only, often.
 struct Progress {
-  std::string stage;            ///< "abstraction", "safe set", "invariance", "layers PARTITION", "writing"
-  std::int64_t step = 0;        ///< sweep or layer number, 0 where there is none
-  std::int64_t cells_left = 0;  ///< cells still in the set that shrinks, 0 where there is none
+  std::string stage;       ///< "abstraction", "safe set", "invariance", "layers PARTITION", "writing"
+  std::int64_t sweep = 0;  ///< number of the sweep that has ended, 0 where there is none
+  std::int64_t rows = 0;   ///< rows of cells that it has worked out
 };
 
 struct AnalysisOptions {
@@ -51,6 +51,14 @@ struct AnalysisSummary {
   std::string output;
   int threads = 1;
   std::vector<std::pair<std::string, double>> seconds;  ///< by stage, in order, wall time
+  /// What each fixed point took, by the names of their stages, in order.
+  struct Work {
+    std::string stage;
+    std::int64_t sweeps = 0;
+    std::int64_t rows_visited = 0;
+    std::int64_t rows_skipped = 0;
+  };
+  std::vector<Work> work;
   std::uint64_t peak_memory_bytes = 0;
 };
 
@@ -61,14 +69,22 @@ struct AnalysisSummary {
 [[nodiscard]] AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options,
                                       ThreadTeam& team);
 
+/// What a result of this spec guarantees: "samples", "samples-center" or "continuous" (contract, "What is
+/// guaranteed"). Centres say nothing of the way between the samples, so that they never make it "continuous".
+[[nodiscard]] std::string guarantee_of(const ProblemSpec& spec);
+
 /// What `validate` prints, known before the analysis runs.
 struct SpecReport {
   struct State {
     std::string name;
     std::string unit;
     std::int64_t points = 0;
-    std::vector<std::string> depends_on;  ///< states, inputs and disturbances that its next value depends on
+    std::vector<std::string> states;  ///< that its next value depends on; likewise inputs and disturbances
+    std::vector<std::string> inputs;
+    std::vector<std::string> disturbances;
+    bool shift = false;  ///< only as an offset to the present value, stored once for all present ones
     std::uint64_t table_entries = 0;
+    std::uint64_t table_bytes = 0;
   };
   struct Input {
     std::string name;
@@ -82,6 +98,7 @@ struct SpecReport {
   std::int64_t joint_inputs = 0;
   std::vector<std::string> partitions;
   bool exact = false;              ///< posts are exact hulls
+  std::string guarantee;           ///< as in AnalysisSummary
   std::uint64_t memory_bytes = 0;  ///< estimate of the peak of `analyze`
 };
 

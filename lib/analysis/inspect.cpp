@@ -50,17 +50,36 @@ double projected_actions(const ProblemSpec& spec) {
   return most;
 }
 
+/// Choices of the states but the last and of the inputs that a table ranges over: it is cut into so many
+/// rows.
+double row_choices(const TableShape& shape, const ProblemSpec& spec) {
+  double choices = 1;
+  for (const std::int32_t j : shape.states) {
+    const auto state = static_cast<std::size_t>(j);
+    if (state + 1 < spec.states.size()) choices *= static_cast<double>(spec.states[state].grid.count);
+  }
+  for (const std::int32_t j : shape.inputs) {
+    choices *= static_cast<double>(spec.inputs[static_cast<std::size_t>(j)].values.size());
+  }
+  return choices;
+}
+
 double estimate_memory(const ProblemSpec& spec) {
   const double cells = count_product(spec);
   const double row_length = static_cast<double>(spec.states.back().grid.count);
   const double set_bytes = cells / row_length * 8 * std::ceil(row_length / 64);
   double bytes = kFixedBytes;
   for (const TableShape& shape : table_shapes(spec)) {
-    bytes += shape.entries * (sizeof(IndexRange) + sizeof(std::uint32_t));
+    bytes += shape.entries * sizeof(IndexRange) + row_choices(shape, spec) * sizeof(std::uint32_t);
+    // The tubes, cut into rows twice where states saturate.
+    if (spec.abstraction.between_samples) {
+      bytes += shape.entries * sizeof(IndexRange) + 2 * row_choices(shape, spec) * sizeof(std::uint32_t);
+    }
   }
   bytes += condition_bytes(spec.safe, spec);
   if (spec.controller.allow) bytes += condition_bytes(*spec.controller.allow, spec);
   bytes += 3 * set_bytes;  // S, K and a layer
+  if (spec.abstraction.between_samples) bytes += set_bytes;
   bytes += cells * 4 *
            (1 + static_cast<double>(spec.coordination.partitions.size()));  // collision time and delays
   bytes += set_bytes * projected_actions(spec);
@@ -78,11 +97,24 @@ std::string in_words(double bytes) {
   return fmt::format("{:.1f} {}", bytes, units[unit]);
 }
 
+template <class Variable>
+std::vector<std::string> names(const std::vector<Variable>& variables,
+                               const std::vector<std::int32_t>& indices) {
+  std::vector<std::string> result;
+  for (const std::int32_t j : indices) result.push_back(variables[static_cast<std::size_t>(j)].name);
+  return result;
+}
+
 std::uint64_t to_bytes(double bytes) {
   return bytes < 1.8e19 ? static_cast<std::uint64_t>(bytes) : UINT64_MAX;
 }
 
 }  // namespace
+
+std::string guarantee_of(const ProblemSpec& spec) {
+  if (spec.abstraction.safe == Membership::center) return "samples-center";
+  return spec.abstraction.between_samples ? "continuous" : "samples";
+}
 
 void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit) {
   const double bytes = estimate_memory(spec);
@@ -97,18 +129,16 @@ SpecReport inspect(const ProblemSpec& spec) {
   const std::vector<TableShape> shapes = table_shapes(spec);
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     const StateSpec& state = spec.states[i];
-    SpecReport::State& row =
-        report.states.emplace_back(SpecReport::State{.name = state.name,
-                                                     .unit = state.unit,
-                                                     .points = state.grid.count,
-                                                     .table_entries = to_bytes(shapes[i].entries)});
-    for (const std::int32_t j : shapes[i].states)
-      row.depends_on.push_back(spec.states[static_cast<std::size_t>(j)].name);
-    for (const std::int32_t j : shapes[i].inputs)
-      row.depends_on.push_back(spec.inputs[static_cast<std::size_t>(j)].name);
-    for (const std::int32_t j : shapes[i].disturbances) {
-      row.depends_on.push_back(spec.disturbances[static_cast<std::size_t>(j)].name);
-    }
+    report.states.push_back(
+        SpecReport::State{.name = state.name,
+                          .unit = state.unit,
+                          .points = state.grid.count,
+                          .states = names(spec.states, shapes[i].states),
+                          .inputs = names(spec.inputs, shapes[i].inputs),
+                          .disturbances = names(spec.disturbances, shapes[i].disturbances),
+                          .shift = shapes[i].shift,
+                          .table_entries = to_bytes(shapes[i].entries),
+                          .table_bytes = to_bytes(shapes[i].entries * sizeof(IndexRange))});
     report.cells *= state.grid.count;
   }
   for (const InputSpec& input : spec.inputs) {
@@ -119,6 +149,7 @@ SpecReport inspect(const ProblemSpec& spec) {
   for (const PartitionSpec& partition : spec.coordination.partitions)
     report.partitions.push_back(partition.name);
   report.exact = check_dynamics(spec);
+  report.guarantee = guarantee_of(spec);
   report.memory_bytes = to_bytes(estimate_memory(spec));
   return report;
 }

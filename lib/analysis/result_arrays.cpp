@@ -1,51 +1,126 @@
 #include "analysis/result_arrays.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <memory>
-#include <utility>
 
 #include "trigger/trigger_table.hpp"
 
 namespace coordreq {
 namespace {
 
-template <class Integer, class Convert>
-FillArray fill_with(const std::vector<std::int32_t>& values, std::int32_t infinite, const Convert& convert) {
-  return [&values, infinite, convert](std::uint64_t begin, std::uint64_t count, void* out) {
-    auto* target = static_cast<Integer*>(out);
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const std::int32_t value = convert(values[begin + i]);
-      target[i] = value == infinite ? std::numeric_limits<Integer>::max() : static_cast<Integer>(value);
-    }
+/// Calls `convert(level)` for the cells of a stretch; levels never lost come as the greatest of their width.
+template <class Out, class Level, class Convert>
+void convert_stretch(const LevelRows<Level>& levels, const CellOrder& order, std::uint64_t begin,
+                     std::uint64_t count, Out* out, const Convert& convert) {
+  order.for_each_run(static_cast<std::int64_t>(begin), static_cast<std::int64_t>(count),
+                     [&](const CellOrder::Run& run) {
+                       const Level* source = levels.row(run.row) + run.column;
+                       const std::int64_t step = run.row_step * levels.stride() + run.column_step;
+                       Out* target = out + run.offset;
+                       if (step == 1) {  // for the compiler: neighbours can be done together
+                         for (std::int64_t i = 0; i < run.count; ++i) target[i] = convert(source[i]);
+                       } else {
+                         for (std::int64_t i = 0; i < run.count; ++i) target[i] = convert(source[i * step]);
+                       }
+                     });
+}
+
+ResultArray membership_array(const LevelMap& map, const CellOrder& order, bool only_top) {
+  return {ElementType::uint8, [&map, &order, only_top](std::uint64_t begin, std::uint64_t count, void* out) {
+            map.visit([&]<class Level>(const LevelRows<Level>& levels) {
+              const Level least = only_top ? LevelRows<Level>::kTop : Level{1};
+              convert_stretch(
+                  levels, order, begin, count, static_cast<std::uint8_t*>(out),
+                  [least](Level level) { return static_cast<std::uint8_t>(level >= least ? 1 : 0); });
+            });
+          }};
+}
+
+template <class Integer>
+FillArray fill_collision(const LevelMap& map, const CellOrder& order) {
+  return [&map, &order](std::uint64_t begin, std::uint64_t count, void* out) {
+    map.visit([&]<class Level>(const LevelRows<Level>& levels) {
+      convert_stretch(levels, order, begin, count, static_cast<Integer*>(out), [](Level level) {
+        return level == LevelRows<Level>::kTop ? std::numeric_limits<Integer>::max()
+                                               : static_cast<Integer>(level);
+      });
+    });
   };
 }
 
-template <class Convert>
-ResultArray converted(const std::vector<std::int32_t>& values, std::int32_t infinite, ElementType type,
-                      const Convert& convert) {
-  if (type == ElementType::int16) return {type, fill_with<std::int16_t>(values, infinite, convert)};
-  return {type, fill_with<std::int32_t>(values, infinite, convert)};
+/// Cells outside K come as kOutsideInvariant; those of them that are not even safe are told here.
+template <class Integer>
+void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::uint64_t begin,
+                 std::uint64_t count, Integer* out) {
+  std::vector<std::uint8_t> is_safe(count);
+  membership_array(collision_time, order, false).fill(begin, count, is_safe.data());
+  for (std::uint64_t i = 0; i < count; ++i) {
+    out[i] = static_cast<Integer>(is_safe[i] == 0 ? DelayLayers::kOutsideSafe : out[i]);
+  }
+}
+
+/// Delays less `connection_delay`, as trigger_of() has it; delays themselves if that is negative.
+template <class Integer>
+FillArray fill_delays(const DelayLayers& layers, const LevelMap& collision_time,
+                      std::int64_t connection_delay, const CellOrder& order) {
+  return [&layers, &collision_time, connection_delay, &order](std::uint64_t begin, std::uint64_t count,
+                                                              void* out) {
+    const auto entry = [connection_delay](std::int64_t delay) {
+      const auto value = static_cast<std::int32_t>(delay);
+      const std::int32_t shown = connection_delay < 0 ? value : trigger_of(value, connection_delay);
+      return shown == DelayLayers::kUnbounded ? std::numeric_limits<Integer>::max()
+                                              : static_cast<Integer>(shown);
+    };
+    const Integer top = entry(layers.top_delay());
+    layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& levels) {
+      convert_stretch(levels, order, begin, count, static_cast<Integer*>(out), [&](Level level) {
+        return level == LevelRows<Level>::kTop ? top : entry(std::int64_t{level} - 1);
+      });
+    });
+    mark_unsafe(collision_time, order, begin, count, static_cast<Integer*>(out));
+  };
+}
+
+ResultArray delays_or_triggers(const DelayLayers& layers, const LevelMap& collision_time,
+                               std::int64_t connection_delay, const CellOrder& order, ElementType type) {
+  if (type == ElementType::int16) {
+    return {type, fill_delays<std::int16_t>(layers, collision_time, connection_delay, order)};
+  }
+  return {type, fill_delays<std::int32_t>(layers, collision_time, connection_delay, order)};
+}
+
+/// The layer T(k) that each cell of K is in.
+template <class Visit>
+void for_each_in_layers(const DelayLayers& layers, const CellOrder& order, const Visit& visit) {
+  const auto cells = static_cast<std::uint64_t>(layers.layers_of.cells());
+  const std::size_t last = layers.sizes.size() - 1;
+  layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& levels) {
+    std::vector<Level> stretch(static_cast<std::size_t>(levels.row_length()));
+    for (std::uint64_t begin = 0; begin < cells; begin += stretch.size()) {
+      const std::uint64_t count = std::min<std::uint64_t>(stretch.size(), cells - begin);
+      convert_stretch(levels, order, begin, count, stretch.data(), [](Level level) { return level; });
+      for (std::uint64_t i = 0; i < count; ++i) {
+        if (stretch[i] == 0) continue;
+        visit(begin + i, stretch[i] == LevelRows<Level>::kTop ? last : std::size_t{stretch[i]} - 1);
+      }
+    }
+  });
 }
 
 template <class Index>
-ResultLayers lists_of(const DelayLayers& layers, ElementType type) {
-  const std::size_t count = layers.sizes.size();
-  const auto layer_of = [&](std::int32_t delay) {
-    return delay == DelayLayers::kUnbounded ? count - 1 : static_cast<std::size_t>(delay);
-  };
+ResultLayers lists_of(const DelayLayers& layers, const CellOrder& order, ElementType type) {
   ResultLayers result;
+  const std::size_t count = layers.sizes.size();
   result.start.assign(count + 1, 0);
-  for (const std::int32_t delay : layers.delay) {
-    if (delay >= 0) ++result.start[layer_of(delay) + 1];
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::int64_t next = k + 1 < count ? layers.sizes[k + 1] : 0;
+    result.start[k + 1] = result.start[k] + static_cast<std::uint64_t>(layers.sizes[k] - next);
   }
-  for (std::size_t k = 0; k < count; ++k) result.start[k + 1] += result.start[k];
-
   auto cells = std::make_shared<std::vector<Index>>(result.start.back());
   std::vector<std::uint64_t> next(result.start.begin(), result.start.end() - 1);
-  for (std::size_t x = 0; x < layers.delay.size(); ++x) {
-    if (layers.delay[x] >= 0) (*cells)[next[layer_of(layers.delay[x])]++] = static_cast<Index>(x);
-  }
+  for_each_in_layers(layers, order, [&](std::uint64_t cell, std::size_t layer) {
+    (*cells)[next[layer]++] = static_cast<Index>(cell);
+  });
   result.cell = {type, [cells](std::uint64_t begin, std::uint64_t n, void* out) {
                    std::copy_n(cells->begin() + static_cast<std::ptrdiff_t>(begin), n,
                                static_cast<Index*>(out));
@@ -55,36 +130,39 @@ ResultLayers lists_of(const DelayLayers& layers, ElementType type) {
 
 }  // namespace
 
-ResultArray membership_array(const CellSet& set) {
-  return {ElementType::uint8, [&set](std::uint64_t begin, std::uint64_t count, void* out) {
-            auto* target = static_cast<std::uint8_t*>(out);
-            for (std::uint64_t i = 0; i < count; ++i)
-              target[i] = set.test(static_cast<std::int64_t>(begin + i)) ? 1 : 0;
-          }};
+ResultArray safe_array(const LevelMap& collision_time, const CellOrder& order) {
+  return membership_array(collision_time, order, false);
 }
 
-ElementType level_type(const std::vector<std::int32_t>& values, std::int32_t infinite) {
-  const auto too_large = [&](std::int32_t v) {
-    return v != infinite && v >= std::numeric_limits<std::int16_t>::max();
-  };
-  return std::any_of(values.begin(), values.end(), too_large) ? ElementType::int32 : ElementType::int16;
+ResultArray invariant_array(const LevelMap& collision_time, const CellOrder& order) {
+  return membership_array(collision_time, order, true);
 }
 
-ResultArray level_array(const std::vector<std::int32_t>& values, std::int32_t infinite, ElementType type) {
-  return converted(values, infinite, type, [](std::int32_t value) { return value; });
+ElementType level_type(std::int64_t greatest_finite) {
+  return greatest_finite >= std::numeric_limits<std::int16_t>::max() ? ElementType::int32
+                                                                     : ElementType::int16;
 }
 
-ResultArray trigger_array(const std::vector<std::int32_t>& delays, std::int64_t connection_delay,
-                          ElementType type) {
-  return converted(delays, TriggerTable::kNever, type,
-                   [connection_delay](std::int32_t delay) { return trigger_of(delay, connection_delay); });
+ResultArray collision_array(const LevelMap& collision_time, const CellOrder& order, ElementType type) {
+  if (type == ElementType::int16) return {type, fill_collision<std::int16_t>(collision_time, order)};
+  return {type, fill_collision<std::int32_t>(collision_time, order)};
 }
 
-ResultLayers layer_lists(const DelayLayers& layers) {
-  if (layers.delay.size() <= std::numeric_limits<std::uint32_t>::max()) {
-    return lists_of<std::uint32_t>(layers, ElementType::uint32);
+ResultArray delay_array(const DelayLayers& layers, const LevelMap& collision_time, const CellOrder& order,
+                        ElementType type) {
+  return delays_or_triggers(layers, collision_time, -1, order, type);
+}
+
+ResultArray trigger_array(const DelayLayers& layers, const LevelMap& collision_time,
+                          std::int64_t connection_delay, const CellOrder& order, ElementType type) {
+  return delays_or_triggers(layers, collision_time, connection_delay, order, type);
+}
+
+ResultLayers layer_lists(const DelayLayers& layers, const CellOrder& order) {
+  if (layers.layers_of.cells() <= std::numeric_limits<std::uint32_t>::max()) {
+    return lists_of<std::uint32_t>(layers, order, ElementType::uint32);
   }
-  return lists_of<std::uint64_t>(layers, ElementType::uint64);
+  return lists_of<std::uint64_t>(layers, order, ElementType::uint64);
 }
 
 }  // namespace coordreq

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
-#include "bitset/cell_set.hpp"
+#include "analysis/cell_order.hpp"
+#include "bitset/level_map.hpp"
 #include "coordination/delay_layers.hpp"
 #include "results/result_content.hpp"
 
@@ -11,22 +11,26 @@
 // arguments, which must outlive the writing.
 namespace coordreq {
 
-/// uint8 [cells], 1 for members.
-[[nodiscard]] ResultArray membership_array(const CellSet& set);
+/// uint8 [cells], 1 for members of S: cells that have a level at all.
+[[nodiscard]] ResultArray safe_array(const LevelMap& collision_time, const CellOrder& order);
+/// uint8 [cells], 1 for members of K: cells that are never lost.
+[[nodiscard]] ResultArray invariant_array(const LevelMap& collision_time, const CellOrder& order);
 
-/// The narrowest of int16 and int32 that holds all finite values below its maximum (contract, section 4).
-/// @param infinite the value that stands for "no end" in `values`
-[[nodiscard]] ElementType level_type(const std::vector<std::int32_t>& values, std::int32_t infinite);
+/// The narrowest of int16 and int32 in which all finite values are below its maximum (contract, section 4).
+[[nodiscard]] ElementType level_type(std::int64_t greatest_finite);
 
-/// The values in `type`; `infinite` becomes the type's maximum.
-[[nodiscard]] ResultArray level_array(const std::vector<std::int32_t>& values, std::int32_t infinite,
-                                      ElementType type);
-
-/// The trigger table of the delays, in `type`.
-[[nodiscard]] ResultArray trigger_array(const std::vector<std::int32_t>& delays,
-                                        std::int64_t connection_delay, ElementType type);
+/// Collision times, the maximum of the type inside K.
+[[nodiscard]] ResultArray collision_array(const LevelMap& collision_time, const CellOrder& order,
+                                          ElementType type);
+/// Delays; -2 outside S, -1 in S but not in K, the maximum where they are not bounded.
+[[nodiscard]] ResultArray delay_array(const DelayLayers& layers, const LevelMap& collision_time,
+                                      const CellOrder& order, ElementType type);
+/// The trigger table of the delays.
+[[nodiscard]] ResultArray trigger_array(const DelayLayers& layers, const LevelMap& collision_time,
+                                        std::int64_t connection_delay, const CellOrder& order,
+                                        ElementType type);
 
 /// T(0), ..., T(F) as ascending lists of linear indices. The lists belong to the result.
-[[nodiscard]] ResultLayers layer_lists(const DelayLayers& layers);
+[[nodiscard]] ResultLayers layer_lists(const DelayLayers& layers, const CellOrder& order);
 
 }  // namespace coordreq

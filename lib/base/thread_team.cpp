@@ -10,15 +10,34 @@
 #include <vector>
 
 namespace coordreq {
+namespace {
+
+/// Waits a little while for what is about to happen: loops often follow one another within microseconds, and
+/// waking a thread that sleeps takes longer than that. Then gives up, to leave the core to others.
+template <class Condition>
+bool comes_soon(const Condition& condition) {
+  constexpr int kLooks = 2000;
+  for (int i = 0; i < kLooks; ++i) {
+    if (condition()) return true;
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#endif
+  }
+  return condition();
+}
+
+}  // namespace
 
 struct ThreadTeam::State {
   std::mutex mutex;
   std::condition_variable start;
   std::condition_variable finished;
   std::vector<std::thread> threads;
-  std::uint64_t generation = 0;  // counts loops; a helper runs each generation once
-  int busy = 0;
-  bool stopping = false;
+  std::atomic<std::uint64_t> generation{0};  // counts loops; a helper runs each generation once
+  std::atomic<int> busy{0};
+  std::atomic<bool> stopping{false};
+  int sleeping = 0;          // helpers; under the mutex
+  bool main_sleeps = false;  // likewise
 
   const Body* body = nullptr;
   std::int64_t count = 0;
@@ -47,16 +66,37 @@ struct ThreadTeam::State {
   void help(int worker) {
     std::uint64_t seen = 0;
     for (;;) {
-      {
+      const auto called = [&] { return stopping.load() || generation.load() != seen; };
+      if (!comes_soon(called)) {
         std::unique_lock lock(mutex);
-        start.wait(lock, [&] { return stopping || generation != seen; });
-        if (stopping) return;
-        seen = generation;
+        ++sleeping;
+        start.wait(lock, called);
+        --sleeping;
       }
+      if (stopping) return;
+      seen = generation;
       run(worker);
+      if (busy.fetch_sub(1) != 1) continue;
       const std::lock_guard lock(mutex);
-      if (--busy == 0) finished.notify_one();
+      if (main_sleeps) finished.notify_one();
     }
+  }
+
+  void call_helpers() {
+    const std::lock_guard lock(mutex);
+    failure = nullptr;
+    busy = static_cast<int>(threads.size());
+    ++generation;
+    if (sleeping > 0) start.notify_all();
+  }
+
+  void wait_for_helpers() {
+    const auto done = [&] { return busy.load() == 0; };
+    if (comes_soon(done)) return;
+    std::unique_lock lock(mutex);
+    main_sleeps = true;
+    finished.wait(lock, done);
+    main_sleeps = false;
   }
 };
 
@@ -95,20 +135,13 @@ void ThreadTeam::for_each(std::int64_t count, std::int64_t grain, const Body& bo
       body({begin, std::min(begin + grain, count)}, 0);
     return;
   }
-  {
-    const std::lock_guard lock(state.mutex);
-    state.body = &body;
-    state.count = count;
-    state.grain = grain;
-    state.next.store(0, std::memory_order_relaxed);
-    state.failure = nullptr;
-    state.busy = static_cast<int>(state.threads.size());
-    ++state.generation;
-  }
-  state.start.notify_all();
+  state.body = &body;
+  state.count = count;
+  state.grain = grain;
+  state.next.store(0, std::memory_order_relaxed);
+  state.call_helpers();
   state.run(0);
-  std::unique_lock lock(state.mutex);
-  state.finished.wait(lock, [&] { return state.busy == 0; });
+  state.wait_for_helpers();
   if (state.failure) std::rethrow_exception(state.failure);
 }
 

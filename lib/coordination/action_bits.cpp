@@ -2,13 +2,37 @@
 
 #include <algorithm>
 
-#include "safety/invariance.hpp"
-
 namespace coordreq {
 namespace {
 
 std::int64_t bytes_for(std::int64_t actions) {
   return (actions + 7) / 8;
+}
+
+/// The sets of the cells of one row.
+template <class Level>
+void write_row(const Controller& controller, const ActionGrouping& grouping, std::size_t c,
+               const RowPlace& place, PostReader<Level>& posts, std::uint8_t* cells) {
+  const std::int64_t bytes = bytes_for(grouping.actions(c));
+  RowGroups groups;
+  grouping.group(place, groups);
+  std::vector<Word> members(controller.engine->row_words());
+  std::vector<std::vector<Word>> projection(groups.classes[c]->size(), std::vector<Word>(members.size(), 0));
+  TupleWalk::Candidates candidates;
+  choose_groups(groups, GroupChoice::all, candidates);
+  TupleWalk tuple;
+  tuple.begin(grouping, place, groups, candidates);
+  do {
+    controller_row(controller, place.row, tuple, posts, members);
+    std::vector<Word>& target = projection[tuple.chosen(c)];
+    for (std::size_t w = 0; w < members.size(); ++w) target[w] |= members[w];
+  } while (tuple.next());
+  for (std::size_t a = 0; a < groups.classes[c]->group_of.size(); ++a) {
+    for_each_bit(projection[groups.classes[c]->group_of[a]], [&](std::int64_t x) {
+      std::uint8_t& byte = cells[x * bytes + static_cast<std::int64_t>(a / 8)];
+      byte = static_cast<std::uint8_t>(byte | 1U << (a % 8));
+    });
+  }
 }
 
 }  // namespace
@@ -18,28 +42,16 @@ std::vector<std::uint8_t> action_bits(const Controller& controller, const Action
   const std::int64_t length = controller.engine->row_length();
   const std::int64_t bytes = bytes_for(grouping.actions(c));
   std::vector<std::uint8_t> result(static_cast<std::size_t>((last_row - first_row) * length * bytes), 0);
-  RowEngine::Scratch scratch;
-  RowGroups groups;
-  std::vector<Word> members(controller.engine->row_words());
-  for (std::int64_t row = first_row; row < last_row; ++row) {
-    if (!any_set(controller.invariant->set().row(row))) continue;
-    std::uint8_t* cells = result.data() + (row - first_row) * length * bytes;
-    grouping.group(row, groups);
-    std::vector<std::vector<Word>> projection(groups.classes[c]->size(),
-                                              std::vector<Word>(members.size(), 0));
-    ActionGrouping::Tuples tuple(grouping, row, groups, ActionGrouping::all_groups(groups));
-    do {
-      controller_row(controller, row, tuple, members, scratch);
-      std::vector<Word>& target = projection[tuple.chosen(c)];
-      for (std::size_t w = 0; w < members.size(); ++w) target[w] |= members[w];
-    } while (tuple.next());
-    for (std::size_t a = 0; a < groups.classes[c]->group_of.size(); ++a) {
-      for_each_bit(projection[groups.classes[c]->group_of[a]], [&](std::int64_t x) {
-        std::uint8_t& byte = cells[x * bytes + static_cast<std::int64_t>(a / 8)];
-        byte = static_cast<std::uint8_t>(byte | 1U << (a % 8));
-      });
+  controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
+    PostReader<Level> posts(*controller.engine, levels);
+    RowPlace place(controller.engine->grid(), first_row);
+    for (; place.row < last_row; place.advance(controller.engine->grid())) {
+      if (!any_set(controller.invariant->row(place.row))) continue;
+      posts.enter();
+      write_row(controller, grouping, c, place, posts,
+                result.data() + (place.row - first_row) * length * bytes);
     }
-  }
+  });
   return result;
 }
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "coordination/projections.hpp"
+#include "coordination/controller.hpp"
 
 namespace coordreq {
 

@@ -1,6 +1,7 @@
 #include "coordination/projections.hpp"
 
 #include <algorithm>
+#include <deque>
 
 namespace coordreq {
 namespace {
@@ -13,59 +14,164 @@ std::size_t group_offset(const RowGroups& groups, std::size_t c) {
 
 }  // namespace
 
-void controller_row(const Controller& controller, std::int64_t row, ActionGrouping::Tuples& tuple,
-                    MutableRow out, RowEngine::Scratch& scratch) {
-  const ConstRow invariant = controller.invariant->set().row(row);
-  const ConstRow allowed = tuple.allowed();
-  if (controller.synthesis == Synthesis::maximal) {
-    controller.engine->inside(tuple.slice_ids(), *controller.invariant, out, scratch);
-    for (std::size_t w = 0; w < out.size(); ++w) out[w] &= invariant[w];
-  } else {
-    std::copy(invariant.begin(), invariant.end(), out.begin());
-  }
-  for (std::size_t w = 0; w < allowed.size(); ++w) out[w] &= allowed[w];
-}
+/// Works for one thread.
+template <class Level>
+class Projections::Builder {
+ public:
+  Builder(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
+          const LevelRows<Level>& levels)
+      : controller_(controller),
+        grouping_(grouping),
+        hull_(hull),
+        boxes_(grouping),
+        independent_(controller.engine->row_words()),
+        posts_(*controller.engine, levels),
+        lanes_(posts_.lanes(), 0),
+        members_(controller.engine->row_words()),
+        masks_(grouping.size()) {}
 
-Projections::Projections(const Controller& controller, const ActionGrouping& grouping, ThreadTeam& team)
+  void enter() { posts_.enter(); }
+
+  /// @returns whether `packed` are boxes of posts
+  bool project(const RowPlace& place, std::vector<Word>& packed) {
+    const ConstRow invariant = controller_.invariant->row(place.row);
+    const bool is_full = everything_is_allowed(place);
+    if (is_full && !boxes_.is_product()) return false;
+    grouping_.group(place, groups_);
+    const bool is_product = boxes_.is_product() && boxes_.fill(place, groups_);
+    if (is_full && !is_product) return false;
+    is_simple_ = is_product && !boxes_.has_gone() && controller_.engine->allow() == nullptr &&
+                 controller_.synthesis == Synthesis::maximal;
+    box_.ranges.resize(controller_.engine->tables() - 1);
+    for (std::size_t c = 0; c < masks_.size(); ++c) {
+      is_full ? fill_masks(c, invariant) : find_masks(place, c);
+    }
+    if (is_product) {
+      independent_.pack(boxes_, groups_, masks_, invariant, controller_.engine->grid(), scratch_);
+      packed.assign(scratch_.begin(), scratch_.end());
+      return true;
+    }
+    for (const std::vector<Word>& own : masks_) packed.insert(packed.end(), own.begin(), own.end());
+    return false;
+  }
+
+ private:
+  [[nodiscard]] bool everything_is_allowed(const RowPlace& place) {
+    if (controller_.engine->allow() != nullptr) return false;
+    if (controller_.synthesis == Synthesis::given) return true;
+    hull_.box(place, box_);
+    if (!box_.covers) return false;
+    const auto n = static_cast<std::size_t>(controller_.engine->row_length());
+    posts_.kernels().spread(controller_.invariant->row(place.row).data(), lanes_.data(), n);
+    return posts_.kernels().is_top(posts_.minimum(box_), lanes_.data(), n);
+  }
+
+  void fill_masks(std::size_t c, ConstRow invariant) {
+    masks_[c].clear();
+    for (std::size_t g = 0; g < groups_.classes[c]->size(); ++g) {
+      masks_[c].insert(masks_[c].end(), invariant.begin(), invariant.end());
+    }
+  }
+
+  /// The larger posts first: what is reasonable with them is so with those inside.
+  void find_masks(const RowPlace& place, std::size_t c) {
+    const ActionGroups& own = *groups_.classes[c];
+    masks_[c].assign(own.size() * members_.size(), 0);
+    known_.assign(own.size(), 0);
+    for (const std::uint32_t g : own.maximal) find_mask(place, c, g);
+    for (const std::uint32_t g : own.all) {
+      if (known_[g] == 0) find_mask(place, c, g);
+    }
+  }
+
+  void find_mask(const RowPlace& place, std::size_t c, std::uint32_t g) {
+    const ActionGroups& own = *groups_.classes[c];
+    const ConstRow invariant = controller_.invariant->row(place.row);
+    const MutableRow mask(masks_[c].data() + g * members_.size(), members_.size());
+    for (const std::uint32_t h : own.maximal) {
+      if (known_[h] == 0 || !own.is_within(g, h)) continue;
+      for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= masks_[c][h * mask.size() + w];
+    }
+    known_[g] = 1;
+    if (is_subset(invariant, mask)) return;
+    // An action of class c is in the projection if some action of the others goes with it; their minimal ones
+    // do.
+    choose_groups(groups_, GroupChoice::minimal, candidates_);
+    candidates_[c] = {&g, 1};
+    if (is_simple_) {
+      add_boxes(0, place, mask);
+      return;
+    }
+    tuple_.begin(grouping_, place, groups_, candidates_);
+    do {
+      controller_row(controller_, place.row, tuple_, posts_, members_);
+      for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= members_[w];
+    } while (!is_subset(invariant, mask) && tuple_.next());
+  }
+
+  /// Adds the cells whose post is in K, for all candidates of class c and those after it, to `mask`.
+  /// @returns false if that is all of K
+  bool add_boxes(std::size_t c, const RowPlace& place, MutableRow mask) {
+    const ConstRow invariant = controller_.invariant->row(place.row);
+    if (c == candidates_.size()) {
+      const auto n = static_cast<std::size_t>(controller_.engine->row_length());
+      posts_.kernels().top_bits(posts_.minimum(box_), members_.data(), n);
+      for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= members_[w] & invariant[w];
+      return !is_subset(invariant, mask);
+    }
+    for (const std::uint32_t g : candidates_[c]) {
+      if (boxes_.kind(c, g) == RowBoxes::Kind::blocked) continue;
+      boxes_.put(c, boxes_.ranges(c, g), box_);
+      if (!add_boxes(c + 1, place, mask)) return false;
+    }
+    return true;
+  }
+
+  const Controller& controller_;
+  const ActionGrouping& grouping_;
+  const RowHull& hull_;
+  RowBoxes boxes_;
+  bool is_simple_ = false;  ///< all joint posts of the row are boxes, and everything is allowed
+  IndependentPosts independent_;
+  PostReader<Level> posts_;
+  RowGroups groups_;
+  TupleWalk::Candidates candidates_;
+  TupleWalk tuple_;
+  RowHull::Box box_;
+  std::vector<Level> lanes_;
+  std::vector<Word> members_;
+  std::vector<std::vector<Word>> masks_;
+  std::vector<std::uint8_t> known_;
+  std::vector<Word> scratch_;
+};
+
+Projections::Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
+                         ThreadTeam& team)
     : grouping_(&grouping),
       words_(controller.engine->row_words()),
-      rows_(static_cast<std::size_t>(controller.engine->rows())) {
-  struct Workspace {
-    RowGroups groups;
-    RowEngine::Scratch scratch;
-  };
-  std::vector<Workspace> work(static_cast<std::size_t>(team.size()));
-  team.for_each(controller.engine->rows(), 4, [&](ThreadTeam::Range range, int worker) {
-    Workspace& own = work[static_cast<std::size_t>(worker)];
-    for (std::int64_t r = range.begin; r < range.end; ++r) {
-      if (any_set(controller.invariant->set().row(r))) project(controller, r, own.groups, own.scratch);
-    }
+      rows_(static_cast<std::size_t>(controller.engine->rows())),
+      is_product_(rows_.size(), 0) {
+  const RowEngine& engine = *controller.engine;
+  const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
+  controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
+    std::deque<Builder<Level>> builders;
+    for (int w = 0; w < team.size(); ++w) builders.emplace_back(controller, grouping, hull, levels);
+    team.for_each((engine.rows() + grain - 1) / grain, 1, [&](ThreadTeam::Range range, int worker) {
+      Builder<Level>& builder = builders[static_cast<std::size_t>(worker)];
+      const std::int64_t end = std::min(range.end * grain, engine.rows());
+      for (RowPlace place(engine.grid(), range.begin * grain); place.row < end;
+           place.advance(engine.grid())) {
+        // Minima are shared within a unit.
+        if (place.row == range.begin * grain || place.row % engine.unit_rows() == 0) builder.enter();
+        if (!any_set(controller.invariant->row(place.row))) continue;
+        const auto row = static_cast<std::size_t>(place.row);
+        is_product_[row] = builder.project(place, rows_[row]) ? 1 : 0;
+      }
+    });
   });
 }
 
-void Projections::project(const Controller& controller, std::int64_t row, RowGroups& groups,
-                          RowEngine::Scratch& scratch) {
-  grouping_->group(row, groups);
-  std::vector<Word>& bits = rows_[static_cast<std::size_t>(row)];
-  bits.assign(group_offset(groups, groups.classes.size()) * words_, 0);
-  std::vector<Word> members(words_);
-  const auto all = ActionGrouping::all_groups(groups);
-  const auto minimal = ActionGrouping::minimal_groups(groups);
-  for (std::size_t c = 0; c < groups.classes.size(); ++c) {
-    // An action of class c is in the projection if some action of the others goes with it; their minimal ones
-    // do.
-    auto candidates = minimal;
-    candidates[c] = all[c];
-    ActionGrouping::Tuples tuple(*grouping_, row, groups, std::move(candidates));
-    do {
-      controller_row(controller, row, tuple, members, scratch);
-      Word* target = bits.data() + (group_offset(groups, c) + tuple.chosen(c)) * words_;
-      for (std::size_t w = 0; w < words_; ++w) target[w] |= members[w];
-    } while (tuple.next());
-  }
-}
-
-ConstRow Projections::row(std::int64_t row, const RowGroups& groups, std::size_t c, std::uint32_t g) const {
+ConstRow Projections::mask(std::int64_t row, const RowGroups& groups, std::size_t c, std::uint32_t g) const {
   return {rows_[static_cast<std::size_t>(row)].data() + (group_offset(groups, c) + g) * words_, words_};
 }
 

@@ -46,6 +46,13 @@ class AffineDynamics {
   /// @throws SpecError if the equation is not defined there; the message names the state and the values
   [[nodiscard]] std::optional<SampledRow> row(std::size_t state, const std::vector<Rational>& slots) const;
 
+  /// Where the state is at any time in [0, tau] under continuous time: x_i(t) is in the convex hull of the
+  /// rows' values, for every initial state. The first row is x_i(0), and for integrators (x' = c + w) the
+  /// hull is exact.
+  /// @param slots as in row() @returns nothing where row() returns nothing
+  [[nodiscard]] std::optional<std::vector<SampledRow>> tube_rows(std::size_t state,
+                                                                 const std::vector<Rational>& slots) const;
+
  private:
   /// An equation for fixed parameters: sum_j state[j] * x_{moving[j]} + sum_l disturbance[l] * w_l + [lower,
   /// upper].
@@ -56,6 +63,20 @@ class AffineDynamics {
     Rational upper;
   };
 
+  /// x' = A x + B w + c with nilpotent A, seen from one state.
+  struct NilpotentFlow {
+    std::vector<AffineForm> forms;            ///< the equations of the moving states
+    std::vector<std::vector<Rational>> rows;  ///< r_k = e_i A^k, up to the last that is not zero
+    /// [disturbance][k] = r_k B / k!: what a pulse of w has done to x_i after s is sum_k kernel[k] s^k.
+    std::vector<std::vector<Rational>> kernels;
+  };
+
+  /// @returns nothing if it is not of that form or has a `stop` limit. REQUIRES: `state` is a moving one.
+  [[nodiscard]] std::optional<NilpotentFlow> nilpotent_flow(std::size_t state,
+                                                            const std::vector<Rational>& slots) const;
+  /// A discrete state that stays what it is; nothing for one that moves.
+  [[nodiscard]] std::optional<SampledRow> constant_row(std::size_t state,
+                                                       const std::vector<Rational>& slots) const;
   [[nodiscard]] std::optional<AffineForm> affine_form(std::size_t equation, const Dependencies& dependencies,
                                                       const std::vector<Rational>& slots) const;
   [[nodiscard]] std::optional<SampledRow> map_row(std::size_t state,

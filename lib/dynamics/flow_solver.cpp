@@ -54,6 +54,7 @@ ValidatedFlow::Solver::Solver(FlowSystem system, const Interval& period)
       tolerance_(n_) {
   result_.end.resize(n_);
   result_.tube.resize(n_);
+  result_.drift.resize(n_);
 }
 
 const FlowEnclosure& ValidatedFlow::Solver::flow(std::span<const Interval> slots) {
@@ -74,6 +75,7 @@ void ValidatedFlow::Solver::begin(std::span<const Interval> slots) {
   ever_stopped_ = false;
   result_.status = FlowEnclosure::Status::ok;
   result_.tube = initial_;
+  std::fill(result_.drift.begin(), result_.drift.end(), Interval{});
 }
 
 bool ValidatedFlow::Solver::run_steps() {
@@ -181,6 +183,7 @@ void ValidatedFlow::Solver::finish_step(bool last) {
   for (std::size_t i = 0; i < n_; ++i) {
     const bool one_way = derivative_[i].lower >= 0.0 || derivative_[i].upper <= 0.0;
     result_.tube[i] = hull(result_.tube[i], one_way ? hull(now_[i], next_[i]) : box_[i]);
+    result_.drift[i] = result_.drift[i] + duration * hull(derivative_[i], Interval{});
   }
   now_ = next_;
   if (!sensitivity_.is_bounded()) restart();

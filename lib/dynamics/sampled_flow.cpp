@@ -43,65 +43,89 @@ std::vector<Row> krylov_rows(std::size_t start, const std::vector<Row>& matrix) 
   return {};
 }
 
+/// Of sum_k coefficient[k] * s^k over [0, end].
+Rational integral_of(const std::vector<Rational>& coefficient, const Rational& end) {
+  Rational integral = 0;
+  Rational power = end;
+  for (std::size_t k = 0; k < coefficient.size(); ++k, power *= end) {
+    integral += coefficient[k] * power / Rational(static_cast<long>(k + 1));
+  }
+  return integral;
+}
+
 }  // namespace
 
-std::optional<SampledRow> AffineDynamics::flow_row(std::size_t state,
-                                                   const std::vector<Rational>& slots) const {
-  const Dependencies& dependencies = dependencies_[state];
-  const Rational& tau = spec_->dynamics.period;
-  if (std::find(dependencies.moving.begin(), dependencies.moving.end(), static_cast<std::int32_t>(state)) ==
-      dependencies.moving.end()) {
-    const Rational& value = slots[spec_->state_slot(state)];  // a discrete state that stays what it is
-    return SampledRow{.coefficient = Row(dependencies.moving.size()), .lower = value, .upper = value};
+std::optional<SampledRow> AffineDynamics::constant_row(std::size_t state,
+                                                       const std::vector<Rational>& slots) const {
+  const std::vector<std::int32_t>& moving = dependencies_[state].moving;
+  if (std::find(moving.begin(), moving.end(), static_cast<std::int32_t>(state)) != moving.end()) {
+    return std::nullopt;
   }
-  std::vector<AffineForm> forms;
+  const Rational& value = slots[spec_->state_slot(state)];
+  return SampledRow{.coefficient = Row(moving.size()), .lower = value, .upper = value};
+}
+
+std::optional<AffineDynamics::NilpotentFlow> AffineDynamics::nilpotent_flow(
+    std::size_t state, const std::vector<Rational>& slots) const {
+  const Dependencies& dependencies = dependencies_[state];
+  NilpotentFlow flow;
   std::vector<Row> matrix;
   std::size_t start = 0;
   for (const std::int32_t j : dependencies.moving) {
-    if (static_cast<std::size_t>(j) == state) start = forms.size();
+    if (static_cast<std::size_t>(j) == state) start = flow.forms.size();
     const StateSpec& moving = spec_->states[static_cast<std::size_t>(j)];
     if (moving.below == Outside::stop || moving.above == Outside::stop) return std::nullopt;
     const std::optional<AffineForm> form = affine_form(static_cast<std::size_t>(j), dependencies, slots);
     if (!form) return std::nullopt;
-    forms.push_back(*form);
-    matrix.push_back(forms.back().state);
+    flow.forms.push_back(*form);
+    matrix.push_back(form->state);
   }
-  const std::vector<Row> rows = krylov_rows(start, matrix);
-  if (rows.empty()) return std::nullopt;
+  flow.rows = krylov_rows(start, matrix);
+  if (flow.rows.empty()) return std::nullopt;
+  flow.kernels.resize(dependencies.disturbances.size());
+  Rational factorial = 1;
+  for (std::size_t k = 0; k < flow.rows.size(); ++k) {
+    for (std::size_t l = 0; l < flow.kernels.size(); ++l) {
+      Rational sum = 0;
+      for (std::size_t j = 0; j < matrix.size(); ++j) sum += flow.rows[k][j] * flow.forms[j].disturbance[l];
+      flow.kernels[l].emplace_back(sum / factorial);
+    }
+    factorial *= Rational(static_cast<long>(k + 1));
+  }
+  return flow;
+}
+
+std::optional<SampledRow> AffineDynamics::flow_row(std::size_t state,
+                                                   const std::vector<Rational>& slots) const {
+  if (const std::optional<SampledRow> constant = constant_row(state, slots)) return constant;
+  const std::optional<NilpotentFlow> flow = nilpotent_flow(state, slots);
+  if (!flow) return std::nullopt;
+  const Rational& tau = spec_->dynamics.period;
+  const std::vector<AffineForm>& forms = flow->forms;
 
   SampledRow result{.coefficient = Row(forms.size()), .lower = 0, .upper = 0};
-  std::vector<Row> kernels(
-      dependencies.disturbances.size());  // coefficients of g, one polynomial a disturbance
-  Rational weight = 1;                    // tau^k / k!
-  Rational factorial = 1;                 // k!
-  for (std::size_t k = 0; k < rows.size(); ++k) {
+  Rational weight = 1;  // tau^k / k!
+  for (std::size_t k = 0; k < flow->rows.size(); ++k) {
     const Rational next = weight * tau / Rational(static_cast<long>(k + 1));
-    for (std::size_t l = 0; l < kernels.size(); ++l) kernels[l].emplace_back(0);
     for (std::size_t j = 0; j < forms.size(); ++j) {
-      const Rational& r = rows[k][j];
+      const Rational& r = flow->rows[k][j];
       if (r == 0) continue;
       result.coefficient[j] += r * weight;
       result.lower += r * next * (r > 0 ? forms[j].lower : forms[j].upper);
       result.upper += r * next * (r > 0 ? forms[j].upper : forms[j].lower);
       if (forms[j].lower != forms[j].upper) result.exact = false;
-      for (std::size_t l = 0; l < kernels.size(); ++l) {
-        kernels[l].back() += r * forms[j].disturbance[l] / factorial;
-      }
     }
     weight = next;
-    factorial *= Rational(static_cast<long>(k + 1));
   }
 
-  for (std::size_t l = 0; l < kernels.size(); ++l) {
-    const DisturbanceSpec& w = spec_->disturbances[static_cast<std::size_t>(dependencies.disturbances[l])];
+  for (std::size_t l = 0; l < flow->kernels.size(); ++l) {
+    const auto index = static_cast<std::size_t>(dependencies_[state].disturbances[l]);
+    const DisturbanceSpec& w = spec_->disturbances[index];
     const Rational middle = (w.lower + w.upper) / 2;
     const Rational radius = (w.upper - w.lower) / 2;
-    Rational integral = 0;
-    Rational power = tau;
-    for (std::size_t k = 0; k < kernels[l].size(); ++k, power *= tau) {
-      integral += kernels[l][k] * power / Rational(static_cast<long>(k + 1));
-    }
-    const AbsoluteIntegral absolute = integral_of_absolute(kernels[l], tau);
+    const std::vector<Rational>& kernel = flow->kernels[l];
+    const Rational integral = integral_of(kernel, tau);
+    const AbsoluteIntegral absolute = integral_of_absolute(kernel, tau);
     result.lower += middle * integral - radius * absolute.value;
     result.upper += middle * integral + radius * absolute.value;
     if (!absolute.exact && radius != 0) result.exact = false;

@@ -20,6 +20,9 @@ struct FlowEnclosure {
   std::size_t culprit = 0;     ///< index of the equation at fault, unless ok
   std::vector<Interval> end;   ///< states reachable at tau; unless ok: at the time up to which all is known
   std::vector<Interval> tube;  ///< states reachable in [0, tau], or up to that time
+  /// x(t) - x(0) during that time, 0 included; an end is 0 exactly where f never points that way. For the
+  /// rounding of the initial box alone widens `tube`.
+  std::vector<Interval> drift;
 };
 
 /// Guaranteed enclosures of the states that a differential equation reaches after tau, for every initial

@@ -18,6 +18,13 @@ std::int32_t saturate_index(std::int64_t index) {
   return static_cast<std::int32_t>(std::clamp<std::int64_t>(index, Limits::min(), Limits::max()));
 }
 
+IndexRange moved(IndexRange raw, std::int64_t by) {
+  // A first index at the lower limit may be farther out, and on a ring must still say so (wrap_range). The
+  // last one is beyond the domain either way.
+  return {raw.first == Limits::min() ? raw.first : saturate_index(raw.first + by),
+          saturate_index(raw.last + by)};
+}
+
 IndexRange wrap_range(IndexRange raw, std::int64_t count) {
   const std::int64_t distance = std::int64_t{raw.last} - raw.first;
   const bool lost = raw.first == Limits::min() || raw.last == Limits::max();

@@ -24,6 +24,9 @@ struct IndexRange {
 /// sum beyond them. REQUIRES raw.first <= raw.last, count >= 1.
 [[nodiscard]] IndexRange wrap_range(IndexRange raw, std::int64_t count);
 
+/// A raw range further up by `by` indices, 0 <= by < 2^31. What was saturated stays so.
+[[nodiscard]] IndexRange moved(IndexRange raw, std::int64_t by);
+
 /// A raw range after the rules of both sides.
 struct ResolvedRange {
   bool blocked = false;  ///< left through an unsafe side: the pair has no post

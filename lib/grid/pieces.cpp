@@ -11,12 +11,24 @@ Rational floor_of(const Rational& q) {
   return Rational(result);
 }
 
+/// The limits of `stop` are the first and the last grid point, so something is always left.
+Piece line_piece(const GridDimension& dimension, std::int64_t k, const Rational& reach) {
+  Piece piece{dimension.point(k) - reach, dimension.point(k) + reach};
+  if (k == 0) piece.lower -= dimension.stretch_below;
+  if (k == dimension.count - 1) piece.upper += dimension.stretch_above;
+  if (dimension.below == Outside::stop) piece.lower = std::max(piece.lower, dimension.first);
+  if (dimension.above == Outside::stop) {
+    piece.upper = std::min(piece.upper, dimension.point(dimension.count - 1));
+  }
+  return piece;
+}
+
 }  // namespace
 
 std::vector<Piece> pieces(const GridDimension& dimension, std::int64_t k) {
   const Rational reach = dimension.radius() + dimension.measurement_error;
+  if (!dimension.periodic()) return {line_piece(dimension, k, reach)};
   Rational low = dimension.point(k) - reach;
-  if (!dimension.periodic()) return {{low, dimension.point(k) + reach}};
   const Rational period = dimension.upper - dimension.lower;
   if (2 * reach >= period) return {{dimension.lower, dimension.upper}};
   low -= period * floor_of((low - dimension.lower) / period);

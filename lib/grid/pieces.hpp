@@ -17,7 +17,8 @@ struct Piece {
 };
 
 /// Where the true state can be while cell k is measured: the closed cell (the point of a discrete dimension)
-/// widened by the measurement error on both sides, as one piece.
+/// widened by the measurement error on both sides, as one piece. Beyond a `stop` limit there is no state, so
+/// that half of the boundary cell does not count; a stretched boundary cell is as long as it is stretched.
 ///
 /// In a periodic dimension it is cut at the seam into representatives in [lower, upper), in the order along
 /// the cell: at most two pieces, or [lower, upper] if it is as wide as the period. A cell that ends at

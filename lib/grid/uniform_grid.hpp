@@ -22,6 +22,9 @@ struct GridDimension {
   Rational lower;  ///< as written in the spec; [lower, upper) is one period of a periodic dimension
   Rational upper;
   Rational measurement_error = 0;  ///< how far the true state may be from the measured one
+  /// How far beyond its outer face the first and the last cell count as going on (see safe_beyond_limits()).
+  Rational stretch_below = 0;
+  Rational stretch_above = 0;
 
   /// The dimension wraps round: first = lower, count * step = upper - lower.
   [[nodiscard]] bool periodic() const { return below == Outside::periodic; }

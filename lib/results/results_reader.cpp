@@ -160,7 +160,7 @@ Abstraction ResultsReader::abstraction() const {
   Abstraction abstraction{.grid = grid_, .inputs = inputs_, .tables = parts_.tables};
   for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
     TransitionTable& table = abstraction.tables[i];
-    const auto entries = static_cast<std::size_t>(lay_out(table, grid_, inputs_));
+    const auto entries = static_cast<std::size_t>(lay_out(table, i, grid_, inputs_));
     std::vector<std::uint64_t> shape;
     for (const std::int32_t j : table.states)
       shape.push_back(static_cast<std::uint64_t>(grid_[static_cast<std::size_t>(j)].count));

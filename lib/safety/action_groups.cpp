@@ -128,19 +128,19 @@ ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassDat
   return view;
 }
 
-const std::uint32_t* ActionGrouping::view_ids(const View& view, std::int64_t row) const {
+const std::uint32_t* ActionGrouping::view_ids(const View& view, const RowPlace& place) const {
   const ActionSource& source = sources_[view.table];
-  const std::int64_t base = source.base(engine_->abstraction().grid, row);
+  const std::int64_t base = source.base(place);
   if (view.partial.empty()) return source.ids().data() + base;
   return view.partial.data() + base / source.input_combinations * view.width;
 }
 
-ActionGroups ActionGrouping::find_groups(const ClassData& data, std::int64_t row) const {
+ActionGroups ActionGrouping::find_groups(const ClassData& data, const RowPlace& place) const {
   ActionGroups groups;
   groups.group_of.assign(static_cast<std::size_t>(data.actions), 0);
   std::unordered_map<std::uint64_t, std::uint32_t> numbers;
   for (const View& view : data.views) {
-    const std::uint32_t* ids = view_ids(view, row);
+    const std::uint32_t* ids = view_ids(view, place);
     numbers.clear();
     for (std::size_t a = 0; a < groups.group_of.size(); ++a) {
       const std::uint64_t key = std::uint64_t{groups.group_of[a]} << 32 | ids[view.combination[a]];
@@ -150,21 +150,23 @@ ActionGroups ActionGrouping::find_groups(const ClassData& data, std::int64_t row
   for (std::size_t a = 0; a < groups.group_of.size(); ++a) {
     if (groups.group_of[a] == groups.size()) groups.representative.push_back(static_cast<std::uint32_t>(a));
   }
-  compare_groups(data, row, groups);
+  compare_groups(data, place, groups);
   return groups;
 }
 
-void ActionGrouping::compare_groups(const ClassData& data, std::int64_t row, ActionGroups& groups) const {
+void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place,
+                                    ActionGroups& groups) const {
   const std::size_t size = groups.size();
+  groups.all.resize(size);
+  std::iota(groups.all.begin(), groups.all.end(), 0U);
   if (size > kMaxCompared) {
-    groups.minimal.resize(size);
-    std::iota(groups.minimal.begin(), groups.minimal.end(), 0U);
+    groups.minimal = groups.maximal = groups.all;
     return;
   }
   groups.within.assign(size * size, 1);
   for (const View& view : data.views) {
-    const std::uint32_t* ids = view_ids(view, row);
-    const bool is_slices = view.table < engine_->tables() && view.partial.empty();
+    const std::uint32_t* ids = view_ids(view, place);
+    const bool is_slices = view.table < engine_->slices().size() && view.partial.empty();
     for (std::size_t g = 0; g < size; ++g) {
       for (std::size_t h = 0; h < size; ++h) {
         std::uint8_t& within = groups.within[g * size + h];
@@ -177,19 +179,24 @@ void ActionGrouping::compare_groups(const ClassData& data, std::int64_t row, Act
           continue;
         }
         const auto& slices = engine_->slices()[view.table].slices;
-        const GridDimension& target = engine_->abstraction().grid[view.table];
+        const GridDimension& target = engine_->abstraction().grid[view.table % engine_->tables()];
         within = slice_within(slices[a], slices[b], target) ? 1 : 0;
       }
     }
   }
   for (std::uint32_t g = 0; g < size; ++g) {
     bool minimal = true;
-    for (std::uint32_t h = 0; h < size && minimal; ++h) {
+    bool maximal = true;
+    for (std::uint32_t h = 0; h < size; ++h) {
+      if (h == g) continue;
       // Of two groups that are within each other the lower one stays.
-      const bool below = h != g && groups.is_within(h, g);
-      minimal = !below || (groups.is_within(g, h) && g < h);
+      const bool contains = groups.is_within(h, g);
+      const bool contained = groups.is_within(g, h);
+      minimal = minimal && (!contains || (contained && g < h));
+      maximal = maximal && (!contained || (contains && g < h));
     }
     if (minimal) groups.minimal.push_back(g);
+    if (maximal) groups.maximal.push_back(g);
   }
 }
 
@@ -216,7 +223,7 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
         if (data.state_stride[i] == 0) continue;
         row += choice / data.state_stride[i] % grid[i].count * (grid.stride(i) / grid.row_length());
       }
-      found[static_cast<std::size_t>(choice)] = find_groups(data, row);
+      found[static_cast<std::size_t>(choice)] = find_groups(data, RowPlace(grid, row));
     }
   });
   std::map<std::tuple<std::vector<std::uint32_t>, std::vector<std::uint8_t>>, std::uint32_t> numbers;
@@ -228,91 +235,19 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
   }
 }
 
-void ActionGrouping::group(std::int64_t row, RowGroups& groups) const {
-  const UniformGrid& grid = engine_->abstraction().grid;
+void ActionGrouping::group(const RowPlace& place, RowGroups& groups) const {
   groups.classes.resize(classes_.size());
   groups.own.resize(classes_.size());
   for (std::size_t c = 0; c < classes_.size(); ++c) {
     const ClassData& data = classes_[c];
     if (data.shared.empty()) {
-      groups.own[c] = find_groups(data, row);
+      groups.own[c] = find_groups(data, place);
       groups.classes[c] = &groups.own[c];
       continue;
     }
-    std::int64_t choice = 0;
-    for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
-      if (data.state_stride[i] != 0) choice += grid.index(row * grid.row_length(), i) * data.state_stride[i];
-    }
+    const std::int64_t choice = place.offset(data.state_stride);
     groups.classes[c] = &data.distinct[data.shared[static_cast<std::size_t>(choice)]];
   }
-}
-
-std::vector<std::vector<std::uint32_t>> ActionGrouping::all_groups(const RowGroups& groups) {
-  std::vector<std::vector<std::uint32_t>> result;
-  for (const ActionGroups* c : groups.classes) {
-    std::vector<std::uint32_t>& all = result.emplace_back(c->size());
-    std::iota(all.begin(), all.end(), 0U);
-  }
-  return result;
-}
-
-std::vector<std::vector<std::uint32_t>> ActionGrouping::minimal_groups(const RowGroups& groups) {
-  std::vector<std::vector<std::uint32_t>> result;
-  for (const ActionGroups* c : groups.classes) result.push_back(c->minimal);
-  return result;
-}
-
-ActionGrouping::Tuples::Tuples(const ActionGrouping& grouping, std::int64_t row, const RowGroups& groups,
-                               std::vector<std::vector<std::uint32_t>> candidates)
-    : grouping_(grouping),
-      candidates_(std::move(candidates)),
-      tables_(grouping.sources_.size()),
-      offset_(grouping.size()),
-      sum_((grouping.size() + 1) * tables_),
-      position_(grouping.size(), 0),
-      ids_(grouping.engine_->tables()) {
-  const UniformGrid& grid = grouping.engine_->abstraction().grid;
-  for (std::size_t t = 0; t < tables_; ++t) sum_[t] = grouping.sources_[t].base(grid, row);
-  for (std::size_t c = 0; c < grouping.size(); ++c) {
-    for (const std::uint32_t g : candidates_[c]) {
-      const std::uint32_t action = groups.classes[c]->representative[g];
-      for (std::size_t t = 0; t < tables_; ++t)
-        offset_[c].push_back(grouping.classes_[c].contribution[t][action]);
-    }
-  }
-  add_up(0);
-}
-
-void ActionGrouping::Tuples::add_up(std::size_t from_class) {
-  for (std::size_t c = from_class; c < position_.size(); ++c) {
-    const std::int64_t* offset = offset_[c].data() + position_[c] * tables_;
-    for (std::size_t t = 0; t < tables_; ++t) sum_[(c + 1) * tables_ + t] = sum_[c * tables_ + t] + offset[t];
-  }
-}
-
-std::span<const std::uint32_t> ActionGrouping::Tuples::slice_ids() {
-  const std::int64_t* sum = sum_.data() + position_.size() * tables_;
-  for (std::size_t t = 0; t < ids_.size(); ++t) {
-    ids_[t] = grouping_.sources_[t].ids()[static_cast<std::size_t>(sum[t])];
-  }
-  return ids_;
-}
-
-ConstRow ActionGrouping::Tuples::allowed() const {
-  const ConditionTable* allow = grouping_.engine_->allow();
-  if (allow == nullptr) return {};
-  return allow->bits().row(sum_[position_.size() * tables_ + ids_.size()]);
-}
-
-bool ActionGrouping::Tuples::next() {
-  for (std::size_t c = position_.size(); c-- > 0;) {
-    if (++position_[c] < candidates_[c].size()) {
-      add_up(c);
-      return true;
-    }
-    position_[c] = 0;
-  }
-  return false;
 }
 
 }  // namespace coordreq

@@ -13,19 +13,22 @@ namespace coordreq {
 /// Inputs that are chosen together; its joint actions are numbered row-major, the last input fastest.
 using InputClass = std::vector<std::int32_t>;
 
-/// The actions of one class in one row, sorted into groups that cannot be told apart there: same post and
-/// same `allow` whatever the other classes do. Groups are numbered by their first actions.
+/// The actions of one class in one row, sorted into groups that cannot be told apart there: same post, tube
+/// and `allow` whatever the other classes do. Groups are numbered by their first actions.
 struct ActionGroups {
   std::vector<std::uint32_t> group_of;        ///< [action]
   std::vector<std::uint32_t> representative;  ///< [group], its lowest action
-  /// Groups g for which no other group has its post inside that of g: enough wherever *some* action is asked
-  /// for.
+  /// Groups g for which no other group has its post (and tube) inside that of g: enough wherever *some*
+  /// action is asked for.
   std::vector<std::uint32_t> minimal;
+  /// Groups g whose post is in that of no other group: enough where *every* action is asked for.
+  std::vector<std::uint32_t> maximal;
+  std::vector<std::uint32_t> all;  ///< 0, 1, ..., size() - 1
   /// [g * size() + h], see is_within(); empty if there are too many groups to compare.
   std::vector<std::uint8_t> within;
 
-  /// True if, whatever the others do, the post under g lies inside the post under h, and `allow` says the
-  /// same of both. May be false where that is not easily seen.
+  /// True if, whatever the others do, the post under g lies inside the post under h (and so do the tubes),
+  /// and `allow` says the same of both. May be false where that is not easily seen.
   [[nodiscard]] bool is_within(std::uint32_t g, std::uint32_t h) const {
     return !within.empty() && within[g * size() + h] != 0;
   }
@@ -53,39 +56,16 @@ class ActionGrouping {
   /// Number of joint actions of class c.
   [[nodiscard]] std::int64_t actions(std::size_t c) const { return classes_[c].actions; }
 
-  void group(std::int64_t row, RowGroups& groups) const;
+  void group(const RowPlace& place, RowGroups& groups) const;
 
-  /// Visits all choices of one candidate group a class.
-  class Tuples {
-   public:
-    /// @param candidates groups of each class to choose from; REQUIRES: none is empty
-    Tuples(const ActionGrouping& grouping, std::int64_t row, const RowGroups& groups,
-           std::vector<std::vector<std::uint32_t>> candidates);
-    /// Group chosen in class c.
-    [[nodiscard]] std::uint32_t chosen(std::size_t c) const { return candidates_[c][position_[c]]; }
-    /// Numbers of the slices, one a table, for RowEngine::inside.
-    [[nodiscard]] std::span<const std::uint32_t> slice_ids();
-    /// Allowed cells of the row; empty if everything is allowed.
-    [[nodiscard]] ConstRow allowed() const;
-    /// @returns false after the last choice
-    bool next();
-
-   private:
-    void add_up(std::size_t from_class);
-
-    const ActionGrouping& grouping_;
-    std::vector<std::vector<std::uint32_t>> candidates_;
-    std::size_t tables_;                             ///< of slices, and one more if there is `allow`
-    std::vector<std::vector<std::int64_t>> offset_;  ///< [class][position of the candidate * tables_ + table]
-    std::vector<std::int64_t> sum_;                  ///< [classes added up * tables_ + table], bases first
-    std::vector<std::size_t> position_;
-    std::vector<std::uint32_t> ids_;
-  };
-
-  /// All groups of every class.
-  [[nodiscard]] static std::vector<std::vector<std::uint32_t>> all_groups(const RowGroups& groups);
-  /// The minimal groups of every class.
-  [[nodiscard]] static std::vector<std::vector<std::uint32_t>> minimal_groups(const RowGroups& groups);
+  [[nodiscard]] const RowEngine& engine() const { return *engine_; }
+  /// What tells actions apart: the engine's slices in order (posts, then tubes), then `allow` if there is
+  /// one.
+  [[nodiscard]] const std::vector<ActionSource>& sources() const { return sources_; }
+  /// What action `a` of class c adds to an entry's position in source t.
+  [[nodiscard]] std::int64_t contribution(std::size_t c, std::size_t t, std::uint32_t a) const {
+    return classes_[c].contribution[t][a];
+  }
 
  private:
   /// What one table (or `allow`, the last one) says of the actions of a class.
@@ -112,9 +92,9 @@ class ActionGrouping {
   [[nodiscard]] ClassData make_class(InputClass inputs) const;
   [[nodiscard]] View make_view(std::size_t table, const ClassData& data) const;
   void share_groups(ClassData& data, ThreadTeam& team) const;
-  [[nodiscard]] ActionGroups find_groups(const ClassData& data, std::int64_t row) const;
-  void compare_groups(const ClassData& data, std::int64_t row, ActionGroups& groups) const;
-  [[nodiscard]] const std::uint32_t* view_ids(const View& view, std::int64_t row) const;
+  [[nodiscard]] ActionGroups find_groups(const ClassData& data, const RowPlace& place) const;
+  void compare_groups(const ClassData& data, const RowPlace& place, ActionGroups& groups) const;
+  [[nodiscard]] const std::uint32_t* view_ids(const View& view, const RowPlace& place) const;
 
   const RowEngine* engine_;
   std::vector<ActionSource> sources_;

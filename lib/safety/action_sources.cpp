@@ -4,14 +4,6 @@
 
 namespace coordreq {
 
-std::int64_t ActionSource::base(const UniformGrid& grid, std::int64_t row) const {
-  std::int64_t base = 0;
-  for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
-    if (state_stride[i] != 0) base += grid.index(row * grid.row_length(), i) * state_stride[i];
-  }
-  return base;
-}
-
 std::vector<ActionSource> action_sources(const RowEngine& engine) {
   std::vector<ActionSource> sources;
   for (const RowSlices& slices : engine.slices()) {

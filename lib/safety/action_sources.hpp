@@ -19,10 +19,10 @@ struct ActionSource {
 
   [[nodiscard]] const std::vector<std::uint32_t>& ids() const { return shared_ids ? *shared_ids : own_ids; }
   /// Where the entries of a row of the grid begin.
-  [[nodiscard]] std::int64_t base(const UniformGrid& grid, std::int64_t row) const;
+  [[nodiscard]] std::int64_t base(const RowPlace& place) const { return place.offset(state_stride); }
 };
 
-/// The engine's tables in order, then `allow` if there is one. They refer to the engine.
+/// The engine's slices in order (posts, then tubes), then `allow` if there is one. They refer to the engine.
 [[nodiscard]] std::vector<ActionSource> action_sources(const RowEngine& engine);
 
 }  // namespace coordreq

@@ -5,6 +5,7 @@
 #include "bitset/row_operations.hpp"
 #include "grid/pieces.hpp"
 #include "safety/condition.hpp"
+#include "safety/condition_atoms.hpp"
 
 namespace coordreq {
 namespace {
@@ -126,6 +127,51 @@ class Filler {
   std::vector<RationalInterval> exact_;
 };
 
+/// True if every cell of the row is set in one of the two.
+bool settles_row(ConstRow yes, ConstRow no, std::int64_t length) {
+  for (std::size_t w = 0; w < yes.size(); ++w) {
+    const std::int64_t rest = length - static_cast<std::int64_t>(w) * CellSet::kWordBits;
+    const Word all = rest < CellSet::kWordBits ? (Word{1} << rest) - 1 : ~Word{0};
+    if ((yes[w] | no[w]) != all) return false;
+  }
+  return true;
+}
+
+/// The row of an atom's table for row `r` of the table of the whole condition.
+ConstRow row_of_atom(const ConditionTable& atom, const ConditionTable& whole, std::int64_t r) {
+  std::int64_t position = 0;
+  for (const std::int32_t i : atom.states())
+    position += whole.state_index(r, at(i)) * atom.state_stride()[at(i)];
+  for (const std::int32_t i : atom.inputs())
+    position += whole.input_index(r, at(i)) * atom.input_stride()[at(i)];
+  return atom.bits().row(position);
+}
+
+/// By Kleene's logic, where a bit that is not set means `not proven`.
+void join_atoms(const ConditionAtoms& atoms, const std::vector<ConditionTable>& tables,
+                const ConditionTable& whole, std::int64_t r, std::vector<std::vector<Word>>& values,
+                MutableRow out) {
+  using Join = ConditionAtoms::Join;
+  for (std::size_t i = 0; i < atoms.nodes.size(); ++i) {
+    const ConditionAtoms::Node& node = atoms.nodes[i];
+    std::vector<Word>& value = values[i];
+    if (node.join == Join::atom) {
+      const ConstRow row = row_of_atom(tables[node.a], whole, r);
+      value.assign(row.begin(), row.end());
+    } else if (node.join == Join::always || node.join == Join::never) {
+      value.assign(out.size(), 0);
+      if (node.join == Join::always) set_bits(value, 0, whole.bits().row_length());
+    } else {
+      value = values[node.a];
+      const std::vector<Word>& other = values[node.b];
+      for (std::size_t w = 0; w < value.size(); ++w) {
+        value[w] = node.join == Join::both ? value[w] & other[w] : value[w] | other[w];
+      }
+    }
+  }
+  std::copy(values.back().begin(), values.back().end(), out.begin());
+}
+
 }  // namespace
 
 ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid, const InputSpace& inputs,
@@ -151,6 +197,15 @@ ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid
   }
   bits_ = CellSet(rows, grid.row_length());
 
+  // Comparisons that depend on few variables settle most cells; the others are looked at one by one.
+  const CellSet proven = proven_by_atoms(condition, false, sampling, team);
+  const CellSet refuted = proven.rows() > 0 ? proven_by_atoms(condition, true, sampling, team) : CellSet();
+  const auto is_settled = [&](std::int64_t r, std::int64_t k) {
+    return refuted.rows() > 0 &&
+           (bits_.test(r * grid.row_length() + k) || refuted.test(r * grid.row_length() + k));
+  };
+  if (proven.rows() > 0) bits_ = proven;
+
   const Ranges ranges(grid, inputs, sampling, used);
   const std::int64_t grain = std::max<std::int64_t>(1, 4096 / grid.row_length());
   team.for_each(rows, grain, [&](ThreadTeam::Range range, int) {
@@ -160,16 +215,36 @@ ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid
       for (const std::int32_t i : inputs_) {
         filler.set(grid.size() + at(i), r / input_stride_[at(i)] % inputs[at(i)].count());
       }
+      if (refuted.rows() > 0 && settles_row(bits_.row(r), refuted.row(r), grid.row_length())) continue;
       if (!used[last]) {
         if (filler.holds()) set_bits(bits_.row(r), 0, grid.row_length());
         continue;
       }
       for (std::int64_t k = 0; k < grid.row_length(); ++k) {
+        if (is_settled(r, k)) continue;
         filler.set(last, k);
         if (filler.holds()) set_bits(bits_.row(r), k, k + 1);
       }
     }
   });
+}
+
+CellSet ConditionTable::proven_by_atoms(const Program& condition, bool negated, Sampling sampling,
+                                        ThreadTeam& team) const {
+  const std::optional<ConditionAtoms> found = find_atoms(condition, negated);
+  if (!found) return {};
+  std::vector<ConditionTable> tables;
+  const Undecided is_not_proven = [](const std::vector<std::int64_t>&) { return false; };
+  for (const Program& atom : found->atoms) {
+    tables.emplace_back(atom, *grid_, *input_space_, sampling, is_not_proven, team, Question::everywhere);
+  }
+  CellSet result(bits_.rows(), bits_.row_length());
+  team.for_each(result.rows(), 256, [&](ThreadTeam::Range range, int) {
+    std::vector<std::vector<Word>> values(found->nodes.size());
+    for (std::int64_t r = range.begin; r < range.end; ++r)
+      join_atoms(*found, tables, *this, r, values, result.row(r));
+  });
+  return result;
 }
 
 std::int64_t ConditionTable::position(std::int64_t row, std::int64_t u) const {

@@ -18,7 +18,9 @@ namespace coordreq {
 enum class Sampling : std::uint8_t {
   centres,  ///< grid points
   /// The whole closed cell of each state, widened by its measurement error and cut at the seam of a periodic
-  /// dimension (pieces()); grid points of inputs. The condition has to hold on all pieces to be true.
+  /// dimension (pieces()); grid points of inputs. The condition has to hold on all pieces to be true. That is
+  /// every true state that may be measured in the cell; so a requirement on a region asks this too (undecided
+  /// counts as true): of all cells that may be measured while the state is in the region.
   closed_cells,
 };
 
@@ -41,6 +43,13 @@ class ConditionTable {
   [[nodiscard]] std::span<const CellSet::Word> row(std::int64_t row, std::int64_t u) const;
   /// Position of that row in the table: equal positions mean equal bits.
   [[nodiscard]] std::int64_t position(std::int64_t row, std::int64_t u) const;
+  /// Index of state i in row `position` of this table. REQUIRES: the state is in use, and not the last one.
+  [[nodiscard]] std::int64_t state_index(std::int64_t position, std::size_t i) const {
+    return position / state_stride_[i] % (*grid_)[i].count;
+  }
+  [[nodiscard]] std::int64_t input_index(std::int64_t position, std::size_t i) const {
+    return position / input_stride_[i] % (*input_space_)[i].count();
+  }
   [[nodiscard]] const CellSet& bits() const { return bits_; }
 
   [[nodiscard]] const std::vector<std::int32_t>& states() const {
@@ -58,6 +67,11 @@ class ConditionTable {
   std::vector<std::int64_t> state_stride_;  ///< in rows of the table; 0 where not in use
   std::vector<std::int64_t> input_stride_;
   CellSet bits_;
+
+  /// The rows where the atoms of the condition (or of its negation) prove it, laid out as this table; empty
+  /// if it has no atoms of its own.
+  [[nodiscard]] CellSet proven_by_atoms(const Program& condition, bool negated, Sampling sampling,
+                                        ThreadTeam& team) const;
 };
 
 }  // namespace coordreq

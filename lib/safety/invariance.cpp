@@ -1,16 +1,12 @@
 #include "safety/invariance.hpp"
 
-#include "safety/wave.hpp"
+#include <algorithm>
+
+#include "safety/find_levels.hpp"
+#include "safety/tuple_walk.hpp"
 
 namespace coordreq {
 namespace {
-
-struct Workspace {
-  RowEngine::Scratch scratch;
-  RowGroups groups;
-  std::vector<Word> inside;
-  std::vector<Word> found;
-};
 
 /// Every input by itself: the finest classes give the fewest joint groups to try.
 std::vector<InputClass> single_inputs(const InputSpace& inputs) {
@@ -19,113 +15,125 @@ std::vector<InputClass> single_inputs(const InputSpace& inputs) {
   return classes;
 }
 
-class Predecessor {
+template <class Level>
+struct Workspace {
+  RowGroups groups;
+  TupleWalk::Candidates candidates;
+  TupleWalk tuple;
+  RowHull::Box box;
+  std::vector<Level> lanes;
+  std::vector<Word> some_allowed;
+};
+
+/// level(x) = 1 + max over allowed u of min over f(x,u): one safe action is enough.
+template <class Level>
+class SomeAction final : public RowOperator<Level> {
  public:
-  Predecessor(const RowEngine& engine, const ActionGrouping& grouping)
-      : engine_(engine), grouping_(grouping) {}
+  SomeAction(const ActionGrouping& grouping, const RowHull& hull, int workers)
+      : grouping_(grouping), hull_(hull), work_(static_cast<std::size_t>(workers)) {}
 
-  /// keep n {x : some allowed u has its post inside `current`}.
-  void some(std::int64_t row, const RowTarget& current, MutableRow keep, Workspace& work) const {
-    work.found.assign(keep.size(), 0);
-    grouping_.group(row, work.groups);
+  bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
+                   int worker) override {
+    Workspace<Level>& work = work_[static_cast<std::size_t>(worker)];
+    const LevelKernels<Level>& kernels = posts.kernels();
+    const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
+    if (grouping_.engine().allow() == nullptr) {
+      hull_.box(place, work.box);
+      if (work.box.covers && kernels.is_settled(posts.minimum(work.box), old, n)) return false;
+    }
+    std::fill_n(next, posts.lanes(), Level{0});
+    grouping_.group(place, work.groups);
     // A larger post is never of use where a smaller one of the same class is allowed alike.
-    for_each_tuple(row, ActionGrouping::minimal_groups(work.groups), work,
-                   [&](ActionGrouping::Tuples& tuple) {
-                     inside(tuple, current, work);
-                     bool all_found = true;
-                     for (std::size_t w = 0; w < keep.size(); ++w) {
-                       work.found[w] |= work.inside[w];
-                       all_found = all_found && (keep[w] & ~work.found[w]) == 0;
-                     }
-                     return !all_found;
-                   });
-    for (std::size_t w = 0; w < keep.size(); ++w) keep[w] &= work.found[w];
-  }
-
-  /// keep n {x : some u is allowed, and every allowed u has its post inside `current`}.
-  void every(std::int64_t row, const RowTarget& current, MutableRow keep, Workspace& work) const {
-    work.found.assign(keep.size(), 0);
-    grouping_.group(row, work.groups);
-    for_each_tuple(row, ActionGrouping::all_groups(work.groups), work, [&](ActionGrouping::Tuples& tuple) {
-      const ConstRow allowed = tuple.allowed();
-      engine_.inside(tuple.slice_ids(), current, prepared(work), work.scratch);
-      Word left = 0;
-      for (std::size_t w = 0; w < keep.size(); ++w) {
-        const Word may = allowed.empty() ? ~Word{0} : allowed[w];
-        work.found[w] |= may;
-        keep[w] &= work.inside[w] | ~may;
-        left |= keep[w];
-      }
-      return left != 0;
-    });
-    for (std::size_t w = 0; w < keep.size(); ++w) keep[w] &= work.found[w];
+    choose_groups(work.groups, GroupChoice::minimal, work.candidates);
+    work.tuple.begin(grouping_, place, work.groups, work.candidates);
+    do {
+      raise(work, posts, next);
+      // No action can do better than to leave all as it was.
+      if (kernels.is_settled(next, old, n)) return false;
+    } while (work.tuple.next());
+    return true;
   }
 
  private:
-  MutableRow prepared(Workspace& work) const {
-    work.inside.resize(engine_.row_words());
-    return work.inside;
-  }
-
-  void inside(ActionGrouping::Tuples& tuple, const RowTarget& current, Workspace& work) const {
-    const ConstRow allowed = tuple.allowed();
-    prepared(work);
-    if (!allowed.empty() && !any_set(allowed)) {
-      work.inside.assign(work.inside.size(), 0);
-      return;
+  void raise(Workspace<Level>& work, PostReader<Level>& posts, Level* next) const {
+    const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
+    const ConstRow allowed = work.tuple.allowed();
+    if (allowed.empty()) {
+      posts.kernels().raise(posts.minimum(work.tuple.slice_ids()), next, n);
+    } else if (any_set(allowed)) {
+      work.lanes.resize(posts.lanes(), 0);
+      posts.kernels().spread(allowed.data(), work.lanes.data(), n);
+      posts.kernels().raise_where(posts.minimum(work.tuple.slice_ids()), work.lanes.data(), next, n);
     }
-    engine_.inside(tuple.slice_ids(), current, work.inside, work.scratch);
-    for (std::size_t w = 0; w < allowed.size(); ++w) work.inside[w] &= allowed[w];
   }
 
-  /// Until `visit` returns false.
-  template <class Visit>
-  void for_each_tuple(std::int64_t row, std::vector<std::vector<std::uint32_t>> candidates, Workspace& work,
-                      const Visit& visit) const {
-    ActionGrouping::Tuples tuple(grouping_, row, work.groups, std::move(candidates));
-    do {
-      if (!visit(tuple)) return;
-    } while (tuple.next());
-  }
-
-  const RowEngine& engine_;
   const ActionGrouping& grouping_;
+  const RowHull& hull_;
+  std::vector<Workspace<Level>> work_;
 };
+
+/// level(x) = 1 + min over allowed u of min over f(x,u), 1 where nothing is allowed: all must be safe.
+template <class Level>
+class EveryAction final : public RowOperator<Level> {
+ public:
+  EveryAction(const ActionGrouping& grouping, int workers)
+      : grouping_(grouping), work_(static_cast<std::size_t>(workers)) {}
+
+  bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* /*old*/, Level* next,
+                   int worker) override {
+    Workspace<Level>& work = work_[static_cast<std::size_t>(worker)];
+    const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
+    work.lanes.assign(posts.lanes(), static_cast<Level>(-1));
+    work.some_allowed.assign(grouping_.engine().row_words(), 0);
+    std::fill_n(next, posts.lanes(), PostReader<Level>::kTop);
+    grouping_.group(place, work.groups);
+    choose_groups(work.groups, GroupChoice::maximal, work.candidates);
+    work.tuple.begin(grouping_, place, work.groups, work.candidates);
+    do {
+      const ConstRow allowed = work.tuple.allowed();
+      if (!allowed.empty()) {
+        posts.kernels().spread(allowed.data(), work.lanes.data(), n);
+        for (std::size_t w = 0; w < allowed.size(); ++w) work.some_allowed[w] |= allowed[w];
+      }
+      posts.kernels().lower_where(posts.minimum(work.tuple.slice_ids()), work.lanes.data(), next, n);
+    } while (work.tuple.next());
+    if (grouping_.engine().allow() != nullptr) {
+      posts.kernels().spread(work.some_allowed.data(), work.lanes.data(), n);
+      for (std::size_t c = 0; c < n; ++c) next[c] = static_cast<Level>(next[c] & work.lanes[c]);
+    }
+    return true;
+  }
+
+ private:
+  const ActionGrouping& grouping_;
+  std::vector<Workspace<Level>> work_;
+};
+
+template <class Level>
+std::unique_ptr<RowOperator<Level>> make_operator(const ActionGrouping& grouping, const RowHull& hull,
+                                                  Synthesis synthesis, int workers) {
+  if (synthesis == Synthesis::maximal) return std::make_unique<SomeAction<Level>>(grouping, hull, workers);
+  return std::make_unique<EveryAction<Level>>(grouping, workers);
+}
 
 }  // namespace
 
-Invariance find_invariance(const RowEngine& engine, const RowReach& reach, const CellSet& safe,
-                           Synthesis synthesis,
-                           const std::function<void(std::int64_t, std::int64_t)>& stepped, ThreadTeam& team) {
+Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
+                           Synthesis synthesis, const std::function<void(std::int64_t, std::int64_t)>& swept,
+                           ThreadTeam& team) {
   const ActionGrouping grouping(engine, single_inputs(engine.abstraction().inputs), team);
-  const Predecessor predecessor(engine, grouping);
-  std::vector<Workspace> work(static_cast<std::size_t>(team.size()));
-
-  Invariance result{.invariant = safe, .collision_time = {}, .iterations = 0};
-  result.collision_time.assign(static_cast<std::size_t>(safe.cells()), 0);
-  for (std::int64_t r = 0; r < safe.rows(); ++r) {
-    for_each_bit(safe.row(r), [&](std::int64_t c) {
-      result.collision_time[static_cast<std::size_t>(r * safe.row_length() + c)] = Invariance::kNever;
-    });
-  }
-  const Wave wave{.shrink =
-                      [&](std::int64_t row, const RowTarget& current, MutableRow keep, int worker) {
-                        Workspace& own = work[static_cast<std::size_t>(worker)];
-                        if (synthesis == Synthesis::maximal) {
-                          predecessor.some(row, current, keep, own);
-                        } else {
-                          predecessor.every(row, current, keep, own);
-                        }
-                      },
-                  .removed =
-                      [&](std::int64_t row, ConstRow removed, std::int64_t step) {
-                        for_each_bit(removed, [&](std::int64_t c) {
-                          result.collision_time[static_cast<std::size_t>(row * safe.row_length() + c)] =
-                              static_cast<std::int32_t>(step);
-                        });
-                      },
-                  .stepped = stepped};
-  result.iterations = run_wave(result.invariant, wave, engine, reach, -1, team).steps;
+  const int workers = team.size();
+  const LevelProblem problem{
+      .start = &safe,
+      .make8 = [&] { return make_operator<std::uint8_t>(grouping, hull, synthesis, workers); },
+      .make16 = [&] { return make_operator<std::uint16_t>(grouping, hull, synthesis, workers); },
+      .make32 = [&] { return make_operator<std::uint32_t>(grouping, hull, synthesis, workers); }};
+  Invariance result;
+  result.collision_time = find_levels(engine, hull, problem, swept, team, result.counts);
+  result.invariant = result.collision_time.top_cells(team);
+  // Synchronously, one sweep loses the cells of each collision time, and one more finds nothing to lose.
+  const std::size_t levels = result.collision_time.histogram(team).finite.size();
+  result.iterations = static_cast<std::int64_t>(std::max<std::size_t>(levels, 1));
   return result;
 }
 

@@ -1,153 +1,138 @@
 #include "safety/row_engine.hpp"
 
 #include <algorithm>
+#include <set>
+
+#include "safety/row_window.hpp"
+#include "safety/set_levels.hpp"
 
 namespace coordreq {
+namespace {
 
 using Kind = RowSegment::Kind;
 
-RowEngine::RowEngine(const Abstraction& abstraction, const ConditionTable* allow)
-    : abstraction_(&abstraction), allow_(allow) {
-  for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
-    slices_.push_back(cut_into_rows(abstraction, i));
-    row_stride_.push_back(abstraction.grid.stride(i) / abstraction.grid.row_length());
-    count_.push_back(abstraction.grid[i].count);
+/// Rough figures of a table, from a sample of its entries: how many slices there are to choose from in a
+/// row, and how many cells wide their ranges are.
+struct TableProfile {
+  double choices = 1;
+  double width = 1;
+};
+
+TableProfile profile(const RowSlices& slices) {
+  constexpr std::size_t kSamples = 32;
+  const auto combinations = static_cast<std::size_t>(slices.input_combinations);
+  const std::size_t bases = slices.ids.size() / combinations;
+  const std::size_t step = std::max<std::size_t>(1, bases / kSamples);
+  TableProfile result{0, 0};
+  double ranges = 0;
+  double samples = 0;
+  for (std::size_t b = 0; b < bases; b += step, ++samples) {
+    const auto* begin = slices.ids.data() + b * combinations;
+    const std::set<std::uint32_t> distinct(begin, begin + combinations);
+    result.choices += static_cast<double>(distinct.size());
+    for (const std::uint32_t id : distinct) {
+      for (const RowSegment& segment : slices.slices[id]) {
+        if (segment.kind == Kind::blocked || segment.kind == Kind::gone) continue;
+        result.width += 1.0 + segment.range.last - segment.range.first;
+        ++ranges;
+      }
+    }
   }
+  return {result.choices / samples, std::max(1.0, result.width / std::max(1.0, ranges))};
 }
 
-std::int64_t RowEngine::base(std::int64_t row, std::size_t table) const {
-  const UniformGrid& grid = abstraction_->grid;
-  std::int64_t result = 0;
-  for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
-    const std::int64_t stride = slices_[table].state_stride[i];
-    if (stride != 0) result += grid.index(row * grid.row_length(), i) * stride;
+}  // namespace
+
+RowEngine::RowEngine(const Abstraction& abstraction, const ConditionTable* allow, const SafeTubes& tubes)
+    : abstraction_(&abstraction), allow_(allow) {
+  std::vector<GridDimension> dimensions = abstraction.grid.dimensions();
+  for (std::size_t i = 0; i < dimensions.size(); ++i) {
+    row_stride_.push_back(abstraction.grid.stride(i) / abstraction.grid.row_length());
   }
+  add_family(abstraction.tables, dimensions);
+  choose_outer();
+  if (tubes.inside == nullptr) return;
+  add_demand(tubes.beyond != nullptr ? *tubes.beyond : *tubes.inside, dimensions);
+  if (tubes.beyond == nullptr) return;
+  // The same tubes again, now blocked where they pass a limit: what is left need not be safe beyond it.
+  for (GridDimension& dimension : dimensions) {
+    if (dimension.below == Outside::saturate) dimension.below = Outside::unsafe;
+    if (dimension.above == Outside::saturate) dimension.above = Outside::unsafe;
+  }
+  add_demand(*tubes.inside, dimensions);
+}
+
+void RowEngine::add_demand(const CellSet& inside, const std::vector<GridDimension>& targets) {
+  add_family(abstraction_->tubes, targets);
+  inside_.push_back(make_levels<std::uint8_t>(family(inside_.size() + 1)));
+  set_levels(inside, 0, rows(), inside_.back());
+}
+
+/// Offsets along the row are brought to the shortest that mean the same; they decide on the margins.
+void RowEngine::add_family(const std::vector<TransitionTable>& tables,
+                           const std::vector<GridDimension>& targets) {
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    slices_.push_back(cut_into_rows(*abstraction_, tables[i], i, targets[i]));
+  }
+  const RowEnds ends{targets.back().below, targets.back().above};
+  RowMargins margins;
+  for (std::vector<RowSegment>& slice : slices_.back().slices) {
+    for (RowSegment& segment : slice) {
+      if (segment.kind != Kind::shifted) continue;
+      segment.range = fit_window(segment.range, row_length(), ends);
+      margins.before = std::max<std::int64_t>(margins.before, -segment.range.first);
+      margins.after = std::max<std::int64_t>(margins.after, segment.range.last);
+    }
+  }
+  ends_.push_back(ends);
+  margins_.push_back(margins);
+}
+
+RowFamily RowEngine::family(std::size_t number) const {
+  return {std::span(slices_).subspan(number * tables(), tables()), ends_[number], margins_[number]};
+}
+
+std::vector<RowEngine::Demand> RowEngine::demands() const {
+  std::vector<Demand> result;
+  for (std::size_t k = 0; k < inside_.size(); ++k) result.push_back({family(k + 1), &inside_[k]});
   return result;
 }
 
-/// The common case: every slice is one segment and the erosion is at hand. @returns false if it is not that
-/// case
-bool RowEngine::inside_simple(std::span<const std::uint32_t> ids, const RowTarget& target, MutableRow out,
-                              Scratch& scratch) const {
-  const std::size_t last = slices_.size() - 1;
-  const CellSet* eroded = target.eroded(ids[last]);
-  if (eroded == nullptr) return false;
-  scratch.box.resize(last);
-  bool blocked = false;
-  for (std::size_t t = 0; t < last; ++t) {
-    const std::vector<RowSegment>& slice = slices_[t].slices[ids[t]];
-    if (slice.size() != 1 || slice[0].kind == Kind::gone) return false;
-    blocked = blocked || slice[0].kind == Kind::blocked;
-    scratch.box[t] = slice[0].range;
-  }
-  if (blocked) {
-    std::fill(out.begin(), out.end(), Word{0});
-  } else {
-    gather(*eroded, scratch.indices, scratch.box, out);
+/// The first dimensions may be taken first if nothing that moves them depends on those that follow.
+bool RowEngine::is_closed(std::size_t outer) const {
+  for (std::size_t t = 0; t < outer; ++t) {
+    const std::vector<std::int64_t>& stride = abstraction_->tables[t].state_stride;
+    if (std::any_of(stride.begin() + static_cast<std::ptrdiff_t>(outer), stride.end(),
+                    [](std::int64_t s) { return s != 0; })) {
+      return false;
+    }
   }
   return true;
 }
 
-void RowEngine::inside(std::span<const std::uint32_t> ids, const RowTarget& target, MutableRow out,
-                       Scratch& scratch) const {
-  if (inside_simple(ids, target, out, scratch)) return;
-  const std::size_t tables = slices_.size();
-  const std::size_t last = tables - 1;
-  scratch.slices.resize(tables);
-  scratch.positions.assign(tables, 0);
-  scratch.box.resize(last);
-  for (std::size_t t = 0; t < tables; ++t) scratch.slices[t] = &slices_[t].slices[ids[t]];
-  std::fill(out.begin(), out.end(), Word{0});
-
-  const auto length = static_cast<std::int32_t>(row_length());
-  for (std::int32_t begin = 0; begin < length;) {
-    std::int32_t end = length;
-    bool blocked = false;
-    bool gone = false;
-    for (std::size_t t = 0; t < tables; ++t) {
-      while ((*scratch.slices[t])[scratch.positions[t]].end <= begin) ++scratch.positions[t];
-      const RowSegment& segment = (*scratch.slices[t])[scratch.positions[t]];
-      end = std::min(end, segment.end);
-      blocked = blocked || segment.kind == Kind::blocked;
-      gone = gone || (segment.kind == Kind::gone && t != last);
-      if (t != last) scratch.box[t] = segment.range;
-    }
-    if (!blocked) {
-      if (gone) {
-        // Nothing is left inside in one dimension, so any target will do; the last dimension may still block.
-        scratch.gathered.assign(out.size(), ~Word{0});
-        if (length % CellSet::kWordBits != 0)
-          scratch.gathered.back() = (Word{1} << (length % CellSet::kWordBits)) - 1;
-      } else {
-        scratch.gathered.resize(out.size());
-        gather(target.set(), scratch.indices, scratch.box, scratch.gathered);
+/// Least rows read for one row, all joint slices tried: the rows for the shared minima, then those of them.
+void RowEngine::choose_outer() {
+  const std::size_t last = tables() - 1;
+  std::vector<TableProfile> profiles;
+  for (const RowSlices& slices : posts().slices) profiles.push_back(profile(slices));
+  const auto cost = [&](std::size_t outer) {
+    double shared = outer == 0 ? 0 : 1;
+    double choices = 1;
+    double inner = profiles[last].width;
+    for (std::size_t t = 0; t <= last; ++t) {
+      choices *= profiles[t].choices;
+      if (t < outer) {
+        shared *= profiles[t].choices * profiles[t].width;
+      } else if (t < last) {
+        inner *= profiles[t].width;
       }
-      place_segment((*scratch.slices[last])[scratch.positions[last]], begin, end, scratch, out);
     }
-    begin = end;
+    return shared + choices * inner;
+  };
+  for (std::size_t outer = 1; outer <= last; ++outer) {
+    if (is_closed(outer) && cost(outer) < cost(outer_)) outer_ = outer;
   }
-}
-
-/// out = AND of the rows of `target` in the box. On a ring indices beyond its last cell begin anew.
-void RowEngine::gather(const CellSet& target, std::vector<std::int64_t>& indices,
-                       const std::vector<IndexRange>& box, MutableRow out) const {
-  indices.resize(box.size());
-  std::int64_t row = 0;
-  for (std::size_t i = 0; i < box.size(); ++i) {
-    indices[i] = box[i].first;
-    row += indices[i] * row_stride_[i];
-  }
-  const ConstRow first = target.row(row);
-  std::copy(first.begin(), first.end(), out.begin());
-  for (;;) {
-    std::size_t i = box.size();
-    for (;;) {
-      if (i == 0) return;
-      --i;
-      if (++indices[i] <= box[i].last) {
-        row += row_stride_[i];
-        if (indices[i] == count_[i]) row -= count_[i] * row_stride_[i];
-        break;
-      }
-      const std::int64_t last = box[i].last < count_[i] ? box[i].last : box[i].last - count_[i];
-      row -= (last - box[i].first) * row_stride_[i];
-      indices[i] = box[i].first;
-    }
-    const ConstRow source = target.row(row);
-    Word left = 0;
-    for (std::size_t w = 0; w < source.size(); ++w) left |= (out[w] &= source[w]);
-    if (left == 0) return;
-  }
-}
-
-/// True if the row holds all cells of the range, which may go on at the other end of a ring.
-bool RowEngine::holds(ConstRow row, IndexRange range) const {
-  const std::int64_t end = std::int64_t{range.last} + 1;
-  return all_set(row, range.first, std::min(end, row_length())) && all_set(row, 0, end - row_length());
-}
-
-void RowEngine::place_segment(const RowSegment& last, std::int32_t begin, std::int32_t end, Scratch& scratch,
-                              MutableRow out) const {
-  if (last.kind != Kind::shifted) {
-    if (last.kind == Kind::gone || holds(scratch.gathered, last.range)) set_bits(out, begin, end);
-    return;
-  }
-  const GridDimension& dimension = abstraction_->grid.dimensions().back();
-  scratch.eroded.assign(out.size(), 0);
-  scratch.eroder.erode(scratch.gathered, row_length(), last.range.first, last.range.last,
-                       {dimension.below, dimension.above}, scratch.eroded);
-  if (begin == 0 && end == row_length()) {
-    for (std::size_t w = 0; w < out.size(); ++w) out[w] |= scratch.eroded[w];
-    return;
-  }
-  const std::size_t first_word = static_cast<std::size_t>(begin / CellSet::kWordBits);
-  const std::size_t last_word = static_cast<std::size_t>((end - 1) / CellSet::kWordBits);
-  for (std::size_t w = first_word; w <= last_word; ++w) {
-    const std::int64_t low = std::max<std::int64_t>(begin - static_cast<std::int64_t>(w) * 64, 0);
-    const std::int64_t high = std::min<std::int64_t>(end - static_cast<std::int64_t>(w) * 64, 64);
-    const Word mask = (high == 64 ? ~Word{0} : (Word{1} << high) - 1) & (~Word{0} << low);
-    out[w] |= scratch.eroded[w] & mask;
-  }
+  unit_rows_ = outer_ == 0 ? rows() : row_stride_[outer_ - 1];
 }
 
 }  // namespace coordreq

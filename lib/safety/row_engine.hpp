@@ -1,76 +1,89 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "abstraction/abstraction.hpp"
-#include "bitset/row_operations.hpp"
+#include "bitset/level_rows.hpp"
 #include "safety/condition_table.hpp"
+#include "safety/row_place.hpp"
 #include "safety/row_slices.hpp"
-#include "safety/row_target.hpp"
+#include "safety/safe_tubes.hpp"
 
 namespace coordreq {
 
-/// The one question that every operator asks, answered for a whole row of cells at once:
-/// {x in the row : empty != f(x, u) subset of Z}, and which u are allowed there.
+/// Slices of all states that are tested against one target.
+struct RowFamily {
+  /// One table a state. In the last one offsets are at most a row long, either way.
+  std::span<const RowSlices> slices;
+  RowEnds ends;        ///< rules of the last dimension
+  RowMargins margins;  ///< as far as offsets go
+};
+
+/// The abstraction laid out for whole rows of cells, and how work on it is cut up.
 ///
-/// A row is all cells that differ only in the last dimension. The post of a row is the AND of a box of rows
-/// of Z (other dimensions), eroded along the row (last dimension); see RowSlices for rows that fall into
-/// segments. Immutable once built, so safe to share between threads; scratch memory is the caller's.
+/// The post of a row is the minimum over a box of rows (other dimensions) of levels, and over a window along
+/// the row (last dimension). Where the first `outer()` dimensions move by themselves, whatever the others do,
+/// the minimum over them is the same for all rows that share these indices: a *unit*. PostReader takes it
+/// once. Immutable once built, so safe to share between threads.
 class RowEngine {
  public:
-  struct Scratch {
-    RowEroder eroder;
-    std::vector<Word> gathered;
-    std::vector<Word> eroded;
-    std::vector<const std::vector<RowSegment>*> slices;
-    std::vector<std::size_t> positions;
-    std::vector<IndexRange> box;
-    std::vector<std::int64_t> indices;
-  };
-
-  /// REQUIRES: `abstraction` and `allow` (may be null: everything is allowed) outlive this object.
-  RowEngine(const Abstraction& abstraction, const ConditionTable* allow);
+  /// @param allow may be null: everything is allowed
+  /// @param tubes what tubes must stay in, if there are any
+  /// REQUIRES: they outlive this object.
+  RowEngine(const Abstraction& abstraction, const ConditionTable* allow, const SafeTubes& tubes);
 
   [[nodiscard]] const Abstraction& abstraction() const { return *abstraction_; }
+  [[nodiscard]] const UniformGrid& grid() const { return abstraction_->grid; }
+  /// Those of the posts, one a state; then, if there are tubes, those of the tubes in the same order, once or
+  /// twice.
   [[nodiscard]] const std::vector<RowSlices>& slices() const { return slices_; }
+  [[nodiscard]] RowFamily posts() const { return family(0); }
+  /// A post counts as blocked unless its tube is inside the set of one of these.
+  struct Demand {
+    RowFamily family;
+    const LevelRows<std::uint8_t>* inside;  ///< the greatest level for members, else 0
+  };
+  [[nodiscard]] std::vector<Demand> demands() const;
   [[nodiscard]] const ConditionTable* allow() const { return allow_; }
-  [[nodiscard]] std::int64_t rows() const { return abstraction_->grid.rows(); }
-  [[nodiscard]] std::int64_t row_length() const { return abstraction_->grid.row_length(); }
+  [[nodiscard]] std::int64_t rows() const { return grid().rows(); }
+  [[nodiscard]] std::int64_t row_length() const { return grid().row_length(); }
   [[nodiscard]] std::size_t row_words() const {
     return static_cast<std::size_t>((row_length() + CellSet::kWordBits - 1) / CellSet::kWordBits);
   }
+  /// Number of tables of slices of posts: one a state.
+  [[nodiscard]] std::size_t tables() const { return row_stride_.size(); }
+  /// Rows from one index of a dimension (not the last) to the next.
+  [[nodiscard]] std::int64_t row_stride(std::size_t dimension) const { return row_stride_[dimension]; }
 
-  /// Number of tables of slices: one a state.
-  [[nodiscard]] std::size_t tables() const { return slices_.size(); }
-  /// Where the entries of `row` begin in slices()[table].ids.
-  [[nodiscard]] std::int64_t base(std::int64_t row, std::size_t table) const;
+  /// Number of leading dimensions whose minimum is shared by the rows of a unit; may be 0.
+  [[nodiscard]] std::size_t outer() const { return outer_; }
+  /// Rows of a unit, which have neighbouring numbers. All rows if outer() is 0.
+  [[nodiscard]] std::int64_t unit_rows() const { return unit_rows_; }
 
-  /// out = {x in the row : not blocked and post inside `target`} for the slices numbered `ids`, one a table.
-  void inside(std::span<const std::uint32_t> ids, const RowTarget& target, MutableRow out,
-              Scratch& scratch) const;
-
-  /// A target for inside(). REQUIRES: `set` outlives it.
-  [[nodiscard]] RowTarget target(const CellSet& set, ThreadTeam& team) const {
-    return RowTarget(set, slices_.back(), abstraction_->grid.dimensions().back(), team);
+  /// Levels of all rows, 0, with the margins that a family asks for.
+  template <class Level>
+  [[nodiscard]] LevelRows<Level> make_levels(const RowFamily& family) const {
+    return {rows(), row_length(), family.margins, family.ends};
   }
 
  private:
-  [[nodiscard]] bool inside_simple(std::span<const std::uint32_t> ids, const RowTarget& target,
-                                   MutableRow out, Scratch& scratch) const;
-  void gather(const CellSet& target, std::vector<std::int64_t>& indices, const std::vector<IndexRange>& box,
-              MutableRow out) const;
-  [[nodiscard]] bool holds(ConstRow row, IndexRange range) const;
-  void place_segment(const RowSegment& last, std::int32_t begin, std::int32_t end, Scratch& scratch,
-                     MutableRow out) const;
+  void add_family(const std::vector<TransitionTable>& tables, const std::vector<GridDimension>& targets);
+  void add_demand(const CellSet& inside, const std::vector<GridDimension>& targets);
+  [[nodiscard]] RowFamily family(std::size_t number) const;
+  void choose_outer();
+  [[nodiscard]] bool is_closed(std::size_t outer) const;
 
   const Abstraction* abstraction_;
   const ConditionTable* allow_;
   std::vector<RowSlices> slices_;
-  std::vector<std::int64_t> row_stride_;  ///< rows from one index of a dimension to the next
-  std::vector<std::int64_t> count_;       ///< indices of a dimension
+  std::vector<LevelRows<std::uint8_t>> inside_;  ///< one for each family of tubes
+  std::vector<RowEnds> ends_;                    ///< one a family: posts; tubes; tubes that pass no limit
+  std::vector<RowMargins> margins_;
+  std::vector<std::int64_t> row_stride_;
+  std::size_t outer_ = 0;
+  std::int64_t unit_rows_ = 1;
 };
 
 }  // namespace coordreq

@@ -23,8 +23,8 @@ struct RowSegment {
   [[nodiscard]] auto operator<=>(const RowSegment&) const = default;
 };
 
-/// One state's transition table cut into rows along the last state dimension: for each choice of the other
-/// states and of the inputs in use the number of a slice, equal slices stored once.
+/// One state's transition table (or that of its tube) cut into rows along the last state dimension: for each
+/// choice of the other states and of the inputs in use the number of a slice, equal slices stored once.
 ///
 /// A slice is a list of segments that together cover the row. `shifted` occurs only for the last dimension
 /// itself: there a whole row is eroded at once, and integrators (x' = x + c) give one segment a row.
@@ -39,6 +39,9 @@ struct RowSlices {
   std::int64_t input_combinations = 1;  ///< product of their counts; divides every state stride
 };
 
-[[nodiscard]] RowSlices cut_into_rows(const Abstraction& abstraction, std::size_t state);
+/// @param table the one of `state` in abstraction.tables or abstraction.tubes
+/// @param target the dimension of `state`, maybe with other rules for leaving the domain
+[[nodiscard]] RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& table,
+                                      std::size_t state, const GridDimension& target);
 
 }  // namespace coordreq

@@ -8,13 +8,14 @@
 
 namespace coordreq {
 
-CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team) {
+CellSet safe_set(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+                 ThreadTeam& team) {
   const Sampling sampling =
       spec.abstraction.safe == Membership::inner ? Sampling::closed_cells : Sampling::centres;
   const auto undecided_is_unsafe = [](const std::vector<std::int64_t>&) { return false; };
-  const ConditionTable table(spec.safe, abstraction.grid, abstraction.inputs, sampling, undecided_is_unsafe,
-                             team, Question::everywhere);
-  CellSet safe(abstraction.grid.rows(), abstraction.grid.row_length());
+  const ConditionTable table(spec.safe, grid, inputs, sampling, undecided_is_unsafe, team,
+                             Question::everywhere);
+  CellSet safe(grid.rows(), grid.row_length());
   team.for_each(safe.rows(), 1024, [&](ThreadTeam::Range range, int) {
     for (std::int64_t r = range.begin; r < range.end; ++r) {
       const auto source = table.row(r, 0);

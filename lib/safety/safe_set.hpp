@@ -13,8 +13,14 @@ namespace coordreq {
 /// S, contract "Safe set". `inner`: cells whose whole closed box provably satisfies `safe` (see
 /// ConditionDecider), never one with an unsafe point. The box is widened by the measurement errors, for the
 /// true state may be that far outside of the cell that was measured; on the seam of a periodic dimension both
-/// parts count. `center`: cells whose centre satisfies it. What cannot be decided counts as unsafe.
-[[nodiscard]] CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team);
+/// parts count; the half of a boundary cell beyond a `stop` limit does not. `center`: cells whose centre
+/// satisfies it. What cannot be decided counts as unsafe.
+[[nodiscard]] CellSet safe_set(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+                               ThreadTeam& team);
+[[nodiscard]] inline CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction,
+                                      ThreadTeam& team) {
+  return safe_set(spec, abstraction.grid, abstraction.inputs, team);
+}
 
 /// `allow` at all grid points of states and inputs; nothing if everything is allowed.
 /// @throws SpecError naming the first grid point where it cannot be decided (contract, "Conditions")

@@ -4,33 +4,51 @@
 #include <functional>
 
 #include "base/thread_team.hpp"
-#include "bitset/row_operations.hpp"
-#include "safety/row_reach.hpp"
+#include "safety/post_reader.hpp"
+#include "safety/row_hull.hpp"
 
 namespace coordreq {
 
-/// One fixed point iteration Z <- Z n op(Z), synchronous: every step sees the set as the step before left it.
-struct Wave {
-  /// Clears from `keep` (which comes in as the row of the current set) the cells of `row` that leave.
-  /// Called for different rows by several threads at once.
-  std::function<void(std::int64_t row, const RowTarget& current, MutableRow keep, int worker)> shrink;
-  /// Told of the cells of a row that leave at a step (1, 2, ...); called for different rows by several
-  /// threads.
-  std::function<void(std::int64_t row, ConstRow removed, std::int64_t step)> removed;
-  /// Told after each step how many cells are left; from the calling thread.
-  std::function<void(std::int64_t step, std::int64_t cells_left)> stepped;
+/// How much work a fixed point took. The same whatever the number of threads.
+struct WaveCounts {
+  std::int64_t sweeps = 0;
+  std::int64_t rows_visited = 0;  ///< rows whose levels were worked out, again each time
+  std::int64_t rows_skipped =
+      0;  ///< rows with cells in the set, passed over as nothing near them had changed
+
+  void add(const WaveCounts& other) {
+    sweeps += other.sweeps;
+    rows_visited += other.rows_visited;
+    rows_skipped += other.rows_skipped;
+  }
 };
 
-struct WaveResult {
-  std::int64_t steps = 0;    ///< steps done, a last one without change included
-  bool fixed_point = false;  ///< false if `max_steps` came first
+/// The least of the levels that a row's cells can go to, under the worst or best actions; what it is the wave
+/// is told.
+template <class Level>
+class RowOperator {
+ public:
+  virtual ~RowOperator() = default;
+  /// Writes to `next` (whole blocks) for each cell x of the row the greatest i such that x is in op(Z) for
+  /// the first i sets Z; Z_i = {y : level(y) > i}. Monotone in the levels. Cells with old[c] = 0 do not
+  /// count.
+  /// @param old present levels, 0 in lanes beyond the row
+  /// @returns false if nothing is lower than it was; `next` is then not looked at
+  virtual bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
+                           int worker) = 0;
 };
 
-/// Runs the wave on `set`. A cell can leave at a step only if its post meets a cell that left at the step
-/// before, so after the first step only rows whose reach meets a changed row are looked at again; the result
-/// is that of full sweeps.
-/// @param max_steps stop after so many steps; negative: no limit
-WaveResult run_wave(CellSet& set, const Wave& wave, const RowEngine& engine, const RowReach& reach,
-                    std::int64_t max_steps, ThreadTeam& team);
+/// The greatest solution of level(x) = 1 + op(level)(x) below the given levels, a level above `limit`
+/// counting as kTop. That is the level sequence of the synchronous iteration Z <- Z n op(Z), by Knaster and
+/// Tarski: op is monotone, so the order in which rows are worked out does not matter.
+///
+/// Rows are therefore swept in batches, to and fro over the grid, each batch seeing what those before it have
+/// found: levels travel through the whole grid in one sweep where motion is one way, instead of one
+/// step a sweep. A row is looked at again only after a row that its posts can meet has changed.
+/// @param swept told after each sweep (its number, rows visited in it); may be empty
+template <class Level>
+WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
+                    RowOperator<Level>& op, const std::function<void(std::int64_t, std::int64_t)>& swept,
+                    ThreadTeam& team);
 
 }  // namespace coordreq

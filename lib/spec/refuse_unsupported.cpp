@@ -27,7 +27,6 @@ void refuse_unsupported(const ProblemSpec& spec) {
   for (std::size_t i = 0; i < spec.agents.size(); ++i) {
     if (spec.agents[i].prefer) refuse("'prefer'", fmt::format("/agents/{}/prefer", i));
   }
-  if (spec.abstraction.between_samples) refuse("'between_samples'", "/abstraction/between_samples");
   if (spec.controller.file) refuse("'file'", "/controller/file");
   refuse_in_coordination(spec.coordination);
   if (spec.network) refuse("'network'", "/network");

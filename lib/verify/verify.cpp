@@ -89,7 +89,7 @@ class Verifier {
     if (!analysis_) analysis_ = build_abstraction(spec_, team_);
     PostTable table = empty_table(grid_, inputs_, influences_on(spec_, state));
     table.exact = false;
-    table.entries = analysis_->tables[state].entries;
+    table.entries = written_out(*analysis_, state).entries;
     return table;
   }
 

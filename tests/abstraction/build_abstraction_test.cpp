@@ -81,6 +81,66 @@ TEST(BuildAbstraction, TablesRangeOverWhatTheEquationUses) {
   EXPECT_EQ(a.raw(0, 0, 2), a.raw(0, 10, 2));
 }
 
+TEST(BuildAbstraction, OffsetThatDoesNotDependOnTheStateIsStoredOnce) {
+  const Abstraction a = build(one_state(kUnitGrid, "x + u", "closed"));
+  EXPECT_TRUE(a.tables[0].shift);
+  EXPECT_EQ(a.tables[0].states, std::vector<std::int32_t>{0});
+  EXPECT_EQ(a.tables[0].state_stride, std::vector<std::int64_t>{0});
+  EXPECT_EQ(a.tables[0].entries, (std::vector<IndexRange>{{-1, 1}, {0, 2}, {0, 1}}));
+  const TransitionTable full = written_out(a, 0);
+  EXPECT_FALSE(full.shift);
+  ASSERT_EQ(full.entries.size(), 33U);
+  for (std::int64_t x = 0; x < 11; ++x) {
+    for (std::int64_t u = 0; u < 3; ++u) {
+      EXPECT_EQ(full.entries[static_cast<std::size_t>(3 * x + u)], a.raw(0, x, u));
+    }
+  }
+}
+
+TEST(BuildAbstraction, ShiftsAreSeenBehindConditionsThatDecideNothing) {
+  const auto shifts = [](const std::string& state, const std::string& equation) {
+    return build(one_state(state, equation, "closed")).tables[0].shift;
+  };
+  EXPECT_TRUE(shifts(kUnitGrid, "if(u > 0, x + u, x - 1)"));
+  EXPECT_TRUE(shifts(kUnitGrid, "min(x, 9) + sin(u)"));
+  EXPECT_TRUE(shifts(kUnitGrid, "0.7*x + u^2 - x*(-0.3)"));
+  EXPECT_TRUE(shifts(kUnitGrid, "max(x - u, x + u)/2 + x/2"));
+  EXPECT_FALSE(shifts(kUnitGrid, "if(x > 0, x + u, x - 1)"));
+  EXPECT_FALSE(shifts(kUnitGrid, "min(x, 5) + u"));
+  EXPECT_FALSE(shifts(kUnitGrid, "if(u > 0, x, -x)"));
+  EXPECT_FALSE(shifts(kUnitGrid, "0.5*x"));
+  EXPECT_FALSE(shifts(kUnitGrid, "u"));
+  EXPECT_TRUE(shifts(kUnitGrid + R"(, "discrete": true)", "x + 2*u"));
+  EXPECT_FALSE(shifts(kUnitGrid + R"(, "discrete": true)", "if(x == 0, 0, x + 2*u)"));
+}
+
+TEST(BuildAbstraction, ShiftFarBeyondTheDomainSaturates) {
+  constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
+  const Abstraction a = build(one_state(kUnitGrid, "x + 1e12*u", "closed"));
+  EXPECT_TRUE(a.tables[0].shift);
+  EXPECT_EQ(a.raw(0, 10, 1), (IndexRange{kFar, kFar}));
+  EXPECT_TRUE(a.resolved(0, 10, 1).blocked);
+}
+
+TEST(BuildAbstraction, RingTurnedByAShiftNeedsNoCutAtItsSeam) {
+  // y enters as a number, so that its cell on the seam is cut; the own one goes round whole.
+  const ProblemSpec spec = read_spec(R"({"coordreq": 1, "name": "t",
+"states": [{"name": "x", "lower": 0, "upper": 8, "count": 8, "outside": "periodic"},
+           {"name": "y", "lower": 0, "upper": 4, "count": 4, "outside": "periodic"}],
+"inputs": [{"name": "u", "values": [1]}], "agents": [{"name": "a", "inputs": ["u"]}],
+"dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x + 0.5*y + u", "y": "y"}},
+"safe": "true", "abstraction": {"cells": "half_open"}})",
+                                     "test");
+  const Abstraction a = build(spec);
+  EXPECT_TRUE(a.tables[0].shift);
+  // y in [0.5, 1.5) moves x by [1.25, 1.75); on the seam y in [3.5, 4) or [0, 0.5) by [2.75, 3) or [1, 1.25).
+  for (std::int64_t x = 0; x < 8; ++x) {
+    const auto base = static_cast<std::int32_t>(x);
+    EXPECT_EQ(a.raw(0, 4 * x + 1, 0), (IndexRange{base + 1, base + 2}));
+    EXPECT_EQ(a.raw(0, 4 * x, 0), (IndexRange{base + 1, base + 3}));
+  }
+}
+
 TEST(BuildAbstraction, ThreadsDoNotChangeTheTables) {
   const ProblemSpec spec = one_state(kUnitGrid, "0.3*x - u", "half_open");
   ThreadTeam one(1);

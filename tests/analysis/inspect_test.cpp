@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "abstraction/abstraction.hpp"
 #include "analysis/analyze.hpp"
 #include "base/error.hpp"
 #include "spec/read_spec.hpp"
@@ -22,11 +23,33 @@ TEST(Inspect, ReportsSizesAndDependencies) {
   const SpecReport report = inspect(spec_of("99"));
   EXPECT_EQ(report.cells, 1000);
   EXPECT_EQ(report.joint_inputs, 6);
-  EXPECT_EQ(report.states[0].depends_on, (std::vector<std::string>{"p", "v", "u", "w"}));
-  EXPECT_EQ(report.states[0].table_entries, 3000U);
-  EXPECT_EQ(report.states[1].depends_on, (std::vector<std::string>{"v", "u", "w"}));
+  using Names = std::vector<std::string>;
+  const SpecReport::State& p = report.states[0];
+  EXPECT_EQ(p.states, (Names{"p", "v"}));
+  EXPECT_EQ(p.inputs, Names{"u"});
+  EXPECT_EQ(p.disturbances, Names{"w"});
+  EXPECT_TRUE(p.shift);
+  EXPECT_EQ(p.table_entries, 10U * 3U);
+  EXPECT_EQ(p.table_bytes, 10U * 3U * 8U);
+  const SpecReport::State& v = report.states[1];
+  EXPECT_EQ(v.states, Names{"v"});
+  EXPECT_EQ(v.inputs, Names{"u"});
+  EXPECT_EQ(v.disturbances, Names{"w"});
+  EXPECT_TRUE(v.shift);
+  EXPECT_EQ(v.table_entries, 3U);
   EXPECT_EQ(report.partitions, (std::vector<std::string>{"a|c"}));
   EXPECT_TRUE(report.exact);
+}
+
+TEST(Inspect, SaysWhatAResultWouldGuarantee) {
+  ProblemSpec spec = spec_of("99");
+  EXPECT_EQ(inspect(spec).guarantee, "samples");
+  const std::uint64_t memory = inspect(spec).memory_bytes;
+  spec.abstraction.between_samples = true;
+  EXPECT_EQ(inspect(spec).guarantee, "continuous");
+  EXPECT_GT(inspect(spec).memory_bytes, memory + 3000 * sizeof(IndexRange));
+  spec.abstraction.safe = Membership::center;
+  EXPECT_EQ(inspect(spec).guarantee, "samples-center");
 }
 
 TEST(Inspect, MemoryGrowsWithTheCells) {

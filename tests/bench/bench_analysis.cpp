@@ -34,13 +34,12 @@ void sweep(benchmark::State& state) {
   ThreadTeam team(static_cast<int>(state.range(0)));
   const Abstraction built = build_abstraction(spec, team);
   const CellSet safe = safe_set(spec, built, team);
-  const RowEngine engine(built, nullptr);
-  const RowReach reach(engine);
-  const CellSet invariant = find_invariance(engine, reach, safe, Synthesis::maximal, {}, team).invariant;
+  const RowEngine engine(built, nullptr, {});
+  const RowHull hull(engine);
+  const Invariance invariance = find_invariance(engine, hull, safe, Synthesis::maximal, {}, team);
   const ActionGrouping grouping(engine, {{0}, {1}}, team);
-  const RowTarget target = engine.target(invariant, team);
-  const Controller controller{&engine, &target, Synthesis::maximal};
-  for (auto _ : state) benchmark::DoNotOptimize(Projections(controller, grouping, team));
+  const Controller controller{&engine, &invariance.invariant, &invariance.collision_time, Synthesis::maximal};
+  for (auto _ : state) benchmark::DoNotOptimize(Projections(controller, grouping, hull, team));
   state.counters["pairs/s"] =
       benchmark::Counter(static_cast<double>(built.grid.cells()) * static_cast<double>(built.inputs.count()),
                          benchmark::Counter::kIsIterationInvariantRate);

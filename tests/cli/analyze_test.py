@@ -56,6 +56,33 @@ $""",
         )
         self.assertEqual(self.files(), ["circle.h5"])
 
+    def test_between_samples(self):
+        """A vehicle of 4 m/s, sampled each second, gets past an obstacle of 2 m at the samples only."""
+        vehicle = {
+            "states": [
+                {"name": "x", "lower": 0, "upper": 9, "step": 1, "outside": {"above": "safe"}},
+            ],
+            "inputs": [{"name": "u", "values": [4]}],
+            "agents": [{"name": "a", "inputs": ["u"]}],
+            "dynamics": {"time": "continuous", "period": 1, "equations": {"x": "u"}},
+            "safe": "x <= 3.5 or x >= 5.5",
+        }
+        for between, cells, guarantee in ((False, 6, "samples"), (True, 4, "continuous")):
+            abstraction = {"cells": "half_open", "between_samples": between}
+            self.write("spec.json", spec_with(**vehicle, abstraction=abstraction))
+            summary = self.analyze("spec.json")
+            self.assertEqual((summary["invariant"], summary["guarantee"]), (cells, guarantee))
+            info = json.loads(self.run_program("info", "small.h5", "--json").stdout)
+            self.assertEqual(info["guarantee"], guarantee)
+            validated = json.loads(self.run_program("validate", "spec.json", "--json").stdout)
+            self.assertEqual(validated["guarantee"], guarantee)
+        text = self.run_program("analyze", "spec.json").stdout.decode()
+        self.assertIn("guarantee       continuous: at all times, for every point of a cell\n", text)
+        abstraction["safe"] = "center"
+        self.write("spec.json", spec_with(**vehicle, abstraction=abstraction))
+        summary = self.analyze("spec.json")
+        self.assertEqual((summary["invariant"], summary["guarantee"]), (4, "samples-center"))
+
     def test_lane_change(self):
         summary = self.analyze(str(CONFIGS / "lane_change.json"))
         self.assertEqual((summary["states"], summary["inputs"]), (28, 4))
@@ -84,6 +111,7 @@ $""",
                 "output",
                 "threads",
                 "seconds",
+                "work",
                 "peak_memory_bytes",
             ],
         )
@@ -98,6 +126,10 @@ $""",
             list(summary["seconds"]), ["abstraction", "safe set", "invariance", "layers a|b", "writing"]
         )
         self.assertTrue(all(seconds >= 0 for seconds in summary["seconds"].values()))
+        self.assertEqual(list(summary["work"]), ["invariance", "layers a|b"])
+        for work in summary["work"].values():
+            self.assertEqual(list(work), ["sweeps", "rows_visited", "rows_skipped"])
+            self.assertGreater(work["rows_visited"], 0)
         self.assertGreater(summary["peak_memory_bytes"], 2**20)
 
     def test_max_delay_truncates(self):

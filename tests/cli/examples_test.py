@@ -32,9 +32,9 @@ class Cases(Case):
             result.stdout.decode(),
             r"""^circle: the spec is valid
 
-state  points  unit  table entries  next value depends on
-x1        201  m             8,241  x1, u1
-x2        201  m             8,241  x2, u2
+state  points  unit  table  entries     memory  next value depends on
+x1        201  m     shift       41  328 bytes  x1, u1
+x2        201  m     shift       41  328 bytes  x2, u2
 
 input  points  unit
 u1         41  m/s
@@ -44,6 +44,7 @@ cells              40,401
 joint inputs       1,681
 partitions         horizontal\|vertical
 reachable sets     exact interval hulls
+guarantee          samples-center: at the sampling instants, where the centre of a cell is safe
 memory of analyze  about [0-9.]+ MiB
 $""",
         )
@@ -57,7 +58,17 @@ $""",
         report = json.loads(result.stdout)
         self.assertEqual(
             list(report),
-            ["name", "cells", "joint_inputs", "states", "inputs", "partitions", "exact", "memory_bytes"],
+            [
+                "name",
+                "cells",
+                "joint_inputs",
+                "states",
+                "inputs",
+                "partitions",
+                "exact",
+                "guarantee",
+                "memory_bytes",
+            ],
         )
         self.assertEqual((report["name"], report["cells"], report["joint_inputs"]), ("lane_change", 28, 4))
         self.assertEqual(
@@ -66,11 +77,27 @@ $""",
                 "name": "left_lane",
                 "unit": "",
                 "points": 2,
-                "depends_on": ["left_lane", "left_change"],
+                "depends_on": {"states": ["left_lane"], "inputs": ["left_change"], "disturbances": []},
+                "shift": False,
                 "table_entries": 4,
+                "table_bytes": 32,
             },
         )
         self.assertEqual(report["inputs"][0], {"name": "left_change", "unit": "", "points": 2})
+
+    def test_validate_tells_shifts_from_full_tables(self):
+        result = self.run_program("validate", str(CONFIGS / "platoon.json"))
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        table = result.stdout.decode().split("\n\n")[1]
+        self.assertEqual(
+            table,
+            """state  points  unit  table  entries    memory  next value depends on
+v1          5  m/s   shift        3  24 bytes  v1, u1, gust
+v2          5  m/s   shift        3  24 bytes  v2, u2, gust
+v3          5  m/s   shift        3  24 bytes  v3, u3, gust
+gap12      39  m     shift      225   1.8 KiB  v1, v2, gap12, u1, u2, gust
+gap23      39  m     shift      225   1.8 KiB  v2, v3, gap23, u2, u3, gust""",
+        )
 
     def test_validate_quiet(self):
         self.assert_prints("", "validate", str(CONFIGS / "circle.json"), "--quiet")

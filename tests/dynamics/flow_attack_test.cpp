@@ -42,7 +42,10 @@ bool attack(const FlowCase& system, long double tolerance) {
       RC_ASSERT(enclosure.end[i].lower <= enclosure.end[i].upper);
       if (!is_near(enclosure.end[i], path.back()[i], error)) log_case(system);
       RC_ASSERT(is_near(enclosure.end[i], path.back()[i], error));
-      for (const auto& states : path) RC_ASSERT(is_near(enclosure.tube[i], states[i], error));
+      for (const auto& states : path) {
+        RC_ASSERT(is_near(enclosure.tube[i], states[i], error));
+        RC_ASSERT(is_near(enclosure.drift[i], states[i] - path.front()[i], error));
+      }
     }
   }
   return true;

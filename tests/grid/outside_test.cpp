@@ -77,5 +77,17 @@ TEST(Outside, FarIndicesSaturateInsteadOfWrapping) {
                   .blocked);
 }
 
+TEST(Moved, WhatWasSaturatedStaysSo) {
+  constexpr std::int32_t kLow = std::numeric_limits<std::int32_t>::min();
+  constexpr std::int32_t kHigh = std::numeric_limits<std::int32_t>::max();
+  EXPECT_EQ(moved({-3, 4}, 10), (IndexRange{7, 14}));
+  EXPECT_EQ(moved({kHigh - 1, kHigh}, 10), (IndexRange{kHigh, kHigh}));
+  EXPECT_EQ(moved({kLow, 5}, 10), (IndexRange{kLow, 15}));
+  EXPECT_LT(moved({kLow, kLow}, kHigh).last, 0);
+  // On a ring the place is lost with it.
+  EXPECT_EQ(wrap_range(moved({kLow, kLow}, 3), 7), (IndexRange{0, 6}));
+  EXPECT_EQ(wrap_range(moved({kHigh, kHigh}, 3), 7), (IndexRange{0, 6}));
+}
+
 }  // namespace
 }  // namespace coordreq

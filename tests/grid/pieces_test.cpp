@@ -32,6 +32,27 @@ TEST(Pieces, AnOrdinaryCellIsOnePieceWidenedByTheMeasurementError) {
   EXPECT_EQ(pieces(d, 4), (std::vector<Piece>{{Rational(11, 4), Rational(21, 4)}}));
 }
 
+TEST(Pieces, NoStateIsBeyondAStopLimit) {
+  GridDimension d = plain(5);
+  d.below = Outside::stop;
+  EXPECT_EQ(pieces(d, 0), (std::vector<Piece>{{0, Rational(1, 2)}}));
+  EXPECT_EQ(pieces(d, 4), (std::vector<Piece>{{Rational(7, 2), Rational(9, 2)}}));
+  d.above = Outside::stop;
+  d.measurement_error = 1;
+  EXPECT_EQ(pieces(d, 1), (std::vector<Piece>{{0, Rational(5, 2)}}));
+  EXPECT_EQ(pieces(d, 3), (std::vector<Piece>{{Rational(3, 2), 4}}));
+  EXPECT_EQ(pieces(d, 4), (std::vector<Piece>{{Rational(5, 2), 4}}));
+}
+
+TEST(Pieces, OnlyBoundaryCellsAreStretched) {
+  GridDimension d = plain(3);
+  d.stretch_below = 2;
+  d.stretch_above = Rational(1, 4);
+  EXPECT_EQ(pieces(d, 0), (std::vector<Piece>{{Rational(-5, 2), Rational(1, 2)}}));
+  EXPECT_EQ(pieces(d, 1), (std::vector<Piece>{{Rational(1, 2), Rational(3, 2)}}));
+  EXPECT_EQ(pieces(d, 2), (std::vector<Piece>{{Rational(3, 2), Rational(11, 4)}}));
+}
+
 TEST(Pieces, ADiscreteCellIsItsPoint) {
   GridDimension d = plain(5);
   d.discrete = true;

@@ -33,17 +33,22 @@ std::vector<std::vector<bool>> unpacked(const FastAnalysis& fast, const ActionGr
   return result;
 }
 
+PlainAnalysis plainly(const ProblemSpec& spec, const FastAnalysis& fast) {
+  return analyze_plainly(spec, fast.abstraction, members(fast.safe),
+                         members(fast.beyond.value_or(fast.safe)));
+}
+
 void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const PlainAnalysis& plain,
                       ThreadTeam& team) {
   RC_ASSERT(fast.invariance.iterations == plain.iterations);
   RC_ASSERT(members(fast.invariance.invariant) == plain.invariant);
-  RC_ASSERT(fast.invariance.collision_time == plain.collision_time);
+  RC_ASSERT(fast.collision_times() == plain.collision_time);
   for (std::size_t p = 0; p < plain.partitions.size(); ++p) {
     const PlainAnalysis::Partition& expected = plain.partitions[p];
     RC_ASSERT(fast.layers[p].sizes == expected.sizes);
     RC_ASSERT(fast.layers[p].fixed_point_index == expected.fixed_point_index);
     RC_ASSERT(fast.layers[p].truncated == expected.truncated);
-    RC_ASSERT(fast.layers[p].delay == expected.delay);
+    RC_ASSERT(fast.delays(p) == expected.delay);
     for (std::size_t c = 0; c < expected.projection.size(); ++c) {
       RC_ASSERT(unpacked(fast, fast.groupings[p], c) == expected.projection[c]);
     }
@@ -53,19 +58,26 @@ void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const P
   RC_ASSERT(unpacked(fast, ActionGrouping(fast.engine, {all}, team), 0) == plain.controller);
 }
 
-void classify(const PlainAnalysis& plain) {
+void classify(const ProblemSpec& spec, const PlainAnalysis& plain) {
+  RC_CLASSIFY(spec.abstraction.between_samples && plain.partitions[0].sizes.size() > 1,
+              "between samples, more than one layer");
   RC_CLASSIFY(std::count(plain.invariant.begin(), plain.invariant.end(), true) > 0, "K not empty");
   RC_CLASSIFY(!plain.partitions.empty() && plain.partitions[0].sizes.size() > 1, "more than one layer");
   RC_CLASSIFY(plain.iterations > 2, "more than two sweeps for K");
 }
 
+/// A third of the problems has tubes.
+RandomTime any_time() {
+  return *rc::gen::inRange(0, 3) == 0 ? RandomTime::between_samples : RandomTime::any;
+}
+
 TEST(Engines, RowsAndSinglePairsGiveTheSameBits) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("row engine equals plain engine", [&] {
-    const ProblemSpec spec = read_spec(draw_problem(), "random");
+    const ProblemSpec spec = read_spec(draw_problem(any_time()), "random");
     const FastAnalysis fast(spec, team);
-    const PlainAnalysis plain = analyze_plainly(spec, fast.abstraction, members(fast.safe));
-    classify(plain);
+    const PlainAnalysis plain = plainly(spec, fast);
+    classify(spec, plain);
     expect_agreement(spec, fast, plain, team);
   }));
 }
@@ -96,16 +108,20 @@ IndexRange disturbed(IndexRange old, std::int64_t count) {
 TEST(Engines, AgreeOnAnyTablesOfRanges) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("row engine equals plain engine on hand-made tables", [&] {
-    const ProblemSpec spec = read_spec(draw_problem(), "random");
+    const ProblemSpec spec = read_spec(draw_problem(any_time()), "random");
     Abstraction abstraction = build_abstraction(spec, team);
     for (std::size_t i = 0; i < spec.states.size(); ++i) {
-      for (IndexRange& entry : abstraction.tables[i].entries) {
-        entry = disturbed(entry, abstraction.grid[i].count);
-      }
+      // Half of the time shifts are disturbed as such, else cell by cell.
+      if (*rc::gen::arbitrary<bool>()) abstraction.tables[i] = written_out(abstraction, i);
+      const auto disturb = [&](TransitionTable& table) {
+        for (IndexRange& entry : table.entries) entry = disturbed(entry, abstraction.grid[i].count);
+      };
+      disturb(abstraction.tables[i]);
+      if (!abstraction.tubes.empty()) disturb(abstraction.tubes[i]);
     }
     const FastAnalysis fast(spec, std::move(abstraction), team);
-    const PlainAnalysis plain = analyze_plainly(spec, fast.abstraction, members(fast.safe));
-    classify(plain);
+    const PlainAnalysis plain = plainly(spec, fast);
+    classify(spec, plain);
     expect_agreement(spec, fast, plain, team);
   }));
 }
@@ -153,9 +169,35 @@ TEST(Engines, LongRowsOverSeveralWordsAgree) {
     for (const std::string cells : {"closed", "half_open"}) {
       const ProblemSpec spec = read_spec(long_rows(cells, one), "long");
       const FastAnalysis fast(spec, team);
-      expect_agreement(spec, fast, analyze_plainly(spec, fast.abstraction, members(fast.safe)), team);
+      expect_agreement(spec, fast, plainly(spec, fast), team);
     }
   }
+}
+
+/// Moves that differ by a whole round are the same on a ring, and only there.
+TEST(Engines, OffTheRingMovesOfAWholeRoundAreNotTheSame) {
+  const auto line = [](const std::string& equation, const std::string& above, const std::string& safe) {
+    return read_spec(
+        R"({"coordreq": 1, "name": "line", "states": [{"name": "x", "lower": 0, "upper": 9, "step": 1,
+"outside": {"below": "saturate", "above": ")" +
+            above +
+            R"("}}], "inputs": [{"name": "u", "values": [-8, 2]}],
+"disturbances": [{"name": "w", "lower": -4.5, "upper": 4}],
+"agents": [{"name": "a", "inputs": ["u"]}], "dynamics": {"time": "discrete", "period": 1, "equations": {"x": ")" +
+            equation + R"("}}, "safe": ")" + safe + R"(", "abstraction": {"cells": "half_open"}})",
+        "line");
+  };
+  ThreadTeam team(1);
+  // Eight back, and two on: ten cells apart. Only two on is safe.
+  const ProblemSpec round = line("x + u", "saturate", "x >= 1.5");
+  const FastAnalysis fast(round, team);
+  EXPECT_EQ(fast.invariance.invariant.count(), 8);
+  expect_agreement(round, fast, plainly(round, fast), team);
+  // To any of ten cells, or nine on: that is as long as the line, but no whole ring.
+  const ProblemSpec wide = line("if(u > 0, x + 9, x + w)", "unsafe", "true");
+  const FastAnalysis other(wide, team);
+  EXPECT_EQ(other.collision_times()[0], 3);
+  expect_agreement(wide, other, plainly(wide, other), team);
 }
 
 }  // namespace

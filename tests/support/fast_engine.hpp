@@ -9,6 +9,7 @@
 #include "coordination/projections.hpp"
 #include "safety/invariance.hpp"
 #include "safety/safe_set.hpp"
+#include "safety/safe_tubes.hpp"
 
 namespace coordreq {
 
@@ -20,11 +21,12 @@ struct FastAnalysis {
       : abstraction(std::move(given)),
         safe(safe_set(spec, abstraction, team)),
         allow(allow_table(spec, abstraction, team)),
-        engine(abstraction, allow ? &*allow : nullptr),
-        reach(engine),
-        invariance(find_invariance(engine, reach, safe, spec.controller.synthesis, {}, team)),
-        target(engine.target(invariance.invariant, team)),
-        controller{&engine, &target, spec.controller.synthesis} {
+        beyond(safe_beyond_limits(spec, abstraction, safe, team)),
+        engine(abstraction, allow ? &*allow : nullptr,
+               SafeTubes{abstraction.tubes.empty() ? nullptr : &safe, beyond ? &*beyond : nullptr}),
+        hull(engine),
+        invariance(find_invariance(engine, hull, safe, spec.controller.synthesis, {}, team)),
+        controller{&engine, &invariance.invariant, &invariance.collision_time, spec.controller.synthesis} {
     for (const PartitionSpec& partition : spec.coordination.partitions) {
       std::vector<InputClass> classes;
       for (const auto& agents : partition.classes) {
@@ -35,10 +37,32 @@ struct FastAnalysis {
         }
       }
       groupings.emplace_back(engine, classes, team);
-      const Projections projections(controller, groupings.back(), team);
-      layers.push_back(find_delay_layers(engine, reach, safe, invariance.invariant, projections,
+      const Projections projections(controller, groupings.back(), hull, team);
+      layers.push_back(find_delay_layers(engine, hull, invariance.invariant, projections,
                                          spec.coordination.max_delay, {}, team));
     }
+  }
+  /// [cells], INT32_MAX in K.
+  [[nodiscard]] std::vector<std::int32_t> collision_times() const {
+    std::vector<std::int32_t> result;
+    for (std::int64_t x = 0; x < safe.cells(); ++x) {
+      const std::int64_t level = invariance.collision_time.at(x);
+      result.push_back(level == LevelMap::kTop ? INT32_MAX : static_cast<std::int32_t>(level));
+    }
+    return result;
+  }
+  /// [cells] of one partition, with the values of DelayLayers for cells that have none.
+  [[nodiscard]] std::vector<std::int32_t> delays(std::size_t partition) const {
+    const DelayLayers& own = layers[partition];
+    std::vector<std::int32_t> result;
+    for (std::int64_t x = 0; x < safe.cells(); ++x) {
+      const std::int64_t level = own.layers_of.at(x);
+      const std::int32_t outside = safe.test(x) ? DelayLayers::kOutsideInvariant : DelayLayers::kOutsideSafe;
+      result.push_back(level == LevelMap::kTop ? own.top_delay()
+                       : level == 0            ? outside
+                                               : static_cast<std::int32_t>(level - 1));
+    }
+    return result;
   }
   FastAnalysis(const FastAnalysis&) = delete;
   FastAnalysis& operator=(const FastAnalysis&) = delete;
@@ -46,10 +70,10 @@ struct FastAnalysis {
   Abstraction abstraction;
   CellSet safe;
   std::optional<ConditionTable> allow;
+  std::optional<CellSet> beyond;  ///< SafeTubes::beyond
   RowEngine engine;
-  RowReach reach;
+  RowHull hull;
   Invariance invariance;
-  RowTarget target;
   Controller controller;
   std::deque<ActionGrouping> groupings;
   std::vector<DelayLayers> layers;

@@ -9,6 +9,7 @@
 #include "expression/evaluate.hpp"
 #include "grid/pieces.hpp"
 #include "safety/invariance.hpp"
+#include "safety/safe_tubes.hpp"
 
 namespace coordreq {
 namespace {
@@ -17,10 +18,12 @@ using Set = std::vector<bool>;
 
 class PlainEngine {
  public:
-  PlainEngine(const ProblemSpec& spec, const Abstraction& abstraction, const Set& safe)
+  PlainEngine(const ProblemSpec& spec, const Abstraction& abstraction, const Set& safe,
+              const Set& safe_beyond)
       : spec_(spec),
         a_(abstraction),
         safe_(safe),
+        safe_beyond_(safe_beyond),
         cells_(abstraction.grid.cells()),
         inputs_(abstraction.inputs.count()) {}
 
@@ -55,12 +58,27 @@ class PlainEngine {
     }
   }
 
-  /// empty != f(x, u) subset of `target`.
+  /// empty != f(x, u) subset of `target`; f is empty too where the tube is not safe.
   bool stays_in(std::int64_t x, std::int64_t u, const Set& target) const {
+    const auto post = [&](std::size_t i) { return a_.resolved(i, x, u); };
+    return box_in(post, target) && (a_.tubes.empty() || has_safe_tube(x, u));
+  }
+
+  bool has_safe_tube(std::int64_t x, std::int64_t u) const {
+    const auto tube = [&](std::size_t i) { return a_.resolved_tube(i, x, u); };
+    bool beyond = false;
+    for (std::size_t i = 0; i < a_.grid.size(); ++i) {
+      beyond = beyond || passes_a_limit(a_.raw_tube(i, x, u), a_.grid[i]);
+    }
+    return box_in(tube, beyond ? safe_beyond_ : safe_);
+  }
+
+  template <class Box>
+  bool box_in(const Box& range_of, const Set& target) const {
     bool gone = false;
     std::vector<IndexRange> box;
     for (std::size_t i = 0; i < a_.grid.size(); ++i) {
-      const ResolvedRange range = a_.resolved(i, x, u);
+      const ResolvedRange range = range_of(i);
       if (range.blocked) return false;
       gone = gone || range.all_left();
       box.push_back(range.inside);
@@ -92,7 +110,7 @@ class PlainEngine {
 
   void find_invariant() {
     result_.invariant = safe_;
-    for (const bool safe : safe_) result_.collision_time.push_back(safe ? Invariance::kNever : 0);
+    for (const bool safe : safe_) result_.collision_time.push_back(safe ? INT32_MAX : 0);
     for (bool changed = true; changed;) {
       changed = false;
       ++result_.iterations;
@@ -198,6 +216,7 @@ class PlainEngine {
   const ProblemSpec& spec_;
   const Abstraction& a_;
   const Set& safe_;
+  const Set& safe_beyond_;
   std::int64_t cells_;
   std::int64_t inputs_;
   std::vector<std::vector<bool>> allowed_;
@@ -247,8 +266,8 @@ struct Choices {
 }  // namespace
 
 PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction,
-                              const std::vector<bool>& safe) {
-  return PlainEngine(spec, abstraction, safe).run();
+                              const std::vector<bool>& safe, const std::vector<bool>& safe_beyond) {
+  return PlainEngine(spec, abstraction, safe, safe_beyond).run();
 }
 
 SafeBounds bound_safe_plainly(const ProblemSpec& spec, const UniformGrid& grid) {

@@ -26,8 +26,10 @@ struct PlainAnalysis {
   std::vector<Partition> partitions;
 };
 
+/// @param safe_beyond what tubes that pass a limit where a state saturates must stay in, as S reads beyond it
 [[nodiscard]] PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction,
-                                            const std::vector<bool>& safe);
+                                            const std::vector<bool>& safe,
+                                            const std::vector<bool>& safe_beyond);
 
 /// What S lies between, in plain terms.
 struct SafeBounds {

@@ -22,7 +22,8 @@ class ProblemWriter {
  public:
   std::string write(RandomTime kind, RandomEdges edges) {
     edges_ = edges;
-    continuous_time_ = kind == RandomTime::any && draw(0, 3) == 0;
+    const bool between_samples = kind == RandomTime::between_samples;
+    continuous_time_ = between_samples || (kind == RandomTime::any && draw(0, 3) == 0);
     // Half of the problems are agents that share a plane: those have layers.
     plane_ = draw(0, 1) == 0;
     const int states = plane_ ? draw(2, 3) : draw(1, 3);
@@ -40,14 +41,14 @@ class ProblemWriter {
 "agents": [{}],
 "dynamics": {{"time": "{}", "period": {}, "equations": {{{}}}}},
 "safe": "{}",
-"abstraction": {{"cells": "{}", "safe": "{}"}},
+"abstraction": {{"cells": "{}", "safe": "{}", "between_samples": {}}},
 "controller": {{"synthesis": "{}", "allow": "{}"}},
 "coordination": {{"partitions": [{}], "max_delay": {}, "connection_delay": {}}}}})",
         join(state_text_), join(input_text_),
         disturbed ? R"({"name": "w", "lower": -0.25, "upper": 0.5})" : "", agents(),
         continuous_time_ ? "continuous" : "discrete", pick<std::string>({"1", "0.5"}), equations(disturbed),
-        safe_condition(), cells, safe, draw(0, 3) == 0 ? "given" : "maximal", allow_condition(), partitions(),
-        draw(0, 3) == 0 ? std::to_string(draw(0, 3)) : "null", draw(0, 2));
+        safe_condition(), cells, safe, between_samples, draw(0, 3) == 0 ? "given" : "maximal",
+        allow_condition(), partitions(), draw(0, 3) == 0 ? std::to_string(draw(0, 3)) : "null", draw(0, 2));
     return text;
   }
 

@@ -4,7 +4,11 @@
 
 namespace coordreq {
 
-enum class RandomTime { any, discrete };
+enum class RandomTime {
+  any,
+  discrete,
+  between_samples,  ///< continuous, and safety is asked for between the samples
+};
 enum class RandomEdges {
   any,
   plain,  ///< no periodic states, no measurement errors
@@ -12,8 +16,8 @@ enum class RandomEdges {
 
 /// A random small problem spec as JSON text, exactly solvable, drawn inside a RapidCheck property: 1 to 3
 /// states (continuous and discrete), 1 to 3 inputs, 1 to 3 agents, disturbances, every `outside` rule but
-/// `stop`, measurement errors, both kinds of cells, `allow`, both kinds of synthesis, several partitions,
-/// max_delay.
+/// `stop`, measurement errors, both kinds of cells, safety between the samples, `allow`, both kinds of
+/// synthesis, several partitions, max_delay.
 [[nodiscard]] std::string draw_problem(RandomTime kind = RandomTime::any,
                                        RandomEdges edges = RandomEdges::any);
 

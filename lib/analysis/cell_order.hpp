@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "grid/uniform_grid.hpp"
+
+namespace coordreq {
+
+/// Where the cells of the spec's grid lie in the engine's, which may hold the states in another order.
+///
+/// Row-major linear indices of the spec's grid are what users see; rows and columns are the engine's.
+class CellOrder {
+ public:
+  /// @param position [state of the spec] its dimension in `grid`, a permutation
+  CellOrder(const UniformGrid& grid, std::vector<std::size_t> position) : position_(std::move(position)) {
+    for (const std::size_t p : position_) {
+      counts_.push_back(grid[p].count);
+      const bool is_last = p + 1 == grid.size();
+      row_step_.push_back(is_last ? 0 : grid.stride(p) / grid.row_length());
+      column_step_.push_back(is_last ? 1 : 0);
+    }
+  }
+
+  /// Cells that follow one another in the spec's grid: from (row, column) on, a step apart.
+  struct Run {
+    std::int64_t row = 0;
+    std::int64_t column = 0;
+    std::int64_t row_step = 0;
+    std::int64_t column_step = 0;
+    std::int64_t count = 0;
+    std::int64_t offset = 0;  ///< of the first cell from the beginning of the stretch
+  };
+
+  /// Visits the cells [begin, begin + count) of the spec's grid, in order.
+  template <class Visit>
+  void for_each_run(std::int64_t begin, std::int64_t count, const Visit& visit) const {
+    const std::size_t last = counts_.size() - 1;
+    std::vector<std::int64_t> index(counts_.size());
+    std::int64_t rest = begin;
+    for (std::size_t i = counts_.size(); i-- > 0;) {
+      index[i] = rest % counts_[i];
+      rest /= counts_[i];
+    }
+    for (std::int64_t offset = 0; offset < count;) {
+      Run run{.row_step = row_step_[last], .column_step = column_step_[last], .offset = offset};
+      for (std::size_t i = 0; i < index.size(); ++i) {
+        run.row += index[i] * row_step_[i];
+        run.column += index[i] * column_step_[i];
+      }
+      run.count = std::min(counts_[last] - index[last], count - offset);
+      visit(run);
+      offset += run.count;
+      index[last] = 0;
+      for (std::size_t i = last; i-- > 0;) {
+        if (++index[i] < counts_[i]) break;
+        index[i] = 0;
+      }
+    }
+  }
+
+ private:
+  std::vector<std::size_t> position_;
+  std::vector<std::int64_t> counts_;
+  std::vector<std::int64_t> row_step_;
+  std::vector<std::int64_t> column_step_;
+};
+
+}  // namespace coordreq

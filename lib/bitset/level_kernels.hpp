@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace coordreq {
+
+/// The instruction sets that the row kernels are built for. Every one gives the same bits.
+enum class InstructionSet : std::uint8_t { portable, avx2, avx512 };
+
+/// Operations on rows of levels: small unsigned integers, one a cell, see LevelRows.
+///
+/// A row operation works on whole blocks of `kLevelBlock` bytes: REQUIRES that every row handed in may be
+/// read, and every target written, up to the next multiple of that many bytes after its `n` lanes. What
+/// stands in lanes beyond n is of no meaning. No alignment is asked for; a target may be one of the sources.
+template <class Level>
+struct LevelKernels {
+  /// out[j] = min over k < count of rows[k][j]. REQUIRES count >= 1.
+  void (*minimum)(const Level* const* rows, std::size_t count, Level* out, std::size_t n);
+  /// target[j] = max(target[j], source[j]).
+  void (*raise)(const Level* source, Level* target, std::size_t n);
+  /// target[j] = max(target[j], source[j]) where lanes[j] is all ones; `lanes` holds zeros and all ones.
+  void (*raise_where)(const Level* source, const Level* lanes, Level* target, std::size_t n);
+  /// target[j] = min(target[j], source[j]) where lanes[j] is all ones.
+  void (*lower_where)(const Level* source, const Level* lanes, Level* target, std::size_t n);
+  /// True if row[j] is the greatest level wherever lanes[j] != 0.
+  bool (*is_top)(const Level* row, const Level* lanes, std::size_t n);
+  /// True if row[j] + 1 >= bound[j] in every lane, counted without overflow.
+  bool (*is_settled)(const Level* row, const Level* bound, std::size_t n);
+  /// lanes[j] = all ones where bit j % 64 of bits[j / 64] is set, else 0.
+  /// REQUIRES: `bits` may be read up to the word that the last block needs.
+  void (*spread)(const std::uint64_t* bits, Level* lanes, std::size_t n);
+  /// Bit j % 64 of bits[j / 64] = whether row[j] is the greatest level, for j < n; further bits of the last
+  /// word are 0.
+  void (*top_bits)(const Level* row, std::uint64_t* bits, std::size_t n);
+  /// One step of L <- 1 + min ... : out[j] = 0 where old[j] = 0, else next[j] + 1, and the greatest level
+  /// where that is above `limit`. @returns whether out differs from old.
+  bool (*advance)(const Level* next, const Level* old, Level limit, Level* out, std::size_t n);
+};
+
+inline constexpr std::size_t kLevelBlock = 64;
+
+/// The fastest set that this processor has.
+[[nodiscard]] InstructionSet best_instruction_set();
+/// The kernels for a set. REQUIRES: the processor has it. Level: std::uint8_t, std::uint16_t, std::uint32_t.
+template <class Level>
+[[nodiscard]] const LevelKernels<Level>& level_kernels(InstructionSet set);
+
+}  // namespace coordreq

@@ -1,0 +1,3 @@
+#define COORDREQ_KERNEL_NAMESPACE avx512_kernels
+#define COORDREQ_VECTOR_BYTES 64
+#include "bitset/level_kernels_impl.hpp"

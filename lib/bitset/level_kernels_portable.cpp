@@ -1,0 +1,3 @@
+#define COORDREQ_KERNEL_NAMESPACE portable_kernels
+#define COORDREQ_VECTOR_BYTES 16
+#include "bitset/level_kernels_impl.hpp"

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "safety/row_engine.hpp"
+
+namespace coordreq {
+
+/// For each row the smallest box that holds the posts of its cells under all inputs: the rows that can matter
+/// to it, and a bound for its levels that costs one look instead of one a joint action.
+///
+/// Blocked posts, and dimensions in which all has left for good, add nothing to the box.
+class RowHull {
+ public:
+  /// REQUIRES: `engine` outlives this object.
+  explicit RowHull(const RowEngine& engine);
+
+  /// What the posts of one row have in common.
+  struct Box {
+    /// In all dimensions but the last, as in ResolvedRange; first > last: no post has a cell there.
+    std::vector<IndexRange> ranges;
+    /// Offsets along the row.
+    IndexRange window;
+    /// Every post is one box of cells inside the domain or its margins, and all are inside this one: what
+    /// holds on the box holds on all posts. Else the box only names the rows that can matter.
+    bool covers = true;
+  };
+  void box(const RowPlace& place, Box& box) const;
+
+ private:
+  struct Entry {
+    IndexRange range;
+    bool covers = true;
+  };
+  [[nodiscard]] Entry merged(std::size_t table, std::size_t base) const;
+
+  const RowEngine* engine_;
+  std::vector<std::vector<Entry>> entries_;  ///< [table][row choice]
+};
+
+}  // namespace coordreq
