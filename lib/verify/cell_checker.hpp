@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,7 @@ class CellChecker {
   const Claims& claims_;
   CellTallies& tallies_;
   CellPosts posts_;
+  std::optional<CellTubes> tubes_;  ///< if the ways between the samples count
   AllowedPairs allowed_;
   SafeJudge judge_;
   std::vector<Partition> partitions_;
