@@ -171,11 +171,17 @@ class Cases(Case):
 
     def test_a_result_that_forgot_the_way_between_the_samples_is_found(self):
         """Numbers of one analysis under the spec and the guarantee of the other one."""
-        thin = {"safe": "x <= 0.4 or x >= 1.6", "dynamics": dict(SPEC["dynamics"], time="continuous", period=2,
-                                                               equations={"x": "u", "y": "v"})}  # fmt: skip
+        x = dict(SPEC["states"][0], outside={"below": "unsafe", "above": "safe"})
+        equations = {"x": "u", "y": "v"}
+        jumps = {
+            "states": [x, SPEC["states"][1]],
+            "inputs": [{"name": "u", "values": [1]}, SPEC["inputs"][1]],
+            "dynamics": {"time": "continuous", "period": 2, "equations": equations},
+            "safe": "x <= 0.5 or x >= 1.5",
+        }
         asked = {"cells": "half_open", "between_samples": True}
-        forgotten = self.results(spec_with(**thin, abstraction=dict(asked, between_samples=False)))
-        self.write("other.json", spec_with(**thin, abstraction=asked))
+        forgotten = self.results(spec_with(**jumps, abstraction=dict(asked, between_samples=False)))
+        self.write("other.json", spec_with(**jumps, abstraction=asked))
         self.analyze("other.json", "-o", "other.h5")
         self.assertEqual(self.verify("other.h5", "--quiet").returncode, 0)
         with h5py.File(forgotten, "r+") as file, h5py.File(self.folder / "other.h5") as source:
