@@ -22,10 +22,12 @@ constexpr int kMaxThreads = 1024;
 
 /// What CLI11 hands over, before it is checked. Numbers stay text so that the messages are ours.
 struct RawArguments {
-  std::string path, output, threads, max_memory, sample;
+  std::string path, output, threads, max_memory, at, format, partition, sample;
+  std::vector<std::string> slices, projections;
   bool json = false;
   bool quiet = false;
   bool version = false;
+  SimulateArguments simulate;
 };
 
 struct CommandInfo {
@@ -42,15 +44,57 @@ constexpr CommandInfo kCommands[] = {
     {"validate", "Check a spec; print sizes, which state depends on what, and a memory estimate", "SPEC",
      "The problem spec, a JSON file; - reads standard input", run_validate},
     {"info", "Print what a results file holds", "RESULTS", "A file that analyze wrote", run_info},
+    {"query", "Tell everything that is known at a state: delay, countdown, allowed actions", "RESULTS",
+     "A file that analyze wrote", run_query},
+    {"simulate", "Run the self-triggered closed loop on the system itself", "RESULTS",
+     "A file that analyze wrote", run_simulate},
     {"verify", "Check a results file by an independent method", "RESULTS", "A file that analyze wrote",
      run_verify},
+    {"export", "Write the result in the format of another tool", "RESULTS", "A file that analyze wrote",
+     run_export},
     {"schema", "Print the JSON Schema of specs", "", "", run_schema},
 };
 
 constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 a requirement or a verification fails, 2 wrong usage, 3 invalid spec or results "
-    "file,\n"
-    "4 a limit refused, 5 input or output failed, 70 a bug in coordreq, 130 interrupted.";
+    "Exit codes: 0 done, 1 a requirement, a verification or a run fails, 2 wrong usage,\n"
+    "3 invalid spec or results file, 4 a limit refused, 5 input or output failed,\n"
+    "70 a bug in coordreq, 130 interrupted.";
+
+void add_export_options(CLI::App& command, RawArguments& raw) {
+  command.add_option("--format", raw.format, "csv, scs (SCOTS) or c-header")->type_name("FORMAT");
+  command.add_option("-o,--output", raw.output, "File to write (default: standard output)")
+      ->type_name("FILE");
+  command.add_option("--partition", raw.partition, "The partition to export (csv: default all)")
+      ->type_name("NAME");
+  command
+      .add_option("--slice", raw.slices, "csv: only the cells where a state has this value; may be repeated")
+      ->type_name("STATE=VALUE")
+      ->expected(1)
+      ->take_all();
+  command
+      .add_option("--project", raw.projections,
+                  "csv: the smallest or largest value along a state, min or max; may be repeated")
+      ->type_name("STATE:KIND")
+      ->expected(1)
+      ->take_all();
+}
+
+void add_simulate_options(CLI::App& command, RawArguments& raw) {
+  SimulateArguments& simulate = raw.simulate;
+  const auto add = [&command](const char* name, auto& target, const char* text, const char* type) {
+    command.add_option(name, target, text)->type_name(type);
+  };
+  add("--from", simulate.from, "State to start from, as x1=0.1,x2=0", "STATE");
+  add("--start", simulate.start, "random: start anywhere in the invariance set", "HOW");
+  add("--steps", simulate.steps, "Length of a run", "N");
+  add("--runs", simulate.runs, "Number of runs (default: 1)", "N");
+  add("--seed", simulate.seed, "Seed of all that is random (default: 1)", "N");
+  add("--policy", simulate.policy, "random (default), adversarial or prefer", "NAME");
+  add("--disturbance", simulate.disturbance,
+      "random (default), extremes, constant or constant values as w1=0.1,w2=0", "HOW");
+  add("--partition", simulate.partition, "Partition (default: the only one)", "NAME");
+  add("-o,--output", raw.output, "File for the runs (default: none)", "FILE");
+}
 
 void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
   CLI::App* command = app.add_subcommand(info.name, info.description);
@@ -61,6 +105,14 @@ void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
     command->add_option("-o,--output", raw.output, "Results file (default: NAME.h5 in the current folder)")
         ->type_name("FILE");
   }
+  if (info.run == run_export) add_export_options(*command, raw);
+  if (info.run == run_query) {
+    command
+        ->add_option("--at", raw.at,
+                     "The state, as x1=0.1,x2=1/3 (default: many from standard input, CSV or JSON lines)")
+        ->type_name("STATE");
+  }
+  if (info.run == run_simulate) add_simulate_options(*command, raw);
   if (info.run == run_verify) {
     command->add_option("--sample", raw.sample, "Look at so many cells, evenly drawn (default: all)")
         ->type_name("N");
@@ -156,8 +208,18 @@ CommandLine checked(const RawArguments& raw, const CommandInfo& info, const CLI:
   line.command = info.run;
   if (command.count("--threads") > 0) line.threads = parse_threads(raw.threads);
   if (command.count("--max-memory") > 0) line.max_memory = parse_memory_size(raw.max_memory);
+  if (info.run == run_query && command.count("--at") > 0) line.at = raw.at;
   if (info.run == run_verify && command.count("--sample") > 0) line.sample = parse_sample(raw.sample);
-  if (info.run == run_analyze && command.count("--output") > 0) {
+  if (info.run == run_export) {
+    if (command.count("--format") == 0) throw UsageError("no --format, expected csv, scs or c-header");
+    line.format = raw.format;
+    if (command.count("--partition") > 0) line.partition = raw.partition;
+    line.slices = raw.slices;
+    line.projections = raw.projections;
+  }
+  line.simulate = raw.simulate;
+  const bool has_output = info.run == run_analyze || info.run == run_export || info.run == run_simulate;
+  if (has_output && command.count("--output") > 0) {
     if (raw.output.empty() || raw.output == "-") {
       throw UsageError(fmt::format("expected the name of a file, found '{}'", raw.output), "--output");
     }

@@ -4,7 +4,9 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "app/simulate_arguments.hpp"
 #include "base/error.hpp"
 
 namespace coordreq {
@@ -13,11 +15,17 @@ namespace coordreq {
 struct CommandLine {
   std::string path;                         ///< SPEC or RESULTS
   std::optional<std::string> output;        ///< -o
+  std::optional<std::string> at;            ///< --at; none: states come from standard input
+  std::string format;                       ///< --format
+  std::optional<std::string> partition;     ///< --partition
+  std::vector<std::string> slices;          ///< --slice
+  std::vector<std::string> projections;     ///< --project
   int threads = 0;                          ///< 0: all cores
   std::optional<std::uint64_t> max_memory;  ///< bytes
   std::optional<std::int64_t> sample;       ///< --sample: cells that verify looks at
   bool json = false;
   bool quiet = false;
+  SimulateArguments simulate;
   std::function<ExitCode(const CommandLine&)> command;
 
   /// Runs the command.

@@ -8,7 +8,10 @@ namespace coordreq {
 ExitCode run_analyze(const CommandLine& line);
 ExitCode run_validate(const CommandLine& line);
 ExitCode run_info(const CommandLine& line);
+ExitCode run_query(const CommandLine& line);
+ExitCode run_simulate(const CommandLine& line);
 ExitCode run_verify(const CommandLine& line);
+ExitCode run_export(const CommandLine& line);
 ExitCode run_schema(const CommandLine& line);
 
 }  // namespace coordreq

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <deque>
-#include <numeric>
 #include <optional>
 
 #include "abstraction/build_abstraction.hpp"
+#include "analysis/layout.hpp"
 #include "analysis/result_arrays.hpp"
 #include "base/error.hpp"
 #include "base/timer.hpp"
@@ -54,15 +54,16 @@ struct PartitionResult {
 class Analysis {
  public:
   Analysis(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team)
-      : spec_(spec), options_(options), team_(team) {}
+      : spec_(spec), options_(options), team_(team), layout_(choose_layout(spec)) {}
 
   AnalysisSummary run() {
     enter("abstraction");
-    const Abstraction abstraction = build_abstraction(spec_, team_);
+    const ProblemSpec engine_spec = laid_out(spec_, layout_);
+    const Abstraction abstraction = build_abstraction(engine_spec, team_);
     enter("safe set");
-    const CellSet safe = safe_set(spec_, abstraction, team_);
-    const std::optional<ConditionTable> allow = allow_table(spec_, abstraction, team_);
-    const std::optional<CellSet> beyond = safe_beyond_limits(spec_, abstraction, safe, team_);
+    const CellSet safe = safe_set(engine_spec, abstraction, team_);
+    const std::optional<ConditionTable> allow = allow_table(engine_spec, abstraction, team_);
+    const std::optional<CellSet> beyond = safe_beyond_limits(engine_spec, abstraction, safe, team_);
     const SafeTubes tubes{spec_.abstraction.between_samples ? &safe : nullptr, beyond ? &*beyond : nullptr};
     const RowEngine engine(abstraction, allow ? &*allow : nullptr, tubes);
     const RowHull hull(engine);
@@ -147,7 +148,7 @@ class Analysis {
 
   void write(const Controller& controller, const Abstraction& abstraction, const Invariance& invariance,
              const std::deque<PartitionResult>& partitions) const {
-    const CellOrder order(abstraction.grid, spec_order());
+    const CellOrder order(abstraction.grid, place_of_states());
     const LevelMap& collision_time = invariance.collision_time;
     ResultContent content{.name = spec_.name,
                           .spec_text = spec_.text,
@@ -155,6 +156,7 @@ class Analysis {
                           .period = nearest_double(spec_.dynamics.period),
                           .period_unit = spec_.dynamics.unit,
                           .connection_delay = spec_.coordination.connection_delay,
+                          .triggers_are_delays = spec_.coordination.connection_delay == 0,
                           .axes = axes(abstraction),
                           .safe_cells = static_cast<std::uint64_t>(summary_.safe),
                           .invariant_cells = static_cast<std::uint64_t>(summary_.invariant),
@@ -183,16 +185,17 @@ class Analysis {
   }
 
   /// Where each state of the spec stands in the grid.
-  [[nodiscard]] std::vector<std::size_t> spec_order() const {
-    std::vector<std::size_t> order(spec_.states.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    return order;
+  [[nodiscard]] std::vector<std::size_t> place_of_states() const {
+    std::vector<std::size_t> place(layout_.size());
+    for (std::size_t d = 0; d < layout_.size(); ++d) place[layout_[d]] = d;
+    return place;
   }
 
   [[nodiscard]] std::vector<ResultAxis> axes(const Abstraction& abstraction) const {
     std::vector<ResultAxis> result;
+    const std::vector<std::size_t> place = place_of_states();
     for (std::size_t i = 0; i < spec_.states.size(); ++i) {
-      const GridDimension& dimension = abstraction.grid[i];
+      const GridDimension& dimension = abstraction.grid[place[i]];
       ResultAxis& axis = result.emplace_back(ResultAxis{
           .name = dimension.name, .unit = spec_.states[i].unit, .step = nearest_double(dimension.step)});
       for (std::int64_t k = 0; k < dimension.count; ++k)
@@ -265,6 +268,7 @@ class Analysis {
   const ProblemSpec& spec_;
   const AnalysisOptions& options_;
   ThreadTeam& team_;
+  std::vector<std::size_t> layout_;  ///< the state of each dimension of the engine
   StageTimer timer_;
   AnalysisSummary summary_;
 };

@@ -10,21 +10,28 @@ std::int64_t decoded(Level level) {
   return level == LevelRows<Level>::kTop ? LevelMap::kTop : static_cast<std::int64_t>(level);
 }
 
-/// Adds the cells of a row to the counts of their levels.
+/// Adds the cells of some rows to the counts of their levels.
 template <class Level>
-void count_row(const Level* row, std::int64_t length, std::vector<std::int64_t>& counts) {
-  for (std::int64_t c = 0; c < length; ++c) {
-    const std::size_t level = row[c] == LevelRows<Level>::kTop ? 0 : std::size_t{row[c]} + 1;
-    if (level >= counts.size()) counts.resize(level + 1, 0);
-    ++counts[level];
+void count_rows(const LevelRows<Level>& levels, ThreadTeam::Range rows, std::vector<std::int64_t>& counts) {
+  for (std::int64_t r = rows.begin; r < rows.end; ++r) {
+    const Level* row = levels.row(r);
+    for (std::int64_t c = 0; c < levels.row_length(); ++c) {
+      const std::size_t level = row[c] == LevelRows<Level>::kTop ? 0 : std::size_t{row[c]} + 1;
+      if (level >= counts.size()) counts.resize(level + 1, 0);
+      ++counts[level];
+    }
   }
 }
 
-/// 8-bit levels need no look at the size; four counters a level so that equal neighbours do not wait for each
-/// other.
-void count_row(const std::uint8_t* row, std::int64_t length, std::vector<std::int64_t>& counts) {
-  std::array<std::array<std::uint32_t, 256>, 4> part{};
-  for (std::int64_t c = 0; c < length; ++c) ++part[static_cast<std::size_t>(c % 4)][row[c]];
+/// 8-bit levels need no look at the size; four counters a level, so that equal neighbours do not wait for
+/// each other.
+void count_rows(const LevelRows<std::uint8_t>& levels, ThreadTeam::Range rows,
+                std::vector<std::int64_t>& counts) {
+  std::array<std::array<std::int64_t, 256>, 4> part{};
+  for (std::int64_t r = rows.begin; r < rows.end; ++r) {
+    const std::uint8_t* row = levels.row(r);
+    for (std::int64_t c = 0; c < levels.row_length(); ++c) ++part[static_cast<std::size_t>(c % 4)][row[c]];
+  }
   counts.resize(256, 0);
   for (std::size_t level = 0; level < 256; ++level) {
     counts[(level + 1) % 256] += part[0][level] + part[1][level] + part[2][level] + part[3][level];
@@ -37,12 +44,7 @@ std::vector<std::int64_t> count_levels(const LevelRows<Level>& levels, ThreadTea
   constexpr std::int64_t kGrain = 1024;
   std::vector<std::vector<std::int64_t>> counts(static_cast<std::size_t>(team.size()));
   team.for_each(levels.rows(), kGrain, [&](ThreadTeam::Range range, int worker) {
-    std::vector<std::int64_t>& own = counts[static_cast<std::size_t>(worker)];
-    if (levels.margins().before + levels.margins().after == 0 && levels.row_length() == levels.stride()) {
-      count_row(levels.row(range.begin), (range.end - range.begin) * levels.row_length(), own);
-      return;
-    }
-    for (std::int64_t r = range.begin; r < range.end; ++r) count_row(levels.row(r), levels.row_length(), own);
+    count_rows(levels, range, counts[static_cast<std::size_t>(worker)]);
   });
   std::vector<std::int64_t> total(1, 0);
   for (const std::vector<std::int64_t>& own : counts) {

@@ -45,6 +45,29 @@ hdf5::Handle ArrayWriter::write(const hdf5::Handle& file, const std::string& pat
   return dataset;
 }
 
+hdf5::Handle ArrayWriter::write_copy(const hdf5::Handle& file, const std::string& path,
+                                     const std::vector<hsize_t>& shape, const ResultArray& array,
+                                     const hdf5::Handle& original) {
+  const ChunkLayout layout({shape.begin(), shape.end()}, element_size(array.type));
+  if (!layout.chunked()) return write(file, path, shape, array);
+  const std::string what = "write the dataset " + path;
+  hdf5::Handle dataset = hdf5::create_dataset(file, path, hdf5::number_type(array.type),
+                                              hdf5::create_space(shape), storage_of(layout, array.type));
+  std::vector<std::byte>& packed = packed_.front();
+  for (std::uint64_t i = 0; i < layout.chunk_count(); ++i) {
+    const auto offset = layout.stretch(i).offset;
+    const std::vector<hsize_t> place(offset.begin(), offset.end());
+    hsize_t size = 0;
+    hdf5::check(H5Dget_chunk_storage_size(original.get(), place.data(), &size), what);
+    packed.resize(size);
+    std::uint32_t filters = 0;
+    hdf5::check(H5Dread_chunk(original.get(), H5P_DEFAULT, place.data(), &filters, packed.data()), what);
+    hdf5::check(H5Dwrite_chunk(dataset.get(), H5P_DEFAULT, filters, place.data(), size, packed.data()), what);
+  }
+  driver_.check_written(what);
+  return dataset;
+}
+
 void ArrayWriter::write_chunks(const hdf5::Handle& dataset, const std::string& path,
                                const ChunkLayout& layout, const ResultArray& array) {
   const std::uint64_t chunks = layout.chunk_count();

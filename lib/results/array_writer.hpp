@@ -30,6 +30,12 @@ class ArrayWriter {
   [[nodiscard]] hdf5::Handle write(const hdf5::Handle& file, const std::string& path,
                                    const std::vector<hsize_t>& shape, const ResultArray& array);
 
+  /// Creates the dataset `path` with the elements of `original`, which write() has made of the same shape and
+  /// array: what is packed already is not packed again.
+  [[nodiscard]] hdf5::Handle write_copy(const hdf5::Handle& file, const std::string& path,
+                                        const std::vector<hsize_t>& shape, const ResultArray& array,
+                                        const hdf5::Handle& original);
+
  private:
   struct Scratch {
     ChunkCodec codec;

@@ -10,7 +10,7 @@ struct libdeflate_compressor;
 namespace coordreq {
 
 /// The level named in the filter pipeline of the file; readers do not need it.
-inline constexpr int kDeflateLevel = 4;
+inline constexpr int kDeflateLevel = 1;
 
 /// Packs chunks as HDF5's filters "shuffle" and "deflate" do, the first only for elements of several bytes.
 ///

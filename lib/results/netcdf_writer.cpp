@@ -84,12 +84,24 @@ hdf5::Handle NetcdfWriter::add_coordinates(const std::string& path, const std::v
 hdf5::Handle NetcdfWriter::add_array(const std::string& path, const std::vector<std::string>& dimensions,
                                      const ResultArray& array) {
   make_groups(path);
+  hdf5::Handle dataset = arrays_.write(file_, path, shape_of(dimensions), array);
+  attach(dataset, path, dimensions);
+  return dataset;
+}
+
+hdf5::Handle NetcdfWriter::add_copy(const std::string& path, const std::vector<std::string>& dimensions,
+                                    const ResultArray& array, const hdf5::Handle& original) {
+  make_groups(path);
+  hdf5::Handle dataset = arrays_.write_copy(file_, path, shape_of(dimensions), array, original);
+  attach(dataset, path, dimensions);
+  return dataset;
+}
+
+std::vector<hsize_t> NetcdfWriter::shape_of(const std::vector<std::string>& dimensions) const {
   std::vector<hsize_t> shape;
   shape.reserve(dimensions.size());
   for (const std::string& dimension : dimensions) shape.push_back(dimensions_.at(dimension).length);
-  hdf5::Handle dataset = arrays_.write(file_, path, shape, array);
-  attach(dataset, path, dimensions);
-  return dataset;
+  return shape;
 }
 
 hdf5::Handle NetcdfWriter::add_text(const std::string& path, const std::string& text) {

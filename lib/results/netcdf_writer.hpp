@@ -44,6 +44,9 @@ class NetcdfWriter {
   /// A dataset over dimensions, named by their paths; none for a scalar.
   hdf5::Handle add_array(const std::string& path, const std::vector<std::string>& dimensions,
                          const ResultArray& array);
+  /// The same for an array that is known to equal that of `original`, over the same dimensions.
+  hdf5::Handle add_copy(const std::string& path, const std::vector<std::string>& dimensions,
+                        const ResultArray& array, const hdf5::Handle& original);
   hdf5::Handle add_text(const std::string& path, const std::string& text);
 
   /// Ties scales to their datasets, and flushes and closes the file.
@@ -61,6 +64,7 @@ class NetcdfWriter {
   };
 
   void make_groups(const std::string& path);
+  [[nodiscard]] std::vector<hsize_t> shape_of(const std::vector<std::string>& dimensions) const;
   void make_scale(const hdf5::Handle& dataset, const std::string& path, std::uint64_t length,
                   const std::string& name);
   void attach(const hdf5::Handle& dataset, const std::string& path,

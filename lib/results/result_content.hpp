@@ -73,7 +73,8 @@ struct ResultContent {
   double period = 0;
   std::string period_unit;  ///< as in the spec, empty if none
   std::int64_t connection_delay = 0;
-  std::vector<ResultAxis> axes;  ///< states in order, then inputs in order
+  bool triggers_are_delays = false;  ///< all partitions' arrays of both are equal: they are packed once
+  std::vector<ResultAxis> axes;      ///< states in order, then inputs in order
   std::uint64_t safe_cells = 0, invariant_cells = 0;
   ResultArray safe, invariant;  ///< uint8 [cells]
   ResultArray collision_time;   ///< int16 or int32 [cells]

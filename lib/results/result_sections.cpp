@@ -87,16 +87,14 @@ void write_set(NetcdfWriter& file, const ResultContent& content, const std::stri
 }
 
 /// Delays or triggers of all partitions in one array.
-hdf5::Handle write_steps(NetcdfWriter& file, const ResultContent& content, const std::string& path,
-                         ResultArray ResultPartition::*member) {
+ResultArray steps_array(const ResultContent& content, ResultArray ResultPartition::*member) {
   std::vector<const ResultArray*> parts;
   for (const ResultPartition& partition : content.partitions) parts.push_back(&(partition.*member));
   const ElementType type = parts.empty() ? ElementType::int16 : parts.front()->type;
   for (const ResultArray* part : parts) {
     if (part->type != type) throw std::invalid_argument("partitions with different element types");
   }
-  return file.add_array(path, with("/partition", state_paths(content)),
-                        stacked(type, cell_count(content), parts));
+  return stacked(type, cell_count(content), parts);
 }
 
 ElementType steps_type(const ResultContent& content, ResultArray ResultPartition::*member) {
@@ -200,12 +198,17 @@ void write_sets(NetcdfWriter& file, const ResultContent& content) {
 }
 
 void write_delays(NetcdfWriter& file, const ResultContent& content) {
-  const hdf5::Handle delay = write_steps(file, content, "/delay", &ResultPartition::delay);
+  const Paths dimensions = with("/partition", state_paths(content));
+  const hdf5::Handle delay =
+      file.add_array("/delay", dimensions, steps_array(content, &ResultPartition::delay));
   const ElementType delay_type = steps_type(content, &ResultPartition::delay);
   describe(delay, "largest number of steps without coordination that keeps the system safe");
   describe_flags(delay, delay_type, {-2, -1, largest_value(delay_type)}, "not_safe not_invariant unbounded");
 
-  const hdf5::Handle trigger = write_steps(file, content, "/trigger", &ResultPartition::trigger);
+  const ResultArray triggers = steps_array(content, &ResultPartition::trigger);
+  const hdf5::Handle trigger = content.triggers_are_delays
+                                   ? file.add_copy("/trigger", dimensions, triggers, delay)
+                                   : file.add_array("/trigger", dimensions, triggers);
   const ElementType trigger_type = steps_type(content, &ResultPartition::trigger);
   describe(trigger, "steps until the agents must start to connect");
   describe_flags(trigger, trigger_type, {-3, -2, -1, largest_value(trigger_type)},

@@ -6,6 +6,13 @@
 #include "results/results_file.hpp"
 
 namespace coordreq {
+namespace {
+
+/// Unpacked chunks, of at most 1 MiB, that are kept of each dataset: single cells are asked for in any order.
+constexpr std::size_t kCacheBytes = 32U << 20U;
+constexpr std::size_t kCacheSlots = 3203;  // prime, about 100 a chunk, as the library's manual says
+
+}  // namespace
 
 bool ResultsFile::exists(const std::string& path) const {
   // The library wants every group on the way to be there.
@@ -18,7 +25,11 @@ bool ResultsFile::exists(const std::string& path) const {
 const ResultsFile::OpenDataset& ResultsFile::open_for_parts(const std::string& path) const {
   const auto known = open_.find(path);
   if (known != open_.end()) return known->second;
-  hdf5::Handle dataset = open_dataset(path);
+  static_cast<void>(open_dataset(path));  // says what is wrong with it better than the library
+  const hdf5::Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose, "create a property list");
+  hdf5::check(H5Pset_chunk_cache(access.get(), kCacheSlots, kCacheBytes, H5D_CHUNK_CACHE_W0_DEFAULT),
+              "set the chunk cache");
+  hdf5::Handle dataset(H5Dopen2(file_.get(), path.c_str(), access.get()), H5Dclose, "open " + path);
   const hdf5::Handle stored(H5Dget_type(dataset.get()), H5Tclose, "read a type");
   for (const ElementType type : {ElementType::uint8, ElementType::int16, ElementType::int32,
                                  ElementType::uint32, ElementType::uint64, ElementType::float64}) {

@@ -1,12 +1,9 @@
 #include "results/write_results.hpp"
 
-#include <cstring>
-
-#include "base/error.hpp"
-#include "results/hdf5_handle.hpp"
 #include "results/netcdf_writer.hpp"
 #include "results/output_file.hpp"
 #include "results/result_sections.hpp"
+#include "results/whole_file.hpp"
 
 namespace coordreq {
 namespace {
@@ -26,16 +23,8 @@ void write_content(const std::string& path, const ResultContent& content, Thread
 }  // namespace
 
 void write_results(const std::string& path, const ResultContent& content, ThreadTeam& team) {
-  OutputFile output(path);
-  const hdf5::QuietErrors quiet;
-  try {
-    write_content(output.temporary(), content, team);
-  } catch (const hdf5::Failure& failure) {
-    if (failure.system_error() == 0)
-      throw IoError(std::string("cannot write the results: ") + failure.what(), path);
-    throw IoError(std::string("cannot write the results: ") + std::strerror(failure.system_error()), path);
-  }
-  output.commit();
+  write_whole_file(path, "the results",
+                   [&](const std::string& temporary) { write_content(temporary, content, team); });
 }
 
 void check_writable(const std::string& path) {

@@ -110,7 +110,7 @@ bool RowEngine::is_closed(std::size_t outer) const {
   return true;
 }
 
-/// Least rows read for one row, all joint slices tried: the rows for the shared minima, then those of them.
+/// Least rows read for one row: the rows for the shared minima, then those of them.
 void RowEngine::choose_outer() {
   const std::size_t last = tables() - 1;
   std::vector<TableProfile> profiles;
@@ -120,9 +120,11 @@ void RowEngine::choose_outer() {
     double choices = 1;
     double inner = profiles[last].width;
     for (std::size_t t = 0; t <= last; ++t) {
-      choices *= profiles[t].choices;
+      // Of all choices about two are tried: the rest is dominated, or joined with others.
+      const double tried = std::min(profiles[t].choices, 2.0);
+      choices *= tried;
       if (t < outer) {
-        shared *= profiles[t].choices * profiles[t].width;
+        shared *= tried * profiles[t].width;
       } else if (t < last) {
         inner *= profiles[t].width;
       }

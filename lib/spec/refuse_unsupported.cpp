@@ -24,9 +24,6 @@ void refuse_in_coordination(const CoordinationSpec& coordination) {
 }  // namespace
 
 void refuse_unsupported(const ProblemSpec& spec) {
-  for (std::size_t i = 0; i < spec.agents.size(); ++i) {
-    if (spec.agents[i].prefer) refuse("'prefer'", fmt::format("/agents/{}/prefer", i));
-  }
   if (spec.controller.file) refuse("'file'", "/controller/file");
   refuse_in_coordination(spec.coordination);
   if (spec.network) refuse("'network'", "/network");

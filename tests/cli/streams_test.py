@@ -109,7 +109,7 @@ class Cases(Case):
         lines = shown.split("\r")
         self.assertNotIn("\n", shown)
         self.assertNotIn("\x1b", shown)
-        self.assertRegex(shown, r"layers horizontal\|vertical, step [0-9,]+, [0-9,]+ cells left")
+        self.assertRegex(shown, r"layers horizontal\|vertical, sweep [0-9,]+, [0-9,]+ rows")
         self.assertEqual((lines[0], lines[-2].strip(), lines[-1]), ("", "", ""))
         self.assertEqual(len(lines[-2]), len(lines[-3].rstrip()))
 

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "app/commands.hpp"
+#include "app/interrupt.hpp"
+#include "app/standard_streams.hpp"
+#include "export/c_header.hpp"
+#include "export/csv_table.hpp"
+#include "export/parse_selection.hpp"
+#include "export/scots_controller.hpp"
+#include "results/output_file.hpp"
+#include "results/results_reader.hpp"
+#include "results/write_results.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Hands on text in blocks; the last one with flush().
+class Blocks {
+ public:
+  explicit Blocks(TextSink sink) : sink_(std::move(sink)) {}
+
+  void add(std::string_view text) {
+    text_ += text;
+    if (text_.size() >= kBlockBytes) flush();
+  }
+  void flush() {
+    sink_(text_);
+    text_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kBlockBytes = 1 << 16;
+  TextSink sink_;
+  std::string text_;
+};
+
+using Exporter = std::function<void(const TextSink&)>;
+
+std::vector<std::string> partition_names(const ResultsReader& results) {
+  std::vector<std::string> names;
+  for (const StoredPartition& partition : results.partitions()) names.push_back(partition.name);
+  return names;
+}
+
+std::optional<std::size_t> chosen_partition(const CommandLine& line, const ResultsReader& results) {
+  if (!line.partition) return std::nullopt;
+  const std::vector<std::string> names = partition_names(results);
+  const auto found = std::find(names.begin(), names.end(), *line.partition);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  throw UsageError(
+      fmt::format("no partition {}, expected {}", quote_text(*line.partition), quote_list(names, "or")),
+      "--partition");
+}
+
+std::size_t one_partition(const CommandLine& line, const ResultsReader& results) {
+  if (const std::optional<std::size_t> chosen = chosen_partition(line, results)) return *chosen;
+  if (results.partitions().size() == 1) return 0;
+  throw UsageError(
+      fmt::format("which partition? expected --partition {}", quote_list(partition_names(results), "or")));
+}
+
+void refuse_selection(const CommandLine& line) {
+  if (line.slices.empty() && line.projections.empty()) return;
+  throw UsageError(fmt::format("only csv can be cut, found it with {}", line.format),
+                   line.slices.empty() ? "--project" : "--slice");
+}
+
+Exporter exporter(const CommandLine& line, const ResultsReader& results, ThreadTeam& team) {
+  if (line.format == "csv") {
+    TableSelection selection = parse_selection(line.slices, line.projections, results.grid());
+    selection.partition = chosen_partition(line, results);
+    return [&results, selection](const TextSink& sink) { export_csv(results, selection, sink); };
+  }
+  refuse_selection(line);
+  if (line.format == "scs") {
+    if (line.partition)
+      throw UsageError("scs holds the controller, which no partition changes", "--partition");
+    return [&](const TextSink& sink) { export_scots(results, team, sink); };
+  }
+  if (line.format == "c-header") {
+    const std::size_t partition = one_partition(line, results);
+    return [&results, &team, partition](const TextSink& sink) {
+      export_c_header(results, partition, team, sink);
+    };
+  }
+  throw UsageError(fmt::format("expected csv, scs or c-header, found {}", quote_text(line.format)),
+                   "--format");
+}
+
+/// A file that appears whole or not at all, from its first text on: what comes before that may take long, and
+/// an interrupt then ends the program at once. Later a signal waits for the next text, so that nothing is
+/// left behind.
+class LateFile {
+ public:
+  explicit LateFile(std::string path) : path_(std::move(path)) { check_writable(path_); }
+
+  void write(std::string_view text) {
+    if (!file_) {
+      delay_.emplace();
+      file_.emplace(path_);
+      stream_.open(file_->temporary(), std::ios::binary);
+    }
+    if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
+    if (!stream_.write(text.data(), static_cast<std::streamsize>(text.size()))) fail();
+  }
+
+  /// REQUIRES: write() was called.
+  void commit() {
+    stream_.close();
+    if (!stream_) fail();
+    file_->commit();
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw IoError("cannot write the export: " + std::generic_category().message(errno), path_);
+  }
+
+  std::string path_;
+  std::optional<InterruptDelay> delay_;
+  std::optional<OutputFile> file_;
+  std::ofstream stream_;
+};
+
+}  // namespace
+
+ExitCode run_export(const CommandLine& line) {
+  const ResultsReader results(line.path);
+  ThreadTeam team(line.threads);
+  const Exporter write = exporter(line, results, team);
+  std::optional<LateFile> file;
+  if (line.output) file.emplace(*line.output);
+  Blocks blocks([&file](std::string_view text) { file ? file->write(text) : write_output(text); });
+  write([&blocks](std::string_view text) { blocks.add(text); });
+  blocks.flush();
+  if (file) file->commit();
+  return ExitCode::success;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include "app/query_report.hpp"
+
+namespace coordreq {
+namespace {
+
+std::string csv_steps(std::int32_t steps) {
+  return steps == ResultsReader::kNever ? "inf" : std::to_string(steps);
+}
+
+std::string csv_actions(const std::vector<bool>& actions) {
+  std::string text;
+  for (std::size_t a = 0; a < actions.size(); ++a) {
+    if (actions[a]) text += (text.empty() ? "" : " ") + std::to_string(a);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string answer_csv_header(const ResultsReader& results) {
+  std::string line;
+  for (const GridDimension& dimension : results.grid().dimensions()) line += dimension.name + ",";
+  line += "inside,cell,safe,invariant,collision_time";
+  for (const StoredPartition& partition : results.partitions()) {
+    line += fmt::format(",delay:{0},countdown:{0}", partition.name);
+    for (const std::string& name : partition.classes)
+      line += fmt::format(",actions:{}:{}", partition.name, name);
+  }
+  return line + "\n";
+}
+
+std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& results) {
+  std::string line;
+  for (const Rational& value : answer.state) line += fmt::format("{},", nearest_double(value));
+  if (answer.location.kind != Location::Kind::cell) {
+    const bool left_safely = answer.location.kind == Location::Kind::left_safely;
+    line += left_safely ? "0,,1,1," : "0,,,,";
+    for (const StoredPartition& partition : results.partitions()) {
+      line += std::string(2 + partition.classes.size(), ',');
+    }
+    return line + "\n";
+  }
+  line += fmt::format("1,{},{:d},{:d},{}", answer.location.cell, answer.safe, answer.invariant,
+                      csv_steps(answer.collision_time));
+  for (const StateAnswer::Partition& partition : answer.partitions) {
+    line += "," + csv_steps(partition.delay) + "," + csv_steps(partition.trigger);
+    for (const std::vector<bool>& actions : partition.actions) line += "," + csv_actions(actions);
+  }
+  return line + "\n";
+}
+
+}  // namespace coordreq

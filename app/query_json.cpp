@@ -1,0 +1,155 @@
+#include "app/json_text.hpp"
+#include "app/query_report.hpp"
+#include "app/query_values.hpp"
+#include "trigger/trigger_table.hpp"
+
+namespace coordreq {
+namespace {
+
+Json numbers_json(const std::vector<Rational>& values, const UniformGrid& grid) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < grid.size(); ++i) json[grid[i].name] = nearest_double(values[i]);
+  return json;
+}
+
+Json cell_json(const UniformGrid& grid, const Location& location) {
+  const CellBox box = box_of_cell(grid, location.cell);
+  Json json;
+  json["number"] = location.cell;
+  json["index"] = location.index;
+  json["center"] = numbers_json(box.centre, grid);
+  json["lower"] = numbers_json(box.lower, grid);
+  json["upper"] = numbers_json(box.upper, grid);
+  return json;
+}
+
+const char* rule_word(const GridDimension& dimension, const Location& location) {
+  switch (location.above ? dimension.above : dimension.below) {
+    case Outside::safe:
+      return "safe";
+    case Outside::saturate:
+      return "saturate";
+    case Outside::stop:
+      return "stop";
+    default:
+      return "unsafe";
+  }
+}
+
+Json outside_json(const UniformGrid& grid, const Location& location) {
+  const GridDimension& dimension = grid[location.dimension];
+  Json json;
+  json["state"] = dimension.name;
+  if (location.kind == Location::Kind::off_grid) {
+    json["reason"] = "off_grid";
+    return json;
+  }
+  json["reason"] = "beyond";
+  json["side"] = location.above ? "above" : "below";
+  json["rule"] = rule_word(dimension, location);
+  return json;
+}
+
+/// A number of steps, or null and a word why there is none.
+void add_steps(Json& json, const std::string& name, std::int32_t steps, const char* status,
+               const ResultsReader& results) {
+  const bool finite = steps >= 0 && steps != ResultsReader::kNever;
+  const Rational time = results.spec().dynamics.period * Rational(static_cast<long>(steps));
+  json[name] = finite ? Json(steps) : Json();
+  json[name + "_time"] = finite ? Json(nearest_double(time)) : Json();
+  json[name + "_status"] = status;
+}
+
+const char* delay_status(std::int32_t delay, const StoredPartition& partition) {
+  if (delay == -2) return "not_safe";
+  if (delay == -1) return "not_invariant";
+  if (delay == ResultsReader::kNever) return "unbounded";
+  return is_lower_bound(delay, partition) ? "at_least" : "steps";
+}
+
+const char* trigger_status(std::int32_t trigger) {
+  if (trigger == TriggerTable::kMustBeConnected) return "connection_must_stand_already";
+  if (trigger == -2) return "not_safe";
+  if (trigger == -1) return "not_invariant";
+  return trigger == ResultsReader::kNever ? "never" : "steps";
+}
+
+Json class_json(const ProblemSpec& spec, const std::string& name, const std::vector<std::int32_t>& inputs,
+                const std::vector<bool>& actions) {
+  Json json;
+  json["name"] = name;
+  json["inputs"] = Json::array();
+  for (const std::int32_t i : inputs) json["inputs"].push_back(spec.inputs[static_cast<std::size_t>(i)].name);
+  json["total"] = actions.size();
+  json["actions"] = Json::array();
+  json["values"] = Json::array();
+  for (std::size_t a = 0; a < actions.size(); ++a) {
+    if (!actions[a]) continue;
+    json["actions"].push_back(a);
+    Json tuple = Json::array();
+    for (const Rational& value : values_of(spec, inputs, a)) tuple.push_back(nearest_double(value));
+    json["values"].push_back(std::move(tuple));
+  }
+  return json;
+}
+
+Json partition_json(const StateAnswer::Partition& answer, std::size_t p, const ResultsReader& results) {
+  const StoredPartition& stored = results.partitions()[p];
+  Json json;
+  json["name"] = stored.name;
+  add_steps(json, "delay", answer.delay, delay_status(answer.delay, stored), results);
+  add_steps(json, "countdown", answer.trigger, trigger_status(answer.trigger), results);
+  json["classes"] = Json::array();
+  for (std::size_t c = 0; c < answer.actions.size(); ++c) {
+    const auto inputs = inputs_of_class(results.spec(), results.spec().coordination.partitions[p].classes[c]);
+    json["classes"].push_back(class_json(results.spec(), stored.classes[c], inputs, answer.actions[c]));
+  }
+  return json;
+}
+
+Json json_of(const StateAnswer& answer, const ResultsReader& results) {
+  const bool inside = answer.location.kind == Location::Kind::cell;
+  const bool left_safely = answer.location.kind == Location::Kind::left_safely;
+  Json json;
+  json["state"] = numbers_json(answer.state, results.grid());
+  json["guarantee"] = results.attributes().guarantee;
+  json["inside"] = inside;
+  json["outside"] = inside ? Json() : outside_json(results.grid(), answer.location);
+  json["cell"] = inside ? cell_json(results.grid(), answer.location) : Json();
+  json["safe"] = inside ? Json(answer.safe) : left_safely ? Json(true) : Json();
+  json["invariant"] = inside ? Json(answer.invariant) : left_safely ? Json(true) : Json();
+  const bool leaves = inside && answer.collision_time != ResultsReader::kNever;
+  json["collision_time"] = leaves ? Json(answer.collision_time) : Json();
+  json["partitions"] = Json::array();
+  for (std::size_t p = 0; p < answer.partitions.size(); ++p) {
+    json["partitions"].push_back(partition_json(answer.partitions[p], p, results));
+  }
+  return json;
+}
+
+}  // namespace
+
+bool is_lower_bound(std::int32_t delay, const StoredPartition& partition) {
+  return partition.truncated() && delay + 1 == static_cast<std::int64_t>(partition.layer_sizes.size());
+}
+
+std::vector<Rational> values_of(const ProblemSpec& spec, const std::vector<std::int32_t>& inputs,
+                                std::size_t action) {
+  std::vector<Rational> values(inputs.size());
+  for (std::size_t j = inputs.size(); j-- > 0;) {
+    const std::vector<Rational>& choices = spec.inputs[static_cast<std::size_t>(inputs[j])].values;
+    values[j] = choices[action % choices.size()];
+    action /= choices.size();
+  }
+  return values;
+}
+
+std::string answer_json(const StateAnswer& answer, const ResultsReader& results) {
+  return json_text(json_of(answer, results));
+}
+
+std::string answer_json_line(const StateAnswer& answer, const ResultsReader& results) {
+  return json_of(answer, results).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace coordreq

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/thread_team.hpp"
+#include "results/results_reader.hpp"
+#include "trigger/simulate_runs.hpp"
+
+namespace coordreq {
+
+using NamedValues = std::vector<std::pair<std::string, Rational>>;
+
+struct SimulationOptions {
+  std::optional<std::string> start;  ///< as parse_state() reads it; none: uniform over K
+  std::string partition;             ///< given or canonical name; empty: the only one
+  std::int64_t steps = 0;
+  std::int64_t runs = 1;
+  Policy policy = Policy::random;
+  Disturbance disturbance = Disturbance::random;
+  NamedValues constant_disturbance;  ///< those not named are in the middle of their ranges
+  std::uint64_t seed = 1;
+  std::optional<std::string> output;        ///< path of the file of runs
+  std::optional<std::uint64_t> max_memory;  ///< bytes
+  /// Told which stage begins: "checking", "running", "writing"; there are temporary files in all but
+  /// "running". May be empty.
+  std::function<void(const std::string& stage)> entered;
+};
+
+/// Runs, and what they say together.
+struct Simulation {
+  std::string partition;
+  std::vector<RunTrace> traces;
+
+  [[nodiscard]] std::int64_t count(Outcome outcome) const;
+  /// Over all runs.
+  [[nodiscard]] std::int64_t steps() const;
+  [[nodiscard]] std::int64_t coordinated_steps() const;
+  [[nodiscard]] std::int64_t longest_silence() const;
+  [[nodiscard]] double smallest_margin() const;
+  /// The first run that contradicts the analysis.
+  [[nodiscard]] std::optional<std::size_t> violation() const;
+};
+
+/// "completed", "left_safely", "left_invariant", "no_action".
+[[nodiscard]] std::string outcome_name(Outcome outcome);
+/// "random", "adversarial", "prefer"; "random", "extremes", "constant".
+[[nodiscard]] std::string policy_name(Policy policy);
+[[nodiscard]] std::string disturbance_name(Disturbance disturbance);
+
+/// Self-triggered closed loops on the system of a results file, from its K, its delays and its abstraction,
+/// which is built again unless it is stored. Writes them to `options.output`, also runs that contradict the
+/// analysis.
+/// @throws UsageError naming the option whose value does not fit the results; SpecError if the spec holds
+/// what
+///   this version cannot do; LimitError, ResultsError, IoError
+[[nodiscard]] Simulation simulate(const ResultsReader& results, const SimulationOptions& options,
+                                  ThreadTeam& team);
+
+}  // namespace coordreq

@@ -1,0 +1,126 @@
+#pragma once
+
+// The parts of an exported C header that do not depend on its tables, as format strings. $P stands for the
+// prefix of its functions and tables, $M for that of its macros.
+namespace coordreq::c_header {
+
+inline constexpr char kOpening[] =
+    R"c(/* Trigger table of "{name}", partition {partition}, written by coordreq.
+
+   guarantee      {guarantee}
+   spec SHA-256   {sha}
+   states         {states}
+{classes}
+   C99, no library but <stdint.h>; hexadecimal floating-point constants are exact.
+   Include it in one file only: the tables are static. */
+
+#ifndef $M_H
+#define $M_H
+
+#include <stdint.h>
+)c";
+
+inline constexpr char kNumbers[] = R"c(
+#define $M_STATES {dimensions}
+#define $M_CELLS {cells}
+#define $M_CLASSES {class_count}
+
+/* Instead of a cell. */
+#define $M_OUTSIDE (-1)     /* outside the domain: nothing is known */
+#define $M_LEFT_SAFELY (-2) /* beyond a side where all is safe for ever */
+
+/* Instead of a countdown in steps. */
+#define $M_NEVER INT32_MAX             /* the classes never need to coordinate */
+#define $M_NOT_INVARIANT (-1)          /* nothing keeps the system safe from here */
+#define $M_NOT_SAFE (-2)               /* not safe now */
+#define $M_CONNECTION_MUST_STAND (-3)  /* too late to connect */
+)c";
+
+inline constexpr char kFunctions[] = R"c(
+/* The last of the `count` ascending bounds that is not above x; 0 if all are. */
+static inline uint32_t $P_last_not_above(const double *bound, uint32_t count, double x) {{
+  uint32_t low = 0, high = count;
+  while (high - low > 1) {{
+    const uint32_t middle = low + (high - low) / 2;
+    if (bound[middle] <= x) {{
+      low = middle;
+    }} else {{
+      high = middle;
+    }}
+  }}
+  return low;
+}}
+
+/* Index of x in dimension i, -1 if it is beyond a side, -2 beyond a side that is safe. */
+static inline int32_t $P_index(uint32_t i, double x) {{
+  const double *bound = $P_bound + $P_bound_first[i];
+  const uint32_t count = $P_bound_count[i];
+  const uint32_t place = $P_last_not_above(bound, count, x);
+  if (!(x >= bound[0])) return x < bound[0] && $P_safe_below[i] ? $M_LEFT_SAFELY : $M_OUTSIDE;
+  if ($P_discrete[i]) {{
+    if (x == bound[place]) return (int32_t)place;
+    return x > bound[count - 1] && $P_safe_above[i] ? $M_LEFT_SAFELY : $M_OUTSIDE;
+  }}
+  if (place == count - 1) return $P_safe_above[i] ? $M_LEFT_SAFELY : $M_OUTSIDE;
+  return $P_wraps[i] && place == $P_points[i] ? 0 : (int32_t)place;
+}}
+
+/* The cell of a measured state, $M_OUTSIDE or $M_LEFT_SAFELY. A periodic state must be given in its period
+   [lower, upper). */
+static inline int32_t $P_cell(const double state[$M_STATES]) {{
+  int32_t cell = 0;
+  int left = 0;
+  uint32_t i;
+  for (i = 0; i < $M_STATES; ++i) {{
+    const int32_t index = $P_index(i, state[i]);
+    if (index == $M_OUTSIDE) return $M_OUTSIDE;
+    if (index == $M_LEFT_SAFELY) {{
+      left = 1;
+    }} else {{
+      cell = cell * (int32_t)$P_points[i] + index;
+    }}
+  }}
+  return left ? $M_LEFT_SAFELY : cell;
+}}
+
+/* The entry of a cell, 0 <= cell < $M_CELLS. */
+static inline uint32_t $P_entry_of(int32_t cell) {{
+  uint32_t low = 0, high = $M_RUNS;
+  while (high - low > 1) {{
+    const uint32_t middle = low + (high - low) / 2;
+    if ($P_start[middle] <= (uint32_t)cell) {{
+      low = middle;
+    }} else {{
+      high = middle;
+    }}
+  }}
+  return $P_entry[low];
+}}
+
+/* Steps until the agents must start to connect, or one of the numbers above. 0 <= cell < $M_CELLS. */
+static inline int32_t $P_countdown(int32_t cell) {{
+  return $P_entry_countdown[$P_entry_of(cell)];
+}}
+
+/* Whether class c may take its joint action a, 0 <= a < $P_action_count(c). 0 <= cell < $M_CELLS. */
+static inline int $P_allowed(int32_t cell, uint32_t c, uint32_t a) {{
+  const uint32_t set = $P_entry_set[$P_entry_of(cell) * $M_CLASSES + c];
+  return $P_set_bits[$P_set_first[c] + set * $P_set_width[c] + a / 8] >> (a % 8) & 1;
+}}
+
+/* Number of joint actions of class c. */
+static inline uint32_t $P_action_count(uint32_t c) {{
+  return $P_set_actions[c];
+}}
+
+/* The value of the j-th input of class c in its joint action a: row-major, the last input fastest. */
+static inline double $P_input(uint32_t c, uint32_t a, uint32_t j) {{
+  uint32_t i = $P_class_first[c + 1] - 1;
+  for (; i > $P_class_first[c] + j; --i) a /= $P_value_count[i];
+  return $P_value[$P_value_first[i] + a % $P_value_count[i]];
+}}
+
+#endif
+)c";
+
+}  // namespace coordreq::c_header

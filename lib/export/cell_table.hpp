@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grid/cell_block.hpp"
+#include "results/results_reader.hpp"
+
+namespace coordreq {
+
+/// What is left of a table over cells.
+struct TableSelection {
+  struct Slice {
+    std::size_t dimension = 0;
+    std::int64_t index = 0;
+  };
+  struct Projection {
+    std::size_t dimension = 0;
+    bool largest = false;  ///< else the smallest value along the dimension
+  };
+  std::vector<Slice> slices;
+  std::vector<Projection> projections;   ///< carried out in this order
+  std::optional<std::size_t> partition;  ///< none: all
+};
+
+/// A column of numbers over cells: safe, invariant, collision time, delay, countdown.
+struct CellColumn {
+  std::string name;
+  std::function<std::vector<std::int32_t>(const CellBlock&)> read;
+  /// Rank of a value where numbers are compared: codes of what is no number of steps have their place.
+  double (*rank)(std::int32_t value) = nullptr;
+};
+[[nodiscard]] std::vector<CellColumn> cell_columns(const ResultsReader& results,
+                                                   std::optional<std::size_t> partition);
+
+/// The columns over what a selection leaves of the cells, in the row-major order of the dimensions that
+/// remain.
+///
+/// Parts of about a million cells are read at a time. Without projections each is handed on at once; with
+/// projections memory is 4 bytes for each column and each cell that is left after the first projections of
+/// one kind.
+class CellTable {
+ public:
+  /// REQUIRES: `results` outlives this object; every dimension at most once in the selection.
+  CellTable(const ResultsReader& results, TableSelection selection);
+
+  [[nodiscard]] const std::vector<CellColumn>& columns() const { return columns_; }
+  /// Dimensions that are not projected, ascending; a sliced one has one index.
+  [[nodiscard]] const std::vector<std::size_t>& dimensions() const { return kept_; }
+
+  /// Called for one row after the other: grid indices of `dimensions()`, and one value a column.
+  using Row =
+      std::function<void(const std::vector<std::int64_t>& index, const std::vector<std::int32_t>& values)>;
+  void for_each_row(const Row& row) const;
+
+ private:
+  using Values = std::vector<std::vector<std::int32_t>>;  // by column
+
+  void for_each_part(CellBlock block, std::size_t dimension,
+                     const std::function<void(const CellBlock&)>& visit) const;
+  [[nodiscard]] Values read(const CellBlock& part) const;
+  void visit_rows(const CellBlock& block, const Values& values, const Row& row) const;
+  [[nodiscard]] Values projected(CellBlock& block) const;
+  void merge(std::size_t column, std::int32_t value, bool largest, std::int32_t& into, bool first) const;
+
+  const ResultsReader& results_;
+  TableSelection selection_;
+  std::vector<CellColumn> columns_;
+  std::vector<std::size_t> kept_;
+  CellBlock block_;  ///< after slices
+};
+
+}  // namespace coordreq

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "expression/domains.hpp"
+#include "expression/evaluate.hpp"
+
+namespace coordreq {
+
+/// The value of a number expression at a point, for simulation: correctly rounded where every operation is
+/// rational, so that values that are equal on paper are equal; else in plain double arithmetic, without a
+/// bound on its error. Scratch inside: one object a thread.
+class PointValue {
+ public:
+  /// REQUIRES: `program` outlives this object and is a number.
+  explicit PointValue(const Program& program) : fast_(program), exact_(program) {}
+
+  /// In double arithmetic. NaN where it is undefined.
+  [[nodiscard]] double approximate(std::span<const double> slots) { return fast_.number(slots); }
+  /// NaN where it is undefined.
+  [[nodiscard]] double value(std::span<const Rational> slots);
+
+ private:
+  Evaluator<double> fast_;
+  Evaluator<RationalInterval> exact_;
+  std::vector<RationalInterval> points_;
+  std::vector<double> doubles_;
+};
+
+}  // namespace coordreq

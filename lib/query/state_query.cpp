@@ -1,0 +1,36 @@
+#include "query/state_query.hpp"
+
+#include <utility>
+
+namespace coordreq {
+
+StateAnswer StateQuery::at(std::vector<Rational> state) {
+  StateAnswer answer;
+  answer.location = locate(results_.grid(), state);
+  answer.state = std::move(state);
+  if (answer.location.kind != Location::Kind::cell) return answer;
+  const std::int64_t cell = answer.location.cell;
+  const CellBlock block = one_cell(results_.grid(), cell);
+  answer.safe = results_.safe(block).front() != 0;
+  answer.invariant = results_.invariant(block).front() != 0;
+  answer.collision_time = results_.collision_time(block).front();
+  for (std::size_t p = 0; p < results_.partitions().size(); ++p) {
+    answer.partitions.push_back({.delay = results_.delay(p, block).front(),
+                                 .trigger = results_.trigger(p, block).front(),
+                                 .actions = controller_.actions(p, cell)});
+  }
+  return answer;
+}
+
+CellBox box_of_cell(const UniformGrid& grid, std::int64_t cell) {
+  CellBox box;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const Rational centre = grid[i].point(grid.index(cell, i));
+    box.centre.push_back(centre);
+    box.lower.push_back(centre - grid[i].radius());
+    box.upper.push_back(centre + grid[i].radius());
+  }
+  return box;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/thread_team.hpp"
+#include "grid/locate.hpp"
+#include "numeric/rational.hpp"
+#include "query/cell_controller.hpp"
+#include "results/results_reader.hpp"
+
+namespace coordreq {
+
+/// Everything that a results file knows about one state.
+struct StateAnswer {
+  struct Partition {
+    std::int32_t delay = 0;                  ///< steps, as ResultsReader::delay()
+    std::int32_t trigger = 0;                ///< steps, as ResultsReader::trigger()
+    std::vector<std::vector<bool>> actions;  ///< admissible joint actions, [class][action]
+  };
+  std::vector<Rational> state;
+  Location location;
+  // The rest only where the location is a cell.
+  bool safe = false;
+  bool invariant = false;
+  std::int32_t collision_time = 0;  ///< steps, as ResultsReader::collision_time()
+  std::vector<Partition> partitions;
+};
+
+/// Answers questions about states. Not thread-safe.
+class StateQuery {
+ public:
+  /// REQUIRES: `results` and `team` outlive this object.
+  StateQuery(const ResultsReader& results, ThreadTeam& team)
+      : results_(results), controller_(results, team) {}
+
+  /// @param state one value a state of the spec. A state outside of the domain has an answer too.
+  /// @throws ResultsError if the file is damaged, or needed actions are neither stored nor computable
+  [[nodiscard]] StateAnswer at(std::vector<Rational> state);
+
+ private:
+  const ResultsReader& results_;
+  CellController controller_;
+};
+
+/// The box of a cell: its lower and upper ends in every dimension, equal for a discrete one.
+struct CellBox {
+  std::vector<Rational> centre;
+  std::vector<Rational> lower;
+  std::vector<Rational> upper;
+};
+[[nodiscard]] CellBox box_of_cell(const UniformGrid& grid, std::int64_t cell);
+
+}  // namespace coordreq

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <istream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "numeric/rational.hpp"
+
+namespace coordreq {
+
+/// Reads states from a stream, one a line, as CSV or as JSON lines: what the first line is decides.
+///
+/// CSV: the first line names the states, in any order; values are decimals or constant expressions, in quotes
+/// ("...") where they hold commas. JSON lines: an object a line, whose values are numbers or strings with a
+/// constant expression. Numbers are exact: the decimals that were typed. Empty lines are skipped.
+/// Errors are UsageErrors that name the line; a stream that cannot be read is an IoError.
+class StateReader {
+ public:
+  enum class Format : std::uint8_t { csv, json_lines };
+
+  /// Reads up to the first line that is not empty. REQUIRES: `stream` outlives this object.
+  /// @param names of the states. @param source for messages
+  StateReader(std::istream& stream, std::vector<std::string> names, std::string source);
+
+  [[nodiscard]] Format format() const { return format_; }
+  /// The next state, in the order of `names`; nothing at the end.
+  [[nodiscard]] std::optional<std::vector<Rational>> next();
+
+ private:
+  [[nodiscard]] bool read_line();
+  [[nodiscard]] std::string place() const;
+  void read_header();
+  [[nodiscard]] std::vector<Rational> csv_state() const;
+  [[nodiscard]] std::vector<Rational> json_state() const;
+
+  std::istream& stream_;
+  std::vector<std::string> names_;
+  std::string source_;
+  Format format_ = Format::csv;
+  std::vector<std::size_t> columns_;  ///< state of each CSV column
+  std::string line_;
+  std::int64_t line_number_ = 0;
+  bool pending_ = false;  ///< `line_` has not been used yet
+};
+
+}  // namespace coordreq

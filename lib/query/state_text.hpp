@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "numeric/rational.hpp"
+
+namespace coordreq {
+
+/// The exact value of a decimal such as "-0.25" or of a constant expression such as "1/3" or "pi/4"
+/// (irrational values are their correctly rounded doubles).
+/// @param where for the message. @throws UsageError
+[[nodiscard]] Rational parse_value(std::string_view text, const std::string& where);
+
+/// "x1=0.1,x2=1/3": one value a name, in any order. Commas in parentheses belong to a value.
+/// @param names of the states. @returns the values in the order of `names`
+/// @throws UsageError naming what is unknown, missing, given twice or no number
+[[nodiscard]] std::vector<Rational> parse_state(std::string_view text, const std::vector<std::string>& names,
+                                                const std::string& where);
+
+/// `text` without blanks at its ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/// The text cut at commas that stand in no parentheses.
+[[nodiscard]] std::vector<std::string_view> split_at_commas(std::string_view text);
+
+/// Position of a state in `names`. @throws UsageError with a suggestion if there is none of this name
+[[nodiscard]] std::size_t state_number(std::string_view name, const std::vector<std::string>& names,
+                                       const std::string& where);
+
+}  // namespace coordreq
