@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "grid/pieces.hpp"
-#include "verify/box_choices.hpp"
 #include "verify/check_abstraction.hpp"
 #include "verify/flow_bounds.hpp"
 #include "verify/map_bounds.hpp"
 #include "verify/odometer.hpp"
+#include "verify/piece_choices.hpp"
 
 namespace coordreq {
 namespace {
@@ -62,7 +62,7 @@ class OutwardPosts {
     if (has_stops(spec_, influences_) || claimed_.entries.size() != table_.entries.size())
       return std::nullopt;
     shifts_ = follows_itself();
-    const BoxChoices choices(spec_, grid_, inputs_, table_, shifts_ ? std::optional(state_) : std::nullopt);
+    const PieceChoices choices(spec_, grid_, inputs_, table_, shifts_ ? std::optional(state_) : std::nullopt);
     std::atomic<bool> enclosed = true;
     std::vector<std::unique_ptr<Bounds>> bounds(static_cast<std::size_t>(team.size()));
     team.for_each(choices.size(), 64, [&](ThreadTeam::Range range, int worker) {
@@ -97,7 +97,7 @@ class OutwardPosts {
     return Bounds(spec_, influences_, state_).map().follows(everything, own);
   }
 
-  bool fill(const BoxChoices& choices, const Odometer& choice, Bounds& bounds) {
+  bool fill(const PieceChoices& choices, const Odometer& choice, Bounds& bounds) {
     const std::int64_t base = choices.position(choice);
     for (const int halvings : {0, 1, 3, kMostHalvings}) {
       const std::optional<IndexRange> range = met_from(choices, choice, bounds, halvings);
@@ -108,7 +108,7 @@ class OutwardPosts {
     return true;
   }
 
-  [[nodiscard]] std::optional<IndexRange> met_from(const BoxChoices& choices, const Odometer& choice,
+  [[nodiscard]] std::optional<IndexRange> met_from(const PieceChoices& choices, const Odometer& choice,
                                                    Bounds& bounds, int halvings) const {
     std::vector<Interval> slots = slots_;
     if (shifts_) slots[spec_.state_slot(state_)] = {0.0, 0.0};

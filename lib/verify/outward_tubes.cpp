@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "grid/pieces.hpp"
-#include "verify/box_choices.hpp"
 #include "verify/check_tube.hpp"
+#include "verify/piece_choices.hpp"
 #include "verify/tube_bounds.hpp"
 
 namespace coordreq {
@@ -126,7 +126,7 @@ class OutwardTubes {
   const PostTable& claimed_;
   Influences influences_;
   bool alike_;  ///< see flows_alike(): cells of the state itself are moved alike
-  BoxChoices choices_;
+  PieceChoices choices_;
   std::vector<Interval> slots_;
   TubeTally tally_;
   std::size_t own_ = 0;                     ///< among the variables of choices_

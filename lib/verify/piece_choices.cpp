@@ -1,4 +1,4 @@
-#include "verify/box_choices.hpp"
+#include "verify/piece_choices.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -39,8 +39,8 @@ bool flows_alike(const ProblemSpec& spec, const Influences& influences, std::siz
   });
 }
 
-BoxChoices::BoxChoices(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
-                       const PostTable& table, std::optional<std::size_t> left_out) {
+PieceChoices::PieceChoices(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+                           const PostTable& table, std::optional<std::size_t> left_out) {
   for (const std::size_t j : table.states) {
     if (left_out != j) add(spec.state_slot(j), table.state_stride[j], boxes_in(grid[j]));
   }
@@ -48,19 +48,19 @@ BoxChoices::BoxChoices(const ProblemSpec& spec, const UniformGrid& grid, const I
     add(spec.input_slot(j), table.input_stride[j], boxes_in(inputs[j]));
 }
 
-void BoxChoices::add(std::uint32_t slot, std::int64_t stride, std::vector<std::vector<Interval>> boxes) {
+void PieceChoices::add(std::uint32_t slot, std::int64_t stride, std::vector<std::vector<Interval>> boxes) {
   counts_.push_back(static_cast<std::int64_t>(boxes.size()));
   size_ *= counts_.back();
   variables_.push_back({slot, stride, std::move(boxes)});
 }
 
-std::int64_t BoxChoices::position(const Odometer& choice) const {
+std::int64_t PieceChoices::position(const Odometer& choice) const {
   std::int64_t position = 0;
   for (std::size_t v = 0; v < variables_.size(); ++v) position += choice[v] * variables_[v].stride;
   return position;
 }
 
-std::size_t BoxChoices::variable(std::uint32_t slot) const {
+std::size_t PieceChoices::variable(std::uint32_t slot) const {
   const auto found = std::find_if(variables_.begin(), variables_.end(),
                                   [slot](const Variable& variable) { return variable.slot == slot; });
   return static_cast<std::size_t>(found - variables_.begin());

@@ -23,11 +23,11 @@ namespace coordreq {
 
 /// All choices of one index for each state and input that a table ranges over, with their boxes in doubles.
 /// Immutable.
-class BoxChoices {
+class PieceChoices {
  public:
   /// @param left_out a state that is not chosen: its entries follow from those of index 0
-  BoxChoices(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
-             const PostTable& table, std::optional<std::size_t> left_out);
+  PieceChoices(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+               const PostTable& table, std::optional<std::size_t> left_out);
 
   [[nodiscard]] const std::vector<std::int64_t>& counts() const { return counts_; }
   [[nodiscard]] std::int64_t size() const { return size_; }
