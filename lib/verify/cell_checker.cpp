@@ -125,7 +125,7 @@ std::int32_t CellChecker::least(std::int64_t u, const std::vector<std::int32_t>&
 }
 
 void CellChecker::forget() {
-  memory_.assign(posts_.memory_size(), CellPosts::kNotKnown);
+  memory_.assign(posts_.memory_size(), PostMinima::kNotKnown);
 }
 
 /// A cell of S outside K: why no coordination helps.

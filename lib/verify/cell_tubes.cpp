@@ -24,7 +24,7 @@ Tubes make_tubes(const UniformGrid& grid, const InputSpace& inputs, const std::v
 
 void CellTubes::go_to(std::int64_t cell) {
   covering_.go_to(cell);
-  inside_memory_.assign(covering_.memory_size(), CellPosts::kNotKnown);
+  inside_memory_.assign(covering_.memory_size(), PostMinima::kNotKnown);
   beyond_memory_ = inside_memory_;
   const Posts& posts = tubes_->covering;
   first_.clear();

@@ -36,7 +36,7 @@ class CellTubes {
   [[nodiscard]] bool passes(std::int64_t u) const;
 
   const Tubes* tubes_;
-  CellPosts covering_;
+  PostMinima covering_;
   std::vector<std::int64_t> first_;  ///< [state]: entry of the cell
   bool may_pass_ = false;            ///< under some input
   std::vector<std::int32_t> inside_memory_;
