@@ -60,7 +60,9 @@ class CornerPosts {
     std::vector<std::int64_t> counts;
     const bool cut = jumps_at_a_seam(map);
     for (std::size_t j = 0; j < influences_.moving.size(); ++j) {
-      parts.push_back(contribution(influences_.moving[j], map.coefficient[j], cut));
+      // A state that others only move along goes round with its cell: that need not be cut at the seam.
+      const bool follows = influences_.moving[j] == state_ && map.coefficient[j] == 1;
+      parts.push_back(contribution(influences_.moving[j], map.coefficient[j], cut && !follows));
       counts.push_back(grid_[influences_.moving[j]].count);
     }
     const bool attained = !map.exact || !grows_with_an_open_cell(map);
