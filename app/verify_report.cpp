@@ -40,6 +40,15 @@ std::string examples(const Verification& result) {
   return text;
 }
 
+/// On what the verdict on the ways between the samples rests; empty if they do not matter.
+std::string tubes_text(const Verification& result) {
+  if (!result.tubes) return "";
+  return *result.tubes == PostBasis::exact
+             ? "between the samples: exact, extremes in time from the corners of the cells\n"
+             : "between the samples: tubes of the analysis, computed anew, which hold independent "
+               "enclosures\n";
+}
+
 /// On what the verdict rests.
 std::string basis_text(const Verification& result) {
   if (result.basis == PostBasis::exact) return "reachable sets: exact, from the corners of the cells";
@@ -90,8 +99,8 @@ Json finding_json(const Finding& finding) {
 std::string verification_text(const Verification& result, const std::string& path, double seconds,
                               int threads) {
   return fmt::format("{}\n{}{}\n{} ({:.2f} s on {} thread{})\n", findings_table(result),
-                     basis_text(result) + "\n", examples(result), verdict(result, path), seconds, threads,
-                     threads == 1 ? "" : "s");
+                     basis_text(result) + "\n" + tubes_text(result), examples(result), verdict(result, path),
+                     seconds, threads, threads == 1 ? "" : "s");
 }
 
 std::string verification_json(const Verification& result, const std::string& path, double seconds,
@@ -103,6 +112,7 @@ std::string verification_json(const Verification& result, const std::string& pat
   json["cells"] = result.cells;
   json["cells_checked"] = result.cells_checked;
   json["reachable_sets"] = basis_word(result.basis);
+  json["between_samples"] = result.tubes ? Json(basis_word(*result.tubes)) : Json(nullptr);
   json["not_independent"] = result.borrowed;
   json["checks"] = Json::array();
   for (const Finding& finding : result.findings) json["checks"].push_back(finding_json(finding));

@@ -56,6 +56,7 @@ CellChecker::CellChecker(const CellCheck& check, CellTallies& tallies, SafeMemor
       judge_(*check.spec, *check.grid, memory),
       inputs_(check.inputs->count()),
       admitted_(static_cast<std::size_t>(inputs_)) {
+  if (check.tubes != nullptr) tubes_.emplace(*check.tubes);
   for (const PartitionSpec& partition : spec_.coordination.partitions) {
     Partition& own = partitions_.emplace_back();
     for (const auto& agents : partition.classes) {
@@ -73,6 +74,7 @@ void CellChecker::check(std::int64_t cell) {
     check_outside();
   } else {
     posts_.go_to(cell);
+    if (tubes_) tubes_->go_to(cell);
     allowed_.go_to(cell);
     if (claims_.invariant[at()] == 0) {
       check_escape();
@@ -118,11 +120,12 @@ void CellChecker::check_collision_time(std::int32_t expected) {
 
 std::int32_t CellChecker::least(std::int64_t u, const std::vector<std::int32_t>& values,
                                 std::int32_t blocked) {
-  return posts_.least(u, values, blocked, kForever, memory_);
+  const std::int32_t value = posts_.least(u, values, blocked, kForever, memory_);
+  return value != blocked && tubes_ && !tubes_->is_safe(u) ? blocked : value;
 }
 
 void CellChecker::forget() {
-  memory_.assign(posts_.memory_size(), CellPosts::kNotKnown);
+  memory_.assign(posts_.memory_size(), PostMinima::kNotKnown);
 }
 
 /// A cell of S outside K: why no coordination helps.

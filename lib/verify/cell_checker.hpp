@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,7 +59,7 @@ class CellChecker {
   [[nodiscard]] std::int64_t wrong_bits(const std::vector<std::uint8_t>& bytes,
                                         const std::vector<std::uint8_t>& expected, bool& fewer) const;
 
-  /// min over the post of u; see CellPosts::least() and forget().
+  /// min over the post of u; see PostMinima::least() and forget().
   [[nodiscard]] std::int32_t least(std::int64_t u, const std::vector<std::int32_t>& values,
                                    std::int32_t blocked);
   /// To be called before least() is asked about other values.
@@ -72,7 +73,8 @@ class CellChecker {
   const ProblemSpec& spec_;
   const Claims& claims_;
   CellTallies& tallies_;
-  CellPosts posts_;
+  PostMinima posts_;
+  std::optional<CellTubes> tubes_;  ///< if the ways between the samples count
   AllowedPairs allowed_;
   SafeJudge judge_;
   std::vector<Partition> partitions_;

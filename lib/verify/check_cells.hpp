@@ -8,6 +8,7 @@
 #include "grid/input_space.hpp"
 #include "grid/uniform_grid.hpp"
 #include "spec/problem_spec.hpp"
+#include "verify/cell_tubes.hpp"
 #include "verify/claims.hpp"
 #include "verify/posts.hpp"
 #include "verify/tally.hpp"
@@ -27,6 +28,7 @@ struct CellCheck {
   const InputSpace* inputs = nullptr;
   const Claims* claims = nullptr;
   const Posts* posts = nullptr;
+  const Tubes* tubes = nullptr;  ///< null: only the samples count
   PostsAre posts_are = PostsAre::those_of_the_result;
   std::vector<std::int64_t> cells;  ///< to be checked, ascending; empty: all
   std::function<void(std::int64_t done, std::int64_t all)>
@@ -35,7 +37,7 @@ struct CellCheck {
 
 /// Checks everything that is said about single cells, straight from the definitions, one cell after the other
 /// and for each every joint input. With the conventions that a pair without post is worth 0, one that has
-/// left safely and every cell of K are worth infinity:
+/// left safely and every cell of K are worth infinity, and that a pair whose tube is not safe has no post:
 /// - S by its definition;
 /// - each cell of K keeps an allowed input whose post lies in K (`given`: every allowed input, and there is
 /// one);

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "grid/pieces.hpp"
 #include "verify/odometer.hpp"
+#include "verify/parameter_choices.hpp"
 #include "verify/post_table.hpp"
 
 namespace coordreq {
@@ -33,21 +34,17 @@ class CornerPosts {
         table_(empty_table(grid, inputs, influences_)) {}
 
   std::optional<PostTable> run(ThreadTeam& team) {
-    std::vector<std::int64_t> counts;
-    std::int64_t choices = 1;
-    for (const std::size_t j : influences_.parameters) counts.push_back(grid_[j].count);
-    for (const std::size_t j : influences_.inputs) counts.push_back(inputs_[j].count());
-    for (const std::int64_t count : counts) choices *= count;
+    const ParameterChoices choices(spec_, grid_, inputs_, influences_, table_);
     std::atomic<bool> affine = true;
     std::atomic<bool> exact = true;
-    team.for_each(choices, 1, [&](ThreadTeam::Range range, int) {
-      Odometer choice(counts, range.begin);
+    team.for_each(choices.size(), 1, [&](ThreadTeam::Range range, int) {
+      Odometer choice(choices.counts(), range.begin);
       for (std::int64_t i = range.begin; i < range.end && affine; ++i, choice.advance()) {
-        const std::optional<SampledMap> map = map_of(choice);
+        const std::optional<SampledMap> map = sampled_map(spec_, influences_, state_, choices.slots(choice));
         if (!map) {
           affine = false;
         } else {
-          fill(*map, base_of(choice));
+          fill(*map, choices.position(choice));
           if (!map->exact) exact = false;
         }
       }
@@ -58,30 +55,14 @@ class CornerPosts {
   }
 
  private:
-  [[nodiscard]] std::optional<SampledMap> map_of(const Odometer& choice) const {
-    std::vector<Rational> slots(spec_.slot_count());
-    std::size_t digit = 0;
-    for (const std::size_t j : influences_.parameters)
-      slots[spec_.state_slot(j)] = grid_[j].point(choice[digit++]);
-    for (const std::size_t j : influences_.inputs)
-      slots[spec_.input_slot(j)] = inputs_[j].values[static_cast<std::size_t>(choice[digit++])];
-    return sampled_map(spec_, influences_, state_, slots);
-  }
-
-  [[nodiscard]] std::int64_t base_of(const Odometer& choice) const {
-    std::int64_t base = 0;
-    std::size_t digit = 0;
-    for (const std::size_t j : influences_.parameters) base += choice[digit++] * table_.state_stride[j];
-    for (const std::size_t j : influences_.inputs) base += choice[digit++] * table_.input_stride[j];
-    return base;
-  }
-
   void fill(const SampledMap& map, std::int64_t base) {
     std::vector<Contribution> parts;
     std::vector<std::int64_t> counts;
     const bool cut = jumps_at_a_seam(map);
     for (std::size_t j = 0; j < influences_.moving.size(); ++j) {
-      parts.push_back(contribution(influences_.moving[j], map.coefficient[j], cut));
+      // A state that others only move along goes round with its cell: that need not be cut at the seam.
+      const bool follows = influences_.moving[j] == state_ && map.coefficient[j] == 1;
+      parts.push_back(contribution(influences_.moving[j], map.coefficient[j], cut && !follows));
       counts.push_back(grid_[influences_.moving[j]].count);
     }
     const bool attained = !map.exact || !grows_with_an_open_cell(map);

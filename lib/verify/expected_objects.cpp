@@ -71,9 +71,15 @@ class Expectation {
     root.texts["title"] = spec_.name;
     root.texts["Conventions"] = "CF-1.10";
     root.texts["spec_sha256"] = sha256_hex(spec_.text);
-    root.texts["guarantee"] = spec_.abstraction.safe == Membership::center ? "samples-center" : "samples";
+    root.texts["guarantee"] = guarantee();
     root.numbers["period"] = {nearest_double(spec_.dynamics.period)};
     root.texts["period_unit"] = spec_.dynamics.unit.empty() ? "" : udunits_spelling(spec_.dynamics.unit);
+  }
+
+  /// Contract, "What is guaranteed".
+  [[nodiscard]] std::string guarantee() const {
+    if (spec_.abstraction.safe == Membership::center) return "samples-center";
+    return spec_.abstraction.between_samples ? "continuous" : "samples";
   }
 
   void add_axis(const std::string& name, const std::string& unit, const std::string& role,

@@ -47,11 +47,12 @@ bool is_inside(const Interval& a, const Interval& b) {
 
 }  // namespace
 
-FlowBounds::FlowBounds(const ProblemSpec& spec, const Influences& influences, std::size_t state)
+FlowBounds::FlowBounds(const ProblemSpec& spec, const Influences& influences, std::size_t state,
+                       const Rational& duration)
     : spec_(&spec),
       n_(influences.moving.size()),
       m_(influences.disturbances.size()),
-      period_(enclose(spec.dynamics.period)),
+      period_(enclose(duration)),
       series_(
           [&] {
             std::vector<const Program*> equations;
@@ -74,12 +75,56 @@ FlowBounds::FlowBounds(const ProblemSpec& spec, const Influences& influences, st
 }
 
 std::optional<Interval> FlowBounds::after_period(const std::vector<Interval>& slots, int halvings) {
+  const std::optional<Ends> found = ends(slots, halvings);
+  if (!found) return std::nullopt;
+  return Interval{found->least.lower, found->greatest.upper};
+}
+
+std::optional<FlowBounds::Ends> FlowBounds::ends(const std::vector<Interval>& slots, int halvings) {
   if (known_.size() > kMostKnown) known_.clear();
   Box box = slots;
   return bounds(box, halvings);
 }
 
-std::optional<Interval> FlowBounds::bounds(Box& box, int halvings_left) {
+std::optional<FlowBounds::Motion> FlowBounds::motion(const std::vector<Interval>& slots, int parts) {
+  const Interval duration = period_ / point_of(parts);
+  Motion result;
+  Box now = slots;
+  Box tube = slots;
+  Box all = slots;
+  std::vector<Interval> change(n_);
+  for (int part = 0; part < parts; ++part) {
+    if (!enclose_solutions(now, duration, tube)) return std::nullopt;
+    // The image of the tube is a tube as well, and a narrower one.
+    series_.derivative(tube, change);
+    for (std::size_t i = 0; i < n_; ++i) {
+      const std::uint32_t slot = state_slots_[i];
+      tube[slot] = now[slot] + Interval{0.0, duration.upper} * change[i];
+      all[slot] = hull(all[slot], tube[slot]);
+    }
+    series_.derivative(tube, change);
+    if (!change[position_].total || !is_finite(change[position_])) return std::nullopt;
+    result.slope.push_back(change[position_]);
+    for (std::size_t i = 0; i < n_; ++i) now[state_slots_[i]] = now[state_slots_[i]] + duration * change[i];
+  }
+  const std::uint32_t own = state_slots_[position_];
+  result.stays_below_start = is_wall(all, {slots[own].upper, all[own].upper}, true);
+  result.stays_above_start = is_wall(all, {all[own].lower, slots[own].lower}, false);
+  return result;
+}
+
+/// Whether the state cannot get to where its derivative does not point: had it done so, it would have moved
+/// against its derivative since it was last inside.
+/// @param tube of all states; @param outside where the state would be
+bool FlowBounds::is_wall(Box tube, const Interval& outside, bool upper) {
+  tube[state_slots_[position_]] = outside;
+  std::vector<Interval> change(n_);
+  series_.derivative(tube, change);
+  const Interval& own = change[position_];
+  return own.total && (upper ? own.upper <= 0.0 : own.lower >= 0.0);
+}
+
+std::optional<FlowBounds::Ends> FlowBounds::bounds(Box& box, int halvings_left) {
   int steps = 2;
   while (!find_sensitivity(box, steps)) {
     steps *= 4;
@@ -100,18 +145,24 @@ std::optional<Interval> FlowBounds::bounds(Box& box, int halvings_left) {
     const std::optional<Interval> low = end_from(box, false);
     const std::optional<Interval> high = end_from(box, true);
     if (!low || !high) return std::nullopt;
-    return Interval{low->lower, high->upper};
+    return Ends{*low, *high};
   }
   const std::uint32_t slot = state_slots_[*without_sign];
   const Interval whole = box[slot];
   const double middle = middle_of(whole);
   box[slot] = {whole.lower, middle};
-  const std::optional<Interval> first = bounds(box, halvings_left - 1);
+  const std::optional<Ends> first = bounds(box, halvings_left - 1);
   box[slot] = {middle, whole.upper};
-  const std::optional<Interval> second = first ? bounds(box, halvings_left - 1) : std::nullopt;
+  const std::optional<Ends> second = first ? bounds(box, halvings_left - 1) : std::nullopt;
   box[slot] = whole;
   if (!second) return std::nullopt;
-  return hull(*first, *second);
+  const auto lesser = [](const Interval& a, const Interval& b) {
+    return Interval{std::min(a.lower, b.lower), std::min(a.upper, b.upper)};
+  };
+  const auto greater = [](const Interval& a, const Interval& b) {
+    return Interval{std::max(a.lower, b.lower), std::max(a.upper, b.upper)};
+  };
+  return Ends{lesser(first->least, second->least), greater(first->greatest, second->greatest)};
 }
 
 /// The row of M, and hulls of the kernels of the disturbances.

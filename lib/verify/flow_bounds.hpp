@@ -29,21 +29,44 @@ namespace coordreq {
 /// Over-approximates. Not thread-safe: one object a thread.
 class FlowBounds {
  public:
+  /// The least and the greatest end of the solutions from a box: each lies within an interval that holds the
+  /// end of some solution.
+  struct Ends {
+    Interval least;
+    Interval greatest;
+  };
+
+  /// @param duration from the beginning to the end, instead of the period
   /// REQUIRES: `spec` outlives this object; no `stop` at the limits of the states concerned.
-  FlowBounds(const ProblemSpec& spec, const Influences& influences, std::size_t state);
+  FlowBounds(const ProblemSpec& spec, const Influences& influences, std::size_t state,
+             const Rational& duration);
+  FlowBounds(const ProblemSpec& spec, const Influences& influences, std::size_t state)
+      : FlowBounds(spec, influences, state, spec.dynamics.period) {}
 
   /// @param slots boxes of all variables by slot
   /// @param halvings of the box in variables without sign, at most
   /// @returns nothing where a solution may escape, or the equations jump or are not defined
   [[nodiscard]] std::optional<Interval> after_period(const std::vector<Interval>& slots, int halvings);
+  /// The same, its two ends apart. A disturbance of constant size brings each of them about, or nearly.
+  [[nodiscard]] std::optional<Ends> ends(const std::vector<Interval>& slots, int halvings);
+
+  /// How the state moves along all solutions.
+  struct Motion {
+    std::vector<Interval> slope;    ///< bounds of its derivative over each of some equal parts of the period
+    bool stays_above_start = true;  ///< never gets below its initial box: the derivative does not point out
+    bool stays_below_start = true;  ///< likewise above it
+  };
+  /// @returns nothing as above
+  [[nodiscard]] std::optional<Motion> motion(const std::vector<Interval>& slots, int parts);
 
  private:
   using Box = std::vector<Interval>;     ///< by slot
   using Matrix = std::vector<Interval>;  ///< n x n, row-major
   using Place = std::vector<double>;
 
-  [[nodiscard]] std::optional<Interval> bounds(Box& box, int halvings_left);
+  [[nodiscard]] std::optional<Ends> bounds(Box& box, int halvings_left);
   [[nodiscard]] bool find_sensitivity(const Box& box, int step_count);
+  [[nodiscard]] bool is_wall(Box tube, const Interval& outside, bool upper);
   [[nodiscard]] bool find_jacobian(const Box& tube);
   [[nodiscard]] bool enclose_solutions(const Box& start, const Interval& duration, Box& tube);
   [[nodiscard]] std::optional<Interval> end_from(const Box& box, bool upper);

@@ -9,15 +9,12 @@
 #include "verify/flow_bounds.hpp"
 #include "verify/map_bounds.hpp"
 #include "verify/odometer.hpp"
+#include "verify/piece_choices.hpp"
 
 namespace coordreq {
 namespace {
 
 constexpr int kMostHalvings = 6;
-
-Interval box_of(const Rational& lower, const Rational& upper) {
-  return {lower_double(lower), upper_double(upper)};
-}
 
 /// Encloses a map or a flow, whichever the spec has.
 class Bounds {
@@ -62,27 +59,18 @@ class OutwardPosts {
   }
 
   std::optional<PostTable> run(ThreadTeam& team) {
-    if (stops() || claimed_.entries.size() != table_.entries.size()) return std::nullopt;
+    if (has_stops(spec_, influences_) || claimed_.entries.size() != table_.entries.size())
+      return std::nullopt;
     shifts_ = follows_itself();
-    for (const std::size_t j : table_.states) {
-      if (!(shifts_ && j == state_)) add(spec_.state_slot(j), table_.state_stride[j], boxes_of(grid_[j]));
-    }
-    for (const std::size_t j : table_.inputs)
-      add(spec_.input_slot(j), table_.input_stride[j], boxes_of(inputs_[j]));
-    std::vector<std::int64_t> counts;
-    std::int64_t choices = 1;
-    for (const Variable& variable : variables_) {
-      counts.push_back(static_cast<std::int64_t>(variable.boxes.size()));
-      choices *= counts.back();
-    }
+    const PieceChoices choices(spec_, grid_, inputs_, table_, shifts_ ? std::optional(state_) : std::nullopt);
     std::atomic<bool> enclosed = true;
     std::vector<std::unique_ptr<Bounds>> bounds(static_cast<std::size_t>(team.size()));
-    team.for_each(choices, 64, [&](ThreadTeam::Range range, int worker) {
+    team.for_each(choices.size(), 64, [&](ThreadTeam::Range range, int worker) {
       auto& own = bounds[static_cast<std::size_t>(worker)];
       if (!own) own = std::make_unique<Bounds>(spec_, influences_, state_);
-      Odometer choice(counts, range.begin);
+      Odometer choice(choices.counts(), range.begin);
       for (std::int64_t i = range.begin; i < range.end && enclosed; ++i, choice.advance()) {
-        if (!fill(choice, *own)) enclosed = false;
+        if (!fill(choices, choice, *own)) enclosed = false;
       }
     });
     if (!enclosed) return std::nullopt;
@@ -90,48 +78,11 @@ class OutwardPosts {
   }
 
  private:
-  /// What the table ranges over, with the boxes of each of its indices: mostly one, two on a seam.
-  struct Variable {
-    std::uint32_t slot = 0;
-    std::int64_t stride = 0;
-    std::vector<std::vector<Interval>> boxes;
-  };
-
-  void add(std::uint32_t slot, std::int64_t stride, std::vector<std::vector<Interval>> boxes) {
-    variables_.push_back({slot, stride, std::move(boxes)});
-  }
-
-  [[nodiscard]] static std::vector<std::vector<Interval>> boxes_of(const GridDimension& dimension) {
-    std::vector<std::vector<Interval>> result;
-    for (std::int64_t k = 0; k < dimension.count; ++k) {
-      auto& boxes = result.emplace_back();
-      for (const Piece& piece : pieces(dimension, k)) boxes.push_back(box_of(piece.lower, piece.upper));
-    }
-    return result;
-  }
-
-  [[nodiscard]] static std::vector<std::vector<Interval>> boxes_of(const InputSpace::Dimension& input) {
-    std::vector<std::vector<Interval>> result;
-    for (const Rational& value : input.values) result.push_back({box_of(value, value)});
-    return result;
-  }
-
-  [[nodiscard]] bool stops() const {
-    return std::any_of(influences_.moving.begin(), influences_.moving.end(), [&](std::size_t j) {
-      return spec_.states[j].below == Outside::stop || spec_.states[j].above == Outside::stop;
-    });
-  }
-
   /// The next value is the present one and something that does not depend on it.
   [[nodiscard]] bool follows_itself() const {
     const std::uint32_t own = spec_.state_slot(state_);
     if (target_.discrete) return false;
-    if (spec_.dynamics.time == Time::continuous) {
-      return std::none_of(influences_.moving.begin(), influences_.moving.end(), [&](std::size_t j) {
-        const std::vector<std::uint32_t> used = spec_.dynamics.equations[j].variables();
-        return std::find(used.begin(), used.end(), own) != used.end();
-      });
-    }
+    if (spec_.dynamics.time == Time::continuous) return flows_alike(spec_, influences_, state_);
     std::vector<Interval> everything = slots_;
     for (std::size_t j = 0; j < grid_.size(); ++j) {
       const Rational reach = grid_[j].radius() + grid_[j].measurement_error;
@@ -146,11 +97,10 @@ class OutwardPosts {
     return Bounds(spec_, influences_, state_).map().follows(everything, own);
   }
 
-  bool fill(const Odometer& choice, Bounds& bounds) {
-    std::int64_t base = 0;
-    for (std::size_t v = 0; v < variables_.size(); ++v) base += choice[v] * variables_[v].stride;
+  bool fill(const PieceChoices& choices, const Odometer& choice, Bounds& bounds) {
+    const std::int64_t base = choices.position(choice);
     for (const int halvings : {0, 1, 3, kMostHalvings}) {
-      const std::optional<IndexRange> range = met_from(choice, bounds, halvings);
+      const std::optional<IndexRange> range = met_from(choices, choice, bounds, halvings);
       if (!range) return false;
       store(base, *range);
       if (holds(target_, claimed_.entries[static_cast<std::size_t>(base)], *range)) break;
@@ -158,28 +108,19 @@ class OutwardPosts {
     return true;
   }
 
-  [[nodiscard]] std::optional<IndexRange> met_from(const Odometer& choice, Bounds& bounds,
-                                                   int halvings) const {
+  [[nodiscard]] std::optional<IndexRange> met_from(const PieceChoices& choices, const Odometer& choice,
+                                                   Bounds& bounds, int halvings) const {
     std::vector<Interval> slots = slots_;
-    std::vector<std::int64_t> counts;
-    for (std::size_t v = 0; v < variables_.size(); ++v)
-      counts.push_back(static_cast<std::int64_t>(boxes_of(choice, v).size()));
     if (shifts_) slots[spec_.state_slot(state_)] = {0.0, 0.0};
     std::optional<IndexRange> met;
-    Odometer piece(counts);
-    do {
-      for (std::size_t v = 0; v < variables_.size(); ++v)
-        slots[variables_[v].slot] = boxes_of(choice, v)[static_cast<std::size_t>(piece[v])];
+    const bool enclosed = choices.for_each_piece(choice, slots, [&](const Odometer&) {
       const std::optional<Interval> next = bounds(slots, halvings);
-      if (!next) return std::nullopt;
+      if (!next) return false;
       const IndexRange range = cells_met_by(*next);
       met = met ? merge_ranges(*met, range, target_) : range;
-    } while (piece.advance());
-    return met;
-  }
-
-  [[nodiscard]] const std::vector<Interval>& boxes_of(const Odometer& choice, std::size_t v) const {
-    return variables_[v].boxes[static_cast<std::size_t>(choice[v])];
+      return true;
+    });
+    return enclosed ? met : std::nullopt;
   }
 
   /// Of the cell at `first` if the state follows itself.
@@ -214,7 +155,6 @@ class OutwardPosts {
   Influences influences_;
   PostTable table_;
   std::vector<Interval> slots_;
-  std::vector<Variable> variables_;
   bool shifts_ = false;
 };
 

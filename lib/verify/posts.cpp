@@ -56,7 +56,7 @@ Posts make_posts(const UniformGrid& grid, const InputSpace& inputs, const std::v
   return posts;
 }
 
-CellPosts::CellPosts(const Posts& posts)
+PostMinima::PostMinima(const Posts& posts)
     : posts_(&posts),
       grid_(posts.grid),
       input_part_(&posts.input_part),
@@ -69,7 +69,7 @@ CellPosts::CellPosts(const Posts& posts)
     ranks_[i].resize(static_cast<std::size_t>(posts.input_choices[i]));
 }
 
-void CellPosts::go_to(std::int64_t cell) {
+void PostMinima::go_to(std::int64_t cell) {
   boxes_ = 1;
   inner_boxes_ = 1;
   std::int64_t outer_cells = 1;
@@ -88,7 +88,7 @@ void CellPosts::go_to(std::int64_t cell) {
   if (parts_ > most || split_ == ranks_.size()) parts_ = 0;
 }
 
-void CellPosts::find_ranges(std::size_t i, std::int64_t cell) {
+void PostMinima::find_ranges(std::size_t i, std::int64_t cell) {
   const PostTable& table = *posts_->tables[i];
   std::int64_t first = 0;
   for (const std::size_t j : table.states) first += grid_->index(cell, j) * table.state_stride[j];

@@ -29,13 +29,13 @@ struct Posts {
 
 /// The posts of one cell at a time. Many of them are the same box, or share the ranges of the last
 /// dimensions, so that minima over both are remembered, in memory that the caller keeps. One object a thread.
-class CellPosts {
+class PostMinima {
  public:
   /// No more minima than these are remembered for one cell.
   static constexpr std::int64_t kMostMinima = 1 << 18;
   static constexpr std::int32_t kNotKnown = INT32_MIN;
 
-  explicit CellPosts(const Posts& posts);
+  explicit PostMinima(const Posts& posts);
 
   void go_to(std::int64_t cell);
   /// How many minima are remembered.

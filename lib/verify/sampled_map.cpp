@@ -157,33 +157,59 @@ void add_disturbance(SampledMap& map, const DisturbanceSpec& w, const std::vecto
   if (!integral.exact && radius != 0) map.exact = false;
 }
 
+/// x' = A x + c + B w of the moving states, solved by the finite series of exp(A t).
+struct LinearFlow {
+  std::size_t row;                     ///< of the state asked for
+  std::vector<Multinomial> equations;  ///< c and B
+  std::vector<Matrix> powers;          ///< I, A, A^2, ..., as far as the state depends on them
+};
+
+std::optional<LinearFlow> linear_flow(const ProblemSpec& spec, const Influences& influences, std::size_t row,
+                                      const std::vector<Rational>& slots) {
+  for (const std::size_t j : influences.moving) {
+    if (spec.states[j].below == Outside::stop || spec.states[j].above == Outside::stop) return std::nullopt;
+  }
+  LinearFlow flow{.row = row, .equations = multiplied_out(spec, influences, influences.moving, slots)};
+  if (!solvable(flow.equations)) return std::nullopt;
+  Matrix a = state_matrix(spec, influences, flow.equations);
+  forget_unreached(a, reached_from(row, a));
+  flow.powers = powers_of(a);
+  if (flow.powers.empty()) return std::nullopt;
+  return flow;
+}
+
+std::vector<Rational> kernel_of(const ProblemSpec& spec, const LinearFlow& flow, std::size_t disturbance) {
+  std::vector<Rational> column;
+  for (const Multinomial& equation : flow.equations)
+    column.push_back(equation.slope(spec.disturbance_slot(disturbance)));
+  return kernel(flow.powers, flow.row, column);
+}
+
+/// Where the state is among the moving ones; nothing for a parameter.
+std::optional<std::size_t> row_of(const Influences& influences, std::size_t state) {
+  const auto place = std::find(influences.moving.begin(), influences.moving.end(), state);
+  if (place == influences.moving.end()) return std::nullopt;
+  return static_cast<std::size_t>(place - influences.moving.begin());
+}
+
 std::optional<SampledMap> flow_after_period(const ProblemSpec& spec, const Influences& influences,
                                             std::size_t state, const std::vector<Rational>& slots) {
-  const auto place = std::find(influences.moving.begin(), influences.moving.end(), state);
-  if (place == influences.moving.end()) {
+  const std::optional<std::size_t> row = row_of(influences, state);
+  if (!row) {
     const Rational& value = slots[spec.state_slot(state)];  // a parameter stays what it is
     return SampledMap{
         .coefficient = std::vector<Rational>(influences.moving.size()), .lower = value, .upper = value};
   }
-  for (const std::size_t j : influences.moving) {
-    if (spec.states[j].below == Outside::stop || spec.states[j].above == Outside::stop) return std::nullopt;
-  }
-  const std::vector<Multinomial> equations = multiplied_out(spec, influences, influences.moving, slots);
-  if (!solvable(equations)) return std::nullopt;
-  const auto i = static_cast<std::size_t>(place - influences.moving.begin());
-  Matrix a = state_matrix(spec, influences, equations);
-  forget_unreached(a, reached_from(i, a));
-  const std::vector<Matrix> powers = powers_of(a);
-  if (powers.empty()) return std::nullopt;
-
+  const std::optional<LinearFlow> flow = linear_flow(spec, influences, *row, slots);
+  if (!flow) return std::nullopt;
   const Rational& tau = spec.dynamics.period;
-  SampledMap map{.coefficient = std::vector<Rational>(equations.size()), .lower = 0, .upper = 0};
+  SampledMap map{.coefficient = std::vector<Rational>(influences.moving.size()), .lower = 0, .upper = 0};
   Rational weight = 1;  // tau^k / k!
-  for (std::size_t k = 0; k < powers.size(); ++k) {
+  for (std::size_t k = 0; k < flow->powers.size(); ++k) {
     const Rational next = weight * tau / Rational(static_cast<long>(k + 1));
-    for (std::size_t j = 0; j < equations.size(); ++j) {
-      const Rational& entry = powers[k][i][j];
-      const RationalInterval& drift = equations[j].constant;
+    for (std::size_t j = 0; j < influences.moving.size(); ++j) {
+      const Rational& entry = flow->powers[k][*row][j];
+      const RationalInterval& drift = flow->equations[j].constant;
       map.coefficient[j] += entry * weight;
       map.lower += entry * next * (entry > 0 ? drift.lower : drift.upper);
       map.upper += entry * next * (entry > 0 ? drift.upper : drift.lower);
@@ -191,12 +217,34 @@ std::optional<SampledMap> flow_after_period(const ProblemSpec& spec, const Influ
     }
     weight = next;
   }
-  for (const std::size_t l : influences.disturbances) {
-    std::vector<Rational> column;
-    for (const Multinomial& equation : equations) column.push_back(equation.slope(spec.disturbance_slot(l)));
-    add_disturbance(map, spec.disturbances[l], kernel(powers, i, column), tau);
-  }
+  for (const std::size_t l : influences.disturbances)
+    add_disturbance(map, spec.disturbances[l], kernel_of(spec, *flow, l), tau);
   return map;
+}
+
+/// Adds factor * (integral of g from 0 to t).
+void add_integral(Polynomial& sum, const std::vector<Rational>& g, const Rational& factor) {
+  for (std::size_t k = 0; k < g.size(); ++k) sum[k + 1] += factor * g[k] / Rational(static_cast<long>(k + 1));
+}
+
+/// @param constant both choices of a disturbance that does not change
+void add_disturbance(TimedMap& map, std::vector<Polynomial>& constant, const DisturbanceSpec& w,
+                     std::vector<Rational> g, const Rational& tau) {
+  const Rational middle = (w.lower + w.upper) / 2;
+  const Rational radius = (w.upper - w.lower) / 2;
+  const int sign = sign_on(g, tau);
+  add_integral(map.lower, g, middle);
+  add_integral(map.upper, g, middle);
+  for (const std::size_t end : {0U, 1U}) {
+    const bool greatest = (end == 1) == (sign >= 0);
+    add_integral(constant[end], g, greatest ? w.upper : w.lower);
+  }
+  if (sign == 0 && radius != 0) map.exact = false;
+  for (Rational& term : g) {
+    if (sign == 0 ? term < 0 : sign < 0) term = -term;
+  }
+  add_integral(map.lower, g, -radius);
+  add_integral(map.upper, g, radius);
 }
 
 }  // namespace
@@ -231,6 +279,42 @@ std::optional<SampledMap> sampled_map(const ProblemSpec& spec, const Influences&
                                       std::size_t state, const std::vector<Rational>& slots) {
   return spec.dynamics.time == Time::discrete ? next_value(spec, influences, state, slots)
                                               : flow_after_period(spec, influences, state, slots);
+}
+
+std::optional<TimedMap> timed_map(const ProblemSpec& spec, const Influences& influences, std::size_t state,
+                                  const std::vector<Rational>& slots) {
+  if (spec.dynamics.time == Time::discrete) return std::nullopt;
+  const std::size_t moving = influences.moving.size();
+  const std::optional<std::size_t> row = row_of(influences, state);
+  if (!row) {
+    const Polynomial value = {slots[spec.state_slot(state)]};
+    return TimedMap{std::vector<Polynomial>(moving, {0}), value, value, {value}};
+  }
+  const std::optional<LinearFlow> flow = linear_flow(spec, influences, *row, slots);
+  if (!flow) return std::nullopt;
+  const Polynomial zero(flow->powers.size() + 1);
+  TimedMap map{std::vector<Polynomial>(moving, zero), zero, zero, {}};
+  bool known = true;
+  Rational factorial = 1;
+  for (std::size_t k = 0; k < flow->powers.size(); ++k) {
+    const Rational next = factorial * Rational(static_cast<long>(k + 1));
+    for (std::size_t j = 0; j < moving; ++j) {
+      const Rational& entry = flow->powers[k][*row][j];
+      const RationalInterval& drift = flow->equations[j].constant;
+      map.coefficient[j][k] = entry / factorial;
+      map.lower[k + 1] += entry / next * (entry > 0 ? drift.lower : drift.upper);
+      map.upper[k + 1] += entry / next * (entry > 0 ? drift.upper : drift.lower);
+      known = known && (entry == 0 || drift.lower == drift.upper);
+    }
+    factorial = next;
+  }
+  std::vector<Polynomial> constant(2, map.lower);
+  for (const std::size_t l : influences.disturbances) {
+    add_disturbance(map, constant, spec.disturbances[l], kernel_of(spec, *flow, l), spec.dynamics.period);
+  }
+  map.exact = map.exact && known;
+  if (known) map.attained = std::move(constant);
+  return map;
 }
 
 }  // namespace coordreq

@@ -6,6 +6,7 @@
 
 #include "numeric/rational.hpp"
 #include "spec/problem_spec.hpp"
+#include "verify/time_extremes.hpp"
 
 namespace coordreq {
 
@@ -35,5 +36,23 @@ struct SampledMap {
 /// @returns nothing if the equations are not of this kind for these values, or a limit stops a state
 [[nodiscard]] std::optional<SampledMap> sampled_map(const ProblemSpec& spec, const Influences& influences,
                                                     std::size_t state, const std::vector<Rational>& slots);
+
+/// The same state during the period, as a function of the moving states x at its beginning: at time t in
+/// [0, tau] within { sum_j coefficient[j](t) x_j + r : lower(t) <= r <= upper(t) }.
+struct TimedMap {
+  std::vector<Polynomial> coefficient;  ///< one for each of Influences::moving
+  Polynomial lower;
+  Polynomial upper;
+  /// Values r(t) that constant disturbances bring about; none where r is not known exactly.
+  std::vector<Polynomial> attained;
+  bool exact = true;  ///< `lower` and `upper` are attained
+};
+
+/// Solves one state at all times of the period, by the truncated exponential series. A disturbance of range
+/// m +- r adds m integral(g) +- r integral(|g|) as above, where |g| is bounded term by term if g changes its
+/// sign.
+/// @returns nothing where sampled_map() does not, or in discrete time
+[[nodiscard]] std::optional<TimedMap> timed_map(const ProblemSpec& spec, const Influences& influences,
+                                                std::size_t state, const std::vector<Rational>& slots);
 
 }  // namespace coordreq

@@ -10,6 +10,7 @@
 #include "verify/check_abstraction.hpp"
 #include "verify/check_cells.hpp"
 #include "verify/check_summary.hpp"
+#include "verify/check_tubes.hpp"
 #include "verify/outward_posts.hpp"
 
 namespace coordreq {
@@ -39,12 +40,12 @@ class Verifier {
         inputs_(make_input_space(spec)) {}
 
   Verification run() {
-    refuse_tubes();
     result_.name = spec_.name;
     result_.cells = grid_.cells();
     append(result_.findings, check_summary(spec_, claims_));
     report({.stage = "posts"});
     find_posts();
+    if (spec_.abstraction.between_samples) find_tubes();
     append(result_.findings, check_cells_against(make_posts(grid_, inputs_, tables_)));
     return std::move(result_);
   }
@@ -52,13 +53,6 @@ class Verifier {
  private:
   void report(const VerifyProgress& progress) const {
     if (options_.progress) options_.progress(progress);
-  }
-
-  /// The one place to go on from for safety between the samples: a pair whose tube is not inside S is worth
-  /// as little as a blocked one, in CellPosts::least().
-  void refuse_tubes() const {
-    if (!spec_.abstraction.between_samples) return;
-    throw SpecError("verifying 'between_samples' is not supported yet", "/abstraction/between_samples");
   }
 
   void find_posts() {
@@ -76,7 +70,7 @@ class Verifier {
       PostTable claimed = stored ? claims_.abstraction[i] : table_of_analysis(i);
       if (!own) own = outward_posts(spec_, grid_, inputs_, i, claimed, team_);
       if (!own) {
-        result_.borrowed.push_back(grid_[i].name);
+        borrow(grid_[i].name);
         own = table_of_analysis(i);
       }
       result_.findings.push_back(
@@ -85,21 +79,43 @@ class Verifier {
     }
   }
 
-  [[nodiscard]] PostTable table_of_analysis(std::size_t state) {
+  void find_tubes() {
+    report({.stage = "tubes"});
+    CheckedTubes checked = check_tubes(spec_, analysis(), claims_.safe, team_);
+    result_.tubes = checked.exact ? PostBasis::exact : PostBasis::computed;
+    for (const std::string& state : checked.borrowed) borrow(state);
+    append(result_.findings, std::move(checked.findings));
+    tube_tables_ = std::move(checked.tables);
+    tubes_ = make_tubes(grid_, inputs_, tube_tables_, claims_.safe, checked.beyond);
+  }
+
+  void borrow(const std::string& state) {
+    std::vector<std::string>& names = result_.borrowed;
+    if (std::find(names.begin(), names.end(), state) == names.end()) names.push_back(state);
+  }
+
+  [[nodiscard]] const Abstraction& analysis() {
     if (!analysis_) analysis_ = build_abstraction(spec_, team_);
+    return *analysis_;
+  }
+
+  [[nodiscard]] PostTable table_of_analysis(std::size_t state) {
     PostTable table = empty_table(grid_, inputs_, influences_on(spec_, state));
     table.exact = false;
-    table.entries = written_out(*analysis_, state).entries;
+    table.entries = written_out(analysis(), state).entries;
     return table;
   }
 
   std::vector<Finding> check_cells_against(const Posts& posts) {
-    const bool certain = result_.basis != PostBasis::computed || claims_.same_version;
+    // No file stores tubes, and the contract does not say how narrow they are.
+    const bool stored = result_.basis != PostBasis::computed && !result_.tubes;
+    const bool certain = stored || claims_.same_version;
     CellCheck check{.spec = &spec_,
                     .grid = &grid_,
                     .inputs = &inputs_,
                     .claims = &claims_,
                     .posts = &posts,
+                    .tubes = tubes_ ? &*tubes_ : nullptr,
                     .posts_are = certain ? PostsAre::those_of_the_result : PostsAre::perhaps_others};
     result_.cells_checked = grid_.cells();
     if (options_.sample && *options_.sample < grid_.cells()) {
@@ -119,6 +135,8 @@ class Verifier {
   UniformGrid grid_;
   InputSpace inputs_;
   std::vector<PostTable> tables_;
+  std::vector<PostTable> tube_tables_;
+  std::optional<Tubes> tubes_;
   std::optional<Abstraction> analysis_;
   Verification result_;
 };

@@ -15,7 +15,7 @@ namespace coordreq {
 
 /// What is under way; called from the calling thread only.
 struct VerifyProgress {
-  std::string stage;      ///< "reading", "posts", "cells"
+  std::string stage;      ///< "reading", "posts", "tubes", "cells"
   std::int64_t done = 0;  ///< of `all`; both 0 where that is not known
   std::int64_t all = 0;
 };
@@ -38,8 +38,11 @@ struct Verification {
   std::int64_t cells = 0;  ///< of the grid
   std::int64_t cells_checked = 0;
   PostBasis basis = PostBasis::exact;
-  /// States whose reachable sets are only those of the analysis, computed anew: the verifier's own integrator
-  /// does not do for them.
+  /// The same of the ways between the samples, if they have to be safe: `exact` where the cells that cover
+  /// them could not be fewer, else `computed`.
+  std::optional<PostBasis> tubes;
+  /// States whose reachable sets, or ways between the samples, are only those of the analysis, computed anew:
+  /// the verifier's own integrator does not do for them.
   std::vector<std::string> borrowed;
   std::vector<Finding> findings;
 
@@ -49,7 +52,7 @@ struct Verification {
 /// Checks the claims of a results file against its spec by another route than the analysis took (see
 /// check_cells.hpp): posts from corners of cells in rational arithmetic where that is exact. Else
 /// the abstraction in the file, or one that is computed anew, after enclosures of its own have shown it to be
-/// sound.
+/// sound. The ways between the samples are always those of the analysis, after the same.
 /// @throws SpecError if the spec is beyond what it can be asked
 [[nodiscard]] Verification verify_claims(const ProblemSpec& spec, const Claims& claims,
                                          const VerifyOptions& options, ThreadTeam& team);

@@ -74,7 +74,8 @@ class Cases(Case):
         summary = json.loads(result.stdout)
         self.assertEqual(
             list(summary),
-            ["file", "name", "holds", "cells", "cells_checked", "reachable_sets", "not_independent", "checks",
+            ["file", "name", "holds", "cells", "cells_checked", "reachable_sets", "between_samples", "not_independent",
+             "checks",
              "threads", "seconds"],
         )  # fmt: skip
         self.assertEqual((summary["name"], summary["holds"], summary["reachable_sets"]), ("small", True, "exact"))
@@ -151,6 +152,53 @@ class Cases(Case):
         self.analyze("aircraft.json", "-o", "aircraft.h5")
         result = self.verify("aircraft.h5", "--json")
         self.assertEqual((result.returncode, json.loads(result.stdout)["reachable_sets"]), (0, "stored"))
+
+    def between_samples(self, name, **changes):
+        spec = config(name, **changes)
+        spec["abstraction"] = dict(spec.get("abstraction", {}), between_samples=True, safe="inner")
+        return spec
+
+    def test_the_way_between_the_samples_holds(self):
+        for name, basis, tubes in (("circle.json", "exact", "exact"), ("load.json", "computed", "computed")):
+            with self.subTest(example=name):
+                self.results(self.between_samples(name))
+                result = self.verify("results.h5", "--json")
+                summary = json.loads(result.stdout)
+                wrong = [check for check in summary["checks"] if check["status"] != "holds"]
+                self.assertEqual((result.returncode, wrong), (0, []))
+                self.assertEqual((summary["reachable_sets"], summary["between_samples"]), (basis, tubes))
+                self.assertIn(b"\nbetween the samples: ", self.verify("results.h5", "--sample", "10").stdout)
+
+    def test_a_result_that_forgot_the_way_between_the_samples_is_found(self):
+        """Numbers of one analysis under the spec and the guarantee of the other one."""
+        x = dict(SPEC["states"][0], outside={"below": "unsafe", "above": "safe"})
+        equations = {"x": "u", "y": "v"}
+        jumps = {
+            "states": [x, SPEC["states"][1]],
+            "inputs": [{"name": "u", "values": [1]}, SPEC["inputs"][1]],
+            "dynamics": {"time": "continuous", "period": 2, "equations": equations},
+            "safe": "x <= 0.5 or x >= 1.5",
+        }
+        asked = {"cells": "half_open", "between_samples": True}
+        forgotten = self.results(spec_with(**jumps, abstraction=dict(asked, between_samples=False)))
+        self.write("other.json", spec_with(**jumps, abstraction=asked))
+        self.analyze("other.json", "-o", "other.h5")
+        self.assertEqual(self.verify("other.h5", "--quiet").returncode, 0)
+        with h5py.File(forgotten, "r+") as file, h5py.File(self.folder / "other.h5") as source:
+            file["spec"][()] = source["spec"][()]
+            for name in ("spec_sha256", "guarantee"):
+                file.attrs.modify(name, source.attrs[name])
+        result = self.verify("results.h5")
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stdout.decode(), r"\nattributes +[0-9]+  holds\n")
+        self.assertRegex(result.stdout.decode(), r"\nK +[0-9]+  [0-9]+ wrong\n")
+
+    def test_another_guarantee_is_found(self):
+        path = self.results(SPEC)
+        with h5py.File(path, "r+") as file:
+            file.attrs.modify("guarantee", "continuous")
+        self.assertIn(b"attributes", self.verify("results.h5").stdout)
+        self.assert_found(path, "guarantee")
 
     def test_limits_that_stop_are_said_to_be_not_independent(self):
         spec = config("intersection_coarse.json")
@@ -243,6 +291,15 @@ class Cases(Case):
 
     def test_every_flipped_bit_of_a_disc_is_found(self):
         spec = config("circle.json")
+        for state in spec["states"]:
+            state.update(step=0.1, outside={"below": "unsafe", "above": "saturate"})
+        for action in spec["inputs"]:
+            action["step"] = 0.5
+        spec["dynamics"]["period"] = 0.1
+        self.flip_everything(spec)
+
+    def test_every_flipped_bit_of_a_disc_that_is_safe_between_the_samples_is_found(self):
+        spec = self.between_samples("circle.json")
         for state in spec["states"]:
             state.update(step=0.1, outside={"below": "unsafe", "above": "saturate"})
         for action in spec["inputs"]:

@@ -30,6 +30,37 @@ TEST(Verify, ResultsOfRandomSystemsHold) {
   }));
 }
 
+TEST(Verify, ResultsThatAreSafeBetweenTheSamplesHold) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("what analyze writes with tubes holds", [&] {
+    const std::string text = draw_problem(RandomTime::between_samples);
+    const ClaimedFile file = analysed_file(draw(0, 1) == 0 ? text : storing_everything(text), team);
+    const Verification result = verify_file(file, {}, team);
+    RC_LOG(complaints(result));
+    RC_CLASSIFY(result.tubes == PostBasis::exact, "exact");
+    for (const Finding& finding : result.findings) RC_ASSERT(finding.unproven == 0);
+    RC_ASSERT(result.holds());
+  }));
+}
+
+/// A solver that forgot the way between the samples.
+TEST(Verify, AResultWithoutTubesIsFoundUnlessItIsTheSame) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("a result that holds at the samples only", [&] {
+    std::string text = draw_problem(RandomTime::between_samples);
+    const ClaimedFile right = analysed_file(text, team);
+    const std::string asked = R"("between_samples": true)";
+    text.replace(text.find(asked), asked.size(), R"("between_samples": false)");
+    ClaimedFile wrong = analysed_file(text, team);
+    wrong.spec = right.spec;
+    bool same = wrong.claims.collision_time == right.claims.collision_time;
+    for (std::size_t p = 0; p < right.claims.partitions.size(); ++p)
+      same = same && wrong.claims.partitions[p].delay == right.claims.partitions[p].delay;
+    RC_CLASSIFY(same, "same");
+    RC_ASSERT(verify_file(wrong, {}, team).holds() == same);
+  }));
+}
+
 /// Another number that the file could also hold at one place. @returns false if there is no such place
 bool corrupt(Claims& claims) {
   PartitionClaims& partition = pick(claims.partitions);

@@ -50,6 +50,41 @@ TEST(SampledMap, AMatrixThatIsNotNilpotentIsNotSolved) {
   EXPECT_FALSE(sampled_map(spec, influences_on(spec, 0), 0, std::vector<Rational>(spec.slot_count())));
 }
 
+TimedMap timed(const ProblemSpec& spec, std::size_t state) {
+  std::vector<Rational> slots(spec.slot_count());
+  slots[spec.input_slot(0)] = 2;
+  return timed_map(spec, influences_on(spec, state), state, slots).value();
+}
+
+TEST(TimedMap, AtTheEndOfThePeriodItIsTheSampledMap) {
+  const Rational tau = Rational(1) / 2;
+  for (const std::string v : {"a", "a + w", "w - 3*a"}) {
+    const ProblemSpec spec =
+        chain(R"("p": "v", "v": ")" + v + R"(", "a": "u")", R"({"name": "w", "lower": -1, "upper": 3})");
+    const SampledMap map = solved(spec, 0);
+    const TimedMap p = timed(spec, 0);
+    for (std::size_t j = 0; j < map.coefficient.size(); ++j)
+      EXPECT_EQ(value_at(p.coefficient[j], tau), map.coefficient[j]) << v << j;
+    EXPECT_EQ(value_at(p.lower, tau), map.lower) << v;
+    EXPECT_EQ(value_at(p.upper, tau), map.upper) << v;
+    EXPECT_TRUE(p.exact) << v;
+    EXPECT_EQ(p.attained, (std::vector{p.lower, p.upper})) << v;
+  }
+}
+
+TEST(TimedMap, AKernelThatChangesItsSignIsBounded) {
+  // p(t) - p(0) - v(0) t = integral of (1 - 4 (t - s)) w(s), with w in [-1, 1]: the kernel is 1 - 4 s
+  const ProblemSpec spec =
+      chain(R"("p": "v + w", "v": "-4*w", "a": "0")", R"({"name": "w", "lower": -1, "upper": 1})");
+  const TimedMap p = timed(spec, 0);
+  EXPECT_FALSE(p.exact);
+  const Rational tau = Rational(1) / 2;
+  EXPECT_GE(value_at(p.upper, tau), solved(spec, 0).upper);
+  EXPECT_EQ(value_at(p.upper, tau), 1);  // integral of 1 + 4 s
+  ASSERT_EQ(p.attained.size(), 2U);
+  EXPECT_EQ(value_at(p.attained[1], Rational(1) / 4), Rational(1) / 8);
+}
+
 TEST(SwitchingIntegral, SplitsWhereTheSignChanges) {
   const SwitchingIntegral half = integrate_switching({-1, 2}, 1);  // 2s - 1
   EXPECT_EQ(half.plain, 0);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/error.hpp"
 #include "support/analysed_file.hpp"
 
 namespace coordreq {
@@ -105,11 +104,49 @@ TEST(VerifyClaims, ASmallerKThanThereIsIsFoundThoughItIsSafe) {
   EXPECT_TRUE(has_wrong(verify_file(file, {}, team), "collision time"));
 }
 
-TEST(VerifyClaims, WhatIsAskedBetweenTheSamplesIsRefused) {
-  ThreadTeam team(1);
-  ClaimedFile file = analysed_file(kFriction, team);
-  file.spec.abstraction.between_samples = true;
-  EXPECT_THROW(static_cast<void>(verify_file(file, {}, team)), SpecError);
+std::string between_samples(std::string text) {
+  const std::string cells = R"("cells": "half_open")";
+  return text.replace(text.find(cells), cells.size(), cells + R"(, "between_samples": true)");
+}
+
+TEST(VerifyClaims, EnclosuresOfTheWayBetweenTheSamplesHold) {
+  ThreadTeam team(2);
+  const Verification result = verify_file(analysed_file(between_samples(kFriction), team), {}, team);
+  EXPECT_EQ(complaints(result), "");
+  EXPECT_EQ(result.tubes, PostBasis::computed);
+  EXPECT_TRUE(result.borrowed.empty());
+  for (const Finding& finding : result.findings) EXPECT_EQ(finding.unproven, 0) << finding.check;
+}
+
+/// A fast vehicle and a thin obstacle: at the samples it can jump across.
+std::string jumper(const std::string& between) {
+  return R"json({"coordreq": 1, "name": "jumper",
+"states": [{"name": "x", "lower": 0, "upper": 9, "step": 1, "outside": {"below": "unsafe", "above": "safe"}}],
+"inputs": [{"name": "u", "values": [1, 4]}, {"name": "v", "values": [0]}],
+"agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
+"dynamics": {"time": "continuous", "period": 1, "equations": {"x": "u + v"}},
+"safe": "x <= 3.5 or x >= 5.5", "abstraction": {"cells": "half_open", "between_samples": )json" +
+         between + "}}";
+}
+
+TEST(VerifyClaims, AResultThatOnlyHoldsAtTheSamplesIsFoundBetweenThem) {
+  ThreadTeam team(2);
+  const ClaimedFile with = analysed_file(jumper("true"), team);
+  const Verification right = verify_file(with, {}, team);
+  EXPECT_EQ(complaints(right), "");
+  EXPECT_EQ(right.tubes, PostBasis::exact);
+  ClaimedFile without = analysed_file(jumper("false"), team);
+  EXPECT_TRUE(verify_file(without, {}, team).holds());
+  without.spec = with.spec;
+  const Verification wrong = verify_file(without, {}, team);
+  EXPECT_TRUE(has_wrong(wrong, "K"));
+}
+
+TEST(VerifyClaims, AResultThatIsTooCautiousBetweenTheSamplesIsFoundToo) {
+  ThreadTeam team(2);
+  ClaimedFile with = analysed_file(jumper("true"), team);
+  with.spec = analysed_file(jumper("false"), team).spec;
+  EXPECT_TRUE(has_wrong(verify_file(with, {}, team), "collision time"));
 }
 
 }  // namespace

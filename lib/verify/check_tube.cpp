@@ -1,0 +1,65 @@
+#include "verify/check_tube.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "grid/pieces.hpp"
+#include "verify/check_abstraction.hpp"
+
+namespace coordreq {
+
+IndexRange cells_covered(const GridDimension& dimension, const Rational& lower, const Rational& upper) {
+  const Rational reach = dimension.radius() + dimension.measurement_error;
+  const std::int64_t first = floor_to_int((lower - dimension.first + reach) / dimension.step);
+  const std::int64_t last = ceil_to_int((upper - dimension.first - reach) / dimension.step);
+  return {saturate_index(first), saturate_index(std::max(first, last))};
+}
+
+bool TubeTally::is_unbounded(std::int64_t entry) const {
+  const IndexRange claimed = claimed_.entries[static_cast<std::size_t>(entry)];
+  return claimed.first == INT32_MIN && claimed.last == INT32_MAX;
+}
+
+bool TubeTally::is_enough(std::int64_t entry, std::int64_t by, const std::vector<OwnTube>& own) const {
+  const IndexRange claimed = claimed_.entries[static_cast<std::size_t>(entry)];
+  return std::all_of(own.begin(), own.end(),
+                     [&](const OwnTube& tube) { return holds(dimension_, claimed, moved(tube.outer, by)); });
+}
+
+bool TubeTally::is_exact(IndexRange claimed, std::int64_t by, const std::vector<OwnTube>& own) const {
+  IndexRange all = moved(own.front().outer, by);
+  for (const OwnTube& tube : own) {
+    if (tube.outer != tube.inner) return false;
+    all = merge_ranges(all, moved(tube.outer, by), dimension_);
+  }
+  return holds(dimension_, all, claimed);
+}
+
+void TubeTally::add(std::int64_t entry, std::int64_t by, const std::vector<OwnTube>& own) {
+  tally_.add_checked(1);
+  const IndexRange claimed = claimed_.entries[static_cast<std::size_t>(entry)];
+  if (is_enough(entry, by, own)) {
+    if (exact_ && !is_exact(claimed, by, own)) exact_ = false;
+    return;
+  }
+  exact_ = false;
+  for (const OwnTube& tube : own) {
+    const IndexRange needed = moved(tube.inner, by);
+    if (holds(dimension_, claimed, needed)) continue;
+    tally_.add_wrong(entry, [&] {
+      return fmt::format("entry {}: {}..{}, expected at least {}..{}", entry, claimed.first, claimed.last,
+                         needed.first, needed.last);
+    });
+    return;
+  }
+  tally_.add_unproven();
+}
+
+TubeFinding TubeTally::finding(bool may_be_exact) {
+  const bool exact = may_be_exact && exact_;
+  tally_.set_note(exact ? "exact" : "enclosures");
+  return {tally_.finding(), exact};
+}
+
+}  // namespace coordreq

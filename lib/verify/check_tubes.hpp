@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "abstraction/abstraction.hpp"
+#include "base/thread_team.hpp"
+#include "spec/problem_spec.hpp"
+#include "verify/post_table.hpp"
+#include "verify/tally.hpp"
+
+namespace coordreq {
+
+/// The ways between the samples that the checks of cells rest on.
+struct CheckedTubes {
+  std::vector<PostTable> tables;      ///< one a state: the tubes of the analysis
+  std::vector<std::uint8_t> beyond;   ///< [cell]: safe for tubes that pass a limit where a state saturates
+  bool exact = true;                  ///< no tube could be smaller
+  std::vector<std::string> borrowed;  ///< states without tubes of the verifier's own
+  std::vector<Finding> findings;
+};
+
+/// Takes the tubes of an abstraction and what is safe beyond its limits, which no results file stores, and
+/// checks both by another route.
+/// @param safe S as the file has it
+/// @param analysis an abstraction of `spec` with tubes
+[[nodiscard]] CheckedTubes check_tubes(const ProblemSpec& spec, const Abstraction& analysis,
+                                       const std::vector<std::uint8_t>& safe, ThreadTeam& team);
+
+}  // namespace coordreq

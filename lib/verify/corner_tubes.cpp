@@ -1,0 +1,225 @@
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+#include "grid/pieces.hpp"
+#include "verify/check_tube.hpp"
+#include "verify/odometer.hpp"
+#include "verify/parameter_choices.hpp"
+#include "verify/sampled_map.hpp"
+#include "verify/time_extremes.hpp"
+
+namespace coordreq {
+namespace {
+
+void add(Polynomial& sum, const Polynomial& p) {
+  if (sum.size() < p.size()) sum.resize(p.size());
+  for (std::size_t k = 0; k < p.size(); ++k) sum[k] += p[k];
+}
+
+Polynomial times(Polynomial p, const Rational& factor) {
+  for (Rational& term : p) term *= factor;
+  return p;
+}
+
+Polynomial negative(Polynomial p) {
+  return times(std::move(p), -1);
+}
+
+/// Whether the coefficient is that of a state that stays itself, but for what others add.
+bool is_one(const Polynomial& p) {
+  return p.front() == 1 && std::all_of(p.begin() + 1, p.end(), [](const Rational& q) { return q == 0; });
+}
+
+bool is_zero(const Polynomial& p) {
+  return std::all_of(p.begin(), p.end(), [](const Rational& q) { return q == 0; });
+}
+
+/// What one moving state adds, from both ends of each piece of its cells: in units of the target's step.
+struct TimedPart {
+  struct Ends {
+    Polynomial lower;
+    Polynomial upper;
+  };
+  int sign = 0;  ///< of the coefficient all the time; 0: both ends can be the extreme
+  std::int64_t stride = 0;
+  std::vector<std::vector<Ends>> cells;  ///< [cell][piece]
+};
+
+/// The tubes of all cells for one choice of inputs and parameters.
+class CornerTubes {
+ public:
+  CornerTubes(const ProblemSpec& spec, const UniformGrid& grid, const Influences& influences,
+              std::size_t state, const PostTable& claimed, TubeTally& tally)
+      : grid_(grid),
+        influences_(influences),
+        state_(state),
+        target_(grid[state]),
+        claimed_(claimed),
+        tau_(spec.dynamics.period),
+        tally_(tally) {}
+
+  void check(const TimedMap& map, std::int64_t base) {
+    find_parts(map);
+    std::vector<std::int64_t> counts;
+    for (const TimedPart& part : parts_) counts.push_back(static_cast<std::int64_t>(part.cells.size()));
+    Odometer cell(counts);
+    do {
+      std::int64_t position = base;
+      for (std::size_t j = 0; j < parts_.size(); ++j) position += cell[j] * parts_[j].stride;
+      const std::vector<OwnTube> own = tubes(map, cell);
+      for (std::int64_t k = 0; k < (follows_ ? target_.count : 1); ++k)
+        tally_.add(position + k * claimed_.state_stride[state_], k, own);
+    } while (cell.advance());
+  }
+
+ private:
+  void find_parts(const TimedMap& map) {
+    const bool cut = crosses_a_seam(map);
+    follows_ = false;
+    parts_.clear();
+    for (std::size_t j = 0; j < influences_.moving.size(); ++j) {
+      const std::size_t source = influences_.moving[j];
+      const bool follows = source == state_ && is_one(map.coefficient[j]);
+      follows_ = follows_ || follows;
+      parts_.push_back(
+          part_of(source, map.coefficient[j], cut && !follows, follows ? 1 : grid_[source].count));
+    }
+  }
+
+  /// Values jump at the seam, unless they are this state itself all the time.
+  [[nodiscard]] bool crosses_a_seam(const TimedMap& map) const {
+    for (std::size_t j = 0; j < influences_.moving.size(); ++j) {
+      const std::size_t source = influences_.moving[j];
+      const Polynomial& factor = map.coefficient[j];
+      if (grid_[source].periodic() && !(source == state_ ? is_one(factor) : is_zero(factor))) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] TimedPart part_of(std::size_t source, const Polynomial& factor, bool cut,
+                                  std::int64_t cells) const {
+    const GridDimension& dimension = grid_[source];
+    TimedPart part{.sign = sign_on(factor, tau_), .stride = claimed_.state_stride[source]};
+    const Rational reach = dimension.radius() + dimension.measurement_error;
+    const Polynomial in_steps = times(factor, 1 / target_.step);
+    for (std::int64_t k = 0; k < cells; ++k) {
+      std::vector<Piece> places = {{dimension.point(k) - reach, dimension.point(k) + reach}};
+      if (cut) places = pieces(dimension, k);
+      auto& ends = part.cells.emplace_back();
+      for (const Piece& place : places)
+        ends.push_back({times(in_steps, place.lower), times(in_steps, place.upper)});
+    }
+    return part;
+  }
+
+  [[nodiscard]] std::vector<OwnTube> tubes(const TimedMap& map, const Odometer& cell) const {
+    std::vector<std::int64_t> counts;
+    for (std::size_t j = 0; j < parts_.size(); ++j)
+      counts.push_back(static_cast<std::int64_t>(parts_[j].cells[static_cast<std::size_t>(cell[j])].size()));
+    std::vector<OwnTube> result;
+    Odometer piece(counts);
+    do {
+      std::vector<const TimedPart::Ends*> box;
+      for (std::size_t j = 0; j < parts_.size(); ++j) {
+        box.push_back(
+            &parts_[j].cells[static_cast<std::size_t>(cell[j])][static_cast<std::size_t>(piece[j])]);
+      }
+      result.push_back(tube_from(map, box));
+    } while (piece.advance());
+    return result;
+  }
+
+  [[nodiscard]] OwnTube tube_from(const TimedMap& map, const std::vector<const TimedPart::Ends*>& box) const {
+    const FloorOfLeast first = least_over_corners(map, box, false);
+    const FloorOfLeast last = least_over_corners(map, box, true);
+    // Wide cells overlap, and one of them may cover all: then the greater index is the one to stand for it.
+    const auto range = [](std::int64_t low, std::int64_t high) {
+      return IndexRange{saturate_index(low), saturate_index(std::max(low, high))};
+    };
+    return {range(first.outer, -last.outer), range(first.inner, -last.inner)};
+  }
+
+  /// floor of the least value in steps plus the reach of a cell; of all values negated if `upper`.
+  [[nodiscard]] FloorOfLeast least_over_corners(const TimedMap& map,
+                                                const std::vector<const TimedPart::Ends*>& box,
+                                                bool upper) const {
+    std::vector<std::size_t> open;
+    Polynomial fixed = {cell_reach(upper)};
+    for (std::size_t j = 0; j < box.size(); ++j) {
+      if (parts_[j].sign == 0) {
+        open.push_back(j);
+      } else {
+        add(fixed, (parts_[j].sign > 0) == upper ? box[j]->upper : box[j]->lower);
+      }
+    }
+    std::optional<FloorOfLeast> least;
+    for (std::uint64_t corner = 0; corner < std::uint64_t{1} << open.size(); ++corner) {
+      Polynomial value = fixed;
+      for (std::size_t c = 0; c < open.size(); ++c)
+        add(value, (corner >> c & 1U) != 0 ? box[open[c]]->upper : box[open[c]]->lower);
+      const FloorOfLeast next = least_of(map, value, upper);
+      if (!least) least = next;
+      *least = {std::min(least->outer, next.outer), std::min(least->inner, next.inner)};
+    }
+    return *least;
+  }
+
+  /// Such that floor, or ceil of `upper` values, tells the cell that covers the value.
+  [[nodiscard]] Rational cell_reach(bool upper) const {
+    const Rational reach = target_.radius() + target_.measurement_error;
+    return ((upper ? Rational(-reach) : reach) - target_.first) / target_.step;
+  }
+
+  [[nodiscard]] FloorOfLeast least_of(const TimedMap& map, const Polynomial& value, bool upper) const {
+    FloorOfLeast least = least_with(value, upper ? map.upper : map.lower, upper);
+    if (map.exact) return least;
+    least.inner = floor_to_int(upper ? Rational(-value.front()) : value.front());  // it begins there
+    for (const Polynomial& rest : map.attained)
+      least.inner = std::min(least.inner, least_with(value, rest, upper).inner);
+    return least;
+  }
+
+  [[nodiscard]] FloorOfLeast least_with(const Polynomial& value, const Polynomial& rest, bool upper) const {
+    Polynomial sum = value;
+    add(sum, times(rest, 1 / target_.step));
+    return floor_of_least(upper ? negative(std::move(sum)) : sum, tau_);
+  }
+
+  const UniformGrid& grid_;
+  const Influences& influences_;
+  std::size_t state_;
+  const GridDimension& target_;
+  const PostTable& claimed_;
+  const Rational& tau_;
+  TubeTally& tally_;
+  std::vector<TimedPart> parts_;
+  bool follows_ = false;  ///< the cells of the state itself are moved alike
+};
+
+}  // namespace
+
+std::optional<TubeFinding> check_corner_tubes(const ProblemSpec& spec, const UniformGrid& grid,
+                                              const InputSpace& inputs, std::size_t state,
+                                              const PostTable& claimed, ThreadTeam& team) {
+  const Influences influences = influences_on(spec, state);
+  const ParameterChoices choices(spec, grid, inputs, influences, claimed);
+  TubeTally tally(grid[state], claimed);
+  std::atomic<bool> solved = true;
+  team.for_each(choices.size(), 1, [&](ThreadTeam::Range range, int) {
+    CornerTubes tubes(spec, grid, influences, state, claimed, tally);
+    Odometer choice(choices.counts(), range.begin);
+    for (std::int64_t i = range.begin; i < range.end && solved; ++i, choice.advance()) {
+      const std::optional<TimedMap> map = timed_map(spec, influences, state, choices.slots(choice));
+      if (map) {
+        tubes.check(*map, choices.position(choice));
+      } else {
+        solved = false;
+      }
+    }
+  });
+  if (!solved) return std::nullopt;
+  return tally.finding(true);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "numeric/interval.hpp"
+#include "spec/problem_spec.hpp"
+#include "verify/odometer.hpp"
+#include "verify/post_table.hpp"
+
+namespace coordreq {
+
+[[nodiscard]] inline Interval box_of(const Rational& lower, const Rational& upper) {
+  return {lower_double(lower), upper_double(upper)};
+}
+
+/// True if a `stop` limit holds one of the moving states.
+[[nodiscard]] bool has_stops(const ProblemSpec& spec, const Influences& influences);
+
+/// In continuous time: x(t) - x(0) of the state does not depend on x(0), for no equation mentions the state.
+[[nodiscard]] bool flows_alike(const ProblemSpec& spec, const Influences& influences, std::size_t state);
+
+/// All choices of one index for each state and input that a table ranges over, with their boxes in doubles.
+/// Immutable.
+class PieceChoices {
+ public:
+  /// @param left_out a state that is not chosen: its entries follow from those of index 0
+  PieceChoices(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+               const PostTable& table, std::optional<std::size_t> left_out);
+
+  [[nodiscard]] const std::vector<std::int64_t>& counts() const { return counts_; }
+  [[nodiscard]] std::int64_t size() const { return size_; }
+  /// Position of a choice in the table.
+  [[nodiscard]] std::int64_t position(const Odometer& choice) const;
+  /// Among the variables. REQUIRES: `slot` is one of them.
+  [[nodiscard]] std::size_t variable(std::uint32_t slot) const;
+
+  /// Calls `visit(piece)` for every choice of one box a variable, which it has put into `slots`, until it
+  /// returns false: mostly one box, two on a seam.
+  template <class Visit>
+  bool for_each_piece(const Odometer& choice, std::vector<Interval>& slots, const Visit& visit) const {
+    std::vector<std::int64_t> pieces;
+    for (std::size_t v = 0; v < variables_.size(); ++v)
+      pieces.push_back(static_cast<std::int64_t>(boxes_of(choice, v).size()));
+    Odometer piece(pieces);
+    do {
+      for (std::size_t v = 0; v < variables_.size(); ++v)
+        slots[variables_[v].slot] = boxes_of(choice, v)[static_cast<std::size_t>(piece[v])];
+      if (!visit(piece)) return false;
+    } while (piece.advance());
+    return true;
+  }
+
+ private:
+  struct Variable {
+    std::uint32_t slot = 0;
+    std::int64_t stride = 0;
+    std::vector<std::vector<Interval>> boxes;  ///< [index][piece]
+  };
+
+  void add(std::uint32_t slot, std::int64_t stride, std::vector<std::vector<Interval>> boxes);
+  [[nodiscard]] const std::vector<Interval>& boxes_of(const Odometer& choice, std::size_t v) const {
+    return variables_[v].boxes[static_cast<std::size_t>(choice[v])];
+  }
+
+  std::vector<Variable> variables_;
+  std::vector<std::int64_t> counts_;
+  std::int64_t size_ = 1;
+};
+
+}  // namespace coordreq

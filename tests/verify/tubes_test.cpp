@@ -1,0 +1,193 @@
+// The verifier's own tubes against those of the analysis, right ones and others.
+
+#include <gtest/gtest.h>
+
+#include "abstraction/build_abstraction.hpp"
+#include "spec/read_spec.hpp"
+#include "verify/check_tube.hpp"
+#include "verify/check_tubes.hpp"
+#include "verify/safe_beyond.hpp"
+#include "verify/tube_bounds.hpp"
+
+namespace coordreq {
+namespace {
+
+ProblemSpec problem(const std::string& p, const std::string& v, const std::string& safe = "true",
+                    const std::string& outside = "saturate") {
+  return read_spec(R"json({"coordreq": 1, "name": "tubes",
+"states": [{"name": "p", "lower": 0, "upper": 9, "step": 1, "outside": ")json" +
+                       outside + R"json("},
+           {"name": "v", "lower": -3, "upper": 3, "step": 1, "outside": "saturate"}],
+"inputs": [{"name": "u", "values": [-4, 0, 2]}], "agents": [{"name": "one", "inputs": ["u"]}],
+"dynamics": {"time": "continuous", "period": 1, "equations": {"p": ")json" +
+                       p + R"json(", "v": ")json" + v + R"json("}}, "safe": ")json" + safe +
+                       R"json(", "abstraction": {"between_samples": true}})json",
+                   "tubes");
+}
+
+struct Checked {
+  ProblemSpec spec;
+  Abstraction analysis;
+  CheckedTubes tubes;
+};
+
+Checked check(ProblemSpec spec) {
+  ThreadTeam team(2);
+  Abstraction analysis = build_abstraction(spec, team);
+  const std::vector<std::uint8_t> safe(static_cast<std::size_t>(analysis.grid.cells()), 1);
+  CheckedTubes tubes = check_tubes(spec, analysis, safe, team);
+  return {std::move(spec), std::move(analysis), std::move(tubes)};
+}
+
+std::int64_t doubtful(const CheckedTubes& tubes) {
+  std::int64_t sum = 0;
+  for (const Finding& finding : tubes.findings) sum += finding.wrong + finding.unproven;
+  return sum;
+}
+
+using Check = std::optional<TubeFinding> (*)(const ProblemSpec&, const UniformGrid&, const InputSpace&,
+                                             std::size_t, const PostTable&, ThreadTeam&);
+
+/// Makes each of some entries one cell shorter. @returns how many changes are wrong of how many
+std::pair<int, int> wrong_of_shorter(const Checked& checked, std::size_t state, Check check_one) {
+  ThreadTeam team(2);
+  int wrong = 0;
+  int all = 0;
+  for (std::size_t e = 0; e < checked.tubes.tables[state].entries.size(); e += 3) {
+    for (const bool above : {false, true}) {
+      PostTable changed = checked.tubes.tables[state];
+      IndexRange& range = changed.entries[e];
+      if (range.first == range.last) continue;
+      (above ? range.last : range.first) += above ? -1 : 1;
+      const auto found =
+          check_one(checked.spec, checked.analysis.grid, checked.analysis.inputs, state, changed, team);
+      ++all;
+      if (found && found->finding.wrong == 1) ++wrong;
+    }
+  }
+  return {wrong, all};
+}
+
+TEST(CheckTubes, WhatTurnsRoundWithinThePeriodIsCovered) {
+  // v changes its sign within the period: p turns round at a parabola's vertex.
+  const Checked checked = check(problem("v", "u"));
+  EXPECT_EQ(doubtful(checked.tubes), 0);
+  EXPECT_TRUE(checked.tubes.borrowed.empty());
+  const auto [wrong, all] = wrong_of_shorter(checked, 0, check_corner_tubes);
+  EXPECT_GT(wrong, 9 * all / 10);  // but for tubes that are a little longer than they must be
+}
+
+TEST(CheckTubes, AStraightWayCouldNotBeShorter) {
+  const Checked checked = check(problem("u", "0.5*u"));
+  EXPECT_EQ(doubtful(checked.tubes), 0);
+  EXPECT_TRUE(checked.tubes.exact);
+  const auto [wrong, all] = wrong_of_shorter(checked, 0, check_corner_tubes);
+  EXPECT_GT(all, 10);
+  EXPECT_EQ(wrong, all);
+}
+
+TEST(CheckTubes, AWayThatIsLongerThanItMustBeIsNotExact) {
+  ThreadTeam team(1);
+  Checked checked = check(problem("u", "0.5*u"));
+  checked.tubes.tables[0].entries[4].last += 1;
+  const auto found = check_corner_tubes(checked.spec, checked.analysis.grid, checked.analysis.inputs, 0,
+                                        checked.tubes.tables[0], team);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->finding.wrong + found->finding.unproven, 0);
+  EXPECT_FALSE(found->exact);
+}
+
+TEST(CheckTubes, EnclosuresOfDifferentialEquationsHold) {
+  for (const char* outside : {"saturate", "unsafe"}) {
+    const Checked checked = check(problem("v", "u - 0.5*v", "true", outside));
+    EXPECT_EQ(doubtful(checked.tubes), 0) << outside;
+    EXPECT_TRUE(checked.tubes.borrowed.empty());
+    EXPECT_FALSE(checked.tubes.exact);
+    for (const std::size_t state : {0U, 1U}) {
+      const auto [wrong, all] = wrong_of_shorter(checked, state, check_outward_tubes);
+      // The analysis takes the whole period in one step, and what turns round within it for much longer.
+      EXPECT_GT(wrong, all / 3) << state << outside;
+    }
+  }
+}
+
+TEST(CheckTubes, AStopHasNoTubeOfTheVerifiersOwn) {
+  EXPECT_EQ(check(problem("u", "0", "true", "stop")).tubes.borrowed, (std::vector<std::string>{"p"}));
+}
+
+TEST(CheckTubes, WhatIsSafeBeyondALimitIsChecked) {
+  // From 9 with speed 2 it gets as far as 11.5; with speed -4 from 0 to -4.5.
+  ThreadTeam team(1);
+  const Checked checked = check(problem("u", "0", "p <= 11.4"));
+  EXPECT_EQ(doubtful(checked.tubes), 0);
+  const std::size_t cells = static_cast<std::size_t>(checked.analysis.grid.cells());
+  const std::vector<std::uint8_t> safe(cells, 1);
+  EXPECT_EQ(checked.tubes.beyond.back(), 0);
+  EXPECT_EQ(checked.tubes.beyond.front(), 1);
+  const SafeBeyond beyond(checked.spec, checked.analysis.grid, checked.tubes.tables);
+  EXPECT_EQ(beyond.check(safe, checked.tubes.beyond, team).wrong, 0);
+  for (const std::size_t cell : {std::size_t{0}, cells / 2, cells - 1}) {
+    std::vector<std::uint8_t> changed = checked.tubes.beyond;
+    changed[cell] ^= 1U;
+    EXPECT_EQ(beyond.check(safe, changed, team).wrong, 1) << cell;
+  }
+}
+
+std::optional<FlowTube> tube_of(const ProblemSpec& spec, const Interval& p, const Interval& v, double u,
+                                int parts) {
+  std::vector<Interval> slots(spec.slot_count());
+  slots[0] = p;
+  slots[1] = v;
+  slots[spec.input_slot(0)] = {u, u};
+  const Influences influences = influences_on(spec, 0);
+  return TubeBounds(spec, influences, 0).over(slots, parts, 3);
+}
+
+TEST(TubeBounds, OneWayItLiesBetweenItsEnds) {
+  const auto tube = tube_of(problem("-0.5*p", "0"), {1, 2}, {0, 0}, 0, 16);
+  ASSERT_TRUE(tube);
+  EXPECT_NEAR(tube->values.lower, std::exp(-0.5), 1e-10);
+  EXPECT_EQ(tube->values.upper, 2.0);
+  EXPECT_EQ(tube->beyond.upper, 0.0);
+  EXPECT_LT(tube->beyond.lower, -0.39);
+  EXPECT_NEAR(tube->low, std::exp(-0.5), 1e-10);
+}
+
+TEST(TubeBounds, WhatIsDrawnInwardsStaysInside) {
+  // p' = 1 - 2 p draws to 1/2 from both sides.
+  const auto tube = tube_of(problem("1 - 2*p", "0"), {0, 1}, {0, 0}, 0, 8);
+  ASSERT_TRUE(tube);
+  EXPECT_EQ(tube->values.lower, 0.0);
+  EXPECT_EQ(tube->values.upper, 1.0);
+  EXPECT_EQ(tube->beyond.lower, 0.0);
+  EXPECT_EQ(tube->beyond.upper, 0.0);
+  const auto driven = tube_of(problem("2*p - 1", "0"), {0, 1}, {0, 0}, 0, 8);
+  ASSERT_TRUE(driven);
+  EXPECT_LT(driven->beyond.lower, 0.0);
+  EXPECT_GT(driven->beyond.upper, 0.0);
+}
+
+TEST(TubeBounds, FinerPartsFindWhereItTurns) {
+  // p' = v, v' = -4: from v = 2 up by 1/2 after half a period, then back to where it began.
+  double last = 2.0;
+  for (const int parts : {1, 4, 16, 64}) {
+    const auto tube = tube_of(problem("v + 0*p", "u"), {0, 0}, {2, 2}, -4, parts);
+    ASSERT_TRUE(tube);
+    EXPECT_GE(tube->values.upper, 0.5);
+    EXPECT_LE(tube->values.upper, last);
+    EXPECT_GE(tube->values.upper, tube->high);
+    last = tube->values.upper;
+  }
+  EXPECT_NEAR(last, 0.5, 0.01);
+}
+
+TEST(CellsCovered, AFaceThatIsTouchedNeedsNoNeighbour) {
+  const GridDimension x{.name = "x", .first = 0, .step = 1, .count = 9};
+  const Rational half = Rational(1) / 2;
+  EXPECT_EQ(cells_covered(x, 1 - half, 2 + half), (IndexRange{1, 2}));
+  EXPECT_EQ(cells_covered(x, half, half), (IndexRange{1, 1}));
+  EXPECT_EQ(cells_covered(x, half - Rational(1) / 100, 1), (IndexRange{0, 1}));
+}
+
+}  // namespace
+}  // namespace coordreq
