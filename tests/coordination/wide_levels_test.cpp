@@ -117,7 +117,7 @@ TEST(WideLevels, SlowMotionOnAPlaneEqualsThePlainEngine) {
 {"name": "x", "lower": 0, "upper": 270, "step": 1, "outside": {"below": "unsafe", "above": "saturate"}},
 {"name": "y", "lower": 0, "upper": 2, "step": 1, "outside": "saturate"}],
 "inputs": [{"name": "u", "values": [-1, 0]}, {"name": "v", "values": [-1, 0, 1]}],
-"disturbances": [{"name": "w", "lower": 0, "upper": 0.25}],
+"disturbances": [{"name": "w", "lower": 0, "upper": 1.25}],
 "agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
 "dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x + u + w", "y": "y + v"}},
 "safe": "x >= 1 or y >= 1", "abstraction": {"cells": "half_open", "safe": "center"},
