@@ -178,10 +178,15 @@ class Analysis {
 
   /// One type for all partitions, which share an array.
   [[nodiscard]] static ElementType delay_type(const std::deque<PartitionResult>& partitions) {
-    std::size_t layers = 0;
-    for (const PartitionResult& partition : partitions)
-      layers = std::max(layers, partition.layers.sizes.size());
-    return level_type(static_cast<std::int64_t>(layers) - 1);
+    std::int64_t greatest = 0;
+    for (const PartitionResult& partition : partitions) {
+      // In Z_F and not in Z_{F+1} is nobody: the greatest finite delay is F - 1, or what stopped the
+      // iteration.
+      const DelayLayers& layers = partition.layers;
+      const std::int64_t last = static_cast<std::int64_t>(layers.sizes.size()) - 1;
+      greatest = std::max(greatest, layers.truncated ? last : last - 1);
+    }
+    return level_type(greatest);
   }
 
   /// Where each state of the spec stands in the grid.

@@ -13,8 +13,8 @@ namespace coordreq {
 /// From the least to the greatest value of an input.
 [[nodiscard]] Interval range_of(const InputSpec& input);
 
-/// True if the state saturates and is measured with an error: what lies beyond its limit is then seen not only in
-/// the boundary cell.
+/// True if the state saturates and is measured with an error: what lies beyond its limit is then seen not
+/// only in the boundary cell.
 [[nodiscard]] bool has_measured_limit(const StateSpec& state);
 
 /// True if x_i(next) - x_i provably does not depend on x_i, so that one offset serves all its cells: in

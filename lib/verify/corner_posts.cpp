@@ -51,6 +51,7 @@ class CornerPosts {
     });
     if (!affine) return std::nullopt;
     table_.exact = exact;
+    add_measurements_at_limits(target_, spec_.abstraction.cells, table_);
     return std::move(table_);
   }
 

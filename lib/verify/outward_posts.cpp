@@ -59,7 +59,8 @@ class OutwardPosts {
   }
 
   std::optional<PostTable> run(ThreadTeam& team) {
-    if (has_stops(spec_, influences_) || claimed_.entries.size() != table_.entries.size())
+    if (has_stops(spec_, influences_) || jumps_on_the_way(spec_, influences_) ||
+        claimed_.entries.size() != table_.entries.size())
       return std::nullopt;
     shifts_ = follows_itself();
     const PieceChoices choices(spec_, grid_, inputs_, table_, shifts_ ? std::optional(state_) : std::nullopt);
@@ -74,6 +75,7 @@ class OutwardPosts {
       }
     });
     if (!enclosed) return std::nullopt;
+    add_measurements_at_limits(target_, spec_.abstraction.cells, table_);
     return std::move(table_);
   }
 

@@ -44,7 +44,7 @@ class OutwardTubes {
   }
 
   std::optional<TubeFinding> run(ThreadTeam& team) {
-    if (has_stops(spec_, influences_)) return std::nullopt;
+    if (has_stops(spec_, influences_) || jumps_on_the_way(spec_, influences_)) return std::nullopt;
     std::atomic<bool> enclosed = true;
     std::vector<std::unique_ptr<TubeBounds>> bounds(static_cast<std::size_t>(team.size()));
     team.for_each(choices_.size(), 64, [&](ThreadTeam::Range range, int worker) {

@@ -23,7 +23,46 @@ std::vector<std::vector<Interval>> boxes_in(const InputSpace::Dimension& input) 
   return result;
 }
 
+/// True if the variable occurs other than within sin, cos and tan.
+bool uses_as_number(const Program& equation, std::uint32_t slot) {
+  std::vector<bool> uses;
+  for (const Program::Node& node : equation.nodes) {
+    switch (node.op) {
+      case Operator::variable:
+        uses.push_back(node.a == slot);
+        break;
+      case Operator::constant:
+      case Operator::literal_true:
+      case Operator::literal_false:
+      case Operator::sine:
+      case Operator::cosine:
+      case Operator::tangent:
+        uses.push_back(false);
+        break;
+      case Operator::if_else:
+        uses.push_back(uses[node.a] || uses[node.b] || uses[node.c]);
+        break;
+      default: {
+        const bool is_unary = is_unary_function(node.op) || node.op == Operator::logical_not;
+        uses.push_back(uses[node.a] || (!is_unary && uses[node.b]));
+      }
+    }
+  }
+  return uses.back();
+}
+
 }  // namespace
+
+bool jumps_on_the_way(const ProblemSpec& spec, const Influences& influences) {
+  if (spec.dynamics.time == Time::discrete) return false;
+  for (const std::size_t j : influences.moving) {
+    if (spec.states[j].below != Outside::periodic) continue;
+    for (const std::size_t i : influences.moving) {
+      if (uses_as_number(spec.dynamics.equations[i], spec.state_slot(j))) return true;
+    }
+  }
+  return false;
+}
 
 bool has_stops(const ProblemSpec& spec, const Influences& influences) {
   return std::any_of(influences.moving.begin(), influences.moving.end(), [&](std::size_t j) {

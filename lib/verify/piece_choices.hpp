@@ -15,6 +15,10 @@ namespace coordreq {
   return {lower_double(lower), upper_double(upper)};
 }
 
+/// True if, in continuous time, an equation of the moving states uses a periodic one as a number, outside of
+/// sin, cos and tan: it jumps where that state passes its seam within the period.
+[[nodiscard]] bool jumps_on_the_way(const ProblemSpec& spec, const Influences& influences);
+
 /// True if a `stop` limit holds one of the moving states.
 [[nodiscard]] bool has_stops(const ProblemSpec& spec, const Influences& influences);
 

@@ -35,4 +35,19 @@ IndexRange cells_met(const GridDimension& dimension, Cells cells, const Rational
   return {saturate_index(first), saturate_index(last)};
 }
 
+void add_measurements_at_limits(const GridDimension& dimension, Cells cells, PostTable& table) {
+  const Rational& error = dimension.measurement_error;
+  if (error == 0) return;
+  const Rational low = dimension.first;
+  const Rational high = dimension.point(dimension.count - 1);
+  for (IndexRange& range : table.entries) {
+    if (dimension.below == Outside::saturate) {
+      range.last = std::max(range.last, cells_met(dimension, cells, low, low + error, true).last);
+    }
+    if (dimension.above == Outside::saturate) {
+      range.first = std::min(range.first, cells_met(dimension, cells, high - error, high, true).first);
+    }
+  }
+}
+
 }  // namespace coordreq

@@ -34,6 +34,10 @@ struct PostTable {
 [[nodiscard]] IndexRange cells_met(const GridDimension& dimension, Cells cells, const Rational& lower,
                                    const Rational& upper, bool upper_attained);
 
+/// A state that saturates is at its limit when it is measured, however far beyond it went, and its
+/// measurement may be off into another cell than the boundary one: adds those cells.
+void add_measurements_at_limits(const GridDimension& dimension, Cells cells, PostTable& table);
+
 /// The table of a state by corner evaluation: the values of its sampled map at all corners of each cell.
 /// @returns nothing if the map is not affine for some inputs or parameters
 /// @throws SpecError if a discrete state may leave its grid

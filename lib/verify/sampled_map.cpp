@@ -5,6 +5,7 @@
 
 #include "expression/evaluate.hpp"
 #include "verify/multinomial.hpp"
+#include "verify/piece_choices.hpp"
 #include "verify/switching_integral.hpp"
 
 namespace coordreq {
@@ -166,9 +167,7 @@ struct LinearFlow {
 
 std::optional<LinearFlow> linear_flow(const ProblemSpec& spec, const Influences& influences, std::size_t row,
                                       const std::vector<Rational>& slots) {
-  for (const std::size_t j : influences.moving) {
-    if (spec.states[j].below == Outside::stop || spec.states[j].above == Outside::stop) return std::nullopt;
-  }
+  if (has_stops(spec, influences) || jumps_on_the_way(spec, influences)) return std::nullopt;
   LinearFlow flow{.row = row, .equations = multiplied_out(spec, influences, influences.moving, slots)};
   if (!solvable(flow.equations)) return std::nullopt;
   Matrix a = state_matrix(spec, influences, flow.equations);

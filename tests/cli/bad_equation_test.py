@@ -123,9 +123,9 @@ class Cases(Case):
 
     def test_turning_very_fast(self):
         heading = {"step": None, "count": 8, "outside": "periodic"}
-        for equation in ("1e9*u", "1e300*u*cos(x)"):
-            found = self.assert_good(equation, time="continuous", **heading)
-            self.assertEqual(found["invariant"], 8)
+        found = self.assert_good("1e9*u", time="continuous", **heading)
+        self.assertEqual(found["invariant"], 8)
+        self.assert_may_escape("1e300*u*cos(x)", "x = -2, u = -1", **heading)
 
     def test_undefined_controller(self):
         spec = system("x + u")

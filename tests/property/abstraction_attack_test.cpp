@@ -44,7 +44,7 @@ class Attack {
       // May escape to infinity, after it has left: the pair is blocked.
       if (a_.raw(i, x_, u_) == kEverything) return;
     }
-    move();
+    if (!move()) return;
     bool blocked = false;
     for (std::size_t i = 0; i < a_.grid.size(); ++i) blocked = blocked || a_.resolved(i, x_, u_).blocked;
     bool absorbed = false;
@@ -57,7 +57,9 @@ class Attack {
 
  private:
   /// A true state that can be measured in cell x_, and where it is after a period.
-  void move() {
+  /// @returns false if a periodic state passes its seam on the way, which this reference does not follow
+  /// (simulated_flow does)
+  bool move() {
     FlowCase system = drawn_.system;
     std::vector<long double> start;
     for (std::size_t i = 0; i < a_.grid.size(); ++i) start.push_back(draw_start(i));
@@ -69,9 +71,13 @@ class Attack {
     if (drawn_.spec.dynamics.time == Time::discrete) {
       next_ = apply_map(system, start, signal.front());
       error_.assign(next_.size(), 1e-13L);
-      return;
+      return true;
     }
-    next_ = integrate(system, start, signal, kSteps).back();
+    const auto path = integrate(system, start, signal, kSteps);
+    for (const auto& states : path) {
+      if (passes_seam(states)) return false;
+    }
+    next_ = path.back();
     const auto coarse = integrate(system, start, signal, kSteps / 2).back();
     error_.clear();
     // The reference may jump or stop a step late, and then be off by a step's way.
@@ -79,6 +85,16 @@ class Attack {
       error_.push_back(1e-9L + 2.0L * std::fabs(next_[i] - coarse[i]) +
                        4.0L / kSteps * std::fabs(next_[i] - start[i]));
     }
+    return true;
+  }
+
+  [[nodiscard]] bool passes_seam(const std::vector<long double>& states) const {
+    for (std::size_t i = 0; i < a_.grid.size(); ++i) {
+      const GridDimension& dimension = a_.grid[i];
+      if (!dimension.periodic()) continue;
+      if (states[i] < number(dimension.lower) || states[i] >= number(dimension.upper)) return true;
+    }
+    return false;
   }
 
   long double draw_start(std::size_t i) const {
