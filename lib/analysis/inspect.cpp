@@ -52,6 +52,9 @@ double projected_actions(const ProblemSpec& spec) {
 
 /// Choices of the states but the last and of the inputs that a table ranges over: it is cut into so many
 /// rows.
+/// Bytes of the segments of one row, with the list that holds them.
+constexpr double kSegmentsOfSum = 12 * 20 + 40;
+
 double row_choices(const TableShape& shape, const ProblemSpec& spec) {
   double choices = 1;
   for (const std::int32_t j : shape.states) {
@@ -71,6 +74,8 @@ double estimate_memory(const ProblemSpec& spec) {
   double bytes = kFixedBytes;
   for (const TableShape& shape : table_shapes(spec)) {
     bytes += shape.bytes + row_choices(shape, spec) * sizeof(std::uint32_t);
+    // A row of a sum falls into a dozen segments, and hardly two rows are alike.
+    if (shape.sum) bytes += row_choices(shape, spec) * kSegmentsOfSum;
     // The tubes, as large as the tables, which are no sums then; cut into rows twice where states saturate.
     if (spec.abstraction.between_samples) {
       bytes += shape.bytes + 2 * row_choices(shape, spec) * sizeof(std::uint32_t);
@@ -80,8 +85,8 @@ double estimate_memory(const ProblemSpec& spec) {
   if (spec.controller.allow) bytes += condition_bytes(*spec.controller.allow, spec);
   bytes += 3 * set_bytes;  // S, K and a layer
   if (spec.abstraction.between_samples) bytes += set_bytes;
-  bytes += cells * 4 *
-           (1 + static_cast<double>(spec.coordination.partitions.size()));  // collision time and delays
+  // Levels for collision times and delays: 8 bits are enough up to 254 steps.
+  bytes += cells * (1 + static_cast<double>(spec.coordination.partitions.size()));
   bytes += set_bytes * projected_actions(spec);
   bytes += cells / row_length * 80;  // bookkeeping of rows
   return bytes;
