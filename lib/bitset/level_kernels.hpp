@@ -28,7 +28,6 @@ struct LevelKernels {
   /// True if row[j] + 1 >= bound[j] in every lane, counted without overflow.
   bool (*is_settled)(const Level* row, const Level* bound, std::size_t n);
   /// lanes[j] = all ones where bit j % 64 of bits[j / 64] is set, else 0.
-  /// REQUIRES: `bits` may be read up to the word that the last block needs.
   void (*spread)(const std::uint64_t* bits, Level* lanes, std::size_t n);
   /// Bit j % 64 of bits[j / 64] = whether row[j] is the greatest level, for j < n; further bits of the last
   /// word are 0.

@@ -10,12 +10,6 @@
 namespace coordreq {
 namespace {
 
-std::uint64_t natural(const ResultsFile& file, const std::string& path, const std::string& attribute) {
-  const std::int64_t value = file.integer(path, attribute);
-  if (value < 0) throw ResultsError("the attribute " + attribute + " is negative", file.place(path));
-  return static_cast<std::uint64_t>(value);
-}
-
 void read_attributes(const ResultsFile& file, ResultInfo& info) {
   info.name = file.text("/", "title");
   info.coordreq_version = file.text("/", "coordreq_version");
@@ -88,8 +82,8 @@ ResultInfo read(const std::string& path) {
   read_attributes(file, info);
   read_axes(file, info);
   read_partitions(file, info);
-  info.safe_cells = natural(file, "/safe", "cells");
-  info.invariant_cells = natural(file, "/invariant", "cells");
+  info.safe_cells = file.natural("/safe", "cells");
+  info.invariant_cells = file.natural("/invariant", "cells");
   info.connection_delay = file.integer("/trigger", "connection_delay");
   info.datasets = file.datasets();
   return info;

@@ -1,12 +1,12 @@
 #include "results/result_sections.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 
 #include "results/hdf5_attributes.hpp"
+#include "results/memory_array.hpp"
 #include "results/sha256.hpp"
 #include "results/unit_text.hpp"
 #include "results/version.hpp"
@@ -16,14 +16,6 @@ namespace {
 
 using hdf5::set_attribute;
 using Paths = std::vector<std::string>;
-
-/// An array whose elements lie in memory; `values` must outlive it.
-template <typename Value>
-ResultArray array_of(ElementType type, const std::vector<Value>& values) {
-  return {type, [&values](std::uint64_t begin, std::uint64_t count, void* out) {
-            std::memcpy(out, values.data() + begin, count * sizeof(Value));
-          }};
-}
 
 /// Arrays of `length` elements each, one after the other.
 ResultArray stacked(ElementType type, std::uint64_t length, std::vector<const ResultArray*> parts) {

@@ -183,6 +183,12 @@ std::int64_t ResultsFile::integer(const std::string& path, const std::string& at
   return value;
 }
 
+std::uint64_t ResultsFile::natural(const std::string& path, const std::string& attribute) const {
+  const std::int64_t value = integer(path, attribute);
+  if (value < 0) throw ResultsError("the attribute " + attribute + " is negative", place(path));
+  return static_cast<std::uint64_t>(value);
+}
+
 std::string ResultsFile::text(const std::string& path, const std::string& attribute) const {
   const hdf5::Handle handle = open_attribute(path, attribute);
   const hdf5::Handle space = space_of_attribute(handle);

@@ -38,12 +38,6 @@ class PartsReader {
     throw ResultsError(what, file_.place(object));
   }
 
-  std::uint64_t natural(const std::string& object, const std::string& attribute) const {
-    const std::int64_t value = file_.integer(object, attribute);
-    if (value < 0) fail("the attribute " + attribute + " is negative", object);
-    return static_cast<std::uint64_t>(value);
-  }
-
   void read_attributes() {
     StoredAttributes& attributes = parts_.attributes;
     attributes.title = file_.text("/", "title");
@@ -54,8 +48,8 @@ class PartsReader {
     attributes.guarantee = file_.text("/", "guarantee");
     attributes.period = file_.number("/", "period");
     attributes.period_unit = file_.text("/", "period_unit");
-    attributes.safe_cells = natural("/safe", "cells");
-    attributes.invariant_cells = natural("/invariant", "cells");
+    attributes.safe_cells = file_.natural("/safe", "cells");
+    attributes.invariant_cells = file_.natural("/invariant", "cells");
     attributes.iterations = file_.integer("/collision_time", "iterations");
     attributes.connection_delay = file_.integer("/trigger", "connection_delay");
   }

@@ -1,10 +1,10 @@
 #include "results/write_runs.hpp"
 
-#include <cstring>
 #include <limits>
 #include <numeric>
 
 #include "results/hdf5_attributes.hpp"
+#include "results/memory_array.hpp"
 #include "results/netcdf_writer.hpp"
 #include "results/sha256.hpp"
 #include "results/unit_text.hpp"
@@ -16,13 +16,6 @@ namespace {
 
 using hdf5::set_attribute;
 using Components = std::vector<RunContent::Component>;
-
-template <typename Value>
-ResultArray array_of(ElementType type, const std::vector<Value>& values) {
-  return {type, [&values](std::uint64_t begin, std::uint64_t count, void* out) {
-            std::memcpy(out, values.data() + begin, count * sizeof(Value));
-          }};
-}
 
 void describe(const hdf5::Handle& dataset, const std::string& long_name, const std::string& unit = "1") {
   set_attribute(dataset, "long_name", long_name);
