@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 // What goes into a results file, contract section 4, as plain data. Large arrays are handed over as
@@ -66,6 +67,23 @@ struct ResultTable {
   std::vector<std::int32_t> last;
 };
 
+/// A list of names that is the leading axis of maps, such as the modes of a network: a dimension scale of
+/// strings.
+struct ResultNames {
+  std::string name;  ///< of the axis, reserved in contract section 4
+  std::string long_name;
+  std::vector<std::string> names;
+};
+
+/// A value a cell, or one for each name of a leading axis and each cell; no unit.
+struct ResultMap {
+  std::string name;  ///< of the dataset, reserved in contract section 4
+  std::string long_name;
+  std::string leading;                                      ///< a ResultNames or "partition"; empty: none
+  std::vector<std::pair<std::int64_t, std::string>> flags;  ///< values that mean a word, CF `flag_values`
+  ResultArray values;                                       ///< [names, cells] or [cells]
+};
+
 struct ResultContent {
   std::string name;  ///< of the spec; attribute `title`
   std::string spec_text;
@@ -82,6 +100,8 @@ struct ResultContent {
   std::vector<ResultPartition> partitions;
   std::optional<ResultBits> controller;
   std::vector<ResultTable> abstraction;
+  std::vector<ResultNames> names;  ///< leading axes of `maps`
+  std::vector<ResultMap> maps;     ///< what else is known of each cell
 };
 
 }  // namespace coordreq

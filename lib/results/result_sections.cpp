@@ -257,4 +257,25 @@ void write_abstraction(NetcdfWriter& file, const ResultContent& content) {
   }
 }
 
+void write_maps(NetcdfWriter& file, const ResultContent& content) {
+  for (const ResultNames& axis : content.names) {
+    const hdf5::Handle dataset = file.add_coordinates("/" + axis.name, axis.names);
+    set_attribute(dataset, "long_name", axis.long_name);
+  }
+  for (const ResultMap& map : content.maps) {
+    const Paths cells = state_paths(content);
+    const hdf5::Handle dataset = file.add_array(
+        "/" + map.name, map.leading.empty() ? cells : with("/" + map.leading, cells), map.values);
+    describe(dataset, map.long_name);
+    if (map.flags.empty()) continue;
+    std::vector<std::int64_t> values;
+    std::string meanings;
+    for (const auto& [value, meaning] : map.flags) {
+      values.push_back(value);
+      meanings += (meanings.empty() ? "" : " ") + meaning;
+    }
+    describe_flags(dataset, map.values.type, values, meanings);
+  }
+}
+
 }  // namespace coordreq

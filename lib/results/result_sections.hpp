@@ -29,4 +29,7 @@ void write_actions(NetcdfWriter& file, const ResultContent& content);
 /// On request `/abstraction`.
 void write_abstraction(NetcdfWriter& file, const ResultContent& content);
 
+/// What else is known of each cell, after the axes that only these maps have.
+void write_maps(NetcdfWriter& file, const ResultContent& content);
+
 }  // namespace coordreq

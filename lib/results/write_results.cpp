@@ -17,6 +17,7 @@ void write_content(const std::string& path, const ResultContent& content, Thread
   write_layers(file, content);
   write_actions(file, content);
   write_abstraction(file, content);
+  write_maps(file, content);
   file.finish();
 }
 

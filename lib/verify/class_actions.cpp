@@ -25,11 +25,4 @@ ClassActions class_actions(const ProblemSpec& spec, const InputSpace& inputs,
   return result;
 }
 
-std::string class_name(const ProblemSpec& spec, const std::vector<std::int32_t>& agents) {
-  std::string name;
-  for (const std::int32_t agent : agents)
-    name += (name.empty() ? "" : "+") + spec.agents[static_cast<std::size_t>(agent)].name;
-  return name;
-}
-
 }  // namespace coordreq

@@ -23,7 +23,4 @@ struct ClassActions {
 [[nodiscard]] ClassActions class_actions(const ProblemSpec& spec, const InputSpace& inputs,
                                          const std::vector<std::int32_t>& agents);
 
-/// Names of the agents joined with "+".
-[[nodiscard]] std::string class_name(const ProblemSpec& spec, const std::vector<std::int32_t>& agents);
-
 }  // namespace coordreq

@@ -6,6 +6,7 @@
 #include "results/sha256.hpp"
 #include "results/unit_text.hpp"
 #include "results/version.hpp"
+#include "spec/partition_names.hpp"
 #include "verify/class_actions.hpp"
 #include "verify/sampled_map.hpp"
 
@@ -139,7 +140,7 @@ class Expectation {
     const InputSpace inputs = make_input_space(spec_);
     for (const auto& agents : partition.classes) {
       if (extras_.actions[p])
-        add_bits("/actions/" + partition.name + "/" + class_name(spec_, agents),
+        add_bits("/actions/" + partition.name + "/" + class_name(spec_.agents, agents),
                  class_actions(spec_, inputs, agents));
     }
   }

@@ -1,0 +1,137 @@
+#include "analysis/compose_results.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "analysis/analyze.hpp"
+#include "analysis/result_arrays.hpp"
+#include "coordination/action_bits.hpp"
+#include "grid/uniform_grid.hpp"
+#include "spec/partition_names.hpp"
+
+namespace coordreq {
+namespace {
+
+/// One type for all partitions, which share an array.
+ElementType delay_type(const std::deque<PartitionResult>& partitions) {
+  std::int64_t greatest = 0;
+  for (const PartitionResult& partition : partitions) {
+    // In Z_F and not in Z_{F+1} is nobody: the greatest finite delay is F - 1, or what stopped the
+    // iteration.
+    const DelayLayers& layers = partition.layers;
+    const std::int64_t last = static_cast<std::int64_t>(layers.sizes.size()) - 1;
+    greatest = std::max(greatest, layers.truncated ? last : last - 1);
+  }
+  return level_type(greatest);
+}
+
+InputClass all_inputs(const ProblemSpec& spec) {
+  InputClass all(spec.inputs.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+}  // namespace
+
+ResultContent ResultComposer::content() {
+  const ProblemSpec& spec = solution_.spec;
+  const LevelMap& collision_time = solution_.invariance.collision_time;
+  const std::int64_t iterations = solution_.invariance.iterations;
+  ResultContent content{
+      .name = spec.name,
+      .spec_text = spec.text,
+      .guarantee = guarantee_of(spec),
+      .period = nearest_double(spec.dynamics.period),
+      .period_unit = spec.dynamics.unit,
+      .connection_delay = spec.coordination.connection_delay,
+      .triggers_are_delays = spec.coordination.connection_delay == 0,
+      .axes = axes(),
+      .safe_cells = static_cast<std::uint64_t>(solution_.safe.count()),
+      .invariant_cells = static_cast<std::uint64_t>(solution_.invariance.invariant.count()),
+      .safe = safe_array(collision_time, solution_.order),
+      .invariant = invariant_array(collision_time, solution_.order),
+      .collision_time = collision_array(collision_time, solution_.order, level_type(iterations - 1)),
+      .iterations = iterations};
+  for (const PartitionResult& partition : solution_.partitions) {
+    content.partitions.push_back(partition_content(partition, delay_type(solution_.partitions)));
+  }
+  if (spec.output.controller) {
+    content.controller = bits(
+        groupings_.emplace_back(solution_.engine, std::vector<InputClass>{all_inputs(spec)}, team_), 0, "");
+  }
+  if (spec.output.abstraction) content.abstraction = tables();
+  return content;
+}
+
+std::vector<ResultAxis> ResultComposer::axes() const {
+  const ProblemSpec& spec = solution_.spec;
+  std::vector<ResultAxis> result;
+  const UniformGrid grid = make_grid(spec);
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    const GridDimension& dimension = grid[i];
+    ResultAxis& axis = result.emplace_back(ResultAxis{
+        .name = dimension.name, .unit = spec.states[i].unit, .step = nearest_double(dimension.step)});
+    for (std::int64_t k = 0; k < dimension.count; ++k)
+      axis.points.push_back(nearest_double(dimension.point(k)));
+  }
+  for (const InputSpec& input : spec.inputs) {
+    ResultAxis& axis =
+        result.emplace_back(ResultAxis{.name = input.name, .unit = input.unit, .is_state = false});
+    if (input.grid) axis.step = nearest_double(input.grid->step);
+    for (const Rational& value : input.values) axis.points.push_back(nearest_double(value));
+  }
+  return result;
+}
+
+ResultPartition ResultComposer::partition_content(const PartitionResult& partition, ElementType type) const {
+  const ProblemSpec& spec = solution_.spec;
+  const DelayLayers& layers = partition.layers;
+  const LevelMap& collision_time = solution_.invariance.collision_time;
+  ResultPartition result{.name = partition.spec->name,
+                         .layer_sizes = {layers.sizes.begin(), layers.sizes.end()},
+                         .fixed_point_index = layers.fixed_point_index,
+                         .truncated = layers.truncated,
+                         .unbounded = layers.truncated ? 0 : static_cast<std::uint64_t>(layers.sizes.back()),
+                         .delay = delay_array(layers, collision_time, solution_.order, type),
+                         .trigger = trigger_array(layers, collision_time, spec.coordination.connection_delay,
+                                                  solution_.order, type)};
+  for (const auto& agents : partition.spec->classes)
+    result.classes.push_back(class_name(spec.agents, agents));
+  if (spec.output.layers) result.layers = layer_lists(layers, solution_.order);
+  for (std::size_t c = 0; spec.output.actions && c < result.classes.size(); ++c) {
+    result.actions.push_back(bits(partition.grouping, c, result.classes[c]));
+  }
+  return result;
+}
+
+ResultBits ResultComposer::bits(const ActionGrouping& grouping, std::size_t c,
+                                const std::string& name) const {
+  ResultBits result{.class_name = name, .actions = static_cast<std::uint64_t>(grouping.actions(c))};
+  for (const std::int32_t i : grouping.inputs(c))
+    result.inputs.push_back(solution_.spec.inputs[static_cast<std::size_t>(i)].name);
+  result.fill = [controller = solution_.controller, &grouping, c](std::uint64_t begin, std::uint64_t count,
+                                                                  void* out) {
+    fill_action_bits(controller, grouping, c, begin, count, out);
+  };
+  return result;
+}
+
+std::vector<ResultTable> ResultComposer::tables() const {
+  const ProblemSpec& spec = solution_.spec;
+  std::vector<ResultTable> result;
+  for (std::size_t i = 0; i < solution_.abstraction.tables.size(); ++i) {
+    const TransitionTable table = written_out(solution_.abstraction, i);
+    ResultTable& stored = result.emplace_back(ResultTable{.state = solution_.abstraction.grid[i].name});
+    for (const std::int32_t j : table.states)
+      stored.depends_on.push_back(spec.states[static_cast<std::size_t>(j)].name);
+    for (const std::int32_t j : table.inputs)
+      stored.depends_on.push_back(spec.inputs[static_cast<std::size_t>(j)].name);
+    for (const IndexRange& range : table.entries) {
+      stored.first.push_back(range.first);
+      stored.last.push_back(range.last);
+    }
+  }
+  return result;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,83 @@
+#include "analysis/solution.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "abstraction/build_abstraction.hpp"
+#include "analysis/layout.hpp"
+#include "coordination/projections.hpp"
+#include "safety/safe_set.hpp"
+#include "safety/safe_tubes.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Passes a value on after its stage has been entered: members are initialised one after the other.
+template <class Make>
+auto staged(const EnterStage& enter, const std::string& stage, const Make& make) {
+  enter(stage);
+  return make();
+}
+
+/// Where each state of the spec stands in the grid.
+std::vector<std::size_t> place_of_states(const std::vector<std::size_t>& layout) {
+  std::vector<std::size_t> place(layout.size());
+  for (std::size_t d = 0; d < layout.size(); ++d) place[layout[d]] = d;
+  return place;
+}
+
+std::function<void(std::int64_t, std::int64_t)> stepper(const StageSwept& swept, const std::string& stage) {
+  return [&swept, stage](std::int64_t sweep, std::int64_t rows) { swept(stage, sweep, rows); };
+}
+
+}  // namespace
+
+Solution::Solution(const ProblemSpec& problem, ThreadTeam& team, const EnterStage& enter,
+                   const StageSwept& swept)
+    : spec(problem),
+      layout(choose_layout(problem)),
+      engine_spec(laid_out(problem, layout)),
+      abstraction(staged(enter, "abstraction", [&] { return build_abstraction(engine_spec, team); })),
+      safe(staged(enter, "safe set", [&] { return safe_set(engine_spec, abstraction, team); })),
+      allow(allow_table(engine_spec, abstraction, team)),
+      beyond(safe_beyond_limits(engine_spec, abstraction, safe, team)),
+      engine(abstraction, allow ? &*allow : nullptr,
+             SafeTubes{problem.abstraction.between_samples ? &safe : nullptr, beyond ? &*beyond : nullptr}),
+      hull(engine),
+      invariance(staged(enter, "invariance",
+                        [&] {
+                          return find_invariance(engine, hull, safe, spec.controller.synthesis,
+                                                 stepper(swept, "invariance"), team);
+                        })),
+      controller{&engine, &invariance.invariant, &invariance.collision_time, spec.controller.synthesis},
+      order(abstraction.grid, place_of_states(layout)) {
+  find_layers(team, enter, swept);
+}
+
+void Solution::find_layers(ThreadTeam& team, const EnterStage& enter, const StageSwept& swept) {
+  for (const PartitionSpec& partition : spec.coordination.partitions) {
+    const std::string stage = "layers " + partition.name;
+    enter(stage);
+    PartitionResult& result = partitions.emplace_back(
+        PartitionResult{&partition, ActionGrouping(engine, input_classes(spec, partition), team), {}});
+    const Projections projections(controller, result.grouping, hull, team);
+    result.layers = find_delay_layers(engine, hull, invariance.invariant, projections,
+                                      spec.coordination.max_delay, stepper(swept, stage), team);
+  }
+}
+
+std::vector<InputClass> input_classes(const ProblemSpec& spec, const PartitionSpec& partition) {
+  std::vector<InputClass> classes;
+  for (const auto& agents : partition.classes) {
+    InputClass inputs;
+    for (const std::int32_t agent : agents) {
+      const auto& own = spec.agents[static_cast<std::size_t>(agent)].inputs;
+      inputs.insert(inputs.end(), own.begin(), own.end());
+    }
+    std::sort(inputs.begin(), inputs.end());
+    classes.push_back(std::move(inputs));
+  }
+  return classes;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "abstraction/abstraction.hpp"
+#include "analysis/cell_order.hpp"
+#include "base/thread_team.hpp"
+#include "coordination/controller.hpp"
+#include "coordination/delay_layers.hpp"
+#include "safety/condition_table.hpp"
+#include "safety/invariance.hpp"
+#include "safety/row_engine.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// One partition with all that its arrays refer to while the results are written.
+struct PartitionResult {
+  const PartitionSpec* spec = nullptr;
+  ActionGrouping grouping;
+  DelayLayers layers;
+};
+
+/// Told that a stage begins.
+using EnterStage = std::function<void(const std::string& stage)>;
+/// Told after each sweep of a stage's fixed point (number, rows visited).
+using StageSwept = std::function<void(const std::string& stage, std::int64_t sweep, std::int64_t rows)>;
+
+/// What the fixed points of a problem have found, with all that it refers to. What is derived from it
+/// (summary, arrays) reads it and changes nothing.
+///
+/// 1. Rows, columns and states of the engine are those of `engine_spec`, the same problem with its states in
+/// the
+///    order of `layout`; `order` maps cells of the spec's grid to them. Inputs and agents are the spec's.
+/// 2. Neither copied nor moved: its parts refer to one another.
+struct Solution {
+  /// The stages "abstraction", "safe set", "invariance" and "layers PARTITION" for each partition.
+  /// REQUIRES: `problem` outlives the solution.
+  /// @throws as analyze()
+  Solution(const ProblemSpec& problem, ThreadTeam& team, const EnterStage& enter, const StageSwept& swept);
+  Solution(const Solution&) = delete;
+  Solution& operator=(const Solution&) = delete;
+
+  const ProblemSpec& spec;
+  std::vector<std::size_t> layout;  ///< [dimension of the engine] the state
+  ProblemSpec engine_spec;
+  Abstraction abstraction;
+  CellSet safe;
+  std::optional<ConditionTable> allow;
+  std::optional<CellSet> beyond;  ///< SafeTubes::beyond
+  RowEngine engine;
+  RowHull hull;
+  Invariance invariance;
+  Controller controller;
+  std::deque<PartitionResult> partitions;  ///< in the order of the spec; a deque, so that references stay
+  CellOrder order;
+
+ private:
+  void find_layers(ThreadTeam& team, const EnterStage& enter, const StageSwept& swept);
+};
+
+/// The inputs of each class of a partition, ascending.
+[[nodiscard]] std::vector<InputClass> input_classes(const ProblemSpec& spec, const PartitionSpec& partition);
+
+}  // namespace coordreq

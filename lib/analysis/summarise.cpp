@@ -1,0 +1,52 @@
+#include "analysis/summarise.hpp"
+
+#include "spec/partition_names.hpp"
+
+namespace coordreq {
+namespace {
+
+AnalysisSummary::Work work_of(const std::string& stage, const WaveCounts& counts) {
+  return {stage, counts.sweeps, counts.rows_visited, counts.rows_skipped};
+}
+
+PartitionSummary summary_of(const ProblemSpec& spec, const PartitionResult& partition) {
+  const DelayLayers& layers = partition.layers;
+  PartitionSummary result{.name = partition.spec->name,
+                          .fixed_point_index = layers.fixed_point_index,
+                          .fixed_point = layers.truncated ? 0 : layers.sizes.back(),
+                          .layers = layers.sizes,
+                          .truncated = layers.truncated};
+  for (const auto& agents : partition.spec->classes)
+    result.classes.push_back(class_name(spec.agents, agents));
+  if (result.fixed_point == 0 && layers.sizes.front() > 0) {
+    // Z_k shrinks strictly, so the last layer that is not empty holds the largest delay.
+    const std::size_t steps = layers.sizes.size() - (layers.truncated ? 1 : 2);
+    result.max_delay_time =
+        nearest_double(spec.dynamics.period * Rational(static_cast<unsigned long>(steps)));
+  }
+  return result;
+}
+
+}  // namespace
+
+AnalysisSummary summarise(const Solution& solution) {
+  const ProblemSpec& spec = solution.spec;
+  AnalysisSummary summary;
+  summary.name = spec.name;
+  summary.states = solution.abstraction.grid.cells();
+  summary.inputs = solution.abstraction.inputs.count();
+  summary.safe = solution.safe.count();
+  summary.invariant = solution.invariance.invariant.count();
+  summary.iterations = solution.invariance.iterations;
+  summary.guarantee = guarantee_of(spec);
+  summary.period = nearest_double(spec.dynamics.period);
+  summary.period_unit = spec.dynamics.unit;
+  summary.work.push_back(work_of("invariance", solution.invariance.counts));
+  for (const PartitionResult& partition : solution.partitions) {
+    summary.partitions.push_back(summary_of(spec, partition));
+    summary.work.push_back(work_of("layers " + partition.spec->name, partition.layers.counts));
+  }
+  return summary;
+}
+
+}  // namespace coordreq
