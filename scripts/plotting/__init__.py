@@ -1,0 +1,1 @@
+"""Figures of coordreq results: a module a figure, which prepares what is drawn and draws it."""

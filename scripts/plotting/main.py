@@ -1,0 +1,111 @@
+"""The command line of scripts/plot."""
+
+import argparse
+import re
+import signal
+import sys
+
+from .errors import PlotError, StreamError, UsageError, quoted
+
+_FIGURES = ("actions", "layers", "unsafe3d", "run", "requirements", "coalition")
+_EPILOG = "Exit codes: 0 done, 2 wrong usage, 3 invalid file, 5 input or output failed, 130 interrupted."
+
+
+class _Parser(argparse.ArgumentParser):
+    """Complains in our words."""
+
+    def error(self, message):
+        missing = re.fullmatch(r"the following arguments are required: (.*)", message)
+        if missing:
+            raise UsageError(f"no {missing[1].split(', ')[0].split('/')[-1]}, see plot --help")
+        unknown = re.fullmatch(r"unrecognized arguments: (.*)", message)
+        if unknown:
+            raise UsageError(f"unknown argument '{unknown[1]}', see plot --help")
+        choice = re.fullmatch(r"argument FIGURE: invalid choice: '(.*)' \(choose from .*\)", message)
+        if choice:
+            raise UsageError(f"unknown figure '{choice[1]}', expected {quoted(_FIGURES)}")
+        option, what = re.fullmatch(r"argument ([^:]*): (.*)", message).groups()
+        what = "expected a value, found none" if what == "expected one argument" else what
+        raise UsageError(what, option.split("/")[-1])
+
+
+def _size(text):
+    """(6.0, 4.0) of "6x4"."""
+    match = re.fullmatch(r"(\d+(?:\.\d+)?)x(\d+(?:\.\d+)?)", text)
+    if not match or not all(0 < float(side) <= 100 for side in match.groups()):
+        raise argparse.ArgumentTypeError(f"expected WIDTHxHEIGHT in inches, found '{text}'")
+    return tuple(map(float, match.groups()))
+
+
+def _dpi(text):
+    if not text.isdecimal() or not 10 <= int(text) <= 2400:
+        raise argparse.ArgumentTypeError(f"expected a whole number from 10 to 2400, found '{text}'")
+    return int(text)
+
+
+def _parser(modules):
+    parser = _Parser(prog="plot", description="Draws figures of coordreq results.", epilog=_EPILOG)
+    commands = parser.add_subparsers(dest="figure", metavar="FIGURE", required=True)
+    for name, module in modules.items():
+        text = module.__doc__.strip()
+        command = commands.add_parser(
+            name,
+            help=text.splitlines()[0],
+            description=text,
+            epilog=_EPILOG,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            allow_abbrev=False,
+        )
+        kind = "simulate -o" if name == "run" else "analyze"
+        command.add_argument("file", metavar="FILE", help=f"a file that coordreq {kind} wrote")
+        command.add_argument(
+            "-o", "--output", required=True, metavar="PICTURE", help="file to write: .png, .svg or .pdf"
+        )
+        module.add_arguments(command)
+        command.add_argument("--size", type=_size, metavar="WxH", help="size of the picture, inches")
+        command.add_argument("--dpi", type=_dpi, default=150, help="dots an inch of a PNG (default: 150)")
+    return parser
+
+
+def _modules():
+    """The figures by name, in an order that a reader may like."""
+    try:
+        import matplotlib
+
+        matplotlib.use("Agg")
+        import importlib
+
+        return {name: importlib.import_module(f".{name}", __package__) for name in _FIGURES}
+    except ModuleNotFoundError as error:
+        raise StreamError(
+            f"Python has no module '{error.name}', expected the Debian packages of scripts/packages.txt"
+        ) from error
+
+
+def parse(words):
+    """@returns the module of the figure and its arguments"""
+    modules = _modules()
+    arguments = _parser(modules).parse_args(words)
+    return modules[arguments.figure], arguments
+
+
+def _run(words):
+    module, arguments = parse(words)
+    from .output import check_output, save
+
+    check_output(arguments.output)
+    save(module.draw(module.prepare(arguments), arguments.size), arguments.output, arguments.dpi)
+
+
+def main(words):
+    """@returns the exit code"""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        _run(words)
+    except PlotError as error:
+        print(f"plot: error: {error}", file=sys.stderr)
+        return error.code
+    except KeyboardInterrupt:
+        print("plot: error: interrupted", file=sys.stderr)
+        return 130
+    return 0

@@ -1,0 +1,99 @@
+"""The spec inside a results file."""
+
+import json
+import math
+from fractions import Fraction
+
+from .errors import FileError
+from .values import evaluate
+
+
+def without_comments(text):
+    """JSON with // and /* */ blanked out, but not inside of strings."""
+    kept, i = [], 0
+    while i < len(text):
+        if text[i] == '"':
+            end = i + 1
+            while end < len(text) and text[end] != '"':
+                end += 2 if text[end] == "\\" else 1
+            kept.append(text[i : end + 1])
+            i = end + 1
+        elif text.startswith("//", i):
+            end = text.find("\n", i)
+            i = len(text) if end < 0 else end
+        elif text.startswith("/*", i):
+            end = text.find("*/", i + 2)
+            i = len(text) if end < 0 else end + 2
+            kept.append(" ")
+        else:
+            kept.append(text[i])
+            i += 1
+    return "".join(kept)
+
+
+class Spec:
+    """What figures ask of a spec. Numbers are exact."""
+
+    def __init__(self, text, path):
+        self._path = path
+        try:
+            self._keys = json.loads(without_comments(text), parse_float=Fraction)
+        except ValueError as error:
+            raise FileError(f"the spec in the file is no JSON: {error}", path) from error
+        self._constants = self._evaluated(self._keys.get("constants", {}))
+
+    def _evaluated(self, constants):
+        """Constants may use one another in any order."""
+        self._constants = {}
+        for _ in constants:
+            for name, value in constants.items():
+                try:
+                    self._constants.setdefault(name, self._number(value))
+                except ValueError:
+                    pass  # uses one that comes later
+        return self._constants
+
+    def _number(self, value):
+        return evaluate(value, self._constants) if isinstance(value, str) else Fraction(value)
+
+    def state(self, name):
+        return next(state for state in self._keys["states"] if state["name"] == name)
+
+    def is_discrete(self, name):
+        return bool(self.state(name).get("discrete", False))
+
+    def is_periodic(self, name):
+        return self.state(name).get("outside") == "periodic"
+
+    def units(self, kind):
+        """Units of all "states", "inputs" or "disturbances" by name, "" for none."""
+        return {one["name"]: one.get("unit", "") for one in self._keys.get(kind, [])}
+
+    def requirements(self):
+        return self._keys.get("requirements", [])
+
+    def required_steps(self, requirement):
+        """Steps that a requirement asks for, ceil(time / period) if it names a time; 0 if it asks for K only."""
+        try:
+            if "min_delay" in requirement:
+                return math.ceil(self._number(requirement["min_delay"]))
+            if "min_delay_time" in requirement:
+                period = self._number(self._keys["dynamics"].get("period", 1))
+                return math.ceil(self._number(requirement["min_delay_time"]) / period)
+        except ValueError as error:
+            raise FileError(f"requirement '{requirement['name']}': {error}", self._path) from error
+        return 0
+
+    def canonical_partitions(self):
+        """Given names of the listed partitions by their canonical ones: {"a+b|c": "name"}."""
+        agents = [agent["name"] for agent in self._keys["agents"]]
+        listed = self._keys.get("coordination", {}).get("partitions", [])
+        names = {}
+        for partition in listed if isinstance(listed, list) else []:
+            classes = [sorted(one, key=agents.index) for one in partition.get("classes", [])]
+            together = {agent for one in classes for agent in one}
+            classes += [[agent] for agent in agents if agent not in together]
+            classes.sort(key=lambda one: agents.index(one[0]))
+            canonical = "|".join("+".join(one) for one in classes)
+            names[canonical] = partition.get("name", canonical)
+        return names

@@ -1,0 +1,110 @@
+"""How all figures look. Colours: viridis for numbers of steps (perceptually uniform, readable for colour-blind people
+and in grey), greys for cells that are lost, Okabe and Ito's palette for kinds."""
+
+import matplotlib
+import numpy as np
+from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
+
+NOT_SAFE = "#7f7f7f"
+NOT_INVARIANT = "#bdbdbd"
+FREE = "#ffffff"
+NO_PARTITION = "#000000"
+KINDS = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#f0e442"]
+
+_LARGEST_RATIO = 5  # of the sides of a picture in scale
+
+
+def plain(text):
+    """A text as it is: a $ of a user is no formula."""
+    return text.replace("$", r"\$")
+
+
+def new_figure(size, default):
+    """@param size (width, height) in inches that the user wants, None: `default`"""
+    matplotlib.rcParams.update({"axes.titlesize": "medium", "figure.titlesize": "medium", "legend.fontsize": "small"})
+    return Figure(figsize=size or default, layout="constrained")
+
+
+def step_colors(most):
+    """A colormap with a colour for each of the steps 0, ..., most, and its norm."""
+    levels = min(most + 1, 256)
+    return matplotlib.colormaps["viridis"].resampled(levels), Normalize(-0.5, most + 0.5)
+
+
+def add_step_bar(figure, axes, most, label, results, location="right", shrink=1.0, pad=0.02):
+    """A colour bar for steps, with times on its other side if the file has a unit of time."""
+    cmap, norm = step_colors(most)
+    place = {"location": location, "shrink": shrink, "fraction": 0.06, "pad": pad}
+    bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, cmap), ax=axes, **place)
+    bar.ax.yaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
+    bar.ax.minorticks_off()
+    bar.set_label(plain(f"{label} [steps]"))
+    if results.period_unit:
+        period = results.period
+        other = "left" if location == "right" else "right"
+        times = bar.ax.secondary_yaxis(other, functions=(lambda k: k * period, lambda t: t / period))
+        times.set_ylabel(plain(f"[{results.period_unit}]"), labelpad=2)
+        times.tick_params(labelsize="small")
+    return bar
+
+
+def kind_image(axes, kinds, colors, extent):
+    """Cells [x, y] of numbered kinds as an image; -1 is transparent."""
+    cmap = ListedColormap(colors)
+    norm = BoundaryNorm(np.arange(len(colors) + 1) - 0.5, len(colors))
+    shown = np.ma.masked_equal(kinds.T, -1)
+    return axes.imshow(shown, cmap=cmap, norm=norm, **_image(extent))
+
+
+def step_image(axes, steps, most, extent):
+    """Cells [x, y] of steps, a masked array."""
+    cmap, norm = step_colors(most)
+    return axes.imshow(steps.T, cmap=cmap, norm=norm, **_image(extent))
+
+
+def _image(extent):
+    return {"origin": "lower", "extent": extent, "interpolation": "nearest", "aspect": "auto"}
+
+
+def extent_of(cut):
+    """(left, right, bottom, top) of the faces of the cells; a single state gives a strip."""
+    y = cut.axes[1].edges[[0, -1]] if len(cut.axes) > 1 else (0, 1)
+    return (*cut.axes[0].edges[[0, -1]], *y)
+
+
+def label_plane(axes, cut):
+    """Axes with units, in scale where that is possible: the same unit and sides that are not too different."""
+    axes.set_xlabel(plain(cut.axes[0].label))
+    if len(cut.axes) == 1:
+        axes.set_yticks([])
+        axes.set_box_aspect(0.15)
+        return
+    axes.set_ylabel(plain(cut.axes[1].label))
+    left, right, bottom, top = extent_of(cut)
+    ratio = (top - bottom) / (right - left)
+    if cut.axes[0].unit == cut.axes[1].unit and 1 / _LARGEST_RATIO <= ratio <= _LARGEST_RATIO:
+        axes.set_aspect("equal")
+
+
+def add_title(figure, *lines):
+    """@param lines those that are empty are left out"""
+    figure.suptitle(plain("\n".join(filter(None, lines))))
+
+
+def legend_below(figure, entries):
+    """@param entries (colour, text) of patches, or ready handles"""
+    handles = [_patch(*entry) if isinstance(entry, tuple) else entry for entry in entries]
+    if not handles:
+        return
+    columns = min(len(handles), max(1, int(figure.get_figwidth() / 1.5)))
+    height = 0.08 + 0.22 * -(-len(handles) // columns)
+    share = height / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, share, 1, 1 - share))
+    figure.legend(handles=handles, loc="lower center", ncols=columns, frameon=False, borderaxespad=0.2)
+
+
+def _patch(color, text):
+    return Patch(facecolor=color, edgecolor="#444444", label=plain(text))

@@ -1,0 +1,142 @@
+"""The unsafe region in three dimensions, and how it grows with the connection delay
+
+First the cells outside the invariance set K, coloured by the time within which the worst case collides, whatever is
+coordinated. Then for each connection delay D the cells that cannot bear D steps without coordination, coloured by their
+delay. Three states are drawn, the others cut with --slice."""
+
+import math
+from dataclasses import dataclass
+
+import matplotlib
+import numpy as np
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+from . import style
+from .cut import Cut, add_cut_arguments, make_cut
+from .errors import UsageError
+from .results import Results
+from .surface import visible_faces
+from .values import whole_numbers
+
+_VIEW = (24.0, -56.0)
+_LIGHT = (0.93, 0.85, 1.0)  # of faces across each dimension
+_WIDEST = 3  # longest side of the drawn box over the shortest
+
+
+@dataclass(frozen=True)
+class Panel:
+    title: str
+    members: np.ndarray  # bool [x, y, z]
+    steps: np.ndarray  # [x, y, z], colours of the members; -1: one grey
+
+
+@dataclass(frozen=True)
+class Unsafe:
+    cut: Cut
+    partition: str
+    collision: Panel
+    growth: list[Panel]
+    view: tuple[float, float]  # elevation and azimuth, degrees
+
+    @property
+    def viewer(self):
+        """For each axis the end that the viewer sees, 1 or -1."""
+        elevation, azimuth = map(math.radians, self.view)
+        return tuple(1 if end >= 0 else -1 for end in (math.cos(azimuth), math.sin(azimuth), elevation))
+
+    @property
+    def most_collision(self):
+        return _most(self.collision)
+
+    @property
+    def most_delay(self):
+        return max(map(_most, self.growth), default=0)
+
+
+def _most(panel):
+    return int(panel.steps[panel.members].max(initial=0))
+
+
+def add_arguments(parser):
+    add_cut_arguments(parser, 3)
+    parser.add_argument("--partition", metavar="NAME", help="partition (default: the only one)")
+    text = "connection delays D in steps, as 5,10 (default: two between 0 and F)"
+    parser.add_argument("--delays", metavar="D,...", help=text)
+    text = "elevation (-90 to 90) and azimuth of the viewer in degrees (default: 24,-56)"
+    parser.add_argument("--view", metavar="E,A", help=text)
+
+
+def prepare(arguments):
+    results = Results(arguments.file)
+    partition = results.partition(arguments.partition)
+    delays = None if arguments.delays is None else whole_numbers(arguments.delays, "--delays")
+    view = _VIEW if arguments.view is None else _parse_view(arguments.view)
+    cut = make_cut(results, arguments, directions=3, fewest=3)
+    if delays is None:
+        last = len(results.read("/layer")) - 1
+        delays = sorted({-(-last // 6), -(-last // 2)})
+    outside = cut.read("/invariant") == 0
+    collision = Panel("outside K", outside, cut.read("/collision_time").astype(int))
+    delay = cut.read("/delay", partition).astype(int)
+    steps = np.where(outside, -1, delay)
+    growth = [Panel(f"D = {results.seconds(d)}", delay < d, steps) for d in delays]
+    return Unsafe(cut, results.partitions[partition], collision, growth, view)
+
+
+def _parse_view(text):
+    try:
+        elevation, azimuth = map(float, text.split(","))
+    except ValueError:
+        elevation = math.nan
+    if not -90 <= elevation <= 90 or not math.isfinite(azimuth):
+        raise UsageError(f"expected an elevation and an azimuth such as 24,-56, found '{text}'", "--view")
+    return elevation, azimuth
+
+
+def draw(unsafe, size=None):
+    results, cut = unsafe.cut.results, unsafe.cut
+    count = 1 + len(unsafe.growth)
+    columns = min(count, 3)
+    rows = -(-count // columns)
+    figure = style.new_figure(size, (4.3 * columns + 0.6, 4.0 * rows + 0.4))
+    places = [figure.add_subplot(rows, columns, i + 1, projection="3d") for i in range(count)]
+    for axes, panel in zip(places, [unsafe.collision, *unsafe.growth]):
+        most = unsafe.most_collision if panel is unsafe.collision else unsafe.most_delay
+        _draw_cells(axes, unsafe, panel, most)
+        _label_axes(axes, cut, unsafe.view)
+        axes.set_title(style.plain(panel.title))
+    bar = {"location": "left", "shrink": 0.6, "pad": 0.1}
+    style.add_step_bar(figure, places[:1], unsafe.most_collision, "collision within", results, **bar)
+    if any((panel.members & (panel.steps >= 0)).any() for panel in unsafe.growth):
+        style.add_step_bar(figure, places[1:], unsafe.most_delay, "delay", results, shrink=0.6)
+    style.add_title(figure, f"{results.title}, {unsafe.partition}", cut.title)
+    entries = [(style.NOT_INVARIANT, "not invariant")] if any(p.members.any() for p in unsafe.growth) else []
+    style.legend_below(figure, entries)
+    return figure
+
+
+def _draw_cells(axes, unsafe, panel, most):
+    cells, corners, dimensions = visible_faces(panel.members, unsafe.viewer)
+    edges = [axis.edges for axis in unsafe.cut.axes]
+    polygons = np.stack([edges[i][corners[:, :, i]] for i in range(3)], axis=-1)
+    cmap, norm = style.step_colors(most)
+    steps = panel.steps[tuple(cells.T)]
+    colors = np.where(steps[:, None] < 0, matplotlib.colors.to_rgba(style.NOT_INVARIANT), cmap(norm(steps)))
+    colors[:, :3] *= np.array(_LIGHT)[dimensions][:, None]
+    faces = Poly3DCollection(polygons, facecolors=colors, edgecolors=colors, linewidths=0.2, rasterized=True)
+    axes.add_collection3d(faces)
+
+
+def _label_axes(axes, cut, view):
+    axes.set_proj_type("ortho")
+    axes.view_init(*view)
+    lengths = []
+    for name, axis in zip("xyz", cut.axes):
+        ends = axis.edges[[0, -1]]
+        lengths.append(ends[1] - ends[0])
+        getattr(axes, f"set_{name}lim")(*ends)
+        getattr(axes, f"set_{name}label")(style.plain(axis.label))
+        getattr(axes, f"{name}axis").set_major_locator(matplotlib.ticker.MaxNLocator(5))
+    if len({axis.unit for axis in cut.axes}) > 1 or max(lengths) > _WIDEST * min(lengths):
+        lengths = (1, 1, 1)
+    axes.set_box_aspect(lengths, zoom=0.95)

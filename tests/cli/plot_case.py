@@ -1,0 +1,56 @@
+"""Figures of scripts/plot, drawn in this process so that a test can look at what is on them."""
+
+import contextlib
+import io
+import sys
+
+import h5py
+import numpy as np
+from program import ROOT, Case
+
+sys.path.insert(0, str(ROOT / "scripts"))
+sys.dont_write_bytecode = True
+
+from plotting.main import main, parse  # noqa: E402
+
+
+class PlotCase(Case):
+    def analyzed(self, spec):
+        self.write("spec.json", spec)
+        self.analyze("spec.json", "-o", "out.h5")
+
+    def stored(self, name, file="out.h5"):
+        with h5py.File(self.folder / file) as stored:
+            return stored[name][...]
+
+    def plotted(self, figure, *words, file="out.h5"):
+        """What is drawn, and the drawing."""
+        module, arguments = parse([figure, str(self.folder / file), "-o", "unused.png", *words])
+        data = module.prepare(arguments)
+        return data, module.draw(data)
+
+    def assert_plot_fails(self, code, message, *words):
+        """Exit code, one exact error line, and no file more than before."""
+        before = self.files()
+        errors = io.StringIO()
+        with contextlib.chdir(self.folder), contextlib.redirect_stderr(errors):
+            self.assertEqual(main(list(words)), code)
+        self.assertEqual(errors.getvalue(), f"plot: error: {message}\n")
+        self.assertEqual(self.files(), before)
+
+    def assert_arrays_equal(self, found, expected):
+        np.testing.assert_array_equal(found, expected)
+
+
+def titles(figure):
+    """The text above the picture, and that above each panel."""
+    texts = [figure._suptitle.get_text()] if figure._suptitle else []
+    return texts + [axes.get_title() for axes in figure.axes if axes.get_title()]
+
+
+def legend(figure):
+    return [text.get_text() for text in figure.legends[0].get_texts()] if figure.legends else []
+
+
+def labels(axes):
+    return axes.get_xlabel(), axes.get_ylabel()

@@ -1,0 +1,381 @@
+"""What figures of scripts/plot show is what the results file holds."""
+
+import itertools
+import json
+import math
+import unittest
+
+import h5py
+import numpy as np
+from plot_case import PlotCase, labels, legend, titles
+from program import CONFIGS, SPEC, spec_with, without_comments
+
+UNBOUNDED = np.iinfo(np.int16).max
+
+
+def example(config, **changes):
+    return dict(json.loads(without_comments((CONFIGS / config).read_text())), **changes)
+
+
+class Cases(PlotCase):
+    # actions
+
+    def test_actions_are_the_staircase_of_the_paper(self):
+        self.analyzed(example("circle_actions.json"))
+        data, figure = self.plotted("actions", "--at", "x1=-0.62,x2=-1/2")
+        u = self.stored("u1")
+        i, j = (int(np.abs(self.stored(name) - x).argmin()) for name, x in (("x1", -0.62), ("x2", -0.5)))
+        bits = np.unpackbits(self.stored("controller")[i, j], bitorder="little")[: len(u) ** 2]
+        allowed = {(u[k // len(u)], u[k % len(u)]) for k in np.flatnonzero(bits)}
+        points = {tuple(point) for point in figure.axes[0].collections[-1].get_offsets()}
+        self.assertEqual(points, allowed)
+        # Stairs: less of u1 asks for more of u2, in several steps; and IND_C is more than C.
+        least = [min(b for a, b in allowed if a == one) for one in sorted({a for a, _ in allowed})]
+        self.assertEqual(least, sorted(least, reverse=True))
+        self.assertEqual(len(set(least)), 3)
+        box = {a for a, _ in allowed}, {b for _, b in allowed}
+        self.assert_arrays_equal(data.independent, np.outer(np.isin(u, list(box[0])), np.isin(u, list(box[1]))))
+        self.assertEqual((data.controller.sum(), data.independent.sum()), (600, 900))
+        self.assertEqual(titles(figure), ["circle_actions, horizontal|vertical\nat x1 = -0.62 m, x2 = -0.5 m"])
+        self.assertEqual(labels(figure.axes[0]), ("u1 [m/s]", "u2 [m/s]"))
+        self.assertEqual(legend(figure), ["C(x): 600 of 1681", "IND_C(x): 900 of 1681"])
+
+    def test_actions_over_two_of_several_inputs(self):
+        values = {"u": [1, -1, 0], "v": [-1, 0, 1], "w": [0, 1]}
+        self.analyzed(
+            spec_with(
+                inputs=[{"name": name, "values": several} for name, several in values.items()],
+                agents=[{"name": "a", "inputs": ["w"]}, {"name": "b", "inputs": ["u", "v"]}],
+                dynamics=dict(SPEC["dynamics"], equations={"x": "x + u - w", "y": "y + v + w"}),
+                output={"controller": True, "actions": True},
+            )
+        )
+        at = ("--at", "x=3,y=3")
+        data, figure = self.plotted("actions", *at, "--slice", "v=1", "--x", "w")
+        bits = np.unpackbits(self.stored("controller")[3, 3], bitorder="little")[:18].reshape(3, 3, 2)
+        independent = bits.any(axis=(0, 1))[None, None, :] & bits.any(axis=2)[:, :, None]
+        self.assertGreater(independent.sum(), bits.sum())
+        order = [1, 2, 0]
+        self.assert_arrays_equal(data.controller, bits[order, 2, :].T)
+        self.assert_arrays_equal(data.independent, independent[order, 2, :].T)
+        self.assert_arrays_equal(data.y, [-1, 0, 1])
+        points = {tuple(point) for point in figure.axes[0].collections[-1].get_offsets()}
+        u, w = np.nonzero(bits[:, 2, :])
+        self.assertEqual(points, set(zip(w, np.array([1, -1, 0])[u])))
+        self.assertEqual(titles(figure), ["small, a|b\nat x = 3 m, y = 3 m\nv = 1"])
+        self.assertEqual(labels(figure.axes[0]), ("w", "u"))
+        for words, message in (
+            (at, "cut 1 of 'u', 'v' or 'w': expected --slice INPUT=VALUE,..."),
+            ((*at, "--slice", "v=1,w=0"), "the picture has 2 axes, found 1 input to draw"),
+            ((*at, "--slice", "v=0.5"), "v takes no value 0.5 (--slice)"),
+            ((*at, "--slice", "x=0.5"), "'x' is no input, expected 'u', 'v' or 'w' (--slice)"),
+            (("--at", "x=3"), "no value for the state 'y' (--at)"),
+            (("--at", "x=3,y=9"), "y = 9 is outside of the domain (--at)"),
+        ):
+            self.assert_plot_fails(2, message, "actions", "out.h5", "-o", "a.png", *words)
+
+    def test_actions_need_what_is_stored_on_request(self):
+        self.analyzed(SPEC)
+        what = 'analyse with "output": {"controller": true, "actions": true} (out.h5)'
+        words = ("actions", "out.h5", "-o", "a.png", "--at", "x=3,y=3")
+        self.assert_plot_fails(3, f"no /controller in the file: {what}", *words)
+        self.analyzed(spec_with(output={"controller": True}))
+        self.assert_plot_fails(3, f"no /actions in the file: {what}", *words)
+
+    # layers
+
+    def test_layers_are_the_delays(self):
+        self.analyzed(example("circle.json"))
+        _, figure = self.plotted("layers")
+        delay = self.stored("delay")[0]
+        kinds, steps = figure.axes[0].images
+        # Images are rows of pixels from below: [x2, x1].
+        shown = steps.get_array()
+        self.assert_arrays_equal(shown.mask, (delay < 0).T)
+        self.assert_arrays_equal(shown.compressed(), delay.T[delay.T >= 0])
+        self.assert_arrays_equal(kinds.get_array().filled(-1), np.select([delay == -2, delay == -1], [0, 1], -1).T)
+        for edge, expected in zip(steps.get_extent(), (-1.005, 1.005) * 2):
+            self.assertAlmostEqual(edge, expected, 12)
+        self.assertEqual(steps.get_clim(), (-0.5, 28.5))
+        self.assertEqual(labels(figure.axes[0]), ("x1 [m]", "x2 [m]"))
+        self.assertEqual(labels(figure.axes[1])[1], "delay [steps]")
+        self.assertEqual(titles(figure), ["circle, horizontal|vertical"])
+        self.assertEqual(legend(figure), ["not safe", "safe, not invariant"])
+
+    def test_snapshots_show_what_left_before_k(self):
+        self.analyzed(example("circle.json"))
+        _, figure = self.plotted("layers", "--snapshots", "1,14,29")
+        delay = self.stored("delay")[0].T
+        for axes, k in zip(figure.axes, (1, 14, 29)):
+            kinds, steps = axes.images
+            left = (0 <= delay) & (delay < k)
+            self.assert_arrays_equal(steps.get_array().mask, ~left)
+            self.assert_arrays_equal(steps.get_array().compressed(), delay[left])
+            self.assert_arrays_equal(kinds.get_array().filled(-1) == 2, delay >= k)
+        self.assertEqual(titles(figure)[1:], ["k = 1 step (0.01 s)", "k = 14 steps (0.14 s)", "k = 29 steps (0.29 s)"])
+        self.assertEqual(legend(figure), ["not safe", "safe, not invariant", "bears k steps (Z_k)"])
+
+    def test_slices_of_more_dimensions(self):
+        partitions = [{"classes": []}, {"name": "both", "classes": [["first", "second"]]}]
+        self.analyzed(example("intersection_coarse.json", coordination={"partitions": partitions}))
+        delay = self.stored("delay")
+        v1, v2 = (int(np.abs(self.stored(name) - v).argmin()) for name, v in (("v1", 1), ("v2", 2)))
+        cut = ("--slice", "v1=1", "--slice", "v2=2")
+        data, figure = self.plotted("layers", *cut, "--x", "p2", "--partition", "first|second")
+        shown = data.panels[0].delay
+        self.assert_arrays_equal(shown.filled(UNBOUNDED), np.where(shown.mask, UNBOUNDED, delay[0, :, v1, v2, :].T))
+        self.assert_arrays_equal(data.panels[0].kinds == 2, delay[0, :, v1, v2, :].T == UNBOUNDED)
+        # p2 to the right, p1 upwards.
+        image = figure.axes[0].images[1].get_array()
+        self.assert_arrays_equal(image.compressed(), delay[0, :, v1, v2, :][~image.mask])
+        self.assertEqual(titles(figure), ["intersection_coarse, first|second\nv1 = 1 m/s, v2 = 2 m/s"])
+        self.assertEqual(labels(figure.axes[0]), ("p2 [m]", "p1 [m]"))
+        # All together are never silent too long, under the given name or the canonical one.
+        for name in ("both", "first+second"):
+            data, figure = self.plotted("layers", *cut, "--partition", name)
+            self.assertEqual((data.partition, data.kinds), ("both", {0, 1, 2}))
+            self.assertEqual(legend(figure)[2], "unbounded")
+
+    def test_values_are_found_in_their_cells_as_query_finds_them(self):
+        self.analyzed(
+            spec_with(
+                states=[
+                    {"name": "h", "lower": "-pi", "upper": "pi", "count": 5, "outside": "periodic"},
+                    {"name": "y", "lower": -0.7, "upper": 0.7, "step": 0.1},
+                    {"name": "gear", "lower": 1, "upper": 2, "step": 1, "discrete": True},
+                ],
+                dynamics=dict(SPEC["dynamics"], equations={"h": "h + u*pi/5", "y": "y + v/10", "gear": "gear"}),
+                safe="true",
+            )
+        )
+        # The cell [a, b), and a period of 2 pi.
+        for text, index in (("0.05", 8), ("1/20 - 10^-9", 7), ("-0.75", 0)):
+            data, _ = self.plotted("layers", "--slice", f"y={text}")
+            self.assertEqual(data.cut.index[1], index)
+        for text, index in (("pi/2", 4), ("-3/2*pi", 4), ("9/10*pi", 0), ("11/10*pi", 0)):
+            data, _ = self.plotted("layers", "--slice", f"h={text}")
+            self.assertEqual(data.cut.index[0], index)
+        for text, message in (
+            ("gear=1.5", "gear = 1.5 is outside of the domain (--slice)"),
+            ("y=0.75", "y = 0.75 is outside of the domain (--slice)"),
+            ("y=0.1x", "expected a number, found '0.1x' (--slice, y)"),
+            ("y=a", "'a' is not defined (--slice, y)"),
+            ("y", "expected NAME=VALUE, found 'y' (--slice)"),
+            ("y=1,y=2", "'y' is given twice (--slice)"),
+            ("z=1", "'z' is no state, expected 'h', 'y' or 'gear' (--slice)"),
+            ("h=0 --x h", "'h' is cut (--x)"),
+            ("h=0 --x y --y y", "'y' is drawn twice (--x)"),
+            ("h=0 --x z", "'z' is no state, expected 'h', 'y' or 'gear' (--x)"),
+            ("h=0,y=0,gear=1", "the picture has 1 axes, found 0 states to draw"),
+        ):
+            self.assert_plot_fails(2, message, "layers", "out.h5", "-o", "a.png", "--slice", *text.split())
+
+    def test_a_single_state_is_a_strip_and_a_cut_off_delay_says_so(self):
+        self.analyzed(
+            spec_with(
+                states=[{"name": "x", "lower": 0, "upper": 20, "step": 1, "unit": "m"}],
+                dynamics={"time": "discrete", "period": 1, "equations": {"x": "x + u + v"}},
+                safe="x >= 2 and x <= 17",
+                coordination={"max_delay": 2},
+            )
+        )
+        data, figure = self.plotted("layers")
+        delay = self.stored("delay")[0]
+        self.assertEqual(delay.max(), 2)
+        self.assert_arrays_equal(data.panels[0].delay.filled(-1)[:, 0], np.where(delay < 0, -1, delay))
+        self.assertEqual(labels(figure.axes[0]), ("x [m]", ""))
+        self.assertEqual(labels(figure.axes[1])[1], "delay; 2 is at least 2 [steps]")
+        data, figure = self.plotted("requirements")
+        self.assert_arrays_equal(data.histograms[0].cells, [(delay == k).sum() for k in range(3)])
+        self.assertEqual([text.get_text() for text in figure.axes[0].texts], ["at least"])
+
+    # unsafe3d
+
+    def test_unsafe3d_shows_the_surface_of_what_is_lost(self):
+        self.analyzed(example("aircraft_coarse.json"))
+        data, figure = self.plotted("unsafe3d", "--delays", "2,6", "--x", "x", "--y", "y", "--z", "h")
+        # The file has them as h, y, x.
+        lost = self.stored("invariant").transpose() == 0
+        delay = self.stored("delay")[0].transpose()
+        collision = self.stored("collision_time").transpose()
+        self.assert_arrays_equal(data.collision.members, lost)
+        self.assert_arrays_equal(data.collision.steps[lost], collision[lost])
+        for panel, d in zip(data.growth, (2, 6)):
+            self.assert_arrays_equal(panel.members, delay < d)
+            self.assert_arrays_equal(panel.steps[delay >= 0], delay[delay >= 0])
+            self.assertEqual(set(panel.steps[delay < 0]), {-1})
+        for axes, panel in zip(figure.axes, [data.collision, *data.growth]):
+            self.assertEqual(len(axes.collections[0].get_facecolor()), self.faces(panel.members, data.viewer))
+        panels = ["outside K", "D = 2 steps (0.4 min)", "D = 6 steps (1.2 min)"]
+        self.assertEqual(titles(figure), ["aircraft_coarse, first|second", *panels])
+        self.assertEqual((*labels(figure.axes[0]), figure.axes[0].get_zlabel()), ("x [km]", "y [km]", "h [rad]"))
+
+    @staticmethod
+    def faces(members, viewer):
+        """By definition: pairs of a cell and a side whose neighbour towards the viewer is not a member."""
+        count = 0
+        for cell in np.argwhere(members):
+            for dimension, side in enumerate(viewer):
+                beyond = cell.copy()
+                beyond[dimension] += side
+                inside = 0 <= beyond[dimension] < members.shape[dimension]
+                count += not (inside and members[tuple(beyond)])
+        return count
+
+    def test_faces_lie_between_a_member_and_what_is_none(self):
+        from plotting.surface import visible_faces
+
+        members = np.random.default_rng(7).random((4, 5, 6)) < 0.5
+        padded = np.pad(members, 1)
+        for viewer in itertools.product((1, -1), repeat=3):
+            cells, corners, dimensions = visible_faces(members, viewer)
+            self.assertEqual(len(cells), self.faces(members, viewer))
+            for cell, quad, dimension in zip(cells, corners, dimensions):
+                self.assertTrue(members[tuple(cell)])
+                beyond = cell + 1
+                beyond[dimension] += viewer[dimension]
+                self.assertFalse(padded[tuple(beyond)])
+                at = cell[dimension] + (viewer[dimension] > 0)
+                self.assertEqual(set(quad[:, dimension]), {at})
+                others = [d for d in range(3) if d != dimension]
+                expected = set(itertools.product(*((cell[d], cell[d] + 1) for d in others)))
+                self.assertEqual({tuple(corner) for corner in quad[:, others]}, expected)
+
+    def test_unsafe3d_needs_three_states(self):
+        self.analyzed(SPEC)
+        words = ("unsafe3d", "out.h5", "-o", "a.png")
+        self.assert_plot_fails(2, "the picture has 3 axes, found 2 states to draw", *words)
+        view = "expected an elevation and an azimuth such as 24,-56, found '95,0' (--view)"
+        self.assert_plot_fails(2, view, *words, "--view", "95,0")
+
+    # run
+
+    def simulated(self, config, *words):
+        self.analyzed(example(config))
+        result = self.run_program("simulate", "out.h5", *words, "-o", "runs.h5")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+
+    def test_run_shows_states_countdown_slack_and_margin(self):
+        self.simulated("circle.json", "--from", "x1=0.1,x2=0", "--steps", "50", "--runs", "2")
+        data, figure = self.plotted("run", "--run", "1", file="runs.h5")
+        time, state = self.stored("time", "runs.h5"), self.stored("state", "runs.h5")[1]
+        curves, steps, margin = figure.axes
+        for i, name in enumerate(("x1 [m]", "x2 [m]")):
+            self.assertEqual(curves.lines[i].get_label(), name)
+            self.assert_arrays_equal(curves.lines[i].get_xydata(), np.stack([time, state[:, i]], axis=1))
+        slack, countdown, coordinated = steps.lines
+        self.assert_arrays_equal(countdown.get_ydata(), self.stored("countdown", "runs.h5")[1])
+        self.assert_arrays_equal(slack.get_ydata(), self.stored("delay", "runs.h5")[1])
+        self.assertTrue((countdown.get_ydata() <= slack.get_ydata()).all())
+        self.assert_arrays_equal(coordinated.get_xdata(), time[self.stored("coordinated", "runs.h5")[1] == 1])
+        self.assert_arrays_equal(margin.lines[0].get_ydata(), self.stored("margin", "runs.h5")[1])
+        subtitle = "run 1, policy random, seed 1: completed"
+        self.assertEqual(titles(figure), [f"circle, horizontal|vertical\n{subtitle}"])
+        self.assertEqual((labels(curves)[0], labels(steps)[1]), ("time [s]", "steps"))
+        self.assertEqual(labels(margin), ("time [s]", "margin"))
+        for words, message in (
+            (("--run", "2"), "expected the number of one run, 0 to 1, found '2' (--run)"),
+            (("--run", "0,1"), "expected the number of one run, 0 to 1, found '0,1' (--run)"),
+            (("--plane", "x1"), "expected two states as in x1,y1, found 'x1' (--plane)"),
+            (("--plane", "x1,x3"), "'x3' is no state, expected 'x1' or 'x2' (--plane)"),
+        ):
+            self.assert_plot_fails(2, message, "run", "runs.h5", "-o", "a.png", *words)
+
+    def test_run_in_a_plane_and_for_ever(self):
+        start = "p1=-10,v1=0,v2=1.5,p2=10"
+        self.simulated("intersection_coarse.json", "--from", start, "--steps", "3")
+        data, figure = self.plotted("run", "--plane", "p1,p2", file="runs.h5")
+        samples = self.stored("samples", "runs.h5")[0]
+        state = self.stored("state", "runs.h5")[0, :samples]
+        self.assert_arrays_equal(figure.axes[0].lines[0].get_xydata(), state[:, [0, 3]])
+        self.assertEqual(labels(figure.axes[0]), ("p1 [m]", "p2 [m]"))
+        self.assertTrue(math.isinf(data.steps.slack[0]))
+        self.assertEqual([text.get_text() for text in figure.axes[1].texts], ["never"])
+
+    # requirements and coalition
+
+    def rewrite(self, change):
+        """What this version of the program does not write itself."""
+        with h5py.File(self.folder / "out.h5", "r+") as file:
+            change(file)
+
+    def test_requirements_are_lines_in_the_histogram_of_delays(self):
+        spec = example("circle.json")
+        self.analyzed(spec)
+        required = [
+            {"name": "costs $5 // not a comment", "where": "r2 <= 0.01", "min_delay": 20},
+            {"name": "time", "where": "true", "min_delay_time": "R/8 + 0.001", "partition": "horizontal|vertical"},
+            {"name": "start", "where": "r2 <= 0.25", "invariant": True},
+        ]
+        text = "// a comment\n/* another\n one */" + json.dumps(dict(spec, requirements=required))
+
+        def change(file):
+            del file["spec"]
+            file["spec"] = text
+
+        self.rewrite(change)
+        data, figure = self.plotted("requirements")
+        delay = self.stored("delay")[0]
+        axes = figure.axes[0]
+        heights = [bar.get_height() for bar in axes.patches]
+        self.assertEqual(heights, [(delay == k).sum() for k in range(29)])
+        middles = [bar.get_x() + bar.get_width() / 2 for bar in axes.patches]
+        np.testing.assert_allclose(middles, np.arange(29) * 0.01, atol=1e-12)
+        np.testing.assert_allclose([line.get_xdata()[0] for line in axes.lines], [0.195, 0.105, -0.005], atol=1e-12)
+        texts = [text.get_text() for text in axes.get_legend().get_texts()]
+        first = r"costs \$5 // not a comment: 20 steps (0.2 s)"
+        self.assertEqual(texts, [first, "time: 11 steps (0.11 s)", "start: in K"])
+        self.assertEqual(titles(figure), ["circle\n4 safe cells are not invariant", "horizontal|vertical"])
+        self.assertEqual(labels(axes), ("delay [s]", "cells"))
+
+    def test_requirements_of_several_partitions(self):
+        partitions = [{"classes": []}, {"name": "both", "classes": [["b", "a"]]}]
+        spec = spec_with(coordination={"partitions": partitions})
+        self.analyzed(spec)
+        required = [{"name": "one", "where": "true", "partition": "a+b", "min_delay": 3}]
+
+        def change(file):
+            del file["spec"]
+            file["spec"] = json.dumps(dict(spec, requirements=required))
+
+        self.rewrite(change)
+        data, figure = self.plotted("requirements")
+        delay = self.stored("delay")
+        for p, histogram in enumerate(data.histograms):
+            self.assertEqual(histogram.unbounded, (delay[p] == UNBOUNDED).sum())
+            self.assert_arrays_equal(histogram.cells, [(delay[p] == k).sum() for k in range(len(histogram.cells))])
+            self.assertEqual(histogram.cells.sum() + histogram.unbounded, (delay[p] >= 0).sum())
+        self.assertEqual([[line.name for line in histogram.lines] for histogram in data.histograms], [[], ["one"]])
+        data, figure = self.plotted("requirements", "--partition", "a|b")
+        self.assertEqual([histogram.partition for histogram in data.histograms], ["a|b"])
+
+    def test_coalition_has_a_colour_for_each_partition(self):
+        partitions = [{"classes": []}, {"name": "both", "classes": [["a", "b"]]}]
+        self.analyzed(spec_with(coordination={"partitions": partitions}))
+        words = ("coalition", "out.h5", "-o", "a.png")
+        missing = 'no /coalition in the file: analyse with "coordination": {"horizon": STEPS} (out.h5)'
+        self.assert_plot_fails(3, missing, *words)
+        values = np.array([[0, 0, 1, 1, -1]] * 3 + [[1, 1, 1, -2, -2], [0, -3, -3, -2, -2]])
+
+        def change(file):
+            file["coalition"] = values
+            file["coalition"].attrs["flag_values"] = [-2, -1, -3]
+            file["coalition"].attrs["flag_meanings"] = "not_safe not_invariant none_suffices"
+
+        self.rewrite(change)
+        data, figure = self.plotted("coalition")
+        texts = {-3: "none suffices", -2: "not safe", -1: "not invariant", 0: "a|b", 1: "both"}
+        found = np.vectorize(lambda kind: data.kinds[kind].text)(data.cells)
+        self.assert_arrays_equal(found, np.vectorize(texts.get)(values))
+        self.assert_arrays_equal(figure.axes[0].images[0].get_array(), data.cells.T)
+        self.assertEqual(legend(figure), list(texts.values()))
+        self.assertEqual(len({kind.color for kind in data.kinds}), 5)
+        self.assertEqual(labels(figure.axes[0]), ("x [m]", "y [m]"))
+        values[0, 0] = 2
+        self.analyzed(spec_with(coordination={"partitions": partitions}))
+        self.rewrite(change)
+        self.assert_plot_fails(3, "no partition has the number 2 of /coalition (out.h5)", *words)
+
+
+if __name__ == "__main__":
+    unittest.main()
