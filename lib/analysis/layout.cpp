@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "abstraction/build_abstraction.hpp"
@@ -29,6 +30,28 @@ std::vector<std::size_t> components(const std::vector<TableShape>& shapes) {
   return first;
 }
 
+/// Where motion is coupled (sums) and led by what moves by itself, the sums come last, the longest of them
+/// along the rows; nothing if there is no such order.
+std::optional<std::vector<std::size_t>> sums_last(const ProblemSpec& spec,
+                                                  const std::vector<TableShape>& shapes) {
+  const auto is_sum = [&](std::size_t i) { return shapes[i].sum; };
+  std::vector<std::size_t> order = natural_order(spec);
+  const auto sums =
+      std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return !is_sum(i); });
+  if (sums == order.begin() || sums == order.end()) return std::nullopt;
+  const bool leads = std::all_of(order.begin(), sums, [&](std::size_t i) {
+    return std::none_of(shapes[i].states.begin(), shapes[i].states.end(),
+                        [&](std::int32_t j) { return is_sum(static_cast<std::size_t>(j)); });
+  });
+  const bool ring = std::any_of(sums, order.end(),
+                                [&](std::size_t i) { return spec.states[i].below == Outside::periodic; });
+  if (!leads || ring) return std::nullopt;
+  std::stable_sort(sums, order.end(), [&](std::size_t a, std::size_t b) {
+    return spec.states[a].grid.count < spec.states[b].grid.count;
+  });
+  return order;
+}
+
 void remap(Program& program, const std::vector<std::uint32_t>& slot_of) {
   for (Program::Node& node : program.nodes) {
     if (node.op == Operator::variable && node.a < slot_of.size()) node.a = slot_of[node.a];
@@ -47,6 +70,7 @@ std::vector<std::size_t> choose_layout(const ProblemSpec& spec) {
   };
   const std::size_t last = *std::max_element(
       order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return quality(a) < quality(b); });
+  if (const auto summed = sums_last(spec, shapes)) return *summed;
   const std::vector<std::size_t> component = components(shapes);
   const auto place = [&](std::size_t i) {
     const bool with_last = component[i] == component[last];

@@ -1,5 +1,7 @@
 #include "bitset/level_kernels.hpp"
 
+#include "bitset/sum_kernels.hpp"
+
 namespace coordreq {
 
 #define COORDREQ_DECLARE_KERNELS(set)                  \
@@ -7,6 +9,7 @@ namespace coordreq {
   extern const LevelKernels<std::uint8_t> kKernels8;   \
   extern const LevelKernels<std::uint16_t> kKernels16; \
   extern const LevelKernels<std::uint32_t> kKernels32; \
+  extern const SumKernels kSumKernels;                 \
   }
 COORDREQ_DECLARE_KERNELS(portable_kernels)
 #if COORDREQ_X86_KERNELS
@@ -56,6 +59,10 @@ const LevelKernels<std::uint16_t>& level_kernels(InstructionSet set) {
 template <>
 const LevelKernels<std::uint32_t>& level_kernels(InstructionSet set) {
   return choose(set, portable_kernels::kKernels32, avx2_kernels::kKernels32, avx512_kernels::kKernels32);
+}
+
+const SumKernels& sum_kernels(InstructionSet set) {
+  return choose(set, portable_kernels::kSumKernels, avx2_kernels::kSumKernels, avx512_kernels::kSumKernels);
 }
 
 }  // namespace coordreq

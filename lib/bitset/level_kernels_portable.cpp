@@ -1,3 +1,4 @@
 #define COORDREQ_KERNEL_NAMESPACE portable_kernels
 #define COORDREQ_VECTOR_BYTES 16
 #include "bitset/level_kernels_impl.hpp"
+#include "bitset/sum_kernels_impl.hpp"

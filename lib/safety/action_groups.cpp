@@ -101,6 +101,7 @@ ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassDat
     own_stride[at(*it)] = stride;
     stride *= space[at(*it)].count();
   }
+  view.is_summed = source.is_summed;
   if (others.empty()) {
     // The table's own layout is row-major over `own` too.
     for (const std::int64_t c : offsets(space, data.inputs, source.input_stride)) {
@@ -111,6 +112,7 @@ ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassDat
   for (const std::int64_t c : offsets(space, data.inputs, own_stride)) {
     view.combination.push_back(static_cast<std::int32_t>(c));
   }
+  if (view.is_summed) return view;
   const std::vector<std::int64_t> own_offsets = offsets(space, own, source.input_stride);
   const std::vector<std::int64_t> other_offsets = offsets(space, others, source.input_stride);
   const auto total = static_cast<std::int64_t>(source.ids().size());
@@ -129,6 +131,7 @@ ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassDat
 }
 
 const std::uint32_t* ActionGrouping::view_ids(const View& view, const RowPlace& place) const {
+  if (view.is_summed) return nullptr;
   const ActionSource& source = sources_[view.table];
   const std::int64_t base = source.base(place);
   if (view.partial.empty()) return source.ids().data() + base;
@@ -143,7 +146,9 @@ ActionGroups ActionGrouping::find_groups(const ClassData& data, const RowPlace& 
     const std::uint32_t* ids = view_ids(view, place);
     numbers.clear();
     for (std::size_t a = 0; a < groups.group_of.size(); ++a) {
-      const std::uint64_t key = std::uint64_t{groups.group_of[a]} << 32 | ids[view.combination[a]];
+      const auto combination = static_cast<std::uint32_t>(view.combination[a]);
+      const std::uint32_t id = ids == nullptr ? combination : ids[combination];
+      const std::uint64_t key = std::uint64_t{groups.group_of[a]} << 32 | id;
       groups.group_of[a] = numbers.try_emplace(key, static_cast<std::uint32_t>(numbers.size())).first->second;
     }
   }
@@ -171,10 +176,12 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
       for (std::size_t h = 0; h < size; ++h) {
         std::uint8_t& within = groups.within[g * size + h];
         if (within == 0) continue;
-        const std::uint32_t a = ids[view.combination[groups.representative[g]]];
-        const std::uint32_t b = ids[view.combination[groups.representative[h]]];
+        const std::int32_t own = view.combination[groups.representative[g]];
+        const std::int32_t other = view.combination[groups.representative[h]];
+        const std::uint32_t a = ids == nullptr ? static_cast<std::uint32_t>(own) : ids[own];
+        const std::uint32_t b = ids == nullptr ? static_cast<std::uint32_t>(other) : ids[other];
         if (a == b) continue;
-        if (!is_slices) {
+        if (!is_slices || ids == nullptr) {
           within = 0;
           continue;
         }
@@ -206,7 +213,7 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
   std::int64_t choices = 1;
   for (std::size_t i = grid.size() - 1; i-- > 0;) {
     const bool used = std::any_of(data.views.begin(), data.views.end(), [&](const View& view) {
-      return sources_[view.table].state_stride[i] != 0;
+      return !view.is_summed && sources_[view.table].state_stride[i] != 0;
     });
     if (!used) continue;
     data.state_stride[i] = choices;

@@ -71,6 +71,8 @@ class ActionGrouping {
   /// What one table (or `allow`, the last one) says of the actions of a class.
   struct View {
     std::size_t table = 0;
+    /// Every combination is told apart, in every row.
+    bool is_summed = false;
     /// Numbers of equal columns, [row choice * width + combination]; empty: the table uses no other class's
     /// inputs and its ids serve directly.
     std::vector<std::uint32_t> partial;
@@ -94,6 +96,7 @@ class ActionGrouping {
   void share_groups(ClassData& data, ThreadTeam& team) const;
   [[nodiscard]] ActionGroups find_groups(const ClassData& data, const RowPlace& place) const;
   void compare_groups(const ClassData& data, const RowPlace& place, ActionGroups& groups) const;
+  /// Numbers of the combinations in a row; null where they are their own.
   [[nodiscard]] const std::uint32_t* view_ids(const View& view, const RowPlace& place) const;
 
   const RowEngine* engine_;

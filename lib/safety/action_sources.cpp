@@ -9,6 +9,7 @@ std::vector<ActionSource> action_sources(const RowEngine& engine) {
   for (const RowSlices& slices : engine.slices()) {
     ActionSource& source = sources.emplace_back();
     source.shared_ids = &slices.ids;
+    source.is_summed = slices.sums.has_value();
     source.state_stride = slices.state_stride;
     source.input_stride = slices.input_stride;
     source.inputs = slices.inputs;

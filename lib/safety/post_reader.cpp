@@ -5,6 +5,7 @@ namespace coordreq {
 template <class Level>
 PostReader<Level>::PostReader(const RowEngine& engine, const LevelRows<Level>& levels)
     : engine_(engine), posts_(engine, engine.posts(), engine.outer(), levels) {
+  if (engine.is_summed()) sums_.emplace(engine, levels);
   for (const RowEngine::Demand& demand : engine.demands())
     tubes_.emplace_back(engine, demand.family, 0, *demand.inside);
   if (tubes_.empty()) return;

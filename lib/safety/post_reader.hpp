@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "safety/box_reader.hpp"
+#include "safety/sum_reader.hpp"
 
 namespace coordreq {
 
@@ -21,12 +23,16 @@ class PostReader {
   PostReader(const RowEngine& engine, const LevelRows<Level>& levels);
 
   /// Begins with the rows of another unit.
-  void enter() { posts_.enter(); }
+  void enter() {
+    posts_.enter();
+    if (sums_) sums_->enter();
+  }
 
   /// For the slices numbered `ids`, one for each of engine.slices(). The row may be read up to the next call;
   /// whole blocks, as LevelKernels ask.
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) {
-    const Level* levels = posts_.minimum(ids.first(engine_.tables()));
+    const auto own = ids.first(engine_.tables());
+    const Level* levels = sums_ ? sums_->minimum(own) : posts_.minimum(own);
     return tubes_.empty() ? levels : with_tubes(ids, levels);
   }
   /// Least levels of the box around all posts of a row. REQUIRES box.covers.
@@ -41,6 +47,7 @@ class PostReader {
 
   const RowEngine& engine_;
   BoxReader<Level> posts_;
+  std::optional<SumReader<Level>> sums_;  ///< reads the posts if the engine is summed
   std::vector<BoxReader<std::uint8_t>> tubes_;
   std::vector<Word> safe_;
   std::vector<Word> one_;

@@ -22,7 +22,7 @@ RowBoxes::RowBoxes(const ActionGrouping& grouping)
     is_product_ = is_product_ && owners <= 1;
     moved_[owner].push_back(t);
   }
-  is_product_ = is_product_ && engine.demands().empty();
+  is_product_ = is_product_ && engine.demands().empty() && !engine.is_summed();
   base_.resize(engine.tables());
 }
 
@@ -44,7 +44,7 @@ bool RowBoxes::add(std::size_t c, std::uint32_t action) {
   Kind kind = Kind::box;
   for (const std::size_t t : moved_[c]) {
     const std::int64_t position = base_[t] + grouping_.contribution(c, t, action);
-    const std::uint32_t id = grouping_.sources()[t].ids()[static_cast<std::size_t>(position)];
+    const std::uint32_t id = grouping_.sources()[t].id(position);
     const std::vector<RowSegment>& slice = engine.slices()[t].slices[id];
     const bool is_last = t + 1 == engine.tables();
     if (slice.size() != 1 || (is_last && slice[0].kind == RowSegment::Kind::fixed)) return false;

@@ -11,6 +11,10 @@ namespace {
 
 using Kind = RowSegment::Kind;
 
+/// More levels than this to a unit, with all sizes of boxes, and eroding them would take longer than it
+/// saves.
+constexpr double kMostBlockLevels = 1 << 22;
+
 /// Rough figures of a table, from a sample of its entries: how many slices there are to choose from in a
 /// row, and how many cells wide their ranges are.
 struct TableProfile {
@@ -68,24 +72,60 @@ void RowEngine::add_demand(const CellSet& inside, const std::vector<GridDimensio
   set_levels(inside, 0, rows(), inside_.back());
 }
 
-/// Offsets along the row are brought to the shortest that mean the same; they decide on the margins.
+/// The inner dimensions' tables as sums, if all of them are, and if what is left out moves all cells of a
+/// unit alike; else none. One that is a shift along the row alone is cut as usual.
+std::vector<RowSlices> RowEngine::summed_slices() const {
+  const std::vector<TransitionTable>& tables = abstraction_->tables;
+  std::size_t outer = 0;
+  while (outer < tables.size() && !tables[outer].is_sum()) ++outer;
+  if (outer == 0 || !is_closed(outer)) return {};
+  std::vector<RowSlices> result;
+  double variants = 1;
+  for (std::size_t t = outer; t < tables.size(); ++t) {
+    std::optional<SumRows> sums = SumRows::make(*abstraction_, tables[t], t);
+    if (!sums) return {};
+    variants *= 1 + sums->widths().last - sums->widths().first;
+    variants *= static_cast<double>(grid()[t].count) + 2 * sums->widths().last + 2;
+    result.push_back(keep_as_sums(*abstraction_, tables[t], *std::move(sums)));
+  }
+  return variants <= kMostBlockLevels ? std::move(result) : std::vector<RowSlices>{};
+}
+
 void RowEngine::add_family(const std::vector<TransitionTable>& tables,
                            const std::vector<GridDimension>& targets) {
-  for (std::size_t i = 0; i < tables.size(); ++i) {
+  std::vector<RowSlices> sums;
+  if (slices_.empty()) sums = summed_slices();
+  const std::size_t cut = tables.size() - sums.size();
+  for (std::size_t i = 0; i < cut; ++i)
     slices_.push_back(cut_into_rows(*abstraction_, tables[i], i, targets[i]));
-  }
+  for (RowSlices& slices : sums) slices_.push_back(std::move(slices));
   const RowEnds ends{targets.back().below, targets.back().above};
+  ends_.push_back(ends);
+  margins_.push_back(margins_of(slices_.back(), ends));
+}
+
+/// Offsets along the row are brought to the shortest that mean the same; they decide on the margins.
+RowMargins RowEngine::margins_of(RowSlices& slices, RowEnds ends) const {
   RowMargins margins;
-  for (std::vector<RowSegment>& slice : slices_.back().slices) {
+  const auto widen = [&margins](IndexRange window) {
+    margins.before = std::max<std::int64_t>(margins.before, -window.first);
+    margins.after = std::max<std::int64_t>(margins.after, window.last);
+  };
+  for (std::vector<RowSegment>& slice : slices.slices) {
     for (RowSegment& segment : slice) {
       if (segment.kind != Kind::shifted) continue;
       segment.range = fit_window(segment.range, row_length(), ends);
-      margins.before = std::max<std::int64_t>(margins.before, -segment.range.first);
-      margins.after = std::max<std::int64_t>(margins.after, segment.range.last);
+      widen(segment.range);
     }
   }
-  ends_.push_back(ends);
-  margins_.push_back(margins);
+  if (slices.sums) {
+    SumRows::Reader reader(*slices.sums);
+    for (std::int64_t i = 0; i < slices.size(); ++i) {
+      const SumRows::Row row = reader.row(static_cast<std::uint32_t>(i));
+      widen(fit_window(slices.sums->offset_hull(row), row_length(), ends));
+    }
+  }
+  return margins;
 }
 
 RowFamily RowEngine::family(std::size_t number) const {
@@ -113,6 +153,11 @@ bool RowEngine::is_closed(std::size_t outer) const {
 
 /// Least rows read for one row: the rows for the shared minima, then those of them.
 void RowEngine::choose_outer() {
+  if (is_summed()) {
+    while (!slices_[outer_].sums) ++outer_;
+    unit_rows_ = row_stride_[outer_ - 1];
+    return;
+  }
   const std::size_t last = tables() - 1;
   std::vector<TableProfile> profiles;
   for (const RowSlices& slices : posts().slices) profiles.push_back(profile(slices));

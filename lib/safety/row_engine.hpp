@@ -62,6 +62,10 @@ class RowEngine {
   /// Rows of a unit, which have neighbouring numbers. All rows if outer() is 0.
   [[nodiscard]] std::int64_t unit_rows() const { return unit_rows_; }
 
+  /// The dimensions from outer() on are sums (RowSlices::sums), those before it move all cells of a unit
+  /// alike: posts are read by a SumReader.
+  [[nodiscard]] bool is_summed() const { return posts().slices.back().sums.has_value(); }
+
   /// Levels of all rows, 0, with the margins that a family asks for.
   template <class Level>
   [[nodiscard]] LevelRows<Level> make_levels(const RowFamily& family) const {
@@ -69,10 +73,12 @@ class RowEngine {
   }
 
  private:
+  [[nodiscard]] std::vector<RowSlices> summed_slices() const;
   void add_family(const std::vector<TransitionTable>& tables, const std::vector<GridDimension>& targets);
   void add_demand(const CellSet& inside, const std::vector<GridDimension>& targets);
   [[nodiscard]] RowFamily family(std::size_t number) const;
   void choose_outer();
+  [[nodiscard]] RowMargins margins_of(RowSlices& slices, RowEnds ends) const;
   [[nodiscard]] bool is_closed(std::size_t outer) const;
 
   const Abstraction* abstraction_;

@@ -1,6 +1,8 @@
 #include "safety/row_hull.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
 
 #include "grid/pieces.hpp"
 #include "safety/row_window.hpp"
@@ -24,23 +26,32 @@ IndexRange normal(IndexRange range, const GridDimension& target) {
 RowHull::RowHull(const RowEngine& engine) : engine_(&engine) {
   for (std::size_t t = 0; t < engine.tables(); ++t) {
     const RowSlices& slices = engine.slices()[t];
+    std::vector<std::int64_t> all(static_cast<std::size_t>(slices.input_combinations));
+    std::iota(all.begin(), all.end(), 0);
+    std::optional<SumRows::Reader> reader;
+    if (slices.sums) reader.emplace(*slices.sums);
     std::vector<Entry>& entries = entries_.emplace_back();
-    const auto combinations = static_cast<std::size_t>(slices.input_combinations);
-    for (std::size_t base = 0; base < slices.ids.size(); base += combinations) {
-      entries.push_back(merged(t, base));
-    }
+    for (std::int64_t base = 0; base < slices.size(); base += slices.input_combinations)
+      entries.push_back(entry(t, base, all, reader ? &*reader : nullptr));
   }
 }
 
-RowHull::Entry RowHull::merged(std::size_t table, std::size_t base) const {
+RowHull::Entry RowHull::entry(std::size_t table, std::int64_t base, std::span<const std::int64_t> offsets,
+                              SumRows::Reader* reader) const {
+  return reader != nullptr ? entry_of_sums(table, base, offsets, *reader)
+                           : entry_of_slices(table, base, offsets);
+}
+
+RowHull::Entry RowHull::entry_of_slices(std::size_t table, std::int64_t base,
+                                        std::span<const std::int64_t> offsets) const {
   const RowSlices& slices = engine_->slices()[table];
   const GridDimension& target = engine_->grid()[table];
   const bool is_last = table + 1 == engine_->tables();
   // A tube can block a post whatever its box is inside of.
   Entry result{kNone, engine_->demands().empty()};
   std::uint32_t previous = UINT32_MAX;
-  for (std::int64_t u = 0; u < slices.input_combinations; ++u) {
-    const std::uint32_t id = slices.ids[base + static_cast<std::size_t>(u)];
+  for (const std::int64_t offset : offsets) {
+    const std::uint32_t id = slices.ids[static_cast<std::size_t>(base + offset)];
     if (id == previous) continue;
     previous = id;
     const std::vector<RowSegment>& slice = slices.slices[id];
@@ -64,6 +75,27 @@ RowHull::Entry RowHull::merged(std::size_t table, std::size_t base) const {
     result.range = wrap_range(result.range, target.count);
   }
   return result;
+}
+
+/// Sums are not looked at cell by cell, and none of their states wraps round.
+RowHull::Entry RowHull::entry_of_sums(std::size_t table, std::int64_t base,
+                                      std::span<const std::int64_t> offsets, SumRows::Reader& reader) const {
+  const SumRows& sums = *engine_->slices()[table].sums;
+  const bool is_last = table + 1 == engine_->tables();
+  IndexRange raw{INT32_MAX, INT32_MIN};
+  for (const std::int64_t offset : offsets) {
+    const SumRows::Row row = reader.row(static_cast<std::uint32_t>(base + offset));
+    const IndexRange range = is_last ? sums.offset_hull(row) : sums.hull(row);
+    raw = {std::min(raw.first, range.first), std::max(raw.last, range.last)};
+  }
+  const GridDimension& target = engine_->grid()[table];
+  const bool no_tubes = engine_->demands().empty();
+  if (is_last) return {fit_window(raw, target.count, engine_->posts().ends), no_tubes};
+  const auto last = static_cast<std::int32_t>(target.count - 1);
+  // What leaves safely, or lands in the boundary cell, asks no more than the part of the box that is left.
+  const bool blocks = (raw.first < 0 && target.below == Outside::unsafe) ||
+                      (raw.last > last && target.above == Outside::unsafe);
+  return {{std::clamp(raw.first, 0, last), std::clamp(raw.last, 0, last)}, no_tubes && !blocks};
 }
 
 void RowHull::box(const RowPlace& place, Box& box) const {

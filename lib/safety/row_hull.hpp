@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "safety/row_engine.hpp"
@@ -33,7 +34,15 @@ class RowHull {
     IndexRange range;
     bool covers = true;
   };
-  [[nodiscard]] Entry merged(std::size_t table, std::size_t base) const;
+  /// What some of the posts have in common in the dimension of one table: those at base + offset, for all
+  /// offsets.
+  /// @param reader of the table if it is summed, else null
+  [[nodiscard]] Entry entry(std::size_t table, std::int64_t base, std::span<const std::int64_t> offsets,
+                            SumRows::Reader* reader) const;
+  [[nodiscard]] Entry entry_of_slices(std::size_t table, std::int64_t base,
+                                      std::span<const std::int64_t> offsets) const;
+  [[nodiscard]] Entry entry_of_sums(std::size_t table, std::int64_t base,
+                                    std::span<const std::int64_t> offsets, SumRows::Reader& reader) const;
 
   const RowEngine* engine_;
   std::vector<std::vector<Entry>> entries_;  ///< [table][row choice]

@@ -199,6 +199,13 @@ void lay_out_ids(RowSlices& slices, const UniformGrid& grid, const InputSpace& i
 
 }  // namespace
 
+RowSlices keep_as_sums(const Abstraction& abstraction, const TransitionTable& table, SumRows sums) {
+  RowSlices result{.inputs = table.inputs};
+  lay_out_ids(result, abstraction.grid, abstraction.inputs, table);
+  result.sums = std::move(sums);
+  return result;
+}
+
 RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& table, std::size_t state,
                         const GridDimension& target) {
   const UniformGrid& grid = abstraction.grid;

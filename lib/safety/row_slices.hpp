@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "abstraction/abstraction.hpp"
+#include "safety/sum_rows.hpp"
 
 namespace coordreq {
 
@@ -30,6 +32,9 @@ struct RowSegment {
 /// itself: there a whole row is eroded at once, and integrators (x' = x + c) give one segment a row.
 ///
 /// If the state is periodic, 0 <= range.first < count, and range.last may go beyond as in ResolvedRange.
+///
+/// Or rows are not cut at all but added up when they are read (`sums`); then each row is a slice of its own,
+/// whose number is its position, and `ids` and `slices` are empty.
 struct RowSlices {
   std::vector<std::uint32_t> ids;  ///< row-major over states (without the last), then inputs
   std::vector<std::vector<RowSegment>> slices;
@@ -37,11 +42,21 @@ struct RowSlices {
   std::vector<std::int64_t> input_stride;
   std::vector<std::int32_t> inputs;     ///< in use, ascending
   std::int64_t input_combinations = 1;  ///< product of their counts; divides every state stride
+  std::optional<SumRows> sums;
+
+  /// Number of positions.
+  [[nodiscard]] std::int64_t size() const {
+    return sums ? sums->size() : static_cast<std::int64_t>(ids.size());
+  }
 };
 
 /// @param table the one of `state` in abstraction.tables or abstraction.tubes
 /// @param target the dimension of `state`, maybe with other rules for leaving the domain
 [[nodiscard]] RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& table,
                                       std::size_t state, const GridDimension& target);
+
+/// The same for a table whose rows stay sums.
+[[nodiscard]] RowSlices keep_as_sums(const Abstraction& abstraction, const TransitionTable& table,
+                                     SumRows sums);
 
 }  // namespace coordreq

@@ -33,7 +33,7 @@ void TupleWalk::add_up(std::size_t from_class) {
 std::span<const std::uint32_t> TupleWalk::slice_ids() {
   const std::int64_t* sum = sum_.data() + position_.size() * sources_;
   for (std::size_t t = 0; t < ids_.size(); ++t) {
-    ids_[t] = grouping_->sources()[t].ids()[static_cast<std::size_t>(sum[t])];
+    ids_[t] = grouping_->sources()[t].id(sum[t]);
   }
   return ids_;
 }

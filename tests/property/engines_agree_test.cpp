@@ -9,6 +9,7 @@
 #include "support/fast_engine.hpp"
 #include "support/plain_engine.hpp"
 #include "support/random_problem.hpp"
+#include "support/random_sums.hpp"
 
 namespace coordreq {
 namespace {
@@ -155,6 +156,25 @@ TEST(Engines, AgreeOnAnyTablesOfRanges) {
     }
     const FastAnalysis fast(spec, std::move(abstraction), team);
     const PlainAnalysis plain = plainly(spec, fast);
+    classify(spec, fast, plain);
+    expect_agreement(spec, fast, plain, team);
+  }));
+}
+
+TEST(Engines, AgreeOnAnySums) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("row engine equals plain engine on hand-made sums", [&] {
+    const RandomEdges edges = *rc::gen::inRange(0, 3) == 0 ? RandomEdges::any : RandomEdges::plain;
+    const ProblemSpec spec = read_spec(draw_problem(any_time(), edges), "random");
+    RC_PRE(spec.states.size() > 1);
+    Abstraction abstraction = build_abstraction(spec, team);
+    draw_sums(abstraction);
+    const FastAnalysis fast(spec, std::move(abstraction), team);
+    const PlainAnalysis plain = plainly(spec, fast);
+    RC_CLASSIFY(fast.engine.is_summed(), "summed");
+    RC_CLASSIFY(fast.engine.is_summed() && fast.engine.outer() > 1, "two states lead");
+    RC_CLASSIFY(fast.engine.is_summed() && fast.engine.outer() + 1 < spec.states.size(),
+                "two states are sums");
     classify(spec, fast, plain);
     expect_agreement(spec, fast, plain, team);
   }));

@@ -73,6 +73,18 @@ TEST(Layout, RowsRunAlongTheLongestShiftAndWhatMovesWithItComesLast) {
   EXPECT_EQ(order, (std::vector<std::size_t>{2, 3, 1, 0}));
 }
 
+TEST(Layout, SumsComeAfterWhatLeadsThemTheLongestLast) {
+  const ProblemSpec spec = read_spec(R"json({"coordreq": 1, "name": "turn",
+"states": [{"name": "x", "lower": -10, "upper": 10, "step": 0.5}, {"name": "y", "lower": -9, "upper": 9, "step": 0.5},
+           {"name": "h", "lower": 0, "upper": "2*pi", "count": 36, "outside": "periodic"}],
+"inputs": [{"name": "u", "lower": -1, "upper": 1, "step": 0.5}], "agents": [{"name": "a", "inputs": ["u"]}],
+"dynamics": {"time": "continuous", "period": 0.2,
+  "equations": {"x": "-5 + 5*cos(h) + u*y", "y": "5*sin(h) - u*x", "h": "u"}},
+"safe": "x^2 + y^2 >= 4"})json",
+                                     "turn");
+  EXPECT_EQ(choose_layout(spec), (std::vector<std::size_t>{2, 1, 0}));
+}
+
 TEST(Layout, TheOrderOfTheSpecIsKeptWhereNothingIsGained) {
   const std::string equations = R"("a": "0.5*a", "b": "0.5*b", "c": "c + d", "d": "d + u")";
   EXPECT_EQ(
