@@ -2,6 +2,8 @@
 
 #include <libdeflate.h>
 
+#include <algorithm>
+#include <cstring>
 #include <new>
 
 namespace coordreq {
@@ -15,6 +17,12 @@ void shuffle_fixed(std::span<const std::byte> raw, std::span<std::byte> shuffled
     std::byte* out = shuffled.data() + byte * count;
     for (std::size_t i = 0; i < count; ++i) out[i] = raw[i * size + byte];
   }
+}
+
+/// All elements are equal: every one is the one before it.
+bool is_uniform(std::span<const std::byte> raw, std::size_t element_size) {
+  return raw.size() > element_size &&
+         std::memcmp(raw.data(), raw.data() + element_size, raw.size() - element_size) == 0;
 }
 
 }  // namespace
@@ -42,6 +50,22 @@ ChunkCodec::ChunkCodec() : compressor_(libdeflate_alloc_compressor(kDeflateLevel
 
 void ChunkCodec::pack(std::span<const std::byte> raw, std::size_t element_size,
                       std::vector<std::byte>& packed) {
+  if (!is_uniform(raw, element_size)) {
+    compress(raw, element_size, packed);
+    return;
+  }
+  const std::span<const std::byte> element = raw.first(element_size);
+  if (raw.size() != uniform_bytes_ ||
+      !std::equal(element.begin(), element.end(), uniform_.begin(), uniform_.end())) {
+    compress(raw, element_size, uniform_packed_);
+    uniform_.assign(element.begin(), element.end());
+    uniform_bytes_ = raw.size();
+  }
+  packed = uniform_packed_;
+}
+
+void ChunkCodec::compress(std::span<const std::byte> raw, std::size_t element_size,
+                          std::vector<std::byte>& packed) {
   if (element_size > 1) {
     shuffled_.resize(raw.size());
     shuffle_bytes(raw, element_size, shuffled_);

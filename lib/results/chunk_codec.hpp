@@ -16,6 +16,9 @@ inline constexpr int kDeflateLevel = 1;
 ///
 /// libdeflate rather than HDF5's own filter: it is faster, and works on several chunks at a time while the
 /// HDF5 library admits one caller. The output depends on the input alone. One object a thread.
+///
+/// Far from where anything happens whole chunks hold one value: the last of them is remembered with what
+/// became of it.
 class ChunkCodec {
  public:
   ChunkCodec();
@@ -25,12 +28,17 @@ class ChunkCodec {
   void pack(std::span<const std::byte> raw, std::size_t element_size, std::vector<std::byte>& packed);
 
  private:
+  void compress(std::span<const std::byte> raw, std::size_t element_size, std::vector<std::byte>& packed);
+
   struct Free {
     void operator()(libdeflate_compressor* compressor) const;
   };
   std::unique_ptr<libdeflate_compressor, Free> compressor_;
   std::vector<std::byte> shuffled_;
   std::vector<std::byte> scratch_;
+  std::vector<std::byte> uniform_;         ///< the last element that a whole chunk consisted of
+  std::size_t uniform_bytes_ = 0;          ///< length of that chunk; 0: none yet
+  std::vector<std::byte> uniform_packed_;  ///< and what became of it
 };
 
 /// All first bytes of the elements, then all second bytes, and so on: HDF5's "shuffle" filter.

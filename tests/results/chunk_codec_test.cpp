@@ -49,6 +49,23 @@ TEST(ChunkCodec, PacksToAZlibStreamOfTheShuffledBytes) {
   EXPECT_EQ(unpack(packed, 6), bytes({1, 2, 3, 4, 5, 6}));
 }
 
+TEST(ChunkCodec, ChunksOfOneValueArePackedLikeAllOthers) {
+  ChunkCodec used;
+  const std::vector<std::byte> zeros(1000, std::byte{0});
+  const std::vector<std::byte> ones(1000, std::byte{1});
+  std::vector<std::byte> mixed = ones;
+  mixed.back() = std::byte{2};
+  const std::vector<std::byte> longer(1200, std::byte{1});
+  for (const auto& raw : {zeros, ones, ones, mixed, ones, longer, zeros}) {
+    for (const std::size_t element_size : {1U, 2U, 4U}) {
+      std::vector<std::byte> packed, expected;
+      used.pack(raw, element_size, packed);
+      ChunkCodec().pack(raw, element_size, expected);
+      EXPECT_EQ(packed, expected);
+    }
+  }
+}
+
 TEST(ChunkCodec, WhatItPackedBeforeLeavesNoTrace) {
   ChunkCodec used;
   std::vector<std::byte> packed;
