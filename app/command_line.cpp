@@ -61,19 +61,22 @@ constexpr const char* kFooter =
     "70 a bug in coordreq, 130 interrupted.";
 
 void add_export_options(CLI::App& command, RawArguments& raw) {
-  command.add_option("--format", raw.format, "csv, scs (SCOTS) or c-header")->type_name("FORMAT");
-  command.add_option("-o,--output", raw.output, "File to write (default: standard output)")
+  command.add_option("--format", raw.format, "csv, scs (SCOTS), c-header or vtk")->type_name("FORMAT");
+  command
+      .add_option("-o,--output", raw.output,
+                  "File to write (default: standard output; vtk: a name that ends in .vti or .vtkhdf)")
       ->type_name("FILE");
-  command.add_option("--partition", raw.partition, "The partition to export (csv: default all)")
+  command.add_option("--partition", raw.partition, "The partition to export (csv, vtk: default all)")
       ->type_name("NAME");
   command
-      .add_option("--slice", raw.slices, "csv: only the cells where a state has this value; may be repeated")
+      .add_option("--slice", raw.slices,
+                  "csv, vtk: only the cells where a state has this value; may be repeated")
       ->type_name("STATE=VALUE")
       ->expected(1)
       ->take_all();
   command
       .add_option("--project", raw.projections,
-                  "csv: the smallest or largest value along a state, min or max; may be repeated")
+                  "csv, vtk: the smallest or largest value along a state, min or max; may be repeated")
       ->type_name("STATE:KIND")
       ->expected(1)
       ->take_all();
@@ -211,7 +214,7 @@ CommandLine checked(const RawArguments& raw, const CommandInfo& info, const CLI:
   if (info.run == run_query && command.count("--at") > 0) line.at = raw.at;
   if (info.run == run_verify && command.count("--sample") > 0) line.sample = parse_sample(raw.sample);
   if (info.run == run_export) {
-    if (command.count("--format") == 0) throw UsageError("no --format, expected csv, scs or c-header");
+    if (command.count("--format") == 0) throw UsageError("no --format, expected csv, scs, c-header or vtk");
     line.format = raw.format;
     if (command.count("--partition") > 0) line.partition = raw.partition;
     line.slices = raw.slices;

@@ -8,12 +8,15 @@
 #include "app/interrupt.hpp"
 #include "app/standard_streams.hpp"
 #include "export/c_header.hpp"
+#include "export/cell_image.hpp"
 #include "export/csv_table.hpp"
 #include "export/parse_selection.hpp"
 #include "export/scots_controller.hpp"
+#include "export/vti_image.hpp"
 #include "results/output_file.hpp"
 #include "results/results_reader.hpp"
 #include "results/write_results.hpp"
+#include "results/write_vtkhdf.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -66,15 +69,45 @@ std::size_t one_partition(const CommandLine& line, const ResultsReader& results)
 
 void refuse_selection(const CommandLine& line) {
   if (line.slices.empty() && line.projections.empty()) return;
-  throw UsageError(fmt::format("only csv can be cut, found it with {}", line.format),
+  throw UsageError(fmt::format("only csv and vtk can be cut, found it with {}", line.format),
                    line.slices.empty() ? "--project" : "--slice");
+}
+
+TableSelection selection_of(const CommandLine& line, const ResultsReader& results) {
+  TableSelection selection = parse_selection(line.slices, line.projections, results.grid());
+  selection.partition = chosen_partition(line, results);
+  return selection;
+}
+
+bool writes_vtkhdf(const CommandLine& line) {
+  return line.format == "vtk" && line.output && line.output->ends_with(".vtkhdf");
+}
+
+/// HDF5 writes to files only.
+void export_vtkhdf(const CommandLine& line, const ResultsReader& results, ThreadTeam& team) {
+  check_writable(*line.output);
+  const ImageContent image = cell_image(results, selection_of(line, results));
+  const InterruptDelay delay;
+  if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
+  write_vtkhdf(*line.output, image, team);
+  if (is_interrupted()) {
+    throw Error(ExitCode::interrupted, "interrupted when the image was complete", *line.output);
+  }
 }
 
 Exporter exporter(const CommandLine& line, const ResultsReader& results, ThreadTeam& team) {
   if (line.format == "csv") {
-    TableSelection selection = parse_selection(line.slices, line.projections, results.grid());
-    selection.partition = chosen_partition(line, results);
+    const TableSelection selection = selection_of(line, results);
     return [&results, selection](const TextSink& sink) { export_csv(results, selection, sink); };
+  }
+  if (line.format == "vtk") {
+    if (!line.output || !line.output->ends_with(".vti")) {
+      throw UsageError(fmt::format("expected a name that ends in .vti or .vtkhdf, found {}",
+                                   line.output ? quote_text(*line.output) : "none"),
+                       "-o");
+    }
+    const TableSelection selection = selection_of(line, results);
+    return [&results, selection](const TextSink& sink) { export_vti(cell_image(results, selection), sink); };
   }
   refuse_selection(line);
   if (line.format == "scs") {
@@ -88,7 +121,7 @@ Exporter exporter(const CommandLine& line, const ResultsReader& results, ThreadT
       export_c_header(results, partition, team, sink);
     };
   }
-  throw UsageError(fmt::format("expected csv, scs or c-header, found {}", quote_text(line.format)),
+  throw UsageError(fmt::format("expected csv, scs, c-header or vtk, found {}", quote_text(line.format)),
                    "--format");
 }
 
@@ -132,6 +165,10 @@ class LateFile {
 ExitCode run_export(const CommandLine& line) {
   const ResultsReader results(line.path);
   ThreadTeam team(line.threads);
+  if (writes_vtkhdf(line)) {
+    export_vtkhdf(line, results, team);
+    return ExitCode::success;
+  }
   const Exporter write = exporter(line, results, team);
   std::optional<LateFile> file;
   if (line.output) file.emplace(*line.output);

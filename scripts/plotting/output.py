@@ -26,13 +26,14 @@ def check_output(path):
 
 
 def _temporary(path):
-    folder = pathlib.Path(os.path.realpath(path)).parent
+    target = os.path.realpath(path) if os.path.islink(path) else path
+    folder = pathlib.Path(target).parent
     try:
         handle, name = tempfile.mkstemp(dir=folder, prefix=".coordreq-", suffix=".tmp")
         os.close(handle)
         return name
     except FileNotFoundError as error:
-        raise StreamError("the folder does not exist", path) from error
+        raise StreamError("the folder does not exist", str(folder)) from error
     except OSError as error:
         raise StreamError(f"cannot write there: {error.strerror}", path) from error
 

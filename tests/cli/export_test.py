@@ -385,10 +385,10 @@ class Cases(Case):
     def test_wrong_usage(self):
         self.analyzed()
         for arguments, message in (
-            ((), "no --format, expected csv, scs or c-header"),
-            (("--format", "xml"), "expected csv, scs or c-header, found 'xml' (--format)"),
-            (("--format", "scs", "--slice", "x=1"), "only csv can be cut, found it with scs (--slice)"),
-            (("--format", "c-header", "--project", "x:min"), "only csv can be cut, found it with c-header (--project)"),
+            ((), "no --format, expected csv, scs, c-header or vtk"),
+            (("--format", "xml"), "expected csv, scs, c-header or vtk, found 'xml' (--format)"),
+            (("--format", "scs", "--slice", "x=1"), "only csv and vtk can be cut, found it with scs (--slice)"),
+            (("--format", "c-header", "--project", "x:min"), "only csv and vtk can be cut, found it with c-header (--project)"),
             (
                 ("--format", "scs", "--partition", "a|b"),
                 "scs holds the controller, which no partition changes (--partition)",

@@ -1,0 +1,103 @@
+#include "export/cell_image.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "base/error.hpp"
+#include "numeric/rational.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr std::size_t kAxes = 3;
+using Steps = std::vector<std::int32_t>;
+
+/// The states that are neither sliced nor projected.
+std::vector<std::size_t> drawn_states(const UniformGrid& grid, const TableSelection& selection) {
+  std::vector<std::size_t> drawn;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const auto is_this = [i](const auto& part) { return part.dimension == i; };
+    if (std::any_of(selection.slices.begin(), selection.slices.end(), is_this)) continue;
+    if (std::any_of(selection.projections.begin(), selection.projections.end(), is_this)) continue;
+    drawn.push_back(i);
+    names.push_back(grid[i].name);
+  }
+  if (drawn.size() > kAxes) {
+    throw UsageError(fmt::format("an image has 3 axes, expected --slice or --project for {} of {}",
+                                 drawn.size() - kAxes, quote_list(names, "or")));
+  }
+  return drawn;
+}
+
+std::string cut_text(const ResultsReader& results, const TableSelection& selection) {
+  std::string text;
+  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  for (const TableSelection::Slice& slice : selection.slices) {
+    const GridDimension& dimension = results.grid()[slice.dimension];
+    const std::string& unit = results.spec().states[slice.dimension].unit;
+    add(fmt::format("{} = {}{}{}", dimension.name, nearest_double(dimension.point(slice.index)),
+                    unit.empty() ? "" : " ", unit));
+  }
+  for (const TableSelection::Projection& projection : selection.projections) {
+    add(results.grid()[projection.dimension].name + (projection.largest ? ": max" : ": min"));
+  }
+  return text;
+}
+
+ResultArray as_numbers(std::shared_ptr<const Steps> steps) {
+  const auto fill = [steps = std::move(steps)](std::uint64_t begin, std::uint64_t count, void* out) {
+    auto* numbers = static_cast<double*>(out);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const std::int32_t value = (*steps)[begin + i];
+      numbers[i] = value == ResultsReader::kNever ? std::numeric_limits<double>::infinity() : value;
+    }
+  };
+  return {ElementType::float64, fill};
+}
+
+}  // namespace
+
+ImageContent cell_image(const ResultsReader& results, const TableSelection& selection) {
+  const std::vector<std::size_t> drawn = drawn_states(results.grid(), selection);
+  ImageContent image;
+  image.title = results.spec().name;
+  image.cut = cut_text(results, selection);
+  for (std::size_t a = 0; a < drawn.size(); ++a) {
+    const GridDimension& dimension = results.grid()[drawn[a]];
+    const std::string& unit = results.spec().states[drawn[a]].unit;
+    image.axes[a] = dimension.name + (unit.empty() ? "" : " [" + unit + "]");
+    image.origin[a] = nearest_double(dimension.first - dimension.step / 2);
+    image.spacing[a] = nearest_double(dimension.step);
+    image.cells[a] = static_cast<std::uint64_t>(dimension.count);
+  }
+
+  const CellTable table(results, selection);
+  const std::uint64_t cells = image.cells[0] * image.cells[1] * image.cells[2];
+  std::vector<std::shared_ptr<Steps>> columns;
+  for (const CellColumn& column : table.columns()) {
+    columns.push_back(std::make_shared<Steps>(cells));
+    image.arrays.push_back({column.name, as_numbers(columns.back())});
+  }
+  // How far apart neighbours are in the image, by dimension of the table; 0 for one that is sliced.
+  std::vector<std::uint64_t> stride;
+  for (const std::size_t i : table.dimensions()) {
+    const auto axis = static_cast<std::size_t>(std::find(drawn.begin(), drawn.end(), i) - drawn.begin());
+    stride.push_back(axis == drawn.size() ? 0
+                     : axis == 0          ? 1
+                     : axis == 1          ? image.cells[0]
+                                          : image.cells[0] * image.cells[1]);
+  }
+  table.for_each_row([&](const std::vector<std::int64_t>& index, const std::vector<std::int32_t>& values) {
+    std::uint64_t place = 0;
+    for (std::size_t i = 0; i < index.size(); ++i) place += stride[i] * static_cast<std::uint64_t>(index[i]);
+    for (std::size_t c = 0; c < values.size(); ++c) (*columns[c])[place] = values[c];
+  });
+  return image;
+}
+
+}  // namespace coordreq
