@@ -86,6 +86,11 @@ def draw(coalition, size=None):
     colors = [kind.color for kind in coalition.kinds]
     style.kind_image(axes, coalition.cells, colors, style.extent_of(coalition.cut))
     style.label_plane(axes, coalition.cut)
-    style.add_title(figure, coalition.cut.results.title, coalition.cut.title)
+    style.add_title(figure, _title(coalition.cut.results), coalition.cut.title)
     style.legend_below(figure, [(kind.color, kind.text) for kind in coalition.kinds])
     return figure
+
+
+def _title(results):
+    horizon = int(results.attribute("/coalition", "horizon", 0))
+    return f"{results.title}, {results.seconds(horizon)} without further contact" if horizon else results.title

@@ -360,15 +360,17 @@ class Cases(PlotCase):
         def change(file):
             file["coalition"] = values
             file["coalition"].attrs["flag_values"] = [-2, -1, -3]
-            file["coalition"].attrs["flag_meanings"] = "not_safe not_invariant none_suffices"
+            file["coalition"].attrs["flag_meanings"] = "not_safe not_invariant no_partition_suffices"
+            file["coalition"].attrs["horizon"] = 3
 
         self.rewrite(change)
         data, figure = self.plotted("coalition")
-        texts = {-3: "none suffices", -2: "not safe", -1: "not invariant", 0: "a|b", 1: "both"}
+        texts = {-3: "no partition suffices", -2: "not safe", -1: "not invariant", 0: "a|b", 1: "both"}
         found = np.vectorize(lambda kind: data.kinds[kind].text)(data.cells)
         self.assert_arrays_equal(found, np.vectorize(texts.get)(values))
         self.assert_arrays_equal(figure.axes[0].images[0].get_array(), data.cells.T)
         self.assertEqual(legend(figure), list(texts.values()))
+        self.assertEqual(titles(figure), ["small, 3 steps (1.5 s) without further contact"])
         self.assertEqual(len({kind.color for kind in data.kinds}), 5)
         self.assertEqual(labels(figure.axes[0]), ("x [m]", "y [m]"))
         values[0, 0] = 2
