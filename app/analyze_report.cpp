@@ -74,6 +74,11 @@ std::string partition_text(const PartitionSummary& partition, const AnalysisSumm
 
 std::string sets_text(const AnalysisSummary& summary) {
   Table table({Table::Align::left, Table::Align::left});
+  if (const std::optional<ControllerSummary>& controller = summary.controller) {
+    table.add(
+        {"controller", fmt::format("{} of {} pairs, from {}", grouped(controller->pairs),
+                                   grouped(summary.states * summary.inputs), printable(controller->file))});
+  }
   table.add({"safe set", cells(summary.safe)});
   table.add({"invariance set", fmt::format("{} after {} sweep{}", cells(summary.invariant),
                                            grouped(summary.iterations), summary.iterations == 1 ? "" : "s")});
@@ -127,6 +132,10 @@ std::string summary_json(const AnalysisSummary& summary) {
   json["name"] = summary.name;
   json["states"] = summary.states;
   json["inputs"] = summary.inputs;
+  if (const std::optional<ControllerSummary>& controller = summary.controller) {
+    json["controller"] = {
+        {"file", controller->file}, {"sha256", controller->sha256}, {"pairs", controller->pairs}};
+  }
   json["safe"] = summary.safe;
   json["invariant"] = summary.invariant;
   json["iterations"] = summary.iterations;

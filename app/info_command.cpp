@@ -15,6 +15,7 @@ std::string head_table(const ResultInfo& info) {
   table.add({"written by",
              fmt::format("coordreq {} ({})", printable(info.coordreq_version), printable(info.git_sha1))});
   table.add({"spec SHA-256", printable(info.spec_sha256)});
+  if (!info.controller_sha256.empty()) table.add({"controller SHA-256", printable(info.controller_sha256)});
   table.add({"period", fmt::format("{:.6g} {}", info.period, printable(info.period_unit))});
   table.add({"connection delay", duration(info.connection_delay, info.period, info.period_unit)});
   table.add({"guarantee", guarantee_text(info.guarantee)});
@@ -88,6 +89,7 @@ std::string info_json(const ResultInfo& info) {
   json["coordreq_version"] = info.coordreq_version;
   json["git_sha1"] = info.git_sha1;
   json["spec_sha256"] = info.spec_sha256;
+  if (!info.controller_sha256.empty()) json["controller_sha256"] = info.controller_sha256;
   json["guarantee"] = info.guarantee;
   json["period"] = info.period;
   json["period_unit"] = info.period_unit;

@@ -14,7 +14,8 @@ namespace coordreq {
 
 /// What is under way; called from the calling thread only, often.
 struct Progress {
-  std::string stage;       ///< "abstraction", "safe set", "invariance", "layers PARTITION", "writing"
+  std::string stage;  ///< "controller" if it is in a file, "abstraction", "safe set", "invariance", "layers
+                      ///< PARTITION", "writing"
   std::int64_t sweep = 0;  ///< number of the sweep that has ended, 0 where there is none
   std::int64_t rows = 0;   ///< rows of cells that it has worked out
 };
@@ -36,11 +37,19 @@ struct PartitionSummary {
   std::optional<double> max_delay_time;
 };
 
+/// What `controller.file` is.
+struct ControllerSummary {
+  std::string file;        ///< as in the spec
+  std::string sha256;      ///< of the file
+  std::int64_t pairs = 0;  ///< of cells and joint inputs that it lists
+};
+
 /// The JSON summary of the contract, section 3, as data.
 struct AnalysisSummary {
   std::string name;
-  std::int64_t states = 0;  ///< cells
-  std::int64_t inputs = 0;  ///< joint inputs
+  std::int64_t states = 0;                      ///< cells
+  std::int64_t inputs = 0;                      ///< joint inputs
+  std::optional<ControllerSummary> controller;  ///< none without a file
   std::int64_t safe = 0;
   std::int64_t invariant = 0;
   std::int64_t iterations = 0;

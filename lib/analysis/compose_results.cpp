@@ -59,6 +59,10 @@ ResultContent ResultComposer::content() {
     content.controller = bits(
         groupings_.emplace_back(solution_.engine, std::vector<InputClass>{all_inputs(spec)}, team_), 0, "");
   }
+  if (solution_.listed) {
+    content.listed = listed_bits();
+    content.listed_sha256 = solution_.listed->sha256;
+  }
   if (spec.output.abstraction) content.abstraction = tables();
   return content;
 }
@@ -112,6 +116,17 @@ ResultBits ResultComposer::bits(const ActionGrouping& grouping, std::size_t c,
   result.fill = [controller = solution_.controller, &grouping, c](std::uint64_t begin, std::uint64_t count,
                                                                   void* out) {
     fill_action_bits(controller, grouping, c, begin, count, out);
+  };
+  return result;
+}
+
+ResultBits ResultComposer::listed_bits() const {
+  const PackedPairs& pairs = solution_.listed->pairs;
+  ResultBits result{.class_name = "", .actions = static_cast<std::uint64_t>(pairs.inputs)};
+  for (const InputSpec& input : solution_.spec.inputs) result.inputs.push_back(input.name);
+  result.fill = [&pairs](std::uint64_t begin, std::uint64_t count, void* out) {
+    std::copy_n(pairs.bytes.begin() + static_cast<std::ptrdiff_t>(begin), count,
+                static_cast<std::uint8_t*>(out));
   };
   return result;
 }

@@ -5,6 +5,7 @@
 #include "abstraction/build_abstraction.hpp"
 #include "analysis/analyze.hpp"
 #include "base/error.hpp"
+#include "results/controller_file.hpp"
 
 namespace coordreq {
 namespace {
@@ -67,6 +68,15 @@ double row_choices(const TableShape& shape, const ProblemSpec& spec) {
   return choices;
 }
 
+/// Pairs of a controller file: packed as in the file; then a row of cells for each joint input, at the most,
+/// with its number.
+double listed_bytes(const ProblemSpec& spec, double cells, double set_bytes) {
+  double inputs = 1;
+  for (const InputSpec& input : spec.inputs) inputs *= static_cast<double>(input.values.size());
+  const double rows = cells / static_cast<double>(spec.states.back().grid.count);
+  return cells * std::ceil(inputs / 8) + inputs * (set_bytes + rows * sizeof(std::uint32_t));
+}
+
 double estimate_memory(const ProblemSpec& spec) {
   const double cells = count_product(spec);
   const double row_length = static_cast<double>(spec.states.back().grid.count);
@@ -83,6 +93,7 @@ double estimate_memory(const ProblemSpec& spec) {
   }
   bytes += condition_bytes(spec.safe, spec);
   if (spec.controller.allow) bytes += condition_bytes(*spec.controller.allow, spec);
+  if (spec.controller.file) bytes += listed_bytes(spec, cells, set_bytes);
   bytes += 3 * set_bytes;  // S, K and a layer
   if (spec.abstraction.between_samples) bytes += set_bytes;
   // Levels for collision times and delays: 8 bits are enough up to 254 steps.
@@ -130,6 +141,7 @@ void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit) {
 }
 
 SpecReport inspect(const ProblemSpec& spec) {
+  if (spec.controller.file) check_controller_file(spec);
   SpecReport report{.name = spec.name, .cells = 1, .joint_inputs = 1};
   const std::vector<TableShape> shapes = table_shapes(spec);
   for (std::size_t i = 0; i < spec.states.size(); ++i) {

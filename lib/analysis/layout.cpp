@@ -64,6 +64,7 @@ std::vector<std::size_t> choose_layout(const ProblemSpec& spec) {
   std::vector<std::size_t> order = natural_order(spec);
   // These are written row by row, in the order of the spec.
   if (spec.output.actions || spec.output.controller || spec.output.abstraction) return order;
+  if (spec.controller.file) return order;  // so are the cells of the file
   const std::vector<TableShape> shapes = table_shapes(spec);
   const auto quality = [&](std::size_t i) {
     return std::tuple(shapes[i].shift, spec.states[i].grid.count, i);

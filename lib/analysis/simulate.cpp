@@ -126,6 +126,10 @@ void check_simulation_memory(const ResultsReader& results, const SimulationOptio
   const auto states = static_cast<double>(spec.states.size());
   const auto disturbances = static_cast<double>(spec.disturbances.size());
   double bytes = 32e6 + 4 * static_cast<double>(results.grid().cells());
+  if (spec.controller.file) {
+    bytes += static_cast<double>(PackedPairs::bytes_for(results.inputs().count())) *
+             static_cast<double>(results.grid().cells());
+  }
   const double tables = spec.abstraction.between_samples ? 2 : 1;  // of posts, of tubes
   for (const TableShape& shape : table_shapes(spec)) bytes += tables * shape.bytes;
   const double sample = sizeof(RunTrace::Sample) + 2 * (16 + 8 * states);
@@ -171,11 +175,16 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   const Abstraction abstraction = is_stored ? results.abstraction() : build_abstraction(spec, team);
   const std::optional<CellSet> beyond =
       safe_beyond_limits(spec, abstraction, safe_cells(results.grid(), delay), team);
+  std::optional<PackedPairs> listed;
+  if (spec.controller.file) {
+    listed = {.inputs = results.inputs().count(), .bytes = results.listed_bits(all_cells(results.grid()))};
+  }
   const LoopProblem problem{.spec = &spec,
                             .abstraction = &abstraction,
                             .partition = &spec.coordination.partitions[partition],
                             .delay = delay,
                             .safe_beyond = beyond ? &*beyond : nullptr,
+                            .listed = listed ? &*listed : nullptr,
                             .connection_delay = spec.coordination.connection_delay};
   Simulation simulation{.partition = problem.partition->name, .traces = simulate_runs(problem, runs, team)};
   if (options.output) {

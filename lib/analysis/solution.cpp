@@ -19,6 +19,12 @@ auto staged(const EnterStage& enter, const std::string& stage, const Make& make)
   return make();
 }
 
+/// First of all, for a file that does not fit is an error that nobody should wait for.
+std::optional<ControllerFile> read_listed(const ProblemSpec& spec, const EnterStage& enter) {
+  if (!spec.controller.file) return std::nullopt;
+  return staged(enter, "controller", [&] { return read_controller_file(spec); });
+}
+
 /// Where each state of the spec stands in the grid.
 std::vector<std::size_t> place_of_states(const std::vector<std::size_t>& layout) {
   std::vector<std::size_t> place(layout.size());
@@ -37,9 +43,10 @@ Solution::Solution(const ProblemSpec& problem, ThreadTeam& team, const EnterStag
     : spec(problem),
       layout(choose_layout(problem)),
       engine_spec(laid_out(problem, layout)),
+      listed(read_listed(problem, enter)),
       abstraction(staged(enter, "abstraction", [&] { return build_abstraction(engine_spec, team); })),
       safe(staged(enter, "safe set", [&] { return safe_set(engine_spec, abstraction, team); })),
-      allow(allow_table(engine_spec, abstraction, team)),
+      allow(allow_table(engine_spec, abstraction, team, listed ? &listed->pairs : nullptr)),
       beyond(safe_beyond_limits(engine_spec, abstraction, safe, team)),
       engine(abstraction, allow ? &*allow : nullptr,
              SafeTubes{problem.abstraction.between_samples ? &safe : nullptr, beyond ? &*beyond : nullptr}),

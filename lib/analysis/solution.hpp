@@ -12,8 +12,9 @@
 #include "base/thread_team.hpp"
 #include "coordination/controller.hpp"
 #include "coordination/delay_layers.hpp"
-#include "safety/condition_table.hpp"
+#include "results/controller_file.hpp"
 #include "safety/invariance.hpp"
+#include "safety/pair_table.hpp"
 #include "safety/row_engine.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -39,8 +40,8 @@ using StageSwept = std::function<void(const std::string& stage, std::int64_t swe
 ///    order of `layout`; `order` maps cells of the spec's grid to them. Inputs and agents are the spec's.
 /// 2. Neither copied nor moved: its parts refer to one another.
 struct Solution {
-  /// The stages "abstraction", "safe set", "invariance" and "layers PARTITION" for each partition.
-  /// REQUIRES: `problem` outlives the solution.
+  /// The stages "controller" if there is a file with one, "abstraction", "safe set", "invariance" and "layers
+  /// PARTITION" for each partition. REQUIRES: `problem` outlives the solution.
   /// @throws as analyze()
   Solution(const ProblemSpec& problem, ThreadTeam& team, const EnterStage& enter, const StageSwept& swept);
   Solution(const Solution&) = delete;
@@ -49,9 +50,10 @@ struct Solution {
   const ProblemSpec& spec;
   std::vector<std::size_t> layout;  ///< [dimension of the engine] the state
   ProblemSpec engine_spec;
+  std::optional<ControllerFile> listed;  ///< `controller.file`; then the layout is the identity
   Abstraction abstraction;
   CellSet safe;
-  std::optional<ConditionTable> allow;
+  std::optional<PairTable> allow;
   std::optional<CellSet> beyond;  ///< SafeTubes::beyond
   RowEngine engine;
   RowHull hull;

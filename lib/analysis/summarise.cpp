@@ -35,6 +35,9 @@ AnalysisSummary summarise(const Solution& solution) {
   summary.name = spec.name;
   summary.states = solution.abstraction.grid.cells();
   summary.inputs = solution.abstraction.inputs.count();
+  if (solution.listed) {
+    summary.controller = {{*spec.controller.file, solution.listed->sha256, solution.listed->pairs.count()}};
+  }
   summary.safe = solution.safe.count();
   summary.invariant = solution.invariance.invariant.count();
   summary.iterations = solution.invariance.iterations;

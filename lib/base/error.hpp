@@ -47,6 +47,13 @@ class ResultsError : public Error {
       : Error(ExitCode::invalid_input, what, where) {}
 };
 
+/// A file with a controller that does not fit or is damaged; `where` is its path with the place in it.
+class ControllerError : public Error {
+ public:
+  explicit ControllerError(std::string_view what, std::string_view where = {})
+      : Error(ExitCode::invalid_input, what, where) {}
+};
+
 /// More memory or more cells than allowed, refused before the work starts.
 class LimitError : public Error {
  public:

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "grid/reversed_numbers.hpp"
 #include "query/cell_controller.hpp"
 
 namespace coordreq {
@@ -69,35 +70,11 @@ std::string grid_text(const std::vector<Axis>& axes) {
          vector_text("LOWER_LEFT", first) + vector_text("UPPER_RIGHT", last);
 }
 
-/// Numbers of row-major positions when dimension 0 counts fastest.
-class ReversedNumbers {
- public:
-  explicit ReversedNumbers(const std::vector<Axis>& axes) {
-    std::int64_t row_major = 1;
-    for (const Axis& axis : axes) row_major *= axis.count;
-    std::int64_t reversed = 1;
-    for (const Axis& axis : axes) {
-      row_major /= axis.count;
-      strides_.push_back({row_major, axis.count, reversed});
-      reversed *= axis.count;
-    }
-  }
-  /// The position that has this number.
-  [[nodiscard]] std::int64_t position_of(std::int64_t number) const {
-    std::int64_t position = 0;
-    for (const Stride& stride : strides_)
-      position += number / stride.reversed % stride.count * stride.row_major;
-    return position;
-  }
-
- private:
-  struct Stride {
-    std::int64_t row_major;
-    std::int64_t count;
-    std::int64_t reversed;
-  };
-  std::vector<Stride> strides_;
-};
+ReversedNumbers numbers(const std::vector<Axis>& axes) {
+  std::vector<std::int64_t> counts;
+  for (const Axis& axis : axes) counts.push_back(axis.count);
+  return ReversedNumbers(counts);
+}
 
 }  // namespace
 
@@ -116,8 +93,8 @@ void export_scots(const ResultsReader& results, ThreadTeam& team, const TextSink
       results.grid().cells(), results.inputs().count()));
   CellController controller(results, team);
   controller.prepare_all();
-  const ReversedNumbers state_numbers(states);
-  const ReversedNumbers input_numbers(inputs);
+  const ReversedNumbers state_numbers = numbers(states);
+  const ReversedNumbers input_numbers = numbers(inputs);
   // Both ascend as SCOTS counts.
   std::vector<std::size_t> input_positions;
   for (std::int64_t number = 0; number < results.inputs().count(); ++number) {

@@ -123,6 +123,8 @@ std::vector<bool> CellController::allowed(std::int64_t cell) {
   const UniformGrid& grid = results_.grid();
   const InputSpace& inputs = results_.inputs();
   std::vector<bool> result(at(inputs.count()), true);
+  if (results_.spec().controller.file)
+    result = unpacked(results_.listed_bits(one_cell(grid, cell)), inputs.count());
   if (!allow_) return result;
   std::vector<Interval> box(results_.spec().slot_count());
   std::vector<RationalInterval> exact_box(box.size());
@@ -148,7 +150,8 @@ std::vector<bool> CellController::allowed(std::int64_t cell) {
     }
     decided.push_back(is_allowed(box, exact_box));
   } while (choice.next());
-  for (std::int64_t u = 0; u < inputs.count(); ++u) result[at(u)] = decided[at(action_of(inputs, u, used))];
+  for (std::int64_t u = 0; u < inputs.count(); ++u)
+    result[at(u)] = result[at(u)] && decided[at(action_of(inputs, u, used))];
   return result;
 }
 

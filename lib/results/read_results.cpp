@@ -6,6 +6,7 @@
 #include "results/child_trial.hpp"
 #include "results/reading.hpp"
 #include "results/results_file.hpp"
+#include "results/results_paths.hpp"
 
 namespace coordreq {
 namespace {
@@ -86,6 +87,7 @@ ResultInfo read(const std::string& path) {
   info.invariant_cells = file.natural("/invariant", "cells");
   info.connection_delay = file.integer("/trigger", "connection_delay");
   info.datasets = file.datasets();
+  if (file.exists(paths::kListed)) info.controller_sha256 = file.text(paths::kListed, "sha256");
   return info;
 }
 

@@ -21,6 +21,7 @@ struct ResultInfo {
   std::string path, name, coordreq_version, git_sha1, spec_sha256, guarantee, period_unit;
   double period = 0;
   std::vector<Axis> states, inputs;
+  std::string controller_sha256;  ///< of `controller.file`; empty if there is none
   std::uint64_t cells = 0, safe_cells = 0, invariant_cells = 0;
   std::int64_t connection_delay = 0;
   std::vector<Partition> partitions;

@@ -99,6 +99,8 @@ struct ResultContent {
   std::int64_t iterations = 0;
   std::vector<ResultPartition> partitions;
   std::optional<ResultBits> controller;
+  std::optional<ResultBits> listed;  ///< pairs that a controller file lists; `/controller:file`
+  std::string listed_sha256;         ///< of that file
   std::vector<ResultTable> abstraction;
   std::vector<ResultNames> names;  ///< leading axes of `maps`
   std::vector<ResultMap> maps;     ///< what else is known of each cell

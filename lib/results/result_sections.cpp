@@ -7,6 +7,7 @@
 
 #include "results/hdf5_attributes.hpp"
 #include "results/memory_array.hpp"
+#include "results/results_paths.hpp"
 #include "results/sha256.hpp"
 #include "results/unit_text.hpp"
 #include "results/version.hpp"
@@ -120,19 +121,20 @@ void write_layer_lists(NetcdfWriter& file, const ResultPartition& partition) {
   describe(cell, "row-major linear index of the cell, by layer, ascending");
 }
 
-void write_bits(NetcdfWriter& file, const ResultContent& content, const std::string& path,
-                const ResultBits& bits, const std::string& long_name) {
+hdf5::Handle write_bits(NetcdfWriter& file, const ResultContent& content, const std::string& path,
+                        const ResultBits& bits, const std::string& long_name) {
   const std::string bytes = path + ":byte";
   file.add_dimension(bytes, bits.actions / 8 + (bits.actions % 8 != 0 ? 1 : 0));
   Paths dimensions = state_paths(content);
   dimensions.push_back(bytes);
-  const hdf5::Handle dataset = file.add_array(path, dimensions, {ElementType::uint8, bits.fill});
+  hdf5::Handle dataset = file.add_array(path, dimensions, {ElementType::uint8, bits.fill});
   describe(dataset, long_name);
   std::string inputs;
   for (const std::string& input : bits.inputs) inputs += (inputs.empty() ? "" : " ") + input;
   set_attribute(dataset, "inputs", inputs);
   set_attribute(dataset, "actions", bits.actions);
   set_attribute(dataset, "bitorder", std::string("little"));
+  return dataset;
 }
 
 }  // namespace
@@ -240,6 +242,11 @@ void write_actions(NetcdfWriter& file, const ResultContent& content) {
   if (content.controller) {
     write_bits(file, content, "/controller", *content.controller,
                "joint inputs that the controller admits, one bit each");
+  }
+  if (content.listed) {
+    const hdf5::Handle listed = write_bits(file, content, paths::kListed, *content.listed,
+                                           "joint inputs that the controller file lists, one bit each");
+    set_attribute(listed, "sha256", content.listed_sha256);
   }
 }
 

@@ -29,6 +29,10 @@ class PartsReader {
     check_cell_arrays();
     for (std::size_t p = 0; p < parts_.partitions.size(); ++p) check_extras(p);
     if (file_.exists(paths::kController)) check_bits(paths::kController, joint_actions(all_inputs()));
+    if (parts_.spec.controller.file) {
+      check_bits(paths::kListed, joint_actions(all_inputs()));
+      parts_.attributes.controller_sha256 = file_.text(paths::kListed, "sha256");
+    }
     if (file_.exists(paths::kAbstraction)) read_tables();
     return std::move(parts_);
   }

@@ -8,6 +8,8 @@
 namespace coordreq::paths {
 
 inline constexpr char kController[] = "/controller";
+/// The pairs of `controller.file`. No state can have this name.
+inline constexpr char kListed[] = "/controller:file";
 inline constexpr char kAbstraction[] = "/abstraction";
 
 [[nodiscard]] inline std::string actions(const StoredPartition& partition) {

@@ -133,6 +133,10 @@ std::vector<std::uint8_t> ResultsReader::controller_bits(const CellBlock& block)
   return bits(paths::kController, inputs_.count(), block);
 }
 
+std::vector<std::uint8_t> ResultsReader::listed_bits(const CellBlock& block) const {
+  return bits(paths::kListed, inputs_.count(), block);
+}
+
 std::vector<std::uint64_t> ResultsReader::whole(const std::string& dataset) const {
   const auto shape = reading(path_, [&] { return file_->shape(dataset); });
   const auto type = reading(path_, [&] { return file_->element_type(dataset); });

@@ -22,6 +22,7 @@ struct StoredAttributes {
   std::uint64_t safe_cells = 0, invariant_cells = 0;  ///< attributes `cells`
   std::int64_t iterations = 0;
   std::int64_t connection_delay = 0;
+  std::string controller_sha256;  ///< of `controller.file`; empty if the spec has none
 };
 
 /// What is stored of a partition besides arrays over cells.
@@ -112,6 +113,8 @@ class ResultsReader {
                                                       const CellBlock& block) const;
   /// The same for C(x) over the joint inputs. REQUIRES: has_controller().
   [[nodiscard]] std::vector<std::uint8_t> controller_bits(const CellBlock& block) const;
+  /// The same for the pairs that `controller.file` lists. REQUIRES: the spec has one.
+  [[nodiscard]] std::vector<std::uint8_t> listed_bits(const CellBlock& block) const;
   /// REQUIRES: has_layers(partition). `start` is checked to ascend from 0 to the number of cells, `cell` to
   /// hold cells of the grid.
   [[nodiscard]] StoredLayers layers(std::size_t partition) const;

@@ -3,24 +3,60 @@
 #include <nettle/sha2.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdint>
+#include <fstream>
+#include <system_error>
+
+#include "base/error.hpp"
 
 namespace coordreq {
+namespace {
+
+class Digest {
+ public:
+  Digest() { sha256_init(&context_); }
+
+  void add(std::string_view bytes) {
+    sha256_update(&context_, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+  }
+
+  std::string hex() {
+    std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
+    sha256_digest(&context_, digest.size(), digest.data());
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    std::string hex;
+    for (const std::uint8_t byte : digest) {
+      hex += kDigits[byte >> 4U];
+      hex += kDigits[byte & 15U];
+    }
+    return hex;
+  }
+
+ private:
+  sha256_ctx context_{};
+};
+
+}  // namespace
 
 std::string sha256_hex(std::string_view text) {
-  std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
-  sha256_ctx context;
-  sha256_init(&context);
-  sha256_update(&context, text.size(), reinterpret_cast<const std::uint8_t*>(text.data()));
-  sha256_digest(&context, digest.size(), digest.data());
+  Digest digest;
+  digest.add(text);
+  return digest.hex();
+}
 
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string hex;
-  for (const std::uint8_t byte : digest) {
-    hex += kDigits[byte >> 4U];
-    hex += kDigits[byte & 15U];
+std::string sha256_of_file(const std::string& path) {
+  Digest digest;
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::string block(1U << 16U, '\0');
+  while (file) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    digest.add({block.data(), static_cast<std::size_t>(file.gcount())});
   }
-  return hex;
+  if (!file.eof())
+    throw IoError("cannot be read: " + std::generic_category().message(errno == 0 ? EIO : errno), path);
+  return digest.hex();
 }
 
 }  // namespace coordreq

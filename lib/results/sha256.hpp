@@ -8,4 +8,7 @@ namespace coordreq {
 /// SHA-256 (FIPS 180-4) of the bytes of `text`, as 64 lower-case hexadecimal digits.
 [[nodiscard]] std::string sha256_hex(std::string_view text);
 
+/// The same of the bytes of a file. @throws IoError
+[[nodiscard]] std::string sha256_of_file(const std::string& path);
+
 }  // namespace coordreq

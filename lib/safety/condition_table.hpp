@@ -51,6 +51,8 @@ class ConditionTable {
     return position / input_stride_[i] % (*input_space_)[i].count();
   }
   [[nodiscard]] const CellSet& bits() const { return bits_; }
+  [[nodiscard]] const UniformGrid& grid() const { return *grid_; }
+  [[nodiscard]] const InputSpace& input_space() const { return *input_space_; }
 
   [[nodiscard]] const std::vector<std::int32_t>& states() const {
     return states_;

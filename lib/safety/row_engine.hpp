@@ -6,7 +6,7 @@
 
 #include "abstraction/abstraction.hpp"
 #include "bitset/level_rows.hpp"
-#include "safety/condition_table.hpp"
+#include "safety/pair_table.hpp"
 #include "safety/row_place.hpp"
 #include "safety/row_slices.hpp"
 #include "safety/safe_tubes.hpp"
@@ -32,7 +32,7 @@ class RowEngine {
   /// @param allow may be null: everything is allowed
   /// @param tubes what tubes must stay in, if there are any
   /// REQUIRES: they outlive this object.
-  RowEngine(const Abstraction& abstraction, const ConditionTable* allow, const SafeTubes& tubes);
+  RowEngine(const Abstraction& abstraction, const PairTable* allow, const SafeTubes& tubes);
 
   [[nodiscard]] const Abstraction& abstraction() const { return *abstraction_; }
   [[nodiscard]] const UniformGrid& grid() const { return abstraction_->grid; }
@@ -46,7 +46,7 @@ class RowEngine {
     const LevelRows<std::uint8_t>* inside;  ///< the greatest level for members, else 0
   };
   [[nodiscard]] std::vector<Demand> demands() const;
-  [[nodiscard]] const ConditionTable* allow() const { return allow_; }
+  [[nodiscard]] const PairTable* allow() const { return allow_; }
   [[nodiscard]] std::int64_t rows() const { return grid().rows(); }
   [[nodiscard]] std::int64_t row_length() const { return grid().row_length(); }
   [[nodiscard]] std::size_t row_words() const {
@@ -82,7 +82,7 @@ class RowEngine {
   [[nodiscard]] bool is_closed(std::size_t outer) const;
 
   const Abstraction* abstraction_;
-  const ConditionTable* allow_;
+  const PairTable* allow_;
   std::vector<RowSlices> slices_;
   std::vector<LevelRows<std::uint8_t>> inside_;  ///< one for each family of tubes
   std::vector<RowEnds> ends_;                    ///< one a family: posts; tubes; tubes that pass no limit

@@ -7,6 +7,31 @@
 #include "base/error.hpp"
 
 namespace coordreq {
+namespace {
+
+/// `allow` at all grid points; nothing if it permits everything.
+std::optional<ConditionTable> condition_table(const ProblemSpec& spec, const Abstraction& abstraction,
+                                              ThreadTeam& team) {
+  if (!spec.controller.allow) return std::nullopt;
+  const Program& allow = *spec.controller.allow;
+  if (allow.nodes.back().op == Operator::literal_true) return std::nullopt;
+  const auto refuse = [&](const std::vector<std::int64_t>& indices) -> bool {
+    std::string place;
+    for (const std::uint32_t slot : allow.variables()) {
+      const bool is_state = slot < spec.states.size();
+      const std::size_t i = is_state ? slot : slot - spec.states.size();
+      const auto k = indices[slot];
+      const Rational value =
+          is_state ? abstraction.grid[i].point(k) : abstraction.inputs[i].values[static_cast<std::size_t>(k)];
+      place += fmt::format("{}{} = {}", place.empty() ? "" : ", ",
+                           is_state ? spec.states[i].name : spec.inputs[i].name, to_text(value));
+    }
+    throw SpecError(fmt::format("'allow' cannot be decided at {}", place), "/controller/allow");
+  };
+  return ConditionTable(allow, abstraction.grid, abstraction.inputs, Sampling::centres, refuse, team);
+}
+
+}  // namespace
 
 CellSet safe_set(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
                  ThreadTeam& team) {
@@ -25,25 +50,13 @@ CellSet safe_set(const ProblemSpec& spec, const UniformGrid& grid, const InputSp
   return safe;
 }
 
-std::optional<ConditionTable> allow_table(const ProblemSpec& spec, const Abstraction& abstraction,
-                                          ThreadTeam& team) {
-  if (!spec.controller.allow) return std::nullopt;
-  const Program& allow = *spec.controller.allow;
-  if (allow.nodes.back().op == Operator::literal_true) return std::nullopt;
-  const auto refuse = [&](const std::vector<std::int64_t>& indices) -> bool {
-    std::string place;
-    for (const std::uint32_t slot : allow.variables()) {
-      const bool is_state = slot < spec.states.size();
-      const std::size_t i = is_state ? slot : slot - spec.states.size();
-      const auto k = indices[slot];
-      const Rational value =
-          is_state ? abstraction.grid[i].point(k) : abstraction.inputs[i].values[static_cast<std::size_t>(k)];
-      place += fmt::format("{}{} = {}", place.empty() ? "" : ", ",
-                           is_state ? spec.states[i].name : spec.inputs[i].name, to_text(value));
-    }
-    throw SpecError(fmt::format("'allow' cannot be decided at {}", place), "/controller/allow");
-  };
-  return ConditionTable(allow, abstraction.grid, abstraction.inputs, Sampling::centres, refuse, team);
+std::optional<PairTable> allow_table(const ProblemSpec& spec, const Abstraction& abstraction,
+                                     ThreadTeam& team, const PackedPairs* listed) {
+  const std::optional<ConditionTable> allow = condition_table(spec, abstraction, team);
+  if (listed != nullptr)
+    return PairTable(abstraction.grid, abstraction.inputs, *listed, allow ? &*allow : nullptr, team);
+  if (!allow) return std::nullopt;
+  return PairTable(*allow);
 }
 
 }  // namespace coordreq

@@ -5,7 +5,7 @@
 #include "abstraction/abstraction.hpp"
 #include "base/thread_team.hpp"
 #include "bitset/cell_set.hpp"
-#include "safety/condition_table.hpp"
+#include "safety/pair_table.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -22,9 +22,11 @@ namespace coordreq {
   return safe_set(spec, abstraction.grid, abstraction.inputs, team);
 }
 
-/// `allow` at all grid points of states and inputs; nothing if everything is allowed.
-/// @throws SpecError naming the first grid point where it cannot be decided (contract, "Conditions")
-[[nodiscard]] std::optional<ConditionTable> allow_table(const ProblemSpec& spec,
-                                                        const Abstraction& abstraction, ThreadTeam& team);
+/// The admissible pairs: those that `allow` permits at grid points of states and inputs, and that are listed
+/// if there is a list; nothing if everything is admissible.
+/// @param listed may be null; cells in the order of the abstraction's grid
+/// @throws SpecError naming the first grid point where `allow` cannot be decided (contract, "Conditions")
+[[nodiscard]] std::optional<PairTable> allow_table(const ProblemSpec& spec, const Abstraction& abstraction,
+                                                   ThreadTeam& team, const PackedPairs* listed = nullptr);
 
 }  // namespace coordreq

@@ -39,9 +39,9 @@ std::span<const std::uint32_t> TupleWalk::slice_ids() {
 }
 
 ConstRow TupleWalk::allowed() const {
-  const ConditionTable* allow = grouping_->engine().allow();
+  const PairTable* allow = grouping_->engine().allow();
   if (allow == nullptr) return {};
-  return allow->bits().row(sum_[position_.size() * sources_ + ids_.size()]);
+  return allow->row(sum_[position_.size() * sources_ + ids_.size()]);
 }
 
 bool TupleWalk::next() {

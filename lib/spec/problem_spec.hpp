@@ -77,8 +77,8 @@ enum class Synthesis : std::uint8_t { maximal, given };
 
 struct ControllerSpec {
   Synthesis synthesis = Synthesis::maximal;
-  std::optional<Program> allow;  ///< over states and inputs; none: everything is allowed
-  std::optional<std::string> file;
+  std::optional<Program> allow;     ///< over states and inputs; none: everything is allowed
+  std::optional<std::string> file;  ///< as written; lists the pairs that are admissible
 };
 
 /// Classes of agents that coordinate within a step. Canonical: agents ascending within a class, classes by
@@ -140,7 +140,8 @@ struct OutputSpec {
 };
 
 struct ProblemSpec {
-  std::string text;  ///< the spec as read, UTF-8
+  std::string text;    ///< the spec as read, UTF-8
+  std::string folder;  ///< where relative paths start; empty: the current one
   std::string name;
   std::string description;
   std::vector<StateSpec> states;  ///< at least one

@@ -14,7 +14,8 @@ namespace coordreq {
 ///   an expression, with what was found and what was expected.
 [[nodiscard]] ProblemSpec read_spec(std::string text, std::string_view source);
 
-/// Reads the whole file and calls read_spec(); "-" reads `standard_input`.
+/// Reads the whole file and calls read_spec(); "-" reads `standard_input`. Relative paths in a spec start in
+/// its folder, those in one from standard input in the current folder.
 /// @throws IoError if it is not there, is a folder or cannot be read; SpecError as above.
 [[nodiscard]] ProblemSpec read_spec_file(const std::string& path, std::istream& standard_input);
 

@@ -39,7 +39,9 @@ ProblemSpec read_spec_file(const std::string& path, std::istream& standard_input
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(reason(errno), path);
-  return read_spec(read_all(file, path), path);
+  ProblemSpec spec = read_spec(read_all(file, path), path);
+  spec.folder = std::filesystem::path(path).parent_path().string();
+  return spec;
 }
 
 }  // namespace coordreq

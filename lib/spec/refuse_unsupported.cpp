@@ -24,7 +24,6 @@ void refuse_in_coordination(const CoordinationSpec& coordination) {
 }  // namespace
 
 void refuse_unsupported(const ProblemSpec& spec) {
-  if (spec.controller.file) refuse("'file'", "/controller/file");
   refuse_in_coordination(spec.coordination);
   if (spec.network) refuse("'network'", "/network");
   if (!spec.requirements.empty()) refuse("'requirements'", "/requirements");

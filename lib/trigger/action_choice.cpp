@@ -47,7 +47,8 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
               {.invariant = [delay = problem.delay](std::int64_t cell) { return delay[at(cell)] >= 0; },
                .safe = [delay = problem.delay](
                            std::int64_t cell) { return delay[at(cell)] != DelayLayers::kOutsideSafe; },
-               .safe_beyond = problem.safe_beyond}),
+               .safe_beyond = problem.safe_beyond,
+               .listed = problem.listed}),
       classes_(action_classes(*problem.spec, *problem.partition, problem.abstraction->inputs)),
       margin_(problem.spec->safe),
       nominal_(*problem.spec, *problem.abstraction, dynamics),

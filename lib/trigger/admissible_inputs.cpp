@@ -144,6 +144,8 @@ const std::vector<std::int64_t>& AdmissibleInputs::of(std::int64_t x) {
   do {
     if (is_safe(choice.indices())) collect(choice.indices());
   } while (choice.next());
+  if (sets_.listed != nullptr)
+    std::erase_if(admissible_, [&](std::int64_t u) { return !sets_.listed->test(x, u); });
   sort();
   return admissible_;
 }

@@ -9,6 +9,7 @@
 
 #include "abstraction/abstraction.hpp"
 #include "bitset/cell_set.hpp"
+#include "bitset/packed_pairs.hpp"
 #include "expression/evaluate.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -27,6 +28,7 @@ class AdmissibleInputs {
     IsMember invariant;
     IsMember safe;                         ///< called only if the abstraction has tubes
     const CellSet* safe_beyond = nullptr;  ///< SafeTubes::beyond
+    const PackedPairs* listed = nullptr;   ///< what `controller.file` lists; null: it has none
   };
 
   /// REQUIRES: `spec`, `abstraction`, which is the spec's, and all sets outlive this object.

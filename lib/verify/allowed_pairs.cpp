@@ -5,8 +5,9 @@
 
 namespace coordreq {
 
-AllowedPairs::AllowedPairs(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs)
-    : spec_(spec), grid_(grid), inputs_(inputs), slots_(spec.slot_count()) {
+AllowedPairs::AllowedPairs(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+                           const std::optional<PackedPairs>& listed)
+    : spec_(spec), grid_(grid), inputs_(inputs), listed_(listed), slots_(spec.slot_count()) {
   if (!spec.controller.allow) return;
   evaluator_.emplace_back(*spec.controller.allow);
   for (const std::uint32_t slot : spec.controller.allow->variables()) {
@@ -24,6 +25,7 @@ AllowedPairs::AllowedPairs(const ProblemSpec& spec, const UniformGrid& grid, con
 }
 
 void AllowedPairs::go_to(std::int64_t cell) {
+  cell_ = cell;
   if (evaluator_.empty()) return;
   std::vector<std::int64_t> indices;
   for (const std::size_t i : states_) indices.push_back(grid_.index(cell, i));

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/thread_team.hpp"
+#include "bitset/packed_pairs.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
 #include "grid/input_space.hpp"
@@ -12,17 +14,20 @@
 
 namespace coordreq {
 
-/// Which joint inputs `allow` permits at the centre of a cell, exactly. Keeps no table: evaluates what is
-/// asked, and remembers it while only variables change that `allow` does not mention. One object a thread.
+/// Which joint inputs `allow` permits at the centre of a cell, exactly, and the controller file lists. Keeps
+/// no table: evaluates what is asked, and remembers it while only variables change that `allow` does not
+/// mention. One object a thread.
 class AllowedPairs {
  public:
   /// REQUIRES: all outlive this object.
-  AllowedPairs(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs);
+  /// @param listed none where the spec has no controller file
+  AllowedPairs(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+               const std::optional<PackedPairs>& listed);
 
   void go_to(std::int64_t cell);
   /// @throws SpecError where `allow` cannot be decided
   [[nodiscard]] bool operator()(std::int64_t u) const {
-    return permitted_.empty() || permitted_[number_of(u)];
+    return (permitted_.empty() || permitted_[number_of(u)]) && (!listed_ || listed_->test(cell_, u));
   }
 
  private:
@@ -32,6 +37,8 @@ class AllowedPairs {
   const ProblemSpec& spec_;
   const UniformGrid& grid_;
   const InputSpace& inputs_;
+  const std::optional<PackedPairs>& listed_;
+  std::int64_t cell_ = 0;
   std::vector<std::size_t> states_;  ///< mentioned
   std::vector<std::size_t> inputs_used_;
   std::vector<std::int64_t> indices_;  ///< of the cell in those states

@@ -52,7 +52,7 @@ CellChecker::CellChecker(const CellCheck& check, CellTallies& tallies, SafeMemor
       claims_(*check.claims),
       tallies_(tallies),
       posts_(*check.posts),
-      allowed_(*check.spec, *check.grid, *check.inputs),
+      allowed_(*check.spec, *check.grid, *check.inputs, check.claims->listed),
       judge_(*check.spec, *check.grid, memory),
       inputs_(check.inputs->count()),
       admitted_(static_cast<std::size_t>(inputs_)) {

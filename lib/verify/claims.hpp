@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bitset/packed_pairs.hpp"
 #include "verify/post_table.hpp"
 
 namespace coordreq {
@@ -33,6 +35,7 @@ struct Claims {
   std::vector<PartitionClaims> partitions;  ///< those of the spec, in its order
   bool has_controller = false;
   std::vector<std::uint8_t> controller;  ///< bytes [cells, ceil(joint inputs / 8)]
+  std::optional<PackedPairs> listed;     ///< what `controller.file` lists, which is not doubted
   std::vector<PostTable> abstraction;    ///< one a state, or none
   bool same_version = true;              ///< written by this version of the program
   std::uint64_t safe_cells = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "grid/input_space.hpp"
+#include "results/results_paths.hpp"
 #include "results/sha256.hpp"
 #include "results/unit_text.hpp"
 #include "results/version.hpp"
@@ -28,7 +29,8 @@ class Expectation {
     add_sets();
     add_steps();
     for (std::size_t p = 0; p < spec_.coordination.partitions.size(); ++p) add_partition(p);
-    if (extras_.controller) add_controller();
+    if (extras_.controller) add_joint_bits(paths::kController);
+    if (spec_.controller.file) add_joint_bits(paths::kListed);
     for (std::size_t i = 0; extras_.abstraction && i < spec_.states.size(); ++i) add_table(i);
     return std::move(objects_);
   }
@@ -145,10 +147,10 @@ class Expectation {
     }
   }
 
-  void add_controller() {
+  void add_joint_bits(const std::string& path) {
     std::vector<std::int32_t> everyone;
     for (std::size_t a = 0; a < spec_.agents.size(); ++a) everyone.push_back(static_cast<std::int32_t>(a));
-    add_bits("/controller", class_actions(spec_, make_input_space(spec_), everyone));
+    add_bits(path, class_actions(spec_, make_input_space(spec_), everyone));
   }
 
   void add_table(std::size_t state) {

@@ -63,6 +63,8 @@ Claims read_all(const ResultsReader& results) {
   for (std::size_t p = 0; p < results.partitions().size(); ++p)
     claims.partitions.push_back(read_partition(results, p, all));
   if (claims.has_controller) claims.controller = results.controller_bits(all);
+  if (results.spec().controller.file)
+    claims.listed = {.inputs = results.inputs().count(), .bytes = results.listed_bits(all)};
   if (results.has_abstraction()) claims.abstraction = stored_tables(results);
   return claims;
 }
@@ -85,7 +87,8 @@ std::uint64_t memory_need(const ResultsReader& results) {
     for (const std::int64_t actions : results.partitions()[p].actions)
       bytes_of_cell += results.has_actions(p) ? static_cast<std::uint64_t>((actions + 7) / 8) : 0;
   }
-  if (results.has_controller())
+  const int joint = (results.has_controller() ? 1 : 0) + (results.spec().controller.file ? 1 : 0);
+  for (int i = 0; i < joint; ++i)
     bytes_of_cell += static_cast<std::uint64_t>((results.inputs().count() + 7) / 8);
   return bytes_of_cell * static_cast<std::uint64_t>(results.grid().cells());
 }

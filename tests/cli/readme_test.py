@@ -6,6 +6,8 @@ import re
 import subprocess
 import unittest
 
+import h5py
+import numpy as np
 from program import CONFIGS, PROGRAM, ROOT, Case
 
 README = (ROOT / "README.md").read_text()
@@ -41,8 +43,8 @@ class Cases(Case):
     def test_python(self):
         self.analyze(str(CONFIGS / "circle.json"))
         programs = blocks("python")
-        self.assertEqual(len(programs), 2)
-        for program, expected in zip(programs, ("25\n2029\n", "(1, 201, 201) m\n")):
+        self.assertEqual(len(programs), 3)
+        for program, expected in zip(programs, ("25\n2029\n", "", "(1, 201, 201) m\n")):
             result = subprocess.run(
                 ["/usr/bin/python3", "-c", program],
                 cwd=self.folder,
@@ -51,6 +53,21 @@ class Cases(Case):
                 check=True,
             )
             self.assertEqual(result.stdout, expected)
+
+        with h5py.File(self.folder / "first_come.h5") as written, h5py.File(CONFIGS / "first_come.h5") as example:
+            self.assertTrue(np.array_equal(written["controller"][...], example["controller"][...]))
+
+    def test_figures_of_the_crossing(self):
+        rows = re.findall(r"(?m)^\| `(configs/crossing\w*\.json)` \|[^|]*\| (.*) \|$", README)
+        self.assertEqual(len(rows), 4)
+        for config, figures in rows:
+            summary = self.analyze(str(ROOT / config))
+            (partition,) = summary["partitions"]
+            layers, never = partition["layers"], partition["fixed_point"]
+            half = max(k for k, size in enumerate(layers) if 2 * size >= layers[0])
+            bears = "for ever" if 2 * never >= layers[0] else f"{half} s"
+            longest = f"{partition['F'] - 1} s" if partition["F"] > 0 else "-"
+            self.assertEqual(figures.split(" | "), [f"{summary['invariant']:,}", bears, longest, f"{never:,}"])
 
     def test_spec(self):
         (spec,) = blocks("jsonc")

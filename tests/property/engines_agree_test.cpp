@@ -2,62 +2,16 @@
 #include <rapidcheck.h>
 
 #include <cstdint>
+#include <random>
 #include <utility>
 
-#include "coordination/action_bits.hpp"
 #include "spec/read_spec.hpp"
-#include "support/fast_engine.hpp"
-#include "support/plain_engine.hpp"
+#include "support/agreement.hpp"
 #include "support/random_problem.hpp"
 #include "support/random_sums.hpp"
 
 namespace coordreq {
 namespace {
-
-std::vector<bool> members(const CellSet& set) {
-  std::vector<bool> result;
-  for (std::int64_t x = 0; x < set.cells(); ++x) result.push_back(set.test(x));
-  return result;
-}
-
-/// The packed bits of the fast path as plain sets.
-std::vector<std::vector<bool>> unpacked(const FastAnalysis& fast, const ActionGrouping& grouping,
-                                        std::size_t c) {
-  const auto actions = static_cast<std::size_t>(grouping.actions(c));
-  const std::size_t bytes = (actions + 7) / 8;
-  const auto packed = action_bits(fast.controller, grouping, c, 0, fast.engine.rows());
-  std::vector<std::vector<bool>> result;
-  for (std::size_t x = 0; x < packed.size() / bytes; ++x) {
-    std::vector<bool>& set = result.emplace_back();
-    for (std::size_t a = 0; a < actions; ++a) set.push_back((packed[x * bytes + a / 8] >> (a % 8) & 1) != 0);
-  }
-  return result;
-}
-
-PlainAnalysis plainly(const ProblemSpec& spec, const FastAnalysis& fast) {
-  return analyze_plainly(spec, fast.abstraction, members(fast.safe),
-                         members(fast.beyond.value_or(fast.safe)));
-}
-
-void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const PlainAnalysis& plain,
-                      ThreadTeam& team) {
-  RC_ASSERT(fast.invariance.iterations == plain.iterations);
-  RC_ASSERT(members(fast.invariance.invariant) == plain.invariant);
-  RC_ASSERT(fast.collision_times() == plain.collision_time);
-  for (std::size_t p = 0; p < plain.partitions.size(); ++p) {
-    const PlainAnalysis::Partition& expected = plain.partitions[p];
-    RC_ASSERT(fast.layers[p].sizes == expected.sizes);
-    RC_ASSERT(fast.layers[p].fixed_point_index == expected.fixed_point_index);
-    RC_ASSERT(fast.layers[p].truncated == expected.truncated);
-    RC_ASSERT(fast.delays(p) == expected.delay);
-    for (std::size_t c = 0; c < expected.projection.size(); ++c) {
-      RC_ASSERT(unpacked(fast, fast.groupings[p], c) == expected.projection[c]);
-    }
-  }
-  InputClass all;
-  for (std::size_t i = 0; i < spec.inputs.size(); ++i) all.push_back(static_cast<std::int32_t>(i));
-  RC_ASSERT(unpacked(fast, ActionGrouping(fast.engine, {all}, team), 0) == plain.controller);
-}
 
 /// In which forms the projections of K come, and of what partitions.
 void classify_projections(const FastAnalysis& fast) {
@@ -104,12 +58,38 @@ RandomTime any_time() {
   return *rc::gen::inRange(0, 4) == 0 ? RandomTime::between_samples : RandomTime::any;
 }
 
+/// Few, half or most of all pairs.
+PackedPairs draw_pairs(std::int64_t cells, std::int64_t inputs) {
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  const std::uint32_t density = *rc::gen::element(1U, 4U, 7U);
+  PackedPairs pairs{.inputs = inputs, .bytes = {}};
+  pairs.bytes.resize(static_cast<std::size_t>(cells * pairs.bytes_per_cell()));
+  for (std::int64_t x = 0; x < cells; ++x) {
+    for (std::int64_t u = 0; u < inputs; ++u) {
+      if (random() % 8 < density) pairs.set(x, u);
+    }
+  }
+  return pairs;
+}
+
 TEST(Engines, RowsAndSinglePairsGiveTheSameBits) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("row engine equals plain engine", [&] {
     const ProblemSpec spec = read_spec(draw_problem(any_time()), "random");
     const FastAnalysis fast(spec, team);
     const PlainAnalysis plain = plainly(spec, fast);
+    classify(spec, fast, plain);
+    expect_agreement(spec, fast, plain, team);
+  }));
+}
+
+TEST(Engines, AgreeOnListedPairs) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("row engine equals plain engine with a controller from a file", [&] {
+    const ProblemSpec spec = read_spec(draw_problem(any_time()), "random");
+    const PackedPairs listed = draw_pairs(make_grid(spec).cells(), make_input_space(spec).count());
+    const FastAnalysis fast(spec, team, &listed);
+    const PlainAnalysis plain = plainly(spec, fast, &listed);
     classify(spec, fast, plain);
     expect_agreement(spec, fast, plain, team);
   }));

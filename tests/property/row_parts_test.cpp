@@ -49,7 +49,7 @@ struct RandomEngine {
   ProblemSpec spec = read_spec(draw_problem(), "random");
   ThreadTeam team{1};
   Abstraction abstraction = build_abstraction(spec, team);
-  std::optional<ConditionTable> allow = allow_table(spec, abstraction, team);
+  std::optional<PairTable> allow = allow_table(spec, abstraction, team);
   RowEngine engine{abstraction, allow ? &*allow : nullptr, {}};
 };
 

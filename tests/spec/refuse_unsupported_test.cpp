@@ -20,7 +20,6 @@ std::string refusal(const nlohmann::json& spec) {
 
 TEST(RefuseUnsupported, NamesTheKey) {
   const std::vector<test::ErrorCase> cases{
-      {"/controller", R"({"file": "other.h5"})", "'file' is not supported yet (/controller/file)"},
       {"/coordination", R"({"partitions": "all"})", "'all' is not supported yet (/coordination/partitions)"},
       {"/coordination", R"({"horizon": 3})", "'horizon' is not supported yet (/coordination/horizon)"},
       {"/coordination", R"({"horizon_time": 3})",
@@ -46,7 +45,7 @@ TEST(RefuseUnsupported, TakesEverythingElse) {
   spec["agents"][1]["prefer"] = "x1^2";
   spec["dynamics"]["time"] = "discrete";
   spec["abstraction"] = {{"cells", "half_open"}, {"safe", "center"}, {"between_samples", false}};
-  spec["controller"] = {{"synthesis", "given"}, {"allow", "u1 < 1"}};
+  spec["controller"] = {{"synthesis", "given"}, {"allow", "u1 < 1"}, {"file", "other.h5"}};
   spec["coordination"] = {
       {"max_delay", 3},
       {"connection_delay", 2},

@@ -15,12 +15,14 @@ namespace coordreq {
 
 /// All stages of the analysis that come before writing, with everything kept, for tests.
 struct FastAnalysis {
-  FastAnalysis(const ProblemSpec& spec, ThreadTeam& team)
-      : FastAnalysis(spec, build_abstraction(spec, team), team) {}
-  FastAnalysis(const ProblemSpec& spec, Abstraction given, ThreadTeam& team)
+  FastAnalysis(const ProblemSpec& spec, ThreadTeam& team, const PackedPairs* listed = nullptr)
+      : FastAnalysis(spec, build_abstraction(spec, team), team, listed) {}
+  /// @param listed the pairs of a controller file; null: there is none
+  FastAnalysis(const ProblemSpec& spec, Abstraction given, ThreadTeam& team,
+               const PackedPairs* listed = nullptr)
       : abstraction(std::move(given)),
         safe(safe_set(spec, abstraction, team)),
-        allow(allow_table(spec, abstraction, team)),
+        allow(allow_table(spec, abstraction, team, listed)),
         beyond(safe_beyond_limits(spec, abstraction, safe, team)),
         engine(abstraction, allow ? &*allow : nullptr,
                SafeTubes{abstraction.tubes.empty() ? nullptr : &safe, beyond ? &*beyond : nullptr}),
@@ -69,7 +71,7 @@ struct FastAnalysis {
 
   Abstraction abstraction;
   CellSet safe;
-  std::optional<ConditionTable> allow;
+  std::optional<PairTable> allow;
   std::optional<CellSet> beyond;  ///< SafeTubes::beyond
   RowEngine engine;
   RowHull hull;

@@ -19,11 +19,12 @@ using Set = std::vector<bool>;
 class PlainEngine {
  public:
   PlainEngine(const ProblemSpec& spec, const Abstraction& abstraction, const Set& safe,
-              const Set& safe_beyond)
+              const Set& safe_beyond, const PackedPairs* listed)
       : spec_(spec),
         a_(abstraction),
         safe_(safe),
         safe_beyond_(safe_beyond),
+        listed_(listed),
         cells_(abstraction.grid.cells()),
         inputs_(abstraction.inputs.count()) {}
 
@@ -41,6 +42,8 @@ class PlainEngine {
   void find_allowed() {
     for (std::int64_t x = 0; x < cells_; ++x) {
       allowed_.emplace_back(at(inputs_), true);
+      for (std::int64_t u = 0; listed_ != nullptr && u < inputs_; ++u)
+        allowed_.back()[at(u)] = listed_->test(x, u);
       if (!spec_.controller.allow) continue;
       Evaluator<RationalInterval> allow(*spec_.controller.allow);
       std::vector<RationalInterval> point(spec_.slot_count());
@@ -53,7 +56,7 @@ class PlainEngine {
           const Rational& value = a_.inputs[i].values[at(a_.inputs.index(u, i))];
           point[a_.grid.size() + i] = {.lower = value, .upper = value};
         }
-        allowed_.back()[at(u)] = allow.condition(point) == Truth::yes;
+        if (allow.condition(point) != Truth::yes) allowed_.back()[at(u)] = false;
       }
     }
   }
@@ -217,6 +220,7 @@ class PlainEngine {
   const Abstraction& a_;
   const Set& safe_;
   const Set& safe_beyond_;
+  const PackedPairs* listed_;
   std::int64_t cells_;
   std::int64_t inputs_;
   std::vector<std::vector<bool>> allowed_;
@@ -266,8 +270,9 @@ struct Choices {
 }  // namespace
 
 PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction,
-                              const std::vector<bool>& safe, const std::vector<bool>& safe_beyond) {
-  return PlainEngine(spec, abstraction, safe, safe_beyond).run();
+                              const std::vector<bool>& safe, const std::vector<bool>& safe_beyond,
+                              const PackedPairs* listed) {
+  return PlainEngine(spec, abstraction, safe, safe_beyond, listed).run();
 }
 
 SafeBounds bound_safe_plainly(const ProblemSpec& spec, const UniformGrid& grid) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "abstraction/abstraction.hpp"
+#include "bitset/packed_pairs.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -26,10 +27,12 @@ struct PlainAnalysis {
   std::vector<Partition> partitions;
 };
 
+/// @param listed the pairs of a controller file; null: there is none
 /// @param safe_beyond what tubes that pass a limit where a state saturates must stay in, as S reads beyond it
 [[nodiscard]] PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction,
                                             const std::vector<bool>& safe,
-                                            const std::vector<bool>& safe_beyond);
+                                            const std::vector<bool>& safe_beyond,
+                                            const PackedPairs* listed = nullptr);
 
 /// What S lies between, in plain terms.
 struct SafeBounds {

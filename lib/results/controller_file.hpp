@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "bitset/packed_pairs.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// A controller that a user brings, `controller.file` of a spec.
+struct ControllerFile {
+  std::string sha256;  ///< of the file, 64 hexadecimal digits
+  PackedPairs pairs;   ///< that it lists
+};
+
+/// Where `controller.file` leads: a relative path starts in the folder of the spec.
+/// REQUIRES: the spec has one.
+[[nodiscard]] std::string controller_path(const ProblemSpec& spec);
+
+/// Reads `controller.file`: `/controller` of an HDF5 file (see check_stored_controller()) or a SCOTS static
+/// controller (see read_scots_controller()); its first bytes tell which.
+/// REQUIRES: the spec has one.
+/// @throws IoError if it cannot be read; ControllerError if it is neither, damaged, or on another grid,
+/// naming
+///   the place in it, what was found and what was expected
+[[nodiscard]] ControllerFile read_controller_file(const ProblemSpec& spec);
+
+/// Checks its kind and its grids only.
+void check_controller_file(const ProblemSpec& spec);
+
+}  // namespace coordreq

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "bitset/packed_pairs.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// Reads a static controller of SCOTS v0.2 (text): the grids of states and inputs, which must be those of the
+/// spec up to the noise of last digits, then for each state of its winning domain the valid inputs. States
+/// and inputs are numbered with dimension 0 fastest; inputs of a spec that lists values may stand in any
+/// order.
+/// @throws IoError; ControllerError naming file, line and section, what was found and what was expected
+[[nodiscard]] PackedPairs read_scots_controller(const std::string& path, const ProblemSpec& spec);
+
+/// Checks what comes before the list of states.
+void check_scots_controller(const std::string& path, const ProblemSpec& spec);
+
+}  // namespace coordreq

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <rapidcheck.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "coordination/action_bits.hpp"
+#include "support/fast_engine.hpp"
+#include "support/plain_engine.hpp"
+
+// What it means that the fast engine and the plain one agree, inside a RapidCheck property.
+namespace coordreq {
+
+inline std::vector<bool> members(const CellSet& set) {
+  std::vector<bool> result;
+  for (std::int64_t x = 0; x < set.cells(); ++x) result.push_back(set.test(x));
+  return result;
+}
+
+/// The packed bits of the fast path as plain sets.
+inline std::vector<std::vector<bool>> unpacked(const FastAnalysis& fast, const ActionGrouping& grouping,
+                                               std::size_t c) {
+  const auto actions = static_cast<std::size_t>(grouping.actions(c));
+  const std::size_t bytes = (actions + 7) / 8;
+  const auto packed = action_bits(fast.controller, grouping, c, 0, fast.engine.rows());
+  std::vector<std::vector<bool>> result;
+  for (std::size_t x = 0; x < packed.size() / bytes; ++x) {
+    std::vector<bool>& set = result.emplace_back();
+    for (std::size_t a = 0; a < actions; ++a) set.push_back((packed[x * bytes + a / 8] >> (a % 8) & 1) != 0);
+  }
+  return result;
+}
+
+inline PlainAnalysis plainly(const ProblemSpec& spec, const FastAnalysis& fast,
+                             const PackedPairs* listed = nullptr) {
+  return analyze_plainly(spec, fast.abstraction, members(fast.safe), members(fast.beyond.value_or(fast.safe)),
+                         listed);
+}
+
+inline void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const PlainAnalysis& plain,
+                             ThreadTeam& team) {
+  RC_ASSERT(fast.invariance.iterations == plain.iterations);
+  RC_ASSERT(members(fast.invariance.invariant) == plain.invariant);
+  RC_ASSERT(fast.collision_times() == plain.collision_time);
+  for (std::size_t p = 0; p < plain.partitions.size(); ++p) {
+    const PlainAnalysis::Partition& expected = plain.partitions[p];
+    RC_ASSERT(fast.layers[p].sizes == expected.sizes);
+    RC_ASSERT(fast.layers[p].fixed_point_index == expected.fixed_point_index);
+    RC_ASSERT(fast.layers[p].truncated == expected.truncated);
+    RC_ASSERT(fast.delays(p) == expected.delay);
+    for (std::size_t c = 0; c < expected.projection.size(); ++c) {
+      RC_ASSERT(unpacked(fast, fast.groupings[p], c) == expected.projection[c]);
+    }
+  }
+  InputClass all;
+  for (std::size_t i = 0; i < spec.inputs.size(); ++i) all.push_back(static_cast<std::int32_t>(i));
+  RC_ASSERT(unpacked(fast, ActionGrouping(fast.engine, {all}, team), 0) == plain.controller);
+}
+
+}  // namespace coordreq
