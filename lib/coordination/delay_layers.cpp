@@ -145,8 +145,8 @@ class IndependentActions final : public RowOperator<Level> {
     for (std::uint32_t g = 0; g < own.size(); ++g) {
       const ConstRow projection = projections_.mask(row, groups, c, g);
       bool needed = any_set(projection);
-      for (std::uint32_t h = 0; h < own.size() && needed; ++h) {
-        if (h == g || !own.is_within(g, h)) continue;
+      for (const std::uint32_t h : own.holders[g]) {
+        if (!needed) break;
         const ConstRow other = projections_.mask(row, groups, c, h);
         if (!is_subset(projection, other)) continue;
         // Of two that cover each other the lower one stays.

@@ -12,8 +12,9 @@ void IndependentPosts::find_worst(const RowBoxes& boxes, const ActionGroups& own
   for (std::uint32_t g = 0; g < own.size(); ++g) {
     const ConstRow mask = mask_of(masks, g);
     bool needed = boxes.kind(c, g) == RowBoxes::Kind::box && any_set(mask);
-    for (std::uint32_t h = 0; h < own.size() && needed; ++h) {
-      if (h == g || boxes.kind(c, h) != RowBoxes::Kind::box || !own.is_within(g, h)) continue;
+    for (const std::uint32_t h : own.holders[g]) {
+      if (!needed) break;
+      if (boxes.kind(c, h) != RowBoxes::Kind::box) continue;
       const ConstRow other = mask_of(masks, h);
       if (!is_subset(mask, other)) continue;
       // Of two that cover each other the lower one stays.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <deque>
 
+#include "coordination/pair_projection.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -24,6 +26,7 @@ class Projections::Builder {
         grouping_(grouping),
         hull_(hull),
         boxes_(grouping),
+        pair_(controller, boxes_, grouping.size()),
         independent_(controller.engine->row_words()),
         posts_(*controller.engine, levels),
         lanes_(posts_.lanes(), 0),
@@ -43,8 +46,11 @@ class Projections::Builder {
     is_simple_ = is_product && !boxes_.has_gone() && controller_.engine->allow() == nullptr &&
                  controller_.synthesis == Synthesis::maximal;
     box_.ranges.resize(controller_.engine->tables() - 1);
-    for (std::size_t c = 0; c < masks_.size(); ++c) {
-      is_full ? fill_masks(c, invariant) : find_masks(place, c);
+    if (!is_full && is_simple_ && pair_.applies()) {
+      pair_.find_masks(place, groups_, masks_);
+    } else {
+      for (std::size_t c = 0; c < masks_.size(); ++c)
+        is_full ? fill_masks(c, invariant) : find_masks(place, c);
     }
     if (is_product) {
       independent_.pack(boxes_, groups_, masks_, invariant, controller_.engine->grid(), scratch_);
@@ -147,6 +153,7 @@ class Projections::Builder {
   const ActionGrouping& grouping_;
   const RowHull& hull_;
   RowBoxes boxes_;
+  PairProjection pair_;
   bool is_simple_ = false;  ///< all joint posts of the row are boxes, and everything is allowed
   IndependentPosts independent_;
   PostReader<Level> posts_;

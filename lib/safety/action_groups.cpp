@@ -164,6 +164,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
   const std::size_t size = groups.size();
   groups.all.resize(size);
   std::iota(groups.all.begin(), groups.all.end(), 0U);
+  groups.holders.resize(size);
   if (size > kMaxCompared) {
     groups.minimal = groups.maximal = groups.all;
     return;
@@ -196,6 +197,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
     bool maximal = true;
     for (std::uint32_t h = 0; h < size; ++h) {
       if (h == g) continue;
+      if (groups.is_within(g, h)) groups.holders[g].push_back(h);
       // Of two groups that are within each other the lower one stays.
       const bool contains = groups.is_within(h, g);
       const bool contained = groups.is_within(g, h);

@@ -27,6 +27,10 @@ struct ActionGroups {
   /// [g * size() + h], see is_within(); empty if there are too many groups to compare.
   std::vector<std::uint8_t> within;
 
+  /// Of each group g those h != g that it is within, ascending: holders[g] of is_within(g, h). Few, as most
+  /// boxes are in few others.
+  std::vector<std::vector<std::uint32_t>> holders;
+
   /// True if, whatever the others do, the post under g lies inside the post under h (and so do the tubes),
   /// and `allow` says the same of both. May be false where that is not easily seen.
   [[nodiscard]] bool is_within(std::uint32_t g, std::uint32_t h) const {

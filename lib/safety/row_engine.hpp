@@ -57,6 +57,9 @@ class RowEngine {
   /// Rows from one index of a dimension (not the last) to the next.
   [[nodiscard]] std::int64_t row_stride(std::size_t dimension) const { return row_stride_[dimension]; }
 
+  /// True if the first dimensions move by themselves: none of their tables depends on the state of one that
+  /// follows.
+  [[nodiscard]] bool is_closed(std::size_t outer) const;
   /// Number of leading dimensions whose minimum is shared by the rows of a unit; may be 0.
   [[nodiscard]] std::size_t outer() const { return outer_; }
   /// Rows of a unit, which have neighbouring numbers. All rows if outer() is 0.
@@ -79,7 +82,6 @@ class RowEngine {
   [[nodiscard]] RowFamily family(std::size_t number) const;
   void choose_outer();
   [[nodiscard]] RowMargins margins_of(RowSlices& slices, RowEnds ends) const;
-  [[nodiscard]] bool is_closed(std::size_t outer) const;
 
   const Abstraction* abstraction_;
   const PairTable* allow_;
