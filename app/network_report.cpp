@@ -47,12 +47,12 @@ std::string network_text(const NetworkSummary& summary, const NetworkSpec& netwo
     table.add({"  " + own.name, own.partition, grouped(own.cells)});
   }
   const NetworkSummary::Mode& initial = summary.modes.front();
-  const std::string care = summary.resynthesise ? " if they take care" : "";
+  const char* const who = summary.resynthesise ? "agents that take care" : "the agents";
   return fmt::format(
-      "\nnetwork {}: {}\n{}{}  The network begins in mode {}: from {} of the {} of the invariance set agents "
-      "stay safe{}, from {} in whatever mode it is.\n",
+      "\nnetwork {}: {}\n{}{}  Beginning in mode {}, {} stay safe from {} of {}; whatever the mode is, from "
+      "{}.\n",
       summary.kind, network_meaning(network), table.text(), more_modes(summary.modes.size()), initial.name,
-      grouped(initial.cells), count_of(invariant, "cell"), care, grouped(summary.every_mode));
+      who, grouped(initial.cells), count_of(invariant, "cell"), grouped(summary.every_mode));
 }
 
 Json network_json(const NetworkSummary& summary) {

@@ -7,6 +7,9 @@ namespace {
 
 using Level = std::uint8_t;
 
+/// Words that are remembered from one walk over all choices to the next.
+constexpr std::size_t kMostKnown = std::size_t{1} << 16U;
+
 void keep_only(MutableRow row, ConstRow other) {
   for (std::size_t w = 0; w < row.size(); ++w) row[w] &= other[w];
 }
@@ -51,9 +54,12 @@ void CarefulActions::find_projections(const RowPlace& place, PostReader<Level>& 
   for (std::size_t c = 0; c < grouping_.size(); ++c)
     work.projection[c].assign(work.groups.classes[c]->size() * words, 0);
   work.stays.assign(words, 0);
+  work.known.clear();
   work.tuple.begin(grouping_, place, work.groups, work.candidates);
   do {
     find_good(posts, static_cast<std::size_t>(grouping_.engine().row_length()), work);
+    if (work.known.size() < kMostKnown)
+      work.known.insert(work.known.end(), work.good.begin(), work.good.end());
     for (std::size_t w = 0; w < words; ++w) work.stays[w] |= work.good[w];
     for (std::size_t c = 0; c < grouping_.size(); ++c) {
       Word* const projected = work.projection[c].data() + work.tuple.chosen(c) * words;
@@ -67,12 +73,18 @@ void CarefulActions::remove_bad_mixtures(const RowPlace& place, PostReader<Level
   if (grouping_.size() == 1) return;
   const std::size_t words = work.wanted.size();
   work.tuple.begin(grouping_, place, work.groups, work.candidates);
+  std::size_t choice = 0;
   do {
+    const std::size_t begin = choice++ * words;
     work.mixed = work.stays;
     for (std::size_t c = 0; c < grouping_.size(); ++c)
       keep_only(work.mixed, {work.projection[c].data() + work.tuple.chosen(c) * words, words});
     if (!any_set(work.mixed)) continue;
-    find_good(posts, static_cast<std::size_t>(grouping_.engine().row_length()), work);
+    if (begin < work.known.size()) {
+      std::copy_n(work.known.begin() + static_cast<std::ptrdiff_t>(begin), words, work.good.begin());
+    } else {
+      find_good(posts, static_cast<std::size_t>(grouping_.engine().row_length()), work);
+    }
     for (std::size_t w = 0; w < words; ++w) work.stays[w] &= ~(work.mixed[w] & ~work.good[w]);
   } while (work.tuple.next());
 }

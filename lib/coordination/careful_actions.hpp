@@ -32,6 +32,7 @@ class CarefulActions final : public RowOperator<std::uint8_t> {
     RowHull::Box box;
     std::vector<Word> wanted;                   ///< cells with old != 0
     std::vector<Word> good;                     ///< cells where a choice of groups is in C_q
+    std::vector<Word> known;                    ///< `good` of the first choices, in their order
     std::vector<Word> mixed;                    ///< cells where it is in IND(C_q)
     std::vector<Word> stays;                    ///< the result
     std::vector<std::vector<Word>> projection;  ///< [class] a row a group

@@ -150,23 +150,16 @@ class Problem {
   std::optional<FastAnalysis> fast_;
 };
 
-TEST(Network, ADelayOfDStepsLeavesZD) {
+TEST(Network, WhatIsKnownOfSpecialNetworks) {
   ThreadTeam team(1);
-  EXPECT_TRUE(rc::check("W of the first mode is Z_D, of the last K", [&] {
+  EXPECT_TRUE(rc::check("a delay of D steps gives Z_D, always up K, always down Z_F", [&] {
     const Problem problem(team);
     const int steps = draw(0, 4);
-    const std::vector<Set> safe = problem.safe(fmt::format(R"({{"delay": {}}})", steps));
+    const std::vector<Set> late = problem.safe(fmt::format(R"({{"delay": {}}})", steps));
     for (int k = 0; k <= steps; ++k)
-      RC_ASSERT(safe[static_cast<std::size_t>(k)] == layer(problem.fast(), steps - k));
-  }));
-}
-
-TEST(Network, AlwaysUpIsKAndAlwaysDownIsTheFixedPointOfTheLayers) {
-  ThreadTeam team(1);
-  EXPECT_TRUE(rc::check("all up, all down", [&] {
-    const Problem problem(team);
-    const std::string resynthesise = draw(0, 1) == 0 ? R"(, "resynthesise": true})" : "}";
-    RC_ASSERT(problem.safe(R"({"delay": 0)" + resynthesise)[0] == problem.invariant());
+      RC_ASSERT(late[static_cast<std::size_t>(k)] == layer(problem.fast(), steps - k));
+    RC_ASSERT(late.back() == problem.invariant());
+    RC_ASSERT(problem.safe(R"({"delay": 0, "resynthesise": true})")[0] == problem.invariant());
     const Set unbounded = layer(problem.fast(), DelayLayers::kUnbounded);
     RC_ASSERT(problem.safe(R"({"modes": [{"name": "down", "partition": "alone"}],
 "transitions": [["down", "down"]]})")[0] == unbounded);
