@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/json_text.hpp"
+#include "app/network_report.hpp"
 #include "app/text.hpp"
 
 namespace coordreq {
@@ -99,6 +100,7 @@ std::string partitions_text(const AnalysisSummary& summary, const ProblemSpec& s
   }
   std::string text;
   for (const PartitionSummary& partition : summary.partitions) text += partition_text(partition, summary);
+  if (summary.network) text += network_text(*summary.network, *spec.network, summary.invariant);
   return text;
 }
 
@@ -145,6 +147,7 @@ std::string summary_json(const AnalysisSummary& summary) {
   json["partitions"] = Json::array();
   for (const PartitionSummary& partition : summary.partitions)
     json["partitions"].push_back(partition_json(partition));
+  if (summary.network) json["network"] = network_json(*summary.network);
   json["requirements"] = Json::array();
   json["output"] = summary.output;
   json["threads"] = summary.threads;

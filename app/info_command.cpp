@@ -2,6 +2,7 @@
 
 #include "app/commands.hpp"
 #include "app/json_text.hpp"
+#include "app/network_report.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
 #include "results/read_results.hpp"
@@ -54,8 +55,9 @@ std::string partitions_table(const ResultInfo& info) {
 }
 
 std::string info_text(const ResultInfo& info) {
-  std::string text =
-      head_table(info) + "\n" + axes_table(info) + "\n" + partitions_table(info) + "\ndatasets\n";
+  std::string text = head_table(info) + "\n" + axes_table(info) + "\n" + partitions_table(info);
+  if (!info.modes.empty()) text += "\n" + modes_text(info.modes);
+  text += "\ndatasets\n";
   for (const std::string& dataset : info.datasets) text += "  " + printable(dataset) + "\n";
   return text;
 }
@@ -102,6 +104,8 @@ std::string info_json(const ResultInfo& info) {
   json["partitions"] = Json::array();
   for (const ResultInfo::Partition& partition : info.partitions)
     json["partitions"].push_back(partition_json(partition));
+  for (const ResultInfo::Mode& mode : info.modes)
+    json["modes"].push_back(Json{{"name", mode.name}, {"cells", mode.safe_cells}});
   json["datasets"] = info.datasets;
   return json_text(json);
 }

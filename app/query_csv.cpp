@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "app/network_report.hpp"
 #include "app/query_report.hpp"
 
 namespace coordreq {
@@ -28,6 +29,7 @@ std::string answer_csv_header(const ResultsReader& results) {
     for (const std::string& name : partition.classes)
       line += fmt::format(",actions:{}:{}", partition.name, name);
   }
+  if (results.spec().network) line += ",safe_modes";
   return line + "\n";
 }
 
@@ -40,7 +42,7 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
     for (const StoredPartition& partition : results.partitions()) {
       line += std::string(2 + partition.classes.size(), ',');
     }
-    return line + "\n";
+    return line + (results.spec().network ? ",\n" : "\n");
   }
   line += fmt::format("1,{},{:d},{:d},{}", answer.location.cell, answer.safe, answer.invariant,
                       csv_steps(answer.collision_time));
@@ -48,6 +50,8 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
     line += "," + csv_steps(partition.delay) + "," + csv_steps(partition.trigger);
     for (const std::vector<bool>& actions : partition.actions) line += "," + csv_actions(actions);
   }
+  if (const auto& network = results.spec().network)
+    line += fmt::format(",{}", fmt::join(safe_mode_names(*network, answer.safe_modes), " "));
   return line + "\n";
 }
 

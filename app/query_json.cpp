@@ -1,4 +1,5 @@
 #include "app/json_text.hpp"
+#include "app/network_report.hpp"
 #include "app/query_report.hpp"
 #include "app/query_values.hpp"
 #include "trigger/trigger_table.hpp"
@@ -124,6 +125,8 @@ Json json_of(const StateAnswer& answer, const ResultsReader& results) {
   for (std::size_t p = 0; p < answer.partitions.size(); ++p) {
     json["partitions"].push_back(partition_json(answer.partitions[p], p, results));
   }
+  if (const auto& network = results.spec().network)
+    json["safe_modes"] = inside ? Json(safe_mode_names(*network, answer.safe_modes)) : Json();
   return json;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/network_report.hpp"
 #include "app/query_values.hpp"
 #include "app/text.hpp"
 #include "trigger/trigger_table.hpp"
@@ -159,6 +160,7 @@ std::string answer_text(const StateAnswer& answer, const ResultsReader& results)
   for (std::size_t p = 0; p < answer.partitions.size(); ++p) {
     text += partition_text(answer.partitions[p], p, results);
   }
+  if (const auto& network = results.spec().network) text += safe_modes_text(*network, answer.safe_modes);
   return text;
 }
 

@@ -45,6 +45,7 @@ std::string totals_table(const SpecReport& report) {
   table.add({"cells", grouped(report.cells)});
   table.add({"joint inputs", grouped(report.joint_inputs)});
   table.add({"partitions", fmt::format("{}", fmt::join(report.partitions, ", "))});
+  if (!report.modes.empty()) table.add({"modes of the network", grouped(report.modes.size())});
   table.add({"reachable sets", report.exact ? "exact interval hulls" : "outward rounded"});
   table.add({"guarantee", guarantee_text(report.guarantee)});
   table.add({"memory of analyze", "about " + byte_size(report.memory_bytes)});
@@ -82,6 +83,7 @@ std::string report_json(const SpecReport& report) {
     json["inputs"].push_back(Json{{"name", input.name}, {"unit", input.unit}, {"points", input.points}});
   }
   json["partitions"] = report.partitions;
+  if (!report.modes.empty()) json["modes"] = report.modes;
   json["exact"] = report.exact;
   json["guarantee"] = report.guarantee;
   json["memory_bytes"] = report.memory_bytes;

@@ -15,7 +15,7 @@ namespace coordreq {
 /// What is under way; called from the calling thread only, often.
 struct Progress {
   std::string stage;  ///< "controller" if it is in a file, "abstraction", "safe set", "invariance", "layers
-                      ///< PARTITION", "writing"
+                      ///< PARTITION", "network", "writing"
   std::int64_t sweep = 0;  ///< number of the sweep that has ended, 0 where there is none
   std::int64_t rows = 0;   ///< rows of cells that it has worked out
 };
@@ -44,6 +44,18 @@ struct ControllerSummary {
   std::int64_t pairs = 0;  ///< of cells and joint inputs that it lists
 };
 
+struct NetworkSummary {
+  struct Mode {
+    std::string name;
+    std::string partition;
+    std::int64_t cells = 0;  ///< |W(q)|
+  };
+  std::string kind;
+  bool resynthesise = false;
+  std::vector<Mode> modes;      ///< the initial one first
+  std::int64_t every_mode = 0;  ///< cells that are in all W(q)
+};
+
 /// The JSON summary of the contract, section 3, as data.
 struct AnalysisSummary {
   std::string name;
@@ -57,6 +69,7 @@ struct AnalysisSummary {
   double period = 0;
   std::string period_unit;
   std::vector<PartitionSummary> partitions;
+  std::optional<NetworkSummary> network;
   std::string output;
   int threads = 1;
   std::vector<std::pair<std::string, double>> seconds;  ///< by stage, in order, wall time
@@ -107,6 +120,7 @@ struct SpecReport {
   std::int64_t cells = 0;
   std::int64_t joint_inputs = 0;
   std::vector<std::string> partitions;
+  std::vector<std::string> modes;  ///< of the network, the initial one first; none without one
   bool exact = false;              ///< posts are exact hulls
   std::string guarantee;           ///< as in AnalysisSummary
   std::uint64_t memory_bytes = 0;  ///< estimate of the peak of `analyze`

@@ -64,7 +64,21 @@ ResultContent ResultComposer::content() {
     content.listed_sha256 = solution_.listed->sha256;
   }
   if (spec.output.abstraction) content.abstraction = tables();
+  if (solution_.network) add_network(content);
   return content;
+}
+
+void ResultComposer::add_network(ResultContent& content) const {
+  ResultNames& modes = content.names.emplace_back(
+      ResultNames{.name = "mode", .long_name = "mode of the network", .names = {}});
+  ResultMap& map = content.maps.emplace_back(
+      ResultMap{.name = "network_safe",
+                .long_name = "from here the agents stay safe if the network is in this mode",
+                .leading = "mode",
+                .flags = {{0, "not_safe"}, {1, "safe"}},
+                .values = sets_array(solution_.network->safe, solution_.order)});
+  for (const NetworkModeSpec& mode : solution_.spec.network->modes) modes.names.push_back(mode.name);
+  for (const CellSet& safe : solution_.network->safe) map.cells.push_back(safe.count());
 }
 
 std::vector<ResultAxis> ResultComposer::axes() const {

@@ -23,6 +23,7 @@ class ResultComposer {
   [[nodiscard]] ResultBits bits(const ActionGrouping& grouping, std::size_t c, const std::string& name) const;
   [[nodiscard]] ResultBits listed_bits() const;
   [[nodiscard]] std::vector<ResultTable> tables() const;
+  void add_network(ResultContent& content) const;
 
   const Solution& solution_;
   ThreadTeam& team_;

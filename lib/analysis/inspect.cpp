@@ -4,6 +4,7 @@
 
 #include "abstraction/build_abstraction.hpp"
 #include "analysis/analyze.hpp"
+#include "analysis/network_problem.hpp"
 #include "base/error.hpp"
 #include "results/controller_file.hpp"
 
@@ -31,24 +32,41 @@ double condition_bytes(const Program& condition, const ProblemSpec& spec) {
   return rows * 8 * std::ceil(static_cast<double>(spec.states.back().grid.count) / 64);
 }
 
-/// Joint actions of all classes together, of the partition with the most: one projected bit a cell each, at
-/// the most (actions that move every cell of a row alike share theirs).
+/// Joint actions of all classes together: one projected bit a cell each, at the most (actions that move every
+/// cell of a row alike share theirs).
+double projected_actions(const ProblemSpec& spec, const PartitionSpec& partition) {
+  double sum = 0;
+  for (const auto& agents : partition.classes) {
+    double actions = 1;
+    for (const std::int32_t agent : agents) {
+      for (const std::int32_t input : spec.agents[static_cast<std::size_t>(agent)].inputs) {
+        actions *= static_cast<double>(spec.inputs[static_cast<std::size_t>(input)].values.size());
+      }
+    }
+    sum += actions;
+  }
+  return sum;
+}
+
+/// At a time: those of one partition for its layers, then those of all partitions of a network.
 double projected_actions(const ProblemSpec& spec) {
   double most = 0;
-  for (const PartitionSpec& partition : spec.coordination.partitions) {
-    double sum = 0;
-    for (const auto& agents : partition.classes) {
-      double actions = 1;
-      for (const std::int32_t agent : agents) {
-        for (const std::int32_t input : spec.agents[static_cast<std::size_t>(agent)].inputs) {
-          actions *= static_cast<double>(spec.inputs[static_cast<std::size_t>(input)].values.size());
-        }
-      }
-      sum += actions;
-    }
-    most = std::max(most, sum);
-  }
-  return most;
+  for (const PartitionSpec& partition : spec.coordination.partitions)
+    most = std::max(most, projected_actions(spec, partition));
+  if (!spec.network || spec.network->resynthesise) return most;
+  double together = 0;
+  for (const PartitionSpec* partition : network_partitions(*spec.network))
+    together += projected_actions(spec, *partition);
+  return std::max(most, together);
+}
+
+/// The sets of all modes, the levels of one target, and which rows of it have changed.
+double network_bytes(const ProblemSpec& spec, double cells, double set_bytes) {
+  if (!spec.network) return 0;
+  const double rows = cells / static_cast<double>(spec.states.back().grid.count);
+  const auto modes = static_cast<double>(spec.network->modes.size());
+  const double sets = spec.network->resynthesise ? 2 : 1;  // what is left of the rows that lose cells
+  return modes * (sets * set_bytes + rows / 8) + cells;
 }
 
 /// Choices of the states but the last and of the inputs that a table ranges over: it is cut into so many
@@ -99,6 +117,7 @@ double estimate_memory(const ProblemSpec& spec) {
   // Levels for collision times and delays: 8 bits are enough up to 254 steps.
   bytes += cells * (1 + static_cast<double>(spec.coordination.partitions.size()));
   bytes += set_bytes * projected_actions(spec);
+  bytes += network_bytes(spec, cells, set_bytes);
   bytes += cells / row_length * 80;  // bookkeeping of rows
   return bytes;
 }
@@ -166,6 +185,8 @@ SpecReport inspect(const ProblemSpec& spec) {
   }
   for (const PartitionSpec& partition : spec.coordination.partitions)
     report.partitions.push_back(partition.name);
+  for (std::size_t mode = 0; spec.network && mode < spec.network->modes.size(); ++mode)
+    report.modes.push_back(spec.network->modes[mode].name);
   report.exact = check_dynamics(spec);
   report.guarantee = guarantee_of(spec);
   report.memory_bytes = to_bytes(estimate_memory(spec));

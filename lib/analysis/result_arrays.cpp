@@ -128,7 +128,37 @@ ResultLayers lists_of(const DelayLayers& layers, const CellOrder& order, Element
   return result;
 }
 
+/// A stretch of one set.
+void fill_members(const CellSet& set, const CellOrder& order, std::uint64_t begin, std::uint64_t count,
+                  std::uint8_t* out) {
+  order.for_each_run(
+      static_cast<std::int64_t>(begin), static_cast<std::int64_t>(count), [&](const CellOrder::Run& run) {
+        for (std::int64_t i = 0; i < run.count; ++i) {
+          const ConstRow row = set.row(run.row + i * run.row_step);
+          const std::int64_t column = run.column + i * run.column_step;
+          out[run.offset + i] = static_cast<std::uint8_t>(
+              row[static_cast<std::size_t>(column / CellSet::kWordBits)] >> (column % CellSet::kWordBits) &
+              1U);
+        }
+      });
+}
+
 }  // namespace
+
+ResultArray sets_array(const std::vector<CellSet>& sets, const CellOrder& order) {
+  return {ElementType::uint8, [&sets, &order](std::uint64_t begin, std::uint64_t count, void* out) {
+            const auto cells = static_cast<std::uint64_t>(sets.front().cells());
+            auto* place = static_cast<std::uint8_t*>(out);
+            while (count > 0) {
+              const std::uint64_t first = begin % cells;
+              const std::uint64_t here = std::min(count, cells - first);
+              fill_members(sets[begin / cells], order, first, here, place);
+              begin += here;
+              count -= here;
+              place += here;
+            }
+          }};
+}
 
 ResultArray safe_array(const LevelMap& collision_time, const CellOrder& order) {
   return membership_array(collision_time, order, false);

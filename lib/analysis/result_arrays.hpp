@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "analysis/cell_order.hpp"
 #include "bitset/level_map.hpp"
@@ -15,6 +16,9 @@ namespace coordreq {
 [[nodiscard]] ResultArray safe_array(const LevelMap& collision_time, const CellOrder& order);
 /// uint8 [cells], 1 for members of K: cells that are never lost.
 [[nodiscard]] ResultArray invariant_array(const LevelMap& collision_time, const CellOrder& order);
+
+/// uint8 [sets, cells], 1 for members.
+[[nodiscard]] ResultArray sets_array(const std::vector<CellSet>& sets, const CellOrder& order);
 
 /// The narrowest of int16 and int32 in which all finite values are below its maximum (contract, section 4).
 [[nodiscard]] ElementType level_type(std::int64_t greatest_finite);

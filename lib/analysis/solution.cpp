@@ -5,6 +5,7 @@
 
 #include "abstraction/build_abstraction.hpp"
 #include "analysis/layout.hpp"
+#include "analysis/network_problem.hpp"
 #include "coordination/projections.hpp"
 #include "safety/safe_set.hpp"
 #include "safety/safe_tubes.hpp"
@@ -59,6 +60,9 @@ Solution::Solution(const ProblemSpec& problem, ThreadTeam& team, const EnterStag
       controller{&engine, &invariance.invariant, &invariance.collision_time, spec.controller.synthesis},
       order(abstraction.grid, place_of_states(layout)) {
   find_layers(team, enter, swept);
+  if (!spec.network) return;
+  enter("network");
+  network = find_network_safety(network_problem(spec, controller, hull), stepper(swept, "network"), team);
 }
 
 void Solution::find_layers(ThreadTeam& team, const EnterStage& enter, const StageSwept& swept) {

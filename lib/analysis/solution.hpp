@@ -12,6 +12,7 @@
 #include "base/thread_team.hpp"
 #include "coordination/controller.hpp"
 #include "coordination/delay_layers.hpp"
+#include "coordination/network_safety.hpp"
 #include "results/controller_file.hpp"
 #include "safety/invariance.hpp"
 #include "safety/pair_table.hpp"
@@ -40,8 +41,8 @@ using StageSwept = std::function<void(const std::string& stage, std::int64_t swe
 ///    order of `layout`; `order` maps cells of the spec's grid to them. Inputs and agents are the spec's.
 /// 2. Neither copied nor moved: its parts refer to one another.
 struct Solution {
-  /// The stages "controller" if there is a file with one, "abstraction", "safe set", "invariance" and "layers
-  /// PARTITION" for each partition. REQUIRES: `problem` outlives the solution.
+  /// The stages "controller" if there is a file with one, "abstraction", "safe set", "invariance", "layers
+  /// PARTITION" for each partition, and "network" if there is one. REQUIRES: `problem` outlives the solution.
   /// @throws as analyze()
   Solution(const ProblemSpec& problem, ThreadTeam& team, const EnterStage& enter, const StageSwept& swept);
   Solution(const Solution&) = delete;
@@ -60,6 +61,7 @@ struct Solution {
   Invariance invariance;
   Controller controller;
   std::deque<PartitionResult> partitions;  ///< in the order of the spec; a deque, so that references stay
+  std::optional<NetworkSafety> network;    ///< if the spec has one
   CellOrder order;
 
  private:

@@ -27,6 +27,18 @@ PartitionSummary summary_of(const ProblemSpec& spec, const PartitionResult& part
   return result;
 }
 
+NetworkSummary summary_of(const NetworkSpec& spec, const NetworkSafety& safety) {
+  NetworkSummary result{.kind = network_kind_name(spec.kind), .resynthesise = spec.resynthesise};
+  CellSet every = safety.safe.front();
+  for (std::size_t mode = 0; mode < spec.modes.size(); ++mode) {
+    const CellSet& safe = safety.safe[mode];
+    result.modes.push_back({spec.modes[mode].name, spec.modes[mode].partition.name, safe.count()});
+    for (std::size_t w = 0; w < safe.words().size(); ++w) every.words()[w] &= safe.words()[w];
+  }
+  result.every_mode = every.count();
+  return result;
+}
+
 }  // namespace
 
 AnalysisSummary summarise(const Solution& solution) {
@@ -48,6 +60,10 @@ AnalysisSummary summarise(const Solution& solution) {
   for (const PartitionResult& partition : solution.partitions) {
     summary.partitions.push_back(summary_of(spec, partition));
     summary.work.push_back(work_of("layers " + partition.spec->name, partition.layers.counts));
+  }
+  if (solution.network) {
+    summary.network = summary_of(*spec.network, *solution.network);
+    summary.work.push_back(work_of("network", solution.network->counts));
   }
   return summary;
 }

@@ -19,6 +19,10 @@ StateAnswer StateQuery::at(std::vector<Rational> state) {
                                  .trigger = results_.trigger(p, block).front(),
                                  .actions = controller_.actions(p, cell)});
   }
+  if (const auto& network = results_.spec().network) {
+    for (const std::uint8_t safe : results_.network_safe(0, network->modes.size(), block))
+      answer.safe_modes.push_back(safe != 0);
+  }
   return answer;
 }
 

@@ -25,6 +25,7 @@ struct StateAnswer {
   bool invariant = false;
   std::int32_t collision_time = 0;  ///< steps, as ResultsReader::collision_time()
   std::vector<Partition> partitions;
+  std::vector<bool> safe_modes;  ///< by mode of the network; none without one
 };
 
 /// Answers questions about states. Not thread-safe.

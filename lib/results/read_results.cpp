@@ -76,6 +76,16 @@ void read_partitions(const ResultsFile& file, ResultInfo& info) {
   }
 }
 
+void read_modes(const ResultsFile& file, ResultInfo& info) {
+  if (!file.exists(paths::kNetworkSafe)) return;
+  const std::vector<std::string> names = file.texts(paths::kMode);
+  const std::vector<std::uint64_t> cells = file.naturals(paths::kNetworkSafe, "cells");
+  if (cells.size() != names.size()) {
+    throw ResultsError("the attribute cells does not hold a number a mode", file.place(paths::kNetworkSafe));
+  }
+  for (std::size_t mode = 0; mode < names.size(); ++mode) info.modes.push_back({names[mode], cells[mode]});
+}
+
 ResultInfo read(const std::string& path) {
   const ResultsFile file(path);
   ResultInfo info;
@@ -86,6 +96,7 @@ ResultInfo read(const std::string& path) {
   info.safe_cells = file.natural("/safe", "cells");
   info.invariant_cells = file.natural("/invariant", "cells");
   info.connection_delay = file.integer("/trigger", "connection_delay");
+  read_modes(file, info);
   info.datasets = file.datasets();
   if (file.exists(paths::kListed)) info.controller_sha256 = file.text(paths::kListed, "sha256");
   return info;

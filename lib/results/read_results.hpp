@@ -25,6 +25,11 @@ struct ResultInfo {
   std::uint64_t cells = 0, safe_cells = 0, invariant_cells = 0;
   std::int64_t connection_delay = 0;
   std::vector<Partition> partitions;
+  struct Mode {
+    std::string name;
+    std::uint64_t safe_cells = 0;
+  };
+  std::vector<Mode> modes;            ///< of the network; none without one
   std::vector<std::string> datasets;  ///< paths, sorted; without bare dimensions, which hold no data
 };
 

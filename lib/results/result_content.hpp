@@ -82,6 +82,7 @@ struct ResultMap {
   std::string leading;                                      ///< a ResultNames or "partition"; empty: none
   std::vector<std::pair<std::int64_t, std::string>> flags;  ///< values that mean a word, CF `flag_values`
   ResultArray values;                                       ///< [names, cells] or [cells]
+  std::vector<std::int64_t> cells;  ///< of a set for each name: their numbers of cells, attribute `cells`
 };
 
 struct ResultContent {

@@ -274,6 +274,7 @@ void write_maps(NetcdfWriter& file, const ResultContent& content) {
     const hdf5::Handle dataset = file.add_array(
         "/" + map.name, map.leading.empty() ? cells : with("/" + map.leading, cells), map.values);
     describe(dataset, map.long_name);
+    if (!map.cells.empty()) set_attribute(dataset, "cells", ElementType::uint64, map.cells);
     if (map.flags.empty()) continue;
     std::vector<std::int64_t> values;
     std::string meanings;

@@ -189,6 +189,20 @@ std::uint64_t ResultsFile::natural(const std::string& path, const std::string& a
   return static_cast<std::uint64_t>(value);
 }
 
+std::vector<std::uint64_t> ResultsFile::naturals(const std::string& path,
+                                                 const std::string& attribute) const {
+  const hdf5::Handle handle = open_attribute(path, attribute);
+  const hdf5::Handle type(H5Aget_type(handle.get()), H5Tclose, "read a type");
+  if (H5Tget_class(type.get()) != H5T_INTEGER) {
+    throw ResultsError("the attribute " + attribute + " is not a list of numbers", place(path));
+  }
+  std::vector<std::int64_t> values(static_cast<std::size_t>(element_count(space_of_attribute(handle))));
+  hdf5::check(H5Aread(handle.get(), H5T_NATIVE_INT64, values.data()), "read the attribute " + attribute);
+  if (std::any_of(values.begin(), values.end(), [](std::int64_t value) { return value < 0; }))
+    throw ResultsError("the attribute " + attribute + " is negative", place(path));
+  return {values.begin(), values.end()};
+}
+
 std::string ResultsFile::text(const std::string& path, const std::string& attribute) const {
   const hdf5::Handle handle = open_attribute(path, attribute);
   const hdf5::Handle space = space_of_attribute(handle);

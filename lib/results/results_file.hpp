@@ -25,6 +25,9 @@ class ResultsFile {
   [[nodiscard]] std::int64_t integer(const std::string& path, const std::string& attribute) const;
   /// The same, which must not be negative.
   [[nodiscard]] std::uint64_t natural(const std::string& path, const std::string& attribute) const;
+  /// A list of them.
+  [[nodiscard]] std::vector<std::uint64_t> naturals(const std::string& path,
+                                                    const std::string& attribute) const;
   [[nodiscard]] bool has(const std::string& path, const std::string& attribute) const;
 
   [[nodiscard]] std::vector<std::uint64_t> shape(const std::string& dataset) const;

@@ -27,6 +27,7 @@ class PartsReader {
     check_axes();
     read_partitions();
     check_cell_arrays();
+    if (parts_.spec.network) read_network(*parts_.spec.network);
     for (std::size_t p = 0; p < parts_.partitions.size(); ++p) check_extras(p);
     if (file_.exists(paths::kController)) check_bits(paths::kController, joint_actions(all_inputs()));
     if (parts_.spec.controller.file) {
@@ -193,6 +194,20 @@ class PartsReader {
       file_.expect_shape(path, with_partition);
       expect_steps(path);
     }
+  }
+
+  void read_network(const NetworkSpec& network) {
+    const std::vector<std::string> names = file_.texts(paths::kMode);
+    const auto same = [](const std::string& name, const NetworkModeSpec& mode) { return name == mode.name; };
+    if (!std::equal(names.begin(), names.end(), network.modes.begin(), network.modes.end(), same))
+      fail("the modes are not those of the spec", paths::kMode);
+    Shape shape = shape_;
+    shape.insert(shape.begin(), names.size());
+    file_.expect_shape(paths::kNetworkSafe, shape);
+    expect_type(paths::kNetworkSafe, ElementType::uint8);
+    parts_.attributes.network_cells = file_.naturals(paths::kNetworkSafe, "cells");
+    if (parts_.attributes.network_cells.size() != names.size())
+      fail("the attribute cells does not hold a number a mode", paths::kNetworkSafe);
   }
 
   void check_bits(const std::string& path, std::int64_t actions) const {

@@ -4,13 +4,15 @@
 
 #include "results/results_reader.hpp"
 
-// Where a results file keeps what is stored on request.
+// Where a results file keeps what not every file holds.
 namespace coordreq::paths {
 
 inline constexpr char kController[] = "/controller";
 /// The pairs of `controller.file`. No state can have this name.
 inline constexpr char kListed[] = "/controller:file";
 inline constexpr char kAbstraction[] = "/abstraction";
+inline constexpr char kMode[] = "/mode";
+inline constexpr char kNetworkSafe[] = "/network_safe";
 
 [[nodiscard]] inline std::string actions(const StoredPartition& partition) {
   return "/actions/" + partition.name;

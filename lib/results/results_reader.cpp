@@ -48,9 +48,10 @@ std::vector<Value> ResultsReader::elements(const std::string& dataset, ElementTy
   return values;
 }
 
-std::vector<std::uint8_t> ResultsReader::members(const std::string& dataset, const CellBlock& block) const {
-  const std::vector<std::uint8_t> values =
-      elements<std::uint8_t>(dataset, ElementType::uint8, unsigned_of(block.first), unsigned_of(block.count));
+std::vector<std::uint8_t> ResultsReader::members(const std::string& dataset,
+                                                 const std::vector<std::uint64_t>& offset,
+                                                 const std::vector<std::uint64_t>& count) const {
+  const std::vector<std::uint8_t> values = elements<std::uint8_t>(dataset, ElementType::uint8, offset, count);
   if (std::any_of(values.begin(), values.end(), [](std::uint8_t value) { return value > 1; })) {
     throw ResultsError("a value other than 0 and 1: damaged", file_->place(dataset));
   }
@@ -58,11 +59,20 @@ std::vector<std::uint8_t> ResultsReader::members(const std::string& dataset, con
 }
 
 std::vector<std::uint8_t> ResultsReader::safe(const CellBlock& block) const {
-  return members("/safe", block);
+  return members("/safe", unsigned_of(block.first), unsigned_of(block.count));
 }
 
 std::vector<std::uint8_t> ResultsReader::invariant(const CellBlock& block) const {
-  return members("/invariant", block);
+  return members("/invariant", unsigned_of(block.first), unsigned_of(block.count));
+}
+
+std::vector<std::uint8_t> ResultsReader::network_safe(std::size_t first, std::size_t modes,
+                                                      const CellBlock& block) const {
+  std::vector<std::uint64_t> offset = unsigned_of(block.first);
+  std::vector<std::uint64_t> count = unsigned_of(block.count);
+  offset.insert(offset.begin(), first);
+  count.insert(count.begin(), modes);
+  return members(paths::kNetworkSafe, offset, count);
 }
 
 std::vector<std::int32_t> ResultsReader::steps(const std::string& dataset,

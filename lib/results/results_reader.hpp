@@ -22,7 +22,8 @@ struct StoredAttributes {
   std::uint64_t safe_cells = 0, invariant_cells = 0;  ///< attributes `cells`
   std::int64_t iterations = 0;
   std::int64_t connection_delay = 0;
-  std::string controller_sha256;  ///< of `controller.file`; empty if the spec has none
+  std::string controller_sha256;             ///< of `controller.file`; empty if the spec has none
+  std::vector<std::uint64_t> network_cells;  ///< by mode; none without a network
 };
 
 /// What is stored of a partition besides arrays over cells.
@@ -101,6 +102,11 @@ class ResultsReader {
   /// Steps; -2 and -1 likewise, -3: a connection must stand already, kNever: never.
   [[nodiscard]] std::vector<std::int32_t> trigger(std::size_t partition, const CellBlock& block) const;
 
+  /// Whether each of some modes is safe for each cell: 0 or 1, [modes, cells of the block].
+  /// REQUIRES: the spec has a network with modes first, ..., first + modes - 1.
+  [[nodiscard]] std::vector<std::uint8_t> network_safe(std::size_t first, std::size_t modes,
+                                                       const CellBlock& block) const;
+
   /// What is stored on request.
   [[nodiscard]] bool has_actions(std::size_t partition) const;
   [[nodiscard]] bool has_controller() const;
@@ -138,7 +144,9 @@ class ResultsReader {
   [[nodiscard]] std::vector<Value> elements(const std::string& dataset, ElementType type,
                                             const std::vector<std::uint64_t>& offset,
                                             const std::vector<std::uint64_t>& count) const;
-  [[nodiscard]] std::vector<std::uint8_t> members(const std::string& dataset, const CellBlock& block) const;
+  [[nodiscard]] std::vector<std::uint8_t> members(const std::string& dataset,
+                                                  const std::vector<std::uint64_t>& offset,
+                                                  const std::vector<std::uint64_t>& count) const;
   [[nodiscard]] std::vector<std::int32_t> steps(const std::string& dataset,
                                                 std::optional<std::size_t> partition, std::int32_t lowest,
                                                 const CellBlock& block) const;

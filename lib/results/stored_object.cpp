@@ -12,8 +12,8 @@
 namespace coordreq {
 namespace {
 
-/// More than any attribute of ours has.
-constexpr hssize_t kMostElements = 1024;
+/// No attribute of ours has more: it is a number for each mode of a network at the most.
+constexpr hssize_t kMostElements = 4096;
 
 std::string name_of(const hdf5::Handle& attribute) {
   std::array<char, 256> name{};

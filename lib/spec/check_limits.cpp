@@ -53,4 +53,8 @@ void check_joint_input_count(const std::vector<std::int64_t>& counts) {
   refuse_above(joint, power_of_two(31), "joint inputs", "/inputs");
 }
 
+void check_mode_count(std::size_t count, std::size_t limit, const std::string& pointer) {
+  refuse_above(count, limit, "modes", pointer);
+}
+
 }  // namespace coordreq

@@ -25,4 +25,7 @@ void check_cell_count(const std::vector<StateSpec>& states);
 /// @param counts number of values of each input
 void check_joint_input_count(const std::vector<std::int64_t>& counts);
 
+/// @throws LimitError if a network has more than `limit` modes; each takes a set of cells
+void check_mode_count(std::size_t count, std::size_t limit, const std::string& pointer);
+
 }  // namespace coordreq

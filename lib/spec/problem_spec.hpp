@@ -106,22 +106,23 @@ struct CoordinationSpec {
   bool convention = false;
 };
 
-/// How a mode or "up"/"down" names a partition: resolved to canonical classes.
 struct NetworkModeSpec {
-  std::string name;
-  PartitionSpec partition;
+  std::string name;         ///< as given, or the history of losses (see loss_automaton.hpp)
+  PartitionSpec partition;  ///< who is connected; not necessarily one of CoordinationSpec::partitions
 };
 enum class NetworkKind : std::uint8_t { automaton, delay, burst, weakly_hard };
+/// Whatever its kind is, the network as an automaton, and the numbers that it was unfolded from.
 struct NetworkSpec {
   NetworkKind kind = NetworkKind::automaton;
-  std::vector<NetworkModeSpec> modes;
-  std::vector<std::pair<std::int32_t, std::int32_t>> transitions;  ///< indices into modes
+  std::vector<NetworkModeSpec> modes;                              ///< the first one is the initial mode
+  std::vector<std::pair<std::int32_t, std::int32_t>> transitions;  ///< indices into modes; each has one
   std::int64_t delay = 0;
   std::int64_t burst_length = 0, burst_gap = 0;
   std::int64_t misses = 0, window = 0;
-  std::optional<PartitionSpec> up, down;
   bool resynthesise = false;
 };
+/// The key of the spec that stands for it, "automaton" for `modes`.
+[[nodiscard]] std::string network_kind_name(NetworkKind kind);
 
 struct RequirementSpec {
   std::string name;

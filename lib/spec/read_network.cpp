@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "base/error.hpp"
+#include "spec/check_limits.hpp"
+#include "spec/loss_automaton.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/wording.hpp"
@@ -12,6 +15,16 @@ namespace coordreq {
 namespace {
 
 using Node = JsonDocument::Node;
+
+constexpr std::size_t kMostModes = 4096;
+
+/// With its given name, if it has one.
+PartitionSpec as_listed(PartitionSpec partition, const CoordinationSpec& coordination) {
+  for (const PartitionSpec& listed : coordination.partitions) {
+    if (listed.canonical == partition.canonical) return listed;
+  }
+  return partition;
+}
 
 /// A partition by its given name or by any canonical one, listed in the spec or not.
 PartitionSpec read_partition_name(const Node& node, const std::vector<AgentSpec>& agents,
@@ -26,30 +39,36 @@ PartitionSpec read_partition_name(const Node& node, const std::vector<AgentSpec>
                     quote_text(make_partition(agents, {}, "").canonical), quote_text(node.text())),
         node.pointer());
   }
-  for (const PartitionSpec& listed : coordination.partitions) {
-    if (listed.canonical == partition->canonical) return listed;
-  }
-  return *std::move(partition);
+  return as_listed(*std::move(partition), coordination);
 }
 
 void read_automaton(const Node& object, const std::vector<AgentSpec>& agents,
                     const CoordinationSpec& coordination, NetworkSpec& network) {
+  check_mode_count(object["modes"].size(), kMostModes, object["modes"].pointer());
   std::vector<std::string> names;
   for (const Node& mode : object.elements("modes")) {
     check_new_name(mode["name"], names, "mode");
     names.push_back(mode["name"].text());
     network.modes.push_back({names.back(), read_partition_name(mode["partition"], agents, coordination)});
   }
+  std::set<std::pair<std::int32_t, std::int32_t>> known;
+  std::vector<bool> is_left(names.size(), false);
   for (const Node& pair : object.elements("transitions")) {
     const std::pair transition{index_of_name(pair[0], names, "a mode"),
                                index_of_name(pair[1], names, "a mode")};
-    auto& known = network.transitions;
-    if (std::find(known.begin(), known.end(), transition) != known.end()) {
+    if (!known.insert(transition).second) {
       throw SpecError(fmt::format("the transition from {} to {} is listed twice", quote_text(pair[0].text()),
                                   quote_text(pair[1].text())),
                       pair.pointer());
     }
-    known.push_back(transition);
+    network.transitions.push_back(transition);
+    is_left[static_cast<std::size_t>(transition.first)] = true;
+  }
+  for (std::size_t mode = 0; mode < names.size(); ++mode) {
+    if (!is_left[mode]) {
+      throw SpecError(fmt::format("the mode {} has no successor", quote_text(names[mode])),
+                      object["modes"][mode].pointer());
+    }
   }
 }
 
@@ -63,7 +82,63 @@ void read_weakly_hard(const Node& object, NetworkSpec& network) {
   }
 }
 
+/// The partition under "up" or "down", or the usual one.
+PartitionSpec read_side(const Node& object, const std::string& key, const AgentClasses& usual,
+                        const std::vector<AgentSpec>& agents, const CoordinationSpec& coordination) {
+  if (object.has(key)) return read_partition_name(object[key], agents, coordination);
+  return as_listed(make_partition(agents, usual, ""), coordination);
+}
+
+std::optional<LossAutomaton> read_losses(const Node& object, NetworkSpec& network) {
+  if (object.has("delay")) {
+    network.kind = NetworkKind::delay;
+    network.delay = read_integer(object["delay"]);
+    return delay_automaton(network.delay, kMostModes);
+  }
+  if (object.has("burst")) {
+    network.kind = NetworkKind::burst;
+    network.burst_length = read_integer(object["burst"]["length"]);
+    network.burst_gap = read_integer(object["burst"]["gap"]);
+    return burst_automaton(network.burst_length, network.burst_gap, kMostModes);
+  }
+  network.kind = NetworkKind::weakly_hard;
+  read_weakly_hard(object["weakly_hard"], network);
+  return weakly_hard_automaton(network.misses, network.window, kMostModes);
+}
+
+/// Everyone is connected or nobody is, in turns that the network's kind allows.
+void unfold_losses(const Node& object, const std::vector<AgentSpec>& agents,
+                   const CoordinationSpec& coordination, NetworkSpec& network) {
+  std::optional<LossAutomaton> losses = read_losses(object, network);
+  const std::string kind = network_kind_name(network.kind);
+  if (!losses) {
+    throw LimitError(fmt::format("more than {} modes, the most that are possible", kMostModes),
+                     object[kind].pointer());
+  }
+  AgentClasses everyone(1);
+  for (std::size_t a = 0; a < agents.size(); ++a) everyone[0].push_back(static_cast<std::int32_t>(a));
+  const PartitionSpec up = read_side(object, "up", everyone, agents, coordination);
+  const PartitionSpec down = read_side(object, "down", {}, agents, coordination);
+  for (std::size_t mode = 0; mode < losses->names.size(); ++mode)
+    network.modes.push_back({losses->names[mode], losses->is_up(mode) ? up : down});
+  network.transitions = std::move(losses->transitions);
+}
+
 }  // namespace
+
+std::string network_kind_name(NetworkKind kind) {
+  switch (kind) {
+    case NetworkKind::automaton:
+      return "automaton";
+    case NetworkKind::delay:
+      return "delay";
+    case NetworkKind::burst:
+      return "burst";
+    case NetworkKind::weakly_hard:
+      return "weakly_hard";
+  }
+  return {};
+}
 
 NetworkSpec read_network(const Node& root, const std::vector<AgentSpec>& agents,
                          const CoordinationSpec& coordination) {
@@ -71,18 +146,9 @@ NetworkSpec read_network(const Node& root, const std::vector<AgentSpec>& agents,
   NetworkSpec network;
   network.resynthesise = object.flag("resynthesise");
   if (object.has("modes")) {
-    network.kind = NetworkKind::automaton;
     read_automaton(object, agents, coordination, network);
-  } else if (object.has("delay")) {
-    network.kind = NetworkKind::delay;
-    network.delay = read_integer(object["delay"]);
-  } else if (object.has("burst")) {
-    network.kind = NetworkKind::burst;
-    network.burst_length = read_integer(object["burst"]["length"]);
-    network.burst_gap = read_integer(object["burst"]["gap"]);
   } else {
-    network.kind = NetworkKind::weakly_hard;
-    read_weakly_hard(object["weakly_hard"], network);
+    unfold_losses(object, agents, coordination, network);
   }
   return network;
 }

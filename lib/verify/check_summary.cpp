@@ -119,6 +119,10 @@ std::vector<Finding> check_summary(const ProblemSpec& spec, const Claims& claims
   Comparison sets("sizes");
   sets.expect("|S|", claims.safe_cells, members(claims.safe));
   sets.expect("|K|", claims.invariant_cells, members(claims.invariant));
+  for (std::size_t mode = 0; mode < claims.network.size(); ++mode) {
+    sets.expect(fmt::format("cells of mode {}", spec.network->modes[mode].name), claims.network_cells[mode],
+                members(claims.network[mode]));
+  }
   std::int64_t last = 0;
   for (const std::int32_t time : claims.collision_time) {
     if (time != kForever) last = std::max(last, std::int64_t{time});

@@ -29,6 +29,7 @@ class Expectation {
     add_sets();
     add_steps();
     for (std::size_t p = 0; p < spec_.coordination.partitions.size(); ++p) add_partition(p);
+    if (spec_.network) add_network();
     if (extras_.controller) add_joint_bits(paths::kController);
     if (spec_.controller.file) add_joint_bits(paths::kListed);
     for (std::size_t i = 0; extras_.abstraction && i < spec_.states.size(); ++i) add_table(i);
@@ -145,6 +146,13 @@ class Expectation {
         add_bits("/actions/" + partition.name + "/" + class_name(spec_.agents, agents),
                  class_actions(spec_, inputs, agents));
     }
+  }
+
+  void add_network() {
+    add_scale("/mode");
+    Paths axes = cells_;
+    axes.insert(axes.begin(), "/mode");
+    describe_flags(add_array("/network_safe", axes), {0, 1}, "not_safe safe");
   }
 
   void add_joint_bits(const std::string& path) {

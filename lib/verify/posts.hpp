@@ -43,9 +43,9 @@ class PostMinima {
   /// min over y in f(x, u) of values[y]; `forever` where all has left safely, `blocked` if there is no post.
   /// @param values over all cells
   /// @param memory memory_size() minima of this cell and these values, kNotKnown before the first call
-  [[nodiscard]] std::int32_t least(std::int64_t u, const std::vector<std::int32_t>& values,
-                                   std::int32_t blocked, std::int32_t forever,
-                                   std::vector<std::int32_t>& memory) {
+  template <class Value>
+  [[nodiscard]] std::int32_t least(std::int64_t u, const std::vector<Value>& values, std::int32_t blocked,
+                                   std::int32_t forever, std::vector<std::int32_t>& memory) {
     std::int64_t box = 0;
     for (std::size_t i = 0; i < ranks_.size(); ++i) {
       const std::int64_t rank =
@@ -62,7 +62,8 @@ class PostMinima {
  private:
   void find_ranges(std::size_t i, std::int64_t cell);
 
-  [[nodiscard]] std::int32_t compute(std::int64_t box, const std::int32_t* values, std::int32_t blocked,
+  template <class Value>
+  [[nodiscard]] std::int32_t compute(std::int64_t box, const Value* values, std::int32_t blocked,
                                      std::int32_t forever, std::vector<std::int32_t>& memory) const {
     bool gone = false;
     for (const ResolvedRange* range : box_) {
@@ -74,18 +75,20 @@ class PostMinima {
 
   /// Over the ranges of dimensions i, i + 1, ... behind one choice of the cells of those before.
   /// @param window number of that choice, within the ranges of all posts
+  template <class Value>
   [[nodiscard]] std::int32_t least_from(std::size_t i, std::int64_t cell, std::int64_t window,
-                                        std::int64_t inner_box, const std::int32_t* values,
-                                        std::int32_t forever, std::vector<std::int32_t>& memory) const {
+                                        std::int64_t inner_box, const Value* values, std::int32_t forever,
+                                        std::vector<std::int32_t>& memory) const {
     if (i != split_ || parts_ == 0) return least_over(i, cell, window, inner_box, values, forever, memory);
     std::int32_t& known = memory[static_cast<std::size_t>(boxes_ + window * inner_boxes_ + inner_box)];
     if (known == kNotKnown) known = least_over(i, cell, window, inner_box, values, forever, memory);
     return known;
   }
 
+  template <class Value>
   [[nodiscard]] std::int32_t least_over(std::size_t i, std::int64_t cell, std::int64_t window,
-                                        std::int64_t inner_box, const std::int32_t* values,
-                                        std::int32_t forever, std::vector<std::int32_t>& memory) const {
+                                        std::int64_t inner_box, const Value* values, std::int32_t forever,
+                                        std::vector<std::int32_t>& memory) const {
     const GridDimension& dimension = (*grid_)[i];
     const IndexRange range = box_[i]->inside;
     std::int32_t least = forever;

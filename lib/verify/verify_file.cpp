@@ -62,6 +62,10 @@ Claims read_all(const ResultsReader& results) {
                 .iterations = results.attributes().iterations};
   for (std::size_t p = 0; p < results.partitions().size(); ++p)
     claims.partitions.push_back(read_partition(results, p, all));
+  const std::size_t modes = results.spec().network ? results.spec().network->modes.size() : 0;
+  for (std::size_t mode = 0; mode < modes; ++mode)
+    claims.network.push_back(results.network_safe(mode, 1, all));
+  claims.network_cells = results.attributes().network_cells;
   if (claims.has_controller) claims.controller = results.controller_bits(all);
   if (results.spec().controller.file)
     claims.listed = {.inputs = results.inputs().count(), .bytes = results.listed_bits(all)};
@@ -87,6 +91,7 @@ std::uint64_t memory_need(const ResultsReader& results) {
     for (const std::int64_t actions : results.partitions()[p].actions)
       bytes_of_cell += results.has_actions(p) ? static_cast<std::uint64_t>((actions + 7) / 8) : 0;
   }
+  if (results.spec().network) bytes_of_cell += 2 * results.spec().network->modes.size();  // and targets
   const int joint = (results.has_controller() ? 1 : 0) + (results.spec().controller.file ? 1 : 0);
   for (int i = 0; i < joint; ++i)
     bytes_of_cell += static_cast<std::uint64_t>((results.inputs().count() + 7) / 8);

@@ -1,5 +1,6 @@
 """What the README shows is what happens."""
 
+import json
 import os
 import pathlib
 import re
@@ -8,7 +9,7 @@ import unittest
 
 import h5py
 import numpy as np
-from program import CONFIGS, PROGRAM, ROOT, Case
+from program import CONFIGS, PROGRAM, ROOT, Case, without_comments
 
 README = (ROOT / "README.md").read_text()
 
@@ -22,7 +23,7 @@ class Cases(Case):
         (self.folder / "configs").symlink_to(CONFIGS)
         environment = dict(os.environ, PATH=f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}")
         sessions = blocks("console")
-        self.assertEqual(len(sessions), 7)
+        self.assertEqual(len(sessions), 8)
         for session in sessions:
             command, expected = re.fullmatch(r"(?s)\$ ([^\n]*)\n(.*)", session).groups()
             result = subprocess.run(
@@ -68,6 +69,18 @@ class Cases(Case):
             bears = "for ever" if 2 * never >= layers[0] else f"{half} s"
             longest = f"{partition['F'] - 1} s" if partition["F"] > 0 else "-"
             self.assertEqual(figures.split(" | "), [f"{summary['invariant']:,}", bears, longest, f"{never:,}"])
+
+    def test_networks(self):
+        rows = re.findall(r"(?m)^\| `(\{.*\})`.* \| ([0-9,]+) \| ([0-9,]+) \|$", README)
+        self.assertEqual(len(rows), 6)
+        spec = json.loads(without_comments((CONFIGS / "intersection_network.json").read_text()))
+        for row in rows:
+            network = json.loads(row[0].replace("\\|", "|"))
+            for resynthesise, expected in zip((False, True), row[1:]):
+                with self.subTest(network=network, resynthesise=resynthesise):
+                    self.write("spec.json", dict(spec, network=dict(network, resynthesise=resynthesise)))
+                    found = self.analyze("spec.json")["network"]
+                    self.assertEqual(f"{found['modes'][0]['cells']:,}", expected)
 
     def test_spec(self):
         (spec,) = blocks("jsonc")

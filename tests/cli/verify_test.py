@@ -287,7 +287,10 @@ class Cases(Case):
     def test_every_flipped_bit_of_a_finite_system_is_found(self):
         partitions = [{"classes": []}, {"name": "both", "classes": [["right", "left"]]}]
         coordination = {"partitions": partitions, "connection_delay": 2}
-        self.flip_everything(config("lane_change.json", output=EVERYTHING, coordination=coordination))
+        network = {"burst": {"length": 1, "gap": 2}, "down": "both", "resynthesise": True}
+        self.flip_everything(
+            config("lane_change.json", output=EVERYTHING, coordination=coordination, network=network)
+        )
 
     def test_every_flipped_bit_of_a_disc_is_found(self):
         spec = config("circle.json")

@@ -164,6 +164,23 @@ TEST(MaximalSpec, OtherNetworks) {
   EXPECT_FALSE(weakly_hard.resynthesise);
 }
 
+TEST(MaximalSpec, LossesAreUnfolded) {
+  const auto network = [](const std::string& text) {
+    return test::read(test::example_with("/network", text)).network.value();
+  };
+  const NetworkSpec burst = network(R"({"burst": {"length": 2, "gap": 1}})");
+  ASSERT_EQ(burst.modes.size(), 3U);
+  EXPECT_EQ(burst.modes[0].name, "11");
+  EXPECT_EQ(burst.modes[0].partition.name, "a+b");
+  EXPECT_EQ(burst.modes[2].name, "00");
+  EXPECT_EQ(burst.modes[2].partition.name, "a|b");
+  EXPECT_EQ(burst.transitions,
+            (std::vector<std::pair<std::int32_t, std::int32_t>>{{0, 0}, {0, 1}, {1, 0}, {1, 2}, {2, 0}}));
+  const NetworkSpec other = network(R"({"delay": 1, "up": "a|b", "down": "b+a"})");
+  EXPECT_EQ(other.modes[0].partition.name, "a+b");
+  EXPECT_EQ(other.modes[1].partition.name, "a|b");
+}
+
 TEST(MaximalSpec, Requirements) {
   const std::vector<RequirementSpec> requirements = maximal().requirements;
   ASSERT_EQ(requirements.size(), 3U);

@@ -28,7 +28,6 @@ TEST(RefuseUnsupported, NamesTheKey) {
        "'link_cost' is not supported yet (/coordination/link_cost)"},
       {"/coordination", R"({"convention": true})",
        "'convention' is not supported yet (/coordination/convention)"},
-      {"/network", R"({"delay": 2})", "'network' is not supported yet (/network)"},
       {"/requirements", R"([{"name": "r", "where": "true", "invariant": true}])",
        "'requirements' is not supported yet (/requirements)"},
   };
@@ -52,6 +51,7 @@ TEST(RefuseUnsupported, TakesEverythingElse) {
       {"partitions", nlohmann::json::parse(R"([{"classes": [["a", "b"]]}, {"classes": []}])")},
       {"link_cost", nlohmann::json::array()},
       {"convention", false}};
+  spec["network"] = {{"delay", 2}};
   spec["requirements"] = nlohmann::json::array();
   spec["output"] = {{"controller", true}, {"actions", true}, {"layers", true}, {"abstraction", true}};
   EXPECT_EQ(refusal(spec), "");

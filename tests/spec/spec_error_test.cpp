@@ -308,6 +308,12 @@ TEST(SpecError, NetworksAreOfOneKind) {
        "the mode 'm' is listed twice (/network/modes/1/name)"},
       {"/network", R"({"weakly_hard": {"misses": 3, "window": 2}})",
        "expected at most window = 2 misses, found 3 (/network/weakly_hard/misses)"},
+      {"/network", "{" + modes + R"(, "transitions": [["up", "down"], ["up", "up"]]})",
+       "the mode 'down' has no successor (/network/modes/1)"},
+      {"/network", "{" + modes + R"(, "transitions": [["up", "up"], ["down", "up"]], "up": "a+b"})",
+       "'modes' and 'up' exclude each other (/network)"},
+      {"/network", R"({"delay": 1, "down": "c|a"})",
+       "expected the name of a partition, such as 'a|b', found 'c|a' (/network/down)"},
       {"/network", R"({"burst": {"length": 0, "gap": 1}})",
        "expected an integer from 1 to 2147483646, found 0 (/network/burst/length)"},
   });

@@ -71,5 +71,27 @@ TEST(SpecLimit, Inputs) {
   EXPECT_EQ(test::error_of(spec), "");
 }
 
+TEST(SpecLimit, ModesOfANetwork) {
+  const auto network = [](const std::string& text) { return test::example_with("/network", text); };
+  expect_limit(network(R"({"delay": 4096})"),
+               "more than 4096 modes, the most that are possible (/network/delay)");
+  expect_limit(network(R"({"burst": {"length": 4000, "gap": 97}})"),
+               "more than 4096 modes, the most that are possible (/network/burst)");
+  expect_limit(network(R"({"weakly_hard": {"misses": 2, "window": 92}})"),
+               "more than 4096 modes, the most that are possible (/network/weakly_hard)");
+  expect_limit(network(R"({"weakly_hard": {"misses": 1000000000, "window": 2147483646}})"),
+               "more than 4096 modes, the most that are possible (/network/weakly_hard)");
+  nlohmann::json modes = nlohmann::json::parse(R"({"modes": [], "transitions": [["0", "0"]]})");
+  for (int i = 0; i < 4097; ++i)
+    modes["modes"].push_back({{"name", std::to_string(i)}, {"partition", "a|b"}});
+  expect_limit(network(modes.dump()), "4097 modes, at most 4096 are possible (/network/modes)");
+  EXPECT_EQ(test::read(network(R"({"delay": 4095})")).network->modes.size(), 4096U);
+  EXPECT_EQ(test::read(network(R"({"burst": {"length": 4095, "gap": 1}})")).network->modes.size(), 4096U);
+  EXPECT_EQ(test::read(network(R"({"weakly_hard": {"misses": 2, "window": 91}})")).network->modes.size(),
+            4095U);
+  EXPECT_EQ(test::read(network(R"({"weakly_hard": {"misses": 4095, "window": 4096}})")).network->modes.size(),
+            4096U);
+}
+
 }  // namespace
 }  // namespace coordreq

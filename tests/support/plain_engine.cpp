@@ -1,6 +1,7 @@
 #include "support/plain_engine.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "abstraction/counter.hpp"
@@ -33,6 +34,7 @@ class PlainEngine {
     find_invariant();
     find_controller();
     for (const PartitionSpec& partition : spec_.coordination.partitions) layers(partition);
+    if (spec_.network) network(*spec_.network);
     return result_;
   }
 
@@ -176,6 +178,63 @@ class PlainEngine {
       return true;
     };
     iterate(result, reasonable);
+  }
+
+  /// IND of the joint inputs given, for one cell.
+  std::vector<bool> independent(const std::vector<bool>& joint, const PartitionSpec& partition) const {
+    std::vector<bool> result(at(inputs_), true);
+    for (const auto& agents : partition.classes) {
+      const std::vector<std::size_t> own = class_inputs(agents);
+      std::set<std::int64_t> actions;
+      for (std::int64_t u = 0; u < inputs_; ++u) {
+        if (joint[at(u)]) actions.insert(action_of(u, own));
+      }
+      for (std::int64_t u = 0; u < inputs_; ++u) {
+        if (!actions.contains(action_of(u, own))) result[at(u)] = false;
+      }
+    }
+    return result;
+  }
+
+  /// Straight from the definition of W(q); the synchronous iteration in both cases.
+  void network(const NetworkSpec& network) {
+    std::vector<Set>& sets = result_.network;
+    sets.assign(network.modes.size(), result_.invariant);
+    for (bool changed = true; changed;) {
+      const std::vector<Set> before = sets;
+      for (std::size_t q = 0; q < sets.size(); ++q) {
+        Set target(at(cells_), true);
+        for (const auto& [from, to] : network.transitions) {
+          if (at(from) != q) continue;
+          for (std::size_t x = 0; x < target.size(); ++x) target[x] = target[x] && before[at(to)][x];
+        }
+        for (std::int64_t x = 0; x < cells_; ++x) {
+          const PartitionSpec& partition = network.modes[q].partition;
+          if (before[q][at(x)] && !stays_in_mode(x, partition, network.resynthesise, target))
+            sets[q][at(x)] = false;
+        }
+      }
+      changed = sets != before;
+    }
+  }
+
+  bool stays_in_mode(std::int64_t x, const PartitionSpec& partition, bool resynthesise,
+                     const Set& target) const {
+    std::vector<bool> leads_there;
+    for (std::int64_t u = 0; u < inputs_; ++u) leads_there.push_back(stays_in(x, u, target));
+    std::vector<bool> controller = result_.controller[at(x)];
+    std::vector<bool> good = leads_there;
+    if (resynthesise) {
+      for (std::size_t u = 0; u < good.size(); ++u) good[u] = good[u] && allowed_[at(x)][u];
+      controller = good;
+    }
+    const std::vector<bool> choices = independent(controller, partition);
+    bool some = false;
+    for (std::size_t u = 0; u < choices.size(); ++u) {
+      some = some || controller[u];
+      if (choices[u] && !good[u]) return false;
+    }
+    return some;
   }
 
   template <class Reasonable>

@@ -25,6 +25,7 @@ struct PlainAnalysis {
   std::int64_t iterations = 0;
   std::vector<std::vector<bool>> controller;  ///< [cell][joint input]
   std::vector<Partition> partitions;
+  std::vector<std::vector<bool>> network;  ///< [mode][cell] W(q), if there is a network
 };
 
 /// @param listed the pairs of a controller file; null: there is none

@@ -1,0 +1,101 @@
+#include "app/network_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/text.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Modes that a table shows.
+constexpr std::size_t kMostRows = 12;
+
+std::string count_of(std::int64_t number, const char* what) {
+  return fmt::format("{} {}{}", grouped(number), what, number == 1 ? "" : "s");
+}
+
+/// What a table has left out; empty if nothing.
+std::string more_modes(std::size_t modes) {
+  return modes <= kMostRows ? "" : fmt::format("  ... and {} more modes\n", grouped(modes - kMostRows));
+}
+
+}  // namespace
+
+std::string network_meaning(const NetworkSpec& network) {
+  switch (network.kind) {
+    case NetworkKind::delay:
+      return fmt::format("connected after {}", count_of(network.delay, "step"));
+    case NetworkKind::burst:
+      return fmt::format("at most {} lost in a row, at least {} connected between",
+                         count_of(network.burst_length, "step"), grouped(network.burst_gap));
+    case NetworkKind::weakly_hard:
+      return fmt::format("at most {} of any {} lost", grouped(network.misses),
+                         count_of(network.window, "step"));
+    case NetworkKind::automaton:
+      break;
+  }
+  return count_of(static_cast<std::int64_t>(network.modes.size()), "mode") + " with given transitions";
+}
+
+std::string network_text(const NetworkSummary& summary, const NetworkSpec& network, std::int64_t invariant) {
+  Table table({Table::Align::left, Table::Align::left, Table::Align::right});
+  table.add({"  mode", "connected", "safe cells"});
+  for (std::size_t mode = 0; mode < std::min(kMostRows, summary.modes.size()); ++mode) {
+    const NetworkSummary::Mode& own = summary.modes[mode];
+    table.add({"  " + own.name, own.partition, grouped(own.cells)});
+  }
+  const NetworkSummary::Mode& initial = summary.modes.front();
+  const char* const who = summary.resynthesise ? "agents that take care" : "the agents";
+  return fmt::format(
+      "\nnetwork {}: {}\n{}{}  Beginning in mode {}, {} stay safe from {} of {}; whatever the mode is, from "
+      "{}.\n",
+      summary.kind, network_meaning(network), table.text(), more_modes(summary.modes.size()), initial.name,
+      who, grouped(initial.cells), count_of(invariant, "cell"), grouped(summary.every_mode));
+}
+
+Json network_json(const NetworkSummary& summary) {
+  Json json;
+  json["kind"] = summary.kind;
+  json["resynthesise"] = summary.resynthesise;
+  json["initial"] = summary.modes.front().name;
+  json["modes"] = Json::array();
+  for (const NetworkSummary::Mode& mode : summary.modes)
+    json["modes"].push_back(Json{{"name", mode.name}, {"partition", mode.partition}, {"cells", mode.cells}});
+  json["cells_in_every_mode"] = summary.every_mode;
+  return json;
+}
+
+std::string modes_text(const std::vector<ResultInfo::Mode>& modes) {
+  Table table({Table::Align::left, Table::Align::right});
+  table.add({"mode of the network", "safe cells"});
+  for (std::size_t mode = 0; mode < std::min(kMostRows, modes.size()); ++mode)
+    table.add({printable(modes[mode].name), grouped(modes[mode].safe_cells)});
+  return table.text() + more_modes(modes.size());
+}
+
+std::vector<std::string> safe_mode_names(const NetworkSpec& network, const std::vector<bool>& safe) {
+  std::vector<std::string> names;
+  for (std::size_t mode = 0; mode < safe.size(); ++mode) {
+    if (safe[mode]) names.push_back(network.modes[mode].name);
+  }
+  return names;
+}
+
+std::string safe_modes_text(const NetworkSpec& network, const std::vector<bool>& safe) {
+  std::vector<std::string> names = safe_mode_names(network, safe);
+  const std::size_t count = names.size();
+  std::string text = count == 0 ? "no mode"
+                     : count == safe.size()
+                         ? fmt::format("all {} modes", grouped(count))
+                         : fmt::format("{} of {} modes", grouped(count), grouped(safe.size()));
+  if (count > 0 && count < safe.size()) {
+    names.resize(std::min(kMostRows, count));
+    text += fmt::format(": {}{}", fmt::join(names, ", "), count > kMostRows ? " ..." : "");
+  }
+  return fmt::format("\nnetwork {}: {}\n  safe in  {}\n", network_kind_name(network.kind),
+                     network_meaning(network), text);
+}
+
+}  // namespace coordreq

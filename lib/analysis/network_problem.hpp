@@ -1,0 +1,16 @@
+#pragma once
+
+#include "coordination/network_safety.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// The network of a spec as the operators take it; modes that connect the same agents share a partition.
+/// REQUIRES: the spec has a network; `controller` and `hull` outlive the result.
+[[nodiscard]] NetworkProblem network_problem(const ProblemSpec& spec, const Controller& controller,
+                                             const RowHull& hull);
+
+/// The different partitions of the modes of a network, in the order of the modes.
+[[nodiscard]] std::vector<const PartitionSpec*> network_partitions(const NetworkSpec& network);
+
+}  // namespace coordreq
