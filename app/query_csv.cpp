@@ -17,6 +17,14 @@ std::string csv_actions(const std::vector<bool>& actions) {
   return text;
 }
 
+/// The number of the partition, or the code for why there is none, and the names of pairs.
+std::string csv_coalition(const StateAnswer::Coalition& coalition, const ResultsReader& results) {
+  std::string pairs;
+  for (const std::size_t pair : coalition.critical_pairs)
+    pairs += (pairs.empty() ? "" : " ") + results.pairs()[pair];
+  return fmt::format(",{},{}", coalition.partition, pairs);
+}
+
 }  // namespace
 
 std::string answer_csv_header(const ResultsReader& results) {
@@ -28,6 +36,7 @@ std::string answer_csv_header(const ResultsReader& results) {
     for (const std::string& name : partition.classes)
       line += fmt::format(",actions:{}:{}", partition.name, name);
   }
+  if (results.has_coalition()) line += ",coalition,critical_pairs";
   return line + "\n";
 }
 
@@ -40,6 +49,7 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
     for (const StoredPartition& partition : results.partitions()) {
       line += std::string(2 + partition.classes.size(), ',');
     }
+    if (results.has_coalition()) line += ",,";
     return line + "\n";
   }
   line += fmt::format("1,{},{:d},{:d},{}", answer.location.cell, answer.safe, answer.invariant,
@@ -48,6 +58,7 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
     line += "," + csv_steps(partition.delay) + "," + csv_steps(partition.trigger);
     for (const std::vector<bool>& actions : partition.actions) line += "," + csv_actions(actions);
   }
+  if (answer.coalition) line += csv_coalition(*answer.coalition, results);
   return line + "\n";
 }
 

@@ -20,10 +20,10 @@
 
 namespace coordreq {
 
-/// One partition with all that its arrays refer to while the results are written.
+/// What is found of one partition. Groups and projections of its classes are not kept: with many partitions
+/// they would take more memory than all else.
 struct PartitionResult {
   const PartitionSpec* spec = nullptr;
-  ActionGrouping grouping;
   DelayLayers layers;
 };
 
@@ -41,7 +41,8 @@ using StageSwept = std::function<void(const std::string& stage, std::int64_t swe
 /// 2. Neither copied nor moved: its parts refer to one another.
 struct Solution {
   /// The stages "controller" if there is a file with one, "abstraction", "safe set", "invariance" and "layers
-  /// PARTITION" for each partition. REQUIRES: `problem` outlives the solution.
+  /// PARTITION" for each partition, coarser ones before finer ones. REQUIRES: `problem` outlives the
+  /// solution.
   /// @throws as analyze()
   Solution(const ProblemSpec& problem, ThreadTeam& team, const EnterStage& enter, const StageSwept& swept);
   Solution(const Solution&) = delete;
@@ -64,6 +65,8 @@ struct Solution {
 
  private:
   void find_layers(ThreadTeam& team, const EnterStage& enter, const StageSwept& swept);
+  [[nodiscard]] DelayLayers layers_of(std::size_t p, ThreadTeam& team,
+                                      const std::function<void(std::int64_t, std::int64_t)>& step) const;
 };
 
 /// The inputs of each class of a partition, ascending.

@@ -11,6 +11,9 @@ inline constexpr char kController[] = "/controller";
 /// The pairs of `controller.file`. No state can have this name.
 inline constexpr char kListed[] = "/controller:file";
 inline constexpr char kAbstraction[] = "/abstraction";
+inline constexpr char kCoalition[] = "/coalition";
+inline constexpr char kCriticalPair[] = "/critical_pair";
+inline constexpr char kPair[] = "/pair";
 
 [[nodiscard]] inline std::string actions(const StoredPartition& partition) {
   return "/actions/" + partition.name;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kMostStates = 31;
 constexpr std::int64_t kMostValues = std::int64_t{1} << 20U;
+constexpr std::size_t kMostAgentsOfAll = 7;
 
 mpz_class power_of_two(unsigned exponent) {
   mpz_class value;
@@ -51,6 +52,14 @@ void check_joint_input_count(const std::vector<std::int64_t>& counts) {
   mpz_class joint = 1;
   for (const std::int64_t count : counts) joint *= static_cast<long>(count);
   refuse_above(joint, power_of_two(31), "joint inputs", "/inputs");
+}
+
+void check_all_partitions(std::size_t agents, const std::string& pointer) {
+  if (agents <= kMostAgentsOfAll) return;
+  throw LimitError(fmt::format("'all' is possible for at most {} agents, which have 877 partitions, found {} "
+                               "agents; expected a list of partitions",
+                               kMostAgentsOfAll, agents),
+                   pointer);
 }
 
 }  // namespace coordreq

@@ -25,4 +25,7 @@ void check_cell_count(const std::vector<StateSpec>& states);
 /// @param counts number of values of each input
 void check_joint_input_count(const std::vector<std::int64_t>& counts);
 
+/// @throws LimitError if there are more than 7 agents: they have 877 partitions, 8 have 4140
+void check_all_partitions(std::size_t agents, const std::string& pointer);
+
 }  // namespace coordreq

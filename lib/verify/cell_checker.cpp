@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "verify/cell_place.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -300,13 +302,7 @@ void CellChecker::check_delay(std::size_t p, std::int32_t expected) {
 }
 
 std::string CellChecker::place() const {
-  std::string text;
-  for (std::size_t i = 0; i < check_.grid->size(); ++i) {
-    const GridDimension& dimension = (*check_.grid)[i];
-    text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", dimension.name,
-                        to_text(dimension.point(check_.grid->index(cell_, i))));
-  }
-  return text;
+  return place_of(*check_.grid, cell_);
 }
 
 }  // namespace coordreq

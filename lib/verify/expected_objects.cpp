@@ -31,6 +31,7 @@ class Expectation {
     for (std::size_t p = 0; p < spec_.coordination.partitions.size(); ++p) add_partition(p);
     if (extras_.controller) add_joint_bits(paths::kController);
     if (spec_.controller.file) add_joint_bits(paths::kListed);
+    if (spec_.coordination.horizon) add_coalitions();
     for (std::size_t i = 0; extras_.abstraction && i < spec_.states.size(); ++i) add_table(i);
     return std::move(objects_);
   }
@@ -145,6 +146,17 @@ class Expectation {
         add_bits("/actions/" + partition.name + "/" + class_name(spec_.agents, agents),
                  class_actions(spec_, inputs, agents));
     }
+  }
+
+  void add_coalitions() {
+    StoredObject& coalition = add_array("/coalition", cells_);
+    describe_flags(coalition, {-3, -2, -1}, "no_partition_suffices not_safe not_invariant");
+    coalition.integers["horizon"] = {*spec_.coordination.horizon};
+    if (spec_.agents.size() < 2) return;
+    add_scale("/pair");
+    Paths axes = cells_;
+    axes.insert(axes.begin(), "/pair");
+    describe_flags(add_array("/critical_pair", axes), {0, 1}, "not_critical critical");
   }
 
   void add_joint_bits(const std::string& path) {

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "grid/uniform_grid.hpp"
+
+namespace coordreq {
+
+/// A cell by its centre: "x1 = 0.1, x2 = 0".
+[[nodiscard]] std::string place_of(const UniformGrid& grid, std::int64_t cell);
+
+}  // namespace coordreq
