@@ -4,12 +4,16 @@
 
 #include <algorithm>
 
+#include "app/coalition_report.hpp"
 #include "app/json_text.hpp"
 #include "app/network_report.hpp"
 #include "app/text.hpp"
 
 namespace coordreq {
 namespace {
+
+/// With more partitions than this each gets one line.
+constexpr std::size_t kMostInFull = 3;
 
 /// "201 x 41 = 8,241", or "201" for a single factor.
 std::string product(const std::vector<std::int64_t>& factors, std::int64_t result) {
@@ -25,10 +29,6 @@ std::string sizes(const AnalysisSummary& summary, const ProblemSpec& spec) {
   for (const InputSpec& input : spec.inputs) values.push_back(static_cast<std::int64_t>(input.values.size()));
   return fmt::format("{}: {} cells, {} joint inputs\n", summary.name, product(points, summary.states),
                      product(values, summary.inputs));
-}
-
-std::string cells(std::int64_t count) {
-  return grouped(count) + (count == 1 ? " cell" : " cells");
 }
 
 bool is_joint(const std::string& class_name) {
@@ -64,13 +64,56 @@ std::string meaning(const PartitionSummary& partition, const AnalysisSummary& su
                      cells(partition.fixed_point), who, length(largest), without, are);
 }
 
+/// For how many cells D steps are more than they can bear.
+std::string connection_text(const PartitionSummary& partition, const AnalysisSummary& summary) {
+  const std::int64_t count = partition.never_without_connection;
+  const bool unknown =
+      partition.truncated && summary.connection_delay >= static_cast<std::int64_t>(partition.layers.size());
+  return fmt::format("{}{} may never be without one, which takes {} to stand", unknown ? "at most " : "",
+                     cells(count), duration(summary.connection_delay, summary.period, summary.period_unit));
+}
+
 std::string partition_text(const PartitionSummary& partition, const AnalysisSummary& summary) {
   Table table({Table::Align::left, Table::Align::left});
   table.add({"  layers", shortened(partition.layers)});
   table.add({"  fixed point",
              partition.truncated ? "not reached" : fmt::format("F = {}", partition.fixed_point_index)});
   table.add({"  unbounded", partition.truncated ? "unknown" : cells(partition.fixed_point)});
+  if (summary.connection_delay > 0) table.add({"  connection", connection_text(partition, summary)});
   return fmt::format("\npartition {}\n{}  {}\n", partition.name, table.text(), meaning(partition, summary));
+}
+
+/// The largest delay of the cells that have a finite one.
+std::string longest_text(const PartitionSummary& partition, const AnalysisSummary& summary) {
+  const auto last = static_cast<std::int64_t>(partition.layers.size()) - 1;
+  if (partition.truncated) return "at least " + duration(last, summary.period, summary.period_unit);
+  return last == 0 ? "" : duration(last - 1, summary.period, summary.period_unit);
+}
+
+/// One line a partition.
+std::string partitions_table(const AnalysisSummary& summary) {
+  using Align = Table::Align;
+  const bool has_delay = summary.connection_delay > 0;
+  std::vector<Align> columns = {Align::left, Align::right, Align::right, Align::left};
+  std::vector<std::string> heading = {"partition", "F", "unbounded", "longest finite delay"};
+  if (has_delay) {
+    columns.push_back(Align::right);
+    heading.emplace_back("never without connection");
+  }
+  Table table(columns);
+  table.add(heading);
+  for (const PartitionSummary& partition : summary.partitions) {
+    std::vector<std::string> row = {
+        partition.name, partition.truncated ? "not reached" : std::to_string(partition.fixed_point_index),
+        partition.truncated ? "unknown" : cells(partition.fixed_point), longest_text(partition, summary)};
+    if (has_delay) row.push_back(cells(partition.never_without_connection));
+    table.add(std::move(row));
+  }
+  const std::string connection =
+      has_delay ? fmt::format("A connection takes {} to stand.\n",
+                              duration(summary.connection_delay, summary.period, summary.period_unit))
+                : "";
+  return "\n" + table.text() + connection;
 }
 
 std::string sets_text(const AnalysisSummary& summary) {
@@ -98,6 +141,7 @@ std::string partitions_text(const AnalysisSummary& summary, const ProblemSpec& s
     return "\nThe invariance set is empty: no state can be kept safe, even if all agents always "
            "coordinate.\n";
   }
+  if (summary.partitions.size() > kMostInFull) return partitions_table(summary);
   std::string text;
   for (const PartitionSummary& partition : summary.partitions) text += partition_text(partition, summary);
   if (summary.network) text += network_text(*summary.network, *spec.network, summary.invariant);
@@ -119,6 +163,7 @@ Json partition_json(const PartitionSummary& partition) {
   json["fixed_point"] = partition.truncated ? Json() : Json(partition.fixed_point);
   json["layers"] = partition.layers;
   json["truncated"] = partition.truncated;
+  json["never_without_connection"] = partition.never_without_connection;
   json["max_delay_time"] = partition.max_delay_time ? Json(*partition.max_delay_time) : Json();
   return json;
 }
@@ -126,7 +171,8 @@ Json partition_json(const PartitionSummary& partition) {
 }  // namespace
 
 std::string summary_text(const AnalysisSummary& summary, const ProblemSpec& spec) {
-  return sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec) + closing_text(summary);
+  return sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec) +
+         coalition_text(summary) + closing_text(summary);
 }
 
 std::string summary_json(const AnalysisSummary& summary) {
@@ -144,9 +190,11 @@ std::string summary_json(const AnalysisSummary& summary) {
   json["guarantee"] = summary.guarantee;
   json["period"] = summary.period;
   json["period_unit"] = summary.period_unit;
+  json["connection_delay"] = summary.connection_delay;
   json["partitions"] = Json::array();
   for (const PartitionSummary& partition : summary.partitions)
     json["partitions"].push_back(partition_json(partition));
+  json["coalition"] = coalition_json(summary);
   if (summary.network) json["network"] = network_json(*summary.network);
   json["requirements"] = Json::array();
   json["output"] = summary.output;

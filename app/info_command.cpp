@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <functional>
+#include <numeric>
+
 #include "app/commands.hpp"
 #include "app/json_text.hpp"
 #include "app/network_report.hpp"
@@ -54,8 +57,34 @@ std::string partitions_table(const ResultInfo& info) {
   return table.text();
 }
 
+/// Cells of K for which no partition of the file is enough.
+std::int64_t cells_without(const ResultInfo& info) {
+  const std::vector<std::int64_t>& given = info.coalition->cells;
+  return std::accumulate(given.begin(), given.end(), static_cast<std::int64_t>(info.invariant_cells),
+                         std::minus<>());
+}
+
+/// How many cells are given which partition, and where pairs are critical, as far as there are any.
+std::string coalition_text(const ResultInfo& info) {
+  if (!info.coalition) return "";
+  const ResultInfo::Coalition& coalition = *info.coalition;
+  Table table({Table::Align::left, Table::Align::right});
+  for (std::size_t p = 0; p < coalition.cells.size(); ++p) {
+    if (coalition.cells[p] > 0)
+      table.add({"  " + printable(info.partitions[p].name), cells(coalition.cells[p])});
+  }
+  if (!coalition.cells.empty() && cells_without(info) > 0)
+    table.add({"  none suffices", cells(cells_without(info))});
+  for (const auto& [pair, count] : coalition.critical_pairs) {
+    if (count > 0) table.add({"  critical pair " + printable(pair), cells(count)});
+  }
+  return fmt::format("\ncoalitions for {}\n{}", duration(coalition.horizon, info.period, info.period_unit),
+                     table.text());
+}
+
 std::string info_text(const ResultInfo& info) {
-  std::string text = head_table(info) + "\n" + axes_table(info) + "\n" + partitions_table(info);
+  std::string text =
+      head_table(info) + "\n" + axes_table(info) + "\n" + partitions_table(info) + coalition_text(info);
   if (!info.modes.empty()) text += "\n" + modes_text(info.modes);
   text += "\ndatasets\n";
   for (const std::string& dataset : info.datasets) text += "  " + printable(dataset) + "\n";
@@ -84,6 +113,21 @@ Json partition_json(const ResultInfo::Partition& partition) {
   return json;
 }
 
+Json coalition_json(const ResultInfo& info) {
+  if (!info.coalition) return {};
+  const ResultInfo::Coalition& coalition = *info.coalition;
+  Json json;
+  json["horizon"] = coalition.horizon;
+  json["partitions"] = Json::array();
+  for (std::size_t p = 0; p < coalition.cells.size(); ++p)
+    json["partitions"].push_back({{"name", info.partitions[p].name}, {"cells", coalition.cells[p]}});
+  json["no_partition_suffices"] = coalition.cells.empty() ? Json() : Json(cells_without(info));
+  json["critical_pairs"] = Json::array();
+  for (const auto& [pair, count] : coalition.critical_pairs)
+    json["critical_pairs"].push_back({{"name", pair}, {"cells", count}});
+  return json;
+}
+
 std::string info_json(const ResultInfo& info) {
   Json json;
   json["file"] = info.path;
@@ -104,6 +148,7 @@ std::string info_json(const ResultInfo& info) {
   json["partitions"] = Json::array();
   for (const ResultInfo::Partition& partition : info.partitions)
     json["partitions"].push_back(partition_json(partition));
+  json["coalition"] = coalition_json(info);
   for (const ResultInfo::Mode& mode : info.modes)
     json["modes"].push_back(Json{{"name", mode.name}, {"cells", mode.safe_cells}});
   json["datasets"] = info.datasets;

@@ -18,6 +18,14 @@ std::string csv_actions(const std::vector<bool>& actions) {
   return text;
 }
 
+/// The number of the partition, or the code for why there is none, and the names of pairs.
+std::string csv_coalition(const StateAnswer::Coalition& coalition, const ResultsReader& results) {
+  std::string pairs;
+  for (const std::size_t pair : coalition.critical_pairs)
+    pairs += (pairs.empty() ? "" : " ") + results.pairs()[pair];
+  return fmt::format(",{},{}", coalition.partition, pairs);
+}
+
 }  // namespace
 
 std::string answer_csv_header(const ResultsReader& results) {
@@ -29,6 +37,7 @@ std::string answer_csv_header(const ResultsReader& results) {
     for (const std::string& name : partition.classes)
       line += fmt::format(",actions:{}:{}", partition.name, name);
   }
+  if (results.has_coalition()) line += ",coalition,critical_pairs";
   if (results.spec().network) line += ",safe_modes";
   return line + "\n";
 }
@@ -42,7 +51,9 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
     for (const StoredPartition& partition : results.partitions()) {
       line += std::string(2 + partition.classes.size(), ',');
     }
-    return line + (results.spec().network ? ",\n" : "\n");
+    if (results.has_coalition()) line += ",,";
+    if (results.spec().network) line += ",";
+    return line + "\n";
   }
   line += fmt::format("1,{},{:d},{:d},{}", answer.location.cell, answer.safe, answer.invariant,
                       csv_steps(answer.collision_time));
@@ -50,6 +61,7 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
     line += "," + csv_steps(partition.delay) + "," + csv_steps(partition.trigger);
     for (const std::vector<bool>& actions : partition.actions) line += "," + csv_actions(actions);
   }
+  if (answer.coalition) line += csv_coalition(*answer.coalition, results);
   if (const auto& network = results.spec().network)
     line += fmt::format(",{}", fmt::join(safe_mode_names(*network, answer.safe_modes), " "));
   return line + "\n";

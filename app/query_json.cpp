@@ -108,6 +108,24 @@ Json partition_json(const StateAnswer::Partition& answer, std::size_t p, const R
   return json;
 }
 
+const char* coalition_status(std::int32_t partition) {
+  if (partition == -3) return "no_partition_suffices";
+  if (partition == -2) return "not_safe";
+  return partition == -1 ? "not_invariant" : "partition";
+}
+
+Json coalition_json(const StateAnswer::Coalition& coalition, const ResultsReader& results) {
+  const std::int32_t p = coalition.partition;
+  Json json;
+  json["horizon"] = *results.spec().coordination.horizon;
+  json["partition"] = p >= 0 ? Json(results.partitions()[static_cast<std::size_t>(p)].name) : Json();
+  json["status"] = coalition_status(p);
+  json["critical_pairs"] = Json::array();
+  for (const std::size_t pair : coalition.critical_pairs)
+    json["critical_pairs"].push_back(results.pairs()[pair]);
+  return json;
+}
+
 Json json_of(const StateAnswer& answer, const ResultsReader& results) {
   const bool inside = answer.location.kind == Location::Kind::cell;
   const bool left_safely = answer.location.kind == Location::Kind::left_safely;
@@ -125,6 +143,7 @@ Json json_of(const StateAnswer& answer, const ResultsReader& results) {
   for (std::size_t p = 0; p < answer.partitions.size(); ++p) {
     json["partitions"].push_back(partition_json(answer.partitions[p], p, results));
   }
+  json["coalition"] = answer.coalition ? coalition_json(*answer.coalition, results) : Json();
   if (const auto& network = results.spec().network)
     json["safe_modes"] = inside ? Json(safe_mode_names(*network, answer.safe_modes)) : Json();
   return json;

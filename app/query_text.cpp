@@ -139,6 +139,20 @@ std::string partition_text(const StateAnswer::Partition& answer, std::size_t p,
   return fmt::format("\npartition {}\n{}", stored.name, table.text());
 }
 
+std::string coalition_text(const StateAnswer::Coalition& coalition, const ResultsReader& results) {
+  Table table({Table::Align::left, Table::Align::left});
+  const std::int32_t p = coalition.partition;
+  table.add({"  cheapest partition", p >= 0    ? results.partitions()[static_cast<std::size_t>(p)].name
+                                     : p == -3 ? "none: no partition of the file suffices"
+                                               : "none"});
+  std::vector<std::string> pairs;
+  for (const std::size_t pair : coalition.critical_pairs) pairs.push_back(results.pairs()[pair]);
+  if (p >= 0)
+    table.add({"  critical pairs", pairs.empty() ? "none" : fmt::format("{}", fmt::join(pairs, ", "))});
+  return fmt::format("\n{} without further contact\n{}",
+                     steps_text(*results.spec().coordination.horizon, results), table.text());
+}
+
 }  // namespace
 
 std::string answer_text(const StateAnswer& answer, const ResultsReader& results) {
@@ -160,6 +174,7 @@ std::string answer_text(const StateAnswer& answer, const ResultsReader& results)
   for (std::size_t p = 0; p < answer.partitions.size(); ++p) {
     text += partition_text(answer.partitions[p], p, results);
   }
+  if (answer.coalition) text += coalition_text(*answer.coalition, results);
   if (const auto& network = results.spec().network) text += safe_modes_text(*network, answer.safe_modes);
   return text;
 }

@@ -70,6 +70,10 @@ std::string grouped(std::int64_t number) {
   return grouped(static_cast<std::uint64_t>(number));
 }
 
+std::string cells(std::int64_t count) {
+  return grouped(count) + (count == 1 ? " cell" : " cells");
+}
+
 std::string byte_size(std::uint64_t bytes) {
   constexpr const char* kUnits[] = {"bytes", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
   auto size = static_cast<double>(bytes);

@@ -17,6 +17,9 @@ namespace coordreq {
 /// REQUIRES: number >= 0
 [[nodiscard]] std::string grouped(std::int64_t number);
 
+/// 1 -> "1 cell", 1234 -> "1,234 cells". REQUIRES: count >= 0
+[[nodiscard]] std::string cells(std::int64_t count);
+
 /// 1536 -> "1.5 KiB".
 [[nodiscard]] std::string byte_size(std::uint64_t bytes);
 

@@ -40,11 +40,19 @@ std::string inputs_table(const SpecReport& report) {
   return table.text();
 }
 
+/// All of a few, else how many and the first and last of them.
+std::string partitions_text(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 15;
+  if (names.size() <= kMost) return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{}: {}, {}, ... {}", grouped(std::uint64_t{names.size()}), names[0], names[1],
+                     names.back());
+}
+
 std::string totals_table(const SpecReport& report) {
   Table table({Table::Align::left, Table::Align::left});
   table.add({"cells", grouped(report.cells)});
   table.add({"joint inputs", grouped(report.joint_inputs)});
-  table.add({"partitions", fmt::format("{}", fmt::join(report.partitions, ", "))});
+  table.add({"partitions", partitions_text(report.partitions)});
   if (!report.modes.empty()) table.add({"modes of the network", grouped(report.modes.size())});
   table.add({"reachable sets", report.exact ? "exact interval hulls" : "outward rounded"});
   table.add({"guarantee", guarantee_text(report.guarantee)});

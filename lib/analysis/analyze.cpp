@@ -1,5 +1,6 @@
 #include "analysis/analyze.hpp"
 
+#include "analysis/coalitions.hpp"
 #include "analysis/compose_results.hpp"
 #include "analysis/solution.hpp"
 #include "analysis/summarise.hpp"
@@ -23,10 +24,16 @@ AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options,
                           [&report](const std::string& stage, std::int64_t sweep, std::int64_t rows) {
                             report({stage, sweep, rows});
                           });
+  const std::optional<CoalitionMap> coalitions = coalitions_of(solution, team, enter);
   enter("writing");
   AnalysisSummary summary = summarise(solution);
   ResultComposer composer(solution, team);
-  write_results(options.output, composer.content(), team);
+  ResultContent content = composer.content();
+  if (coalitions) {
+    summary.coalition = summary_of(*coalitions, spec);
+    add_coalitions(*coalitions, solution, content);
+  }
+  write_results(options.output, content, team);
   timer.end();
   summary.output = options.output;
   summary.threads = team.size();

@@ -15,7 +15,7 @@ namespace coordreq {
 /// What is under way; called from the calling thread only, often.
 struct Progress {
   std::string stage;  ///< "controller" if it is in a file, "abstraction", "safe set", "invariance", "layers
-                      ///< PARTITION", "network", "writing"
+                      ///< PARTITION", "coalitions", "network", "writing"
   std::int64_t sweep = 0;  ///< number of the sweep that has ended, 0 where there is none
   std::int64_t rows = 0;   ///< rows of cells that it has worked out
 };
@@ -35,6 +35,23 @@ struct PartitionSummary {
   bool truncated = false;
   /// largest finite delay times period, in `period_unit`; none if some cell is unbounded or K is empty
   std::optional<double> max_delay_time;
+  /// Cells of K of which it is not known that their delay is at least the connection delay D, |Z_0 \ Z_D|: a
+  /// connection must stand there already. If max_delay came before D these are all cells of K.
+  std::int64_t never_without_connection = 0;
+};
+
+/// Who must talk to whom, in numbers of cells of K.
+struct CoalitionSummary {
+  struct Choice {
+    std::string partition;
+    double cost = 0;         ///< of its cheapest network
+    std::int64_t cells = 0;  ///< that are given it
+  };
+  std::int64_t horizon = 0;     ///< steps
+  double horizon_time = 0;      ///< in the unit of the period
+  std::vector<Choice> choices;  ///< all partitions, the most wanted first
+  std::int64_t without = 0;     ///< cells for which no partition is enough
+  std::vector<std::pair<std::string, std::int64_t>> critical_pairs;  ///< and where they are critical
 };
 
 /// What `controller.file` is.
@@ -68,7 +85,9 @@ struct AnalysisSummary {
   std::string guarantee;
   double period = 0;
   std::string period_unit;
+  std::int64_t connection_delay = 0;  ///< D, steps
   std::vector<PartitionSummary> partitions;
+  std::optional<CoalitionSummary> coalition;  ///< if the spec has a horizon
   std::optional<NetworkSummary> network;
   std::string output;
   int threads = 1;

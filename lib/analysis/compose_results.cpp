@@ -101,7 +101,7 @@ std::vector<ResultAxis> ResultComposer::axes() const {
   return result;
 }
 
-ResultPartition ResultComposer::partition_content(const PartitionResult& partition, ElementType type) const {
+ResultPartition ResultComposer::partition_content(const PartitionResult& partition, ElementType type) {
   const ProblemSpec& spec = solution_.spec;
   const DelayLayers& layers = partition.layers;
   const LevelMap& collision_time = solution_.invariance.collision_time;
@@ -116,9 +116,11 @@ ResultPartition ResultComposer::partition_content(const PartitionResult& partiti
   for (const auto& agents : partition.spec->classes)
     result.classes.push_back(class_name(spec.agents, agents));
   if (spec.output.layers) result.layers = layer_lists(layers, solution_.order);
-  for (std::size_t c = 0; spec.output.actions && c < result.classes.size(); ++c) {
-    result.actions.push_back(bits(partition.grouping, c, result.classes[c]));
-  }
+  if (!spec.output.actions) return result;
+  const ActionGrouping& grouping =
+      groupings_.emplace_back(solution_.engine, input_classes(spec, *partition.spec), team_);
+  for (std::size_t c = 0; c < result.classes.size(); ++c)
+    result.actions.push_back(bits(grouping, c, result.classes[c]));
   return result;
 }
 

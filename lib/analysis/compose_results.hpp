@@ -19,7 +19,7 @@ class ResultComposer {
 
  private:
   [[nodiscard]] std::vector<ResultAxis> axes() const;
-  [[nodiscard]] ResultPartition partition_content(const PartitionResult& partition, ElementType type) const;
+  [[nodiscard]] ResultPartition partition_content(const PartitionResult& partition, ElementType type);
   [[nodiscard]] ResultBits bits(const ActionGrouping& grouping, std::size_t c, const std::string& name) const;
   [[nodiscard]] ResultBits listed_bits() const;
   [[nodiscard]] std::vector<ResultTable> tables() const;

@@ -33,8 +33,9 @@ double condition_bytes(const Program& condition, const ProblemSpec& spec) {
 }
 
 /// Joint actions of all classes together: one projected bit a cell each, at the most (actions that move every
-/// cell of a row alike share theirs).
+/// cell of a row alike share theirs). None where all agents are together.
 double projected_actions(const ProblemSpec& spec, const PartitionSpec& partition) {
+  if (partition.classes.size() == 1) return 0;
   double sum = 0;
   for (const auto& agents : partition.classes) {
     double actions = 1;
@@ -116,6 +117,11 @@ double estimate_memory(const ProblemSpec& spec) {
   if (spec.abstraction.between_samples) bytes += set_bytes;
   // Levels for collision times and delays: 8 bits are enough up to 254 steps.
   bytes += cells * (1 + static_cast<double>(spec.coordination.partitions.size()));
+  if (spec.coordination.horizon) {
+    const auto agents = static_cast<double>(spec.agents.size());
+    bytes += cells * (spec.coordination.partitions.size() < 255 ? 1 : 4);  // the coalition map
+    bytes += set_bytes * agents * (agents - 1) / 2;                        // critical pairs
+  }
   bytes += set_bytes * projected_actions(spec);
   bytes += network_bytes(spec, cells, set_bytes);
   bytes += cells / row_length * 80;  // bookkeeping of rows

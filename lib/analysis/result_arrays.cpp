@@ -3,27 +3,11 @@
 #include <limits>
 #include <memory>
 
+#include "analysis/convert_stretch.hpp"
 #include "trigger/trigger_table.hpp"
 
 namespace coordreq {
 namespace {
-
-/// Calls `convert(level)` for the cells of a stretch; levels never lost come as the greatest of their width.
-template <class Out, class Level, class Convert>
-void convert_stretch(const LevelRows<Level>& levels, const CellOrder& order, std::uint64_t begin,
-                     std::uint64_t count, Out* out, const Convert& convert) {
-  order.for_each_run(static_cast<std::int64_t>(begin), static_cast<std::int64_t>(count),
-                     [&](const CellOrder::Run& run) {
-                       const Level* source = levels.row(run.row) + run.column;
-                       const std::int64_t step = run.row_step * levels.stride() + run.column_step;
-                       Out* target = out + run.offset;
-                       if (step == 1) {  // for the compiler: neighbours can be done together
-                         for (std::int64_t i = 0; i < run.count; ++i) target[i] = convert(source[i]);
-                       } else {
-                         for (std::int64_t i = 0; i < run.count; ++i) target[i] = convert(source[i * step]);
-                       }
-                     });
-}
 
 ResultArray membership_array(const LevelMap& map, const CellOrder& order, bool only_top) {
   return {ElementType::uint8, [&map, &order, only_top](std::uint64_t begin, std::uint64_t count, void* out) {
@@ -46,17 +30,6 @@ FillArray fill_collision(const LevelMap& map, const CellOrder& order) {
       });
     });
   };
-}
-
-/// Cells outside K come as kOutsideInvariant; those of them that are not even safe are told here.
-template <class Integer>
-void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::uint64_t begin,
-                 std::uint64_t count, Integer* out) {
-  std::vector<std::uint8_t> is_safe(count);
-  membership_array(collision_time, order, false).fill(begin, count, is_safe.data());
-  for (std::uint64_t i = 0; i < count; ++i) {
-    out[i] = static_cast<Integer>(is_safe[i] == 0 ? DelayLayers::kOutsideSafe : out[i]);
-  }
 }
 
 /// Delays less `connection_delay`, as trigger_of() has it; delays themselves if that is negative.
@@ -144,6 +117,19 @@ void fill_members(const CellSet& set, const CellOrder& order, std::uint64_t begi
 }
 
 }  // namespace
+
+template <class Integer>
+void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::uint64_t begin,
+                 std::uint64_t count, Integer* out) {
+  std::vector<std::uint8_t> is_safe(count);
+  membership_array(collision_time, order, false).fill(begin, count, is_safe.data());
+  for (std::uint64_t i = 0; i < count; ++i) {
+    out[i] = static_cast<Integer>(is_safe[i] == 0 ? DelayLayers::kOutsideSafe : out[i]);
+  }
+}
+
+template void mark_unsafe(const LevelMap&, const CellOrder&, std::uint64_t, std::uint64_t, std::int16_t*);
+template void mark_unsafe(const LevelMap&, const CellOrder&, std::uint64_t, std::uint64_t, std::int32_t*);
 
 ResultArray sets_array(const std::vector<CellSet>& sets, const CellOrder& order) {
   return {ElementType::uint8, [&sets, &order](std::uint64_t begin, std::uint64_t count, void* out) {

@@ -17,6 +17,11 @@ namespace coordreq {
 /// uint8 [cells], 1 for members of K: cells that are never lost.
 [[nodiscard]] ResultArray invariant_array(const LevelMap& collision_time, const CellOrder& order);
 
+/// Writes DelayLayers::kOutsideSafe for the cells of a stretch that are not in S. Integer: std::int16_t,
+/// std::int32_t.
+template <class Integer>
+void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::uint64_t begin,
+                 std::uint64_t count, Integer* out);
 /// uint8 [sets, cells], 1 for members.
 [[nodiscard]] ResultArray sets_array(const std::vector<CellSet>& sets, const CellOrder& order);
 

@@ -7,6 +7,7 @@
 #include "analysis/layout.hpp"
 #include "analysis/network_problem.hpp"
 #include "coordination/projections.hpp"
+#include "coordination/refinement.hpp"
 #include "safety/safe_set.hpp"
 #include "safety/safe_tubes.hpp"
 
@@ -66,15 +67,26 @@ Solution::Solution(const ProblemSpec& problem, ThreadTeam& team, const EnterStag
 }
 
 void Solution::find_layers(ThreadTeam& team, const EnterStage& enter, const StageSwept& swept) {
-  for (const PartitionSpec& partition : spec.coordination.partitions) {
-    const std::string stage = "layers " + partition.name;
+  for (const PartitionSpec& partition : spec.coordination.partitions) partitions.push_back({&partition, {}});
+  for (const std::size_t p : coarsest_first(spec.coordination.partitions)) {
+    const std::string stage = "layers " + partitions[p].spec->name;
     enter(stage);
-    PartitionResult& result = partitions.emplace_back(
-        PartitionResult{&partition, ActionGrouping(engine, input_classes(spec, partition), team), {}});
-    const Projections projections(controller, result.grouping, hull, team);
-    result.layers = find_delay_layers(engine, hull, invariance.invariant, projections,
-                                      spec.coordination.max_delay, stepper(swept, stage), team);
+    partitions[p].layers = layers_of(p, team, stepper(swept, stage));
   }
+}
+
+/// REQUIRES: the layers of all coarser partitions are known.
+DelayLayers Solution::layers_of(std::size_t p, ThreadTeam& team,
+                                const std::function<void(std::int64_t, std::int64_t)>& step) const {
+  const std::optional<std::int64_t> max_delay = spec.coordination.max_delay;
+  if (partitions[p].spec->classes.size() == 1)
+    return coordinated_layers(engine, invariance.invariant, max_delay, team);
+  const ActionGrouping grouping(engine, input_classes(spec, *partitions[p].spec), team);
+  const Projections projections(controller, grouping, hull, team);
+  std::vector<const LevelMap*> coarser;
+  for (const std::size_t q : next_coarser(spec.coordination.partitions, p))
+    coarser.push_back(&partitions[q].layers.layers_of);
+  return find_delay_layers(engine, hull, invariance.invariant, projections, coarser, max_delay, step, team);
 }
 
 std::vector<InputClass> input_classes(const ProblemSpec& spec, const PartitionSpec& partition) {

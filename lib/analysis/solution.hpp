@@ -21,10 +21,10 @@
 
 namespace coordreq {
 
-/// One partition with all that its arrays refer to while the results are written.
+/// What is found of one partition. Groups and projections of its classes are not kept: with many partitions
+/// they would take more memory than all else.
 struct PartitionResult {
   const PartitionSpec* spec = nullptr;
-  ActionGrouping grouping;
   DelayLayers layers;
 };
 
@@ -42,7 +42,8 @@ using StageSwept = std::function<void(const std::string& stage, std::int64_t swe
 /// 2. Neither copied nor moved: its parts refer to one another.
 struct Solution {
   /// The stages "controller" if there is a file with one, "abstraction", "safe set", "invariance", "layers
-  /// PARTITION" for each partition, and "network" if there is one. REQUIRES: `problem` outlives the solution.
+  /// PARTITION" for each partition, coarser ones before finer ones, and what is derived from them: see
+  /// Progress. REQUIRES: `problem` outlives the solution.
   /// @throws as analyze()
   Solution(const ProblemSpec& problem, ThreadTeam& team, const EnterStage& enter, const StageSwept& swept);
   Solution(const Solution&) = delete;
@@ -66,6 +67,8 @@ struct Solution {
 
  private:
   void find_layers(ThreadTeam& team, const EnterStage& enter, const StageSwept& swept);
+  [[nodiscard]] DelayLayers layers_of(std::size_t p, ThreadTeam& team,
+                                      const std::function<void(std::int64_t, std::int64_t)>& step) const;
 };
 
 /// The inputs of each class of a partition, ascending.

@@ -1,5 +1,7 @@
 #include "analysis/summarise.hpp"
 
+#include <algorithm>
+
 #include "spec/partition_names.hpp"
 
 namespace coordreq {
@@ -7,6 +9,13 @@ namespace {
 
 AnalysisSummary::Work work_of(const std::string& stage, const WaveCounts& counts) {
   return {stage, counts.sweeps, counts.rows_visited, counts.rows_skipped};
+}
+
+/// |Z_0 \ Z_D|, where a layer that is not known counts as empty.
+std::int64_t cells_bound_to_connect(const DelayLayers& layers, std::int64_t connection_delay) {
+  const auto known = static_cast<std::int64_t>(layers.sizes.size());
+  if (connection_delay >= known && layers.truncated) return layers.sizes.front();
+  return layers.sizes.front() - layers.sizes[static_cast<std::size_t>(std::min(connection_delay, known - 1))];
 }
 
 PartitionSummary summary_of(const ProblemSpec& spec, const PartitionResult& partition) {
@@ -18,6 +27,7 @@ PartitionSummary summary_of(const ProblemSpec& spec, const PartitionResult& part
                           .truncated = layers.truncated};
   for (const auto& agents : partition.spec->classes)
     result.classes.push_back(class_name(spec.agents, agents));
+  result.never_without_connection = cells_bound_to_connect(layers, spec.coordination.connection_delay);
   if (result.fixed_point == 0 && layers.sizes.front() > 0) {
     // Z_k shrinks strictly, so the last layer that is not empty holds the largest delay.
     const std::size_t steps = layers.sizes.size() - (layers.truncated ? 1 : 2);
@@ -56,6 +66,7 @@ AnalysisSummary summarise(const Solution& solution) {
   summary.guarantee = guarantee_of(spec);
   summary.period = nearest_double(spec.dynamics.period);
   summary.period_unit = spec.dynamics.unit;
+  summary.connection_delay = spec.coordination.connection_delay;
   summary.work.push_back(work_of("invariance", solution.invariance.counts));
   for (const PartitionResult& partition : solution.partitions) {
     summary.partitions.push_back(summary_of(spec, partition));

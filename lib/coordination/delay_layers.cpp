@@ -4,6 +4,7 @@
 
 #include "coordination/independent_actions.hpp"
 #include "safety/find_levels.hpp"
+#include "safety/set_levels.hpp"
 
 namespace coordreq {
 namespace {
@@ -21,26 +22,42 @@ std::vector<std::int64_t> layer_sizes(const LevelMap::Histogram& cells) {
   return sizes;
 }
 
+/// All that follows from the levels.
+void summarise(std::optional<std::int64_t> max_delay, ThreadTeam& team, DelayLayers& result) {
+  result.sizes = layer_sizes(result.layers_of.histogram(team));
+  const auto steps = static_cast<std::int64_t>(result.sizes.size()) - 1;
+  // A fixed point is known as such only by one more step.
+  result.truncated = max_delay && steps >= *max_delay && result.sizes.back() != 0;
+  result.fixed_point_index = result.truncated ? -1 : static_cast<std::int32_t>(steps);
+}
+
 }  // namespace
 
 DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, const CellSet& invariant,
-                              const Projections& projections, std::optional<std::int64_t> max_delay,
+                              const Projections& projections, const std::vector<const LevelMap*>& coarser,
+                              std::optional<std::int64_t> max_delay,
                               const std::function<void(std::int64_t, std::int64_t)>& swept,
                               ThreadTeam& team) {
   const int workers = team.size();
   const LevelProblem problem{
       .start = &invariant,
+      .bounds = coarser,
+      .settled = &projections.full_rows(),
       .limit = max_delay.value_or(-1),
       .make8 = [&] { return make_operator<std::uint8_t>(projections, hull, invariant, workers); },
       .make16 = [&] { return make_operator<std::uint16_t>(projections, hull, invariant, workers); },
       .make32 = [&] { return make_operator<std::uint32_t>(projections, hull, invariant, workers); }};
   DelayLayers result;
   result.layers_of = find_levels(engine, hull, problem, swept, team, result.counts);
-  result.sizes = layer_sizes(result.layers_of.histogram(team));
-  const auto steps = static_cast<std::int64_t>(result.sizes.size()) - 1;
-  // A fixed point is known as such only by one more step.
-  result.truncated = max_delay && steps >= *max_delay && result.sizes.back() != 0;
-  result.fixed_point_index = result.truncated ? -1 : static_cast<std::int32_t>(steps);
+  summarise(max_delay, team, result);
+  return result;
+}
+
+DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
+                               std::optional<std::int64_t> max_delay, ThreadTeam& team) {
+  DelayLayers result;
+  result.layers_of = LevelMap(top_levels<std::uint8_t>(engine, invariant, team));
+  summarise(max_delay, team, result);
   return result;
 }
 

@@ -34,11 +34,25 @@ struct DelayLayers {
 
 /// Z_0 = K, Z_{k+1} = SIPRE_S(Z_k) (paper, Proposition 1), with IND_C given by its projections.
 /// An empty layer is a fixed point also where `max_delay` stops at it.
+///
+/// Partitions that this one refines have delays that are nowhere shorter: their IND_C(x) is within this
+/// one's, a smaller set of choices, so that the worst of them is no worse. The work begins at the least of
+/// those. Rows of K where C(x) has every action need not be looked at before a neighbour changes: there all
+/// partitions take the same minimum M(level)(x) over all actions, and a minimum of the bounds L' goes through
+/// M to each of them, M(min L') = min M(L') = min L'. Without bounds M is of the levels of K alone, and none
+/// of its cells is lost by any action.
+/// @param coarser layers_of for some partitions that this one refines, with the same `max_delay`
 /// @param swept told after each sweep of the wave (number, rows visited); may be empty
 [[nodiscard]] DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull,
                                             const CellSet& invariant, const Projections& projections,
+                                            const std::vector<const LevelMap*>& coarser,
                                             std::optional<std::int64_t> max_delay,
                                             const std::function<void(std::int64_t, std::int64_t)>& swept,
                                             ThreadTeam& team);
+
+/// The same for the partition in which all agents are together, at no cost: IND_C = C, and C keeps every cell
+/// of K in K, so Z_k = K for every k.
+[[nodiscard]] DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
+                                             std::optional<std::int64_t> max_delay, ThreadTeam& team);
 
 }  // namespace coordreq

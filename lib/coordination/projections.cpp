@@ -35,10 +35,11 @@ class Projections::Builder {
 
   void enter() { posts_.enter(); }
 
+  /// @param is_full set to whether every action is in C(x) for all x of K in the row
   /// @returns whether `packed` are boxes of posts
-  bool project(const RowPlace& place, std::vector<Word>& packed) {
+  bool project(const RowPlace& place, std::vector<Word>& packed, bool& is_full) {
     const ConstRow invariant = controller_.invariant->row(place.row);
-    const bool is_full = everything_is_allowed(place);
+    is_full = everything_is_allowed(place);
     if (is_full && !boxes_.is_product()) return false;
     grouping_.group(place, groups_);
     const bool is_product = boxes_.is_product() && boxes_.fill(place, groups_);
@@ -175,7 +176,8 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
     : grouping_(&grouping),
       words_(controller.engine->row_words()),
       rows_(static_cast<std::size_t>(controller.engine->rows())),
-      is_product_(rows_.size(), 0) {
+      is_product_(rows_.size(), 0),
+      is_full_(rows_.size(), 0) {
   const RowEngine& engine = *controller.engine;
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
@@ -190,7 +192,9 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
         if (place.row == range.begin * grain || place.row % engine.unit_rows() == 0) builder.enter();
         if (!any_set(controller.invariant->row(place.row))) continue;
         const auto row = static_cast<std::size_t>(place.row);
-        is_product_[row] = builder.project(place, rows_[row]) ? 1 : 0;
+        bool is_full = false;
+        is_product_[row] = builder.project(place, rows_[row], is_full) ? 1 : 0;
+        is_full_[row] = is_full ? 1 : 0;
       }
     });
   });

@@ -29,6 +29,9 @@ class Projections {
     if (rows_[r].empty()) return Form::full;
     return is_product_[r] != 0 ? Form::product : Form::masks;
   }
+  /// [row] not 0 where every action is in C(x) for all x of K in the row, and K has any there: then IND_C is
+  /// the same for all partitions.
+  [[nodiscard]] const std::vector<std::uint8_t>& full_rows() const { return is_full_; }
   /// {x in the row : group g of class c is in the projection of C(x)}; groups as ActionGrouping::group
   /// numbers them. REQUIRES: form(row) is `masks`.
   [[nodiscard]] ConstRow mask(std::int64_t row, const RowGroups& groups, std::size_t c,
@@ -44,6 +47,7 @@ class Projections {
   std::size_t words_;
   std::vector<std::vector<Word>> rows_;  ///< masks: groups of class 0, then of class 1, ...
   std::vector<std::uint8_t> is_product_;
+  std::vector<std::uint8_t> is_full_;
 };
 
 }  // namespace coordreq

@@ -19,11 +19,20 @@ StateAnswer StateQuery::at(std::vector<Rational> state) {
                                  .trigger = results_.trigger(p, block).front(),
                                  .actions = controller_.actions(p, cell)});
   }
+  if (results_.has_coalition()) answer.coalition = coalition_at(block);
   if (const auto& network = results_.spec().network) {
     for (const std::uint8_t safe : results_.network_safe(0, network->modes.size(), block))
       answer.safe_modes.push_back(safe != 0);
   }
   return answer;
+}
+
+StateAnswer::Coalition StateQuery::coalition_at(const CellBlock& block) const {
+  StateAnswer::Coalition result{.partition = results_.coalition(block).front()};
+  for (std::size_t pair = 0; pair < results_.pairs().size(); ++pair) {
+    if (results_.critical_pair(pair, block).front() != 0) result.critical_pairs.push_back(pair);
+  }
+  return result;
 }
 
 CellBox box_of_cell(const UniformGrid& grid, std::int64_t cell) {

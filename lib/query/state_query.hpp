@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/thread_team.hpp"
@@ -25,7 +26,12 @@ struct StateAnswer {
   bool invariant = false;
   std::int32_t collision_time = 0;  ///< steps, as ResultsReader::collision_time()
   std::vector<Partition> partitions;
-  std::vector<bool> safe_modes;  ///< by mode of the network; none without one
+  struct Coalition {
+    std::int32_t partition = 0;  ///< as ResultsReader::coalition()
+    std::vector<std::size_t> critical_pairs;
+  };
+  std::optional<Coalition> coalition;  ///< if the file has a coalition map
+  std::vector<bool> safe_modes;        ///< by mode of the network; none without one
 };
 
 /// Answers questions about states. Not thread-safe.
@@ -40,6 +46,8 @@ class StateQuery {
   [[nodiscard]] StateAnswer at(std::vector<Rational> state);
 
  private:
+  [[nodiscard]] StateAnswer::Coalition coalition_at(const CellBlock& block) const;
+
   const ResultsReader& results_;
   CellController controller_;
 };

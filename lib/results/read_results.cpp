@@ -86,6 +86,20 @@ void read_modes(const ResultsFile& file, ResultInfo& info) {
   for (std::size_t mode = 0; mode < names.size(); ++mode) info.modes.push_back({names[mode], cells[mode]});
 }
 
+ResultInfo::Coalition read_coalition(const ResultsFile& file, std::size_t partitions) {
+  ResultInfo::Coalition coalition;
+  coalition.horizon = file.integer(paths::kCoalition, "horizon");
+  if (file.has(paths::kCoalition, "cells"))
+    coalition.cells = file.integers(paths::kCoalition, "cells", partitions);
+  if (!file.exists(paths::kCriticalPair)) return coalition;
+  const std::vector<std::string> pairs = file.texts(paths::kPair);
+  if (pairs.empty()) throw ResultsError("not a list of pairs", file.place(paths::kPair));
+  if (!file.has(paths::kCriticalPair, "cells")) return coalition;
+  const std::vector<std::int64_t> cells = file.integers(paths::kCriticalPair, "cells", pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) coalition.critical_pairs.emplace_back(pairs[i], cells[i]);
+  return coalition;
+}
+
 ResultInfo read(const std::string& path) {
   const ResultsFile file(path);
   ResultInfo info;
@@ -96,6 +110,7 @@ ResultInfo read(const std::string& path) {
   info.safe_cells = file.natural("/safe", "cells");
   info.invariant_cells = file.natural("/invariant", "cells");
   info.connection_delay = file.integer("/trigger", "connection_delay");
+  if (file.exists(paths::kCoalition)) info.coalition = read_coalition(file, info.partitions.size());
   read_modes(file, info);
   info.datasets = file.datasets();
   if (file.exists(paths::kListed)) info.controller_sha256 = file.text(paths::kListed, "sha256");

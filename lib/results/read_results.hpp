@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace coordreq {
@@ -18,6 +20,12 @@ struct ResultInfo {
     std::int32_t fixed_point_index = -1;  ///< F, -1 if truncated
     std::vector<std::uint64_t> layer_sizes;
   };
+  struct Coalition {
+    std::int64_t horizon = 0;  ///< steps
+    std::vector<std::int64_t>
+        cells;  ///< [partition] that are given it; empty if there are very many partitions
+    std::vector<std::pair<std::string, std::int64_t>> critical_pairs;  ///< and the cells where they are
+  };
   std::string path, name, coordreq_version, git_sha1, spec_sha256, guarantee, period_unit;
   double period = 0;
   std::vector<Axis> states, inputs;
@@ -25,6 +33,7 @@ struct ResultInfo {
   std::uint64_t cells = 0, safe_cells = 0, invariant_cells = 0;
   std::int64_t connection_delay = 0;
   std::vector<Partition> partitions;
+  std::optional<Coalition> coalition;  ///< if there is a coalition map
   struct Mode {
     std::string name;
     std::uint64_t safe_cells = 0;

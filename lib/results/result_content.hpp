@@ -79,10 +79,13 @@ struct ResultNames {
 struct ResultMap {
   std::string name;  ///< of the dataset, reserved in contract section 4
   std::string long_name;
-  std::string leading;                                      ///< a ResultNames or "partition"; empty: none
-  std::vector<std::pair<std::int64_t, std::string>> flags;  ///< values that mean a word, CF `flag_values`
-  ResultArray values;                                       ///< [names, cells] or [cells]
-  std::vector<std::int64_t> cells;  ///< of a set for each name: their numbers of cells, attribute `cells`
+  std::string leading;                                         ///< a ResultNames or "partition"; empty: none
+  std::vector<std::pair<std::int64_t, std::string>> flags;     ///< values that mean a word, CF `flag_values`
+  std::vector<std::pair<std::string, std::int64_t>> integers;  ///< further attributes
+  /// The attribute `cells`: how many cells have each value, from 0 on, or value 1 for each name of the
+  /// leading axis. No such attribute if empty, or longer than 4096.
+  std::vector<std::int64_t> cells;
+  ResultArray values;  ///< [names, cells] or [cells]
 };
 
 struct ResultContent {

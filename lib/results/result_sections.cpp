@@ -18,6 +18,9 @@ namespace {
 using hdf5::set_attribute;
 using Paths = std::vector<std::string>;
 
+/// HDF5 attributes take 64 KiB.
+constexpr std::size_t kMostCounted = 4096;
+
 /// Arrays of `length` elements each, one after the other.
 ResultArray stacked(ElementType type, std::uint64_t length, std::vector<const ResultArray*> parts) {
   return {type, [=](std::uint64_t begin, std::uint64_t count, void* out) {
@@ -274,7 +277,9 @@ void write_maps(NetcdfWriter& file, const ResultContent& content) {
     const hdf5::Handle dataset = file.add_array(
         "/" + map.name, map.leading.empty() ? cells : with("/" + map.leading, cells), map.values);
     describe(dataset, map.long_name);
-    if (!map.cells.empty()) set_attribute(dataset, "cells", ElementType::uint64, map.cells);
+    for (const auto& [name, value] : map.integers) set_attribute(dataset, name, value);
+    if (!map.cells.empty() && map.cells.size() <= kMostCounted)
+      set_attribute(dataset, "cells", ElementType::uint64, map.cells);
     if (map.flags.empty()) continue;
     std::vector<std::int64_t> values;
     std::string meanings;

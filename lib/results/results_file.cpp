@@ -160,27 +160,36 @@ bool ResultsFile::has(const std::string& path, const std::string& attribute) con
 }
 
 void ResultsFile::read_attribute(const std::string& path, const std::string& attribute, hid_t type,
-                                 std::initializer_list<H5T_class_t> classes, void* out) const {
+                                 std::initializer_list<H5T_class_t> classes, std::uint64_t count,
+                                 void* out) const {
   const hdf5::Handle handle = open_attribute(path, attribute);
   const hdf5::Handle stored(H5Aget_type(handle.get()), H5Tclose, "read a type");
   const H5T_class_t found = H5Tget_class(stored.get());
-  if (element_count(space_of_attribute(handle)) != 1 ||
+  if (element_count(space_of_attribute(handle)) != count ||
       std::find(classes.begin(), classes.end(), found) == classes.end()) {
-    throw ResultsError("the attribute " + attribute + " is not one number", place(path));
+    const std::string expected = count == 1 ? "one number" : std::to_string(count) + " integers";
+    throw ResultsError("the attribute " + attribute + " is not " + expected, place(path));
   }
   hdf5::check(H5Aread(handle.get(), type, out), "read the attribute " + attribute);
 }
 
 double ResultsFile::number(const std::string& path, const std::string& attribute) const {
   double value = 0;
-  read_attribute(path, attribute, H5T_NATIVE_DOUBLE, {H5T_FLOAT, H5T_INTEGER}, &value);
+  read_attribute(path, attribute, H5T_NATIVE_DOUBLE, {H5T_FLOAT, H5T_INTEGER}, 1, &value);
   return value;
 }
 
 std::int64_t ResultsFile::integer(const std::string& path, const std::string& attribute) const {
   std::int64_t value = 0;
-  read_attribute(path, attribute, H5T_NATIVE_INT64, {H5T_INTEGER}, &value);
+  read_attribute(path, attribute, H5T_NATIVE_INT64, {H5T_INTEGER}, 1, &value);
   return value;
+}
+
+std::vector<std::int64_t> ResultsFile::integers(const std::string& path, const std::string& attribute,
+                                                std::uint64_t count) const {
+  std::vector<std::int64_t> values(count);
+  read_attribute(path, attribute, H5T_NATIVE_INT64, {H5T_INTEGER}, count, values.data());
+  return values;
 }
 
 std::uint64_t ResultsFile::natural(const std::string& path, const std::string& attribute) const {

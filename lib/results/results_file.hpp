@@ -28,6 +28,9 @@ class ResultsFile {
   /// A list of them.
   [[nodiscard]] std::vector<std::uint64_t> naturals(const std::string& path,
                                                     const std::string& attribute) const;
+  /// A list of so many integers. REQUIRES: count >= 1.
+  [[nodiscard]] std::vector<std::int64_t> integers(const std::string& path, const std::string& attribute,
+                                                   std::uint64_t count) const;
   [[nodiscard]] bool has(const std::string& path, const std::string& attribute) const;
 
   [[nodiscard]] std::vector<std::uint64_t> shape(const std::string& dataset) const;
@@ -67,7 +70,7 @@ class ResultsFile {
   [[nodiscard]] hdf5::Handle open_attribute(const std::string& path, const std::string& attribute) const;
   void check_format() const;
   void read_attribute(const std::string& path, const std::string& attribute, hid_t type,
-                      std::initializer_list<H5T_class_t> classes, void* out) const;
+                      std::initializer_list<H5T_class_t> classes, std::uint64_t count, void* out) const;
   template <typename Value>
   [[nodiscard]] std::vector<Value> elements(const std::string& dataset, hid_t type) const;
   void collect_datasets(const std::string& group, int depth, std::vector<std::string>& found) const;

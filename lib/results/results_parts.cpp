@@ -35,6 +35,7 @@ class PartsReader {
       parts_.attributes.controller_sha256 = file_.text(paths::kListed, "sha256");
     }
     if (file_.exists(paths::kAbstraction)) read_tables();
+    if (parts_.spec.coordination.horizon) read_coalitions();
     return std::move(parts_);
   }
 
@@ -208,6 +209,36 @@ class PartsReader {
     parts_.attributes.network_cells = file_.naturals(paths::kNetworkSafe, "cells");
     if (parts_.attributes.network_cells.size() != names.size())
       fail("the attribute cells does not hold a number a mode", paths::kNetworkSafe);
+  }
+
+  /// The pairs of agents, as they are numbered in the file.
+  [[nodiscard]] std::vector<std::string> pair_names() const {
+    const auto agents = static_cast<std::int32_t>(parts_.spec.agents.size());
+    std::vector<std::string> names;
+    for (std::int32_t a = 0; a < agents; ++a) {
+      for (std::int32_t b = a + 1; b < agents; ++b) names.push_back(class_name(parts_.spec.agents, {a, b}));
+    }
+    return names;
+  }
+
+  /// The attribute `cells`, if it is there.
+  [[nodiscard]] std::vector<std::int64_t> counts(const std::string& path, std::size_t size) const {
+    return file_.has(path, "cells") ? file_.integers(path, "cells", size) : std::vector<std::int64_t>();
+  }
+
+  void read_coalitions() {
+    file_.expect_shape(paths::kCoalition, shape_);
+    expect_steps(paths::kCoalition);
+    parts_.attributes.coalition_cells = counts(paths::kCoalition, parts_.partitions.size());
+    parts_.pairs = pair_names();
+    if (parts_.pairs.empty()) return;
+    if (file_.texts(paths::kPair) != parts_.pairs)
+      fail("the pairs are not those of the agents", paths::kPair);
+    Shape shape = shape_;
+    shape.insert(shape.begin(), parts_.pairs.size());
+    file_.expect_shape(paths::kCriticalPair, shape);
+    expect_type(paths::kCriticalPair, ElementType::uint8);
+    parts_.attributes.critical_pair_cells = counts(paths::kCriticalPair, parts_.pairs.size());
   }
 
   void check_bits(const std::string& path, std::int64_t actions) const {

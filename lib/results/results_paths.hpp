@@ -13,6 +13,9 @@ inline constexpr char kListed[] = "/controller:file";
 inline constexpr char kAbstraction[] = "/abstraction";
 inline constexpr char kMode[] = "/mode";
 inline constexpr char kNetworkSafe[] = "/network_safe";
+inline constexpr char kCoalition[] = "/coalition";
+inline constexpr char kCriticalPair[] = "/critical_pair";
+inline constexpr char kPair[] = "/pair";
 
 [[nodiscard]] inline std::string actions(const StoredPartition& partition) {
   return "/actions/" + partition.name;

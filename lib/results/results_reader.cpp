@@ -15,6 +15,19 @@ std::vector<std::uint64_t> unsigned_of(const std::vector<std::int64_t>& values) 
   return {values.begin(), values.end()};
 }
 
+/// A block of cells in an array over cells.
+struct Part {
+  /// @param leading place along an axis before those of the cells, if there is one
+  Part(std::optional<std::size_t> leading, const CellBlock& block)
+      : offset(unsigned_of(block.first)), count(unsigned_of(block.count)) {
+    if (!leading) return;
+    offset.insert(offset.begin(), *leading);
+    count.insert(count.begin(), 1);
+  }
+  std::vector<std::uint64_t> offset;
+  std::vector<std::uint64_t> count;
+};
+
 /// `values` with the type's largest value, which stands for infinity, as kNever.
 template <class Integer>
 std::vector<std::int32_t> widened(const std::vector<Integer>& values) {
@@ -49,9 +62,11 @@ std::vector<Value> ResultsReader::elements(const std::string& dataset, ElementTy
 }
 
 std::vector<std::uint8_t> ResultsReader::members(const std::string& dataset,
-                                                 const std::vector<std::uint64_t>& offset,
-                                                 const std::vector<std::uint64_t>& count) const {
-  const std::vector<std::uint8_t> values = elements<std::uint8_t>(dataset, ElementType::uint8, offset, count);
+                                                 std::optional<std::size_t> leading,
+                                                 const CellBlock& block) const {
+  const Part part(leading, block);
+  const std::vector<std::uint8_t> values =
+      elements<std::uint8_t>(dataset, ElementType::uint8, part.offset, part.count);
   if (std::any_of(values.begin(), values.end(), [](std::uint8_t value) { return value > 1; })) {
     throw ResultsError("a value other than 0 and 1: damaged", file_->place(dataset));
   }
@@ -59,35 +74,30 @@ std::vector<std::uint8_t> ResultsReader::members(const std::string& dataset,
 }
 
 std::vector<std::uint8_t> ResultsReader::safe(const CellBlock& block) const {
-  return members("/safe", unsigned_of(block.first), unsigned_of(block.count));
+  return members("/safe", std::nullopt, block);
 }
 
 std::vector<std::uint8_t> ResultsReader::invariant(const CellBlock& block) const {
-  return members("/invariant", unsigned_of(block.first), unsigned_of(block.count));
+  return members("/invariant", std::nullopt, block);
 }
 
 std::vector<std::uint8_t> ResultsReader::network_safe(std::size_t first, std::size_t modes,
                                                       const CellBlock& block) const {
-  std::vector<std::uint64_t> offset = unsigned_of(block.first);
-  std::vector<std::uint64_t> count = unsigned_of(block.count);
-  offset.insert(offset.begin(), first);
-  count.insert(count.begin(), modes);
-  return members(paths::kNetworkSafe, offset, count);
+  std::vector<std::uint8_t> result;
+  for (std::size_t mode = first; mode < first + modes; ++mode) {
+    const std::vector<std::uint8_t> cells = members(paths::kNetworkSafe, mode, block);
+    result.insert(result.end(), cells.begin(), cells.end());
+  }
+  return result;
 }
 
-std::vector<std::int32_t> ResultsReader::steps(const std::string& dataset,
-                                               std::optional<std::size_t> partition, std::int32_t lowest,
-                                               const CellBlock& block) const {
-  std::vector<std::uint64_t> offset = unsigned_of(block.first);
-  std::vector<std::uint64_t> count = unsigned_of(block.count);
-  if (partition) {
-    offset.insert(offset.begin(), *partition);
-    count.insert(count.begin(), 1);
-  }
+std::vector<std::int32_t> ResultsReader::steps(const std::string& dataset, std::optional<std::size_t> leading,
+                                               std::int32_t lowest, const CellBlock& block) const {
+  const Part part(leading, block);
   const ElementType type = reading(path_, [&] { return file_->element_type(dataset); });
   const std::vector<std::int32_t> values =
-      type == ElementType::int16 ? widened(elements<std::int16_t>(dataset, type, offset, count))
-                                 : widened(elements<std::int32_t>(dataset, type, offset, count));
+      type == ElementType::int16 ? widened(elements<std::int16_t>(dataset, type, part.offset, part.count))
+                                 : widened(elements<std::int32_t>(dataset, type, part.offset, part.count));
   const auto found = std::find_if(values.begin(), values.end(), [&](std::int32_t v) { return v < lowest; });
   if (found != values.end()) {
     throw ResultsError("found " + std::to_string(*found) + ", expected at least " + std::to_string(lowest),
@@ -106,6 +116,22 @@ std::vector<std::int32_t> ResultsReader::delay(std::size_t partition, const Cell
 
 std::vector<std::int32_t> ResultsReader::trigger(std::size_t partition, const CellBlock& block) const {
   return steps("/trigger", partition, -3, block);
+}
+
+std::vector<std::int32_t> ResultsReader::coalition(const CellBlock& block) const {
+  std::vector<std::int32_t> values = steps(paths::kCoalition, std::nullopt, -3, block);
+  const auto partitions = static_cast<std::int64_t>(parts_.partitions.size());
+  const auto found =
+      std::find_if(values.begin(), values.end(), [&](std::int32_t value) { return value >= partitions; });
+  if (found != values.end()) {
+    throw ResultsError("found " + std::to_string(*found) + ", expected a partition",
+                       file_->place(paths::kCoalition));
+  }
+  return values;
+}
+
+std::vector<std::uint8_t> ResultsReader::critical_pair(std::size_t pair, const CellBlock& block) const {
+  return members(paths::kCriticalPair, pair, block);
 }
 
 bool ResultsReader::has_actions(std::size_t partition) const {

@@ -22,8 +22,10 @@ struct StoredAttributes {
   std::uint64_t safe_cells = 0, invariant_cells = 0;  ///< attributes `cells`
   std::int64_t iterations = 0;
   std::int64_t connection_delay = 0;
-  std::string controller_sha256;             ///< of `controller.file`; empty if the spec has none
-  std::vector<std::uint64_t> network_cells;  ///< by mode; none without a network
+  std::string controller_sha256;                  ///< of `controller.file`; empty if the spec has none
+  std::vector<std::int64_t> coalition_cells;      ///< [partition] attribute of /coalition; may be missing
+  std::vector<std::int64_t> critical_pair_cells;  ///< [pair] attribute of /critical_pair; may be missing
+  std::vector<std::uint64_t> network_cells;       ///< by mode; none without a network
 };
 
 /// What is stored of a partition besides arrays over cells.
@@ -51,6 +53,7 @@ struct ResultsParts {
   StoredAttributes attributes;
   std::vector<StoredPartition> partitions;  ///< as many as the spec has, in its order
   std::vector<TransitionTable> tables;      ///< without entries; none unless stored
+  std::vector<std::string> pairs;           ///< of agents, for which critical cells are stored
 };
 
 /// Reads them, and checks that the arrays are there, have their shapes and types, and that grid points,
@@ -106,6 +109,16 @@ class ResultsReader {
   /// REQUIRES: the spec has a network with modes first, ..., first + modes - 1.
   [[nodiscard]] std::vector<std::uint8_t> network_safe(std::size_t first, std::size_t modes,
                                                        const CellBlock& block) const;
+  /// Whether the spec has a horizon, so that there is a coalition map.
+  [[nodiscard]] bool has_coalition() const { return parts_.spec.coordination.horizon.has_value(); }
+  /// Index into partitions() of the cheapest one that suffices; -3: none does, -2: outside S, -1: in S but
+  /// not in K. REQUIRES: has_coalition().
+  [[nodiscard]] std::vector<std::int32_t> coalition(const CellBlock& block) const;
+  /// Names of the pairs of agents, "a+b", in their order; none without a coalition map.
+  [[nodiscard]] const std::vector<std::string>& pairs() const { return parts_.pairs; }
+  /// 1 where the two are together in every partition of least cost that suffices, else 0.
+  /// REQUIRES: pair < pairs().size().
+  [[nodiscard]] std::vector<std::uint8_t> critical_pair(std::size_t pair, const CellBlock& block) const;
 
   /// What is stored on request.
   [[nodiscard]] bool has_actions(std::size_t partition) const;
@@ -144,11 +157,12 @@ class ResultsReader {
   [[nodiscard]] std::vector<Value> elements(const std::string& dataset, ElementType type,
                                             const std::vector<std::uint64_t>& offset,
                                             const std::vector<std::uint64_t>& count) const;
+  /// @param leading place along an axis before those of the cells, if there is one
   [[nodiscard]] std::vector<std::uint8_t> members(const std::string& dataset,
-                                                  const std::vector<std::uint64_t>& offset,
-                                                  const std::vector<std::uint64_t>& count) const;
+                                                  std::optional<std::size_t> leading,
+                                                  const CellBlock& block) const;
   [[nodiscard]] std::vector<std::int32_t> steps(const std::string& dataset,
-                                                std::optional<std::size_t> partition, std::int32_t lowest,
+                                                std::optional<std::size_t> leading, std::int32_t lowest,
                                                 const CellBlock& block) const;
   [[nodiscard]] std::vector<std::uint8_t> bits(const std::string& dataset, std::int64_t actions,
                                                const CellBlock& block) const;

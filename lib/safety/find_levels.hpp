@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "bitset/level_map.hpp"
 #include "safety/wave.hpp"
@@ -12,6 +13,18 @@ namespace coordreq {
 /// What a fixed point is asked for, whatever the width of its levels.
 struct LevelProblem {
   const CellSet* start = nullptr;  ///< the first set; levels of its cells are above 0
+  /// Levels that are known not to be too low: each with the same start, the greatest solution of
+  /// level = 1 + op'(level) for some op' that is nowhere below this problem's, under the same limit.
+  ///
+  /// The wave begins at their pointwise minimum B instead of at the start, with the same result:
+  /// 1. Nothing is lost. The greatest solution L below the start has L = 1 + op(L) <= 1 + op'(L), so it lies
+  ///    below the greatest solution of each op' (Knaster and Tarski), hence below B; and whatever lies below
+  ///    B lies below the start.
+  /// 2. From B levels only ever sink, as run_wave() requires: 1 + op(B) <= 1 + op'(L') = L' for each bound
+  ///    L', since B <= L' and op is monotone, so 1 + op(B) <= B.
+  std::vector<const LevelMap*> bounds;
+  /// [row] not 0 where 1 + op(B) = B, see run_wave(); null: unknown.
+  const std::vector<std::uint8_t>* settled = nullptr;
   /// Finite levels go up to this; cells that would have more count as never lost. Negative: no limit.
   std::int64_t limit = -1;
   std::function<std::unique_ptr<RowOperator<std::uint8_t>>()> make8;

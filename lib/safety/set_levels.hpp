@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/thread_team.hpp"
 #include "bitset/cell_set.hpp"
 #include "bitset/level_rows.hpp"
+#include "safety/row_engine.hpp"
 
 namespace coordreq {
 
@@ -20,6 +22,15 @@ void set_levels(const CellSet& set, std::int64_t begin, std::int64_t end, LevelR
     std::copy_n(lanes.begin(), levels.row_length(), levels.row(r));
     levels.close(r);
   }
+}
+
+/// The greatest level for the cells of a set, 0 for all others, laid out for the posts of an engine.
+template <class Level>
+[[nodiscard]] LevelRows<Level> top_levels(const RowEngine& engine, const CellSet& set, ThreadTeam& team) {
+  LevelRows<Level> levels = engine.make_levels<Level>(engine.posts());
+  team.for_each(levels.rows(), 256,
+                [&](ThreadTeam::Range range, int) { set_levels(set, range.begin, range.end, levels); });
+  return levels;
 }
 
 }  // namespace coordreq

@@ -23,14 +23,20 @@ template <class Level>
 class WaveRunner {
  public:
   WaveRunner(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
-             RowOperator<Level>& op, ThreadTeam& team)
-      : levels_(levels), engine_(engine), hull_(hull), limit_(limit), op_(op), team_(team) {
+             const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, ThreadTeam& team)
+      : levels_(levels),
+        engine_(engine),
+        hull_(hull),
+        limit_(limit),
+        settled_(settled),
+        op_(op),
+        team_(team) {
     unit_rows_ = std::min(engine.unit_rows(), engine.outer() == 0 ? kBlockRows : engine.unit_rows());
     units_ = (engine.rows() + unit_rows_ - 1) / unit_rows_;
     batch_units_ = std::max<std::int64_t>(1, kBatchRows / unit_rows_);
     changed_.assign(static_cast<std::size_t>(engine.rows()), 0);
     unit_changed_.assign(static_cast<std::size_t>(units_), 0);
-    unit_seen_.assign(static_cast<std::size_t>(units_), 0);
+    unit_seen_.assign(static_cast<std::size_t>(units_), kBeforeAll);
     for (int w = 0; w < team.size(); ++w) workers_.emplace_back(engine, levels);
     find_alive();
   }
@@ -53,6 +59,11 @@ class WaveRunner {
   [[nodiscard]] std::int64_t alive_rows() const { return alive_rows_; }
 
  private:
+  /// As what a unit has been looked at in: in no batch, or in one whose changes, and all after, are news to
+  /// it.
+  static constexpr std::uint32_t kNever = 0;
+  static constexpr std::uint32_t kBeforeAll = 1;
+
   struct Change {
     std::int64_t row;
     std::size_t position;  ///< in the worker's storage
@@ -80,18 +91,24 @@ class WaveRunner {
     std::int64_t unit = -1;
   };
 
-  /// Rows without a cell in the set never change.
+  [[nodiscard]] bool is_settled(std::int64_t row) const {
+    return !settled_.empty() && settled_[static_cast<std::size_t>(row)] != 0;
+  }
+
+  /// Rows without a cell in the set never change, nor do those that have sunk as deep as cells in the set
+  /// can.
   void find_alive() {
     alive_.assign(static_cast<std::size_t>(engine_.rows()), 0);
     unit_alive_.assign(static_cast<std::size_t>(units_), 0);
     for (std::int64_t r = 0; r < engine_.rows(); ++r) {
       const Level* row = levels_.row(r);
-      const bool alive = std::any_of(row, row + levels_.row_length(), [](Level level) { return level != 0; });
+      const bool alive = std::any_of(row, row + levels_.row_length(), [](Level level) { return level > 1; });
       alive_[static_cast<std::size_t>(r)] = alive ? 1 : 0;
-      if (alive) {
-        unit_alive_[static_cast<std::size_t>(r / unit_rows_)] = 1;
-        ++alive_rows_;
-      }
+      if (!alive) continue;
+      const auto unit = static_cast<std::size_t>(r / unit_rows_);
+      unit_alive_[unit] = 1;
+      if (!is_settled(r)) unit_seen_[unit] = kNever;
+      ++alive_rows_;
     }
   }
 
@@ -99,8 +116,8 @@ class WaveRunner {
   [[nodiscard]] bool is_pending(std::int64_t unit) {
     const auto u = static_cast<std::size_t>(unit);
     if (unit_alive_[u] == 0) return false;
-    if (unit_seen_[u] == 0 || engine_.outer() == 0)
-      return unit_seen_[u] == 0 || last_change_ >= unit_seen_[u];
+    if (unit_seen_[u] == kNever || engine_.outer() == 0)
+      return unit_seen_[u] == kNever || last_change_ >= unit_seen_[u];
     const RowPlace place(engine_.grid(), unit * unit_rows_);
     hull_.box(place, box_);
     const std::span<const IndexRange> outer(box_.ranges.data(), engine_.outer());
@@ -153,11 +170,13 @@ class WaveRunner {
       worker.unit = piece.unit;
     }
     const std::uint32_t seen = unit_seen_[static_cast<std::size_t>(piece.unit)];
-    if (seen != 0) merge_changes(piece.unit * unit_rows_, worker);
+    const bool is_first = seen == kNever;
+    if (!is_first || !settled_.empty()) merge_changes(piece.unit * unit_rows_, worker);
     RowPlace place(engine_.grid(), piece.begin);
     for (; place.row < piece.end; place.advance(engine_.grid())) {
       if (alive_[static_cast<std::size_t>(place.row)] == 0) continue;
-      if (seen == 0 || meets_change(place, seen, worker)) visit_row(place, worker, w);
+      const bool is_new = is_first && !is_settled(place.row);
+      if (is_new || meets_change(place, std::max(seen, kBeforeAll), worker)) visit_row(place, worker, w);
     }
   }
 
@@ -224,6 +243,7 @@ class WaveRunner {
   const RowEngine& engine_;
   const RowHull& hull_;
   Level limit_;
+  const std::vector<std::uint8_t>& settled_;
   RowOperator<Level>& op_;
   ThreadTeam& team_;
   std::int64_t unit_rows_ = 1;
@@ -247,9 +267,9 @@ class WaveRunner {
 
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
-                    RowOperator<Level>& op, const std::function<void(std::int64_t, std::int64_t)>& swept,
-                    ThreadTeam& team) {
-  WaveRunner<Level> runner(levels, engine, hull, limit, op, team);
+                    const std::vector<std::uint8_t>& settled, RowOperator<Level>& op,
+                    const std::function<void(std::int64_t, std::int64_t)>& swept, ThreadTeam& team) {
+  WaveRunner<Level> runner(levels, engine, hull, limit, settled, op, team);
   WaveCounts counts;
   for (;;) {
     const std::int64_t visited = runner.sweep(counts.sweeps % 2 == 0);
@@ -262,13 +282,13 @@ WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const Row
 }
 
 template WaveCounts run_wave(LevelRows<std::uint8_t>&, const RowEngine&, const RowHull&, std::uint8_t,
-                             RowOperator<std::uint8_t>&,
+                             const std::vector<std::uint8_t>&, RowOperator<std::uint8_t>&,
                              const std::function<void(std::int64_t, std::int64_t)>&, ThreadTeam&);
 template WaveCounts run_wave(LevelRows<std::uint16_t>&, const RowEngine&, const RowHull&, std::uint16_t,
-                             RowOperator<std::uint16_t>&,
+                             const std::vector<std::uint8_t>&, RowOperator<std::uint16_t>&,
                              const std::function<void(std::int64_t, std::int64_t)>&, ThreadTeam&);
 template WaveCounts run_wave(LevelRows<std::uint32_t>&, const RowEngine&, const RowHull&, std::uint32_t,
-                             RowOperator<std::uint32_t>&,
+                             const std::vector<std::uint8_t>&, RowOperator<std::uint32_t>&,
                              const std::function<void(std::int64_t, std::int64_t)>&, ThreadTeam&);
 
 }  // namespace coordreq

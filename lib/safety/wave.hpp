@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "base/thread_team.hpp"
 #include "safety/post_reader.hpp"
@@ -14,7 +15,7 @@ struct WaveCounts {
   std::int64_t sweeps = 0;
   std::int64_t rows_visited = 0;  ///< rows whose levels were worked out, again each time
   std::int64_t rows_skipped =
-      0;  ///< rows with cells in the set, passed over as nothing near them had changed
+      0;  ///< rows whose levels can still sink, passed over as nothing near them had changed
 
   void add(const WaveCounts& other) {
     sweeps += other.sweeps;
@@ -45,10 +46,14 @@ class RowOperator {
 /// Rows are therefore swept in batches, to and fro over the grid, each batch seeing what those before it have
 /// found: levels travel through the whole grid in one sweep where motion is one way, instead of one
 /// step a sweep. A row is looked at again only after a row that its posts can meet has changed.
+/// REQUIRES: 1 + op(levels) is nowhere above the given levels, so that they only ever sink.
+/// @param settled [row] not 0 where 1 + op(levels) is known to be the given levels: such a row is not looked
+/// at
+///   before a row that its posts can meet has changed. Empty: nothing is known
 /// @param swept told after each sweep (its number, rows visited in it); may be empty
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
-                    RowOperator<Level>& op, const std::function<void(std::int64_t, std::int64_t)>& swept,
-                    ThreadTeam& team);
+                    const std::vector<std::uint8_t>& settled, RowOperator<Level>& op,
+                    const std::function<void(std::int64_t, std::int64_t)>& swept, ThreadTeam& team);
 
 }  // namespace coordreq

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kMostStates = 31;
 constexpr std::int64_t kMostValues = std::int64_t{1} << 20U;
+constexpr std::size_t kMostAgentsOfAll = 7;
 
 mpz_class power_of_two(unsigned exponent) {
   mpz_class value;
@@ -55,6 +56,14 @@ void check_joint_input_count(const std::vector<std::int64_t>& counts) {
 
 void check_mode_count(std::size_t count, std::size_t limit, const std::string& pointer) {
   refuse_above(count, limit, "modes", pointer);
+}
+
+void check_all_partitions(std::size_t agents, const std::string& pointer) {
+  if (agents <= kMostAgentsOfAll) return;
+  throw LimitError(fmt::format("'all' is possible for at most {} agents, which have 877 partitions, found {} "
+                               "agents; expected a list of partitions",
+                               kMostAgentsOfAll, agents),
+                   pointer);
 }
 
 }  // namespace coordreq

@@ -28,4 +28,7 @@ void check_joint_input_count(const std::vector<std::int64_t>& counts);
 /// @throws LimitError if a network has more than `limit` modes; each takes a set of cells
 void check_mode_count(std::size_t count, std::size_t limit, const std::string& pointer);
 
+/// @throws LimitError if there are more than 7 agents: they have 877 partitions, 8 have 4140
+void check_all_partitions(std::size_t agents, const std::string& pointer);
+
 }  // namespace coordreq

@@ -25,6 +25,28 @@ std::string canonical_name(const std::vector<AgentSpec>& agents, const AgentClas
   return name;
 }
 
+/// All ways to put the agents from `labels.size()` on into the classes used so far or into one more
+/// (restricted growth strings), in lexicographic order.
+void add_labellings(std::size_t agents, std::vector<std::size_t>& labels, std::size_t classes,
+                    std::vector<std::vector<std::size_t>>& all) {
+  if (labels.size() == agents) {
+    all.push_back(labels);
+    return;
+  }
+  for (std::size_t label = 0; label <= classes; ++label) {
+    labels.push_back(label);
+    add_labellings(agents, labels, std::max(classes, label + 1), all);
+    labels.pop_back();
+  }
+}
+
+AgentClasses classes_of(const std::vector<std::size_t>& labels) {
+  AgentClasses classes(1 + *std::max_element(labels.begin(), labels.end()));
+  for (std::size_t agent = 0; agent < labels.size(); ++agent)
+    classes[labels[agent]].push_back(static_cast<std::int32_t>(agent));
+  return classes;
+}
+
 }  // namespace
 
 std::string class_name(const std::vector<AgentSpec>& agents, const std::vector<std::int32_t>& members) {
@@ -52,6 +74,19 @@ PartitionSpec make_partition(const std::vector<AgentSpec>& agents, AgentClasses 
   partition.name = name.empty() ? partition.canonical : std::move(name);
   partition.classes = std::move(classes);
   return partition;
+}
+
+std::vector<PartitionSpec> make_all_partitions(const std::vector<AgentSpec>& agents) {
+  std::vector<std::vector<std::size_t>> labellings;
+  std::vector<std::size_t> labels;
+  add_labellings(agents.size(), labels, 0, labellings);
+  std::vector<PartitionSpec> partitions;
+  for (const std::vector<std::size_t>& one : labellings)
+    partitions.push_back(make_partition(agents, classes_of(one), ""));
+  std::stable_sort(partitions.begin(), partitions.end(), [](const PartitionSpec& a, const PartitionSpec& b) {
+    return a.classes.size() < b.classes.size();
+  });
+  return partitions;
 }
 
 std::optional<PartitionSpec> parse_partition_name(const std::vector<AgentSpec>& agents,

@@ -21,6 +21,12 @@ using AgentClasses = std::vector<std::vector<std::int32_t>>;
 [[nodiscard]] PartitionSpec make_partition(const std::vector<AgentSpec>& agents, AgentClasses classes,
                                            std::string name);
 
+/// Every partition of the agents, each under its canonical name: those with fewer classes first, so coarser
+/// ones before finer ones; with as many classes, in lexicographic order of the list that has for each agent
+/// the number of its class, so agents together with the first ones before. Bell(agents) of them.
+/// Example: a+b+c, a+b|c, a+c|b, a|b+c, a|b|c.
+[[nodiscard]] std::vector<PartitionSpec> make_all_partitions(const std::vector<AgentSpec>& agents);
+
 /// The partition called "a+b|c", agents and classes in any order; nothing unless every agent is named exactly
 /// once.
 [[nodiscard]] std::optional<PartitionSpec> parse_partition_name(const std::vector<AgentSpec>& agents,

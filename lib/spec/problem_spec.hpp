@@ -96,13 +96,14 @@ struct LinkCostSpec {
 };
 
 struct CoordinationSpec {
-  std::vector<PartitionSpec> partitions;  ///< at least one; empty only if `all_partitions`
-  bool all_partitions = false;
+  std::vector<PartitionSpec> partitions;  ///< at least one, all different
+  bool all_partitions = false;  ///< the spec says "all"; `partitions` are as make_all_partitions() has them
   std::optional<std::int64_t> max_delay;  ///< steps
   std::int64_t connection_delay = 0;      ///< D, steps
-  std::optional<std::int64_t> horizon;    ///< steps; from "horizon_time" by ceil(time / period)
-  std::optional<Rational> horizon_time;   ///< as written; `horizon` has its steps
-  std::vector<LinkCostSpec> link_cost;
+  /// Steps; from "horizon_time" by ceil(time / period). At most `max_delay`, if there is one.
+  std::optional<std::int64_t> horizon;
+  std::optional<Rational> horizon_time;  ///< as written; `horizon` has its steps
+  std::vector<LinkCostSpec> link_cost;   ///< none without `horizon`
   bool convention = false;
 };
 
@@ -126,9 +127,8 @@ struct NetworkSpec {
 
 struct RequirementSpec {
   std::string name;
-  Program where;  ///< over states
-  std::optional<std::int32_t>
-      partition;  ///< index into partitions; none for `invariant` and `all_partitions`
+  Program where;                          ///< over states
+  std::optional<std::int32_t> partition;  ///< index into partitions; none for `invariant`
   std::optional<std::int64_t> min_delay;  ///< steps; from "min_delay_time" by ceil(time / period)
   bool invariant = false;
 };

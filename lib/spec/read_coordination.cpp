@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "spec/check_limits.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/wording.hpp"
@@ -90,12 +91,35 @@ std::vector<LinkCostSpec> read_link_costs(const Scope& scope, const Node& object
   return costs;
 }
 
+/// Layers that stop before the horizon cannot say who is safe until then.
+void check_horizon(const CoordinationSpec& coordination, const std::string& pointer) {
+  if (!coordination.max_delay || *coordination.horizon <= *coordination.max_delay) return;
+  throw SpecError(fmt::format("expected a horizon of at most max_delay = {} steps, found {} steps",
+                              *coordination.max_delay, *coordination.horizon),
+                  pointer);
+}
+
+/// REQUIRES: `max_delay` has been read.
 void read_horizon(const Scope& scope, const Node& object, const Rational& period,
                   CoordinationSpec& coordination) {
-  if (object.has("horizon")) coordination.horizon = read_integer(object["horizon"]);
-  if (!object.has("horizon_time")) return;
-  coordination.horizon_time = scope.number(object["horizon_time"]);
-  coordination.horizon = read_steps_of_time(scope, object["horizon_time"], period);
+  if (object.has("horizon")) {
+    coordination.horizon = read_integer(object["horizon"]);
+    check_horizon(coordination, object["horizon"].pointer());
+  } else if (object.has("horizon_time")) {
+    const Node time = object["horizon_time"];
+    coordination.horizon_time = scope.number(time);
+    coordination.horizon = read_steps_of_time(scope, time, period);
+    check_horizon(coordination, time.pointer());
+  }
+  if (!coordination.horizon && !object.elements("link_cost").empty()) {
+    throw SpecError("'link_cost' is for the coalition map, expected 'horizon' or 'horizon_time' beside it",
+                    object["link_cost"].pointer());
+  }
+}
+
+std::vector<PartitionSpec> all_partitions(const Node& keyword, const std::vector<AgentSpec>& agents) {
+  check_all_partitions(agents.size(), keyword.pointer());
+  return make_all_partitions(agents);
 }
 
 }  // namespace
@@ -112,15 +136,16 @@ CoordinationSpec read_coordination(const Scope& scope, const Node& root, const s
   if (object.has("partitions")) {
     const Node partitions = object["partitions"];
     coordination.all_partitions = partitions.value().is_string();
-    if (!coordination.all_partitions) coordination.partitions = read_partitions(partitions, agents);
+    coordination.partitions = coordination.all_partitions ? all_partitions(partitions, agents)
+                                                          : read_partitions(partitions, agents);
   }
   if (object.has("max_delay") && !object["max_delay"].value().is_null()) {
     coordination.max_delay = read_integer(object["max_delay"]);
   }
   if (object.has("connection_delay"))
     coordination.connection_delay = read_integer(object["connection_delay"]);
-  read_horizon(scope, object, period, coordination);
   coordination.link_cost = read_link_costs(scope, object, agents);
+  read_horizon(scope, object, period, coordination);
   coordination.convention = object.flag("convention");
   return coordination;
 }

@@ -27,8 +27,6 @@ std::optional<std::int32_t> read_partition(const Node& object, const std::vector
     if (is_meant) return static_cast<std::int32_t>(i);
     names.push_back(partitions[i].name);
   }
-  // With "all" there is no list to point into; every canonical name is one of them.
-  if (coordination.all_partitions && named) return std::nullopt;
   const std::string expected = coordination.all_partitions ? "the canonical name of a partition"
                                                            : "the partition " + quote_list(names, "or");
   throw SpecError(fmt::format("expected {}, found {}", expected, quote_text(node.text())), node.pointer());

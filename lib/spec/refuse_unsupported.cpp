@@ -13,12 +13,7 @@ namespace {
 }
 
 void refuse_in_coordination(const CoordinationSpec& coordination) {
-  const std::string pointer = "/coordination/";
-  if (coordination.all_partitions) refuse("'all'", pointer + "partitions");
-  if (coordination.horizon_time) refuse("'horizon_time'", pointer + "horizon_time");
-  if (coordination.horizon) refuse("'horizon'", pointer + "horizon");
-  if (!coordination.link_cost.empty()) refuse("'link_cost'", pointer + "link_cost");
-  if (coordination.convention) refuse("'convention'", pointer + "convention");
+  if (coordination.convention) refuse("'convention'", "/coordination/convention");
 }
 
 }  // namespace

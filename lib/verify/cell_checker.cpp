@@ -302,7 +302,7 @@ void CellChecker::check_delay(std::size_t p, std::int32_t expected) {
 }
 
 std::string CellChecker::place() const {
-  return cell_place(*check_.grid, cell_);
+  return place_of(*check_.grid, cell_);
 }
 
 }  // namespace coordreq

@@ -154,7 +154,7 @@ class NetworkChecker {
   void complain(std::size_t mode, const char* what) {
     const auto modes = static_cast<std::int64_t>(network_.spec.modes.size());
     tally_.add_wrong(cell_ * modes + static_cast<std::int64_t>(mode), [&] {
-      return fmt::format("{}, mode {}: {}", cell_place(*check_.grid, cell_), network_.spec.modes[mode].name,
+      return fmt::format("{}, mode {}: {}", place_of(*check_.grid, cell_), network_.spec.modes[mode].name,
                          what);
     });
   }

@@ -34,12 +34,19 @@ struct Claims {
   std::vector<std::int32_t> collision_time;
   std::vector<PartitionClaims> partitions;  ///< those of the spec, in its order
   bool has_controller = false;
-  std::vector<std::uint8_t> controller;            ///< bytes [cells, ceil(joint inputs / 8)]
-  std::optional<PackedPairs> listed;               ///< what `controller.file` lists, which is not doubted
-  std::vector<PostTable> abstraction;              ///< one a state, or none
-  std::vector<std::vector<std::uint8_t>> network;  ///< [mode][cell] 0 or 1; none without a network
-  std::vector<std::uint64_t> network_cells;        ///< by mode
-  bool same_version = true;                        ///< written by this version of the program
+  std::vector<std::uint8_t> controller;  ///< bytes [cells, ceil(joint inputs / 8)]
+  std::optional<PackedPairs> listed;     ///< what `controller.file` lists, which is not doubted
+  std::vector<PostTable> abstraction;    ///< one a state, or none
+  // With a horizon:
+  std::vector<std::int32_t>
+      coalition;  ///< index into partitions; -3 none suffices, -2 outside S, -1 outside K
+  std::vector<std::int64_t> coalition_cells;              ///< [partition] as counted; may be missing
+  std::vector<std::string> pairs;                         ///< of agents, in their order
+  std::vector<std::vector<std::uint8_t>> critical_pairs;  ///< [pair, cell]: 0 or 1
+  std::vector<std::int64_t> critical_pair_cells;          ///< [pair] as counted; may be missing
+  std::vector<std::vector<std::uint8_t>> network;         ///< [mode][cell] 0 or 1; none without a network
+  std::vector<std::uint64_t> network_cells;               ///< by mode
+  bool same_version = true;                               ///< written by this version of the program
   std::uint64_t safe_cells = 0;
   std::uint64_t invariant_cells = 0;
   std::int64_t iterations = 0;

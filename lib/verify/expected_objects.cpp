@@ -32,6 +32,7 @@ class Expectation {
     if (spec_.network) add_network();
     if (extras_.controller) add_joint_bits(paths::kController);
     if (spec_.controller.file) add_joint_bits(paths::kListed);
+    if (spec_.coordination.horizon) add_coalitions();
     for (std::size_t i = 0; extras_.abstraction && i < spec_.states.size(); ++i) add_table(i);
     return std::move(objects_);
   }
@@ -153,6 +154,17 @@ class Expectation {
     Paths axes = cells_;
     axes.insert(axes.begin(), "/mode");
     describe_flags(add_array("/network_safe", axes), {0, 1}, "not_safe safe");
+  }
+
+  void add_coalitions() {
+    StoredObject& coalition = add_array("/coalition", cells_);
+    describe_flags(coalition, {-3, -2, -1}, "no_partition_suffices not_safe not_invariant");
+    coalition.integers["horizon"] = {*spec_.coordination.horizon};
+    if (spec_.agents.size() < 2) return;
+    add_scale("/pair");
+    Paths axes = cells_;
+    axes.insert(axes.begin(), "/pair");
+    describe_flags(add_array("/critical_pair", axes), {0, 1}, "not_critical critical");
   }
 
   void add_joint_bits(const std::string& path) {

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "verify/check_abstraction.hpp"
 #include "verify/check_cells.hpp"
+#include "verify/check_coalition.hpp"
 #include "verify/check_network.hpp"
 #include "verify/check_summary.hpp"
 #include "verify/check_tubes.hpp"
@@ -48,6 +49,7 @@ class Verifier {
     find_posts();
     if (spec_.abstraction.between_samples) find_tubes();
     append(result_.findings, check_cells_against(make_posts(grid_, inputs_, tables_)));
+    if (spec_.coordination.horizon) append(result_.findings, check_coalition(spec_, grid_, claims_, team_));
     return std::move(result_);
   }
 

@@ -50,6 +50,15 @@ PartitionClaims read_partition(const ResultsReader& results, std::size_t p, cons
   return claims;
 }
 
+void read_coalition(const ResultsReader& results, const CellBlock& all, Claims& claims) {
+  claims.coalition = results.coalition(all);
+  claims.coalition_cells = results.attributes().coalition_cells;
+  claims.pairs = results.pairs();
+  claims.critical_pair_cells = results.attributes().critical_pair_cells;
+  for (std::size_t pair = 0; pair < results.pairs().size(); ++pair)
+    claims.critical_pairs.push_back(results.critical_pair(pair, all));
+}
+
 Claims read_all(const ResultsReader& results) {
   const CellBlock all = all_cells(results.grid());
   Claims claims{.safe = results.safe(all),
@@ -70,6 +79,7 @@ Claims read_all(const ResultsReader& results) {
   if (results.spec().controller.file)
     claims.listed = {.inputs = results.inputs().count(), .bytes = results.listed_bits(all)};
   if (results.has_abstraction()) claims.abstraction = stored_tables(results);
+  if (results.has_coalition()) read_coalition(results, all, claims);
   return claims;
 }
 
@@ -92,6 +102,7 @@ std::uint64_t memory_need(const ResultsReader& results) {
       bytes_of_cell += results.has_actions(p) ? static_cast<std::uint64_t>((actions + 7) / 8) : 0;
   }
   if (results.spec().network) bytes_of_cell += 2 * results.spec().network->modes.size();  // and targets
+  if (results.has_coalition()) bytes_of_cell += 2 * sizeof(std::int32_t) + results.pairs().size();
   const int joint = (results.has_controller() ? 1 : 0) + (results.spec().controller.file ? 1 : 0);
   for (int i = 0; i < joint; ++i)
     bytes_of_cell += static_cast<std::uint64_t>((results.inputs().count() + 7) / 8);

@@ -106,7 +106,9 @@ $""",
                 "guarantee",
                 "period",
                 "period_unit",
+                "connection_delay",
                 "partitions",
+                "coalition",
                 "requirements",
                 "output",
                 "threads",
@@ -117,7 +119,7 @@ $""",
         )
         self.assertEqual(
             list(summary["partitions"][0]),
-            ["name", "classes", "F", "fixed_point", "layers", "truncated", "max_delay_time"],
+            ["name", "classes", "F", "fixed_point", "layers", "truncated", "never_without_connection", "max_delay_time"],
         )
         self.assertEqual((summary["name"], summary["output"]), ("small", "out.h5"))
         self.assertEqual((summary["period"], summary["period_unit"]), (0.5, "s"))

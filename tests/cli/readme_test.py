@@ -23,7 +23,7 @@ class Cases(Case):
         (self.folder / "configs").symlink_to(CONFIGS)
         environment = dict(os.environ, PATH=f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}")
         sessions = blocks("console")
-        self.assertEqual(len(sessions), 8)
+        self.assertEqual(len(sessions), 10)
         for session in sessions:
             command, expected = re.fullmatch(r"(?s)\$ ([^\n]*)\n(.*)", session).groups()
             result = subprocess.run(
@@ -42,10 +42,12 @@ class Cases(Case):
         return re.sub(r"\([0-9.]+ s on [0-9]+ threads?(, [0-9.]+ MiB)?\)", "(effort)", text)
 
     def test_python(self):
-        self.analyze(str(CONFIGS / "circle.json"))
+        for example in ("circle", "platoon_coalition"):
+            self.analyze(str(CONFIGS / f"{example}.json"))
         programs = blocks("python")
-        self.assertEqual(len(programs), 3)
-        for program, expected in zip(programs, ("25\n2029\n", "", "(1, 201, 201) m\n")):
+        self.assertEqual(len(programs), 4)
+        printed = ("25\n2029\n", "lead+middle|tail\n2880\n", "", "(1, 201, 201) m\n")
+        for program, expected in zip(programs, printed):
             result = subprocess.run(
                 ["/usr/bin/python3", "-c", program],
                 cwd=self.folder,

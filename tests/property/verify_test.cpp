@@ -61,6 +61,38 @@ TEST(Verify, AResultWithoutTubesIsFoundUnlessItIsTheSame) {
   }));
 }
 
+/// Another partition or pair at one place, or another number of cells.
+void corrupt_coalition(Claims& claims) {
+  switch (draw(0, 3)) {
+    case 0: {
+      std::int32_t& chosen = pick(claims.coalition);
+      chosen = chosen == 0 ? -3 : chosen - 1;
+      return;
+    }
+    case 1:
+      pick(pick(claims.critical_pairs)) ^= 1U;
+      return;
+    case 2:
+      pick(claims.coalition_cells) += 1;
+      return;
+    default:
+      pick(claims.critical_pair_cells) += 1;
+  }
+}
+
+TEST(Verify, CoalitionsOfManyAgentsHoldAndOneOtherIsFound) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("coalition maps", [&] {
+    ClaimedFile file =
+        analysed_file(draw_problem(RandomTime::any, RandomEdges::any, RandomAgents::many), team);
+    const Verification result = verify_file(file, {}, team);
+    RC_LOG(complaints(result));
+    RC_ASSERT(result.holds());
+    corrupt_coalition(file.claims);
+    RC_ASSERT(!verify_file(file, {}, team).holds());
+  }));
+}
+
 /// Another number that the file could also hold at one place. @returns false if there is no such place
 bool corrupt(Claims& claims) {
   PartitionClaims& partition = pick(claims.partitions);

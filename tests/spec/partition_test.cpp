@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "example_spec.hpp"
+#include "spec/partition_names.hpp"
 
 namespace coordreq {
 namespace {
@@ -78,13 +80,56 @@ TEST(Partition, RequirementNamesItInAnyOrder) {
   EXPECT_EQ(test::error_of(spec), "missing key 'partition', there is more than one (/requirements/0)");
 }
 
+std::vector<std::string> names_of(const std::vector<PartitionSpec>& partitions) {
+  std::vector<std::string> names;
+  for (const PartitionSpec& partition : partitions) {
+    EXPECT_EQ(partition.name, partition.canonical);
+    names.push_back(partition.name);
+  }
+  return names;
+}
+
+TEST(Partition, AllOfThreeAgentsAreFiveCoarserOnesFirst) {
+  const CoordinationSpec coordination = test::read(with_partitions("\"all\"")).coordination;
+  EXPECT_TRUE(coordination.all_partitions);
+  EXPECT_EQ(names_of(coordination.partitions),
+            (std::vector<std::string>{"a+b+c", "a+b|c", "a+c|b", "a|b+c", "a|b|c"}));
+  EXPECT_EQ(coordination.partitions[2].classes, (Classes{{0, 2}, {1}}));
+}
+
+TEST(Partition, AllAreAsManyAsTheBellNumbers) {
+  std::vector<AgentSpec> agents;
+  for (const int bell : {1, 2, 5, 15, 52, 203, 877}) {
+    agents.push_back({.name = std::string(1, static_cast<char>('a' + agents.size())), .inputs = {0}});
+    std::vector<std::string> names = names_of(make_all_partitions(agents));
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(std::unique(names.begin(), names.end()) - names.begin(), bell);
+    EXPECT_EQ(static_cast<int>(names.size()), bell);
+  }
+}
+
+nlohmann::json with_agents(int count) {
+  nlohmann::json spec = with_partitions("\"all\"");
+  for (int i = 4; i <= count; ++i) {
+    spec["inputs"].push_back({{"name", "u" + std::to_string(i)}, {"values", {0}}});
+    spec["agents"].push_back({{"name", "a" + std::to_string(i)}, {"inputs", {"u" + std::to_string(i)}}});
+  }
+  return spec;
+}
+
+TEST(Partition, AllOfEightAgentsAreTooMany) {
+  EXPECT_EQ(test::read(with_agents(7)).coordination.partitions.size(), 877U);
+  EXPECT_EQ(
+      test::error_of(with_agents(8)),
+      "'all' is possible for at most 7 agents, which have 877 partitions, found 8 agents; expected a list "
+      "of partitions (/coordination/partitions)");
+}
+
 TEST(Partition, RequirementOverAllTakesAnyCanonicalName) {
   nlohmann::json spec = with_partitions("\"all\"");
   spec["requirements"] =
       nlohmann::json::parse(R"([{"name": "1", "where": "true", "min_delay": 1, "partition": "b|c+a"}])");
-  const ProblemSpec read = test::read(spec);
-  EXPECT_TRUE(read.coordination.all_partitions);
-  EXPECT_TRUE(read.coordination.partitions.empty());
+  EXPECT_EQ(test::read(spec).requirements[0].partition, 2);
   spec["requirements"][0]["partition"] = "a+b";
   EXPECT_EQ(test::error_of(spec),
             "expected the canonical name of a partition, found 'a+b' (/requirements/0/partition)");

@@ -20,12 +20,6 @@ std::string refusal(const nlohmann::json& spec) {
 
 TEST(RefuseUnsupported, NamesTheKey) {
   const std::vector<test::ErrorCase> cases{
-      {"/coordination", R"({"partitions": "all"})", "'all' is not supported yet (/coordination/partitions)"},
-      {"/coordination", R"({"horizon": 3})", "'horizon' is not supported yet (/coordination/horizon)"},
-      {"/coordination", R"({"horizon_time": 3})",
-       "'horizon_time' is not supported yet (/coordination/horizon_time)"},
-      {"/coordination", R"({"link_cost": [{"agents": ["a", "b"], "cost": 1}]})",
-       "'link_cost' is not supported yet (/coordination/link_cost)"},
       {"/coordination", R"({"convention": true})",
        "'convention' is not supported yet (/coordination/convention)"},
       {"/requirements", R"([{"name": "r", "where": "true", "invariant": true}])",
@@ -49,7 +43,8 @@ TEST(RefuseUnsupported, TakesEverythingElse) {
       {"max_delay", 3},
       {"connection_delay", 2},
       {"partitions", nlohmann::json::parse(R"([{"classes": [["a", "b"]]}, {"classes": []}])")},
-      {"link_cost", nlohmann::json::array()},
+      {"horizon", 3},
+      {"link_cost", nlohmann::json::parse(R"([{"agents": ["a", "b"], "cost": 2}])")},
       {"convention", false}};
   spec["network"] = {{"delay", 2}};
   spec["requirements"] = nlohmann::json::array();

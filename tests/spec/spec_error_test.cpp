@@ -280,6 +280,13 @@ TEST(SpecError, LinkCostsAndHorizons) {
       {"/coordination",
        R"({"link_cost": [{"agents": ["a", "b"], "cost": 1}, {"agents": ["b", "a"], "cost": 1}]})",
        "the link of 'b' and 'a' is listed twice (/coordination/link_cost/1)"},
+      {"/coordination", R"({"link_cost": [{"agents": ["a", "b"], "cost": 1}]})",
+       "'link_cost' is for the coalition map, expected 'horizon' or 'horizon_time' beside it "
+       "(/coordination/link_cost)"},
+      {"/coordination", R"({"horizon": 4, "max_delay": 3})",
+       "expected a horizon of at most max_delay = 3 steps, found 4 steps (/coordination/horizon)"},
+      {"/coordination", R"({"max_delay": 3, "horizon_time": 3.5})",
+       "expected a horizon of at most max_delay = 3 steps, found 4 steps (/coordination/horizon_time)"},
       {"/coordination", R"({"horizon_time": -1})",
        "expected a time >= 0, found -1 (/coordination/horizon_time)"},
       {"/coordination", R"({"horizon_time": 1e10})",

@@ -40,7 +40,7 @@ struct FastAnalysis {
       }
       groupings.emplace_back(engine, classes, team);
       projections.emplace_back(controller, groupings.back(), hull, team);
-      layers.push_back(find_delay_layers(engine, hull, invariance.invariant, projections.back(),
+      layers.push_back(find_delay_layers(engine, hull, invariance.invariant, projections.back(), {},
                                          spec.coordination.max_delay, {}, team));
     }
   }

@@ -20,19 +20,24 @@ T pick(const std::vector<T>& choices) {
 
 class ProblemWriter {
  public:
-  std::string write(RandomTime kind, RandomEdges edges) {
+  std::string write(RandomTime kind, RandomEdges edges, RandomAgents agents_drawn) {
     edges_ = edges;
+    crowd_ = agents_drawn == RandomAgents::many;
     const bool between_samples = kind == RandomTime::between_samples;
     continuous_time_ = between_samples || (kind == RandomTime::any && draw(0, 3) == 0);
     // Most problems are agents that share a plane: those have layers.
-    plane_ = draw(0, 2) > 0;
+    plane_ = crowd_ || draw(0, 2) > 0;
     coupled_ = draw(0, 2) == 0;
-    const int states = plane_ ? draw(2, 3) : draw(1, 3);
-    for (int i = 0; i < states; ++i) add_state(i);
-    const int inputs = !plane_ ? draw(1, 3) : states == 2 && draw(0, 2) == 0 ? 3 : states;
+    states_ = crowd_ ? draw(2, 4) : plane_ ? draw(2, 3) : draw(1, 3);
+    for (int i = 0; i < states_; ++i) add_state(i);
+    const int inputs = crowd_                            ? std::max(states_, draw(3, 4))
+                       : !plane_                         ? draw(1, 3)
+                       : states_ == 2 && draw(0, 2) == 0 ? 3
+                                                         : states_;
     for (int i = 0; i < inputs; ++i) add_input(i);
     const bool disturbed = draw(0, 2) == 0;
-    const std::string cells = pick<std::string>({"closed", "half_open"});
+    const std::string cells =
+        crowd_ && draw(0, 1) == 0 ? "half_open" : pick<std::string>({"closed", "half_open"});
     const std::string safe = pick<std::string>({"inner", "center"});
     std::string text = fmt::format(
         R"({{"coordreq": 1, "name": "random",
@@ -44,12 +49,12 @@ class ProblemWriter {
 "safe": "{}",
 "abstraction": {{"cells": "{}", "safe": "{}", "between_samples": {}}},
 "controller": {{"synthesis": "{}", "allow": "{}"}},
-"coordination": {{"partitions": [{}], "max_delay": {}, "connection_delay": {}}}}})",
+"coordination": {{{}}}}})",
         join(state_text_), join(input_text_),
         disturbed ? R"({"name": "w", "lower": -0.25, "upper": 0.5})" : "", agents(),
         continuous_time_ ? "continuous" : "discrete", pick<std::string>({"1", "0.5"}), equations(disturbed),
         safe_condition(), cells, safe, between_samples, draw(0, 3) == 0 ? "given" : "maximal",
-        allow_condition(), partitions(), draw(0, 3) == 0 ? std::to_string(draw(0, 3)) : "null", draw(0, 2));
+        allow_condition(), coordination());
     return text;
   }
 
@@ -59,7 +64,12 @@ class ProblemWriter {
   }
 
   void add_state(int i) {
-    const int count = plane_ ? draw(6, 11) : draw(0, 9) == 0 ? draw(1, 2) : draw(4, 9);
+    // So that all in all there are not too many cells for a plain engine.
+    const int most_of_crowd = states_ == 2 ? 9 : states_ == 3 ? 6 : 4;
+    const int count = crowd_            ? draw(most_of_crowd - 1, most_of_crowd)
+                      : plane_          ? draw(6, 11)
+                      : draw(0, 9) == 0 ? draw(1, 2)
+                                        : draw(4, 9);
     const bool discrete = !continuous_time_ && !plane_ && draw(0, 2) == 0;
     discrete_.push_back(discrete);
     const bool any_edge = edges_ == RandomEdges::any;
@@ -72,7 +82,7 @@ class ProblemWriter {
       return;
     }
     // Where nothing can be lost at the edges of the plane, all actions are possible far from obstacles.
-    const bool harmless = plane_ && draw(0, 1) == 0;
+    const bool harmless = plane_ && draw(0, crowd_ ? 5 : 1) > 0;
     const auto side = [&] {
       return harmless ? pick<std::string>({"safe", "saturate"})
                       : pick<std::string>({"unsafe", "safe", "saturate"});
@@ -83,6 +93,12 @@ class ProblemWriter {
   }
 
   void add_input(int i) {
+    if (crowd_) {
+      input_text_.push_back(
+          fmt::format(R"({{"name": "u{}", "values": [{}]}})", i,
+                      pick<std::string>({"-1, 0, 1", "-1, 0, 1", "0, 1", "0, -1", "1, -1"})));
+      return;
+    }
     input_text_.push_back(
         pick<std::string>({fmt::format(R"({{"name": "u{}", "lower": -1, "upper": 1, "step": 1}})", i),
                            fmt::format(R"({{"name": "u{}", "values": [1, 0, -2]}})", i),
@@ -92,7 +108,7 @@ class ProblemWriter {
   std::string agents() {
     const auto inputs = static_cast<int>(input_text_.size());
     const auto states = static_cast<int>(discrete_.size());
-    agents_ = plane_ ? draw(std::min(states, inputs), inputs) : draw(1, inputs);
+    agents_ = crowd_ ? draw(3, inputs) : plane_ ? draw(std::min(states, inputs), inputs) : draw(1, inputs);
     std::vector<std::vector<std::string>> owned(static_cast<std::size_t>(agents_));
     for (int i = 0; i < inputs; ++i) {
       const int owner = i < agents_ ? i : draw(0, agents_ - 1);
@@ -102,6 +118,30 @@ class ProblemWriter {
     for (int a = 0; a < agents_; ++a) {
       parts.push_back(
           fmt::format(R"({{"name": "a{}", "inputs": [{}]}})", a, join(owned[static_cast<std::size_t>(a)])));
+    }
+    return join(parts);
+  }
+
+  std::string coordination() {
+    const int max_delay = draw(0, 3) == 0 ? draw(0, 3) : -1;
+    std::string text = fmt::format(R"("partitions": {}, "max_delay": {}, "connection_delay": {})",
+                                   crowd_ ? "\"all\"" : "[" + partitions() + "]",
+                                   max_delay < 0 ? "null" : std::to_string(max_delay), draw(0, 2));
+    if (crowd_) {
+      text += fmt::format(R"(, "horizon": {}, "link_cost": [{}])", draw(0, max_delay < 0 ? 4 : max_delay),
+                          link_costs());
+    }
+    return text;
+  }
+
+  std::string link_costs() {
+    std::vector<std::string> parts;
+    for (int a = 0; a < agents_; ++a) {
+      for (int b = a + 1; b < agents_; ++b) {
+        if (draw(0, 2) > 0) continue;
+        parts.push_back(fmt::format(R"({{"agents": ["a{}", "a{}"], "cost": {}}})", b, a,
+                                    pick<std::string>({"0", "0.5", "2", "\"1/3\"", "3"})));
+      }
     }
     return join(parts);
   }
@@ -126,7 +166,7 @@ class ProblemWriter {
     const auto inputs = static_cast<int>(input_text_.size());
     if (draw(0, 9) > 0) text += fmt::format(" + {}u{}", pick<std::string>({"", "0.5*", "0.25*"}), i);
     const int other = (static_cast<int>(i) + draw(1, inputs - 1)) % inputs;
-    if (coupled_ && draw(0, 1) == 0) text += fmt::format(" + 0.5*u{}", other);
+    if ((coupled_ || crowd_) && draw(0, 1) == 0) text += fmt::format(" + 0.5*u{}", other);
     return text + (disturbed && draw(0, 3) == 0 ? " + 0.25*w" : "");
   }
 
@@ -167,7 +207,21 @@ class ProblemWriter {
          fmt::format("x{} >= {} or x{} <= 2.5", i, draw(1, 4), i), "true"});
   }
 
+  /// Something about two or three of the states.
+  std::string safe_condition_of_crowd() {
+    const int i = draw(0, states_ - 1);
+    const int j = (i + draw(1, states_ - 1)) % states_;
+    const int k = draw(0, states_ - 1);
+    return pick<std::string>(
+        {fmt::format("abs(x{} - x{}) >= 0.5", i, j), fmt::format("x{} >= 0.5 or x{} >= 0.5", i, j),
+         fmt::format("x{} >= 0.5 or x{} >= 0.5 or x{} <= 1.5", i, j, k), fmt::format("x{} + x{} >= 1", i, j),
+         fmt::format("x{} + x{} + x{} <= {}.5", i, j, k, draw(4, 7)),
+         fmt::format("x{} <= 1.5 or x{} >= 1.5", i, j),
+         fmt::format("(x{0} - 1)^2 + (x{1} - 1)^2 + (x{2} - 1)^2 >= 0.25", i, j, k)});
+  }
+
   std::string safe_condition() {
+    if (crowd_) return safe_condition_of_crowd();
     if (plane_) {
       return pick<std::string>({fmt::format("(x0 - 4)^2 + (x1 - 4)^2 <= {}", draw(9, 30)),
                                 fmt::format("abs(x0 - x1) >= {}.5", draw(0, 2)), "x0 <= 3 or x1 >= 4",
@@ -183,13 +237,15 @@ class ProblemWriter {
     const int i = draw(0, static_cast<int>(discrete_.size()) - 1);
     const int u = draw(0, static_cast<int>(input_text_.size()) - 1);
     const int v = draw(0, static_cast<int>(input_text_.size()) - 1);
-    if (plane_ && draw(0, 1) == 0) return "true";
+    if (plane_ && draw(0, crowd_ ? 3 : 1) > 0) return "true";
     return pick<std::string>({"true", "true", fmt::format("u{} <= 0", u), fmt::format("x{} != 3", i),
                               fmt::format("x{} >= 2 or u{} != 1", i, u),
                               fmt::format("u{} + u{} <= 1 and x{} + u{} >= 0", u, v, i, v)});
   }
 
   RandomEdges edges_ = RandomEdges::any;
+  bool crowd_ = false;
+  int states_ = 1;
   bool continuous_time_ = false;
   bool plane_ = false;
   bool coupled_ = false;  ///< in a plane: states may be moved by several agents
@@ -201,8 +257,8 @@ class ProblemWriter {
 
 }  // namespace
 
-std::string draw_problem(RandomTime kind, RandomEdges edges) {
-  return ProblemWriter().write(kind, edges);
+std::string draw_problem(RandomTime kind, RandomEdges edges, RandomAgents agents) {
+  return ProblemWriter().write(kind, edges, agents);
 }
 
 }  // namespace coordreq

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+#include "analysis/cell_order.hpp"
+#include "bitset/level_rows.hpp"
+
+namespace coordreq {
+
+/// out[i] = convert(level of cell begin + i of the spec's grid) for a stretch of `count` cells; levels never
+/// lost come as the greatest of their width.
+template <class Out, class Level, class Convert>
+void convert_stretch(const LevelRows<Level>& levels, const CellOrder& order, std::uint64_t begin,
+                     std::uint64_t count, Out* out, const Convert& convert) {
+  order.for_each_run(static_cast<std::int64_t>(begin), static_cast<std::int64_t>(count),
+                     [&](const CellOrder::Run& run) {
+                       const Level* source = levels.row(run.row) + run.column;
+                       const std::int64_t step = run.row_step * levels.stride() + run.column_step;
+                       Out* target = out + run.offset;
+                       if (step == 1) {  // for the compiler: neighbours can be done together
+                         for (std::int64_t i = 0; i < run.count; ++i) target[i] = convert(source[i]);
+                       } else {
+                         for (std::int64_t i = 0; i < run.count; ++i) target[i] = convert(source[i * step]);
+                       }
+                     });
+}
+
+}  // namespace coordreq
