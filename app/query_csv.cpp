@@ -28,6 +28,9 @@ std::string answer_csv_header(const ResultsReader& results) {
     for (const std::string& name : partition.classes)
       line += fmt::format(",actions:{}:{}", partition.name, name);
   }
+  if (results.spec().coordination.convention) {
+    for (const AgentSpec& agent : results.spec().agents) line += ",convention:" + agent.name;
+  }
   return line + "\n";
 }
 
@@ -40,6 +43,7 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
     for (const StoredPartition& partition : results.partitions()) {
       line += std::string(2 + partition.classes.size(), ',');
     }
+    if (results.spec().coordination.convention) line += std::string(results.spec().agents.size(), ',');
     return line + "\n";
   }
   line += fmt::format("1,{},{:d},{:d},{}", answer.location.cell, answer.safe, answer.invariant,
@@ -48,6 +52,7 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
     line += "," + csv_steps(partition.delay) + "," + csv_steps(partition.trigger);
     for (const std::vector<bool>& actions : partition.actions) line += "," + csv_actions(actions);
   }
+  for (const std::vector<bool>& actions : answer.convention) line += "," + csv_actions(actions);
   return line + "\n";
 }
 

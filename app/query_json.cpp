@@ -124,6 +124,12 @@ Json json_of(const StateAnswer& answer, const ResultsReader& results) {
   for (std::size_t p = 0; p < answer.partitions.size(); ++p) {
     json["partitions"].push_back(partition_json(answer.partitions[p], p, results));
   }
+  if (!results.spec().coordination.convention) return json;
+  json["convention"] = Json::array();
+  for (std::size_t i = 0; i < answer.convention.size(); ++i) {
+    const AgentSpec& agent = results.spec().agents[i];
+    json["convention"].push_back(class_json(results.spec(), agent.name, agent.inputs, answer.convention[i]));
+  }
   return json;
 }
 

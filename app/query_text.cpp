@@ -138,6 +138,15 @@ std::string partition_text(const StateAnswer::Partition& answer, std::size_t p,
   return fmt::format("\npartition {}\n{}", stored.name, table.text());
 }
 
+std::string convention_text(const StateAnswer& answer, const ProblemSpec& spec) {
+  Table table({Table::Align::left, Table::Align::left});
+  for (std::size_t i = 0; i < answer.convention.size(); ++i) {
+    const AgentSpec& agent = spec.agents[i];
+    table.add({"  actions of " + agent.name, class_text(spec, agent.inputs, answer.convention[i])});
+  }
+  return "\nconvention\n" + table.text();
+}
+
 }  // namespace
 
 std::string answer_text(const StateAnswer& answer, const ResultsReader& results) {
@@ -159,6 +168,7 @@ std::string answer_text(const StateAnswer& answer, const ResultsReader& results)
   for (std::size_t p = 0; p < answer.partitions.size(); ++p) {
     text += partition_text(answer.partitions[p], p, results);
   }
+  if (!answer.convention.empty()) text += convention_text(answer, results.spec());
   return text;
 }
 

@@ -99,6 +99,8 @@ double estimate_memory(const ProblemSpec& spec) {
   // Levels for collision times and delays: 8 bits are enough up to 254 steps.
   bytes += cells * (1 + static_cast<double>(spec.coordination.partitions.size()));
   bytes += set_bytes * projected_actions(spec);
+  if (spec.coordination.convention)
+    bytes += static_cast<double>(spec.agents.size()) * (cells * sizeof(float) + cells / row_length * 8);
   bytes += cells / row_length * 80;  // bookkeeping of rows
   return bytes;
 }

@@ -11,6 +11,7 @@
 #include "analysis/cell_order.hpp"
 #include "base/thread_team.hpp"
 #include "coordination/controller.hpp"
+#include "coordination/convention_freedom.hpp"
 #include "coordination/delay_layers.hpp"
 #include "results/controller_file.hpp"
 #include "safety/invariance.hpp"
@@ -25,6 +26,12 @@ struct PartitionResult {
   const PartitionSpec* spec = nullptr;
   ActionGrouping grouping;
   DelayLayers layers;
+};
+
+/// A convention and what it costs; the actions of each agent are a class of their own.
+struct ConventionResult {
+  ActionGrouping agents;
+  ConventionFreedom freedom;
 };
 
 /// Told that a stage begins.
@@ -59,10 +66,12 @@ struct Solution {
   RowHull hull;
   Invariance invariance;
   Controller controller;
-  std::deque<PartitionResult> partitions;  ///< in the order of the spec; a deque, so that references stay
+  std::optional<ConventionResult> convention;  ///< if the spec asks for one
+  std::deque<PartitionResult> partitions;      ///< in the order of the spec; a deque, so that references stay
   CellOrder order;
 
  private:
+  void find_convention(ThreadTeam& team, const EnterStage& enter);
   void find_layers(ThreadTeam& team, const EnterStage& enter, const StageSwept& swept);
 };
 

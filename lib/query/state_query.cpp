@@ -19,6 +19,7 @@ StateAnswer StateQuery::at(std::vector<Rational> state) {
                                  .trigger = results_.trigger(p, block).front(),
                                  .actions = controller_.actions(p, cell)});
   }
+  if (results_.spec().coordination.convention) answer.convention = controller_.convention(cell);
   return answer;
 }
 

@@ -25,6 +25,8 @@ struct StateAnswer {
   bool invariant = false;
   std::int32_t collision_time = 0;  ///< steps, as ResultsReader::collision_time()
   std::vector<Partition> partitions;
+  /// What the convention leaves each agent, [agent][action]; none without a convention.
+  std::vector<std::vector<bool>> convention;
 };
 
 /// Answers questions about states. Not thread-safe.

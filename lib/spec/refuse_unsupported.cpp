@@ -18,7 +18,6 @@ void refuse_in_coordination(const CoordinationSpec& coordination) {
   if (coordination.horizon_time) refuse("'horizon_time'", pointer + "horizon_time");
   if (coordination.horizon) refuse("'horizon'", pointer + "horizon");
   if (!coordination.link_cost.empty()) refuse("'link_cost'", pointer + "link_cost");
-  if (coordination.convention) refuse("'convention'", pointer + "convention");
 }
 
 }  // namespace

@@ -34,10 +34,13 @@ struct Claims {
   std::vector<std::int32_t> collision_time;
   std::vector<PartitionClaims> partitions;  ///< those of the spec, in its order
   bool has_controller = false;
-  std::vector<std::uint8_t> controller;  ///< bytes [cells, ceil(joint inputs / 8)]
-  std::optional<PackedPairs> listed;     ///< what `controller.file` lists, which is not doubted
-  std::vector<PostTable> abstraction;    ///< one a state, or none
-  bool same_version = true;              ///< written by this version of the program
+  std::vector<std::uint8_t> controller;                ///< bytes [cells, ceil(joint inputs / 8)]
+  std::optional<PackedPairs> listed;                   ///< what `controller.file` lists, which is not doubted
+  std::vector<std::vector<float>> convention_freedom;  ///< [agent][cell]; none without a convention
+  std::vector<std::vector<std::uint8_t>>
+      convention;  ///< [agent]: bytes [cells, ceil(m / 8)] of what it may do; none if not stored
+  std::vector<PostTable> abstraction;  ///< one a state, or none
+  bool same_version = true;            ///< written by this version of the program
   std::uint64_t safe_cells = 0;
   std::uint64_t invariant_cells = 0;
   std::int64_t iterations = 0;

@@ -26,8 +26,6 @@ TEST(RefuseUnsupported, NamesTheKey) {
        "'horizon_time' is not supported yet (/coordination/horizon_time)"},
       {"/coordination", R"({"link_cost": [{"agents": ["a", "b"], "cost": 1}]})",
        "'link_cost' is not supported yet (/coordination/link_cost)"},
-      {"/coordination", R"({"convention": true})",
-       "'convention' is not supported yet (/coordination/convention)"},
       {"/network", R"({"delay": 2})", "'network' is not supported yet (/network)"},
       {"/requirements", R"([{"name": "r", "where": "true", "invariant": true}])",
        "'requirements' is not supported yet (/requirements)"},
@@ -51,7 +49,7 @@ TEST(RefuseUnsupported, TakesEverythingElse) {
       {"connection_delay", 2},
       {"partitions", nlohmann::json::parse(R"([{"classes": [["a", "b"]]}, {"classes": []}])")},
       {"link_cost", nlohmann::json::array()},
-      {"convention", false}};
+      {"convention", true}};
   spec["requirements"] = nlohmann::json::array();
   spec["output"] = {{"controller", true}, {"actions", true}, {"layers", true}, {"abstraction", true}};
   EXPECT_EQ(refusal(spec), "");
