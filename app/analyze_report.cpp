@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "app/coalition_report.hpp"
 #include "app/json_text.hpp"
@@ -116,6 +117,20 @@ std::string partitions_table(const AnalysisSummary& summary) {
   return "\n" + table.text() + connection;
 }
 
+std::string convention_text(const AnalysisSummary& summary) {
+  using Align = Table::Align;
+  Table table({Align::left, Align::right, Align::right, Align::right});
+  table.add({"  agent", "keeps on average", "all in", "at most half in"});
+  for (const ConventionSummary& own : summary.convention) {
+    const std::int64_t half =
+        std::accumulate(own.histogram.begin(), own.histogram.begin() + 5, std::int64_t{0});
+    table.add({"  " + own.agent, fmt::format("{:.1f} %", 100 * own.mean), cells(own.full), cells(half)});
+  }
+  return fmt::format(
+      "\nconvention\n{}  Agents that keep to it never need to coordinate inside the invariance set.\n",
+      table.text());
+}
+
 std::string sets_text(const AnalysisSummary& summary) {
   Table table({Table::Align::left, Table::Align::left});
   if (const std::optional<ControllerSummary>& controller = summary.controller) {
@@ -145,6 +160,7 @@ std::string partitions_text(const AnalysisSummary& summary, const ProblemSpec& s
   std::string text;
   for (const PartitionSummary& partition : summary.partitions) text += partition_text(partition, summary);
   if (summary.network) text += network_text(*summary.network, *spec.network, summary.invariant);
+  if (!summary.convention.empty()) text += convention_text(summary);
   return text;
 }
 
@@ -196,6 +212,10 @@ std::string summary_json(const AnalysisSummary& summary) {
     json["partitions"].push_back(partition_json(partition));
   json["coalition"] = coalition_json(summary);
   if (summary.network) json["network"] = network_json(*summary.network);
+  for (const ConventionSummary& own : summary.convention) {
+    json["convention"].push_back(
+        Json{{"agent", own.agent}, {"mean", own.mean}, {"full", own.full}, {"histogram", own.histogram}});
+  }
   json["requirements"] = Json::array();
   json["output"] = summary.output;
   json["threads"] = summary.threads;

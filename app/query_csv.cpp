@@ -39,6 +39,9 @@ std::string answer_csv_header(const ResultsReader& results) {
   }
   if (results.has_coalition()) line += ",coalition,critical_pairs";
   if (results.spec().network) line += ",safe_modes";
+  if (results.spec().coordination.convention) {
+    for (const AgentSpec& agent : results.spec().agents) line += ",convention:" + agent.name;
+  }
   return line + "\n";
 }
 
@@ -53,6 +56,7 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
     }
     if (results.has_coalition()) line += ",,";
     if (results.spec().network) line += ",";
+    if (results.spec().coordination.convention) line += std::string(results.spec().agents.size(), ',');
     return line + "\n";
   }
   line += fmt::format("1,{},{:d},{:d},{}", answer.location.cell, answer.safe, answer.invariant,
@@ -64,6 +68,7 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
   if (answer.coalition) line += csv_coalition(*answer.coalition, results);
   if (const auto& network = results.spec().network)
     line += fmt::format(",{}", fmt::join(safe_mode_names(*network, answer.safe_modes), " "));
+  for (const std::vector<bool>& actions : answer.convention) line += "," + csv_actions(actions);
   return line + "\n";
 }
 

@@ -146,6 +146,12 @@ Json json_of(const StateAnswer& answer, const ResultsReader& results) {
   json["coalition"] = answer.coalition ? coalition_json(*answer.coalition, results) : Json();
   if (const auto& network = results.spec().network)
     json["safe_modes"] = inside ? Json(safe_mode_names(*network, answer.safe_modes)) : Json();
+  if (!results.spec().coordination.convention) return json;
+  json["convention"] = Json::array();
+  for (std::size_t i = 0; i < answer.convention.size(); ++i) {
+    const AgentSpec& agent = results.spec().agents[i];
+    json["convention"].push_back(class_json(results.spec(), agent.name, agent.inputs, answer.convention[i]));
+  }
   return json;
 }
 

@@ -153,6 +153,15 @@ std::string coalition_text(const StateAnswer::Coalition& coalition, const Result
                      steps_text(*results.spec().coordination.horizon, results), table.text());
 }
 
+std::string convention_text(const StateAnswer& answer, const ProblemSpec& spec) {
+  Table table({Table::Align::left, Table::Align::left});
+  for (std::size_t i = 0; i < answer.convention.size(); ++i) {
+    const AgentSpec& agent = spec.agents[i];
+    table.add({"  actions of " + agent.name, class_text(spec, agent.inputs, answer.convention[i])});
+  }
+  return "\nconvention\n" + table.text();
+}
+
 }  // namespace
 
 std::string answer_text(const StateAnswer& answer, const ResultsReader& results) {
@@ -176,6 +185,7 @@ std::string answer_text(const StateAnswer& answer, const ResultsReader& results)
   }
   if (answer.coalition) text += coalition_text(*answer.coalition, results);
   if (const auto& network = results.spec().network) text += safe_modes_text(*network, answer.safe_modes);
+  if (!answer.convention.empty()) text += convention_text(answer, results.spec());
   return text;
 }
 

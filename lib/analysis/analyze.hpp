@@ -14,8 +14,9 @@ namespace coordreq {
 
 /// What is under way; called from the calling thread only, often.
 struct Progress {
-  std::string stage;  ///< "controller" if it is in a file, "abstraction", "safe set", "invariance", "layers
-                      ///< PARTITION", "coalitions", "network", "writing"
+  /// "controller" (if there is a file with one), "abstraction", "safe set", "invariance", "layers PARTITION",
+  /// "coalitions", "network", "convention" (where asked for), "writing"
+  std::string stage;
   std::int64_t sweep = 0;  ///< number of the sweep that has ended, 0 where there is none
   std::int64_t rows = 0;   ///< rows of cells that it has worked out
 };
@@ -73,6 +74,14 @@ struct NetworkSummary {
   std::int64_t every_mode = 0;  ///< cells that are in all W(q)
 };
 
+/// What a convention costs one agent (see ConventionFreedom).
+struct ConventionSummary {
+  std::string agent;
+  double mean = 0;
+  std::int64_t full = 0;
+  std::vector<std::int64_t> histogram;
+};
+
 /// The JSON summary of the contract, section 3, as data.
 struct AnalysisSummary {
   std::string name;
@@ -89,6 +98,7 @@ struct AnalysisSummary {
   std::vector<PartitionSummary> partitions;
   std::optional<CoalitionSummary> coalition;  ///< if the spec has a horizon
   std::optional<NetworkSummary> network;
+  std::vector<ConventionSummary> convention;  ///< by agent; none without a convention
   std::string output;
   int threads = 1;
   std::vector<std::pair<std::string, double>> seconds;  ///< by stage, in order, wall time

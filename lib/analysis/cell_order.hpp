@@ -15,7 +15,8 @@ namespace coordreq {
 class CellOrder {
  public:
   /// @param position [state of the spec] its dimension in `grid`, a permutation
-  CellOrder(const UniformGrid& grid, std::vector<std::size_t> position) : position_(std::move(position)) {
+  CellOrder(const UniformGrid& grid, std::vector<std::size_t> position)
+      : position_(std::move(position)), row_length_(grid.row_length()) {
     for (const std::size_t p : position_) {
       counts_.push_back(grid[p].count);
       const bool is_last = p + 1 == grid.size();
@@ -33,6 +34,13 @@ class CellOrder {
     std::int64_t count = 0;
     std::int64_t offset = 0;  ///< of the first cell from the beginning of the stretch
   };
+
+  /// Position of the first cell of a run in the engine's grid, row-major, and from one of its cells to the
+  /// next.
+  [[nodiscard]] std::int64_t place(const Run& run) const { return run.row * row_length_ + run.column; }
+  [[nodiscard]] std::int64_t step(const Run& run) const {
+    return run.row_step * row_length_ + run.column_step;
+  }
 
   /// Visits the cells [begin, begin + count) of the spec's grid, in order.
   template <class Visit>
@@ -63,6 +71,7 @@ class CellOrder {
 
  private:
   std::vector<std::size_t> position_;
+  std::int64_t row_length_;
   std::vector<std::int64_t> counts_;
   std::vector<std::int64_t> row_step_;
   std::vector<std::int64_t> column_step_;

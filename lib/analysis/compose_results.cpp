@@ -63,6 +63,7 @@ ResultContent ResultComposer::content() {
     content.listed = listed_bits();
     content.listed_sha256 = solution_.listed->sha256;
   }
+  if (solution_.convention) add_convention(content);
   if (spec.output.abstraction) content.abstraction = tables();
   if (solution_.network) add_network(content);
   return content;
@@ -134,6 +135,25 @@ ResultBits ResultComposer::bits(const ActionGrouping& grouping, std::size_t c,
     fill_action_bits(controller, grouping, c, begin, count, out);
   };
   return result;
+}
+
+void ResultComposer::add_convention(ResultContent& content) const {
+  const ConventionResult& convention = *solution_.convention;
+  ResultNames& agents =
+      content.names.emplace_back(ResultNames{.name = "agent", .long_name = "agent", .names = {}});
+  for (const AgentSpec& agent : solution_.spec.agents) agents.names.push_back(agent.name);
+  content.maps.push_back(
+      {.name = "convention_freedom",
+       .long_name = "part of its admissible actions that an agent keeps under the convention",
+       .leading = "agent",
+       .flags = {},
+       .values = freedom_array(convention.freedom, solution_.order)});
+  for (std::size_t i = 0; solution_.spec.output.actions && i < agents.names.size(); ++i) {
+    ResultBits& own = content.convention.emplace_back(bits(convention.agents, i, agents.names[i]));
+    own.fill = [this, &convention, i](std::uint64_t begin, std::uint64_t count, void* out) {
+      fill_convention_bits(solution_.controller, solution_.hull, convention.agents, i, begin, count, out);
+    };
+  }
 }
 
 ResultBits ResultComposer::listed_bits() const {

@@ -21,6 +21,7 @@ class ResultComposer {
   [[nodiscard]] std::vector<ResultAxis> axes() const;
   [[nodiscard]] ResultPartition partition_content(const PartitionResult& partition, ElementType type);
   [[nodiscard]] ResultBits bits(const ActionGrouping& grouping, std::size_t c, const std::string& name) const;
+  void add_convention(ResultContent& content) const;
   [[nodiscard]] ResultBits listed_bits() const;
   [[nodiscard]] std::vector<ResultTable> tables() const;
   void add_network(ResultContent& content) const;

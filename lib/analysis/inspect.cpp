@@ -124,6 +124,8 @@ double estimate_memory(const ProblemSpec& spec) {
   }
   bytes += set_bytes * projected_actions(spec);
   bytes += network_bytes(spec, cells, set_bytes);
+  if (spec.coordination.convention)
+    bytes += static_cast<double>(spec.agents.size()) * (cells * sizeof(float) + cells / row_length * 8);
   bytes += cells / row_length * 80;  // bookkeeping of rows
   return bytes;
 }

@@ -174,6 +174,27 @@ ResultArray trigger_array(const DelayLayers& layers, const LevelMap& collision_t
   return delays_or_triggers(layers, collision_time, connection_delay, order, type);
 }
 
+ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& order) {
+  return {ElementType::float32, [&](std::uint64_t begin, std::uint64_t count, void* out) {
+            auto* place = static_cast<float*>(out);
+            while (count > 0) {
+              const std::uint64_t cells = convention.agents.front().freedom.size();
+              const std::vector<float>& freedom = convention.agents[begin / cells].freedom;
+              const std::uint64_t here = std::min(count, cells - begin % cells);
+              order.for_each_run(static_cast<std::int64_t>(begin % cells), static_cast<std::int64_t>(here),
+                                 [&](const CellOrder::Run& run) {
+                                   const float* source = freedom.data() + order.place(run);
+                                   const std::int64_t step = order.step(run);
+                                   for (std::int64_t i = 0; i < run.count; ++i)
+                                     place[run.offset + i] = source[i * step];
+                                 });
+              begin += here;
+              count -= here;
+              place += here;
+            }
+          }};
+}
+
 ResultLayers layer_lists(const DelayLayers& layers, const CellOrder& order) {
   if (layers.layers_of.cells() <= std::numeric_limits<std::uint32_t>::max()) {
     return lists_of<std::uint32_t>(layers, order, ElementType::uint32);

@@ -5,6 +5,7 @@
 
 #include "analysis/cell_order.hpp"
 #include "bitset/level_map.hpp"
+#include "coordination/convention_freedom.hpp"
 #include "coordination/delay_layers.hpp"
 #include "results/result_content.hpp"
 
@@ -38,6 +39,9 @@ void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::ui
 [[nodiscard]] ResultArray trigger_array(const DelayLayers& layers, const LevelMap& collision_time,
                                         std::int64_t connection_delay, const CellOrder& order,
                                         ElementType type);
+
+/// float32 [agents, cells]; NaN outside K.
+[[nodiscard]] ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& order);
 
 /// T(0), ..., T(F) as ascending lists of linear indices. The lists belong to the result.
 [[nodiscard]] ResultLayers layer_lists(const DelayLayers& layers, const CellOrder& order);

@@ -61,9 +61,19 @@ Solution::Solution(const ProblemSpec& problem, ThreadTeam& team, const EnterStag
       controller{&engine, &invariance.invariant, &invariance.collision_time, spec.controller.synthesis},
       order(abstraction.grid, place_of_states(layout)) {
   find_layers(team, enter, swept);
-  if (!spec.network) return;
-  enter("network");
-  network = find_network_safety(network_problem(spec, controller, hull), stepper(swept, "network"), team);
+  if (spec.network) {
+    enter("network");
+    network = find_network_safety(network_problem(spec, controller, hull), stepper(swept, "network"), team);
+  }
+  if (spec.coordination.convention) find_convention(team, enter);
+}
+
+void Solution::find_convention(ThreadTeam& team, const EnterStage& enter) {
+  enter("convention");
+  std::vector<InputClass> classes;
+  for (const AgentSpec& agent : spec.agents) classes.push_back(agent.inputs);
+  convention.emplace(ConventionResult{ActionGrouping(engine, std::move(classes), team), {}});
+  convention->freedom = coordreq::find_convention(controller, hull, convention->agents, team);
 }
 
 void Solution::find_layers(ThreadTeam& team, const EnterStage& enter, const StageSwept& swept) {

@@ -11,6 +11,7 @@
 #include "analysis/cell_order.hpp"
 #include "base/thread_team.hpp"
 #include "coordination/controller.hpp"
+#include "coordination/convention_freedom.hpp"
 #include "coordination/delay_layers.hpp"
 #include "coordination/network_safety.hpp"
 #include "results/controller_file.hpp"
@@ -26,6 +27,12 @@ namespace coordreq {
 struct PartitionResult {
   const PartitionSpec* spec = nullptr;
   DelayLayers layers;
+};
+
+/// A convention and what it costs; the actions of each agent are a class of their own.
+struct ConventionResult {
+  ActionGrouping agents;
+  ConventionFreedom freedom;
 };
 
 /// Told that a stage begins.
@@ -63,9 +70,11 @@ struct Solution {
   Controller controller;
   std::deque<PartitionResult> partitions;  ///< in the order of the spec; a deque, so that references stay
   std::optional<NetworkSafety> network;    ///< if the spec has one
+  std::optional<ConventionResult> convention;  ///< if the spec asks for one
   CellOrder order;
 
  private:
+  void find_convention(ThreadTeam& team, const EnterStage& enter);
   void find_layers(ThreadTeam& team, const EnterStage& enter, const StageSwept& swept);
   [[nodiscard]] DelayLayers layers_of(std::size_t p, ThreadTeam& team,
                                       const std::function<void(std::int64_t, std::int64_t)>& step) const;

@@ -76,6 +76,13 @@ AnalysisSummary summarise(const Solution& solution) {
     summary.network = summary_of(*spec.network, *solution.network);
     summary.work.push_back(work_of("network", solution.network->counts));
   }
+  for (std::size_t i = 0; solution.convention && i < spec.agents.size(); ++i) {
+    const ConventionFreedom::Agent& own = solution.convention->freedom.agents[i];
+    summary.convention.push_back({.agent = spec.agents[i].name,
+                                  .mean = own.mean,
+                                  .full = own.full,
+                                  .histogram = {own.histogram.begin(), own.histogram.end()}});
+  }
   return summary;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 
+#include "coordination/free_rows.hpp"
 #include "coordination/pair_projection.hpp"
 
 namespace coordreq {
@@ -24,12 +25,11 @@ class Projections::Builder {
           const LevelRows<Level>& levels)
       : controller_(controller),
         grouping_(grouping),
-        hull_(hull),
         boxes_(grouping),
         pair_(controller, boxes_, grouping.size()),
         independent_(controller.engine->row_words()),
         posts_(*controller.engine, levels),
-        lanes_(posts_.lanes(), 0),
+        free_(controller, hull, posts_),
         members_(controller.engine->row_words()),
         masks_(grouping.size()) {}
 
@@ -39,7 +39,7 @@ class Projections::Builder {
   /// @returns whether `packed` are boxes of posts
   bool project(const RowPlace& place, std::vector<Word>& packed, bool& is_full) {
     const ConstRow invariant = controller_.invariant->row(place.row);
-    is_full = everything_is_allowed(place);
+    is_full = free_.is_free(place);
     if (is_full && !boxes_.is_product()) return false;
     grouping_.group(place, groups_);
     const bool is_product = boxes_.is_product() && boxes_.fill(place, groups_);
@@ -63,16 +63,6 @@ class Projections::Builder {
   }
 
  private:
-  [[nodiscard]] bool everything_is_allowed(const RowPlace& place) {
-    if (controller_.engine->allow() != nullptr) return false;
-    if (controller_.synthesis == Synthesis::given) return true;
-    hull_.box(place, box_);
-    if (!box_.covers) return false;
-    const auto n = static_cast<std::size_t>(controller_.engine->row_length());
-    posts_.kernels().spread(controller_.invariant->row(place.row).data(), lanes_.data(), n);
-    return posts_.kernels().is_top(posts_.minimum(box_), lanes_.data(), n);
-  }
-
   void fill_masks(std::size_t c, ConstRow invariant) {
     masks_[c].clear();
     for (std::size_t g = 0; g < groups_.classes[c]->size(); ++g) {
@@ -152,17 +142,16 @@ class Projections::Builder {
 
   const Controller& controller_;
   const ActionGrouping& grouping_;
-  const RowHull& hull_;
   RowBoxes boxes_;
   PairProjection pair_;
   bool is_simple_ = false;  ///< all joint posts of the row are boxes, and everything is allowed
   IndependentPosts independent_;
   PostReader<Level> posts_;
+  FreeRows<Level> free_;
   RowGroups groups_;
   TupleWalk::Candidates candidates_;
   TupleWalk tuple_;
   RowHull::Box box_;
-  std::vector<Level> lanes_;
   std::vector<Word> members_;
   std::vector<std::vector<Word>> masks_;
   std::vector<std::uint8_t> known_;

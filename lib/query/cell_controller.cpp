@@ -4,6 +4,7 @@
 
 #include "abstraction/counter.hpp"
 #include "base/error.hpp"
+#include "coordination/convention.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {
@@ -87,6 +88,19 @@ std::vector<std::vector<bool>> CellController::actions(std::size_t partition, st
     for (std::int64_t u = 0; u < results_.inputs().count(); ++u) {
       if (admissible[at(u)]) projection[at(action_of(results_.inputs(), u, inputs))] = true;
     }
+  }
+  return result;
+}
+
+std::vector<std::vector<bool>> CellController::convention(std::int64_t cell) {
+  const std::vector<AgentSpec>& agents = results_.spec().agents;
+  std::vector<AgentActions> actions;
+  for (const AgentSpec& agent : agents) actions.push_back(agent_actions(results_.inputs(), agent.inputs));
+  if (!results_.has_convention()) return convention_at(joint_inputs(cell), actions);
+  std::vector<std::vector<bool>> result;
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    const CellBlock block = one_cell(results_.grid(), cell);
+    result.push_back(unpacked(results_.convention_bits(i, block), actions[i].count));
   }
   return result;
 }

@@ -30,6 +30,8 @@ class CellController {
   [[nodiscard]] const std::vector<bool>& joint_inputs(std::int64_t cell);
   /// Whether each joint action of each class is admissible: [class][action].
   [[nodiscard]] std::vector<std::vector<bool>> actions(std::size_t partition, std::int64_t cell);
+  /// Whether the convention leaves each agent each of its actions: [agent][action]; none outside K.
+  [[nodiscard]] std::vector<std::vector<bool>> convention(std::int64_t cell);
 
  private:
   [[nodiscard]] std::vector<bool> compute(std::int64_t cell);

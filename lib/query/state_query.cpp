@@ -24,6 +24,7 @@ StateAnswer StateQuery::at(std::vector<Rational> state) {
     for (const std::uint8_t safe : results_.network_safe(0, network->modes.size(), block))
       answer.safe_modes.push_back(safe != 0);
   }
+  if (results_.spec().coordination.convention) answer.convention = controller_.convention(cell);
   return answer;
 }
 

@@ -32,6 +32,8 @@ struct StateAnswer {
   };
   std::optional<Coalition> coalition;  ///< if the file has a coalition map
   std::vector<bool> safe_modes;        ///< by mode of the network; none without one
+  /// What the convention leaves each agent, [agent][action]; none without a convention.
+  std::vector<std::vector<bool>> convention;
 };
 
 /// Answers questions about states. Not thread-safe.

@@ -32,6 +32,7 @@ std::size_t element_size(ElementType type) {
       return 2;
     case ElementType::int32:
     case ElementType::uint32:
+    case ElementType::float32:
       return 4;
     case ElementType::uint64:
     case ElementType::float64:

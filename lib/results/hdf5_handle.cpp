@@ -163,6 +163,8 @@ hid_t number_type(ElementType type) {
       return H5T_STD_U32LE;
     case ElementType::uint64:
       return H5T_STD_U64LE;
+    case ElementType::float32:
+      return H5T_IEEE_F32LE;
     case ElementType::float64:
       break;
   }

@@ -11,7 +11,7 @@
 // functions that fill a stretch, so that nothing is held twice.
 namespace coordreq {
 
-enum class ElementType : std::uint8_t { uint8, int16, int32, uint32, uint64, float64 };
+enum class ElementType : std::uint8_t { uint8, int16, int32, uint32, uint64, float32, float64 };
 
 /// Fills `out` with elements [begin, begin + count) of an array, row-major, in its element type.
 /// Called from several threads at once.
@@ -106,8 +106,9 @@ struct ResultContent {
   std::optional<ResultBits> listed;  ///< pairs that a controller file lists; `/controller:file`
   std::string listed_sha256;         ///< of that file
   std::vector<ResultTable> abstraction;
-  std::vector<ResultNames> names;  ///< leading axes of `maps`
-  std::vector<ResultMap> maps;     ///< what else is known of each cell
+  std::vector<ResultBits> convention;  ///< one an agent, or none; `/actions:convention/AGENT`
+  std::vector<ResultNames> names;      ///< leading axes of `maps`
+  std::vector<ResultMap> maps;         ///< what else is known of each cell
 };
 
 }  // namespace coordreq

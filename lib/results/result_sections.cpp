@@ -242,6 +242,11 @@ void write_actions(NetcdfWriter& file, const ResultContent& content) {
                  "admissible joint actions of the class, one bit each");
     }
   }
+  for (const ResultBits& bits : content.convention) {
+    write_bits(
+        file, content, paths::convention(bits.class_name), bits,
+        "actions that the agent may take by convention, whatever the others do of theirs, one bit each");
+  }
   if (content.controller) {
     write_bits(file, content, "/controller", *content.controller,
                "joint inputs that the controller admits, one bit each");

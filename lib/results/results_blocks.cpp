@@ -31,8 +31,9 @@ const ResultsFile::OpenDataset& ResultsFile::open_for_parts(const std::string& p
               "set the chunk cache");
   hdf5::Handle dataset(H5Dopen2(file_.get(), path.c_str(), access.get()), H5Dclose, "open " + path);
   const hdf5::Handle stored(H5Dget_type(dataset.get()), H5Tclose, "read a type");
-  for (const ElementType type : {ElementType::uint8, ElementType::int16, ElementType::int32,
-                                 ElementType::uint32, ElementType::uint64, ElementType::float64}) {
+  for (const ElementType type :
+       {ElementType::uint8, ElementType::int16, ElementType::int32, ElementType::uint32, ElementType::uint64,
+        ElementType::float32, ElementType::float64}) {
     if (H5Tequal(stored.get(), hdf5::number_type(type)) <= 0) continue;
     return open_.emplace(path, OpenDataset{std::move(dataset), type}).first->second;
   }

@@ -34,6 +34,7 @@ class PartsReader {
       check_bits(paths::kListed, joint_actions(all_inputs()));
       parts_.attributes.controller_sha256 = file_.text(paths::kListed, "sha256");
     }
+    if (parts_.spec.coordination.convention) check_convention();
     if (file_.exists(paths::kAbstraction)) read_tables();
     if (parts_.spec.coordination.horizon) read_coalitions();
     return std::move(parts_);
@@ -251,6 +252,21 @@ class PartsReader {
       fail("the attribute actions is " + std::to_string(stored) + ", expected " + std::to_string(actions),
            path);
     }
+  }
+
+  void check_convention() const {
+    const std::vector<AgentSpec>& agents = parts_.spec.agents;
+    const std::vector<std::string> names = file_.texts(paths::kAgent);
+    const auto same = [](const std::string& name, const AgentSpec& agent) { return name == agent.name; };
+    if (!std::equal(names.begin(), names.end(), agents.begin(), agents.end(), same))
+      fail("the agents are not those of the spec", paths::kAgent);
+    Shape shape = shape_;
+    shape.insert(shape.begin(), agents.size());
+    file_.expect_shape(paths::kConventionFreedom, shape);
+    expect_type(paths::kConventionFreedom, ElementType::float32);
+    if (!file_.exists(paths::kConvention)) return;
+    for (const AgentSpec& agent : agents)
+      check_bits(paths::convention(agent.name), joint_actions(agent.inputs));
   }
 
   /// What is stored of a partition on request.

@@ -10,6 +10,10 @@ namespace coordreq::paths {
 inline constexpr char kController[] = "/controller";
 /// The pairs of `controller.file`. No state can have this name.
 inline constexpr char kListed[] = "/controller:file";
+inline constexpr char kAgent[] = "/agent";
+inline constexpr char kConventionFreedom[] = "/convention_freedom";
+/// What agents may do by convention. No partition can have this name.
+inline constexpr char kConvention[] = "/actions:convention";
 inline constexpr char kAbstraction[] = "/abstraction";
 inline constexpr char kMode[] = "/mode";
 inline constexpr char kNetworkSafe[] = "/network_safe";
@@ -25,6 +29,9 @@ inline constexpr char kPair[] = "/pair";
 }
 [[nodiscard]] inline std::string layers(const StoredPartition& partition) {
   return "/layers/" + partition.name;
+}
+[[nodiscard]] inline std::string convention(const std::string& agent) {
+  return std::string(kConvention) + "/" + agent;
 }
 /// @param end "first" or "last"
 [[nodiscard]] inline std::string abstraction(const std::string& state, const std::string& end) {

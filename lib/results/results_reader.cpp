@@ -173,6 +173,25 @@ std::vector<std::uint8_t> ResultsReader::listed_bits(const CellBlock& block) con
   return bits(paths::kListed, inputs_.count(), block);
 }
 
+std::vector<float> ResultsReader::convention_freedom(std::size_t agent, const CellBlock& block) const {
+  std::vector<std::uint64_t> offset = unsigned_of(block.first);
+  std::vector<std::uint64_t> count = unsigned_of(block.count);
+  offset.insert(offset.begin(), agent);
+  count.insert(count.begin(), 1);
+  return elements<float>(paths::kConventionFreedom, ElementType::float32, offset, count);
+}
+
+bool ResultsReader::has_convention() const {
+  return parts_.spec.coordination.convention && file_->exists(paths::kConvention);
+}
+
+std::vector<std::uint8_t> ResultsReader::convention_bits(std::size_t agent, const CellBlock& block) const {
+  const AgentSpec& spec = parts_.spec.agents[agent];
+  std::int64_t actions = 1;
+  for (const std::int32_t input : spec.inputs) actions *= inputs_[static_cast<std::size_t>(input)].count();
+  return bits(paths::convention(spec.name), actions, block);
+}
+
 std::vector<std::uint64_t> ResultsReader::whole(const std::string& dataset) const {
   const auto shape = reading(path_, [&] { return file_->shape(dataset); });
   const auto type = reading(path_, [&] { return file_->element_type(dataset); });

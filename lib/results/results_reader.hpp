@@ -134,6 +134,13 @@ class ResultsReader {
   [[nodiscard]] std::vector<std::uint8_t> controller_bits(const CellBlock& block) const;
   /// The same for the pairs that `controller.file` lists. REQUIRES: the spec has one.
   [[nodiscard]] std::vector<std::uint8_t> listed_bits(const CellBlock& block) const;
+  /// Part of an agent's admissible actions that the convention leaves it, NaN outside K. REQUIRES: the spec
+  /// asks for it.
+  [[nodiscard]] std::vector<float> convention_freedom(std::size_t agent, const CellBlock& block) const;
+  /// What agents may do by convention is stored.
+  [[nodiscard]] bool has_convention() const;
+  /// As action_bits(), of one agent. REQUIRES: has_convention().
+  [[nodiscard]] std::vector<std::uint8_t> convention_bits(std::size_t agent, const CellBlock& block) const;
   /// REQUIRES: has_layers(partition). `start` is checked to ascend from 0 to the number of cells, `cell` to
   /// hold cells of the grid.
   [[nodiscard]] StoredLayers layers(std::size_t partition) const;

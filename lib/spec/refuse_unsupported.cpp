@@ -12,14 +12,9 @@ namespace {
   throw SpecError(fmt::format("{} is not supported yet", what), pointer);
 }
 
-void refuse_in_coordination(const CoordinationSpec& coordination) {
-  if (coordination.convention) refuse("'convention'", "/coordination/convention");
-}
-
 }  // namespace
 
 void refuse_unsupported(const ProblemSpec& spec) {
-  refuse_in_coordination(spec.coordination);
   if (!spec.requirements.empty()) refuse("'requirements'", "/requirements");
 }
 

@@ -28,7 +28,8 @@ std::int32_t trigger_of(std::int32_t delay, std::int64_t connection_delay) {
 
 }  // namespace
 
-CellTallies::CellTallies(const CellCheck& check) : has_controller(check.claims->has_controller) {
+CellTallies::CellTallies(const CellCheck& check)
+    : convention(*check.claims), has_controller(check.claims->has_controller) {
   for (const PartitionClaims& partition : check.claims->partitions) {
     delay.emplace_back("delay " + partition.name);
     trigger.emplace_back("trigger " + partition.name);
@@ -40,6 +41,7 @@ CellTallies::CellTallies(const CellCheck& check) : has_controller(check.claims->
 std::vector<Finding> CellTallies::findings() const {
   std::vector<Finding> result = {safe.finding(), invariant.finding(), collision_time.finding()};
   if (has_controller) result.push_back(controller.finding());
+  convention.add_findings(result);
   for (std::size_t p = 0; p < delay.size(); ++p) {
     if (has_actions[p]) result.push_back(actions[p].finding());
     result.push_back(delay[p].finding());
@@ -59,6 +61,7 @@ CellChecker::CellChecker(const CellCheck& check, CellTallies& tallies, SafeMemor
       inputs_(check.inputs->count()),
       admitted_(static_cast<std::size_t>(inputs_)) {
   if (check.tubes != nullptr) tubes_.emplace(*check.tubes);
+  if (spec_.coordination.convention) convention_.emplace(spec_, *check.inputs, claims_, tallies.convention);
   for (const PartitionSpec& partition : spec_.coordination.partitions) {
     Partition& own = partitions_.emplace_back();
     for (const auto& agents : partition.classes) {
@@ -85,6 +88,7 @@ void CellChecker::check(std::int64_t cell) {
     }
   }
   if (claims_.has_controller) check_controller();
+  if (convention_) convention_->check(cell, admitted_, sound_only(), [this] { return place(); });
   for (std::size_t p = 0; p < partitions_.size(); ++p) check_partition(p);
 }
 

@@ -8,6 +8,7 @@
 
 #include "verify/allowed_pairs.hpp"
 #include "verify/check_cells.hpp"
+#include "verify/check_convention.hpp"
 #include "verify/class_actions.hpp"
 #include "verify/safe_judge.hpp"
 
@@ -26,6 +27,7 @@ struct CellTallies {
   std::deque<Tally> delay, trigger;  ///< by partition
   std::deque<Tally> actions;         ///< by partition
   Tally controller{"controller"};
+  ConventionTallies convention;
   std::vector<bool> has_actions;
   bool has_controller = false;
 };
@@ -77,6 +79,7 @@ class CellChecker {
   std::optional<CellTubes> tubes_;  ///< if the ways between the samples count
   AllowedPairs allowed_;
   SafeJudge judge_;
+  std::optional<ConventionChecker> convention_;  ///< if the spec asks for one
   std::vector<Partition> partitions_;
   std::int64_t inputs_;
   std::int64_t cell_ = 0;

@@ -46,6 +46,9 @@ struct Claims {
   std::vector<std::int64_t> critical_pair_cells;          ///< [pair] as counted; may be missing
   std::vector<std::vector<std::uint8_t>> network;         ///< [mode][cell] 0 or 1; none without a network
   std::vector<std::uint64_t> network_cells;               ///< by mode
+  std::vector<std::vector<float>> convention_freedom;  ///< [agent][cell]; none without a convention
+  std::vector<std::vector<std::uint8_t>>
+      convention;  ///< [agent]: bytes [cells, ceil(m / 8)] of what it may do; none if not stored
   bool same_version = true;                               ///< written by this version of the program
   std::uint64_t safe_cells = 0;
   std::uint64_t invariant_cells = 0;

@@ -33,6 +33,7 @@ class Expectation {
     if (extras_.controller) add_joint_bits(paths::kController);
     if (spec_.controller.file) add_joint_bits(paths::kListed);
     if (spec_.coordination.horizon) add_coalitions();
+    if (spec_.coordination.convention) add_convention();
     for (std::size_t i = 0; extras_.abstraction && i < spec_.states.size(); ++i) add_table(i);
     return std::move(objects_);
   }
@@ -171,6 +172,17 @@ class Expectation {
     std::vector<std::int32_t> everyone;
     for (std::size_t a = 0; a < spec_.agents.size(); ++a) everyone.push_back(static_cast<std::int32_t>(a));
     add_bits(path, class_actions(spec_, make_input_space(spec_), everyone));
+  }
+
+  void add_convention() {
+    add_scale(paths::kAgent);
+    Paths axes = cells_;
+    axes.insert(axes.begin(), paths::kAgent);
+    add_array(paths::kConventionFreedom, axes);
+    for (std::size_t a = 0; extras_.convention && a < spec_.agents.size(); ++a) {
+      add_bits(paths::convention(spec_.agents[a].name),
+               class_actions(spec_, make_input_space(spec_), {static_cast<std::int32_t>(a)}));
+    }
   }
 
   void add_table(std::size_t state) {

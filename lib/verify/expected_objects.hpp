@@ -13,6 +13,7 @@ namespace coordreq {
 struct StoredExtras {
   bool controller = false;
   bool abstraction = false;
+  bool convention = false;    ///< what agents may do by it
   std::vector<bool> actions;  ///< by partition
   std::vector<bool> layers;   ///< by partition
 };

@@ -78,18 +78,32 @@ Claims read_all(const ResultsReader& results) {
   if (claims.has_controller) claims.controller = results.controller_bits(all);
   if (results.spec().controller.file)
     claims.listed = {.inputs = results.inputs().count(), .bytes = results.listed_bits(all)};
+  for (std::size_t i = 0; i < results.spec().agents.size(); ++i) {
+    if (results.spec().coordination.convention)
+      claims.convention_freedom.push_back(results.convention_freedom(i, all));
+    if (results.has_convention()) claims.convention.push_back(results.convention_bits(i, all));
+  }
   if (results.has_abstraction()) claims.abstraction = stored_tables(results);
   if (results.has_coalition()) read_coalition(results, all, claims);
   return claims;
 }
 
 StoredExtras extras_of(const ResultsReader& results) {
-  StoredExtras extras{.controller = results.has_controller(), .abstraction = results.has_abstraction()};
+  StoredExtras extras{.controller = results.has_controller(),
+                      .abstraction = results.has_abstraction(),
+                      .convention = results.has_convention()};
   for (std::size_t p = 0; p < results.partitions().size(); ++p) {
     extras.actions.push_back(results.has_actions(p));
     extras.layers.push_back(results.has_layers(p));
   }
   return extras;
+}
+
+/// Bytes of one bit an action.
+std::int64_t agent_bytes(const InputSpace& inputs, const AgentSpec& agent) {
+  std::int64_t actions = 1;
+  for (const std::int32_t i : agent.inputs) actions *= inputs[static_cast<std::size_t>(i)].count();
+  return PackedPairs::bytes_for(actions);
 }
 
 /// Bytes of the claims, with a copy of each array while it is read.
@@ -106,6 +120,11 @@ std::uint64_t memory_need(const ResultsReader& results) {
   const int joint = (results.has_controller() ? 1 : 0) + (results.spec().controller.file ? 1 : 0);
   for (int i = 0; i < joint; ++i)
     bytes_of_cell += static_cast<std::uint64_t>((results.inputs().count() + 7) / 8);
+  for (const AgentSpec& agent : results.spec().agents) {
+    if (results.spec().coordination.convention) bytes_of_cell += 2 * sizeof(float);
+    if (results.has_convention())
+      bytes_of_cell += static_cast<std::uint64_t>(agent_bytes(results.inputs(), agent));
+  }
   return bytes_of_cell * static_cast<std::uint64_t>(results.grid().cells());
 }
 

@@ -20,8 +20,6 @@ std::string refusal(const nlohmann::json& spec) {
 
 TEST(RefuseUnsupported, NamesTheKey) {
   const std::vector<test::ErrorCase> cases{
-      {"/coordination", R"({"convention": true})",
-       "'convention' is not supported yet (/coordination/convention)"},
       {"/requirements", R"([{"name": "r", "where": "true", "invariant": true}])",
        "'requirements' is not supported yet (/requirements)"},
   };
@@ -45,7 +43,7 @@ TEST(RefuseUnsupported, TakesEverythingElse) {
       {"partitions", nlohmann::json::parse(R"([{"classes": [["a", "b"]]}, {"classes": []}])")},
       {"horizon", 3},
       {"link_cost", nlohmann::json::parse(R"([{"agents": ["a", "b"], "cost": 2}])")},
-      {"convention", false}};
+      {"convention", true}};
   spec["network"] = {{"delay", 2}};
   spec["requirements"] = nlohmann::json::array();
   spec["output"] = {{"controller", true}, {"actions", true}, {"layers", true}, {"abstraction", true}};

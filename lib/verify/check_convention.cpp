@@ -1,0 +1,131 @@
+#include "verify/check_convention.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coordreq {
+
+void ConventionTallies::add_findings(std::vector<Finding>& findings) const {
+  if (is_claimed) findings.push_back(freedom.finding());
+  if (has_actions) findings.push_back(actions.finding());
+}
+
+ConventionChecker::ConventionChecker(const ProblemSpec& spec, const InputSpace& inputs, const Claims& claims,
+                                     ConventionTallies& tallies)
+    : spec_(spec), claims_(claims), tallies_(tallies) {
+  for (std::size_t a = 0; a < spec.agents.size(); ++a) {
+    const ClassActions& own =
+        agents_.emplace_back(class_actions(spec, inputs, {static_cast<std::int32_t>(a)}));
+    auto& joint = joint_.emplace_back(static_cast<std::size_t>(own.count));
+    for (std::size_t u = 0; u < own.of_input.size(); ++u)
+      joint[static_cast<std::size_t>(own.of_input[u])].push_back(static_cast<std::int32_t>(u));
+  }
+}
+
+/// Whether the product stays in C(x) with one more action of one agent.
+bool ConventionChecker::can_add(std::size_t agent, std::size_t action,
+                                const std::vector<std::uint8_t>& admitted) const {
+  const std::vector<std::int32_t>& joint = joint_[agent][action];
+  return std::all_of(joint.begin(), joint.end(), [&](std::int32_t u) {
+    if (admitted[static_cast<std::size_t>(u)] != 0) return true;
+    for (std::size_t j = 0; j < agents_.size(); ++j) {
+      const auto other = static_cast<std::size_t>(agents_[j].of_input[static_cast<std::size_t>(u)]);
+      if (j != agent && sets_[j][other] == 0) return true;  // not in the product
+    }
+    return false;
+  });
+}
+
+void ConventionChecker::find(const std::vector<std::uint8_t>& admitted) {
+  sets_.clear();
+  for (const ClassActions& agent : agents_) sets_.emplace_back(static_cast<std::size_t>(agent.count), 0);
+  const auto lowest = std::find(admitted.begin(), admitted.end(), 1);
+  if (lowest == admitted.end()) return;
+  const auto seed = static_cast<std::size_t>(lowest - admitted.begin());
+  for (std::size_t i = 0; i < agents_.size(); ++i)
+    sets_[i][static_cast<std::size_t>(agents_[i].of_input[seed])] = 1;
+  for (std::size_t i = 0; i < agents_.size(); ++i) {
+    for (std::size_t a = 0; a < sets_[i].size(); ++a) {
+      if (sets_[i][a] == 0 && can_add(i, a, admitted)) sets_[i][a] = 1;
+    }
+  }
+}
+
+bool ConventionChecker::is_product_in(const Sets& sets, const std::vector<std::uint8_t>& admitted) const {
+  for (const std::vector<std::uint8_t>& own : sets) {
+    if (std::find(own.begin(), own.end(), 1) == own.end()) return false;
+  }
+  for (std::size_t u = 0; u < admitted.size(); ++u) {
+    bool chosen = admitted[u] == 0;
+    for (std::size_t i = 0; chosen && i < agents_.size(); ++i)
+      chosen = sets[i][static_cast<std::size_t>(agents_[i].of_input[u])] != 0;
+    if (chosen) return false;
+  }
+  return true;
+}
+
+ConventionChecker::Sets ConventionChecker::claimed_sets(std::int64_t cell) const {
+  Sets sets;
+  for (std::size_t i = 0; i < agents_.size(); ++i) {
+    const auto bytes = static_cast<std::size_t>(agents_[i].bytes());
+    const std::uint8_t* const own = claims_.convention[i].data() + static_cast<std::size_t>(cell) * bytes;
+    // Bits beyond the last action have to be 0; one that is not makes the sets differ.
+    std::vector<std::uint8_t>& set = sets.emplace_back(bytes * 8);
+    for (std::size_t a = 0; a < set.size(); ++a) set[a] = own[a / 8] >> (a % 8) & 1U;
+    const auto count = static_cast<std::size_t>(agents_[i].count);
+    if (std::find(set.begin() + static_cast<std::ptrdiff_t>(count), set.end(), 1) == set.end())
+      set.resize(count);
+  }
+  return sets;
+}
+
+void ConventionChecker::check_actions(std::int64_t cell, const std::vector<std::uint8_t>& admitted,
+                                      bool sound_only, const std::function<std::string()>& place) {
+  tallies_.actions.add_checked(1);
+  const Sets claimed = claimed_sets(cell);
+  if (claimed == sets_) return;
+  if (sound_only && is_product_in(claimed, admitted)) {
+    tallies_.actions.add_unproven();
+    return;
+  }
+  tallies_.actions.add_wrong(cell, [&] { return place() + ": not the actions of the convention"; });
+}
+
+void ConventionChecker::check_freedom(std::int64_t cell, const std::vector<std::uint8_t>& admitted,
+                                      bool sound_only, const std::function<std::string()>& place) {
+  tallies_.freedom.add_checked(1);
+  for (std::size_t i = 0; i < agents_.size(); ++i) {
+    const auto kept = std::count(sets_[i].begin(), sets_[i].end(), 1);
+    std::int64_t all = 0;
+    for (const std::vector<std::int32_t>& joint : joint_[i]) {
+      all += std::any_of(joint.begin(), joint.end(),
+                         [&](std::int32_t u) { return admitted[static_cast<std::size_t>(u)] != 0; })
+                 ? 1
+                 : 0;
+    }
+    const float claimed = claims_.convention_freedom[i][static_cast<std::size_t>(cell)];
+    if (all == 0 && std::isnan(claimed)) continue;
+    const auto expected = static_cast<float>(static_cast<double>(kept) / static_cast<double>(all));
+    if (all > 0 && claimed == expected) continue;
+    if (sound_only && all > 0 && claimed > 0 && claimed <= 1) {
+      tallies_.freedom.add_unproven();
+    } else {
+      tallies_.freedom.add_wrong(cell, [&] {
+        return fmt::format("{}: {} keeps {}, expected {} of {} actions", place(), spec_.agents[i].name,
+                           claimed, kept, all);
+      });
+    }
+    return;
+  }
+}
+
+void ConventionChecker::check(std::int64_t cell, const std::vector<std::uint8_t>& admitted, bool sound_only,
+                              const std::function<std::string()>& place) {
+  find(admitted);
+  check_freedom(cell, admitted, sound_only, place);
+  if (tallies_.has_actions) check_actions(cell, admitted, sound_only, place);
+}
+
+}  // namespace coordreq
