@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/json_text.hpp"
+#include "app/requirement_report.hpp"
 #include "app/text.hpp"
 
 namespace coordreq {
@@ -124,10 +125,11 @@ Json partition_json(const PartitionSummary& partition) {
 }  // namespace
 
 std::string summary_text(const AnalysisSummary& summary, const ProblemSpec& spec) {
-  return sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec) + closing_text(summary);
+  return sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec) +
+         requirements_text(summary, spec) + closing_text(summary);
 }
 
-std::string summary_json(const AnalysisSummary& summary) {
+std::string summary_json(const AnalysisSummary& summary, const ProblemSpec& spec) {
   Json json;
   json["name"] = summary.name;
   json["states"] = summary.states;
@@ -145,7 +147,7 @@ std::string summary_json(const AnalysisSummary& summary) {
   json["partitions"] = Json::array();
   for (const PartitionSummary& partition : summary.partitions)
     json["partitions"].push_back(partition_json(partition));
-  json["requirements"] = Json::array();
+  json["requirements"] = requirements_json(summary, spec);
   json["output"] = summary.output;
   json["threads"] = summary.threads;
   json["seconds"] = Json::object();

@@ -8,14 +8,16 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
+#include "results/result_requirement.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
 /// What is under way; called from the calling thread only, often.
 struct Progress {
-  std::string stage;  ///< "controller" if it is in a file, "abstraction", "safe set", "invariance", "layers
-                      ///< PARTITION", "writing"
+  std::string
+      stage;  ///< "controller" if it is in a file, "regions" if there are requirements, "abstraction",
+              ///< "safe set", "invariance", "layers PARTITION", "requirements", "writing"
   std::int64_t sweep = 0;  ///< number of the sweep that has ended, 0 where there is none
   std::int64_t rows = 0;   ///< rows of cells that it has worked out
 };
@@ -57,6 +59,7 @@ struct AnalysisSummary {
   double period = 0;
   std::string period_unit;
   std::vector<PartitionSummary> partitions;
+  std::vector<ResultRequirement> requirements;  ///< in the order of the spec
   std::string output;
   int threads = 1;
   std::vector<std::pair<std::string, double>> seconds;  ///< by stage, in order, wall time

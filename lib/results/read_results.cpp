@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "results/child_trial.hpp"
+#include "results/read_requirements.hpp"
 #include "results/reading.hpp"
 #include "results/results_file.hpp"
 #include "results/results_paths.hpp"
@@ -76,6 +77,12 @@ void read_partitions(const ResultsFile& file, ResultInfo& info) {
   }
 }
 
+std::vector<std::string> names_of(const std::vector<ResultInfo::Axis>& axes) {
+  std::vector<std::string> names;
+  for (const ResultInfo::Axis& axis : axes) names.push_back(axis.name);
+  return names;
+}
+
 ResultInfo read(const std::string& path) {
   const ResultsFile file(path);
   ResultInfo info;
@@ -86,6 +93,7 @@ ResultInfo read(const std::string& path) {
   info.safe_cells = file.natural("/safe", "cells");
   info.invariant_cells = file.natural("/invariant", "cells");
   info.connection_delay = file.integer("/trigger", "connection_delay");
+  info.requirements = read_stored_requirements(file, names_of(info.states), names_of(info.inputs));
   info.datasets = file.datasets();
   if (file.exists(paths::kListed)) info.controller_sha256 = file.text(paths::kListed, "sha256");
   return info;

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "results/result_requirement.hpp"
+
 namespace coordreq {
 
 struct ResultInfo {
@@ -25,6 +27,7 @@ struct ResultInfo {
   std::uint64_t cells = 0, safe_cells = 0, invariant_cells = 0;
   std::int64_t connection_delay = 0;
   std::vector<Partition> partitions;
+  std::vector<ResultRequirement> requirements;
   std::vector<std::string> datasets;  ///< paths, sorted; without bare dimensions, which hold no data
 };
 

@@ -11,6 +11,7 @@ inline constexpr char kController[] = "/controller";
 /// The pairs of `controller.file`. No state can have this name.
 inline constexpr char kListed[] = "/controller:file";
 inline constexpr char kAbstraction[] = "/abstraction";
+inline constexpr char kRequirements[] = "/counterexample";
 
 [[nodiscard]] inline std::string actions(const StoredPartition& partition) {
   return "/actions/" + partition.name;
@@ -24,6 +25,11 @@ inline constexpr char kAbstraction[] = "/abstraction";
 /// @param end "first" or "last"
 [[nodiscard]] inline std::string abstraction(const std::string& state, const std::string& end) {
   return std::string(kAbstraction) + "/" + state + "/" + end;
+}
+
+/// @param requirement its position among the requirements
+[[nodiscard]] inline std::string counterexample(std::size_t requirement) {
+  return std::string(kRequirements) + "/" + std::to_string(requirement);
 }
 
 }  // namespace coordreq::paths

@@ -49,7 +49,8 @@ struct ResultsParts {
   ProblemSpec spec;
   StoredAttributes attributes;
   std::vector<StoredPartition> partitions;  ///< as many as the spec has, in its order
-  std::vector<TransitionTable> tables;      ///< without entries; none unless stored
+  std::vector<ResultRequirement> requirements;
+  std::vector<TransitionTable> tables;  ///< without entries; none unless stored
 };
 
 /// Reads them, and checks that the arrays are there, have their shapes and types, and that grid points,
@@ -90,6 +91,9 @@ class ResultsReader {
   [[nodiscard]] const StoredAttributes& attributes() const { return parts_.attributes; }
   /// As many as the spec has, in its order.
   [[nodiscard]] const std::vector<StoredPartition>& partitions() const { return parts_.partitions; }
+
+  /// As many as the spec has, in its order.
+  [[nodiscard]] const std::vector<ResultRequirement>& requirements() const { return parts_.requirements; }
 
   /// Membership in S and K: 0 or 1.
   [[nodiscard]] std::vector<std::uint8_t> safe(const CellBlock& block) const;

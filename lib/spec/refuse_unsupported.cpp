@@ -26,7 +26,6 @@ void refuse_in_coordination(const CoordinationSpec& coordination) {
 void refuse_unsupported(const ProblemSpec& spec) {
   refuse_in_coordination(spec.coordination);
   if (spec.network) refuse("'network'", "/network");
-  if (!spec.requirements.empty()) refuse("'requirements'", "/requirements");
 }
 
 }  // namespace coordreq

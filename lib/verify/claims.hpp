@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bitset/packed_pairs.hpp"
+#include "results/result_requirement.hpp"
 #include "verify/post_table.hpp"
 
 namespace coordreq {
@@ -34,10 +35,11 @@ struct Claims {
   std::vector<std::int32_t> collision_time;
   std::vector<PartitionClaims> partitions;  ///< those of the spec, in its order
   bool has_controller = false;
-  std::vector<std::uint8_t> controller;  ///< bytes [cells, ceil(joint inputs / 8)]
-  std::optional<PackedPairs> listed;     ///< what `controller.file` lists, which is not doubted
-  std::vector<PostTable> abstraction;    ///< one a state, or none
-  bool same_version = true;              ///< written by this version of the program
+  std::vector<std::uint8_t> controller;         ///< bytes [cells, ceil(joint inputs / 8)]
+  std::optional<PackedPairs> listed;            ///< what `controller.file` lists, which is not doubted
+  std::vector<PostTable> abstraction;           ///< one a state, or none
+  std::vector<ResultRequirement> requirements;  ///< those of the spec, in its order
+  bool same_version = true;                     ///< written by this version of the program
   std::uint64_t safe_cells = 0;
   std::uint64_t invariant_cells = 0;
   std::int64_t iterations = 0;

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "verify/check_abstraction.hpp"
 #include "verify/check_cells.hpp"
+#include "verify/check_requirements.hpp"
 #include "verify/check_summary.hpp"
 #include "verify/check_tubes.hpp"
 #include "verify/outward_posts.hpp"
@@ -125,7 +126,9 @@ class Verifier {
     check.progress = [this](std::int64_t done, std::int64_t all) {
       report({.stage = "cells", .done = done, .all = all});
     };
-    return check_cells(check, team_);
+    std::vector<Finding> findings = check_cells(check, team_);
+    append(findings, check_requirements(check, team_));
+    return findings;
   }
 
   const ProblemSpec& spec_;

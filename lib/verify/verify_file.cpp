@@ -62,6 +62,7 @@ Claims read_all(const ResultsReader& results) {
                 .iterations = results.attributes().iterations};
   for (std::size_t p = 0; p < results.partitions().size(); ++p)
     claims.partitions.push_back(read_partition(results, p, all));
+  claims.requirements = results.requirements();
   if (claims.has_controller) claims.controller = results.controller_bits(all);
   if (results.spec().controller.file)
     claims.listed = {.inputs = results.inputs().count(), .bytes = results.listed_bits(all)};
@@ -75,6 +76,11 @@ StoredExtras extras_of(const ResultsReader& results) {
     extras.actions.push_back(results.has_actions(p));
     extras.layers.push_back(results.has_layers(p));
   }
+  for (const ResultRequirement& requirement : results.requirements()) {
+    StoredExtras::Path& path = extras.paths.emplace_back();
+    path.samples = requirement.path.has_value();
+    path.steps = path.samples && requirement.path->steps() > 0;
+  }
   return extras;
 }
 
@@ -87,6 +93,7 @@ std::uint64_t memory_need(const ResultsReader& results) {
     for (const std::int64_t actions : results.partitions()[p].actions)
       bytes_of_cell += results.has_actions(p) ? static_cast<std::uint64_t>((actions + 7) / 8) : 0;
   }
+  if (!results.requirements().empty()) bytes_of_cell += 1;  // what is found about a region
   const int joint = (results.has_controller() ? 1 : 0) + (results.spec().controller.file ? 1 : 0);
   for (int i = 0; i < joint; ++i)
     bytes_of_cell += static_cast<std::uint64_t>((results.inputs().count() + 7) / 8);

@@ -22,7 +22,7 @@ class Cases(Case):
         (self.folder / "configs").symlink_to(CONFIGS)
         environment = dict(os.environ, PATH=f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}")
         sessions = blocks("console")
-        self.assertEqual(len(sessions), 7)
+        self.assertEqual(len(sessions), 8)
         for session in sessions:
             command, expected = re.fullmatch(r"(?s)\$ ([^\n]*)\n(.*)", session).groups()
             result = subprocess.run(

@@ -62,6 +62,7 @@ datasets
                 "safe",
                 "invariant",
                 "partitions",
+                "requirements",
                 "datasets",
             ],
         )

@@ -29,8 +29,6 @@ TEST(RefuseUnsupported, NamesTheKey) {
       {"/coordination", R"({"convention": true})",
        "'convention' is not supported yet (/coordination/convention)"},
       {"/network", R"({"delay": 2})", "'network' is not supported yet (/network)"},
-      {"/requirements", R"([{"name": "r", "where": "true", "invariant": true}])",
-       "'requirements' is not supported yet (/requirements)"},
   };
   for (const test::ErrorCase& one : cases) {
     EXPECT_EQ(refusal(test::example_with(one.pointer, one.value)), one.what);
@@ -52,7 +50,7 @@ TEST(RefuseUnsupported, TakesEverythingElse) {
       {"partitions", nlohmann::json::parse(R"([{"classes": [["a", "b"]]}, {"classes": []}])")},
       {"link_cost", nlohmann::json::array()},
       {"convention", false}};
-  spec["requirements"] = nlohmann::json::array();
+  spec["requirements"] = nlohmann::json::parse(R"([{"name": "r", "where": "true", "invariant": true}])");
   spec["output"] = {{"controller", true}, {"actions", true}, {"layers", true}, {"abstraction", true}};
   EXPECT_EQ(refusal(spec), "");
   EXPECT_EQ(refusal(test::example_with("/abstraction", R"({"between_samples": true})")), "");
