@@ -1,14 +1,20 @@
 #include "analysis/analyze.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "app/analyze_report.hpp"
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
+#include "app/junit_report.hpp"
 #include "app/load_spec.hpp"
 #include "app/memory_limit.hpp"
 #include "app/progress_line.hpp"
 #include "app/standard_streams.hpp"
+#include "results/write_results.hpp"
 
 namespace coordreq {
 namespace {
@@ -32,6 +38,11 @@ class InterruptPolicy {
   std::optional<InterruptDelay> delay_;
 };
 
+bool is_same_file(const std::string& a, const std::string& b) {
+  using std::filesystem::absolute, std::filesystem::weakly_canonical;
+  return weakly_canonical(absolute(a)) == weakly_canonical(absolute(b));
+}
+
 AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const CommandLine& line) {
   InterruptPolicy interrupts;
   ProgressLine shown(!line.quiet);
@@ -43,7 +54,13 @@ AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const CommandLine
     shown.update(progress);
   };
   ThreadTeam team(line.threads);
+  if (line.junit && is_same_file(*line.junit, options.output)) {
+    throw UsageError(fmt::format("expected another file than the results, found '{}'", *line.junit),
+                     "--junit");
+  }
+  if (line.junit) check_writable(*line.junit);
   AnalysisSummary summary = analyze(spec, options, team);
+  if (line.junit) write_junit(*line.junit, summary, spec);
   if (is_interrupted()) {
     throw Error(ExitCode::interrupted, "interrupted when the results were complete", options.output);
   }
@@ -56,11 +73,13 @@ ExitCode run_analyze(const CommandLine& line) {
   const ProblemSpec spec = load_spec(line.path);
   const AnalysisSummary summary = analyze_with_progress(spec, line);
   if (line.json) {
-    write_output(summary_json(summary));
+    write_output(summary_json(summary, spec));
   } else if (!line.quiet) {
     write_output(summary_text(summary, spec));
   }
-  return ExitCode::success;
+  const bool hold = std::all_of(summary.requirements.begin(), summary.requirements.end(),
+                                [](const ResultRequirement& requirement) { return requirement.holds; });
+  return hold ? ExitCode::success : ExitCode::requirement_failed;
 }
 
 }  // namespace coordreq

@@ -8,6 +8,7 @@
 #include "app/coalition_report.hpp"
 #include "app/json_text.hpp"
 #include "app/network_report.hpp"
+#include "app/requirement_report.hpp"
 #include "app/text.hpp"
 
 namespace coordreq {
@@ -188,10 +189,10 @@ Json partition_json(const PartitionSummary& partition) {
 
 std::string summary_text(const AnalysisSummary& summary, const ProblemSpec& spec) {
   return sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec) +
-         coalition_text(summary) + closing_text(summary);
+         coalition_text(summary) + requirements_text(summary, spec) + closing_text(summary);
 }
 
-std::string summary_json(const AnalysisSummary& summary) {
+std::string summary_json(const AnalysisSummary& summary, const ProblemSpec& spec) {
   Json json;
   json["name"] = summary.name;
   json["states"] = summary.states;
@@ -216,7 +217,7 @@ std::string summary_json(const AnalysisSummary& summary) {
     json["convention"].push_back(
         Json{{"agent", own.agent}, {"mean", own.mean}, {"full", own.full}, {"histogram", own.histogram}});
   }
-  json["requirements"] = Json::array();
+  json["requirements"] = requirements_json(summary, spec);
   json["output"] = summary.output;
   json["threads"] = summary.threads;
   json["seconds"] = Json::object();

@@ -11,6 +11,6 @@ namespace coordreq {
 [[nodiscard]] std::string summary_text(const AnalysisSummary& summary, const ProblemSpec& spec);
 
 /// What `analyze --json` prints: one document, keys in a fixed order, ending in a newline.
-[[nodiscard]] std::string summary_json(const AnalysisSummary& summary);
+[[nodiscard]] std::string summary_json(const AnalysisSummary& summary, const ProblemSpec& spec);
 
 }  // namespace coordreq

@@ -22,7 +22,7 @@ constexpr int kMaxThreads = 1024;
 
 /// What CLI11 hands over, before it is checked. Numbers stay text so that the messages are ours.
 struct RawArguments {
-  std::string path, output, threads, max_memory, at, format, partition, sample;
+  std::string path, output, junit, threads, max_memory, at, format, partition, sample;
   std::vector<std::string> slices, projections;
   bool json = false;
   bool quiet = false;
@@ -106,6 +106,8 @@ void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
   }
   if (info.run == run_analyze) {
     command->add_option("-o,--output", raw.output, "Results file (default: NAME.h5 in the current folder)")
+        ->type_name("FILE");
+    command->add_option("--junit", raw.junit, "Also write the requirements as a JUnit report")
         ->type_name("FILE");
   }
   if (info.run == run_export) add_export_options(*command, raw);
@@ -203,6 +205,11 @@ void check_command_arguments(const CLI::App& root, const CLI::App& command, cons
   }
 }
 
+std::string file_name(const std::string& text, const std::string& option) {
+  if (!text.empty() && text != "-") return text;
+  throw UsageError(fmt::format("expected the name of a file, found '{}'", text), option);
+}
+
 CommandLine checked(const RawArguments& raw, const CommandInfo& info, const CLI::App& command) {
   CommandLine line;
   line.path = raw.path;
@@ -221,12 +228,10 @@ CommandLine checked(const RawArguments& raw, const CommandInfo& info, const CLI:
     line.projections = raw.projections;
   }
   line.simulate = raw.simulate;
+  if (info.run == run_analyze && command.count("--junit") > 0) line.junit = file_name(raw.junit, "--junit");
   const bool has_output = info.run == run_analyze || info.run == run_export || info.run == run_simulate;
   if (has_output && command.count("--output") > 0) {
-    if (raw.output.empty() || raw.output == "-") {
-      throw UsageError(fmt::format("expected the name of a file, found '{}'", raw.output), "--output");
-    }
-    line.output = raw.output;
+    line.output = file_name(raw.output, "--output");
   }
   return line;
 }

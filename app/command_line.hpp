@@ -15,6 +15,7 @@ namespace coordreq {
 struct CommandLine {
   std::string path;                         ///< SPEC or RESULTS
   std::optional<std::string> output;        ///< -o
+  std::optional<std::string> junit;         ///< --junit
   std::optional<std::string> at;            ///< --at; none: states come from standard input
   std::string format;                       ///< --format
   std::optional<std::string> partition;     ///< --partition

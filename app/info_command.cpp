@@ -6,6 +6,7 @@
 #include "app/commands.hpp"
 #include "app/json_text.hpp"
 #include "app/network_report.hpp"
+#include "app/requirement_report.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
 #include "results/read_results.hpp"
@@ -82,9 +83,26 @@ std::string coalition_text(const ResultInfo& info) {
                      table.text());
 }
 
+std::string requirements_table(const ResultInfo& info) {
+  using Align = Table::Align;
+  Table table({Align::left, Align::left, Align::right, Align::right, Align::left, Align::right});
+  table.add({"requirement", "verdict", "cells", "failing", "least delay", "counterexample"});
+  for (const ResultRequirement& requirement : info.requirements) {
+    const std::string delay = delay_word(requirement.least_delay);
+    table.add({printable(requirement.name), requirement.holds ? "holds" : "FAILS", grouped(requirement.cells),
+               grouped(requirement.failing),
+               delay == "steps" ? duration(requirement.least_delay, info.period, info.period_unit) : delay,
+               requirement.path ? duration(static_cast<std::int64_t>(requirement.path->steps()), info.period,
+                                           info.period_unit)
+               : requirement.holds ? "-"
+                                   : "outside the domain"});
+  }
+  return info.requirements.empty() ? "" : "\n" + table.text();
+}
+
 std::string info_text(const ResultInfo& info) {
-  std::string text =
-      head_table(info) + "\n" + axes_table(info) + "\n" + partitions_table(info) + coalition_text(info);
+  std::string text = head_table(info) + "\n" + axes_table(info) + "\n" + partitions_table(info) +
+                     coalition_text(info) + requirements_table(info);
   if (!info.modes.empty()) text += "\n" + modes_text(info.modes);
   text += "\ndatasets\n";
   for (const std::string& dataset : info.datasets) text += "  " + printable(dataset) + "\n";
@@ -128,6 +146,18 @@ Json coalition_json(const ResultInfo& info) {
   return json;
 }
 
+Json requirement_json(const ResultRequirement& requirement) {
+  Json json;
+  json["name"] = requirement.name;
+  json["holds"] = requirement.holds;
+  json["cells"] = requirement.cells;
+  json["failing"] = requirement.failing;
+  json["least_delay"] = delay_json(requirement.least_delay);
+  json["least_delay_status"] = delay_word(requirement.least_delay);
+  json["counterexample_steps"] = requirement.path ? Json(requirement.path->steps()) : Json();
+  return json;
+}
+
 std::string info_json(const ResultInfo& info) {
   Json json;
   json["file"] = info.path;
@@ -151,6 +181,9 @@ std::string info_json(const ResultInfo& info) {
   json["coalition"] = coalition_json(info);
   for (const ResultInfo::Mode& mode : info.modes)
     json["modes"].push_back(Json{{"name", mode.name}, {"cells", mode.safe_cells}});
+  json["requirements"] = Json::array();
+  for (const ResultRequirement& requirement : info.requirements)
+    json["requirements"].push_back(requirement_json(requirement));
   json["datasets"] = info.datasets;
   return json_text(json);
 }

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include "analysis/analyze.hpp"
+#include "analysis/judge_requirements.hpp"
 #include "app/commands.hpp"
 #include "app/json_text.hpp"
 #include "app/load_spec.hpp"
+#include "app/memory_limit.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
 
@@ -101,7 +103,14 @@ std::string report_json(const SpecReport& report) {
 }  // namespace
 
 ExitCode run_validate(const CommandLine& line) {
-  const SpecReport report = inspect(load_spec(line.path));
+  const ProblemSpec spec = load_spec(line.path);
+  const SpecReport report = inspect(spec);
+  // What cannot be analysed here need not be looked at closely.
+  const std::optional<std::uint64_t> memory = line.max_memory ? line.max_memory : available_memory();
+  if (!memory || report.memory_bytes <= *memory) {
+    ThreadTeam team(line.threads);
+    check_regions(spec, team);
+  }
   if (line.json) {
     write_output(report_json(report));
   } else if (!line.quiet) {

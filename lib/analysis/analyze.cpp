@@ -2,6 +2,7 @@
 
 #include "analysis/coalitions.hpp"
 #include "analysis/compose_results.hpp"
+#include "analysis/judge_requirements.hpp"
 #include "analysis/solution.hpp"
 #include "analysis/summarise.hpp"
 #include "base/timer.hpp"
@@ -20,19 +21,28 @@ AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options,
     timer.begin(stage);
     report({.stage = stage});
   };
+  if (!spec.requirements.empty()) {
+    enter("regions");
+    check_regions(spec, team);
+  }
   const Solution solution(spec, team, enter,
                           [&report](const std::string& stage, std::int64_t sweep, std::int64_t rows) {
                             report({stage, sweep, rows});
                           });
   const std::optional<CoalitionMap> coalitions = coalitions_of(solution, team, enter);
-  enter("writing");
   AnalysisSummary summary = summarise(solution);
+  if (!spec.requirements.empty()) {
+    enter("requirements");
+    summary.requirements = judge_requirements(solution, team);
+  }
+  enter("writing");
   ResultComposer composer(solution, team);
   ResultContent content = composer.content();
   if (coalitions) {
     summary.coalition = summary_of(*coalitions, spec);
     add_coalitions(*coalitions, solution, content);
   }
+  content.requirements = summary.requirements;
   write_results(options.output, content, team);
   timer.end();
   summary.output = options.output;

@@ -8,14 +8,16 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
+#include "results/result_requirement.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
 /// What is under way; called from the calling thread only, often.
 struct Progress {
-  /// "controller" (if there is a file with one), "abstraction", "safe set", "invariance", "layers PARTITION",
-  /// "coalitions", "network", "convention" (where asked for), "writing"
+  /// "controller" (if there is a file with one), "regions" (if there are requirements), "abstraction", "safe
+  /// set", "invariance", "layers PARTITION", "network", "convention", "coalitions", "requirements" (where
+  /// asked for), "writing"
   std::string stage;
   std::int64_t sweep = 0;  ///< number of the sweep that has ended, 0 where there is none
   std::int64_t rows = 0;   ///< rows of cells that it has worked out
@@ -98,7 +100,8 @@ struct AnalysisSummary {
   std::vector<PartitionSummary> partitions;
   std::optional<CoalitionSummary> coalition;  ///< if the spec has a horizon
   std::optional<NetworkSummary> network;
-  std::vector<ConventionSummary> convention;  ///< by agent; none without a convention
+  std::vector<ConventionSummary> convention;    ///< by agent; none without a convention
+  std::vector<ResultRequirement> requirements;  ///< in the order of the spec
   std::string output;
   int threads = 1;
   std::vector<std::pair<std::string, double>> seconds;  ///< by stage, in order, wall time

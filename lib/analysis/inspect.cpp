@@ -113,7 +113,8 @@ double estimate_memory(const ProblemSpec& spec) {
   bytes += condition_bytes(spec.safe, spec);
   if (spec.controller.allow) bytes += condition_bytes(*spec.controller.allow, spec);
   if (spec.controller.file) bytes += listed_bytes(spec, cells, set_bytes);
-  bytes += 3 * set_bytes;  // S, K and a layer
+  if (!spec.requirements.empty()) bytes += set_bytes;  // a region
+  bytes += 3 * set_bytes;                              // S, K and a layer
   if (spec.abstraction.between_samples) bytes += set_bytes;
   // Levels for collision times and delays: 8 bits are enough up to 254 steps.
   bytes += cells * (1 + static_cast<double>(spec.coordination.partitions.size()));

@@ -147,7 +147,6 @@ void check_simulation_memory(const ResultsReader& results, const SimulationOptio
 
 Simulation simulate(const ResultsReader& results, const SimulationOptions& options, ThreadTeam& team) {
   const ProblemSpec& spec = results.spec();
-  refuse_unsupported(spec);
   const std::size_t partition = find_partition(spec, options.partition);
   check_prefer(spec, options.policy);
   RunOptions runs{.loop = {.steps = options.steps,

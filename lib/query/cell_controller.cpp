@@ -52,7 +52,6 @@ void CellController::prepare_all() {
   bool stored = partitions > 0;
   for (std::size_t p = 0; p < partitions; ++p) stored = stored && results_.has_actions(p);
   if (results_.has_controller() || stored || results_.spec().controller.synthesis == Synthesis::given) return;
-  check_computable();
   posts_.prepare_all();
   invariant_.cover_all();
   if (tubes_) tubes_->prepare_all();
@@ -105,19 +104,7 @@ std::vector<std::vector<bool>> CellController::convention(std::int64_t cell) {
   return result;
 }
 
-void CellController::check_computable() {
-  if (computable_) return;
-  try {
-    refuse_unsupported(results_.spec());
-  } catch (const Error& error) {
-    throw ResultsError(std::string("the actions are not stored and cannot be computed: ") + error.what(),
-                       results_.path());
-  }
-  computable_ = true;
-}
-
 std::vector<bool> CellController::compute(std::int64_t cell) {
-  check_computable();
   std::vector<bool> candidates = allowed(cell);
   if (results_.spec().controller.synthesis == Synthesis::given) return candidates;
   posts_.move_to(cell);

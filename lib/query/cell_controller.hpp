@@ -35,7 +35,6 @@ class CellController {
 
  private:
   [[nodiscard]] std::vector<bool> compute(std::int64_t cell);
-  void check_computable();
   [[nodiscard]] std::vector<bool> allowed(std::int64_t cell);
   [[nodiscard]] bool is_allowed(std::vector<Interval>& box, std::vector<RationalInterval>& exact_box);
 
@@ -44,7 +43,6 @@ class CellController {
   SetWindow invariant_;
   std::optional<TubeSafety> tubes_;        ///< none unless safety is asked for between the samples
   std::optional<ConditionDecider> allow_;  ///< none if everything is allowed
-  bool computable_ = false;                ///< checked
   std::int64_t cell_ = -1;                 ///< the one that `joint_inputs_` is of
   std::vector<bool> joint_inputs_;
 };

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "results/child_trial.hpp"
+#include "results/read_requirements.hpp"
 #include "results/reading.hpp"
 #include "results/results_file.hpp"
 #include "results/results_paths.hpp"
@@ -100,6 +101,12 @@ ResultInfo::Coalition read_coalition(const ResultsFile& file, std::size_t partit
   return coalition;
 }
 
+std::vector<std::string> names_of(const std::vector<ResultInfo::Axis>& axes) {
+  std::vector<std::string> names;
+  for (const ResultInfo::Axis& axis : axes) names.push_back(axis.name);
+  return names;
+}
+
 ResultInfo read(const std::string& path) {
   const ResultsFile file(path);
   ResultInfo info;
@@ -112,6 +119,7 @@ ResultInfo read(const std::string& path) {
   info.connection_delay = file.integer("/trigger", "connection_delay");
   if (file.exists(paths::kCoalition)) info.coalition = read_coalition(file, info.partitions.size());
   read_modes(file, info);
+  info.requirements = read_stored_requirements(file, names_of(info.states), names_of(info.inputs));
   info.datasets = file.datasets();
   if (file.exists(paths::kListed)) info.controller_sha256 = file.text(paths::kListed, "sha256");
   return info;

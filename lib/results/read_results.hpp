@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "results/result_requirement.hpp"
+
 namespace coordreq {
 
 struct ResultInfo {
@@ -38,7 +40,8 @@ struct ResultInfo {
     std::string name;
     std::uint64_t safe_cells = 0;
   };
-  std::vector<Mode> modes;            ///< of the network; none without one
+  std::vector<Mode> modes;  ///< of the network; none without one
+  std::vector<ResultRequirement> requirements;
   std::vector<std::string> datasets;  ///< paths, sorted; without bare dimensions, which hold no data
 };
 

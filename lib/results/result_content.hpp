@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "results/result_requirement.hpp"
+
 // What goes into a results file, contract section 4, as plain data. Large arrays are handed over as
 // functions that fill a stretch, so that nothing is held twice.
 namespace coordreq {
@@ -106,6 +108,7 @@ struct ResultContent {
   std::optional<ResultBits> listed;  ///< pairs that a controller file lists; `/controller:file`
   std::string listed_sha256;         ///< of that file
   std::vector<ResultTable> abstraction;
+  std::vector<ResultRequirement> requirements;
   std::vector<ResultBits> convention;  ///< one an agent, or none; `/actions:convention/AGENT`
   std::vector<ResultNames> names;      ///< leading axes of `maps`
   std::vector<ResultMap> maps;         ///< what else is known of each cell

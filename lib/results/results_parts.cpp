@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "results/child_trial.hpp"
+#include "results/read_requirements.hpp"
 #include "results/reading.hpp"
 #include "results/results_file.hpp"
 #include "results/results_paths.hpp"
@@ -37,6 +38,7 @@ class PartsReader {
     if (parts_.spec.coordination.convention) check_convention();
     if (file_.exists(paths::kAbstraction)) read_tables();
     if (parts_.spec.coordination.horizon) read_coalitions();
+    read_requirements();
     return std::move(parts_);
   }
 
@@ -286,6 +288,25 @@ class PartsReader {
     if (type != ElementType::uint32) expect_type(cell, ElementType::uint64);
     if (file_.shape(cell).size() != 1 || file_.shape(cell).front() > cells_)
       fail("not a list of cells", cell);
+  }
+
+  void read_requirements() {
+    const ProblemSpec& spec = parts_.spec;
+    std::vector<std::string> states, inputs;
+    for (const StateSpec& state : spec.states) states.push_back(state.name);
+    for (const InputSpec& input : spec.inputs) inputs.push_back(input.name);
+    parts_.requirements = read_stored_requirements(file_, states, inputs);
+    const auto same = [](const ResultRequirement& a, const RequirementSpec& b) { return a.name == b.name; };
+    if (!std::equal(parts_.requirements.begin(), parts_.requirements.end(), spec.requirements.begin(),
+                    spec.requirements.end(), same)) {
+      fail("the requirements are not those of the spec", paths::kRequirements);
+    }
+    for (const ResultRequirement& requirement : parts_.requirements) {
+      if (!requirement.path) continue;
+      const auto& cells = requirement.path->cell;
+      if (*std::max_element(cells.begin(), cells.end()) >= cells_)
+        fail("a cell that the grid does not have", paths::kRequirements);
+    }
   }
 
   void read_tables() {

@@ -20,6 +20,7 @@ inline constexpr char kNetworkSafe[] = "/network_safe";
 inline constexpr char kCoalition[] = "/coalition";
 inline constexpr char kCriticalPair[] = "/critical_pair";
 inline constexpr char kPair[] = "/pair";
+inline constexpr char kRequirements[] = "/counterexample";
 
 [[nodiscard]] inline std::string actions(const StoredPartition& partition) {
   return "/actions/" + partition.name;
@@ -36,6 +37,11 @@ inline constexpr char kPair[] = "/pair";
 /// @param end "first" or "last"
 [[nodiscard]] inline std::string abstraction(const std::string& state, const std::string& end) {
   return std::string(kAbstraction) + "/" + state + "/" + end;
+}
+
+/// @param requirement its position among the requirements
+[[nodiscard]] inline std::string counterexample(std::size_t requirement) {
+  return std::string(kRequirements) + "/" + std::to_string(requirement);
 }
 
 }  // namespace coordreq::paths

@@ -52,8 +52,9 @@ struct ResultsParts {
   ProblemSpec spec;
   StoredAttributes attributes;
   std::vector<StoredPartition> partitions;  ///< as many as the spec has, in its order
-  std::vector<TransitionTable> tables;      ///< without entries; none unless stored
-  std::vector<std::string> pairs;           ///< of agents, for which critical cells are stored
+  std::vector<ResultRequirement> requirements;
+  std::vector<TransitionTable> tables;  ///< without entries; none unless stored
+  std::vector<std::string> pairs;       ///< of agents, for which critical cells are stored
 };
 
 /// Reads them, and checks that the arrays are there, have their shapes and types, and that grid points,
@@ -86,14 +87,16 @@ class ResultsReader {
   ResultsReader& operator=(const ResultsReader&) = delete;
 
   [[nodiscard]] const std::string& path() const { return path_; }
-  /// The embedded spec, read by read_spec(). It may hold keys that this version does not support: whoever
-  /// computes with it calls refuse_unsupported().
+  /// The embedded spec, read by read_spec().
   [[nodiscard]] const ProblemSpec& spec() const { return parts_.spec; }
   [[nodiscard]] const UniformGrid& grid() const { return grid_; }
   [[nodiscard]] const InputSpace& inputs() const { return inputs_; }
   [[nodiscard]] const StoredAttributes& attributes() const { return parts_.attributes; }
   /// As many as the spec has, in its order.
   [[nodiscard]] const std::vector<StoredPartition>& partitions() const { return parts_.partitions; }
+
+  /// As many as the spec has, in its order.
+  [[nodiscard]] const std::vector<ResultRequirement>& requirements() const { return parts_.requirements; }
 
   /// Membership in S and K: 0 or 1.
   [[nodiscard]] std::vector<std::uint8_t> safe(const CellBlock& block) const;

@@ -2,6 +2,7 @@
 
 #include "results/netcdf_writer.hpp"
 #include "results/output_file.hpp"
+#include "results/requirement_sections.hpp"
 #include "results/result_sections.hpp"
 #include "results/whole_file.hpp"
 
@@ -18,6 +19,7 @@ void write_content(const std::string& path, const ResultContent& content, Thread
   write_actions(file, content);
   write_abstraction(file, content);
   write_maps(file, content);
+  write_requirements(file, content);
   file.finish();
 }
 

@@ -32,6 +32,19 @@ std::optional<std::int32_t> read_partition(const Node& object, const std::vector
   throw SpecError(fmt::format("expected {}, found {}", expected, quote_text(node.text())), node.pointer());
 }
 
+/// An analysis that stops before `min_delay` could not tell whether the requirement holds.
+void check_decidable(const Node& object, const RequirementSpec& requirement,
+                     const CoordinationSpec& coordination) {
+  if (!requirement.min_delay || !coordination.max_delay ||
+      *requirement.min_delay <= *coordination.max_delay) {
+    return;
+  }
+  throw SpecError(
+      fmt::format("expected at most 'max_delay', {} steps, where the analysis stops, found {} steps",
+                  *coordination.max_delay, *requirement.min_delay),
+      object[object.has("min_delay") ? "min_delay" : "min_delay_time"].pointer());
+}
+
 }  // namespace
 
 std::vector<RequirementSpec> read_requirements(const Scope& scope, const Node& root,
@@ -55,6 +68,7 @@ std::vector<RequirementSpec> read_requirements(const Scope& scope, const Node& r
     if (object.has("min_delay_time")) {
       requirement.min_delay = read_steps_of_time(scope, object["min_delay_time"], period);
     }
+    check_decidable(object, requirement, coordination);
     requirements.push_back(std::move(requirement));
   }
   return requirements;

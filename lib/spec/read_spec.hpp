@@ -19,9 +19,6 @@ namespace coordreq {
 /// @throws IoError if it is not there, is a folder or cannot be read; SpecError as above.
 [[nodiscard]] ProblemSpec read_spec_file(const std::string& path, std::istream& standard_input);
 
-/// @throws SpecError "... is not supported yet" (JSON pointer) for the first thing this version cannot do.
-void refuse_unsupported(const ProblemSpec& spec);
-
 /// The JSON Schema (draft 7) that specs are validated with, as text ending in a newline.
 [[nodiscard]] std::string_view spec_schema();
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bitset/packed_pairs.hpp"
+#include "results/result_requirement.hpp"
 #include "verify/post_table.hpp"
 
 namespace coordreq {
@@ -34,9 +35,10 @@ struct Claims {
   std::vector<std::int32_t> collision_time;
   std::vector<PartitionClaims> partitions;  ///< those of the spec, in its order
   bool has_controller = false;
-  std::vector<std::uint8_t> controller;  ///< bytes [cells, ceil(joint inputs / 8)]
-  std::optional<PackedPairs> listed;     ///< what `controller.file` lists, which is not doubted
-  std::vector<PostTable> abstraction;    ///< one a state, or none
+  std::vector<ResultRequirement> requirements;  ///< those of the spec, in its order
+  std::vector<std::uint8_t> controller;         ///< bytes [cells, ceil(joint inputs / 8)]
+  std::optional<PackedPairs> listed;            ///< what `controller.file` lists, which is not doubted
+  std::vector<PostTable> abstraction;           ///< one a state, or none
   // With a horizon:
   std::vector<std::int32_t>
       coalition;  ///< index into partitions; -3 none suffices, -2 outside S, -1 outside K
@@ -46,10 +48,10 @@ struct Claims {
   std::vector<std::int64_t> critical_pair_cells;          ///< [pair] as counted; may be missing
   std::vector<std::vector<std::uint8_t>> network;         ///< [mode][cell] 0 or 1; none without a network
   std::vector<std::uint64_t> network_cells;               ///< by mode
-  std::vector<std::vector<float>> convention_freedom;  ///< [agent][cell]; none without a convention
+  std::vector<std::vector<float>> convention_freedom;     ///< [agent][cell]; none without a convention
   std::vector<std::vector<std::uint8_t>>
-      convention;  ///< [agent]: bytes [cells, ceil(m / 8)] of what it may do; none if not stored
-  bool same_version = true;                               ///< written by this version of the program
+      convention;            ///< [agent]: bytes [cells, ceil(m / 8)] of what it may do; none if not stored
+  bool same_version = true;  ///< written by this version of the program
   std::uint64_t safe_cells = 0;
   std::uint64_t invariant_cells = 0;
   std::int64_t iterations = 0;

@@ -35,6 +35,7 @@ class Expectation {
     if (spec_.coordination.horizon) add_coalitions();
     if (spec_.coordination.convention) add_convention();
     for (std::size_t i = 0; extras_.abstraction && i < spec_.states.size(); ++i) add_table(i);
+    if (!extras_.paths.empty()) add_requirements();
     return std::move(objects_);
   }
 
@@ -196,6 +197,49 @@ class Expectation {
     const std::string group = "/abstraction/" + spec_.states[state].name;
     add_array(group + "/first", axes);
     add_array(group + "/last", axes);
+  }
+
+  void add_requirements() {
+    const std::string group = "/counterexample";
+    const std::string requirement = group + "/requirement";
+    add_scale(requirement);
+    add_scale(group + "/state_name");
+    add_scale(group + "/input_name");
+    add_array(group + "/cells", {requirement});
+    add_array(group + "/failing", {requirement});
+    describe_flags(add_array(group + "/holds", {requirement}), {0, 1}, "fails holds");
+    describe_flags(add_array(group + "/least_delay", {requirement}), {-2, -1, kLargest},
+                   "not_safe not_invariant unbounded");
+    describe_flags(add_array(group + "/end", {requirement}), {0, 1, 2, 3, 4},
+                   "none outside_safe_set left_domain unsafe_between_samples no_allowed_action");
+    std::string sides = "none";
+    std::vector<std::int64_t> numbers = {0};
+    for (const StateSpec& state : spec_.states) {
+      sides += " below_" + state.name + " above_" + state.name;
+      numbers.push_back(numbers.back() + 1);
+      numbers.push_back(numbers.back() + 1);
+    }
+    for (const char* name : {"/reached_side", "/left_side"})
+      describe_flags(add_array(group + name, {requirement}), numbers, sides);
+    for (std::size_t r = 0; r < extras_.paths.size(); ++r) {
+      if (extras_.paths[r].samples) add_path(group, std::to_string(r), extras_.paths[r].steps);
+    }
+  }
+
+  void add_path(const std::string& parent, const std::string& number, bool has_steps) {
+    const std::string group = parent + "/" + number;
+    const std::string sample = group + "/sample";
+    add_scale(sample).texts["units"] = "1";
+    add_array(group + "/cell", {sample});
+    add(group + "/state").axes = {sample, parent + "/state_name"};
+    describe_flags(add_array(group + "/delay", {sample}), {-2, -1, kLargest},
+                   "not_safe not_invariant unbounded");
+    describe_flags(add_array(group + "/collision_time", {sample}), {0, kLargest}, "not_safe never");
+    if (!has_steps) return;
+    const std::string step = group + "/step";
+    add_scale(step).texts["units"] = "1";
+    add(group + "/input").axes = {step, parent + "/input_name"};
+    describe_flags(add_array(group + "/phase", {step}), {0, 1}, "independent evasive");
   }
 
   /// Stands for the largest value of the type an array has.

@@ -16,6 +16,11 @@ struct StoredExtras {
   bool convention = false;    ///< what agents may do by it
   std::vector<bool> actions;  ///< by partition
   std::vector<bool> layers;   ///< by partition
+  struct Path {
+    bool samples = false;
+    bool steps = false;
+  };
+  std::vector<Path> paths;  ///< counterexamples by requirement
 };
 
 /// The attributes and axes that a results file of this spec has to have (contract, section 4), but for free

@@ -11,6 +11,7 @@
 #include "verify/check_cells.hpp"
 #include "verify/check_coalition.hpp"
 #include "verify/check_network.hpp"
+#include "verify/check_requirements.hpp"
 #include "verify/check_summary.hpp"
 #include "verify/check_tubes.hpp"
 #include "verify/outward_posts.hpp"
@@ -130,6 +131,7 @@ class Verifier {
     };
     std::vector<Finding> findings = check_cells(check, team_);
     if (spec_.network) findings.push_back(check_network(check, team_));
+    append(findings, check_requirements(check, team_));
     return findings;
   }
 

@@ -75,6 +75,7 @@ Claims read_all(const ResultsReader& results) {
   for (std::size_t mode = 0; mode < modes; ++mode)
     claims.network.push_back(results.network_safe(mode, 1, all));
   claims.network_cells = results.attributes().network_cells;
+  claims.requirements = results.requirements();
   if (claims.has_controller) claims.controller = results.controller_bits(all);
   if (results.spec().controller.file)
     claims.listed = {.inputs = results.inputs().count(), .bytes = results.listed_bits(all)};
@@ -95,6 +96,11 @@ StoredExtras extras_of(const ResultsReader& results) {
   for (std::size_t p = 0; p < results.partitions().size(); ++p) {
     extras.actions.push_back(results.has_actions(p));
     extras.layers.push_back(results.has_layers(p));
+  }
+  for (const ResultRequirement& requirement : results.requirements()) {
+    StoredExtras::Path& path = extras.paths.emplace_back();
+    path.samples = requirement.path.has_value();
+    path.steps = path.samples && requirement.path->steps() > 0;
   }
   return extras;
 }
@@ -117,6 +123,7 @@ std::uint64_t memory_need(const ResultsReader& results) {
   }
   if (results.spec().network) bytes_of_cell += 2 * results.spec().network->modes.size();  // and targets
   if (results.has_coalition()) bytes_of_cell += 2 * sizeof(std::int32_t) + results.pairs().size();
+  if (!results.requirements().empty()) bytes_of_cell += 1;  // what is found about a region
   const int joint = (results.has_controller() ? 1 : 0) + (results.spec().controller.file ? 1 : 0);
   for (int i = 0; i < joint; ++i)
     bytes_of_cell += static_cast<std::uint64_t>((results.inputs().count() + 7) / 8);
@@ -140,7 +147,6 @@ void check_memory(const ResultsReader& results, std::optional<std::uint64_t> max
 
 ClaimedFile read_claims(const std::string& path, std::optional<std::uint64_t> max_memory) {
   const ResultsReader results(path);
-  refuse_unsupported(results.spec());
   check_memory(results, max_memory);
   const std::vector<StoredObject> expected = expected_objects(results.spec(), extras_of(results));
   std::vector<std::string> paths;

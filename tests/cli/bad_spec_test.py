@@ -213,8 +213,8 @@ class Cases(Case):
 
     def test_key_of_a_later_version(self):
         self.assert_rejected(
-            "'requirements' is not supported yet (/requirements)",
-            spec_with(requirements=[{"name": "r", "where": "x <= 1", "invariant": True}]),
+            "'network' is not supported yet (/network)",
+            spec_with(network={"delay": 2}),
         )
 
 

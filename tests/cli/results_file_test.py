@@ -63,6 +63,7 @@ datasets
                 "invariant",
                 "partitions",
                 "coalition",
+                "requirements",
                 "datasets",
             ],
         )

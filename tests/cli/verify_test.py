@@ -49,7 +49,9 @@ def other_text(text):
 class Cases(Case):
     def results(self, spec, *arguments):
         self.write("spec.json", spec)
-        self.analyze("spec.json", "-o", "results.h5", *arguments)
+        result = self.run_program("analyze", "spec.json", "-o", "results.h5", "--quiet", *arguments)
+        self.assertEqual(result.stderr.decode(), "")
+        self.assertEqual(result.returncode, 1 if spec.get("requirements") else 0)
         return self.folder / "results.h5"
 
     def verify(self, *arguments):
@@ -309,6 +311,16 @@ class Cases(Case):
             action["step"] = 0.5
         spec["dynamics"]["period"] = 0.1
         self.flip_everything(spec)
+
+    def test_every_flipped_bit_of_requirements_is_found(self):
+        """The first one holds, the second one ends at an edge, the third one outside the safe set."""
+        box = "-0.4 < x < {} and -0.4 < y < {}"
+        requirements = [
+            {"name": "corner", "where": box.format(0.4, 0.4), "invariant": True},
+            {"name": "silence", "where": box.format(2.4, 3.4), "min_delay": 4},
+            {"name": "edge", "where": "x >= 2", "invariant": True},
+        ]
+        self.flip_everything(spec_with(requirements=requirements, controller={"allow": "x < 3 or u == 1"}))
 
     def test_axes_that_are_mixed_up_are_found(self):
         path = self.results(SPEC)

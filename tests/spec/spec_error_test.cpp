@@ -346,5 +346,16 @@ TEST(SpecError, RequirementsAskForOneThing) {
   });
 }
 
+TEST(SpecError, RequirementsAreDecidedBeforeMaxDelay) {
+  nlohmann::json spec = test::example();
+  spec["coordination"] = {{"max_delay", 2}};
+  spec["requirements"] = nlohmann::json::parse(R"([{"name": "r", "where": "true", "min_delay_time": 2.5}])");
+  EXPECT_EQ(test::error_of(spec),
+            "expected at most 'max_delay', 2 steps, where the analysis stops, found 3 steps "
+            "(/requirements/0/min_delay_time)");
+  spec["requirements"][0]["min_delay_time"] = 2;
+  EXPECT_EQ(test::error_of(spec), "");
+}
+
 }  // namespace
 }  // namespace coordreq

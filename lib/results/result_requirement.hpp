@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coordination/escape_path.hpp"
+
+// Requirements, their verdicts and counterexamples as a results file holds them and reports tell them.
+namespace coordreq {
+
+/// One end of one state.
+struct ResultSide {
+  std::size_t state = 0;
+  bool above = false;
+  [[nodiscard]] bool operator==(const ResultSide&) const = default;
+};
+
+/// EscapePath with what stands for its cells and actions. Samples are the cells visited; steps lie between
+/// them, or follow the last one.
+struct ResultPath {
+  std::vector<std::uint64_t> cell;  ///< [sample] row-major linear index
+  std::vector<double> state;        ///< [sample, state] centre of the cell
+  std::vector<std::int32_t> delay;  ///< [sample] as in `/delay`; for `invariant` that of all together
+  std::vector<std::int32_t> collision_time;  ///< [sample] as in `/collision_time`, INT32_MAX in K
+  std::vector<double> input;                 ///< [step, input]
+  std::vector<EscapePhase> phase;            ///< [step]
+  EscapeEnd end = EscapeEnd::outside_safe_set;
+  std::optional<ResultSide> left_side;  ///< if `left_domain`; the first one
+
+  [[nodiscard]] std::size_t samples() const { return cell.size(); }
+  [[nodiscard]] std::size_t steps() const { return phase.size(); }
+  [[nodiscard]] bool operator==(const ResultPath&) const = default;
+};
+
+struct ResultRequirement {
+  std::string name;
+  bool holds = false;
+  std::uint64_t cells = 0;       ///< of the region
+  std::uint64_t failing = 0;     ///< of these
+  std::int32_t least_delay = 0;  ///< over the region, coded as in `/delay` with INT32_MAX: unbounded
+  std::optional<ResultSide> reached_side;  ///< beyond which the region may reach
+  std::optional<ResultPath> path;          ///< from the worst cell, if one fails
+
+  [[nodiscard]] bool operator==(const ResultRequirement&) const = default;
+};
+
+}  // namespace coordreq

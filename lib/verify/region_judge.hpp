@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/thread_team.hpp"
+#include "expression/program.hpp"
+#include "grid/uniform_grid.hpp"
+#include "results/result_requirement.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// What is found about a cell and the region of a requirement.
+enum class Meeting : std::uint8_t {
+  off,     ///< natural interval evaluation shows that they do not meet: the cell must not be counted
+  apart,   ///< they do not, but that takes more to see: the cell may be counted
+  open,    ///< neither shown nor refuted: the cell may be counted
+  common,  ///< they have a point in common: the cell must be counted
+};
+
+/// All cells and one region (contract, section 2, `where`), remembered for the states that `where` mentions.
+class RegionJudge {
+ public:
+  RegionJudge(const ProblemSpec& spec, const Program& where, const UniformGrid& grid, ThreadTeam& team);
+
+  [[nodiscard]] Meeting of(std::int64_t cell) const {
+    std::int64_t number = 0;
+    for (const std::size_t i : states_) number = number * (*grid_)[i].count + grid_->index(cell, i);
+    return meetings_[static_cast<std::size_t>(number)];
+  }
+
+ private:
+  const UniformGrid* grid_;
+  std::vector<std::size_t> states_;  ///< mentioned
+  std::vector<Meeting> meetings_;    ///< row-major over them
+};
+
+/// What is found about a region and what lies beyond one side of the domain.
+enum class Reach : std::uint8_t {
+  never,    ///< natural interval evaluation over all that lies there shows that it does not reach there
+  not_far,  ///< it does not, but that takes more to see
+  open,     ///< neither shown nor refuted
+  reached,  ///< a point there is in the region
+};
+
+/// REQUIRES: the side is `unsafe`.
+[[nodiscard]] Reach reach_beyond(const ProblemSpec& spec, const Program& where, const UniformGrid& grid,
+                                 const ResultSide& side);
+
+}  // namespace coordreq

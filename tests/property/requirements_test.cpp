@@ -1,0 +1,339 @@
+// Requirements on random systems of up to four agents: verdicts are what the definitions say cell by cell,
+// every counterexample is a real way out of the safe set and a shortest one, and what is written verifies.
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "abstraction/build_abstraction.hpp"
+#include "abstraction/counter.hpp"
+#include "analysis/analyze.hpp"
+#include "grid/pieces.hpp"
+#include "results/scratch_folder.hpp"
+#include "safety/safe_set.hpp"
+#include "safety/safe_tubes.hpp"
+#include "spec/read_spec.hpp"
+#include "support/analysed_file.hpp"
+#include "support/plain_engine.hpp"
+#include "support/random_requirements.hpp"
+
+namespace coordreq {
+namespace {
+
+std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+std::vector<bool> members(const CellSet& set) {
+  std::vector<bool> result;
+  for (std::int64_t x = 0; x < set.cells(); ++x) result.push_back(set.test(x));
+  return result;
+}
+
+/// The summary of a spec, and the same system analysed the plain way.
+struct Both {
+  Both(const std::string& text, ThreadTeam& team)
+      : spec(read_spec(text, "random")),
+        summary(analysed(spec, team)),
+        abstraction(build_abstraction(spec, team)),
+        safe(safe_set(spec, abstraction, team)),
+        beyond(safe_beyond_limits(spec, abstraction, safe, team)),
+        plain(analyze_plainly(spec, abstraction, members(safe), members(beyond.value_or(safe)))) {}
+
+  static AnalysisSummary analysed(const ProblemSpec& spec, ThreadTeam& team) {
+    const sample::ScratchFolder folder;
+    AnalysisOptions options;
+    options.output = folder / "results.h5";
+    return analyze(spec, options, team);
+  }
+
+  /// As in `/delay`, of the partition that a requirement means.
+  [[nodiscard]] std::int32_t delay(const RequirementSpec& requirement, std::size_t x) const {
+    if (requirement.partition) return plain.partitions[at(*requirement.partition)].delay[x];
+    return !safe.test(static_cast<std::int64_t>(x)) ? -2 : plain.invariant[x] ? INT32_MAX : -1;
+  }
+
+  ProblemSpec spec;
+  AnalysisSummary summary;
+  Abstraction abstraction;
+  CellSet safe;
+  std::optional<CellSet> beyond;
+  PlainAnalysis plain;
+};
+
+/// The cells of a region lie between these: those with a point in it, and those that natural interval
+/// evaluation does not tell from it.
+struct PlainRegion {
+  std::vector<bool> sampled, natural;
+
+  PlainRegion(const ProblemSpec& spec, const Program& where, const UniformGrid& grid)
+      : condition_(where), variables_(where.variables()), box_(spec.slot_count()) {
+    std::vector<std::vector<std::vector<Piece>>> parts;  // [state][index]
+    for (const GridDimension& dimension : grid.dimensions()) {
+      auto& indices = parts.emplace_back();
+      for (std::int64_t k = 0; k < dimension.count; ++k) indices.push_back(pieces(dimension, k));
+    }
+    for (std::int64_t x = 0; x < grid.cells(); ++x) {
+      std::vector<std::int64_t> counts;
+      for (const std::uint32_t i : variables_)
+        counts.push_back(static_cast<std::int64_t>(parts[i][at(grid.index(x, i))].size()));
+      sampled.push_back(false);
+      natural.push_back(false);
+      Counter choice(counts);
+      do {
+        for (std::size_t v = 0; v < variables_.size(); ++v) {
+          const Piece& piece =
+              parts[variables_[v]][at(grid.index(x, variables_[v]))][at(choice.indices()[v])];
+          box_[variables_[v]] = {.lower = piece.lower, .upper = piece.upper};
+        }
+        look_at_box();
+      } while (choice.next());
+    }
+  }
+
+ private:
+  void look_at_box() {
+    const Truth truth = condition_.condition(box_);
+    if (truth == Truth::no) return;
+    natural.back() = true;
+    sampled.back() = sampled.back() || truth == Truth::yes || holds_at_a_point();
+  }
+
+  /// Corners and middles.
+  bool holds_at_a_point() {
+    Counter choice(std::vector<std::int64_t>(variables_.size(), 3));
+    std::vector<RationalInterval> point = box_;
+    do {
+      for (std::size_t v = 0; v < variables_.size(); ++v) {
+        const RationalInterval& range = box_[variables_[v]];
+        const Rational value =
+            range.lower + (range.upper - range.lower) * static_cast<long>(choice.indices()[v]) / 2;
+        point[variables_[v]] = {.lower = value, .upper = value};
+      }
+      if (condition_.condition(point) == Truth::yes) return true;
+    } while (choice.next());
+    return false;
+  }
+
+  Evaluator<RationalInterval> condition_;
+  std::vector<std::uint32_t> variables_;
+  std::vector<RationalInterval> box_;
+};
+
+/// f(x, u) as a list of cells; nothing if it is empty.
+std::optional<std::vector<std::int64_t>> post(const Both& both, std::int64_t x, std::int64_t u) {
+  const Abstraction& a = both.abstraction;
+  std::vector<std::int64_t> cells = {0};
+  for (std::size_t i = 0; i < a.grid.size(); ++i) {
+    const ResolvedRange range = a.resolved(i, x, u);
+    if (range.blocked) return std::nullopt;
+    std::vector<std::int64_t> longer;
+    for (const std::int64_t cell : cells) {
+      for (std::int64_t k = range.inside.first; k <= range.inside.last; ++k)
+        longer.push_back(cell + k % a.grid[i].count * a.grid.stride(i));
+    }
+    cells = std::move(longer);
+  }
+  return cells;
+}
+
+bool is_independent_choice(const Both& both, std::size_t p, std::int64_t x, std::int64_t u) {
+  const auto& inputs = both.abstraction.inputs;
+  const PartitionSpec& partition = both.spec.coordination.partitions[p];
+  for (std::size_t c = 0; c < partition.classes.size(); ++c) {
+    std::int64_t action = 0;
+    std::vector<std::int32_t> own;
+    for (const std::int32_t agent : partition.classes[c])
+      own.insert(own.end(), both.spec.agents[at(agent)].inputs.begin(),
+                 both.spec.agents[at(agent)].inputs.end());
+    std::sort(own.begin(), own.end());
+    for (const std::int32_t i : own) action = action * inputs[at(i)].count() + inputs.index(u, at(i));
+    if (!both.plain.partitions[p].projection[c][at(x)][at(action)]) return false;
+  }
+  return true;
+}
+
+std::int64_t input_of(const Both& both, const ResultPath& path, std::size_t step) {
+  const auto& inputs = both.abstraction.inputs;
+  std::int64_t u = 0;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const double value = path.input[step * inputs.size() + i];
+    const auto found = std::find_if(inputs[i].values.begin(), inputs[i].values.end(),
+                                    [&](const Rational& q) { return nearest_double(q) == value; });
+    RC_ASSERT(found != inputs[i].values.end());
+    u += (found - inputs[i].values.begin()) * inputs.stride(i);
+  }
+  return u;
+}
+
+void expect_real_path(const Both& both, const RequirementSpec& asked, const ResultPath& path) {
+  std::size_t independent = 0;
+  for (std::size_t s = 0; s < path.steps(); ++s) {
+    const auto x = static_cast<std::int64_t>(path.cell[s]);
+    const std::int64_t u = input_of(both, path, s);
+    RC_ASSERT(both.plain.invariant[at(x)] == (path.phase[s] == EscapePhase::independent));
+    if (path.phase[s] == EscapePhase::independent) {
+      ++independent;
+      RC_ASSERT(is_independent_choice(both, at(*asked.partition), x, u));
+    }
+    if (s + 1 == path.samples()) {
+      RC_ASSERT(path.end == EscapeEnd::left_domain || path.end == EscapeEnd::unsafe_between_samples);
+      // Posts that are only blocked by what happens on the way do not end with the domain's edge.
+      RC_ASSERT(!both.abstraction.tubes.empty() || !post(both, x, u));
+      continue;
+    }
+    const auto cells = post(both, x, u);
+    RC_ASSERT(cells.has_value());
+    RC_ASSERT(std::count(cells->begin(), cells->end(), static_cast<std::int64_t>(path.cell[s + 1])) > 0);
+  }
+  const std::size_t start = path.cell.front();
+  const std::int32_t delay = both.delay(asked, start);
+  RC_ASSERT(independent == static_cast<std::size_t>(std::max(delay + 1, 0)));
+  const std::size_t evasive = path.steps() - independent;
+  const bool left_at_once = path.samples() == independent;
+  const bool stuck = path.end == EscapeEnd::no_allowed_action;
+  if (!left_at_once) {
+    const std::int32_t time = both.plain.collision_time[path.cell[independent]];
+    RC_ASSERT(evasive + (stuck ? 1 : 0) == static_cast<std::size_t>(time));
+  }
+  if (path.end == EscapeEnd::outside_safe_set)
+    RC_ASSERT(!both.safe.test(static_cast<std::int64_t>(path.cell.back())));
+}
+
+void expect_plain_verdict(const Both& both, std::size_t r) {
+  const RequirementSpec& asked = both.spec.requirements[r];
+  const ResultRequirement& found = both.summary.requirements[r];
+  const PlainRegion region(both.spec, asked.where, both.abstraction.grid);
+  std::uint64_t least = 0, most = 0, least_failing = 0, most_failing = 0;
+  std::int32_t worst = INT32_MAX;
+  for (std::size_t x = 0; x < region.natural.size(); ++x) {
+    const std::int32_t delay = both.delay(asked, x);
+    const bool fails = delay < 0 || delay < asked.min_delay.value_or(0);
+    RC_ASSERT(region.natural[x] || !region.sampled[x]);
+    least += region.sampled[x] ? 1U : 0U;
+    most += region.natural[x] ? 1U : 0U;
+    least_failing += region.sampled[x] && fails ? 1U : 0U;
+    most_failing += region.natural[x] && fails ? 1U : 0U;
+    if (region.sampled[x]) worst = std::min(worst, delay);
+  }
+  RC_CLASSIFY(least == most, "region known exactly");
+  RC_ASSERT(least <= found.cells);
+  RC_ASSERT(found.cells <= most);
+  RC_ASSERT(least_failing <= found.failing);
+  RC_ASSERT(found.failing <= most_failing);
+  RC_ASSERT(found.least_delay <= worst);
+  RC_ASSERT(found.holds == (found.failing == 0 && !found.reached_side));
+  RC_ASSERT(found.path.has_value() == (found.failing > 0));
+  RC_CLASSIFY(found.holds, "holds");
+  if (!found.path) return;
+  RC_CLASSIFY(found.path->steps() > 0, "a way out");
+  RC_CLASSIFY(found.path->steps() > 2, "a way out of more than two steps");
+  RC_ASSERT(region.natural[found.path->cell.front()]);
+  RC_ASSERT(both.delay(asked, found.path->cell.front()) == found.least_delay);
+  expect_real_path(both, asked, *found.path);
+}
+
+TEST(Requirements, AreJudgedAsThePlainEngineDoes) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("verdicts and counterexamples", [&] {
+    const std::string text = with_requirements(draw_problem());
+    const Both both(text, team);
+    for (std::size_t r = 0; r < both.spec.requirements.size(); ++r) expect_plain_verdict(both, r);
+  }));
+}
+
+TEST(Requirements, OfTwoToFourAgentsAreJudgedAsThePlainEngineDoes) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("verdicts and counterexamples of a team", [&] {
+    const std::string text = with_requirements(draw_team());
+    const Both both(text, team);
+    for (std::size_t r = 0; r < both.spec.requirements.size(); ++r) expect_plain_verdict(both, r);
+  }));
+}
+
+TEST(Requirements, BetweenTheSamplesAreJudgedAsThePlainEngineDoes) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("verdicts and counterexamples with tubes", [&] {
+    const std::string text = with_requirements(draw_problem(RandomTime::between_samples));
+    const Both both(text, team);
+    for (std::size_t r = 0; r < both.spec.requirements.size(); ++r) expect_plain_verdict(both, r);
+  }));
+}
+
+TEST(Requirements, ThatWereWrittenVerify) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("files with requirements hold", [&] {
+    const RandomTime kind = *rc::gen::arbitrary<bool>() ? RandomTime::between_samples : RandomTime::any;
+    const std::string text = with_requirements(draw_problem(kind));
+    const Verification result = verify_file(analysed_file(text, team), {}, team);
+    RC_LOG(complaints(result));
+    RC_ASSERT(result.holds());
+  }));
+}
+
+int draw(int low, int high) {
+  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
+}
+
+/// Another number in the verdict that the file could also hold.
+void corrupt_verdict(ResultRequirement& requirement, const UniformGrid& grid) {
+  switch (draw(0, 3)) {
+    case 0:
+      requirement.cells += static_cast<std::uint64_t>(2 * grid.cells());
+      return;
+    case 1:
+      requirement.failing = requirement.failing == 0 ? 1 : 0;
+      return;
+    case 2:
+      requirement.least_delay = requirement.least_delay == -2 ? INT32_MAX : -3;
+      return;
+    default:
+      requirement.holds = !requirement.holds;
+      return;
+  }
+}
+
+/// The same in the counterexample. REQUIRES: it has a step.
+void corrupt_path(ResultPath& path, const UniformGrid& grid) {
+  const auto step = static_cast<std::size_t>(draw(0, static_cast<int>(path.steps()) - 1));
+  switch (draw(0, 4)) {
+    case 0:
+      path.state[step * grid.size()] += 1;
+      return;
+    case 1:
+      path.delay[step] += 1;
+      return;
+    case 2:
+      path.input[step * path.input.size() / path.steps()] = 17;
+      return;
+    case 3:
+      path.phase[step] =
+          path.phase[step] == EscapePhase::evasive ? EscapePhase::independent : EscapePhase::evasive;
+      return;
+    default:
+      path.cell[step] = (path.cell[step] + 1) % static_cast<std::uint64_t>(grid.cells());
+      return;
+  }
+}
+
+TEST(Requirements, OneOtherNumberIsFound) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("a corrupted requirement does not hold", [&] {
+    const std::string text = with_requirements(draw_problem());
+    ClaimedFile file = analysed_file(text, team);
+    auto& requirements = file.claims.requirements;
+    const auto chosen = static_cast<std::size_t>(draw(0, static_cast<int>(requirements.size()) - 1));
+    ResultRequirement& requirement = requirements[chosen];
+    if (draw(0, 1) == 0 && requirement.path && requirement.path->steps() > 0) {
+      corrupt_path(*requirement.path, make_grid(file.spec));
+    } else {
+      corrupt_verdict(requirement, make_grid(file.spec));
+    }
+    RC_ASSERT(!verify_file(file, {}, team).holds());
+  }));
+}
+
+}  // namespace
+}  // namespace coordreq

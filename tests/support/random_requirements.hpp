@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "support/random_problem.hpp"
+
+namespace coordreq {
+
+/// A random spec of two to four agents, each moving a state of its own, with partitions in between all alone
+/// and all together; drawn inside a RapidCheck property.
+[[nodiscard]] std::string draw_team();
+
+/// The spec with two random requirements whose regions meet its grid.
+[[nodiscard]] std::string with_requirements(std::string text);
+
+}  // namespace coordreq
