@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/program_help.hpp"
 #include "app/standard_streams.hpp"
 #include "numeric/rational.hpp"
 #include "results/version.hpp"
@@ -18,6 +19,8 @@
 namespace coordreq {
 namespace {
 
+constexpr const char* kProgramName = "coordreq";
+constexpr const char* kDescription = "When must agents that share a safety task communicate?";
 constexpr int kMaxThreads = 1024;
 
 /// What CLI11 hands over, before it is checked. Numbers stay text so that the messages are ours.
@@ -36,6 +39,7 @@ struct CommandInfo {
   const char* argument;  ///< the positional argument, empty if there is none
   const char* argument_description;
   ExitCode (*run)(const CommandLine&);
+  const char* argument_words = "";  ///< what the argument may be; empty if it is a file
 };
 
 constexpr CommandInfo kCommands[] = {
@@ -53,15 +57,20 @@ constexpr CommandInfo kCommands[] = {
     {"export", "Write the result in the format of another tool", "RESULTS", "A file that analyze wrote",
      run_export},
     {"schema", "Print the JSON Schema of specs", "", "", run_schema},
+    {"completion", "Print what makes a shell complete commands, options and files", "SHELL", "The shell",
+     run_completion, "bash|zsh|fish"},
 };
 
-constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 a requirement, a verification or a run fails, 2 wrong usage,\n"
-    "3 invalid spec or results file, 4 a limit refused, 5 input or output failed,\n"
-    "70 a bug in coordreq, 130 interrupted.";
+std::string exit_codes() {
+  std::string text = "Exit codes:";
+  for (const ExitCodeHelp& code : kExitCodes) text += fmt::format("\n  {:<3} {}", code.code, code.meaning);
+  return text;
+}
 
 void add_export_options(CLI::App& command, RawArguments& raw) {
-  command.add_option("--format", raw.format, "csv, scs (SCOTS), c-header or vtk")->type_name("FORMAT");
+  command
+      .add_option("--format", raw.format, "The format to write; scs is that of SCOTS, vtk that of ParaView")
+      ->type_name("csv|scs|c-header|vtk");
   command
       .add_option("-o,--output", raw.output,
                   "File to write (default: standard output; vtk: a name that ends in .vti or .vtkhdf)")
@@ -88,13 +97,13 @@ void add_simulate_options(CLI::App& command, RawArguments& raw) {
     command.add_option(name, target, text)->type_name(type);
   };
   add("--from", simulate.from, "State to start from, as x1=0.1,x2=0", "STATE");
-  add("--start", simulate.start, "random: start anywhere in the invariance set", "HOW");
+  add("--start", simulate.start, "Start anywhere in the invariance set", "random");
   add("--steps", simulate.steps, "Length of a run", "N");
   add("--runs", simulate.runs, "Number of runs (default: 1)", "N");
   add("--seed", simulate.seed, "Seed of all that is random (default: 1)", "N");
-  add("--policy", simulate.policy, "random (default), adversarial or prefer", "NAME");
+  add("--policy", simulate.policy, "How agents choose (default: random)", "random|adversarial|prefer");
   add("--disturbance", simulate.disturbance,
-      "random (default), extremes, constant or constant values as w1=0.1,w2=0", "HOW");
+      "How it varies (default: random); VALUES: constant, as w1=0.1,w2=0", "random|extremes|constant|VALUES");
   add("--partition", simulate.partition, "Partition (default: the only one)", "NAME");
   add("-o,--output", raw.output, "File for the runs (default: none)", "FILE");
 }
@@ -102,7 +111,9 @@ void add_simulate_options(CLI::App& command, RawArguments& raw) {
 void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
   CLI::App* command = app.add_subcommand(info.name, info.description);
   if (*info.argument != '\0') {
-    command->add_option(info.argument, raw.path, info.argument_description)->required()->type_name("");
+    command->add_option(info.argument, raw.path, info.argument_description)
+        ->required()
+        ->type_name(info.argument_words);
   }
   if (info.run == run_analyze) {
     command->add_option("-o,--output", raw.output, "Results file (default: NAME.h5 in the current folder)")
@@ -130,6 +141,14 @@ void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
   command->add_flag("--json", raw.json, "Print one JSON document instead of text")->disable_flag_override();
   command->add_flag("--quiet", raw.quiet, "No text summary and no progress")->disable_flag_override();
   command->allow_extras();
+}
+
+void add_everything(CLI::App& app, RawArguments& raw) {
+  app.add_flag("--version", raw.version, "Print the version")->disable_flag_override();
+  app.require_subcommand(0, 1);
+  app.allow_extras();
+  app.footer(exit_codes());
+  for (const CommandInfo& info : kCommands) add_command(app, info, raw);
 }
 
 std::string command_names() {
@@ -200,8 +219,10 @@ void check_command_arguments(const CLI::App& root, const CLI::App& command, cons
         fmt::format("unexpected argument '{}', {} takes {}", extra.front(), info.name, expected));
   }
   if (takes_argument && raw.path.empty()) {
+    const std::string words = info.argument_words;
+    const std::string expected = words.empty() ? "the name of a file" : "one of " + words;
     throw UsageError(
-        fmt::format("no {0}, expected the name of a file: coordreq {1} {0}", info.argument, info.name));
+        fmt::format("no {0}, expected {2}: coordreq {1} {0}", info.argument, info.name, expected));
   }
 }
 
@@ -285,14 +306,17 @@ std::uint64_t parse_memory_size(const std::string& text) {
   return static_cast<std::uint64_t>(floor_to_int(*number * factor));
 }
 
-CommandLine parse_command_line(int argc, const char* const* argv) {
-  CLI::App app("When must agents that share a safety task communicate?", "coordreq");
+ProgramHelp program_help() {
+  CLI::App app(kDescription, kProgramName);
   RawArguments raw;
-  app.add_flag("--version", raw.version, "Print the version")->disable_flag_override();
-  app.require_subcommand(0, 1);
-  app.allow_extras();
-  app.footer(kFooter);
-  for (const CommandInfo& info : kCommands) add_command(app, info, raw);
+  add_everything(app, raw);
+  return read_help(app);
+}
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+  CLI::App app(kDescription, kProgramName);
+  RawArguments raw;
+  add_everything(app, raw);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -13,5 +13,6 @@ ExitCode run_simulate(const CommandLine& line);
 ExitCode run_verify(const CommandLine& line);
 ExitCode run_export(const CommandLine& line);
 ExitCode run_schema(const CommandLine& line);
+ExitCode run_completion(const CommandLine& line);
 
 }  // namespace coordreq

@@ -1,5 +1,6 @@
 # coordreq_module(<name> SOURCES <file>... [DEPENDS <target>...] [PRIVATE_DEPENDS <target>...])
-# One library target a module, coordreq_<name>; headers are included as "<name>/<file>.hpp".
+# One library target a module, coordreq_<name>; headers are included as "<name>/<file>.hpp". Installed it is
+# coordreq::<name>, and <coordreq/<name>/<file>.hpp> works too.
 
 add_library(coordreq_options INTERFACE)
 target_compile_features(coordreq_options INTERFACE cxx_std_20)
@@ -13,12 +14,23 @@ target_compile_options(coordreq_options INTERFACE
   -ffp-contract=off
   $<$<BOOL:${COORDREQ_WARNINGS_AS_ERRORS}>:-Werror>)
 
+include(GNUInstallDirs)
+
 function(coordreq_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   set(target coordreq_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
-  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/lib)
-  target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE coordreq_options ${ARG_PRIVATE_DEPENDS})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/coordreq>)
+  # Users of the library need no headers that only its sources include.
+  list(TRANSFORM ARG_PRIVATE_DEPENDS REPLACE "^(nlohmann_json::.*)$" "$<BUILD_INTERFACE:\\1>")
+  target_link_libraries(${target} PUBLIC ${ARG_DEPENDS}
+                        PRIVATE $<BUILD_INTERFACE:coordreq_options> ${ARG_PRIVATE_DEPENDS})
+  target_compile_features(${target} INTERFACE cxx_std_20)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS ${target} EXPORT coordreq-targets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 endfunction()
 
 # coordreq_test(<name> SOURCES <file>... DEPENDS <target>...): one GoogleTest binary, every case a CTest test.

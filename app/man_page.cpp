@@ -1,0 +1,130 @@
+#include "app/man_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace coordreq {
+namespace {
+
+constexpr const char* kDescription = R"(.PP
+Several agents share a safety task. While they can talk to each other they agree on their actions; when the
+connection is lost each of them goes on alone.
+.B coordreq
+computes for how long they may stay silent, from every cell of a grid over the state space, before safety needs
+them to agree again.
+.PP
+It reads a model of the system, a SPEC in JSON, and writes one file of RESULTS, an HDF5 file that opens as
+netCDF\-4. The other commands check a spec or read results. What was asked for goes to standard output; progress,
+warnings and errors go to standard error. An error is one line that says what was found, where, and what was
+expected.
+)";
+
+constexpr const char* kExamples = R"(.PP
+The whole analysis of a spec, written to circle.h5; what is known at a state; and a check of the file by an
+independent method:
+.PP
+.RS 4
+.nf
+coordreq analyze circle.json
+coordreq query circle.h5 \-\-at x1=0.1,x2=0
+coordreq verify circle.h5
+.fi
+.RE
+)";
+
+/// As running text: no character means anything to roff, and a hyphen is one that can be copied.
+std::string roff(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '\\') {
+      result += "\\e";
+    } else if (c == '-') {
+      result += "\\-";
+    } else {
+      result += c;
+    }
+  }
+  return result.rfind('.', 0) == 0 || result.rfind('\'', 0) == 0 ? "\\&" + result : result;
+}
+
+/// A sentence, which descriptions of options are without their full stop.
+std::string sentence(const std::string& text) {
+  return roff(text) + (text.empty() || text.back() == '.' || text.back() == '?' ? "\n" : ".\n");
+}
+
+std::string bold(const std::string& text) {
+  return "\\fB" + roff(text) + "\\fR";
+}
+std::string italic(const std::string& text) {
+  return "\\fI" + roff(text) + "\\fR";
+}
+
+/// Words that stand for themselves in bold, others in italics.
+std::string value_text(const ValueHelp& value) {
+  const std::vector<std::string> words = value.words();
+  std::string text;
+  for (std::size_t begin = 0; begin <= value.text.size();) {
+    const std::size_t end = std::min(value.text.find('|', begin), value.text.size());
+    const std::string part = value.text.substr(begin, end - begin);
+    const bool literal = std::find(words.begin(), words.end(), part) != words.end();
+    text += (begin == 0 ? "" : "|") + (literal ? bold(part) : italic(part));
+    begin = end + 1;
+  }
+  return text;
+}
+
+std::string option_entry(const OptionHelp& option) {
+  std::string names;
+  for (const std::string& name : option.names) names += (names.empty() ? "" : ", ") + bold(name);
+  if (!option.value.text.empty()) names += " " + value_text(option.value);
+  return ".TP\n" + names + "\n" + sentence(option.description);
+}
+
+std::string command_heading(const std::string& program, const CommandHelp& command) {
+  std::string heading = bold(program + " " + command.name);
+  if (!command.argument.empty()) heading += " " + italic(command.argument);
+  return heading + (command.many_arguments ? "..." : "");
+}
+
+std::string command_entry(const ProgramHelp& help, const CommandHelp& command,
+                          const std::vector<OptionHelp>& common) {
+  std::string text =
+      fmt::format(".SS {}\n{}", command_heading(help.name, command), sentence(command.description));
+  if (!command.argument.empty()) {
+    text += ".TP\n" + value_text({command.argument});
+    if (!command.argument_value.words().empty()) text += " (" + value_text(command.argument_value) + ")";
+    text += "\n" + sentence(command.argument_description);
+  }
+  for (const OptionHelp& option : command.options) {
+    if (std::find(common.begin(), common.end(), option) == common.end()) text += option_entry(option);
+  }
+  return text;
+}
+
+std::string options_section(const char* title, const std::vector<OptionHelp>& options) {
+  std::string text = fmt::format(".SH {}\n", title);
+  for (const OptionHelp& option : options) text += option_entry(option);
+  return text;
+}
+
+}  // namespace
+
+std::string man_page(const ProgramHelp& help, std::string_view version) {
+  const std::vector<OptionHelp> common = help.common_options();
+  std::string text = fmt::format(".TH COORDREQ 1 \"\" \"{} {}\" \"User Commands\"\n.SH NAME\n{} \\- {}\n",
+                                 help.name, version, help.name, roff(help.description));
+  text +=
+      fmt::format(".SH SYNOPSIS\n.PP\n{} {} [{}]\n", bold(help.name), italic("COMMAND"), italic("OPTIONS"));
+  text += fmt::format(".SH DESCRIPTION\n{}.SH COMMANDS\n", kDescription);
+  for (const CommandHelp& command : help.commands) text += command_entry(help, command, common);
+  text += options_section("OPTIONS OF EVERY COMMAND", common);
+  text += options_section("OPTIONS WITHOUT A COMMAND", help.options);
+  text += ".SH EXIT STATUS\n";
+  for (const ExitCodeHelp& code : kExitCodes) {
+    text += fmt::format(".TP\n{}\n{}", bold(std::to_string(code.code)), sentence(code.meaning));
+  }
+  return text + ".SH EXAMPLES\n" + kExamples;
+}
+
+}  // namespace coordreq

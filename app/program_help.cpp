@@ -1,0 +1,87 @@
+#include "app/program_help.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+namespace coordreq {
+namespace {
+
+bool is_literal(const std::string& word) {
+  return !word.empty() &&
+         std::none_of(word.begin(), word.end(), [](unsigned char c) { return std::isupper(c); });
+}
+
+bool takes_many(const CLI::Option& option) {
+  return option.get_expected_max() > 1 || option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+}
+
+OptionHelp read_option(const CLI::Option& option) {
+  OptionHelp help;
+  for (const std::string& name : option.get_snames()) help.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) help.names.push_back("--" + name);
+  if (option.get_items_expected_max() > 0) help.value.text = option.get_type_name();
+  help.description = option.get_description();
+  help.repeatable = takes_many(option);
+  return help;
+}
+
+std::vector<OptionHelp> read_options(const CLI::App& app) {
+  std::vector<OptionHelp> options;
+  for (const CLI::Option* option : app.get_options()) {
+    if (!option->get_positional()) options.push_back(read_option(*option));
+  }
+  return options;
+}
+
+CommandHelp read_command(const CLI::App& command) {
+  CommandHelp help{
+      .name = command.get_name(), .description = command.get_description(), .options = read_options(command)};
+  for (const CLI::Option* option : command.get_options()) {
+    if (!option->get_positional()) continue;
+    help.argument = option->get_name(true);
+    help.argument_value.text = option->get_type_name().empty() ? help.argument : option->get_type_name();
+    help.argument_description = option->get_description();
+    help.many_arguments = takes_many(*option);
+  }
+  return help;
+}
+
+}  // namespace
+
+std::vector<std::string> ValueHelp::words() const {
+  std::vector<std::string> words;
+  std::istringstream parts(text);
+  for (std::string word; std::getline(parts, word, '|');) {
+    if (is_literal(word)) words.push_back(word);
+  }
+  return words;
+}
+
+std::string ValueHelp::file_pattern() const {
+  if (text == "SPEC") return "*.json";
+  if (text == "RESULTS") return "*.h5";
+  return text == "FILE" ? "*" : "";
+}
+
+std::vector<OptionHelp> ProgramHelp::common_options() const {
+  std::vector<OptionHelp> common = commands.front().options;
+  for (const CommandHelp& command : commands) {
+    std::erase_if(common, [&command](const OptionHelp& option) {
+      return std::find(command.options.begin(), command.options.end(), option) == command.options.end();
+    });
+  }
+  return common;
+}
+
+ProgramHelp read_help(const CLI::App& app) {
+  ProgramHelp help{
+      .name = app.get_name(), .description = app.get_description(), .options = read_options(app)};
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    help.commands.push_back(read_command(*command));
+  }
+  return help;
+}
+
+}  // namespace coordreq

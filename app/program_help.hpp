@@ -1,0 +1,79 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace coordreq {
+
+/// What an option or an argument takes.
+struct ValueHelp {
+  /// As the help prints it: "FILE", "csv|scs", "random|VALUES". Words in lower case stand for themselves,
+  /// words in capitals for something else. Empty: nothing is taken, it is a flag.
+  std::string text;
+
+  /// The words that stand for themselves.
+  [[nodiscard]] std::vector<std::string> words() const;
+  /// The files to offer, as a pattern for their names: "*.json" for SPEC, "*.h5" for RESULTS, "*" for FILE;
+  /// empty if it is no file.
+  [[nodiscard]] std::string file_pattern() const;
+};
+
+struct OptionHelp {
+  std::vector<std::string> names;  ///< "-o", "--output"
+  ValueHelp value;
+  std::string description;
+  bool repeatable = false;
+
+  bool operator==(const OptionHelp& other) const {
+    return names == other.names && description == other.description;
+  }
+};
+
+struct CommandHelp {
+  std::string name;
+  std::string description;
+  std::string argument;  ///< "SPEC"; empty if the command takes none
+  ValueHelp argument_value;
+  std::string argument_description;
+  bool many_arguments = false;
+  std::vector<OptionHelp> options;
+};
+
+/// Everything that `--help` says, as data: what the manual page and the completions of shells are made of.
+struct ProgramHelp {
+  std::string name;
+  std::string description;
+  std::vector<OptionHelp> options;  ///< of the program itself
+  std::vector<CommandHelp> commands;
+
+  /// The options that every command has, as the first one describes them.
+  [[nodiscard]] std::vector<OptionHelp> common_options() const;
+};
+
+/// Reads it off the parser.
+[[nodiscard]] ProgramHelp read_help(const CLI::App& app);
+
+/// The help of coordreq.
+[[nodiscard]] ProgramHelp program_help();
+
+struct ExitCodeHelp {
+  int code;
+  const char* meaning;
+};
+
+inline constexpr ExitCodeHelp kExitCodes[] = {
+    {0, "done"},
+    {1, "a requirement, a verification or a run fails"},
+    {2, "wrong usage"},
+    {3, "invalid spec or results file"},
+    {4, "a limit refused"},
+    {5, "input or output failed"},
+    {70, "a bug in coordreq"},
+    {130, "interrupted"},
+};
+
+}  // namespace coordreq

@@ -1,0 +1,20 @@
+# The headers of the library's interface: what users include, and what Doxygen describes. Headers that these
+# include are installed as well; they are no part of the interface.
+set(COORDREQ_PUBLIC_HEADERS
+  base/error.hpp base/thread_team.hpp
+  numeric/rational.hpp
+  spec/problem_spec.hpp spec/read_spec.hpp
+  grid/uniform_grid.hpp grid/input_space.hpp grid/cell_block.hpp grid/locate.hpp
+  results/read_results.hpp results/results_reader.hpp results/version.hpp
+  query/state_query.hpp query/state_text.hpp
+  verify/verify.hpp verify/verify_file.hpp verify/tally.hpp
+  export/csv_table.hpp export/c_header.hpp export/scots_controller.hpp export/parse_selection.hpp export/text_sink.hpp
+  analysis/analyze.hpp analysis/simulate.hpp
+  trigger/simulate_runs.hpp)
+
+# `doc`: what Doxygen makes of them.
+list(TRANSFORM COORDREQ_PUBLIC_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/lib/ OUTPUT_VARIABLE doxygen_input)
+list(JOIN doxygen_input " " doxygen_input)
+set(doxygen_input "${PROJECT_SOURCE_DIR}/scripts/doxygen/library.md ${doxygen_input}")
+configure_file(${PROJECT_SOURCE_DIR}/scripts/doxygen/Doxyfile.in ${PROJECT_BINARY_DIR}/Doxyfile @ONLY)
+add_custom_target(doc COMMAND doxygen ${PROJECT_BINARY_DIR}/Doxyfile VERBATIM)

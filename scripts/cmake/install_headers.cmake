@@ -1,0 +1,22 @@
+# Part of an install script: installs `headers` of `folder`, and all headers that they include, directly or not,
+# below `destination` of the prefix.
+cmake_minimum_required(VERSION 3.25)
+
+set(pending ${headers})
+set(found)
+while(pending)
+  list(POP_FRONT pending header)
+  if(header IN_LIST found)
+    continue()
+  endif()
+  list(APPEND found ${header})
+  file(STRINGS ${folder}/${header} lines REGEX "^#include \"")
+  foreach(line ${lines})
+    string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" included ${line})
+    list(APPEND pending ${included})
+  endforeach()
+endwhile()
+foreach(header ${found})
+  cmake_path(GET header PARENT_PATH module)
+  file(INSTALL ${folder}/${header} DESTINATION ${CMAKE_INSTALL_PREFIX}/${destination}/${module})
+endforeach()
