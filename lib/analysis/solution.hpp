@@ -68,8 +68,8 @@ struct Solution {
   RowHull hull;
   Invariance invariance;
   Controller controller;
-  std::deque<PartitionResult> partitions;  ///< in the order of the spec; a deque, so that references stay
-  std::optional<NetworkSafety> network;    ///< if the spec has one
+  std::deque<PartitionResult> partitions;      ///< in the order of the spec; a deque, so that references stay
+  std::optional<NetworkSafety> network;        ///< if the spec has one
   std::optional<ConventionResult> convention;  ///< if the spec asks for one
   CellOrder order;
 
