@@ -143,7 +143,8 @@ Json json_of(const StateAnswer& answer, const ResultsReader& results) {
   for (std::size_t p = 0; p < answer.partitions.size(); ++p) {
     json["partitions"].push_back(partition_json(answer.partitions[p], p, results));
   }
-  json["coalition"] = answer.coalition ? coalition_json(*answer.coalition, results) : Json();
+  if (results.has_coalition())
+    json["coalition"] = answer.coalition ? coalition_json(*answer.coalition, results) : Json();
   if (const auto& network = results.spec().network)
     json["safe_modes"] = inside ? Json(safe_mode_names(*network, answer.safe_modes)) : Json();
   if (!results.spec().coordination.convention) return json;

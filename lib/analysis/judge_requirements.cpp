@@ -54,8 +54,10 @@ class Judge {
     if (solution_.spec.abstraction.between_samples) {
       sets.tubes = {&solution_.safe, solution_.beyond ? &*solution_.beyond : nullptr};
     }
+    std::optional<ActionGrouping> grouping;
     if (partition != nullptr) {
-      sets.grouping = &partition->grouping;
+      grouping.emplace(solution_.engine, input_classes(solution_.spec, *partition->spec), team_);
+      sets.grouping = &*grouping;
       sets.layers_of = &partition->layers.layers_of;
     }
     const EscapePath found = find_escape(sets, cell);

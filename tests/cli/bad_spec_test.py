@@ -211,12 +211,6 @@ class Cases(Case):
             "spec.json",
         )
 
-    def test_key_of_a_later_version(self):
-        self.assert_rejected(
-            "'network' is not supported yet (/network)",
-            spec_with(network={"delay": 2}),
-        )
-
 
 if __name__ == "__main__":
     unittest.main()
