@@ -40,7 +40,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/coordreq-config-version.c
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/coordreq-config.cmake ${PROJECT_BINARY_DIR}/coordreq-config-version.cmake
         DESTINATION ${package_dir} COMPONENT development)
-install(DIRECTORY examples DESTINATION ${data_dir} COMPONENT development)
+install(DIRECTORY tests/install/consumer/ DESTINATION ${data_dir}/examples/library COMPONENT development)
 install(CODE "
   set(folder \"${PROJECT_SOURCE_DIR}/lib\")
   set(headers ${COORDREQ_PUBLIC_HEADERS})
