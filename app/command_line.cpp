@@ -56,6 +56,8 @@ constexpr CommandInfo kCommands[] = {
      run_verify},
     {"export", "Write the result in the format of another tool", "RESULTS", "A file that analyze wrote",
      run_export},
+    {"report", "Write one page for a browser: the answer, and pictures to look around in", "RESULTS",
+     "A file that analyze wrote", run_report},
     {"schema", "Print the JSON Schema of specs", "", "", run_schema},
     {"completion", "Print what makes a shell complete commands, options and files", "SHELL", "The shell",
      run_completion, "bash|zsh|fish"},
@@ -117,6 +119,10 @@ void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
   }
   if (info.run == run_analyze) {
     command->add_option("-o,--output", raw.output, "Results file (default: NAME.h5 in the current folder)")
+        ->type_name("FILE");
+  }
+  if (info.run == run_report) {
+    command->add_option("-o,--output", raw.output, "HTML file (default: NAME.html in the current folder)")
         ->type_name("FILE");
   }
   if (info.run == run_export) add_export_options(*command, raw);
@@ -242,7 +248,8 @@ CommandLine checked(const RawArguments& raw, const CommandInfo& info, const CLI:
     line.projections = raw.projections;
   }
   line.simulate = raw.simulate;
-  const bool has_output = info.run == run_analyze || info.run == run_export || info.run == run_simulate;
+  const bool has_output =
+      info.run == run_analyze || info.run == run_export || info.run == run_report || info.run == run_simulate;
   if (has_output && command.count("--output") > 0) {
     if (raw.output.empty() || raw.output == "-") {
       throw UsageError(fmt::format("expected the name of a file, found '{}'", raw.output), "--output");
