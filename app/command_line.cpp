@@ -56,6 +56,8 @@ constexpr CommandInfo kCommands[] = {
      run_verify},
     {"export", "Write the result in the format of another tool", "RESULTS", "A file that analyze wrote",
      run_export},
+    {"report", "Write one page for a browser: the answer, and pictures to look around in", "RESULTS",
+     "A file that analyze wrote", run_report},
     {"schema", "Print the JSON Schema of specs", "", "", run_schema},
     {"completion", "Print what makes a shell complete commands, options and files", "SHELL", "The shell",
      run_completion, "bash|zsh|fish"},
@@ -119,6 +121,10 @@ void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
     command->add_option("-o,--output", raw.output, "Results file (default: NAME.h5 in the current folder)")
         ->type_name("FILE");
     command->add_option("--junit", raw.junit, "Also write the requirements as a JUnit report")
+        ->type_name("FILE");
+  }
+  if (info.run == run_report) {
+    command->add_option("-o,--output", raw.output, "HTML file (default: NAME.html in the current folder)")
         ->type_name("FILE");
   }
   if (info.run == run_export) add_export_options(*command, raw);
@@ -250,7 +256,8 @@ CommandLine checked(const RawArguments& raw, const CommandInfo& info, const CLI:
   }
   line.simulate = raw.simulate;
   if (info.run == run_analyze && command.count("--junit") > 0) line.junit = file_name(raw.junit, "--junit");
-  const bool has_output = info.run == run_analyze || info.run == run_export || info.run == run_simulate;
+  const bool has_output =
+      info.run == run_analyze || info.run == run_export || info.run == run_report || info.run == run_simulate;
   if (has_output && command.count("--output") > 0) {
     line.output = file_name(raw.output, "--output");
   }

@@ -1,11 +1,8 @@
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <fstream>
-#include <system_error>
-
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
+#include "app/late_file.hpp"
 #include "app/standard_streams.hpp"
 #include "export/c_header.hpp"
 #include "export/cell_image.hpp"
@@ -13,7 +10,6 @@
 #include "export/parse_selection.hpp"
 #include "export/scots_controller.hpp"
 #include "export/vti_image.hpp"
-#include "results/output_file.hpp"
 #include "results/results_reader.hpp"
 #include "results/write_results.hpp"
 #include "results/write_vtkhdf.hpp"
@@ -125,41 +121,6 @@ Exporter exporter(const CommandLine& line, const ResultsReader& results, ThreadT
                    "--format");
 }
 
-/// A file that appears whole or not at all, from its first text on: what comes before that may take long, and
-/// an interrupt then ends the program at once. Later a signal waits for the next text, so that nothing is
-/// left behind.
-class LateFile {
- public:
-  explicit LateFile(std::string path) : path_(std::move(path)) { check_writable(path_); }
-
-  void write(std::string_view text) {
-    if (!file_) {
-      delay_.emplace();
-      file_.emplace(path_);
-      stream_.open(file_->temporary(), std::ios::binary);
-    }
-    if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
-    if (!stream_.write(text.data(), static_cast<std::streamsize>(text.size()))) fail();
-  }
-
-  /// REQUIRES: write() was called.
-  void commit() {
-    stream_.close();
-    if (!stream_) fail();
-    file_->commit();
-  }
-
- private:
-  [[noreturn]] void fail() const {
-    throw IoError("cannot write the export: " + std::generic_category().message(errno), path_);
-  }
-
-  std::string path_;
-  std::optional<InterruptDelay> delay_;
-  std::optional<OutputFile> file_;
-  std::ofstream stream_;
-};
-
 }  // namespace
 
 ExitCode run_export(const CommandLine& line) {
@@ -171,7 +132,7 @@ ExitCode run_export(const CommandLine& line) {
   }
   const Exporter write = exporter(line, results, team);
   std::optional<LateFile> file;
-  if (line.output) file.emplace(*line.output);
+  if (line.output) file.emplace(*line.output, "the export");
   Blocks blocks([&file](std::string_view text) { file ? file->write(text) : write_output(text); });
   write([&blocks](std::string_view text) { blocks.add(text); });
   blocks.flush();

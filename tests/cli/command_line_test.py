@@ -5,7 +5,7 @@ import unittest
 
 from program import SPEC, Case
 
-COMMANDS = ("analyze", "validate", "info", "query", "simulate", "verify", "export", "schema", "completion")
+COMMANDS = ("analyze", "validate", "info", "query", "simulate", "verify", "export", "report", "schema", "completion")
 LISTED = ", ".join(COMMANDS)
 
 

@@ -1,0 +1,38 @@
+#include "app/late_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "base/error.hpp"
+#include "results/write_results.hpp"
+
+namespace coordreq {
+
+LateFile::LateFile(std::string path, std::string what) : path_(std::move(path)), what_(std::move(what)) {
+  check_writable(path_);
+}
+
+void LateFile::write(std::string_view text) {
+  if (!file_) {
+    delay_.emplace();
+    file_.emplace(path_);
+    stream_.open(file_->temporary(), std::ios::binary);
+  }
+  if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
+  if (!stream_.write(text.data(), static_cast<std::streamsize>(text.size()))) fail();
+}
+
+void LateFile::commit() {
+  stream_.close();
+  if (!stream_) fail();
+  file_->commit();
+}
+
+void LateFile::fail() const {
+  throw IoError(fmt::format("cannot write {}: {}", what_, std::generic_category().message(errno)), path_);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "app/interrupt.hpp"
+#include "results/output_file.hpp"
+
+namespace coordreq {
+
+/// A file that appears whole or not at all, from its first text on: what comes before that may take long, and
+/// an interrupt then ends the program at once. Later a signal waits for the next text, so that nothing is
+/// left behind.
+class LateFile {
+ public:
+  /// @param what is written, for messages: "the export"
+  /// @throws IoError as check_writable()
+  LateFile(std::string path, std::string what);
+
+  /// @throws IoError if that fails; Error if the program was interrupted
+  void write(std::string_view text);
+  /// REQUIRES: write() was called. @throws IoError
+  void commit();
+
+ private:
+  [[noreturn]] void fail() const;
+
+  std::string path_;
+  std::string what_;
+  std::optional<InterruptDelay> delay_;
+  std::optional<OutputFile> file_;
+  std::ofstream stream_;
+};
+
+}  // namespace coordreq

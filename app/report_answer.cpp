@@ -1,0 +1,244 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "app/report_text.hpp"
+#include "app/text.hpp"
+#include "export/report_page.hpp"
+
+namespace coordreq {
+namespace {
+
+/// With more partitions than this each gets one line of a table.
+constexpr std::size_t kMostInFull = 3;
+
+/// "0.28 s (28 steps)": time first, for people who do not think in steps.
+std::string time_text(std::int64_t steps, const ResultsReader& results) {
+  const std::string count = fmt::format("{} step{}", grouped(steps), steps == 1 ? "" : "s");
+  const std::string& unit = results.spec().dynamics.unit;
+  if (unit.empty()) return count;
+  return fmt::format("{:.6g} {} ({})", static_cast<double>(steps) * results.attributes().period,
+                     html_line(unit), count);
+}
+
+/// What is said about one partition.
+class PartitionAnswer {
+ public:
+  PartitionAnswer(const ResultsReader& results, std::size_t p, std::int64_t best_cell)
+      : results_(results), stored_(results.partitions()[p]), best_cell_(best_cell) {}
+
+  [[nodiscard]] bool is_joint() const { return stored_.classes.size() == 1; }
+
+  /// For how long they may be silent.
+  [[nodiscard]] std::string headline() const {
+    const std::int64_t last = static_cast<std::int64_t>(stored_.layer_sizes.size()) - 1;
+    if (stored_.truncated()) {
+      return fmt::format(
+          "From {} of the states {} may be silent for {}, perhaps longer: the analysis stopped there.",
+          share_text(stored_.layer_sizes.back(), kept()), who(), time_text(last, results_));
+    }
+    if (is_joint()) return "All agents coordinate within every step, so there is no silence to bear.";
+    if (last == 0) return capital(who()) + " never need to talk to each other.";
+    if (unbounded() == 0 && last == 1)
+      return fmt::format("From no state may {} be silent, not even for one step.", who());
+    const std::string length = time_text(last - 1, results_);
+    if (unbounded() == 0)
+      return fmt::format("{} may be silent for <strong>{}</strong> from the best state{}.", capital(who()),
+                         length, best_state());
+    return fmt::format(
+        "From {} of the states {} never need to talk to each other; from the best of the others{} they may "
+        "be silent for <strong>{}</strong>.",
+        share_text(unbounded(), kept()), who(), best_state(), length);
+  }
+
+  /// Where silence is no choice; empty if that is not known or nothing to say.
+  [[nodiscard]] std::string at_once() const {
+    if (is_joint()) return "";
+    const std::int64_t delay = results_.attributes().connection_delay;
+    const std::optional<std::uint64_t> bearing = layer_size(delay + 1);
+    if (!bearing) return "";
+    const std::uint64_t count = kept() - *bearing;
+    const std::string share = count == 0        ? "None"
+                              : count == kept() ? "All"
+                                                : capital(share_text(count, kept()));
+    if (delay == 0) {
+      return fmt::format("{} of the states that can be kept safe need{} contact at once.", share,
+                         count == 0 ? "s" : "");
+    }
+    return fmt::format(
+        "A connection takes {} to stand: in {} of the states that can be kept safe it must be asked for at "
+        "once, or stand already.",
+        time_text(delay, results_),
+        count == 0        ? "none"
+        : count == kept() ? "all"
+                          : share_text(count, kept()));
+  }
+
+  /// How much silence most, half, few of the states bear.
+  [[nodiscard]] std::string shares() const {
+    if (is_joint() || stored_.layer_sizes.size() < 2) return "";
+    std::string rows;
+    for (const int percent : {90, 50, 10, 1}) {
+      rows += fmt::format("<tr><th scope=\"row\">{} % of the states</th><td>{}</td></tr>\n", percent,
+                          bearable(percent));
+    }
+    return "<table><thead><tr><th scope=\"col\">So many</th><th scope=\"col\">may be "
+           "silent</th></tr></thead><tbody>\n" +
+           rows + "</tbody></table>\n";
+  }
+
+  /// "the agents", or their groups if some go on coordinating.
+  [[nodiscard]] std::string who() const {
+    const auto joint = [](const std::string& name) { return name.find('+') != std::string::npos; };
+    if (std::none_of(stored_.classes.begin(), stored_.classes.end(), joint)) return "the agents";
+    std::string text = "the groups ";
+    for (std::size_t c = 0; c < stored_.classes.size(); ++c) {
+      text += c == 0 ? "" : c + 1 == stored_.classes.size() ? " and " : ", ";
+      text += "<em>" + html_line(stored_.classes[c]) + "</em>";
+    }
+    return text;
+  }
+
+ private:
+  [[nodiscard]] std::uint64_t kept() const { return stored_.layer_sizes.front(); }
+  [[nodiscard]] std::uint64_t unbounded() const {
+    return stored_.truncated() ? 0 : stored_.layer_sizes.back();
+  }
+
+  /// |Z_k|; nothing if the analysis stopped before.
+  [[nodiscard]] std::optional<std::uint64_t> layer_size(std::int64_t k) const {
+    const auto place = static_cast<std::size_t>(k);
+    if (place < stored_.layer_sizes.size()) return stored_.layer_sizes[place];
+    if (stored_.truncated()) return std::nullopt;
+    return stored_.layer_sizes.back();
+  }
+
+  [[nodiscard]] std::string bearable(int percent) const {
+    const auto enough = [&](std::uint64_t size) {
+      return size * 100 >= kept() * static_cast<std::uint64_t>(percent);
+    };
+    const auto& sizes = stored_.layer_sizes;
+    const auto end = std::partition_point(sizes.begin(), sizes.end(), enough);
+    if (end == sizes.end() && !stored_.truncated()) return "for ever";
+    const std::int64_t steps = end - sizes.begin() - 1;
+    return steps == 0 ? "not at all" : "for at least " + time_text(steps, results_);
+  }
+
+  [[nodiscard]] std::string best_state() const {
+    if (best_cell_ < 0) return "";
+    std::string text;
+    const UniformGrid& grid = results_.grid();
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      const std::string& unit = results_.spec().states[i].unit;
+      text += fmt::format("{}{} = {:.6g}{}", text.empty() ? "" : ", ", html_line(grid[i].name),
+                          nearest_double(grid[i].point(grid.index(best_cell_, i))),
+                          unit.empty() ? "" : " " + html_line(unit));
+    }
+    return fmt::format(" <span class=\"note\">({})</span>", text);
+  }
+
+  static std::string capital(std::string text) {
+    if (!text.empty() && text.front() >= 'a' && text.front() <= 'z')
+      text.front() = static_cast<char>(text.front() - 'a' + 'A');
+    return text;
+  }
+
+  const ResultsReader& results_;
+  const StoredPartition& stored_;
+  std::int64_t best_cell_;
+};
+
+std::int64_t best_cell(const ReportData& data, std::size_t p) {
+  const auto found = std::find(data.partitions.begin(), data.partitions.end(), p);
+  return found == data.partitions.end()
+             ? -1
+             : data.best_cells[static_cast<std::size_t>(found - data.partitions.begin())];
+}
+
+std::string in_full(const ResultsReader& results, const ReportData& data) {
+  std::string html;
+  for (std::size_t p = 0; p < results.partitions().size(); ++p) {
+    const PartitionAnswer answer(results, p, best_cell(data, p));
+    html += "<div class=\"answer\">\n";
+    if (results.partitions().size() > 1)
+      html += fmt::format("<h3>Partition {}</h3>\n", html_line(results.partitions()[p].name));
+    html += fmt::format("<p class=\"headline\">{}</p>\n", answer.headline());
+    if (const std::string more = answer.at_once(); !more.empty()) html += "<p>" + more + "</p>\n";
+    html += answer.shares() + "</div>\n";
+  }
+  return html;
+}
+
+std::string as_table(const ResultsReader& results, const ReportData& data) {
+  std::string rows;
+  for (std::size_t p = 0; p < results.partitions().size(); ++p) {
+    const PartitionAnswer answer(results, p, best_cell(data, p));
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n",
+                        html_line(results.partitions()[p].name), answer.headline(), answer.at_once());
+  }
+  return "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">Partition</th><th "
+         "scope=\"col\">Silence</th>"
+         "<th scope=\"col\">Contact</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div>\n";
+}
+
+std::string partition_answers(const ResultsReader& results, const ReportData& data) {
+  const StoredAttributes& attributes = results.attributes();
+  const auto only = [](const char* text) {
+    return fmt::format("<div class=\"answer\"><p class=\"headline\">{}</p></div>\n", text);
+  };
+  if (attributes.safe_cells == 0) return only("No state is safe.");
+  if (attributes.invariant_cells == 0) {
+    return only(results.spec().controller.synthesis == Synthesis::given
+                    ? "There is no state from which every allowed action keeps the system safe."
+                    : "No state can be kept safe, even if all agents always coordinate.");
+  }
+  return results.partitions().size() > kMostInFull ? as_table(results, data) : in_full(results, data);
+}
+
+/// What the numbers count, and how far they can be trusted.
+std::string fine_print(const ResultsReader& results) {
+  const StoredAttributes& attributes = results.attributes();
+  const auto cells = static_cast<std::uint64_t>(results.grid().cells());
+  return fmt::format(
+      "<p>The states are looked at in {} cells of a grid, and a <em>state</em> here is such a cell. {} of "
+      "them are safe; from {} of these "
+      "the system can be kept safe for ever if all agents coordinate.</p>\n"
+      "<p class=\"note\">Guarantee {}; for every disturbance, and whatever admissible actions the agents "
+      "choose on their own.</p>\n",
+      grouped(cells), grouped(attributes.safe_cells), grouped(attributes.invariant_cells),
+      html_line(guarantee_text(attributes.guarantee)));
+}
+
+}  // namespace
+
+std::string share_text(std::uint64_t part, std::uint64_t whole) {
+  const double percent = 100 * static_cast<double>(part) / static_cast<double>(whole);
+  if (part == 0) return "none";
+  if (part == whole) return "all";
+  if (percent < 0.1) return "less than 0.1 %";
+  if (percent > 99.9) return "more than 99.9 %";
+  return fmt::format("{:.{}f} %", percent, percent < 10 || percent > 90 ? 1 : 0);
+}
+
+std::string html_line(const std::string& text) {
+  return html_text(printable(text));
+}
+
+std::string report_answer(const ResultsReader& results, const ReportData& data) {
+  return "<section aria-labelledby=\"answer-title\">\n<h2 id=\"answer-title\">How long may the agents be "
+         "silent?</h2>\n" +
+         partition_answers(results, data) + fine_print(results) + "</section>\n";
+}
+
+std::string report_footer(const ResultsReader& results) {
+  const StoredAttributes& attributes = results.attributes();
+  return fmt::format(
+      "<footer class=\"note\"><p>Analysed by coordreq {} ({}). SHA-256 of the spec: "
+      "<code>{}</code>.</p></footer>\n",
+      html_line(attributes.coordreq_version), html_line(attributes.git_sha1),
+      html_line(attributes.spec_sha256));
+}
+
+}  // namespace coordreq

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "app/commands.hpp"
+#include "app/json_text.hpp"
+#include "app/late_file.hpp"
+#include "app/report_text.hpp"
+#include "app/standard_streams.hpp"
+#include "app/text.hpp"
+#include "export/report_data.hpp"
+#include "export/report_page.hpp"
+#include "results/results_reader.hpp"
+
+namespace coordreq {
+namespace {
+
+/// The partitions whose delay can be looked at: as many as a page has room for, those first with the most
+/// classes, where silence matters most.
+std::vector<std::size_t> shown_partitions(const ResultsReader& results) {
+  const auto& partitions = results.partitions();
+  std::vector<std::size_t> order(partitions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::size_t most = ReportLimits().partitions;
+  if (order.size() <= most) return order;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return partitions[a].classes.size() > partitions[b].classes.size();
+  });
+  order.resize(most);
+  std::sort(order.begin(), order.end());
+  return order;
+}
+
+std::string page_of(const ResultsReader& results, ReportData& data) {
+  data = report_data(results, shown_partitions(results));
+  ReportPage page;
+  page.title = printable(results.spec().name);
+  page.summary = "<h1>" + html_line(results.spec().name) + "</h1>\n" + report_task(results) +
+                 report_answer(results, data);
+  page.details = report_details(results) + report_footer(results);
+  page.data = std::move(data.json);
+  return report_page(page);
+}
+
+std::string summary_text(const std::string& path, std::size_t bytes, const ReportData& data,
+                         const ResultsReader& results) {
+  std::string text = fmt::format("report in {} ({})\n", printable(path), byte_size(bytes));
+  if (!data.is_whole) text += "not every cell has room in it: the sliders have some values only\n";
+  if (data.partitions.size() < results.partitions().size())
+    text += fmt::format("its pictures show {} of {} partitions\n", data.partitions.size(),
+                        results.partitions().size());
+  return text;
+}
+
+std::string summary_json(const std::string& path, std::size_t bytes, const ReportData& data,
+                         const ResultsReader& results) {
+  Json json;
+  json["output"] = path;
+  json["bytes"] = bytes;
+  json["every_cell"] = data.is_whole;
+  json["partitions"] = Json::array();
+  for (const std::size_t p : data.partitions) json["partitions"].push_back(results.partitions()[p].name);
+  return json_text(json);
+}
+
+}  // namespace
+
+ExitCode run_report(const CommandLine& line) {
+  const ResultsReader results(line.path);
+  const std::string path = line.output.value_or(results.spec().name + ".html");
+  LateFile file(path, "the report");
+  ReportData data;
+  const std::string page = page_of(results, data);
+  file.write(page);
+  file.commit();
+  if (line.json) {
+    write_output(summary_json(path, page.size(), data, results));
+  } else if (!line.quiet) {
+    write_output(summary_text(path, page.size(), data, results));
+  }
+  return ExitCode::success;
+}
+
+}  // namespace coordreq

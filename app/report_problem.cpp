@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/json_text.hpp"
+#include "app/report_text.hpp"
+#include "app/text.hpp"
+#include "export/report_page.hpp"
+
+namespace coordreq {
+namespace {
+
+std::string number_text(const Rational& value) {
+  return fmt::format("{:.6g}", nearest_double(value));
+}
+
+std::string code(const std::string& text) {
+  return "<code>" + html_line(text) + "</code>";
+}
+
+std::string with_unit(const std::string& html, const std::string& unit) {
+  return unit.empty() ? html : html + " " + html_line(unit);
+}
+
+/// "The agents a and b", "The 12 agents".
+std::string agents_words(const ProblemSpec& spec) {
+  constexpr std::size_t kMostNamed = 5;
+  const std::size_t count = spec.agents.size();
+  if (count > kMostNamed) return fmt::format("The {} agents", grouped(static_cast<std::uint64_t>(count)));
+  std::string text = count == 1 ? "The agent " : "The agents ";
+  for (std::size_t i = 0; i < count; ++i)
+    text += (i == 0           ? ""
+             : i + 1 == count ? " and "
+                              : ", ") +
+            ("<em>" + html_line(spec.agents[i].name) + "</em>");
+  return text;
+}
+
+/// A row of cells that are HTML; the first is its heading.
+std::string row(const std::vector<std::string>& cells) {
+  std::string html = "<tr>";
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    html += i == 0 ? "<th scope=\"row\">" + cells[i] + "</th>" : "<td>" + cells[i] + "</td>";
+  return html + "</tr>\n";
+}
+
+std::string table(const std::string& caption, const std::vector<std::string>& heads,
+                  const std::string& rows) {
+  std::string html = fmt::format("<div class=\"scroll\"><table><caption>{}</caption><thead><tr>", caption);
+  for (const std::string& head : heads) html += "<th scope=\"col\">" + head + "</th>";
+  return html + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
+}
+
+/// "-1 to 1 m/s, 41 values".
+std::string input_values(const InputSpec& input) {
+  const auto [low, high] = std::minmax_element(input.values.begin(), input.values.end());
+  if (input.values.size() == 1) return with_unit(number_text(*low), input.unit);
+  return fmt::format("{}, {} values", with_unit(number_text(*low) + " to " + number_text(*high), input.unit),
+                     grouped(static_cast<std::uint64_t>(input.values.size())));
+}
+
+std::string agents_table(const ProblemSpec& spec) {
+  std::string rows;
+  for (const AgentSpec& agent : spec.agents) {
+    std::string inputs;
+    for (const std::int32_t i : agent.inputs) {
+      const InputSpec& input = spec.inputs[static_cast<std::size_t>(i)];
+      inputs += fmt::format("{}{}: {}", inputs.empty() ? "" : "<br>", code(input.name), input_values(input));
+    }
+    rows += row({html_line(agent.name), inputs});
+  }
+  return table("Agents", {"agent", "chooses"}, rows);
+}
+
+std::string states_table(const ProblemSpec& spec) {
+  const bool continuous = spec.dynamics.time == Time::continuous;
+  std::string rows;
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    const StateSpec& state = spec.states[i];
+    const Rational last =
+        state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
+    rows += row({code(state.name),
+                 with_unit(number_text(state.grid.first) + " to " + number_text(last), state.unit),
+                 with_unit(number_text(state.grid.step), state.unit), grouped(state.grid.count),
+                 code(spec.dynamics.equations[i].text)});
+  }
+  return table("State", {"state", "grid", "step", "points", continuous ? "rate of change" : "next value"},
+               rows);
+}
+
+std::string disturbances_table(const ProblemSpec& spec) {
+  if (spec.disturbances.empty()) return "";
+  std::string rows;
+  for (const DisturbanceSpec& disturbance : spec.disturbances) {
+    rows += row({code(disturbance.name),
+                 with_unit(number_text(disturbance.lower) + " to " + number_text(disturbance.upper),
+                           disturbance.unit)});
+  }
+  return table("Disturbances", {"disturbance", "anything from"}, rows);
+}
+
+/// A member of the spec's text as a list "name = value" of code; empty if there is none.
+std::string assignments(const Json& spec, const char* key) {
+  std::string html;
+  if (!spec.contains(key)) return html;
+  for (const auto& [name, value] : spec.at(key).items()) {
+    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    html += fmt::format("{}{}", html.empty() ? "" : ", ", code(name + " = " + text));
+  }
+  return html;
+}
+
+std::string safe_text(const ProblemSpec& spec) {
+  const Json text = Json::parse(spec.text, nullptr, true, true);
+  std::string html = "<p>A state is safe if " + code(spec.safe.text);
+  const char* joint = ", where ";
+  for (const char* const key : {"definitions", "constants"}) {
+    const std::string meant = assignments(text, key);
+    if (meant.empty()) continue;
+    html += joint + meant;
+    joint = ", ";
+  }
+  html += ".";
+  if (spec.controller.allow)
+    html += " The agents may only do what keeps to " + code(spec.controller.allow->text) + ".";
+  return html + "</p>\n";
+}
+
+}  // namespace
+
+std::string report_task(const ResultsReader& results) {
+  const ProblemSpec& spec = results.spec();
+  const std::string every =
+      spec.dynamics.unit.empty() ? "step" : with_unit(number_text(spec.dynamics.period), spec.dynamics.unit);
+  std::string html;
+  if (!spec.description.empty())
+    html += fmt::format("<p class=\"lead\">{}</p>\n", html_text(spec.description));
+  return html +
+         fmt::format(
+             "<p>{} keep a system safe together and decide anew every {}. While they are connected they "
+             "agree on what they do; "
+             "when they are silent, each goes on alone.</p>\n",
+             agents_words(spec), every) +
+         safe_text(spec);
+}
+
+std::string report_details(const ResultsReader& results) {
+  const ProblemSpec& spec = results.spec();
+  return "<section aria-labelledby=\"question-title\">\n<h2 id=\"question-title\">The problem in "
+         "detail</h2>\n" +
+         agents_table(spec) + states_table(spec) + disturbances_table(spec) +
+         fmt::format(
+             "<details><summary>The whole spec</summary>\n<pre "
+             "tabindex=\"0\">{}</pre></details>\n</section>\n",
+             html_text(spec.text));
+}
+
+}  // namespace coordreq

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "results/results_reader.hpp"
+
+namespace coordreq {
+
+/// How much of a result a page may hold.
+struct ReportLimits {
+  std::int64_t values = std::int64_t{1} << 27;  ///< numbers, over all maps
+  std::size_t packed_bytes = std::size_t{12} << 20;
+  std::size_t partitions = 8;  ///< of which the delay is shown for each cell
+};
+
+/// The data of a page.
+struct ReportData {
+  std::string json;                     ///< the document that lib/export/report reads
+  std::vector<std::size_t> partitions;  ///< of which there are maps, ascending
+  /// For each of them the first cell with the longest finite delay, or, if there is none, the first of K; -1
+  /// if K is empty.
+  std::vector<std::int64_t> best_cells;
+  bool is_whole = true;  ///< every cell is in it
+};
+
+/// The maps over cells as one JSON document: grid points and layers, and for each set of cells that
+/// choose_cells() finds the delay of each of `partitions` and the collision time.
+///
+/// If the maps of all cells take more than the limits, fewer cells are in it; the values of these are those
+/// of the file. A map is packed as base64 of a zlib stream of unsigned little-endian integers of 1, 2 or 4
+/// bytes: a number v as v + 3, so that the flags -3, -2, -1 have room, and infinity as the type's maximum. In
+/// order: row-major over the indices of the set, the last dimension fastest.
+///
+/// Memory: 4 bytes a value of one map, plus the text. Reads each map twice.
+/// @param partitions positions, ascending; as many as are to be shown
+/// @throws as the member functions of ResultsReader
+[[nodiscard]] ReportData report_data(const ResultsReader& results, std::vector<std::size_t> partitions,
+                                     const ReportLimits& limits = {});
+
+}  // namespace coordreq

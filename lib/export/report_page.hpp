@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace coordreq {
+
+/// `text` as HTML text or attribute value: & < > " ' as entities.
+[[nodiscard]] std::string html_text(std::string_view text);
+
+/// What a page is made of.
+struct ReportPage {
+  std::string title;    ///< plain text
+  std::string summary;  ///< HTML: what stands before the pictures
+  std::string details;  ///< HTML: what stands after them
+  std::string data;     ///< JSON of report_data()
+};
+
+/// The page, complete in itself: it may load nothing and run no other script than its own (Content Security
+/// Policy by hash).
+[[nodiscard]] std::string report_page(const ReportPage& page);
+
+}  // namespace coordreq
