@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "abstraction/build_abstraction.hpp"
 #include "analysis/analyze.hpp"
+#include "analysis/layout.hpp"
 #include "analysis/network_problem.hpp"
 #include "base/error.hpp"
 #include "results/controller_file.hpp"
@@ -32,6 +34,24 @@ double condition_bytes(const Program& condition, const ProblemSpec& spec) {
   return rows * 8 * std::ceil(static_cast<double>(spec.states.back().grid.count) / 64);
 }
 
+/// True if no state is moved by two classes, so that projections are kept as boxes of posts.
+bool is_product(const PartitionSpec& partition, const ProblemSpec& spec,
+                const std::vector<TableShape>& shapes) {
+  std::vector<std::size_t> class_of_input(spec.inputs.size(), 0);
+  for (std::size_t c = 0; c < partition.classes.size(); ++c) {
+    for (const std::int32_t agent : partition.classes[c]) {
+      for (const std::int32_t input : spec.agents[static_cast<std::size_t>(agent)].inputs)
+        class_of_input[static_cast<std::size_t>(input)] = c;
+    }
+  }
+  return std::all_of(shapes.begin(), shapes.end(), [&](const TableShape& shape) {
+    return std::all_of(shape.inputs.begin(), shape.inputs.end(), [&](std::int32_t input) {
+      return class_of_input[static_cast<std::size_t>(input)] ==
+             class_of_input[static_cast<std::size_t>(shape.inputs.front())];
+    });
+  });
+}
+
 /// Joint actions of all classes together: one projected bit a cell each, at the most (actions that move every
 /// cell of a row alike share theirs). None where all agents are together.
 double projected_actions(const ProblemSpec& spec, const PartitionSpec& partition) {
@@ -49,15 +69,27 @@ double projected_actions(const ProblemSpec& spec, const PartitionSpec& partition
   return sum;
 }
 
+/// The projections of one partition. As products they are a few boxes a row, and most rows need none.
+double projection_bytes(const ProblemSpec& spec, const PartitionSpec& partition,
+                        const std::vector<TableShape>& shapes, double rows, double set_bytes) {
+  constexpr double kBoxesOfRow = 130;
+  const bool boxes = is_product(partition, spec, shapes) && !spec.abstraction.between_samples &&
+                     !spec.controller.allow && !spec.controller.file &&
+                     spec.controller.synthesis == Synthesis::maximal;
+  const double masks = set_bytes * projected_actions(spec, partition);
+  return boxes ? std::min(masks, rows * kBoxesOfRow) : masks;
+}
+
 /// At a time: those of one partition for its layers, then those of all partitions of a network.
-double projected_actions(const ProblemSpec& spec) {
+double projection_bytes(const ProblemSpec& spec, const std::vector<TableShape>& shapes, double rows,
+                        double set_bytes) {
   double most = 0;
   for (const PartitionSpec& partition : spec.coordination.partitions)
-    most = std::max(most, projected_actions(spec, partition));
+    most = std::max(most, projection_bytes(spec, partition, shapes, rows, set_bytes));
   if (!spec.network || spec.network->resynthesise) return most;
   double together = 0;
   for (const PartitionSpec* partition : network_partitions(*spec.network))
-    together += projected_actions(spec, *partition);
+    together += projection_bytes(spec, *partition, shapes, rows, set_bytes);
   return std::max(most, together);
 }
 
@@ -96,15 +128,20 @@ double listed_bytes(const ProblemSpec& spec, double cells, double set_bytes) {
   return cells * std::ceil(inputs / 8) + inputs * (set_bytes + rows * sizeof(std::uint32_t));
 }
 
-double estimate_memory(const ProblemSpec& spec) {
+double estimate_memory(const ProblemSpec& given) {
+  // What is cut into rows is the engine's order of the states.
+  const ProblemSpec spec = laid_out(given, choose_layout(given));
+  const bool keeps_sums = is_layout_of_sums(given);
+  const std::vector<TableShape> shapes = table_shapes(spec);
   const double cells = count_product(spec);
   const double row_length = static_cast<double>(spec.states.back().grid.count);
   const double set_bytes = cells / row_length * 8 * std::ceil(row_length / 64);
   double bytes = kFixedBytes;
-  for (const TableShape& shape : table_shapes(spec)) {
-    bytes += shape.bytes + row_choices(shape, spec) * sizeof(std::uint32_t);
-    // A row of a sum falls into a dozen segments, and hardly two rows are alike.
-    if (shape.sum) bytes += row_choices(shape, spec) * kSegmentsOfSum;
+  for (const TableShape& shape : shapes) {
+    const bool is_kept = keeps_sums && shape.sum;
+    bytes += is_kept ? 2 * shape.bytes : shape.bytes + row_choices(shape, spec) * sizeof(std::uint32_t);
+    // Cut, a row of a sum falls into a dozen segments, and hardly two rows are alike.
+    if (shape.sum && !is_kept) bytes += row_choices(shape, spec) * kSegmentsOfSum;
     // The tubes, as large as the tables, which are no sums then; cut into rows twice where states saturate.
     if (spec.abstraction.between_samples) {
       bytes += shape.bytes + 2 * row_choices(shape, spec) * sizeof(std::uint32_t);
@@ -123,7 +160,7 @@ double estimate_memory(const ProblemSpec& spec) {
     bytes += cells * (spec.coordination.partitions.size() < 255 ? 1 : 4);  // the coalition map
     bytes += set_bytes * agents * (agents - 1) / 2;                        // critical pairs
   }
-  bytes += set_bytes * projected_actions(spec);
+  bytes += projection_bytes(spec, shapes, cells / row_length, set_bytes);
   bytes += network_bytes(spec, cells, set_bytes);
   if (spec.coordination.convention)
     bytes += static_cast<double>(spec.agents.size()) * (cells * sizeof(float) + cells / row_length * 8);

@@ -81,6 +81,11 @@ std::vector<std::size_t> choose_layout(const ProblemSpec& spec) {
   return order;
 }
 
+bool is_layout_of_sums(const ProblemSpec& spec) {
+  return !spec.output.actions && !spec.output.controller && !spec.output.abstraction &&
+         sums_last(spec, table_shapes(spec)).has_value();
+}
+
 ProblemSpec laid_out(const ProblemSpec& spec, const std::vector<std::size_t>& order) {
   ProblemSpec result = spec;
   std::vector<std::uint32_t> slot_of(order.size());

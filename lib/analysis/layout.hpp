@@ -18,6 +18,9 @@ namespace coordreq {
 /// The order of the spec is kept where nothing is gained.
 [[nodiscard]] std::vector<std::size_t> choose_layout(const ProblemSpec& spec);
 
+/// True if that order is the one of sums: then these tables are not cut into rows.
+[[nodiscard]] bool is_layout_of_sums(const ProblemSpec& spec);
+
 /// The same problem with its states in another order; the text stays as it is.
 /// REQUIRES: `order` is a permutation of the states.
 [[nodiscard]] ProblemSpec laid_out(const ProblemSpec& spec, const std::vector<std::size_t>& order);
