@@ -166,7 +166,9 @@ class Cases(PlotCase):
         shown = re.findall(r"!\[.*\]\(scripts/pictures/(.*)\)", text)
         commands = [line.split() for line in re.findall(r"(?m)^scripts/plot .*-o .*", text)]
         self.assertEqual(sorted(command[-1] for command in commands), sorted(shown))
-        self.assertEqual(sorted(shown), sorted(path.name for path in (ROOT / "scripts/pictures").iterdir()))
+        # A browser made that of the report.
+        pictures = {path.name for path in (ROOT / "scripts/pictures").iterdir()} - {"report_intersection.png"}
+        self.assertEqual(sorted(shown), sorted(pictures))
         for command in commands:
             self.assertLess((ROOT / "scripts/pictures" / command[-1]).stat().st_size, 200_000)
             parse(command[1:])
