@@ -19,9 +19,9 @@ class CellOrder {
       : position_(std::move(position)), row_length_(grid.row_length()) {
     for (const std::size_t p : position_) {
       counts_.push_back(grid[p].count);
-      const bool is_last = p + 1 == grid.size();
-      row_step_.push_back(is_last ? 0 : grid.stride(p) / grid.row_length());
-      column_step_.push_back(is_last ? 1 : 0);
+      const bool is_along = p >= grid.across();
+      row_step_.push_back(is_along ? 0 : grid.stride(p) / grid.row_length());
+      column_step_.push_back(is_along ? grid.stride(p) : 0);
     }
   }
 
@@ -40,6 +40,13 @@ class CellOrder {
   [[nodiscard]] std::int64_t place(const Run& run) const { return run.row * row_length_ + run.column; }
   [[nodiscard]] std::int64_t step(const Run& run) const {
     return run.row_step * row_length_ + run.column_step;
+  }
+
+  /// Number of cells.
+  [[nodiscard]] std::int64_t cells() const {
+    std::int64_t product = 1;
+    for (const std::int64_t count : counts_) product *= count;
+    return product;
   }
 
   /// Visits the cells [begin, begin + count) of the spec's grid, in order.

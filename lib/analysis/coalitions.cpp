@@ -53,7 +53,7 @@ void fill_members(const CellSet& set, const CellOrder& order, std::int64_t begin
 /// [pair, cells]
 ResultArray critical_array(const CoalitionMap& map, const Solution& solution) {
   return {ElementType::uint8, [&map, &solution](std::uint64_t begin, std::uint64_t count, void* out) {
-            const auto cells = static_cast<std::uint64_t>(map.chosen.cells());
+            const auto cells = static_cast<std::uint64_t>(solution.order.cells());
             auto* place = static_cast<std::uint8_t*>(out);
             while (count > 0) {
               const std::uint64_t first = begin % cells;

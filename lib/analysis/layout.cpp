@@ -86,6 +86,13 @@ bool is_layout_of_sums(const ProblemSpec& spec) {
          sums_last(spec, table_shapes(spec)).has_value();
 }
 
+bool is_read_by_runs(const ProblemSpec& spec) {
+  const bool pairs = spec.controller.file || spec.controller.allow;
+  const bool lists = spec.output.actions || spec.output.controller || spec.output.abstraction;
+  return pairs || lists || spec.network || spec.coordination.convention || spec.coordination.horizon ||
+         !spec.requirements.empty();
+}
+
 ProblemSpec laid_out(const ProblemSpec& spec, const std::vector<std::size_t>& order) {
   ProblemSpec result = spec;
   std::vector<std::uint32_t> slot_of(order.size());

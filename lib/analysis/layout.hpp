@@ -21,6 +21,9 @@ namespace coordreq {
 /// True if that order is the one of sums: then these tables are not cut into rows.
 [[nodiscard]] bool is_layout_of_sums(const ProblemSpec& spec);
 
+/// True if what the spec asks for is read or written in rows along the last dimension alone.
+[[nodiscard]] bool is_read_by_runs(const ProblemSpec& spec);
+
 /// The same problem with its states in another order; the text stays as it is.
 /// REQUIRES: `order` is a permutation of the states.
 [[nodiscard]] ProblemSpec laid_out(const ProblemSpec& spec, const std::vector<std::size_t>& order);

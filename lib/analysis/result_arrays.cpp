@@ -65,7 +65,7 @@ ResultArray delays_or_triggers(const DelayLayers& layers, const LevelMap& collis
 /// The layer T(k) that each cell of K is in.
 template <class Visit>
 void for_each_in_layers(const DelayLayers& layers, const CellOrder& order, const Visit& visit) {
-  const auto cells = static_cast<std::uint64_t>(layers.layers_of.cells());
+  const auto cells = static_cast<std::uint64_t>(order.cells());
   const std::size_t last = layers.sizes.size() - 1;
   layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::vector<Level> stretch(static_cast<std::size_t>(levels.row_length()));
@@ -133,7 +133,7 @@ template void mark_unsafe(const LevelMap&, const CellOrder&, std::uint64_t, std:
 
 ResultArray sets_array(const std::vector<CellSet>& sets, const CellOrder& order) {
   return {ElementType::uint8, [&sets, &order](std::uint64_t begin, std::uint64_t count, void* out) {
-            const auto cells = static_cast<std::uint64_t>(sets.front().cells());
+            const auto cells = static_cast<std::uint64_t>(order.cells());
             auto* place = static_cast<std::uint8_t*>(out);
             while (count > 0) {
               const std::uint64_t first = begin % cells;
@@ -196,7 +196,7 @@ ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& 
 }
 
 ResultLayers layer_lists(const DelayLayers& layers, const CellOrder& order) {
-  if (layers.layers_of.cells() <= std::numeric_limits<std::uint32_t>::max()) {
+  if (order.cells() <= std::numeric_limits<std::uint32_t>::max()) {
     return lists_of<std::uint32_t>(layers, order, ElementType::uint32);
   }
   return lists_of<std::uint64_t>(layers, order, ElementType::uint64);

@@ -8,6 +8,7 @@
 #include "analysis/network_problem.hpp"
 #include "coordination/projections.hpp"
 #include "coordination/refinement.hpp"
+#include "safety/join_rows.hpp"
 #include "safety/safe_set.hpp"
 #include "safety/safe_tubes.hpp"
 
@@ -34,6 +35,13 @@ std::vector<std::size_t> place_of_states(const std::vector<std::size_t>& layout)
   return place;
 }
 
+/// Rows along several dimensions where they can be, and all that the spec asks for can be read off them.
+Abstraction with_rows(const ProblemSpec& spec, Abstraction abstraction) {
+  if (is_read_by_runs(spec)) return abstraction;
+  abstraction.grid = join_rows(abstraction);
+  return abstraction;
+}
+
 std::function<void(std::int64_t, std::int64_t)> stepper(const StageSwept& swept, const std::string& stage) {
   return [&swept, stage](std::int64_t sweep, std::int64_t rows) { swept(stage, sweep, rows); };
 }
@@ -46,7 +54,8 @@ Solution::Solution(const ProblemSpec& problem, ThreadTeam& team, const EnterStag
       layout(choose_layout(problem)),
       engine_spec(laid_out(problem, layout)),
       listed(read_listed(problem, enter)),
-      abstraction(staged(enter, "abstraction", [&] { return build_abstraction(engine_spec, team); })),
+      abstraction(staged(enter, "abstraction",
+                         [&] { return with_rows(problem, build_abstraction(engine_spec, team)); })),
       safe(staged(enter, "safe set", [&] { return safe_set(engine_spec, abstraction, team); })),
       allow(allow_table(engine_spec, abstraction, team, listed ? &listed->pairs : nullptr)),
       beyond(safe_beyond_limits(engine_spec, abstraction, safe, team)),

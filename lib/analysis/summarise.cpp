@@ -55,7 +55,7 @@ AnalysisSummary summarise(const Solution& solution) {
   const ProblemSpec& spec = solution.spec;
   AnalysisSummary summary;
   summary.name = spec.name;
-  summary.states = solution.abstraction.grid.cells();
+  summary.states = solution.abstraction.grid.points();
   summary.inputs = solution.abstraction.inputs.count();
   if (solution.listed) {
     summary.controller = {{*spec.controller.file, solution.listed->sha256, solution.listed->pairs.count()}};

@@ -1,5 +1,6 @@
 #include "bitset/level_kernels.hpp"
 
+#include "bitset/bit_kernels.hpp"
 #include "bitset/sum_kernels.hpp"
 
 namespace coordreq {
@@ -10,6 +11,7 @@ namespace coordreq {
   extern const LevelKernels<std::uint16_t> kKernels16; \
   extern const LevelKernels<std::uint32_t> kKernels32; \
   extern const SumKernels kSumKernels;                 \
+  extern const BitKernels kBitKernels;                 \
   }
 COORDREQ_DECLARE_KERNELS(portable_kernels)
 #if COORDREQ_X86_KERNELS
@@ -63,6 +65,10 @@ const LevelKernels<std::uint32_t>& level_kernels(InstructionSet set) {
 
 const SumKernels& sum_kernels(InstructionSet set) {
   return choose(set, portable_kernels::kSumKernels, avx2_kernels::kSumKernels, avx512_kernels::kSumKernels);
+}
+
+const BitKernels& bit_kernels(InstructionSet set) {
+  return choose(set, portable_kernels::kBitKernels, avx2_kernels::kBitKernels, avx512_kernels::kBitKernels);
 }
 
 }  // namespace coordreq

@@ -23,6 +23,8 @@ struct LevelKernels {
   void (*raise_where)(const Level* source, const Level* lanes, Level* target, std::size_t n);
   /// target[j] = min(target[j], source[j]) where lanes[j] is all ones.
   void (*lower_where)(const Level* source, const Level* lanes, Level* target, std::size_t n);
+  /// target[j] = min(target[j], source[j]) where labels[j] == label.
+  void (*lower_at)(const Level* source, const Level* labels, Level label, Level* target, std::size_t n);
   /// True if row[j] is the greatest level wherever lanes[j] != 0.
   bool (*is_top)(const Level* row, const Level* lanes, std::size_t n);
   /// True if row[j] + 1 >= bound[j] in every lane, counted without overflow.

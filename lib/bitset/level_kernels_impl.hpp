@@ -82,6 +82,17 @@ void lower_where(const Level* source, const Level* lanes, Level* target, size_t 
 }
 
 template <class Level>
+void lower_at(const Level* source, const Level* labels, Level label, Level* target, size_t n) {
+  typedef typename Lanes<Level>::Vector Vector;
+  for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
+    const Vector other = reinterpret_cast<Vector>(block(labels + j) != label);
+    const Vector a = block(source + j) | other;
+    const Vector b = block(target + j);
+    block(target + j) = a < b ? a : b;
+  }
+}
+
+template <class Level>
 bool is_top(const Level* row, const Level* lanes, size_t n) {
   constexpr auto kTop = static_cast<Level>(~Level{0});
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
@@ -194,9 +205,9 @@ bool advance(const Level* next, const Level* old, Level limit, Level* out, size_
 }
 
 template <class Level>
-constexpr LevelKernels<Level> kKernels{minimum<Level>,     raise<Level>,    raise_where<Level>,
-                                       lower_where<Level>, is_top<Level>,   is_settled<Level>,
-                                       spread<Level>,      top_bits<Level>, advance<Level>};
+constexpr LevelKernels<Level> kKernels{minimum<Level>,  raise<Level>,  raise_where<Level>, lower_where<Level>,
+                                       lower_at<Level>, is_top<Level>, is_settled<Level>,  spread<Level>,
+                                       top_bits<Level>, advance<Level>};
 
 }  // namespace
 

@@ -14,12 +14,14 @@ std::int64_t decoded(Level level) {
 template <class Level>
 void count_rows(const LevelRows<Level>& levels, ThreadTeam::Range rows, std::vector<std::int64_t>& counts) {
   for (std::int64_t r = rows.begin; r < rows.end; ++r) {
-    const Level* row = levels.row(r);
-    for (std::int64_t c = 0; c < levels.row_length(); ++c) {
-      const std::size_t level = row[c] == LevelRows<Level>::kTop ? 0 : std::size_t{row[c]} + 1;
-      if (level >= counts.size()) counts.resize(level + 1, 0);
-      ++counts[level];
-    }
+    levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+      const Level* cells = levels.row(r) + lane;
+      for (std::int64_t c = 0; c < count; ++c) {
+        const std::size_t level = cells[c] == LevelRows<Level>::kTop ? 0 : std::size_t{cells[c]} + 1;
+        if (level >= counts.size()) counts.resize(level + 1, 0);
+        ++counts[level];
+      }
+    });
   }
 }
 
@@ -29,8 +31,10 @@ void count_rows(const LevelRows<std::uint8_t>& levels, ThreadTeam::Range rows,
                 std::vector<std::int64_t>& counts) {
   std::array<std::array<std::int64_t, 256>, 4> part{};
   for (std::int64_t r = rows.begin; r < rows.end; ++r) {
-    const std::uint8_t* row = levels.row(r);
-    for (std::int64_t c = 0; c < levels.row_length(); ++c) ++part[static_cast<std::size_t>(c % 4)][row[c]];
+    levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+      const std::uint8_t* cells = levels.row(r) + lane;
+      for (std::int64_t c = 0; c < count; ++c) ++part[static_cast<std::size_t>(c % 4)][cells[c]];
+    });
   }
   counts.resize(256, 0);
   for (std::size_t level = 0; level < 256; ++level) {
@@ -55,6 +59,19 @@ std::vector<std::int64_t> count_levels(const LevelRows<Level>& levels, ThreadTea
   return total;
 }
 
+/// Gaps hold what lies beyond the ends of runs, which are no cells.
+void clear_gaps(const RowShape& shape, CellSet& set, ThreadTeam& team) {
+  if (shape.dimensions.size() == 1) return;
+  CellSet cells(1, set.row_length());
+  shape.for_each_run(
+      [&](std::int64_t lane, std::int64_t count) { set_bits(cells.row(0), lane, lane + count); });
+  team.for_each(set.rows(), 256, [&](ThreadTeam::Range range, int) {
+    for (std::int64_t r = range.begin; r < range.end; ++r) {
+      for (std::size_t w = 0; w < cells.words().size(); ++w) set.row(r)[w] &= cells.words()[w];
+    }
+  });
+}
+
 }  // namespace
 
 std::int64_t LevelMap::at(std::int64_t cell) const {
@@ -73,11 +90,12 @@ CellSet LevelMap::top_cells(ThreadTeam& team) const {
   CellSet result(rows(), row_length());
   visit([&]<class Level>(const LevelRows<Level>& levels) {
     const LevelKernels<Level>& kernels = level_kernels<Level>(best_instruction_set());
+    const auto lanes = static_cast<std::size_t>(levels.row_length());
     team.for_each(levels.rows(), 256, [&](ThreadTeam::Range range, int) {
-      for (std::int64_t r = range.begin; r < range.end; ++r) {
-        kernels.top_bits(levels.row(r), result.row(r).data(), static_cast<std::size_t>(levels.row_length()));
-      }
+      for (std::int64_t r = range.begin; r < range.end; ++r)
+        kernels.top_bits(levels.row(r), result.row(r).data(), lanes);
     });
+    clear_gaps(levels.shape(), result, team);
   });
   return result;
 }

@@ -25,6 +25,19 @@ void set_bits(MutableRow row, std::int64_t begin, std::int64_t end) {
   }
 }
 
+void add_bits(ConstRow source, std::int64_t offset, MutableRow target) {
+  const auto shift = static_cast<unsigned>(offset % kBits);
+  auto at = static_cast<std::size_t>(offset / kBits);
+  for (const Word word : source) {
+    if (word == 0) {
+      ++at;
+      continue;
+    }
+    target[at++] |= word << shift;
+    if (shift != 0 && word >> (kBits - shift) != 0) target[at] |= word >> (kBits - shift);
+  }
+}
+
 bool any_set(ConstRow row) {
   return std::any_of(row.begin(), row.end(), [](Word word) { return word != 0; });
 }

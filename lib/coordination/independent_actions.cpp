@@ -40,51 +40,56 @@ bool IndependentActions<Level>::next_levels(const RowPlace& place, PostReader<Le
 template <class Level>
 void IndependentActions<Level>::lower_by_boxes(const RowPlace& place, PostReader<Level>& posts, Level* next,
                                                Workspace& work) const {
-  const std::size_t classes = grouping_.size();
-  work.entries.resize(classes);
-  IndependentPosts::unpack(projections_.packed(place.row), boxes_, grouping_.engine().row_words(),
-                           work.entries);
-  for (const auto& entries : work.entries) {
-    if (entries.empty()) return;  // all that this class may do leaves for good
+  const RowEngine& engine = grouping_.engine();
+  IndependentPosts::unpack(projections_.packed(place.row), boxes_, grouping_.size(), engine.row_words(),
+                           work.row);
+  work.box.resize(engine);
+  work.labels = nullptr;
+  for (std::size_t p = 0; p < work.row.parts.size(); ++p) {
+    if (!work.row.pages.empty() && p % IndependentPosts::kLabelsOfPage == 0)
+      enter_page(work.row.pages[p / IndependentPosts::kLabelsOfPage], posts.lanes(), work);
+    work.label = static_cast<Level>(p % IndependentPosts::kLabelsOfPage + 1);
+    lower_by_class(work.row.parts[p], 0, posts, next, work);
   }
-  work.box.ranges.resize(grouping_.engine().tables() - 1);
-  work.masks.assign(classes + 1, {});
-  lower_by_class(0, posts, next, work);
+}
+
+/// Labels as wide as levels.
+template <class Level>
+void IndependentActions<Level>::enter_page(const std::uint8_t* labels, std::size_t lanes,
+                                           Workspace& work) const {
+  if constexpr (sizeof(Level) == 1) {
+    work.labels = labels;
+  } else {
+    const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
+    work.lanes.assign(lanes, 0);
+    std::copy_n(labels, n, work.lanes.begin());
+    work.labels = work.lanes.data();
+  }
 }
 
 /// Chooses a box for class c and those after it, in all ways.
 template <class Level>
-void IndependentActions<Level>::lower_by_class(std::size_t c, PostReader<Level>& posts, Level* next,
-                                               Workspace& work) const {
-  if (c == grouping_.size()) return lower_by_box(posts, next, work.masks[c], work);
-  for (const IndependentPosts::Entry& entry : work.entries[c]) {
-    boxes_.put(c, entry.ranges, work.box);
-    std::vector<Word>& mask = work.masks[c + 1];
-    mask = work.masks[c];
-    if (mask.empty()) {
-      mask.assign(entry.mask.begin(), entry.mask.end());
-    } else {
-      for (std::size_t w = 0; w < entry.mask.size(); ++w) mask[w] &= entry.mask[w];
-      if (!any_set(mask)) continue;
-    }
-    lower_by_class(c + 1, posts, next, work);
+void IndependentActions<Level>::lower_by_class(const IndependentPosts::Part& part, std::size_t c,
+                                               PostReader<Level>& posts, Level* next, Workspace& work) const {
+  if (c == grouping_.size()) return lower_by_box(part, posts, next, work);
+  const IndependentPosts::Boxes& boxes = work.row.lists[part.boxes[c]];
+  for (std::size_t i = 0; i < boxes.count; ++i) {
+    boxes_.put(c, boxes[i], work.box);
+    lower_by_class(part, c + 1, posts, next, work);
   }
 }
 
-/// @param mask empty: all cells of K
 template <class Level>
-void IndependentActions<Level>::lower_by_box(PostReader<Level>& posts, Level* next,
-                                             const std::vector<Word>& mask, Workspace& work) const {
-  const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
-  const Level* levels = posts.minimum(work.box);
-  if (mask.empty()) {
-    const Level* pair[] = {next, levels};
+void IndependentActions<Level>::lower_by_box(const IndependentPosts::Part& part, PostReader<Level>& posts,
+                                             Level* next, Workspace& work) const {
+  if (work.labels == nullptr) {
+    const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
+    const Level* pair[] = {next, posts.minimum(work.box)};
     posts.kernels().minimum(pair, 2, next, n);
-  } else {
-    work.lanes.resize(posts.lanes(), 0);
-    posts.kernels().spread(mask.data(), work.lanes.data(), n);
-    posts.kernels().lower_where(levels, work.lanes.data(), next, n);
+    return;
   }
+  posts.kernels().lower_at(posts.minimum(work.box, part.begin, part.end), work.labels + part.begin,
+                           work.label, next + part.begin, static_cast<std::size_t>(part.end - part.begin));
 }
 
 template <class Level>

@@ -26,15 +26,18 @@ class IndependentActions final : public RowOperator<Level> {
     TupleWalk::Candidates candidates;
     TupleWalk tuple;
     RowHull::Box box;
-    std::vector<std::vector<IndependentPosts::Entry>> entries;
-    std::vector<std::vector<Word>> masks;
+    IndependentPosts::Row row;
+    const Level* labels = nullptr;  ///< of the page at hand; null: there is one part, all of K
+    Level label = 0;
     std::vector<Word> reasonable;
     std::vector<Level> lanes;
   };
 
   void lower_by_boxes(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const;
-  void lower_by_class(std::size_t c, PostReader<Level>& posts, Level* next, Workspace& work) const;
-  void lower_by_box(PostReader<Level>& posts, Level* next, const std::vector<Word>& mask,
+  void enter_page(const std::uint8_t* labels, std::size_t lanes, Workspace& work) const;
+  void lower_by_class(const IndependentPosts::Part& part, std::size_t c, PostReader<Level>& posts,
+                      Level* next, Workspace& work) const;
+  void lower_by_box(const IndependentPosts::Part& part, PostReader<Level>& posts, Level* next,
                     Workspace& work) const;
   void lower_by_all(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const;
   void lower_by_projections(const RowPlace& place, PostReader<Level>& posts, Level* next,

@@ -46,7 +46,7 @@ class Projections::Builder {
     if (is_full && !is_product) return false;
     is_simple_ = is_product && !boxes_.has_gone() && controller_.engine->allow() == nullptr &&
                  controller_.synthesis == Synthesis::maximal;
-    box_.ranges.resize(controller_.engine->tables() - 1);
+    box_.resize(*controller_.engine);
     if (!is_full && is_simple_ && pair_.applies()) {
       pair_.find_masks(place, groups_, masks_);
     } else {
@@ -111,14 +111,14 @@ class Projections::Builder {
   /// no more than these can be found.
   void find_reachable(std::size_t c, std::uint32_t g, ConstRow invariant) {
     reachable_.assign(invariant.begin(), invariant.end());
-    const std::size_t last = controller_.engine->tables() - 1;
-    if (!is_simple_ || boxes_.moved(c).empty() || boxes_.moved(c).back() != last) return;
-    const IndexRange window = boxes_.ranges(c, g).back();
-    const RowEnds ends = controller_.engine->posts().ends;
-    const std::int64_t n = controller_.engine->row_length();
+    if (!is_simple_) return;
+    const RowEngine& engine = *controller_.engine;
     left_.assign(reachable_.size(), 0);
-    if (ends.below == Outside::unsafe) set_bits(left_, 0, std::clamp<std::int64_t>(-window.first, 0, n));
-    if (ends.above == Outside::unsafe) set_bits(left_, n - std::clamp<std::int64_t>(window.last, 0, n), n);
+    const RowFamily posts = engine.posts();
+    for (std::size_t i = 0; i < boxes_.moved(c).size(); ++i) {
+      const std::size_t t = boxes_.moved(c)[i];
+      if (t >= engine.across()) mark_leaving(posts.shape, t - engine.across(), boxes_.ranges(c, g)[i], left_);
+    }
     for (std::size_t w = 0; w < left_.size(); ++w) reachable_[w] &= ~left_[w];
   }
 

@@ -4,12 +4,23 @@
 
 namespace coordreq {
 
-UniformGrid::UniformGrid(std::vector<GridDimension> dimensions)
-    : dimensions_(std::move(dimensions)), strides_(dimensions_.size()) {
+UniformGrid::UniformGrid(std::vector<GridDimension> dimensions) : UniformGrid(std::move(dimensions), {}) {}
+
+UniformGrid::UniformGrid(std::vector<GridDimension> dimensions, const std::vector<std::int64_t>& gaps)
+    : dimensions_(std::move(dimensions)),
+      strides_(dimensions_.size()),
+      across_(dimensions_.size() - gaps.size() - 1) {
   for (std::size_t i = dimensions_.size(); i-- > 0;) {
     strides_[i] = cells_;
-    cells_ *= dimensions_[i].count;
+    cells_ *= dimensions_[i].count + (i > across_ ? gaps[i - across_ - 1] : 0);
+    if (i == across_) row_length_ = cells_;
   }
+}
+
+std::int64_t UniformGrid::points() const {
+  std::int64_t product = 1;
+  for (const GridDimension& dimension : dimensions_) product *= dimension.count;
+  return product;
 }
 
 UniformGrid make_grid(const ProblemSpec& spec) {

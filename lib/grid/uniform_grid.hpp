@@ -34,29 +34,44 @@ struct GridDimension {
 };
 
 /// The cells of a state space. Linear indices are row-major, the last dimension fastest, below 2^62.
+///
+/// Cells come in *rows*: along the last dimension, or along several at once. In rows of several dimensions
+/// each run along one that is not the first of them is followed by a gap, linear indices that are no cells:
+/// room for what lies beyond both ends of the run.
 class UniformGrid {
  public:
   explicit UniformGrid(std::vector<GridDimension> dimensions);
+  /// @param gaps for each of the last dimensions that rows run along, but for the first of these, its gap, in
+  ///   indices of that dimension
+  UniformGrid(std::vector<GridDimension> dimensions, const std::vector<std::int64_t>& gaps);
 
   [[nodiscard]] std::size_t size() const { return dimensions_.size(); }
   [[nodiscard]] const GridDimension& operator[](std::size_t i) const { return dimensions_[i]; }
   [[nodiscard]] const std::vector<GridDimension>& dimensions() const { return dimensions_; }
+  /// Number of linear indices, gaps included.
   [[nodiscard]] std::int64_t cells() const { return cells_; }
+  /// Number of cells.
+  [[nodiscard]] std::int64_t points() const;
   /// Linear distance between neighbours in dimension i.
   [[nodiscard]] std::int64_t stride(std::size_t i) const { return strides_[i]; }
 
-  /// Number of points of the last dimension, and of rows along it: cells() = rows() * row_length().
-  [[nodiscard]] std::int64_t row_length() const { return dimensions_.back().count; }
-  [[nodiscard]] std::int64_t rows() const { return cells_ / row_length(); }
+  /// Number of leading dimensions, across which rows are counted; rows run along the others.
+  [[nodiscard]] std::size_t across() const { return across_; }
+  /// Linear indices of a row, and number of rows: cells() = rows() * row_length().
+  [[nodiscard]] std::int64_t row_length() const { return row_length_; }
+  [[nodiscard]] std::int64_t rows() const { return cells_ / row_length_; }
 
+  /// REQUIRES: `linear` is a cell's.
   [[nodiscard]] std::int64_t index(std::int64_t linear, std::size_t i) const {
-    return linear / strides_[i] % dimensions_[i].count;
+    return i == 0 ? linear / strides_[0] : linear % strides_[i - 1] / strides_[i];
   }
 
  private:
   std::vector<GridDimension> dimensions_;
   std::vector<std::int64_t> strides_;
   std::int64_t cells_ = 1;
+  std::int64_t row_length_ = 1;
+  std::size_t across_ = 0;
 };
 
 [[nodiscard]] UniformGrid make_grid(const ProblemSpec& spec);

@@ -25,7 +25,8 @@ BoxReader<Level>::BoxReader(const RowEngine& engine, const RowFamily& family, st
       family_(family),
       outer_(outer),
       levels_(levels),
-      kernels_(&level_kernels<Level>(best_instruction_set())) {
+      kernels_(&level_kernels<Level>(best_instruction_set())),
+      shape_(family.shape) {
   constexpr std::size_t kBlock = kLevelBlock / sizeof(Level);
   lanes_ = static_cast<std::size_t>(levels.row_length()) + kBlock;
   const std::size_t padded = static_cast<std::size_t>(levels.stride()) + kBlock;
@@ -54,33 +55,47 @@ const Level* BoxReader<Level>::minimum(std::span<const std::uint32_t> ids) {
   } else if (blocked) {
     std::fill(result_.begin(), result_.end(), Level{0});
   } else {
-    const std::size_t last = ids.size() - 1;
-    read_piece(family_.slices[last].slices[ids[last]][0], gone, 0, levels_.row_length(), result_.data());
+    read_row(ids, gone);
   }
   return result_.data();
 }
 
 template <class Level>
-const Level* BoxReader<Level>::minimum(const RowHull::Box& box) {
+const Level* BoxReader<Level>::minimum(const RowHull::Box& box, std::int64_t begin, std::int64_t end) {
   ranges_ = box.ranges;
-  read_window(box.window, false, 0, levels_.row_length(), result_.data());
+  windows_ = box.windows;
+  read_windows(false, begin, end, result_.data());
   return result_.data();
 }
 
 /// The common case: every slice is one segment. Sets the box of rows.
 template <class Level>
 bool BoxReader<Level>::fits_one_piece(std::span<const std::uint32_t> ids, bool& blocked, bool& gone) {
-  const std::size_t last = ids.size() - 1;
-  ranges_.resize(last);
-  for (std::size_t t = 0; t <= last; ++t) {
+  const std::size_t across = engine_.across();
+  ranges_.resize(across);
+  for (std::size_t t = 0; t < ids.size(); ++t) {
     const std::vector<RowSegment>& slice = family_.slices[t].slices[ids[t]];
     if (slice.size() != 1) return false;
     blocked = blocked || slice[0].kind == Kind::blocked;
-    if (t == last) break;
+    if (t >= across) continue;
     gone = gone || slice[0].kind == Kind::gone;
     ranges_[t] = slice[0].range;
   }
   return true;
+}
+
+/// The whole row, where every slice is one segment; in rows along several dimensions these are shifted.
+template <class Level>
+void BoxReader<Level>::read_row(std::span<const std::uint32_t> ids, bool gone) {
+  if (engine_.along() == 1) {
+    const std::size_t last = ids.size() - 1;
+    read_piece(family_.slices[last].slices[ids[last]][0], gone, 0, levels_.row_length(), result_.data());
+    return;
+  }
+  windows_.clear();
+  for (std::size_t t = engine_.across(); t < ids.size(); ++t)
+    windows_.push_back(family_.slices[t].slices[ids[t]][0].range);
+  read_windows(gone, 0, levels_.row_length(), result_.data());
 }
 
 template <class Level>
@@ -119,33 +134,57 @@ void BoxReader<Level>::read_piece(const RowSegment& last, bool gone, std::int64_
   if (last.kind == Kind::gone) {
     std::fill_n(out, end - begin, kTop);
   } else if (last.kind == Kind::shifted) {
-    read_window(last.range, gone, begin, end, out);
+    windows_.assign(1, last.range);
+    read_windows(gone, begin, end, out);
   } else {
     read_fixed(last.range, gone, begin, end, out);
   }
 }
 
+/// The minimum over all rows of the box and all offsets of the windows.
 template <class Level>
-void BoxReader<Level>::read_window(IndexRange window, bool gone, std::int64_t begin, std::int64_t end,
-                                   Level* out) {
+void BoxReader<Level>::read_windows(bool gone, std::int64_t begin, std::int64_t end, Level* out) {
   collect_rows(gone);
-  const auto lanes = static_cast<std::size_t>(end - begin);
-  const std::int64_t width = std::int64_t{window.last} - window.first + 1;
+  const std::size_t along = windows_.size();
+  std::int64_t first = begin;
+  std::int64_t lanes = end - begin;  // those that the windows still to be taken need
+  for (std::size_t k = 0; k < along; ++k) {
+    first += windows_[k].first * shape_.dimensions[k].stride;
+    lanes += (std::int64_t{windows_[k].last} - windows_[k].first) * shape_.dimensions[k].stride;
+  }
   sources_.clear();
+  for (const Level* row : rows_) sources_.push_back(row + first);
+  // One pass a window: fewer looks than at all offsets of all windows.
+  for (std::size_t k = 0; k < along; ++k) {
+    lanes -= (std::int64_t{windows_[k].last} - windows_[k].first) * shape_.dimensions[k].stride;
+    const bool is_last = k + 1 == along;
+    // Where nothing is to be combined the next pass reads the same row.
+    if (!is_last && sources_.size() == 1 && windows_[k].first == windows_[k].last) continue;
+    take_window(k, static_cast<std::size_t>(lanes), is_last ? out : wide_.data());
+    sources_.assign(1, wide_.data());
+  }
+}
+
+/// The minimum of all sources over one window, which begins at them.
+template <class Level>
+void BoxReader<Level>::take_window(std::size_t k, std::size_t lanes, Level* out) {
+  const std::int64_t stride = shape_.dimensions[k].stride;
+  const std::int64_t width = std::int64_t{windows_[k].last} - windows_[k].first + 1;
   if (width <= kNarrowWindow) {
-    for (const Level* row : rows_) {
-      for (std::int64_t s = 0; s < width; ++s) sources_.push_back(row + begin + window.first + s);
+    const std::size_t rows = sources_.size();
+    for (std::int64_t s = 1; s < width; ++s) {
+      for (std::size_t r = 0; r < rows; ++r) sources_.push_back(sources_[r] + s * stride);
     }
     kernels_->minimum(sources_.data(), sources_.size(), out, lanes);
     return;
   }
-  for (const Level* row : rows_) sources_.push_back(row + begin + window.first);
   kernels_->minimum(sources_.data(), sources_.size(), wide_.data(),
-                    lanes + static_cast<std::size_t>(width) - 1);
+                    lanes + static_cast<std::size_t>((width - 1) * stride));
   for (std::int64_t done = 1; done < width;) {
     const std::int64_t step = std::min(done, width - done);
-    const Level* pair[] = {wide_.data(), wide_.data() + step};
-    kernels_->minimum(pair, 2, wide_.data(), lanes + static_cast<std::size_t>(width - done - step));
+    const Level* pair[] = {wide_.data(), wide_.data() + step * stride};
+    kernels_->minimum(pair, 2, wide_.data(),
+                      lanes + static_cast<std::size_t>((width - done - step) * stride));
     done += step;
   }
   if (out != wide_.data()) std::copy_n(wide_.data(), lanes, out);

@@ -30,8 +30,8 @@ class BoxReader {
   /// Least levels of the boxes given by the numbers of their slices, one a table. The row may be read up to
   /// the next call; whole blocks, as LevelKernels ask.
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids);
-  /// Least levels of the box around all posts of a row. REQUIRES box.covers.
-  [[nodiscard]] const Level* minimum(const RowHull::Box& box);
+  /// Least levels of the box around all posts of a row, for its lanes [begin, end). REQUIRES box.covers.
+  [[nodiscard]] const Level* minimum(const RowHull::Box& box, std::int64_t begin, std::int64_t end);
 
   [[nodiscard]] const LevelKernels<Level>& kernels() const { return *kernels_; }
   /// A row of this many levels holds the lanes of a row and the rest of its last block.
@@ -48,7 +48,9 @@ class BoxReader {
 
   [[nodiscard]] bool fits_one_piece(std::span<const std::uint32_t> ids, bool& blocked, bool& gone);
   void read_piece(const RowSegment& last, bool gone, std::int64_t begin, std::int64_t end, Level* out);
-  void read_window(IndexRange window, bool gone, std::int64_t begin, std::int64_t end, Level* out);
+  void read_windows(bool gone, std::int64_t begin, std::int64_t end, Level* out);
+  void take_window(std::size_t k, std::size_t lanes, Level* out);
+  void read_row(std::span<const std::uint32_t> ids, bool gone);
   void read_fixed(IndexRange range, bool gone, std::int64_t begin, std::int64_t end, Level* out);
   void read_in_pieces(std::span<const std::uint32_t> ids);
   void collect_rows(bool gone);
@@ -61,8 +63,10 @@ class BoxReader {
   const LevelRows<Level>& levels_;
   const LevelKernels<Level>* kernels_;
   std::size_t lanes_;
-  std::vector<IndexRange> ranges_;  ///< box of rows in question
-  std::vector<const Level*> rows_;  ///< the rows in it, the shared dimensions taken
+  RowShape shape_;
+  std::vector<IndexRange> ranges_;   ///< box of rows in question
+  std::vector<IndexRange> windows_;  ///< and windows along them
+  std::vector<const Level*> rows_;   ///< the rows in it, the shared dimensions taken
   std::vector<const Level*> sources_;
   std::vector<std::int64_t> counter_;
   std::vector<std::int64_t> shared_counter_;

@@ -36,7 +36,13 @@ class PostReader {
     return tubes_.empty() ? levels : with_tubes(ids, levels);
   }
   /// Least levels of the box around all posts of a row. REQUIRES box.covers.
-  [[nodiscard]] const Level* minimum(const RowHull::Box& box) { return posts_.minimum(box); }
+  [[nodiscard]] const Level* minimum(const RowHull::Box& box) {
+    return posts_.minimum(box, 0, engine_.row_length());
+  }
+  /// The same for the lanes [begin, end) of the row alone.
+  [[nodiscard]] const Level* minimum(const RowHull::Box& box, std::int64_t begin, std::int64_t end) {
+    return posts_.minimum(box, begin, end);
+  }
 
   [[nodiscard]] const LevelKernels<Level>& kernels() const { return posts_.kernels(); }
   /// A row of this many levels holds the lanes of a row and the rest of its last block.

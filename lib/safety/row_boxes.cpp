@@ -46,8 +46,8 @@ bool RowBoxes::add(std::size_t c, std::uint32_t action) {
     const std::int64_t position = base_[t] + grouping_.contribution(c, t, action);
     const std::uint32_t id = grouping_.sources()[t].id(position);
     const std::vector<RowSegment>& slice = engine.slices()[t].slices[id];
-    const bool is_last = t + 1 == engine.tables();
-    if (slice.size() != 1 || (is_last && slice[0].kind == RowSegment::Kind::fixed)) return false;
+    const bool is_along = t >= engine.across();
+    if (slice.size() != 1 || (is_along && slice[0].kind == RowSegment::Kind::fixed)) return false;
     ranges_[c].push_back(slice[0].range);
     if (slice[0].kind == RowSegment::Kind::blocked) kind = Kind::blocked;
     if (slice[0].kind == RowSegment::Kind::gone && kind != Kind::blocked) kind = Kind::gone;
@@ -60,14 +60,14 @@ bool RowBoxes::add(std::size_t c, std::uint32_t action) {
 void RowBoxes::put(std::size_t c, std::span<const IndexRange> ranges, RowHull::Box& box) const {
   for (std::size_t k = 0; k < moved_[c].size(); ++k) {
     const std::size_t t = moved_[c][k];
-    (t + 1 == base_.size() ? box.window : box.ranges[t]) = ranges[k];
+    box[t] = ranges[k];
   }
 }
 
 void RowBoxes::put(std::size_t c, std::span<const Word> ranges, RowHull::Box& box) const {
   for (std::size_t k = 0; k < moved_[c].size(); ++k) {
     const std::size_t t = moved_[c][k];
-    (t + 1 == base_.size() ? box.window : box.ranges[t]) = unpack_range(ranges[k]);
+    box[t] = unpack_range(ranges[k]);
   }
 }
 

@@ -78,7 +78,7 @@ std::vector<RowSlices> RowEngine::summed_slices() const {
   const std::vector<TransitionTable>& tables = abstraction_->tables;
   std::size_t outer = 0;
   while (outer < tables.size() && !tables[outer].is_sum()) ++outer;
-  if (outer == 0 || !is_closed(outer)) return {};
+  if (outer == 0 || !is_closed(outer) || along() != 1) return {};
   std::vector<RowSlices> result;
   double variants = 1;
   for (std::size_t t = outer; t < tables.size(); ++t) {
@@ -99,13 +99,17 @@ void RowEngine::add_family(const std::vector<TransitionTable>& tables,
   for (std::size_t i = 0; i < cut; ++i)
     slices_.push_back(cut_into_rows(*abstraction_, tables[i], i, targets[i]));
   for (RowSlices& slices : sums) slices_.push_back(std::move(slices));
-  const RowEnds ends{targets.back().below, targets.back().above};
-  ends_.push_back(ends);
-  margins_.push_back(margins_of(slices_.back(), ends));
+  RowShape& shape = shapes_.emplace_back();
+  for (std::size_t i = across(); i < tables.size(); ++i) {
+    const RowEnds ends{targets[i].below, targets[i].above};
+    RowSlices& slices = slices_[slices_.size() - tables.size() + i];
+    const std::int64_t count = targets[i].count;
+    shape.dimensions.push_back({count, grid().stride(i), margins_of(slices, count, ends), ends});
+  }
 }
 
 /// Offsets along the row are brought to the shortest that mean the same; they decide on the margins.
-RowMargins RowEngine::margins_of(RowSlices& slices, RowEnds ends) const {
+RowMargins RowEngine::margins_of(RowSlices& slices, std::int64_t count, RowEnds ends) const {
   RowMargins margins;
   const auto widen = [&margins](IndexRange window) {
     margins.before = std::max<std::int64_t>(margins.before, -window.first);
@@ -114,7 +118,7 @@ RowMargins RowEngine::margins_of(RowSlices& slices, RowEnds ends) const {
   for (std::vector<RowSegment>& slice : slices.slices) {
     for (RowSegment& segment : slice) {
       if (segment.kind != Kind::shifted) continue;
-      segment.range = fit_window(segment.range, row_length(), ends);
+      segment.range = fit_window(segment.range, count, ends);
       widen(segment.range);
     }
   }
@@ -122,14 +126,14 @@ RowMargins RowEngine::margins_of(RowSlices& slices, RowEnds ends) const {
     SumRows::Reader reader(*slices.sums);
     for (std::int64_t i = 0; i < slices.size(); ++i) {
       const SumRows::Row row = reader.row(static_cast<std::uint32_t>(i));
-      widen(fit_window(slices.sums->offset_hull(row), row_length(), ends));
+      widen(fit_window(slices.sums->offset_hull(row), count, ends));
     }
   }
   return margins;
 }
 
 RowFamily RowEngine::family(std::size_t number) const {
-  return {std::span(slices_).subspan(number * tables(), tables()), ends_[number], margins_[number]};
+  return {std::span(slices_).subspan(number * tables(), tables()), shapes_[number]};
 }
 
 std::vector<RowEngine::Demand> RowEngine::demands() const {
@@ -158,20 +162,20 @@ void RowEngine::choose_outer() {
     unit_rows_ = row_stride_[outer_ - 1];
     return;
   }
-  const std::size_t last = tables() - 1;
+  const std::size_t last = across();
   std::vector<TableProfile> profiles;
   for (const RowSlices& slices : posts().slices) profiles.push_back(profile(slices));
   const auto cost = [&](std::size_t outer) {
     double shared = outer == 0 ? 0 : 1;
     double choices = 1;
-    double inner = profiles[last].width;
-    for (std::size_t t = 0; t <= last; ++t) {
+    double inner = 1;
+    for (std::size_t t = 0; t < tables(); ++t) {
       // Of all choices about two are tried: the rest is dominated, or joined with others.
       const double tried = std::min(profiles[t].choices, 2.0);
       choices *= tried;
       if (t < outer) {
         shared *= tried * profiles[t].width;
-      } else if (t < last) {
+      } else {
         inner *= profiles[t].width;
       }
     }

@@ -15,17 +15,18 @@ namespace coordreq {
 
 /// Slices of all states that are tested against one target.
 struct RowFamily {
-  /// One table a state. In the last one offsets are at most a row long, either way.
+  /// One table a state. In those that rows run along offsets are at most as long as the dimension, either
+  /// way.
   std::span<const RowSlices> slices;
-  RowEnds ends;        ///< rules of the last dimension
-  RowMargins margins;  ///< as far as offsets go
+  RowShape shape;  ///< margins as far as offsets go
 };
 
 /// The abstraction laid out for whole rows of cells, and how work on it is cut up.
 ///
-/// The post of a row is the minimum over a box of rows (other dimensions) of levels, and over a window along
-/// the row (last dimension). Where the first `outer()` dimensions move by themselves, whatever the others do,
-/// the minimum over them is the same for all rows that share these indices: a *unit*. PostReader takes it
+/// The post of a row is the minimum over a box of rows (dimensions across them) of levels, and over windows
+/// along the row. Rows run along the last dimension, or along several where each of these moves by an offset
+/// of its own: see join_rows(). Where the first `outer()` dimensions move by themselves, whatever the others
+/// do, the minimum over them is the same for all rows that share these indices: a *unit*. PostReader takes it
 /// once. Immutable once built, so safe to share between threads.
 class RowEngine {
  public:
@@ -54,7 +55,10 @@ class RowEngine {
   }
   /// Number of tables of slices of posts: one a state.
   [[nodiscard]] std::size_t tables() const { return row_stride_.size(); }
-  /// Rows from one index of a dimension (not the last) to the next.
+  /// Number of dimensions across rows, and along them.
+  [[nodiscard]] std::size_t across() const { return grid().across(); }
+  [[nodiscard]] std::size_t along() const { return tables() - across(); }
+  /// Rows from one index of a dimension across rows to the next.
   [[nodiscard]] std::int64_t row_stride(std::size_t dimension) const { return row_stride_[dimension]; }
 
   /// True if the first dimensions move by themselves: none of their tables depends on the state of one that
@@ -72,7 +76,7 @@ class RowEngine {
   /// Levels of all rows, 0, with the margins that a family asks for.
   template <class Level>
   [[nodiscard]] LevelRows<Level> make_levels(const RowFamily& family) const {
-    return {rows(), row_length(), family.margins, family.ends};
+    return {rows(), family.shape};
   }
 
  private:
@@ -81,14 +85,13 @@ class RowEngine {
   void add_demand(const CellSet& inside, const std::vector<GridDimension>& targets);
   [[nodiscard]] RowFamily family(std::size_t number) const;
   void choose_outer();
-  [[nodiscard]] RowMargins margins_of(RowSlices& slices, RowEnds ends) const;
+  [[nodiscard]] RowMargins margins_of(RowSlices& slices, std::int64_t count, RowEnds ends) const;
 
   const Abstraction* abstraction_;
   const PairTable* allow_;
   std::vector<RowSlices> slices_;
   std::vector<LevelRows<std::uint8_t>> inside_;  ///< one for each family of tubes
-  std::vector<RowEnds> ends_;                    ///< one a family: posts; tubes; tubes that pass no limit
-  std::vector<RowMargins> margins_;
+  std::vector<RowShape> shapes_;                 ///< one a family: posts; tubes; tubes that pass no limit
   std::vector<std::int64_t> row_stride_;
   std::size_t outer_ = 0;
   std::int64_t unit_rows_ = 1;

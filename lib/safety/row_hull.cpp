@@ -46,7 +46,7 @@ RowHull::Entry RowHull::entry_of_slices(std::size_t table, std::int64_t base,
                                         std::span<const std::int64_t> offsets) const {
   const RowSlices& slices = engine_->slices()[table];
   const GridDimension& target = engine_->grid()[table];
-  const bool is_last = table + 1 == engine_->tables();
+  const bool is_along = table >= engine_->across();
   // A tube can block a post whatever its box is inside of.
   Entry result{kNone, engine_->demands().empty()};
   std::uint32_t previous = UINT32_MAX;
@@ -55,7 +55,7 @@ RowHull::Entry RowHull::entry_of_slices(std::size_t table, std::int64_t base,
     if (id == previous) continue;
     previous = id;
     const std::vector<RowSegment>& slice = slices.slices[id];
-    const Kind expected = is_last ? Kind::shifted : Kind::fixed;
+    const Kind expected = is_along ? Kind::shifted : Kind::fixed;
     result.covers = result.covers && slice.size() == 1 && slice[0].kind == expected;
     for (const RowSegment& segment : slice) {
       if (segment.kind != expected) continue;
@@ -65,10 +65,12 @@ RowHull::Entry RowHull::entry_of_slices(std::size_t table, std::int64_t base,
   }
   if (result.range == kNone) {
     result.covers = false;
-  } else if (is_last) {
-    result.range = fit_window(result.range, target.count, engine_->posts().ends);
+  } else if (is_along) {
+    const RowFamily posts = engine_->posts();
+    const RowDimension& own = posts.shape.dimensions[table - engine_->across()];
+    result.range = fit_window(result.range, target.count, own.ends);
     // On a ring the arc that holds two windows may begin with the other one, and reach beyond the margins.
-    const RowMargins margins = engine_->posts().margins;
+    const RowMargins margins = own.margins;
     result.covers =
         result.covers && -result.range.first <= margins.before && result.range.last <= margins.after;
   } else if (target.periodic()) {
@@ -90,7 +92,7 @@ RowHull::Entry RowHull::entry_of_sums(std::size_t table, std::int64_t base,
   }
   const GridDimension& target = engine_->grid()[table];
   const bool no_tubes = engine_->demands().empty();
-  if (is_last) return {fit_window(raw, target.count, engine_->posts().ends), no_tubes};
+  if (is_last) return {fit_window(raw, target.count, {target.below, target.above}), no_tubes};
   const auto last = static_cast<std::int32_t>(target.count - 1);
   // What leaves safely, or lands in the boundary cell, asks no more than the part of the box that is left.
   const bool blocks = (raw.first < 0 && target.below == Outside::unsafe) ||
@@ -99,15 +101,14 @@ RowHull::Entry RowHull::entry_of_sums(std::size_t table, std::int64_t base,
 }
 
 void RowHull::box(const RowPlace& place, Box& box) const {
-  const std::size_t last = engine_->tables() - 1;
-  box.ranges.resize(last);
+  box.resize(*engine_);
   box.covers = true;
-  for (std::size_t t = 0; t <= last; ++t) {
+  for (std::size_t t = 0; t < engine_->tables(); ++t) {
     const RowSlices& slices = engine_->slices()[t];
     const auto choice =
         static_cast<std::size_t>(place.offset(slices.state_stride) / slices.input_combinations);
     const Entry& entry = entries_[t][choice];
-    (t == last ? box.window : box.ranges[t]) = entry.range;
+    box[t] = entry.range;
     box.covers = box.covers && entry.covers;
   }
 }

@@ -19,13 +19,22 @@ class RowHull {
 
   /// What the posts of one row have in common.
   struct Box {
-    /// In all dimensions but the last, as in ResolvedRange; first > last: no post has a cell there.
+    /// In the dimensions across rows, as in ResolvedRange; first > last: no post has a cell there.
     std::vector<IndexRange> ranges;
-    /// Offsets along the row.
-    IndexRange window;
+    /// Offsets in the dimensions along the row.
+    std::vector<IndexRange> windows;
     /// Every post is one box of cells inside the domain or its margins, and all are inside this one: what
     /// holds on the box holds on all posts. Else the box only names the rows that can matter.
     bool covers = true;
+
+    void resize(const RowEngine& engine) {
+      ranges.resize(engine.across());
+      windows.resize(engine.along());
+    }
+    /// The range or window of a dimension.
+    [[nodiscard]] IndexRange& operator[](std::size_t dimension) {
+      return dimension < ranges.size() ? ranges[dimension] : windows[dimension - ranges.size()];
+    }
   };
   void box(const RowPlace& place, Box& box) const;
 

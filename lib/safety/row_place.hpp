@@ -7,13 +7,13 @@
 
 namespace coordreq {
 
-/// A row of the grid (all cells that differ only in the last dimension) and where it lies.
+/// A row of the grid and where it lies.
 struct RowPlace {
   std::int64_t row = 0;
-  std::vector<std::int64_t> index;  ///< in all dimensions but the last
+  std::vector<std::int64_t> index;  ///< in the dimensions across rows
 
   RowPlace(const UniformGrid& grid, std::int64_t number) : row(number) {
-    for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
+    for (std::size_t i = 0; i < grid.across(); ++i) {
       index.push_back(grid.index(number * grid.row_length(), i));
     }
   }

@@ -96,6 +96,7 @@ class RowChoices {
  public:
   RowChoices(const Abstraction& abstraction, const TransitionTable& table)
       : table_(table),
+        across_(abstraction.grid.across()),
         counter_(counts(abstraction, table)),
         states_(abstraction.grid.size(), 0),
         inputs_(abstraction.inputs.size(), 0) {}
@@ -106,7 +107,7 @@ class RowChoices {
     const bool more = counter_.next();
     std::size_t v = 0;
     for (const std::int32_t i : table_.states) {
-      if (static_cast<std::size_t>(i) + 1 != states_.size())
+      if (static_cast<std::size_t>(i) < across_)
         states_[static_cast<std::size_t>(i)] = counter_.indices()[v++];
     }
     for (const std::int32_t i : table_.inputs) {
@@ -121,10 +122,9 @@ class RowChoices {
 
  private:
   static std::vector<std::int64_t> counts(const Abstraction& abstraction, const TransitionTable& table) {
-    const std::size_t last = abstraction.grid.size() - 1;
     std::vector<std::int64_t> result;
     for (const std::int32_t i : table.states) {
-      if (static_cast<std::size_t>(i) != last)
+      if (static_cast<std::size_t>(i) < abstraction.grid.across())
         result.push_back(abstraction.grid[static_cast<std::size_t>(i)].count);
     }
     for (const std::int32_t i : table.inputs) {
@@ -134,6 +134,7 @@ class RowChoices {
   }
 
   const TransitionTable& table_;
+  std::size_t across_;
   Counter counter_;
   std::vector<std::int64_t> states_;
   std::vector<std::int64_t> inputs_;
@@ -191,7 +192,7 @@ void lay_out_ids(RowSlices& slices, const UniformGrid& grid, const InputSpace& i
   slices.input_combinations = stride;
   for (auto it = table.states.rbegin(); it != table.states.rend(); ++it) {
     const auto j = static_cast<std::size_t>(*it);
-    if (j + 1 == grid.size()) continue;
+    if (j >= grid.across()) continue;
     slices.state_stride[j] = stride;
     stride *= grid[j].count;
   }
@@ -209,14 +210,15 @@ RowSlices keep_as_sums(const Abstraction& abstraction, const TransitionTable& ta
 RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& table, std::size_t state,
                         const GridDimension& target) {
   const UniformGrid& grid = abstraction.grid;
-  const std::size_t last = grid.size() - 1;
+  // Of several dimensions that rows run along each moves by offsets of its own.
+  const std::size_t along = state < grid.across() ? grid.size() - 1 : state;
   RowSlices result{.ids = {}, .slices = {}, .state_stride = {}, .input_stride = {}, .inputs = table.inputs};
   lay_out_ids(result, grid, abstraction.inputs, table);
-  const RowCutter cutter(target, state == last, grid.row_length());
+  const RowCutter cutter(target, state == along, grid[along].count);
   SliceNumbers numbers(result.slices);
-  const TableRows rows(table, state, last);
+  const TableRows rows(table, state, along);
   const bool one_range = rows.is_constant() || rows.is_shift();
-  std::vector<IndexRange> row(one_range ? 1 : static_cast<std::size_t>(grid.row_length()));
+  std::vector<IndexRange> row(one_range ? 1 : static_cast<std::size_t>(grid[along].count));
   std::vector<IndexRange> before;
   RowChoices choice(abstraction, table);
   result.ids.reserve(static_cast<std::size_t>(choice.size()));

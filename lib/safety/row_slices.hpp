@@ -33,12 +33,15 @@ struct RowSegment {
 ///
 /// If the state is periodic, 0 <= range.first < count, and range.last may go beyond as in ResolvedRange.
 ///
+/// Where rows run along several dimensions, each of their tables is cut along its own, into one `shifted`
+/// segment a slice.
+///
 /// Or rows are not cut at all but added up when they are read (`sums`); then each row is a slice of its own,
 /// whose number is its position, and `ids` and `slices` are empty.
 struct RowSlices {
-  std::vector<std::uint32_t> ids;  ///< row-major over states (without the last), then inputs
+  std::vector<std::uint32_t> ids;  ///< row-major over states (those across rows), then inputs
   std::vector<std::vector<RowSegment>> slices;
-  std::vector<std::int64_t> state_stride;  ///< into `ids`; 0 where not in use, and for the last state
+  std::vector<std::int64_t> state_stride;  ///< into `ids`; 0 where not in use, and along rows
   std::vector<std::int64_t> input_stride;
   std::vector<std::int32_t> inputs;     ///< in use, ascending
   std::int64_t input_combinations = 1;  ///< product of their counts; divides every state stride

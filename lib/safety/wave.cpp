@@ -101,8 +101,11 @@ class WaveRunner {
     alive_.assign(static_cast<std::size_t>(engine_.rows()), 0);
     unit_alive_.assign(static_cast<std::size_t>(units_), 0);
     for (std::int64_t r = 0; r < engine_.rows(); ++r) {
-      const Level* row = levels_.row(r);
-      const bool alive = std::any_of(row, row + levels_.row_length(), [](Level level) { return level > 1; });
+      bool alive = false;
+      levels_.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+        const Level* cells = levels_.row(r) + lane;
+        alive = alive || std::any_of(cells, cells + count, [](Level level) { return level > 1; });
+      });
       alive_[static_cast<std::size_t>(r)] = alive ? 1 : 0;
       if (!alive) continue;
       const auto unit = static_cast<std::size_t>(r / unit_rows_);
@@ -211,6 +214,7 @@ class WaveRunner {
     const auto n = static_cast<std::size_t>(levels_.row_length());
     const Level* present = levels_.row(place.row);
     std::copy_n(present, n, worker.old.begin());
+    levels_.clear_gaps(worker.old.data());
     if (!op_.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w)) return;
     const LevelKernels<Level>& kernels = worker.posts.kernels();
     if (!kernels.advance(worker.next.data(), worker.old.data(), limit_, worker.result.data(), n)) return;

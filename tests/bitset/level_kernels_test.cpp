@@ -74,6 +74,19 @@ TYPED_TEST(LevelKernelsTest, MinimumOfManyRows) {
   });
 }
 
+TYPED_TEST(LevelKernelsTest, LoweringAtALabel) {
+  this->check("lower_at", [](const auto& kernels, std::size_t n) {
+    Row<TypeParam> source(n);
+    Row<TypeParam> labels(n);
+    Row<TypeParam> target(n);
+    const Row<TypeParam> before = target;
+    const TypeParam label = labels[*rc::gen::inRange<std::size_t>(0, n)];
+    kernels.lower_at(source.data(), labels.data(), label, target.data(), n);
+    for (std::size_t j = 0; j < n; ++j)
+      RC_ASSERT(target[j] == (labels[j] == label ? std::min(before[j], source[j]) : before[j]));
+  });
+}
+
 TYPED_TEST(LevelKernelsTest, RaisingAndLowering) {
   this->check("raise, raise_where, lower_where", [](const auto& kernels, std::size_t n) {
     Row<TypeParam> source(n);

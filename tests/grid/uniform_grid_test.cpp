@@ -22,6 +22,19 @@ TEST(UniformGrid, LastDimensionIsFastest) {
   EXPECT_EQ(grid.index(15 + 2 * 5 + 4, 2), 4);
 }
 
+TEST(UniformGrid, RowsOfSeveralDimensionsHaveGaps) {
+  const UniformGrid grid({dimension("a", 0, 1, 2), dimension("b", 0, 1, 3), dimension("c", 0, 1, 5)}, {4});
+  EXPECT_EQ(grid.across(), 1U);
+  EXPECT_EQ(grid.points(), 30);
+  EXPECT_EQ(grid.row_length(), 27);
+  EXPECT_EQ(grid.rows(), 2);
+  EXPECT_EQ(grid.cells(), 54);
+  EXPECT_EQ(grid.stride(1), 9);
+  EXPECT_EQ(grid.index(27 + 2 * 9 + 4, 0), 1);
+  EXPECT_EQ(grid.index(27 + 2 * 9 + 4, 1), 2);
+  EXPECT_EQ(grid.index(27 + 2 * 9 + 4, 2), 4);
+}
+
 TEST(UniformGrid, PointsAreExact) {
   const GridDimension d = dimension("a", Rational(-1), Rational(1, 10), 21);
   EXPECT_EQ(d.point(10), Rational(0));

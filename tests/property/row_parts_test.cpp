@@ -76,7 +76,7 @@ TEST(RowHull, HoldsThePostsOfTheRow) {
       hull.box(place, box);
       covers = covers || box.covers;
       reader.enter();
-      const std::uint8_t* bound = box.covers ? reader.minimum(box) : nullptr;
+      const std::uint8_t* bound = box.covers ? reader.minimum(box, 0, grid.row_length()) : nullptr;
       for (std::int64_t c = 0; c < grid.row_length(); ++c) {
         for (std::int64_t u = 0; u < f.inputs.count(); ++u) {
           const Post post(f, place.row * grid.row_length() + c, u);

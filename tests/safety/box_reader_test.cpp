@@ -70,7 +70,8 @@ struct Problem {
         abstraction(stillness(dimensions)),
         engine(abstraction, nullptr, {}),
         slices(dimensions.size()) {
-    family.ends = {dimensions.back().below, dimensions.back().above};
+    family.shape.dimensions = {
+        {dimensions.back().count, 1, {}, {dimensions.back().below, dimensions.back().above}}};
     for (std::size_t t = 0; t < dimensions.size(); ++t) {
       for (int k = 0; k < slices_a_table; ++k) slices[t].slices.push_back(random_slice(t));
     }
@@ -99,13 +100,15 @@ struct Problem {
   }
 
  public:
+  [[nodiscard]] RowEnds ends() const { return family.shape.dimensions[0].ends; }
   IndexRange random_window() {
     const auto n = static_cast<int>(dimensions.back().count);
     const int first = draw(-n - 2, n + 2);
     const int width = draw(0, 3) == 0 ? draw(0, 2 * n) : draw(0, 3);
-    const IndexRange window = fit_window({first, first + width}, n, family.ends);
-    family.margins.before = std::max<std::int64_t>(family.margins.before, -window.first);
-    family.margins.after = std::max<std::int64_t>(family.margins.after, window.last);
+    const IndexRange window = fit_window({first, first + width}, n, ends());
+    RowMargins& margins = family.shape.dimensions[0].margins;
+    margins.before = std::max<std::int64_t>(margins.before, -window.first);
+    margins.after = std::max<std::int64_t>(margins.after, window.last);
     return window;
   }
 };
@@ -132,7 +135,7 @@ struct Levels {
   /// At an index of the last dimension that may be outside, in a row.
   [[nodiscard]] Level at(std::int64_t row, std::int64_t k) const {
     const std::int64_t n = problem.dimensions.back().count;
-    const RowEnds& ends = problem.family.ends;
+    const RowEnds ends = problem.ends();
     const Level* own = cells.data() + row * n;
     if (ends.below == Outside::periodic) return own[(k % n + n) % n];
     if (k >= 0 && k < n) return own[k];
@@ -160,7 +163,7 @@ struct Levels {
   [[nodiscard]] Level least(const RowHull::Box& box, std::int64_t c) const {
     Level result = kTop;
     for_each(box.ranges, [&](std::int64_t row) {
-      for (std::int64_t k = c + box.window.first; k <= c + box.window.last; ++k)
+      for (std::int64_t k = c + box.windows[0].first; k <= c + box.windows[0].last; ++k)
         result = std::min(result, at(row, k));
     });
     return result;
@@ -183,13 +186,13 @@ struct Levels {
     // Even where all has left in another dimension, an unsafe end of the row blocks.
     if (last.kind == Kind::shifted && gone) {
       const std::int64_t n = problem.dimensions.back().count;
-      const bool blocks = (c + last.range.first < 0 && problem.family.ends.below == Outside::unsafe) ||
-                          (c + last.range.last >= n && problem.family.ends.above == Outside::unsafe);
+      const bool blocks = (c + last.range.first < 0 && problem.ends().below == Outside::unsafe) ||
+                          (c + last.range.last >= n && problem.ends().above == Outside::unsafe);
       return blocks ? 0 : kTop;
     }
     if (gone) return kTop;
     const auto at_c = static_cast<std::int32_t>(last.kind == Kind::shifted ? 0 : c);
-    box.window = {last.range.first - at_c, last.range.last - at_c};
+    box.windows = {{last.range.first - at_c, last.range.last - at_c}};
     return least(box, c);
   }
 };
@@ -237,7 +240,7 @@ TYPED_TEST(BoxReaderTest, BoxesAreReadAsCellByCell) {
     for (RowHull::Box& box : boxes) {
       for (std::size_t i = 0; i + 1 < dimensions.size(); ++i)
         box.ranges.push_back(random_range(dimensions[i]));
-      box.window = problem.random_window();
+      box.windows = {problem.random_window()};
     }
     LevelRows<TypeParam> rows = problem.engine.template make_levels<TypeParam>(problem.family);
     const Levels<TypeParam> levels(problem);
@@ -245,7 +248,7 @@ TYPED_TEST(BoxReaderTest, BoxesAreReadAsCellByCell) {
     const auto outer = static_cast<std::size_t>(draw(0, static_cast<int>(dimensions.size()) - 1));
     BoxReader<TypeParam> reader(problem.engine, problem.family, outer, rows);
     for (const RowHull::Box& box : boxes) {
-      const TypeParam* row = reader.minimum(box);
+      const TypeParam* row = reader.minimum(box, 0, problem.engine.row_length());
       for (std::int64_t c = 0; c < problem.engine.row_length(); ++c)
         RC_ASSERT(row[c] == levels.least(box, c));
     }
@@ -269,10 +272,10 @@ TYPED_TEST(BoxReaderTest, SharedMinimaGiveWay) {
     BoxReader<TypeParam> reader(problem.engine, problem.family, 1, rows);
     std::vector<RowHull::Box> boxes(5);
     for (RowHull::Box& box : boxes)
-      box = {{random_range(problem.dimensions[0]), random_range(problem.dimensions[1])}, {0, 0}, true};
+      box = {{random_range(problem.dimensions[0]), random_range(problem.dimensions[1])}, {{0, 0}}, true};
     for (int k = 0; k < 20; ++k) {
       const RowHull::Box& box = boxes[static_cast<std::size_t>(draw(0, 4))];
-      const TypeParam* row = reader.minimum(box);
+      const TypeParam* row = reader.minimum(box, 0, problem.engine.row_length());
       for (std::int64_t c = 0; c < 80; c += 13) {
         TypeParam least = LevelRows<TypeParam>::kTop;
         for (std::int64_t i = box.ranges[0].first; i <= box.ranges[0].last; ++i) {
@@ -310,7 +313,7 @@ TEST(BoxReader, TheLastSharedRowIsReadToTheEndOfABlock) {
     levels.close(r);
   }
   BoxReader<std::uint8_t> reader(engine, engine.posts(), engine.outer(), levels);
-  const std::uint8_t* row = reader.minimum(RowHull::Box{{{0, 1}, {2, 2}}, {0, 1}, true});
+  const std::uint8_t* row = reader.minimum(RowHull::Box{{{0, 1}, {2, 2}}, {{0, 1}}, true}, 0, 62);
   for (std::int64_t c = 0; c < 62; ++c) EXPECT_EQ(row[c], 200 - std::min<std::int64_t>(c + 1, 61) - 5);
 }
 

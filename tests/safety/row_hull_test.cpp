@@ -33,7 +33,7 @@ RowHull::Box box_on_a_ring(const std::vector<IndexRange>& turns) {
 TEST(RowHull, OnARingItIsTheShortestArc) {
   const RowHull::Box box = box_on_a_ring({{9, 9}, {1, 2}});
   EXPECT_TRUE(box.covers);
-  EXPECT_EQ(box.window, (IndexRange{-1, 2}));
+  EXPECT_EQ(box.windows, (std::vector<IndexRange>{{-1, 2}}));
 }
 
 /// 4 back and 5 on are neighbours, but together they reach 6 on, where a row has no margin.

@@ -1,0 +1,59 @@
+#include "safety/join_rows.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "bitset/level_rows.hpp"
+#include "safety/row_window.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Lanes of a row; at a byte each a quarter of the caches of today.
+constexpr std::int64_t kMostLanes = 8192;
+
+/// As far as the offsets of a dimension go, either way; nothing if it does not move by offsets alone, or
+/// farther than it is long.
+std::optional<RowMargins> margins(const TransitionTable& table, const GridDimension& dimension) {
+  if (!table.shift || table.is_sum() || dimension.count < 2) return std::nullopt;
+  const RowEnds ends{dimension.below, dimension.above};
+  RowMargins result;
+  for (const IndexRange entry : table.entries) {
+    if (entry.first <= -dimension.count || entry.last >= dimension.count) return std::nullopt;
+    if (std::int64_t{entry.last} - entry.first + 1 >= dimension.count) return std::nullopt;
+    const IndexRange window = fit_window(entry, dimension.count, ends);
+    result.before = std::max<std::int64_t>(result.before, -window.first);
+    result.after = std::max<std::int64_t>(result.after, window.last);
+  }
+  return result;
+}
+
+/// True if no state but `i` itself depends on those from `i` on.
+bool is_followed_by_none(const std::vector<TransitionTable>& tables, std::size_t i) {
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    for (const std::int32_t state : tables[t].states) {
+      if (static_cast<std::size_t>(state) >= i && static_cast<std::size_t>(state) != t) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+UniformGrid join_rows(const Abstraction& abstraction) {
+  const UniformGrid& grid = abstraction.grid;
+  if (!abstraction.tubes.empty()) return grid;
+  std::vector<std::int64_t> gaps;  // of all dimensions taken so far, the first one too
+  std::int64_t lanes = 1;
+  for (std::size_t i = grid.size() - 1; i > 0; --i) {
+    const auto own = margins(abstraction.tables[i], grid[i]);
+    if (!own || !is_followed_by_none(abstraction.tables, i) || lanes * grid[i].count > kMostLanes) break;
+    gaps.insert(gaps.begin(), own->before + own->after);
+    lanes *= grid[i].count + gaps.front();
+  }
+  if (gaps.size() < 2) return grid;
+  gaps.erase(gaps.begin());
+  return {grid.dimensions(), gaps};
+}
+
+}  // namespace coordreq
