@@ -5,6 +5,8 @@
 # and, only for packages of Debian, debian and debian-dev: documents the way its policy wants them.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+include(coordreq_maintainer)
+coordreq_find_maintainer(coordreq_maintainer)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/coordreq)
 set(data_dir ${CMAKE_INSTALL_DATADIR}/coordreq)
@@ -58,7 +60,7 @@ foreach(package coordreq libcoordreq-dev)
     set(build \"${PROJECT_BINARY_DIR}\")
     set(package ${package})
     set(version ${PROJECT_VERSION})
-    set(maintainer \"${COORDREQ_MAINTAINER}\")
+    set(maintainer [==[${coordreq_maintainer}]==])
     set(data \"${CMAKE_INSTALL_DATADIR}\")
     include(\"${support}/install_debian.cmake\")" COMPONENT ${component} EXCLUDE_FROM_ALL)
 endforeach()
