@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/text.hpp"
 #include "export/report_page.hpp"
@@ -212,19 +213,6 @@ std::string fine_print(const ResultsReader& results) {
 }
 
 }  // namespace
-
-std::string share_text(std::uint64_t part, std::uint64_t whole) {
-  const double percent = 100 * static_cast<double>(part) / static_cast<double>(whole);
-  if (part == 0) return "none";
-  if (part == whole) return "all";
-  if (percent < 0.1) return "less than 0.1 %";
-  if (percent > 99.9) return "more than 99.9 %";
-  return fmt::format("{:.{}f} %", percent, percent < 10 || percent > 90 ? 1 : 0);
-}
-
-std::string html_line(const std::string& text) {
-  return html_text(printable(text));
-}
 
 std::string report_answer(const ResultsReader& results, const ReportData& data) {
   return "<section aria-labelledby=\"answer-title\">\n<h2 id=\"answer-title\">How long may the agents be "
