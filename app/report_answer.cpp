@@ -178,7 +178,7 @@ std::string as_table(const ResultsReader& results, const ReportData& data) {
     rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n",
                         html_line(results.partitions()[p].name), answer.headline(), answer.at_once());
   }
-  return "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">Partition</th><th "
+  return "<div class=\"scroll\"><table class=\"roomy\"><thead><tr><th scope=\"col\">Partition</th><th "
          "scope=\"col\">Silence</th>"
          "<th scope=\"col\">Contact</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div>\n";

@@ -58,12 +58,11 @@ std::string visit_button(std::size_t way, std::size_t sample, const std::string&
 std::string steps_table(std::size_t way, const StoryTable& story) {
   std::vector<std::string> heads;
   for (const std::string& head : story.heads) heads.push_back(html_line(head));
-  heads.emplace_back("");
   std::string rows;
   for (std::size_t s = 0; s < story.rows.size(); ++s) {
     std::vector<std::string> cells;
     for (const std::string& cell : story.rows[s]) cells.push_back(html_line(cell));
-    cells.push_back(visit_button(way, s, "Show", fmt::format("Show step {} in the picture", s)));
+    cells.front() += " " + visit_button(way, s, "Show", fmt::format("Show step {} in the picture", s));
     rows += html_row(cells);
   }
   return "<details><summary>Step by step</summary>\n" + html_table("", heads, rows, "story") +
