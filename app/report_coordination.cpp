@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <numeric>
+#include <algorithm>
 
 #include "app/network_report.hpp"
 #include "app/report_html.hpp"

@@ -82,6 +82,7 @@ Json choices_json(const ResultsReader& results, const std::set<std::int32_t>& fo
 std::vector<ReportMap> list_maps(const ResultsReader& results, const std::vector<std::size_t>& partitions,
                                  const ReportLimits& limits) {
   std::vector<ReportMap> maps;
+  maps.reserve(partitions.size() + 1);
   for (const std::size_t p : partitions) maps.push_back(delay_map(results, p));
   maps.push_back({{{"kind", "collision_time"}},
                   [&results](const CellBlock& block) { return results.collision_time(block); },

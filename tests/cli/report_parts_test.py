@@ -121,6 +121,11 @@ class Cases(PageCase):
                     self.assert_is_answer(cell, "first|second")
                 found.add(cell["Safe in"])
         self.assertLessEqual({"no mode", "all 3 modes"}, found)
+        self.focus("#sliders input")
+        self.assert_picture_changes(lambda: self.browser.press("Home"))
+        self.point(0.3, 0.3)
+        self.assertIn("v1 = 0 m/s", self.cell()["Centre"])
+        self.assert_is_answer(self.cell(), "first|second")
         self.assert_is_quiet()
 
     def test_figures_of_the_network(self):
