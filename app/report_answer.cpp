@@ -171,17 +171,19 @@ std::string in_full(const ResultsReader& results, const ReportData& data) {
   return html;
 }
 
+/// With many partitions those whose pictures are shown stand in the open.
 std::string as_table(const ResultsReader& results, const ReportData& data) {
-  std::string rows;
+  std::vector<std::string> shown, others;
   for (std::size_t p = 0; p < results.partitions().size(); ++p) {
     const PartitionAnswer answer(results, p, best_cell(data, p));
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n",
-                        html_line(results.partitions()[p].name), answer.headline(), answer.at_once());
+    const bool is_shown =
+        std::find(data.partitions.begin(), data.partitions.end(), p) != data.partitions.end();
+    (is_shown ? shown : others)
+        .push_back(html_row({html_line(results.partitions()[p].name), answer.headline(), answer.at_once()}));
   }
-  return "<div class=\"scroll\"><table class=\"roomy\"><thead><tr><th scope=\"col\">Partition</th><th "
-         "scope=\"col\">Silence</th>"
-         "<th scope=\"col\">Contact</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div>\n";
+  const std::size_t open = shown.size();
+  shown.insert(shown.end(), others.begin(), others.end());
+  return html_long_table({"Partition", "Silence", "Contact"}, shown, "roomy", open);
 }
 
 std::string partition_answers(const ResultsReader& results, const ReportData& data) {

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "app/network_report.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
@@ -12,29 +10,10 @@
 namespace coordreq {
 namespace {
 
-/// Rows that a table shows in the open.
-constexpr std::size_t kMostRows = 12;
-
 std::string count_row(const std::string& name, const std::string& detail, std::uint64_t count,
                       std::uint64_t whole) {
   const std::string share = whole == 0 ? "" : share_text(count, whole);
   return html_row({html_line(name), html_line(detail), grouped(count), share});
-}
-
-/// The first rows, and the others where one can unfold them.
-std::string long_table(const std::vector<std::string>& heads, const std::vector<std::string>& rows) {
-  const auto joined = [&rows](std::size_t first, std::size_t last) {
-    std::string text;
-    for (std::size_t i = first; i < last; ++i) text += rows[i];
-    return text;
-  };
-  const std::size_t open = std::min(rows.size(), kMostRows);
-  std::string html = html_table("", heads, joined(0, open));
-  if (open < rows.size()) {
-    html += fmt::format("<details><summary>{} more</summary>\n{}</details>\n", grouped(rows.size() - open),
-                        html_table("", heads, joined(open, rows.size())));
-  }
-  return html;
 }
 
 std::string choices(const ResultsReader& results) {
@@ -52,7 +31,7 @@ std::string choices(const ResultsReader& results) {
     }
   }
   if (total < kept) rows.push_back(count_row("none of those listed suffices", "", kept - total, kept));
-  return long_table({"Cheapest partition", "Cost", "States", "Share"}, rows);
+  return html_long_table({"Cheapest partition", "Cost", "States", "Share"}, rows);
 }
 
 std::string pairs(const ResultsReader& results) {
@@ -65,7 +44,7 @@ std::string pairs(const ResultsReader& results) {
                                share_text(count, results.attributes().invariant_cells)}));
   }
   if (rows.empty()) return "<p>No pair of agents is critical.</p>\n";
-  return long_table({"Critical pair", "States", "Share"}, rows);
+  return html_long_table({"Critical pair", "States", "Share"}, rows);
 }
 
 }  // namespace
@@ -102,7 +81,7 @@ std::string report_network(const ResultsReader& results) {
              "<p>The network: {}.</p></div>\n",
              network.resynthesise ? "that take care because messages may be lost " : "",
              share_text(safe.front(), kept), html_line(network_meaning(network))) +
-         long_table({"Mode of the network", "Connected", "Safe states", "Share"}, rows) + "</section>\n";
+         html_long_table({"Mode of the network", "Connected", "Safe states", "Share"}, rows) + "</section>\n";
 }
 
 }  // namespace coordreq

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/text.hpp"
 #include "export/report_page.hpp"
 
@@ -34,6 +36,22 @@ std::string html_table(const std::string& caption, const std::vector<std::string
   html += "<thead><tr>";
   for (const std::string& head : heads) html += "<th scope=\"col\">" + head + "</th>";
   return html + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
+}
+
+std::string html_long_table(const std::vector<std::string>& heads, const std::vector<std::string>& rows,
+                            const std::string& kind, std::size_t open) {
+  const auto joined = [&rows](std::size_t first, std::size_t last) {
+    std::string text;
+    for (std::size_t i = first; i < last; ++i) text += rows[i];
+    return text;
+  };
+  open = std::min(rows.size(), open);
+  std::string html = html_table("", heads, joined(0, open), kind);
+  if (open < rows.size()) {
+    html += fmt::format("<details><summary>{} more</summary>\n{}</details>\n", grouped(rows.size() - open),
+                        html_table("", heads, joined(open, rows.size()), kind));
+  }
+  return html;
 }
 
 std::string share_text(std::uint64_t part, std::uint64_t whole) {

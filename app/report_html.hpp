@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,6 +21,11 @@ namespace coordreq {
 /// @param kind class of the style sheet, if there is one
 [[nodiscard]] std::string html_table(const std::string& caption, const std::vector<std::string>& heads,
                                      const std::string& rows, const std::string& kind = "");
+
+/// The first rows in the open, all others where one can unfold them.
+[[nodiscard]] std::string html_long_table(const std::vector<std::string>& heads,
+                                          const std::vector<std::string>& rows, const std::string& kind = "",
+                                          std::size_t open = 12);
 
 /// "3.3 %" of what; never 0 or 100 unless it is none or all.
 [[nodiscard]] std::string share_text(std::uint64_t part, std::uint64_t whole);

@@ -98,6 +98,27 @@ class Cases(PageCase):
         self.assertIn("lead|middle|tail 0 1,024 20 % lead+middle|tail 1 1,280 25 %", text)
         self.assertIn("Critical pair States Share lead+middle 2,880 56 % lead+tail 1,600 31 % middle+tail 2,880 56 %", text)
 
+    def test_many_partitions(self):
+        """Four agents have 15: eight are in the open, those with pictures; all are in the page."""
+        agents = [{"name": name, "inputs": [f"u{name}"]} for name in "abcd"]
+        spec = spec_with(
+            states=[{"name": f"x{name}", "lower": 0, "upper": 3, "step": 1, "outside": "saturate"} for name in "abcd"],
+            inputs=[{"name": f"u{name}", "values": [-1, 0, 1]} for name in "abcd"], agents=agents,
+            dynamics={"time": "discrete", "period": 1, "equations": {f"x{name}": f"x{name} + u{name}" for name in "abcd"}},
+            safe="abs(xa - xb) <= 2 and abs(xb - xc) <= 2 and abs(xc - xd) <= 1",
+            coordination={"partitions": "all", "horizon": 1})  # fmt: skip
+        page = self.report(spec)
+        text = self.words_of(page)
+        self.assertIn("7 more Partition Silence Contact a+b+c+d All agents coordinate", text)
+        self.assertLess(text.index("a|b|c|d The agents"), text.index("7 more"))
+        self.open()
+        self.assertEqual(len(self.options("partition")), 8)
+        self.show("coalition")
+        for place in self.PLACES[::9]:
+            self.point(*place)
+            self.assert_is_answer(self.cell(), "a|b|c|d")
+        self.assert_is_quiet()
+
     # networks
 
     def test_modes_of_the_network(self):

@@ -74,7 +74,7 @@ function colorsOfPartitions(map) {
     return [color, `${data.partitions[partition].name} (cost ${numberText(cost)})`];
   });
   const others = map.choices.length - named.length;
-  if (others > 0) own.push([kColors.free, `${grouped(others)} other partitions, which cost more`]);
+  if (others > 0) own.push([kColors.free, `${grouped(others)} other partitions`]);
   return { low: 0, high: 0, color: (value) => known.get(value) ?? kColors.free, legend: [...own, ...legendOf(map, meanings)] };
 }
 
