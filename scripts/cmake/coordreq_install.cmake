@@ -21,6 +21,15 @@ file(RELATIVE_PATH plot /${CMAKE_INSTALL_BINDIR} /${data_dir}/plot)
 file(CREATE_LINK ${plot} ${PROJECT_BINARY_DIR}/coordreq-plot SYMBOLIC)
 install(FILES ${PROJECT_BINARY_DIR}/coordreq-plot DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 
+# The README and the pages beside the examples link to each other.
+file(RELATIVE_PATH readme /${data_dir} /${CMAKE_INSTALL_DOCDIR}/README.md)
+file(RELATIVE_PATH configs /${CMAKE_INSTALL_DOCDIR} /${data_dir}/configs)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/links)
+file(CREATE_LINK ${readme} ${PROJECT_BINARY_DIR}/links/README.md SYMBOLIC)
+file(CREATE_LINK ${configs} ${PROJECT_BINARY_DIR}/links/configs SYMBOLIC)
+install(FILES ${PROJECT_BINARY_DIR}/links/README.md DESTINATION ${data_dir} COMPONENT program)
+install(FILES ${PROJECT_BINARY_DIR}/links/configs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+
 set(completions ${PROJECT_BINARY_DIR}/app/completions)
 install(FILES ${completions}/coordreq.bash RENAME coordreq
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
