@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/text.hpp"
 #include "export/report_page.hpp"
@@ -170,17 +171,19 @@ std::string in_full(const ResultsReader& results, const ReportData& data) {
   return html;
 }
 
+/// With many partitions those whose pictures are shown stand in the open.
 std::string as_table(const ResultsReader& results, const ReportData& data) {
-  std::string rows;
+  std::vector<std::string> shown, others;
   for (std::size_t p = 0; p < results.partitions().size(); ++p) {
     const PartitionAnswer answer(results, p, best_cell(data, p));
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n",
-                        html_line(results.partitions()[p].name), answer.headline(), answer.at_once());
+    const bool is_shown =
+        std::find(data.partitions.begin(), data.partitions.end(), p) != data.partitions.end();
+    (is_shown ? shown : others)
+        .push_back(html_row({html_line(results.partitions()[p].name), answer.headline(), answer.at_once()}));
   }
-  return "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">Partition</th><th "
-         "scope=\"col\">Silence</th>"
-         "<th scope=\"col\">Contact</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div>\n";
+  const std::size_t open = shown.size();
+  shown.insert(shown.end(), others.begin(), others.end());
+  return html_long_table({"Partition", "Silence", "Contact"}, shown, "roomy", open);
 }
 
 std::string partition_answers(const ResultsReader& results, const ReportData& data) {
@@ -212,19 +215,6 @@ std::string fine_print(const ResultsReader& results) {
 }
 
 }  // namespace
-
-std::string share_text(std::uint64_t part, std::uint64_t whole) {
-  const double percent = 100 * static_cast<double>(part) / static_cast<double>(whole);
-  if (part == 0) return "none";
-  if (part == whole) return "all";
-  if (percent < 0.1) return "less than 0.1 %";
-  if (percent > 99.9) return "more than 99.9 %";
-  return fmt::format("{:.{}f} %", percent, percent < 10 || percent > 90 ? 1 : 0);
-}
-
-std::string html_line(const std::string& text) {
-  return html_text(printable(text));
-}
 
 std::string report_answer(const ResultsReader& results, const ReportData& data) {
   return "<section aria-labelledby=\"answer-title\">\n<h2 id=\"answer-title\">How long may the agents be "

@@ -5,6 +5,7 @@
 #include "app/commands.hpp"
 #include "app/json_text.hpp"
 #include "app/late_file.hpp"
+#include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
@@ -36,7 +37,8 @@ std::string page_of(const ResultsReader& results, ReportData& data) {
   ReportPage page;
   page.title = printable(results.spec().name);
   page.summary = "<h1>" + html_line(results.spec().name) + "</h1>\n" + report_task(results) +
-                 report_answer(results, data);
+                 report_answer(results, data) + report_requirements(results) + report_coalitions(results) +
+                 report_network(results);
   page.details = report_details(results) + report_footer(results);
   page.data = std::move(data.json);
   return report_page(page);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/json_text.hpp"
+#include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/text.hpp"
 #include "export/report_page.hpp"
@@ -12,14 +13,6 @@ namespace {
 
 std::string number_text(const Rational& value) {
   return fmt::format("{:.6g}", nearest_double(value));
-}
-
-std::string code(const std::string& text) {
-  return "<code>" + html_line(text) + "</code>";
-}
-
-std::string with_unit(const std::string& html, const std::string& unit) {
-  return unit.empty() ? html : html + " " + html_line(unit);
 }
 
 /// "The agents a and b", "The 12 agents".
@@ -36,21 +29,6 @@ std::string agents_words(const ProblemSpec& spec) {
   return text;
 }
 
-/// A row of cells that are HTML; the first is its heading.
-std::string row(const std::vector<std::string>& cells) {
-  std::string html = "<tr>";
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    html += i == 0 ? "<th scope=\"row\">" + cells[i] + "</th>" : "<td>" + cells[i] + "</td>";
-  return html + "</tr>\n";
-}
-
-std::string table(const std::string& caption, const std::vector<std::string>& heads,
-                  const std::string& rows) {
-  std::string html = fmt::format("<div class=\"scroll\"><table><caption>{}</caption><thead><tr>", caption);
-  for (const std::string& head : heads) html += "<th scope=\"col\">" + head + "</th>";
-  return html + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
-}
-
 /// "-1 to 1 m/s, 41 values".
 std::string input_values(const InputSpec& input) {
   const auto [low, high] = std::minmax_element(input.values.begin(), input.values.end());
@@ -65,11 +43,12 @@ std::string agents_table(const ProblemSpec& spec) {
     std::string inputs;
     for (const std::int32_t i : agent.inputs) {
       const InputSpec& input = spec.inputs[static_cast<std::size_t>(i)];
-      inputs += fmt::format("{}{}: {}", inputs.empty() ? "" : "<br>", code(input.name), input_values(input));
+      inputs +=
+          fmt::format("{}{}: {}", inputs.empty() ? "" : "<br>", html_code(input.name), input_values(input));
     }
-    rows += row({html_line(agent.name), inputs});
+    rows += html_row({html_line(agent.name), inputs});
   }
-  return table("Agents", {"agent", "chooses"}, rows);
+  return html_table("Agents", {"agent", "chooses"}, rows);
 }
 
 std::string states_table(const ProblemSpec& spec) {
@@ -79,24 +58,24 @@ std::string states_table(const ProblemSpec& spec) {
     const StateSpec& state = spec.states[i];
     const Rational last =
         state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
-    rows += row({code(state.name),
-                 with_unit(number_text(state.grid.first) + " to " + number_text(last), state.unit),
-                 with_unit(number_text(state.grid.step), state.unit), grouped(state.grid.count),
-                 code(spec.dynamics.equations[i].text)});
+    rows += html_row({html_code(state.name),
+                      with_unit(number_text(state.grid.first) + " to " + number_text(last), state.unit),
+                      with_unit(number_text(state.grid.step), state.unit), grouped(state.grid.count),
+                      html_code(spec.dynamics.equations[i].text)});
   }
-  return table("State", {"state", "grid", "step", "points", continuous ? "rate of change" : "next value"},
-               rows);
+  return html_table("State",
+                    {"state", "grid", "step", "points", continuous ? "rate of change" : "next value"}, rows);
 }
 
 std::string disturbances_table(const ProblemSpec& spec) {
   if (spec.disturbances.empty()) return "";
   std::string rows;
   for (const DisturbanceSpec& disturbance : spec.disturbances) {
-    rows += row({code(disturbance.name),
-                 with_unit(number_text(disturbance.lower) + " to " + number_text(disturbance.upper),
-                           disturbance.unit)});
+    rows += html_row({html_code(disturbance.name),
+                      with_unit(number_text(disturbance.lower) + " to " + number_text(disturbance.upper),
+                                disturbance.unit)});
   }
-  return table("Disturbances", {"disturbance", "anything from"}, rows);
+  return html_table("Disturbances", {"disturbance", "anything from"}, rows);
 }
 
 /// A member of the spec's text as a list "name = value" of code; empty if there is none.
@@ -105,14 +84,14 @@ std::string assignments(const Json& spec, const char* key) {
   if (!spec.contains(key)) return html;
   for (const auto& [name, value] : spec.at(key).items()) {
     const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-    html += fmt::format("{}{}", html.empty() ? "" : ", ", code(name + " = " + text));
+    html += fmt::format("{}{}", html.empty() ? "" : ", ", html_code(name + " = " + text));
   }
   return html;
 }
 
 std::string safe_text(const ProblemSpec& spec) {
   const Json text = Json::parse(spec.text, nullptr, true, true);
-  std::string html = "<p>A state is safe if " + code(spec.safe.text);
+  std::string html = "<p>A state is safe if " + html_code(spec.safe.text);
   const char* joint = ", where ";
   for (const char* const key : {"definitions", "constants"}) {
     const std::string meant = assignments(text, key);
@@ -122,7 +101,7 @@ std::string safe_text(const ProblemSpec& spec) {
   }
   html += ".";
   if (spec.controller.allow)
-    html += " The agents may only do what keeps to " + code(spec.controller.allow->text) + ".";
+    html += " The agents may only do what keeps to " + html_code(spec.controller.allow->text) + ".";
   return html + "</p>\n";
 }
 

@@ -21,10 +21,13 @@ namespace coordreq {
 /// Where the results come from.
 [[nodiscard]] std::string report_footer(const ResultsReader& results);
 
-/// "3.3 %" of what; never 0 or 100 unless it is none or all.
-[[nodiscard]] std::string share_text(std::uint64_t part, std::uint64_t whole);
+/// Each requirement with its verdict, and what goes wrong where one fails; empty if there are none.
+[[nodiscard]] std::string report_requirements(const ResultsReader& results);
 
-/// User text on one line as HTML.
-[[nodiscard]] std::string html_line(const std::string& text);
+/// Who must talk to whom, in numbers of states; empty without a coalition map.
+[[nodiscard]] std::string report_coalitions(const ResultsReader& results);
+
+/// From how many states the agents stay safe on the network; empty without one.
+[[nodiscard]] std::string report_network(const ResultsReader& results);
 
 }  // namespace coordreq

@@ -19,6 +19,12 @@ namespace coordreq {
 /// The same in one line, without the story.
 [[nodiscard]] std::string failure_line(const ResultRequirement& result, const ProblemSpec& spec);
 
+/// What is the matter with the worst cell: "has a delay of 2 steps (1 s)", "is not safe". REQUIRES: `delay`
+/// as in `/delay`, not unbounded.
+[[nodiscard]] std::string worst_text(std::int32_t delay, const ProblemSpec& spec);
+/// Where the region may reach. REQUIRES: result.reached_side.
+[[nodiscard]] std::string outside_text(const ResultRequirement& result, const ProblemSpec& spec);
+
 /// What `analyze` prints about the requirements; empty if there are none.
 [[nodiscard]] std::string requirements_text(const AnalysisSummary& summary, const ProblemSpec& spec);
 

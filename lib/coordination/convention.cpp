@@ -21,6 +21,7 @@ AgentActions agent_actions(const InputSpace& space, const std::vector<std::int32
 std::vector<std::vector<bool>> convention_at(const std::vector<bool>& admissible,
                                              const std::vector<AgentActions>& agents) {
   std::vector<std::vector<bool>> sets;
+  sets.reserve(agents.size());
   for (const AgentActions& agent : agents) sets.emplace_back(static_cast<std::size_t>(agent.count), false);
   const auto seed = std::find(admissible.begin(), admissible.end(), true) - admissible.begin();
   if (seed == static_cast<std::ptrdiff_t>(admissible.size())) return sets;

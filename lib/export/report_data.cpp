@@ -4,29 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "export/report_maps.hpp"
+#include "export/report_map_list.hpp"
 
 namespace coordreq {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// A map and what the page calls it.
-struct Map {
-  Json head;
-  ReadCells read;
-};
-
-std::vector<Map> maps_of(const ResultsReader& results, const std::vector<std::size_t>& partitions) {
-  std::vector<Map> maps;
-  for (const std::size_t p : partitions) {
-    maps.push_back({{{"kind", "delay"}, {"partition", p}},
-                    [&results, p](const CellBlock& block) { return results.delay(p, block); }});
-  }
-  maps.push_back({{{"kind", "collision_time"}},
-                  [&results](const CellBlock& block) { return results.collision_time(block); }});
-  return maps;
-}
 
 std::vector<std::int64_t> index_of(const UniformGrid& grid, std::int64_t cell) {
   std::vector<std::int64_t> index;
@@ -53,14 +36,17 @@ Json states_json(const ResultsReader& results) {
 Json partitions_json(const ResultsReader& results) {
   Json partitions = Json::array();
   for (const StoredPartition& stored : results.partitions()) {
-    partitions.push_back(
-        {{"name", stored.name}, {"layers", stored.layer_sizes}, {"truncated", stored.truncated()}});
+    partitions.push_back({{"name", stored.name},
+                          {"classes", stored.classes.size()},
+                          {"layers", stored.layer_sizes},
+                          {"truncated", stored.truncated()}});
   }
   return partitions;
 }
 
-/// Packs the maps; tells the largest value of each in its head.
-Json sets_json(const ResultsReader& results, std::vector<Map>& maps, const std::vector<ReportCells>& sets) {
+/// Packs the maps and completes their heads.
+Json sets_json(const ResultsReader& results, std::vector<ReportMap>& maps,
+               const std::vector<ReportCells>& sets) {
   Json all = Json::array();
   for (const ReportCells& cells : sets) {
     Json& set = all.emplace_back();
@@ -68,16 +54,31 @@ Json sets_json(const ResultsReader& results, std::vector<Map>& maps, const std::
     set["indices"] = cells.indices;
     set["maps"] = Json::array();
   }
-  for (Map& map : maps) {
-    PackedMaps packed = pack_map(results.grid(), map.read, sets);
-    map.head["largest"] = packed.largest;
-    map.head["flags"] = Json::array();
-    for (const std::int32_t flag : packed.flags)
-      map.head["flags"].push_back(flag == ResultsReader::kNever ? Json("infinite") : Json(flag));
+  for (ReportMap& map : maps) {
+    std::vector<PackedMap> packed = pack_listed(results, map, sets);
     for (std::size_t s = 0; s < sets.size(); ++s)
-      all[s]["maps"].push_back({{"bytes", packed.sets[s].bytes}, {"data", std::move(packed.sets[s].data)}});
+      all[s]["maps"].push_back({{"bytes", packed[s].bytes}, {"data", std::move(packed[s].data)}});
   }
   return all;
+}
+
+/// The cells that the counterexamples visit; `independent` steps lead out of K.
+Json ways_json(const ResultsReader& results) {
+  Json ways = Json::array();
+  for (std::size_t r = 0; r < results.requirements().size(); ++r) {
+    const ResultRequirement& requirement = results.requirements()[r];
+    if (!requirement.path) continue;
+    Json& way = ways.emplace_back();
+    const auto& partition = results.spec().requirements[r].partition;
+    way["requirement"] = requirement.name;
+    way["partition"] = partition ? Json(*partition) : Json();
+    const auto& phase = requirement.path->phase;
+    way["independent"] = std::count(phase.begin(), phase.end(), EscapePhase::independent);
+    way["cells"] = Json::array();
+    for (const std::uint64_t cell : requirement.path->cell)
+      way["cells"].push_back(index_of(results.grid(), static_cast<std::int64_t>(cell)));
+  }
+  return ways;
 }
 
 std::size_t packed_bytes(const Json& sets) {
@@ -108,19 +109,22 @@ ReportData report_data(const ResultsReader& results, std::vector<std::size_t> pa
   const UniformGrid& grid = results.grid();
   ReportData data;
   data.partitions = std::move(partitions);
-  std::vector<Map> maps = maps_of(results, data.partitions);
+  std::vector<ReportMap> maps = list_maps(results, data.partitions, limits);
   std::vector<std::vector<std::int64_t>> pins;
   for (std::size_t m = 0; m < data.partitions.size(); ++m) {
     data.best_cells.push_back(first_largest(grid, maps[m].read));
     if (data.best_cells.back() >= 0) pins.push_back(index_of(grid, data.best_cells.back()));
     maps[m].head["best"] = data.best_cells.back() < 0 ? Json() : Json(pins.back());
   }
+  const Json ways = ways_json(results);
+  for (const Json& way : ways) pins.push_back(way["cells"].front().get<std::vector<std::int64_t>>());
   Json json;
   json["period"] = results.attributes().period;
   json["unit"] = results.spec().dynamics.unit;
   json["connection_delay"] = results.spec().coordination.connection_delay;
   json["states"] = states_json(results);
   json["partitions"] = partitions_json(results);
+  json["ways"] = ways;
   std::int64_t cells = std::max<std::int64_t>(limits.values / static_cast<std::int64_t>(maps.size()), 1);
   for (;; cells = std::min(cells, grid.cells()) / 2) {
     const std::vector<ReportCells> sets = choose_cells(grid, std::max<std::int64_t>(cells, 1), pins);
@@ -129,7 +133,7 @@ ReportData report_data(const ResultsReader& results, std::vector<std::size_t> pa
     if (packed_bytes(json["sets"]) <= limits.packed_bytes || cells <= 1) break;
   }
   json["maps"] = Json::array();
-  for (Map& map : maps) json["maps"].push_back(std::move(map.head));
+  for (ReportMap& map : maps) json["maps"].push_back(std::move(map.head));
   data.json = text_of(json);
   return data;
 }

@@ -12,7 +12,10 @@ namespace coordreq {
 struct ReportLimits {
   std::int64_t values = std::int64_t{1} << 27;  ///< numbers, over all maps
   std::size_t packed_bytes = std::size_t{12} << 20;
-  std::size_t partitions = 8;  ///< of which the delay is shown for each cell
+  std::size_t partitions = 8;   ///< of which the delay is shown for each cell
+  std::size_t members = 64;     ///< pairs of agents, modes of the network; at most 64
+  std::size_t agents = 8;       ///< whose freedom under the convention is shown
+  std::size_t subsets = 65536;  ///< different sets of members that there may be
 };
 
 /// The data of a page.
@@ -26,7 +29,13 @@ struct ReportData {
 };
 
 /// The maps over cells as one JSON document: grid points and layers, and for each set of cells that
-/// choose_cells() finds the delay of each of `partitions` and the collision time.
+/// choose_cells() finds the delay of each of `partitions` and the collision time; where the file has them the
+/// coalition, the critical pairs, the modes of the network that are safe, and the freedom that the convention
+/// leaves each agent, in hundredths of a per cent. With them the ways of the counterexamples.
+///
+/// Of pairs and modes a map holds numbers of sets, which its head lists as hexadecimal digits of bits, the
+/// first member the lowest bit. If there are more members than the limits say, or more sets than these, only
+/// the first members are in it; its head has `total`.
 ///
 /// If the maps of all cells take more than the limits, fewer cells are in it; the values of these are those
 /// of the file. A map is packed as base64 of a zlib stream of unsigned little-endian integers of 1, 2 or 4

@@ -109,6 +109,7 @@ class Reader {
 
   static ReversedNumbers numbers(const std::vector<Axis>& axes) {
     std::vector<std::int64_t> counts;
+    counts.reserve(axes.size());
     for (const Axis& axis : axes) counts.push_back(axis.count);
     return ReversedNumbers(counts);
   }

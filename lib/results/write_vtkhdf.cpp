@@ -22,7 +22,8 @@ void describe(const hdf5::Handle& group, const ImageContent& content) {
   hdf5::set_ascii_attribute(group, "Type", "ImageData");
   std::vector<std::int64_t> extent;  // of the points, which are one more than the cells
   for (const std::uint64_t cells : content.cells) {
-    extent.insert(extent.end(), {0, static_cast<std::int64_t>(cells)});
+    extent.push_back(0);
+    extent.push_back(static_cast<std::int64_t>(cells));
   }
   set_attribute(group, "WholeExtent", ElementType::int32, extent);
   set_numbers(group, "Origin", {content.origin.begin(), content.origin.end()});

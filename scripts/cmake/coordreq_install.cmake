@@ -5,6 +5,8 @@
 # and, only for packages of Debian, debian and debian-dev: documents the way its policy wants them.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+include(coordreq_maintainer)
+coordreq_find_maintainer(coordreq_maintainer)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/coordreq)
 set(data_dir ${CMAKE_INSTALL_DATADIR}/coordreq)
@@ -18,6 +20,15 @@ install(DIRECTORY scripts/plotting DESTINATION ${data_dir} COMPONENT program FIL
 file(RELATIVE_PATH plot /${CMAKE_INSTALL_BINDIR} /${data_dir}/plot)
 file(CREATE_LINK ${plot} ${PROJECT_BINARY_DIR}/coordreq-plot SYMBOLIC)
 install(FILES ${PROJECT_BINARY_DIR}/coordreq-plot DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+
+# The README and the pages beside the examples link to each other.
+file(RELATIVE_PATH readme /${data_dir} /${CMAKE_INSTALL_DOCDIR}/README.md)
+file(RELATIVE_PATH configs /${CMAKE_INSTALL_DOCDIR} /${data_dir}/configs)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/links)
+file(CREATE_LINK ${readme} ${PROJECT_BINARY_DIR}/links/README.md SYMBOLIC)
+file(CREATE_LINK ${configs} ${PROJECT_BINARY_DIR}/links/configs SYMBOLIC)
+install(FILES ${PROJECT_BINARY_DIR}/links/README.md DESTINATION ${data_dir} COMPONENT program)
+install(FILES ${PROJECT_BINARY_DIR}/links/configs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 set(completions ${PROJECT_BINARY_DIR}/app/completions)
 install(FILES ${completions}/coordreq.bash RENAME coordreq
@@ -58,7 +69,7 @@ foreach(package coordreq libcoordreq-dev)
     set(build \"${PROJECT_BINARY_DIR}\")
     set(package ${package})
     set(version ${PROJECT_VERSION})
-    set(maintainer \"${COORDREQ_MAINTAINER}\")
+    set(maintainer [==[${coordreq_maintainer}]==])
     set(data \"${CMAKE_INSTALL_DATADIR}\")
     include(\"${support}/install_debian.cmake\")" COMPONENT ${component} EXCLUDE_FROM_ALL)
 endforeach()

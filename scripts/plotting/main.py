@@ -1,4 +1,4 @@
-"""The command line of scripts/plot."""
+"""The command line of coordreq-plot, scripts/plot in the source tree."""
 
 import argparse
 import re
@@ -7,6 +7,7 @@ import sys
 
 from .errors import PlotError, StreamError, UsageError, quoted
 
+_PROGRAM = "coordreq-plot"
 _FIGURES = ("actions", "layers", "unsafe3d", "run", "requirements", "coalition")
 _EPILOG = "Exit codes: 0 done, 2 wrong usage, 3 invalid file, 5 input or output failed, 130 interrupted."
 
@@ -17,16 +18,19 @@ class _Parser(argparse.ArgumentParser):
     def error(self, message):
         missing = re.fullmatch(r"the following arguments are required: (.*)", message)
         if missing:
-            raise UsageError(f"no {missing[1].split(', ')[0].split('/')[-1]}, see plot --help")
+            raise UsageError(f"no {missing[1].split(', ')[0].split('/')[-1]}, {self._see_help()}")
         unknown = re.fullmatch(r"unrecognized arguments: (.*)", message)
         if unknown:
-            raise UsageError(f"unknown argument '{unknown[1]}', see plot --help")
+            raise UsageError(f"unknown argument '{unknown[1]}', {self._see_help()}")
         choice = re.fullmatch(r"argument FIGURE: invalid choice: '(.*)' \(choose from .*\)", message)
         if choice:
             raise UsageError(f"unknown figure '{choice[1]}', expected {quoted(_FIGURES)}")
         option, what = re.fullmatch(r"argument ([^:]*): (.*)", message).groups()
         what = "expected a value, found none" if what == "expected one argument" else what
         raise UsageError(what, option.split("/")[-1])
+
+    def _see_help(self):
+        return f"see {self.prog.split()[0]} --help"
 
 
 def _size(text):
@@ -43,8 +47,8 @@ def _dpi(text):
     return int(text)
 
 
-def _parser(modules):
-    parser = _Parser(prog="plot", description="Draws figures of coordreq results.", epilog=_EPILOG)
+def _parser(modules, program):
+    parser = _Parser(prog=program, description="Draws figures of coordreq results.", epilog=_EPILOG)
     commands = parser.add_subparsers(dest="figure", metavar="FIGURE", required=True)
     for name, module in modules.items():
         text = module.__doc__.strip()
@@ -82,30 +86,31 @@ def _modules():
         ) from error
 
 
-def parse(words):
+def parse(words, program=_PROGRAM):
     """@returns the module of the figure and its arguments"""
     modules = _modules()
-    arguments = _parser(modules).parse_args(words)
+    arguments = _parser(modules, program).parse_args(words)
     return modules[arguments.figure], arguments
 
 
-def _run(words):
-    module, arguments = parse(words)
+def _run(words, program):
+    module, arguments = parse(words, program)
     from .output import check_output, save
 
     check_output(arguments.output)
     save(module.draw(module.prepare(arguments), arguments.size), arguments.output, arguments.dpi)
 
 
-def main(words):
-    """@returns the exit code"""
+def main(words, program=_PROGRAM):
+    """@param program the name that it was called by
+    @returns the exit code"""
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        _run(words)
+        _run(words, program)
     except PlotError as error:
-        print(f"plot: error: {error}", file=sys.stderr)
+        print(f"{program}: error: {error}", file=sys.stderr)
         return error.code
     except KeyboardInterrupt:
-        print("plot: error: interrupted", file=sys.stderr)
+        print(f"{program}: error: interrupted", file=sys.stderr)
         return 130
     return 0

@@ -257,6 +257,55 @@ class Cases(Case):
         # Bytes a cell, and for each joint input a row of 64 bits and its number.
         self.assertEqual(needed - without, 21609 * 4 + 25 * 1029 * (8 + 4))
 
+    # Requirements are judged under the controller.
+
+    def judged(self, name, spec, cell):
+        """Whether one cell is kept and bears two steps of silence: verdicts as the JSON summary has them."""
+        axes = {"p1": range(-10, 11), "v1": np.arange(7) / 2, "v2": np.arange(7) / 2, "p2": range(-10, 11)}
+        middle = {state: float(axis[k]) for (state, axis), k in zip(axes.items(), cell)}
+        where = " and ".join(f"{x - 0.1:.1f} <= {state} and {state} <= {x + 0.1:.1f}" for state, x in middle.items())
+        requirements = [{"name": "kept", "where": where, "invariant": True}, {"name": "silent", "where": where, "min_delay": 2}]
+        self.write(f"{name}.json", dict(spec, name=name, requirements=requirements))
+        result = self.run_program("analyze", f"{name}.json", "--json")
+        verdicts = json.loads(result.stdout)["requirements"]
+        self.assertEqual(result.returncode, 0 if all(verdict["holds"] for verdict in verdicts) else 1)
+        self.assertEqual([verdict["cells"] for verdict in verdicts], [1, 1])
+        return verdicts
+
+    def test_requirements_are_judged_under_the_controller(self):
+        (self.folder / "first_come.h5").write_bytes((CONFIGS / "first_come.h5").read_bytes())
+        specs = {"plain": crossing(), "ruled": crossing(controller={"file": "first_come.h5", "synthesis": "maximal"})}
+        kept, delay = {}, {}
+        for name, spec in specs.items():
+            self.analyzed(name, spec)
+            with h5py.File(self.folder / f"{name}.h5") as file:
+                kept[name], delay[name] = file["invariant"][...], file["delay"][0]
+        cases = {
+            "only breaking the rule helps": (kept["ruled"] == 0) & (delay["plain"] >= 2),
+            "the rule buys silence": (delay["plain"] >= 0) & (delay["plain"] < 2) & (delay["ruled"] >= 2),
+            "too little silence": (delay["ruled"] >= 0) & (delay["ruled"] < 2),
+        }
+        for case, cells in cases.items():
+            cell = tuple(int(k) for k in np.argwhere(cells)[0])
+            for name, spec in specs.items():
+                with self.subTest(case=case, spec=name):
+                    verdicts = self.judged(f"{name}_judged", spec, cell)
+                    self.assertEqual([verdict["holds"] for verdict in verdicts], [kept[name][cell] == 1, delay[name][cell] >= 2])
+                    self.assert_verified(f"{name}_judged.h5")
+                    if name == "ruled":
+                        self.assert_stories_keep_to_the_file(verdicts)
+
+    def assert_stories_keep_to_the_file(self, verdicts):
+        """What an agent does alone is part of something that the file lists, what all do together is listed."""
+        with h5py.File(CONFIGS / "first_come.h5") as file:
+            listed, axes = file["controller"][...], [file[state][...] for state in ("p1", "v1", "v2", "p2")]
+            values = file["u1"][...]
+        for step in [step for verdict in verdicts if not verdict["holds"] for step in verdict["counterexample"]["steps"]]:
+            cell = tuple(int(np.argmin(abs(axis - x))) for axis, x in zip(axes, step["state"].values()))
+            pairs = np.unpackbits(listed[cell], bitorder="little")[: len(values) ** 2].reshape(len(values), -1)
+            one, other = (np.argmin(abs(values - x)) for x in (step["inputs"]["first"]["u1"], step["inputs"]["second"]["u2"]))
+            self.assertTrue(pairs[one, other] if step["action"] == "evasive" else pairs[one].any() and pairs[:, other].any())
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,61 +1,101 @@
 """What the pages beside the examples show is what happens."""
 
 import json
-import os
-import pathlib
 import re
-import subprocess
 import unittest
 
-from program import CONFIGS, PROGRAM, ROOT, Case, without_comments
+import h5py
+import numpy as np
+from pages import PAGES, PageCase, blocks
+from program import CONFIGS, ROOT, without_comments
 
-PAGES = sorted(CONFIGS.glob("**/*.md"))
-TUTORIAL = (CONFIGS / "tutorial/README.md").read_text()
 GRIDS = (CONFIGS / "grids.md").read_text()
+SESSIONS = {"coalitions.md": 2, "networks.md": 1, "requirements.md": 1, "rules.md": 1, "outputs.md": 7, "tutorial/README.md": 10}
 
 
 def example(number):
     return (CONFIGS / f"tutorial/corridor_{number}.json").read_text()
 
 
-class Cases(Case):
+class Cases(PageCase):
     def longest(self, spec):
         """Cells, and the longest silence in seconds."""
         self.write("spec.json", spec)
         summary = json.loads(self.run_program("analyze", "spec.json", "--json", "-o", "out.h5").stdout)
         return summary["states"], summary["partitions"][0]["max_delay_time"]
 
-    def test_sessions_of_the_tutorial(self):
-        (self.folder / "configs").symlink_to(CONFIGS)
-        environment = dict(os.environ, PATH=f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}")
-        sessions = re.findall(r"(?ms)^```console\n\$ ([^\n]*)\n(.*?)^```$", TUTORIAL)
-        self.assertEqual(len(sessions), 9)
-        for command, expected in sessions:
-            result = subprocess.run(
-                command,
-                shell=True,
-                cwd=self.folder,
-                env=environment,
-                text=True,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.STDOUT,
-            )
-            self.assertEqual(self.without_effort(result.stdout), self.without_effort(expected))
+    def test_sessions_of_coalitions(self):
+        self.assert_sessions("coalitions.md")
 
-    @staticmethod
-    def without_effort(text):
-        return re.sub(r"\([0-9.]+ s on [0-9]+ threads?(, [0-9.]+ MiB)?\)", "(effort)", text)
+    def test_sessions_of_networks(self):
+        self.assert_sessions("networks.md")
+
+    def test_sessions_of_requirements(self):
+        self.assert_sessions("requirements.md")
+
+    def test_sessions_of_rules(self):
+        self.assert_sessions("rules.md")
+
+    def test_sessions_of_outputs(self):
+        self.assert_sessions("outputs.md")
+
+    def test_sessions_of_the_tutorial(self):
+        self.assert_sessions("tutorial/README.md")
+
+    def assert_sessions(self, page):
+        self.assert_sessions_happen(CONFIGS / page, SESSIONS[page])
+
+    def test_no_page_has_other_sessions(self):
+        found = {str(page.relative_to(CONFIGS)): len(blocks(page, "console")) for page in PAGES}
+        self.assertEqual({page: count for page, count in found.items() if count > 0}, SESSIONS)
+
+    def test_python_of_coalitions(self):
+        self.analyze(str(CONFIGS / "platoon_coalition.json"))
+        self.assert_programs_print(CONFIGS / "coalitions.md", "lead+middle|tail\n2880\n")
+
+    def test_python_of_rules(self):
+        self.assert_programs_print(CONFIGS / "rules.md", "")
+        with h5py.File(self.folder / "first_come.h5") as written, h5py.File(CONFIGS / "first_come.h5") as stored:
+            self.assertTrue(np.array_equal(written["controller"][...], stored["controller"][...]))
+
+    def test_figures_of_the_crossing(self):
+        rows = re.findall(r"(?m)^\| `(configs/crossing\w*\.json)` \|[^|]*\| (.*) \|$", (CONFIGS / "rules.md").read_text())
+        self.assertEqual(len(rows), 4)
+        for config, figures in rows:
+            summary = self.analyze(str(ROOT / config))
+            (partition,) = summary["partitions"]
+            layers, never = partition["layers"], partition["fixed_point"]
+            half = max(k for k, size in enumerate(layers) if 2 * size >= layers[0])
+            bears = "for ever" if 2 * never >= layers[0] else f"{half} s"
+            longest = f"{partition['F'] - 1} s" if partition["F"] > 0 else "-"
+            self.assertEqual(figures.split(" | "), [f"{summary['invariant']:,}", bears, longest, f"{never:,}"])
+
+    def test_figures_of_networks(self):
+        rows = re.findall(r"(?m)^\| `(\{.*\})`.* \| ([0-9,]+) \| ([0-9,]+) \|$", (CONFIGS / "networks.md").read_text())
+        self.assertEqual(len(rows), 6)
+        spec = json.loads(without_comments((CONFIGS / "intersection_network.json").read_text()))
+        for row in rows:
+            network = json.loads(row[0].replace("\\|", "|"))
+            for resynthesise, expected in zip((False, True), row[1:]):
+                with self.subTest(network=network, resynthesise=resynthesise):
+                    self.write("spec.json", dict(spec, network=dict(network, resynthesise=resynthesise)))
+                    found = self.analyze("spec.json")["network"]
+                    self.assertEqual(f"{found['modes'][0]['cells']:,}", expected)
 
     def test_specs_of_the_tutorial(self):
-        whole, *parts = re.findall(r"(?ms)^```json\n(.*?)^```$", TUTORIAL)
+        whole, *parts = blocks(CONFIGS / "tutorial/README.md", "json")
         self.assertEqual(json.loads(whole), json.loads(without_comments(example(1))))
-        second = json.loads(without_comments(example(2)))
-        self.assertEqual(json.loads(parts[0]), second["states"][0])
-        fourth = json.loads(without_comments(example(4)))
-        part = json.loads("{" + parts[1] + "}")
-        self.assertEqual(part["disturbances"], fourth["disturbances"])
-        self.assertEqual(part["abstraction"], fourth["abstraction"])
-        self.assertEqual(part["dynamics"]["equations"], fourth["dynamics"]["equations"])
+        self.assertEqual(len(parts), 5)
+        for number, part in enumerate(parts, 2):
+            spec = json.loads(without_comments(example(number)))
+            for key, value in json.loads("{" + part + "}").items():
+                self.assertEqual(value, spec[key], (number, key))
+            # What a step does not show is as it was, but for what step 5 says that it leaves out.
+            if number != 5:
+                before = json.loads(without_comments(example(number - 1)))
+                shown = {"name", *json.loads("{" + part + "}")}
+                self.assertEqual({key: value for key, value in spec.items() if key not in shown},
+                                 {key: value for key, value in before.items() if key not in shown})  # fmt: skip
 
     def test_steps_on_the_page_of_grids(self):
         rows = re.findall(r"(?m)^\| ([0-9.]+) m \| ([0-9,]+) \| ([0-9.]+) s \| ([0-9.]+) s \|$", GRIDS)
@@ -87,12 +127,10 @@ class Cases(Case):
         self.assertIn("4.5 s with a period of 0.25 s,\n   6 s with 0.5 s and 7 s with 1 s".replace("\n   ", " "),
                       " ".join(GRIDS.split()))
 
-    def test_links(self):
+    def test_files_that_they_name(self):
         for page in PAGES:
-            for target in re.findall(r"\]\(([^)#]+)\)", page.read_text()):
-                self.assertTrue((page.parent / target).exists(), f"{page.name}: {target}")
-            for path in re.findall(r"`((?:configs|scripts|app|lib|tests)/[\w./]*)", page.read_text()):
-                self.assertTrue((ROOT / path).exists(), path)
+            with self.subTest(page=page):
+                self.assert_files_exist(page)
 
 
 if __name__ == "__main__":

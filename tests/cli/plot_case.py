@@ -35,7 +35,7 @@ class PlotCase(Case):
         errors = io.StringIO()
         with contextlib.chdir(self.folder), contextlib.redirect_stderr(errors):
             self.assertEqual(main(list(words)), code)
-        self.assertEqual(errors.getvalue(), f"plot: error: {message}\n")
+        self.assertEqual(errors.getvalue(), f"coordreq-plot: error: {message}\n")
         self.assertEqual(self.files(), before)
 
     def assert_arrays_equal(self, found, expected):

@@ -110,11 +110,11 @@ class Cases(PlotCase):
     def test_wrong_usage(self):
         layers = ("layers", "out.h5", "-o", "a.png")
         for words, message in (
-            ((), "no FIGURE, see plot --help"),
-            (("layers",), "no FILE, see plot --help"),
-            (("layers", "out.h5"), "no --output, see plot --help"),
+            ((), "no FIGURE, see coordreq-plot --help"),
+            (("layers",), "no FILE, see coordreq-plot --help"),
+            (("layers", "out.h5"), "no --output, see coordreq-plot --help"),
             (("layers", "out.h5", "-o"), "expected a value, found none (--output)"),
-            ((*layers, "more"), "unknown argument 'more', see plot --help"),
+            ((*layers, "more"), "unknown argument 'more', see coordreq-plot --help"),
             ((*layers, "--size", "3"), "expected WIDTHxHEIGHT in inches, found '3' (--size)"),
             ((*layers, "--dpi", "5"), "expected a whole number from 10 to 2400, found '5' (--dpi)"),
             ((*layers, "--snapshots", "1,-2"), "expected whole numbers such as 1,14,29, found '1,-2' (--snapshots)"),
@@ -125,6 +125,12 @@ class Cases(PlotCase):
             ),
         ):
             self.assert_plot_fails(2, message, *words)
+
+    def test_says_the_name_that_it_was_called_by(self):
+        (self.folder / "coordreq-plot").symlink_to(ROOT / "scripts/plot")
+        for command, name in ((ROOT / "scripts/plot", "plot"), ("./coordreq-plot", "coordreq-plot")):
+            result = subprocess.run([command, "layers"], cwd=self.folder, capture_output=True, text=True, timeout=100)
+            self.assertEqual((result.returncode, result.stderr), (2, f"{name}: error: no FILE, see {name} --help\n"))
 
     def test_help_names_the_figures(self):
         text = io.StringIO()

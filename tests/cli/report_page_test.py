@@ -6,83 +6,18 @@ import unittest
 
 from browser import Browser
 from program import SPEC, spec_with
-from report_case import FOUR, ReportCase, data_of, packed, unpacked
+from report_case import FOUR, PageCase, data_of, packed, unpacked
 
-# Names of the rows of the page, and of the lines of `query`.
-ROWS = {
-    "Safe set": "safe set",
-    "Invariance set": "invariance set",
-    "Leaves the safe set": "leaves the safe set",
-    "Delay": "delay",
-    "Countdown": "countdown",
-}
 CIRCLE_COLOURS = {"none: the cell is not safe": [127, 127, 127],
                   "none: no coordination keeps the system safe from here": [189, 189, 189],
                   "unbounded: safe without coordination for ever": [255, 255, 255]}  # fmt: skip
 
 
-class Cases(ReportCase):
+class Cases(PageCase):
     @classmethod
     def setUpClass(cls):
         cls.browser = Browser()
         cls.addClassCleanup(cls.browser.close)
-
-    def open(self, name="page.html", **options):
-        self.browser.open(self.folder / name, **options)
-
-    def assert_is_quiet(self):
-        """Nothing was logged, and nothing asked for but the file."""
-        self.assertEqual(self.browser.complaints, [])
-        self.assertEqual([url for url in self.browser.requests if not url.startswith("data:")],
-                         [(self.folder / "page.html").resolve().as_uri()])  # fmt: skip
-
-    def cell(self):
-        rows = self.browser.run("[...document.querySelectorAll('#cell tr')].map((row) => [row.cells[0].innerText, row.cells[1].innerText])")
-        return dict(rows)
-
-    def box(self, selector):
-        return self.browser.run(
-            f"(() => {{ const element = document.querySelector({json.dumps(selector)}); element.scrollIntoView({{block: 'center'}});"
-            " const box = element.getBoundingClientRect(); return [box.left, box.top, box.width, box.height]; })()"
-        )
-
-    def point(self, across, up):
-        """Points at a place in the frame of the picture, from 0 to 1; returns the colour there."""
-        left, top, width, height = self.box("#picture")
-        # Room for the axes, as picture.js has it.
-        x, y = left + 62 + across * (width - 76), top + 8 + (1 - up) * (height - 56)
-        top_left = (int(x - left), int(y - top))
-        colour = self.browser.run(
-            "(() => { const context = document.createElement('canvas').getContext('2d', {willReadFrequently: true});"
-            f" context.drawImage(document.getElementById('picture'), {top_left[0]}, {top_left[1]}, 1, 1, 0, 0, 1, 1);"
-            " return [...context.getImageData(0, 0, 1, 1).data].slice(0, 3); })()"
-        )
-        self.browser.point(x, y)
-        return colour
-
-    def assert_is_answer(self, cell, partition):
-        """The page says of a cell what `query` says of its centre."""
-        at = ",".join(re.sub(r" = (\S+)( [^,]*)?$", r"=\1", part) for part in cell["Centre"].split(", "))
-        result = self.run_program("query", "out.h5", "--at", at)
-        self.assertEqual((result.returncode, result.stderr), (0, b""))
-        general, *partitions = result.stdout.decode().split("\npartition ")
-        (own,) = [text for text in partitions if text.split("\n")[0] == partition]
-        said = {name.strip(): text for name, text in re.findall(r"(?m)^(\s*\S.*?)  +(\S.*)$", general + own)}
-        self.assertTrue(said["cell"].startswith(cell["Cell"] + ":"), (said["cell"], cell["Cell"]))
-        self.assertEqual({row: cell[row] for row in ROWS}, {row: said[line] for row, line in ROWS.items()})
-
-    def assert_picture_changes(self, act):
-        shown = "document.getElementById('picture').toDataURL()"
-        before = self.browser.run(shown)
-        act()
-        self.assertTrue(self.browser.run(shown) != before)
-
-    def focus(self, selector):
-        self.browser.run(f"document.querySelector({json.dumps(selector)}).focus()")
-
-    def select(self, name, value):
-        self.browser.run(f"(() => {{ const field = document.getElementById('{name}'); field.value = '{value}';"
-                         " field.dispatchEvent(new Event('change')); })()")  # fmt: skip
 
     def test_values_under_the_pointer(self):
         self.report(self.example("circle.json"))

@@ -54,6 +54,14 @@ class Cases(unittest.TestCase):
         self.assertEqual({path.name for path in (self.prefix / "share/coordreq/configs").iterdir()}, configs)
         self.assertFalse([name for name in installed if "debian" in name or "__pycache__" in name])
 
+    def test_pages_link_to_each_other(self):
+        for page in ("share/doc/coordreq/README.md", "share/coordreq/configs/outputs.md", "share/coordreq/configs/tutorial/README.md"):
+            path = self.prefix / page
+            links = re.findall(r"[^!]\[[^]]*\]\(((?:configs/|\.\.)[^)#]*)", path.read_text(encoding="utf-8"))
+            self.assertTrue(links, page)
+            for link in links:
+                self.assertTrue((path.parent / link).exists(), f"{page}: {link}")
+
     def test_nothing_names_the_prefix_or_the_sources(self):
         names = [str(self.folder / "first").encode(), str(ROOT).encode()]
         for path in self.prefix.rglob("*"):

@@ -9,6 +9,9 @@ import unittest
 
 BUILD = pathlib.Path(os.environ["COORDREQ_BUILD"])
 CPACK = os.environ["CPACK_COMMAND"]
+CMAKE = os.environ["CMAKE_COMMAND"]
+MODULE = pathlib.Path(os.environ["COORDREQ_ROOT"]) / "scripts/cmake/coordreq_maintainer.cmake"
+MAINTAINER = "Ada Example <ada@example.org>"
 
 
 def run(*command, **options):
@@ -26,7 +29,7 @@ class Cases(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
         run(CPACK, "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder, "-D",
-            "CPACK_DEBIAN_COMPRESSION_TYPE=gzip")
+            "CPACK_DEBIAN_COMPRESSION_TYPE=gzip", "-D", f"CPACK_PACKAGE_CONTACT={MAINTAINER}")
         (cls.package,) = cls.folder.glob("coordreq_*.deb")
         (cls.development,) = cls.folder.glob("libcoordreq-dev_*.deb")
 
@@ -35,12 +38,30 @@ class Cases(unittest.TestCase):
 
     def test_fields(self):
         self.assertEqual(self.field(self.package, "Package"), "coordreq")
+        self.assertEqual(self.field(self.package, "Maintainer"), MAINTAINER)
         self.assertRegex(self.field(self.package, "Version"), r"^\d+\.\d+\.\d+-1$")
         depends = self.field(self.package, "Depends")
         for library in ("libc6", "libhdf5-", "libgmp10", "libmpfr6", "libdeflate0", "libnettle8"):
             self.assertIn(library, depends)
         self.assertNotIn("-dev", depends)
         self.assertIn("libmpfr-dev", self.field(self.development, "Depends"))
+
+    def maintainer(self, debian, git, **variables):
+        """Who is found to be the maintainer, given pairs of a name and an address."""
+        script = self.folder / "maintainer.cmake"
+        script.write_text(f'include("{MODULE}")\ncoordreq_find_maintainer(found)\nmessage(STATUS "[${{found}}]")\n')
+        environment = dict(os.environ, DEBFULLNAME=debian[0], DEBEMAIL=debian[1], GIT_CONFIG_COUNT="2",
+                           GIT_CONFIG_KEY_0="user.name", GIT_CONFIG_VALUE_0=git[0],
+                           GIT_CONFIG_KEY_1="user.email", GIT_CONFIG_VALUE_1=git[1])  # fmt: skip
+        definitions = [f"-D{name}={value}" for name, value in variables.items()]
+        return run(CMAKE, *definitions, "-P", script, env=environment).strip().removeprefix("-- ")
+
+    def test_maintainer(self):
+        debian, git, none = ("Deb", "deb@example.org"), ("Git", "git@example.org"), ("", "")
+        self.assertEqual(self.maintainer(debian, git, COORDREQ_MAINTAINER=MAINTAINER), f"[{MAINTAINER}]")
+        self.assertEqual(self.maintainer(debian, git), "[Deb <deb@example.org>]")
+        self.assertEqual(self.maintainer(("Deb", ""), git), "[Git <git@example.org>]")
+        self.assertEqual(self.maintainer(none, ("", "git@example.org")), "[]")
 
     def test_contents(self):
         listed = run("dpkg-deb", "--contents", self.package)

@@ -6,13 +6,17 @@ const kScale = (
   "440154 470d60 48186a 482475 472e7c 453882 424186 3e4c8a 3a548c 365d8d 32658e " +
   "2e6d8e 2b758e 287d8e 25848e 228c8d 1f948c 1e9c89 20a386 25ab82 2eb37c 3aba76 " +
   "48c16e 58c765 69cd5b 7fd34e 93d741 a8db34 bddf26 d5e21a eae51a fde725"
-).split(" ").map((hex) => [0, 2, 4].map((i) => parseInt(hex.slice(i, i + 2), 16)));
+).split(" ").map(rgbOf);
 
 const kColors = {
   notSafe: [0x7f, 0x7f, 0x7f],
   notInvariant: [0xbd, 0xbd, 0xbd],
   free: [0xff, 0xff, 0xff],
 };
+
+function rgbOf(hex) {
+  return [0, 2, 4].map((i) => parseInt(hex.slice(i, i + 2), 16));
+}
 
 // The colour of a share from 0 to 1.
 function scaleColor(share) {

@@ -33,8 +33,9 @@ class Picture {
     this.image.getContext("2d").putImageData(pixels, 0, 0);
   }
 
-  // @param marked positions of the cells to frame
-  draw(marked) {
+  // @param marked positions of the cells to frame. @param way positions of cells to join by a line, if there is
+  // one; @param filled so many of its dots are, from the first on
+  draw(marked, way = [], filled = 0) {
     const { plot, image } = this;
     plot.begin((width) => this.heightFor(width), kMargin);
     const { left, top, width, height } = plot.frame;
@@ -42,7 +43,36 @@ class Picture {
     plot.context.drawImage(image, left, top, width, height);
     plot.acrossAxis(ticksOf(this.across, width / 80), this.across.title);
     plot.upAxis(this.up === null ? [] : ticksOf(this.up, height / 50), this.up === null ? "" : this.up.title);
+    if (way.length > 0) this.drawWay(way.map((cell) => this.middleOf(cell)), filled);
     for (const cell of marked) this.mark(cell);
+  }
+
+  // Black in white, to be seen on every colour.
+  drawWay(points, filled) {
+    const { context } = this.plot;
+    context.lineJoin = "round";
+    for (const [width, color] of [[5, "#ffffff"], [2, "#000000"]]) {
+      context.strokeStyle = color;
+      context.lineWidth = width;
+      context.beginPath();
+      for (const [x, y] of points) context.lineTo(x, y);
+      context.stroke();
+    }
+    context.strokeStyle = "#000000";
+    for (const [place, [x, y]] of points.entries()) {
+      context.fillStyle = place < filled ? "#000000" : "#ffffff";
+      context.beginPath();
+      context.arc(x, y, 4, 0, 2 * Math.PI);
+      context.fill();
+      context.stroke();
+    }
+    context.lineWidth = 1;
+  }
+
+  // In CSS pixels.
+  middleOf([i, j]) {
+    const { left, top, width, height } = this.plot.frame;
+    return [left + ((i + 0.5) * width) / this.image.width, top + height - ((j + 0.5) * height) / this.image.height];
   }
 
   // In scale where both dimensions have one unit and that leaves a picture.
@@ -54,12 +84,10 @@ class Picture {
     return Math.min(width * (inScale ? ratio : 0.75), kMostHeight);
   }
 
-  mark([i, j]) {
-    const { left, top, width, height } = this.plot.frame;
-    const [cellWidth, cellHeight] = [width / this.image.width, height / this.image.height];
-    const x = left + (i + 0.5) * cellWidth;
-    const y = top + height - (j + 0.5) * cellHeight;
-    const [halfWidth, halfHeight] = [cellWidth, cellHeight].map((size) => Math.max(size / 2, 3.5));
+  mark(cell) {
+    const { width, height } = this.plot.frame;
+    const [x, y] = this.middleOf(cell);
+    const [halfWidth, halfHeight] = [width / this.image.width, height / this.image.height].map((size) => Math.max(size / 2, 3.5));
     const { context } = this.plot;
     for (const [grow, color] of [[2, "#ffffff"], [0.5, "#000000"]]) {
       context.strokeStyle = color;

@@ -52,3 +52,10 @@ function countdownText(delay) {
   if (steps > 0) return stepsText(steps);
   return data.connection_delay > 0 ? "start to connect now" : "coordinate now";
 }
+
+const kWholeShare = 10000; // freedom is stored in hundredths of a per cent
+
+function freedomText(share) {
+  if (share === kWholeShare) return "all";
+  return `${share % 100 === 0 ? share / 100 : (share / 100).toFixed(share % 10 === 0 ? 1 : 2)} %`;
+}

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include "app/network_report.hpp"
+#include "app/report_html.hpp"
+#include "app/report_text.hpp"
+#include "app/requirement_story.hpp"
+#include "app/text.hpp"
+#include "coordination/coalition_cost.hpp"
+
+namespace coordreq {
+namespace {
+
+std::string count_row(const std::string& name, const std::string& detail, std::uint64_t count,
+                      std::uint64_t whole) {
+  const std::string share = whole == 0 ? "" : share_text(count, whole);
+  return html_row({html_line(name), html_line(detail), grouped(count), share});
+}
+
+std::string choices(const ResultsReader& results) {
+  const std::vector<std::int64_t>& given = results.attributes().coalition_cells;
+  const std::uint64_t kept = results.attributes().invariant_cells;
+  if (given.empty()) return "";
+  std::vector<std::string> rows;
+  std::uint64_t total = 0;
+  for (const CoalitionChoice& choice : order_of_preference(results.spec().coordination)) {
+    const auto count = static_cast<std::uint64_t>(given[choice.partition]);
+    total += count;
+    if (count > 0) {
+      rows.push_back(count_row(results.partitions()[choice.partition].name,
+                               fmt::format("{:.6g}", nearest_double(choice.cost)), count, kept));
+    }
+  }
+  if (total < kept) rows.push_back(count_row("none of those listed suffices", "", kept - total, kept));
+  return html_long_table({"Cheapest partition", "Cost", "States", "Share"}, rows);
+}
+
+std::string pairs(const ResultsReader& results) {
+  const std::vector<std::int64_t>& counts = results.attributes().critical_pair_cells;
+  std::vector<std::string> rows;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto count = static_cast<std::uint64_t>(counts[i]);
+    if (count > 0)
+      rows.push_back(html_row({html_line(results.pairs()[i]), grouped(count),
+                               share_text(count, results.attributes().invariant_cells)}));
+  }
+  if (rows.empty()) return "<p>No pair of agents is critical.</p>\n";
+  return html_long_table({"Critical pair", "States", "Share"}, rows);
+}
+
+}  // namespace
+
+std::string report_coalitions(const ResultsReader& results) {
+  if (!results.has_coalition() || results.attributes().invariant_cells == 0) return "";
+  return fmt::format(
+             "<section aria-labelledby=\"coalition-title\">\n<h2 id=\"coalition-title\">Who must talk to "
+             "whom?</h2>\n<p>For {} without further contact between them, these groups of agents must be "
+             "connected: <code>a+b|c</code> means that <em>a</em> and <em>b</em> go on agreeing, and "
+             "<em>c</em> is alone. Each state has the cheapest partition that is enough.</p>\n",
+             html_line(steps_text(*results.spec().coordination.horizon, results.spec()))) +
+         choices(results) +
+         "<p>A pair of agents is critical in a state where every cheapest network that is enough connects "
+         "the "
+         "two.</p>\n" +
+         pairs(results) + "</section>\n";
+}
+
+std::string report_network(const ResultsReader& results) {
+  if (!results.spec().network || results.attributes().invariant_cells == 0) return "";
+  const NetworkSpec& network = *results.spec().network;
+  const std::vector<std::uint64_t>& safe = results.attributes().network_cells;
+  const std::uint64_t kept = results.attributes().invariant_cells;
+  std::vector<std::string> rows;
+  for (std::size_t mode = 0; mode < network.modes.size(); ++mode) {
+    rows.push_back(count_row(network.modes[mode].name + (mode == 0 ? " (at first)" : ""),
+                             network.modes[mode].partition.name, safe[mode], kept));
+  }
+  return fmt::format(
+             "<section aria-labelledby=\"network-title\">\n<h2 id=\"network-title\">On a network that "
+             "fails</h2>\n<div class=\"answer\"><p class=\"headline\">Agents {}stay safe from "
+             "<strong>{}</strong> of the states that can be kept safe, whatever the network does.</p>\n"
+             "<p>The network: {}.</p></div>\n",
+             network.resynthesise ? "that take care because messages may be lost " : "",
+             share_text(safe.front(), kept), html_line(network_meaning(network))) +
+         html_long_table({"Mode of the network", "Connected", "Safe states", "Share"}, rows) + "</section>\n";
+}
+
+}  // namespace coordreq

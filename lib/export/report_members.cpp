@@ -1,0 +1,54 @@
+#include "export/report_members.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace coordreq {
+
+MemberMap::MemberMap(const ResultsReader& results, ReadMember read, std::vector<std::string> names,
+                     std::size_t most, std::size_t most_sets)
+    : results_(results),
+      read_(std::move(read)),
+      names_(std::move(names)),
+      shown_(std::min(names_.size(), most)),
+      most_sets_(most_sets) {}
+
+std::vector<std::int32_t> MemberMap::read(const CellBlock& block) {
+  std::vector<std::int32_t> values = results_.collision_time(block);
+  std::vector<std::uint64_t> sets(values.size());
+  for (std::size_t member = 0; member < shown_; ++member) {
+    const std::vector<std::uint8_t> holds = read_(member, block);
+    for (std::size_t x = 0; x < holds.size(); ++x) sets[x] |= std::uint64_t{holds[x]} << member;
+  }
+  for (std::size_t x = 0; x < values.size(); ++x)
+    values[x] = values[x] == ResultsReader::kNever ? number(sets[x]) : values[x] == 0 ? -2 : -1;
+  return values;
+}
+
+std::int32_t MemberMap::number(std::uint64_t set) {
+  if (!fits()) return 0;
+  const auto [place, is_new] = numbers_.emplace(set, static_cast<std::int32_t>(sets_.size()));
+  if (is_new) sets_.push_back(set);
+  return place->second;
+}
+
+void MemberMap::halve() {
+  shown_ = std::max<std::size_t>(shown_ / 2, 1);
+  sets_.clear();
+  numbers_.clear();
+}
+
+std::vector<std::string> MemberMap::names() const {
+  return {names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(shown_)};
+}
+
+std::vector<std::string> MemberMap::sets() const {
+  std::vector<std::string> texts;
+  texts.reserve(sets_.size());
+  for (const std::uint64_t set : sets_) texts.push_back(fmt::format("{:x}", set));
+  return texts;
+}
+
+}  // namespace coordreq
