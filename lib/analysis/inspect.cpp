@@ -9,6 +9,7 @@
 #include "analysis/network_problem.hpp"
 #include "base/error.hpp"
 #include "results/controller_file.hpp"
+#include "safety/join_rows.hpp"
 
 namespace coordreq {
 namespace {
@@ -20,6 +21,39 @@ double count_product(const ProblemSpec& spec) {
   double cells = 1;
   for (const StateSpec& state : spec.states) cells *= static_cast<double>(state.grid.count);
   return cells;
+}
+
+/// Rows of the engine, and lanes of each.
+struct Rows {
+  double count = 1;
+  double lanes = 1;
+  bool joined = false;  ///< they run along several dimensions
+
+  [[nodiscard]] double set_bytes() const { return count * 8 * std::ceil(lanes / 64); }
+};
+
+/// As join_rows() will choose, with gaps that are usual.
+Rows rows_of(const ProblemSpec& spec, const std::vector<TableShape>& shapes) {
+  constexpr double kGap = 4;
+  const auto count = [&](std::size_t i) { return static_cast<double>(spec.states[i].grid.count); };
+  const auto is_alone = [&](std::size_t i) {
+    for (std::size_t t = 0; t < shapes.size(); ++t) {
+      for (const std::int32_t state : shapes[t].states) {
+        if (static_cast<std::size_t>(state) >= i && static_cast<std::size_t>(state) != t) return false;
+      }
+    }
+    return shapes[i].shift && !shapes[i].sum && spec.states[i].grid.count > 1;
+  };
+  const bool can_join = !is_read_by_runs(spec) && !spec.abstraction.between_samples;
+  std::size_t i = shapes.size() - 1;
+  Rows rows{.lanes = count(i)};
+  while (can_join && i > 1 && is_alone(i) && is_alone(i - 1) &&
+         (rows.lanes + kGap) * count(i - 1) <= static_cast<double>(kMostJoinedLanes)) {
+    rows.lanes = (rows.lanes + kGap) * count(--i);
+    rows.joined = true;
+  }
+  for (std::size_t t = 0; t < i; ++t) rows.count *= count(t);
+  return rows;
 }
 
 /// Bytes of one bit row a choice of the states and inputs that a condition uses.
@@ -69,27 +103,27 @@ double projected_actions(const ProblemSpec& spec, const PartitionSpec& partition
   return sum;
 }
 
-/// The projections of one partition. As products they are a few boxes a row, and most rows need none.
+/// The projections of one partition. As products they are a few boxes a row, and most rows need none; rows
+/// along several dimensions have hundreds of parts, and a label or two a cell.
 double projection_bytes(const ProblemSpec& spec, const PartitionSpec& partition,
-                        const std::vector<TableShape>& shapes, double rows, double set_bytes) {
-  constexpr double kBoxesOfRow = 130;
+                        const std::vector<TableShape>& shapes, const Rows& rows) {
+  const double boxes_of_row = rows.joined ? 3300 + 2 * rows.lanes : 220;
   const bool boxes = is_product(partition, spec, shapes) && !spec.abstraction.between_samples &&
                      !spec.controller.allow && !spec.controller.file &&
                      spec.controller.synthesis == Synthesis::maximal;
-  const double masks = set_bytes * projected_actions(spec, partition);
-  return boxes ? std::min(masks, rows * kBoxesOfRow) : masks;
+  const double masks = rows.set_bytes() * projected_actions(spec, partition);
+  return boxes ? std::min(masks, rows.count * boxes_of_row) : masks;
 }
 
 /// At a time: those of one partition for its layers, then those of all partitions of a network.
-double projection_bytes(const ProblemSpec& spec, const std::vector<TableShape>& shapes, double rows,
-                        double set_bytes) {
+double projection_bytes(const ProblemSpec& spec, const std::vector<TableShape>& shapes, const Rows& rows) {
   double most = 0;
   for (const PartitionSpec& partition : spec.coordination.partitions)
-    most = std::max(most, projection_bytes(spec, partition, shapes, rows, set_bytes));
+    most = std::max(most, projection_bytes(spec, partition, shapes, rows));
   if (!spec.network || spec.network->resynthesise) return most;
   double together = 0;
   for (const PartitionSpec* partition : network_partitions(*spec.network))
-    together += projection_bytes(spec, *partition, shapes, rows, set_bytes);
+    together += projection_bytes(spec, *partition, shapes, rows);
   return std::max(most, together);
 }
 
@@ -134,8 +168,8 @@ double estimate_memory(const ProblemSpec& given) {
   const bool keeps_sums = is_layout_of_sums(given);
   const std::vector<TableShape> shapes = table_shapes(spec);
   const double cells = count_product(spec);
-  const double row_length = static_cast<double>(spec.states.back().grid.count);
-  const double set_bytes = cells / row_length * 8 * std::ceil(row_length / 64);
+  const Rows rows = rows_of(spec, shapes);
+  const double set_bytes = rows.set_bytes();
   double bytes = kFixedBytes;
   for (const TableShape& shape : shapes) {
     const bool is_kept = keeps_sums && shape.sum;
@@ -154,17 +188,17 @@ double estimate_memory(const ProblemSpec& given) {
   bytes += 3 * set_bytes;                              // S, K and a layer
   if (spec.abstraction.between_samples) bytes += set_bytes;
   // Levels for collision times and delays: 8 bits are enough up to 254 steps.
-  bytes += cells * (1 + static_cast<double>(spec.coordination.partitions.size()));
+  bytes += rows.count * rows.lanes * (1 + static_cast<double>(spec.coordination.partitions.size()));
   if (spec.coordination.horizon) {
     const auto agents = static_cast<double>(spec.agents.size());
     bytes += cells * (spec.coordination.partitions.size() < 255 ? 1 : 4);  // the coalition map
     bytes += set_bytes * agents * (agents - 1) / 2;                        // critical pairs
   }
-  bytes += projection_bytes(spec, shapes, cells / row_length, set_bytes);
+  bytes += projection_bytes(spec, shapes, rows);
   bytes += network_bytes(spec, cells, set_bytes);
   if (spec.coordination.convention)
-    bytes += static_cast<double>(spec.agents.size()) * (cells * sizeof(float) + cells / row_length * 8);
-  bytes += cells / row_length * 80;  // bookkeeping of rows
+    bytes += static_cast<double>(spec.agents.size()) * (cells * sizeof(float) + rows.count * 8);
+  bytes += rows.count * 80;  // bookkeeping of rows
   return bytes;
 }
 

@@ -9,9 +9,6 @@
 namespace coordreq {
 namespace {
 
-/// Lanes of a row; at a byte each a quarter of the caches of today.
-constexpr std::int64_t kMostLanes = 8192;
-
 /// As far as the offsets of a dimension go, either way; nothing if it does not move by offsets alone, or
 /// farther than it is long.
 std::optional<RowMargins> margins(const TransitionTable& table, const GridDimension& dimension) {
@@ -47,7 +44,8 @@ UniformGrid join_rows(const Abstraction& abstraction) {
   std::int64_t lanes = 1;
   for (std::size_t i = grid.size() - 1; i > 0; --i) {
     const auto own = margins(abstraction.tables[i], grid[i]);
-    if (!own || !is_followed_by_none(abstraction.tables, i) || lanes * grid[i].count > kMostLanes) break;
+    if (!own || !is_followed_by_none(abstraction.tables, i) || lanes * grid[i].count > kMostJoinedLanes)
+      break;
     gaps.insert(gaps.begin(), own->before + own->after);
     lanes *= grid[i].count + gaps.front();
   }

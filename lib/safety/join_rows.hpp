@@ -1,8 +1,13 @@
 #pragma once
 
+#include <cstdint>
+
 #include "abstraction/abstraction.hpp"
 
 namespace coordreq {
+
+/// Lanes of a row along several dimensions, at the most; at a byte each a quarter of the caches of today.
+inline constexpr std::int64_t kMostJoinedLanes = 8192;
 
 /// The grid of an abstraction with rows along as many of the last dimensions as can be: each of them moves by
 /// offsets that depend on none of them, and none of the others depends on them. So do integrators (x' = x +

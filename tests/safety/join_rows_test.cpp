@@ -31,7 +31,8 @@ TEST(JoinRows, TakesAllThatMoveByOffsetsOfTheirOwn) {
 
 TEST(JoinRows, StopsWhereAStateDependsOnAnother) {
   EXPECT_EQ(across(R"({"a": "a + u", "b": "b + u", "c": "c + v", "d": "d + c"})"), 3U);  // d on c
-  EXPECT_EQ(across(R"({"a": "a + u", "b": "b + a / 10", "c": "c + v", "d": "d - v"})"), 1U);  // across rows only
+  EXPECT_EQ(across(R"({"a": "a + u", "b": "b + a / 10", "c": "c + v", "d": "d - v"})"),
+            1U);                                                                         // across rows only
   EXPECT_EQ(across(R"({"a": "a + d", "b": "b + u", "c": "c + v", "d": "d - v"})"), 3U);  // a on d
 }
 
