@@ -15,7 +15,7 @@ namespace coordreq {
 namespace {
 
 /// Bytes that the program takes before any problem: code, libraries, stacks, buffers of the writer.
-constexpr double kFixedBytes = 24.0 * 1024 * 1024;
+constexpr double kFixedBytes = 21.5 * 1024 * 1024;
 
 double count_product(const ProblemSpec& spec) {
   double cells = 1;
@@ -103,11 +103,11 @@ double projected_actions(const ProblemSpec& spec, const PartitionSpec& partition
   return sum;
 }
 
-/// The projections of one partition. As products they are a few boxes a row, and most rows need none; rows
-/// along several dimensions have hundreds of parts, and a label or two a cell.
+/// The projections of one partition. As products they are a few boxes a row, and most rows need none; in rows
+/// along several dimensions most cells have a label.
 double projection_bytes(const ProblemSpec& spec, const PartitionSpec& partition,
                         const std::vector<TableShape>& shapes, const Rows& rows) {
-  const double boxes_of_row = rows.joined ? 3300 + 2 * rows.lanes : 220;
+  const double boxes_of_row = rows.joined ? 1.45 * rows.lanes : 220;
   const bool boxes = is_product(partition, spec, shapes) && !spec.abstraction.between_samples &&
                      !spec.controller.allow && !spec.controller.file &&
                      spec.controller.synthesis == Synthesis::maximal;
@@ -162,6 +162,16 @@ double listed_bytes(const ProblemSpec& spec, double cells, double set_bytes) {
   return cells * std::ceil(inputs / 8) + inputs * (set_bytes + rows * sizeof(std::uint32_t));
 }
 
+/// Blocks of a unit that SumReader keeps eroded, for two threads: some dozen, in about nine sizes.
+double block_bytes(const ProblemSpec& spec, const std::vector<TableShape>& shapes) {
+  constexpr double kMostBytes = 16.0 * 1024 * 1024;
+  double cells = 1;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (shapes[i].sum) cells *= static_cast<double>(spec.states[i].grid.count) + 6;
+  }
+  return 2 * std::min(kMostBytes, 40 * 9 * cells);
+}
+
 double estimate_memory(const ProblemSpec& given) {
   // What is cut into rows is the engine's order of the states.
   const ProblemSpec spec = laid_out(given, choose_layout(given));
@@ -181,6 +191,7 @@ double estimate_memory(const ProblemSpec& given) {
       bytes += shape.bytes + 2 * row_choices(shape, spec) * sizeof(std::uint32_t);
     }
   }
+  if (keeps_sums) bytes += block_bytes(spec, shapes);
   bytes += condition_bytes(spec.safe, spec);
   if (spec.controller.allow) bytes += condition_bytes(*spec.controller.allow, spec);
   if (spec.controller.file) bytes += listed_bytes(spec, cells, set_bytes);
