@@ -70,7 +70,7 @@ AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const CommandLine
 }  // namespace
 
 ExitCode run_analyze(const CommandLine& line) {
-  const ProblemSpec spec = load_spec(line.path);
+  const ProblemSpec spec = load_spec(line.path, line.settings);
   const AnalysisSummary summary = analyze_with_progress(spec, line);
   if (line.json) {
     write_output(summary_json(summary, spec));

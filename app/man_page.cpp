@@ -83,18 +83,19 @@ std::string option_entry(const OptionHelp& option) {
 
 std::string command_heading(const std::string& program, const CommandHelp& command) {
   std::string heading = bold(program + " " + command.name);
-  if (!command.argument.empty()) heading += " " + italic(command.argument);
-  return heading + (command.many_arguments ? "..." : "");
+  for (const ArgumentHelp& argument : command.arguments)
+    heading += " " + italic(argument.name) + (argument.many ? "..." : "");
+  return heading;
 }
 
 std::string command_entry(const ProgramHelp& help, const CommandHelp& command,
                           const std::vector<OptionHelp>& common) {
   std::string text =
       fmt::format(".SS {}\n{}", command_heading(help.name, command), sentence(command.description));
-  if (!command.argument.empty()) {
-    text += ".TP\n" + value_text({command.argument});
-    if (!command.argument_value.words().empty()) text += " (" + value_text(command.argument_value) + ")";
-    text += "\n" + sentence(command.argument_description);
+  for (const ArgumentHelp& argument : command.arguments) {
+    text += ".TP\n" + value_text({argument.name});
+    if (!argument.value.words().empty()) text += " (" + value_text(argument.value) + ")";
+    text += "\n" + sentence(argument.description);
   }
   for (const OptionHelp& option : command.options) {
     if (std::find(common.begin(), common.end(), option) == common.end()) text += option_entry(option);

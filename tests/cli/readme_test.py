@@ -23,7 +23,7 @@ class Cases(Case):
         (self.folder / "configs").symlink_to(CONFIGS)
         environment = dict(os.environ, PATH=f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}")
         sessions = blocks("console")
-        self.assertEqual(len(sessions), 12)
+        self.assertEqual(len(sessions), 13)
         for session in sessions:
             command, expected = re.fullmatch(r"(?s)\$ ([^\n]*)\n(.*)", session).groups()
             result = subprocess.run(
