@@ -48,7 +48,7 @@ void check_global_arguments(const CLI::App& app) {
 std::string usage(const CommandInfo& info) {
   std::string text = info.name;
   for (const ArgumentInfo& argument : info.arguments) text += std::string(" ") + argument.name;
-  return text;
+  return text + (info.many ? "..." : "");
 }
 
 /// "takes one argument, SPEC"

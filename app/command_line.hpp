@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/simulate_arguments.hpp"
+#include "app/sweep.hpp"
 #include "base/error.hpp"
-#include "spec/set_value.hpp"
 
 namespace coordreq {
 
@@ -18,6 +18,7 @@ struct CommandLine {
   std::vector<std::string> paths;           ///< all arguments that are no options
   std::string path;                         ///< the first of them: SPEC or RESULTS
   std::vector<SpecSetting> settings;        ///< --set, in their order
+  std::vector<Sweep> sweeps;                ///< --sweep, in their order
   std::optional<std::string> output;        ///< -o
   std::optional<std::string> junit;         ///< --junit
   std::optional<std::string> at;            ///< --at; none: states come from standard input

@@ -42,9 +42,14 @@ void add_set_option(const Adder& add, RawArguments& raw) {
 }
 
 void add_analyze_options(const Adder& add, RawArguments& raw) {
-  add.one("-o,--output", raw.output, "Results file (default: NAME.h5 in the current folder)", "FILE");
+  add.one("-o,--output", raw.output,
+          "Results file (default: NAME.h5 in the current folder), or a folder for several", "FILE");
   add.one("--junit", raw.junit, "Also write the requirements as a JUnit report", "FILE");
   add_set_option(add, raw);
+  add.many("--sweep", raw.sweeps,
+           "Analyse with each of these values and print a table; repeated: with each combination; results "
+           "files are only written with -o",
+           "PATH=VALUE,VALUE");
 }
 
 void add_export_options(const Adder& add, RawArguments& raw) {
@@ -128,7 +133,11 @@ void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
 
 const std::vector<CommandInfo>& all_commands() {
   static const std::vector<CommandInfo> commands = {
-      {"analyze", "Run the whole analysis and write a results file", run_analyze, {kSpec}},
+      {"analyze",
+       "Run the whole analysis and write a results file, or one for each of several specs",
+       run_analyze,
+       {kSpec},
+       true},
       {"validate",
        "Check a spec; print sizes, which state depends on what, and a memory estimate",
        run_validate,

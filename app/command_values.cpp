@@ -41,13 +41,6 @@ std::string file_name(const std::string& text, const std::string& option) {
   throw UsageError(fmt::format("expected the name of a file, found '{}'", text), option);
 }
 
-/// "constants.R=0.7"
-SpecSetting parse_setting(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals != 0 && equals != std::string::npos) return {text.substr(0, equals), text.substr(equals + 1)};
-  throw UsageError(fmt::format("expected PATH=VALUE, as constants.R=0.7, found '{}'", text), "--set");
-}
-
 void add_export_values(const RawArguments& raw, const CLI::App& command, CommandLine& line) {
   if (command.count("--format") == 0) throw UsageError("no --format, expected csv, scs, c-header or vtk");
   line.format = raw.format;
@@ -112,6 +105,7 @@ CommandLine checked_values(const RawArguments& raw, const CommandInfo& info, con
   if (info.run == run_compare) add_compare_values(raw, command, line);
   line.simulate = raw.simulate;
   for (const std::string& text : raw.settings) line.settings.push_back(parse_setting(text));
+  for (const std::string& text : raw.sweeps) line.sweeps.push_back(parse_sweep(text));
   if (info.run == run_analyze && command.count("--junit") > 0) line.junit = file_name(raw.junit, "--junit");
   if (writes_a_file(info) && command.count("--output") > 0) line.output = file_name(raw.output, "--output");
   return line;

@@ -116,16 +116,20 @@ std::string shortened(const std::vector<std::int64_t>& numbers) {
 
 std::string Table::text() const {
   std::vector<std::size_t> widths(columns_.size(), 0);
+  const auto aligned = [this](const auto& row) {
+    return row.size() - (row.size() < columns_.size() ? 1 : 0);
+  };
   for (const auto& row : rows_) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], character_count(row[i]));
+    for (std::size_t i = 0; i < aligned(row); ++i) widths[i] = std::max(widths[i], character_count(row[i]));
   }
   std::string text;
   for (const auto& row : rows_) {
     std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
+    for (std::size_t i = 0; i < aligned(row); ++i) {
       const std::string padding(widths[i] - character_count(row[i]), ' ');
       line += (i == 0 ? "" : "  ") + (columns_[i] == Align::left ? row[i] + padding : padding + row[i]);
     }
+    if (aligned(row) < row.size()) line += (line.empty() ? "" : "  ") + row.back();
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   return text;

@@ -33,12 +33,13 @@ namespace coordreq {
 /// The numbers with blanks between, the middle of a long list left out: "9 8 7 6 5 4 ... 2 1 0".
 [[nodiscard]] std::string shortened(const std::vector<std::int64_t>& numbers);
 
-/// Rows of cells in aligned columns, two blanks between; the first row is the heading.
+/// Rows of cells in aligned columns, two blanks between; the first row is the heading. The last cell of a row
+/// with fewer cells than columns runs on, without making its column wider.
 class Table {
  public:
   enum class Align : std::uint8_t { left, right };
 
-  /// @param columns their alignment; every row has that many cells
+  /// @param columns their alignment; every row has at most that many cells
   explicit Table(std::vector<Align> columns) : columns_(std::move(columns)) {}
 
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }

@@ -46,7 +46,7 @@ class Cases(Case):
         )
 
     def test_no_spec(self):
-        self.assert_fails(2, "no SPEC, expected the name of a file: coordreq analyze SPEC", "analyze")
+        self.assert_fails(2, "no SPEC, expected the name of a file: coordreq analyze SPEC...", "analyze")
 
     def test_no_results(self):
         self.assert_fails(2, "no RESULTS, expected the name of a file: coordreq info RESULTS", "info")

@@ -23,5 +23,5 @@ def arguments(help_text):
         return []
     listed = help_text.split("\nPositionals:\n")[1].split("\n\n")[0]
     listed = re.sub(r"\n {20,}", "  ", listed)
-    found = re.findall(r"(?m)^  (\S+) .*?REQUIRED( \.\.\.)?\s+(.*)$", listed)
+    found = re.findall(r"(?m)^  (\S+)( \.\.\.)?(?: \S+)? REQUIRED\s+(.*)$", listed)
     return [(name, bool(many), description) for name, many, description in found]
