@@ -60,18 +60,19 @@ bool is_batch(const CommandLine& line) {
 ExitCode run_analyze_batch(const CommandLine& line) {
   std::vector<PlannedRun> plan = plan_runs(line);
   if (line.junit) try_to_write(*line.junit);
+  const BatchTable table(plan, line);
+  const bool is_text = !line.json && !line.quiet;
+  if (is_text) write_output(table.heading());
   ThreadTeam team(line.threads);
   std::vector<FinishedRun> runs;
   for (std::size_t i = 0; i < plan.size(); ++i) {
     const std::string prefix = fmt::format("{} of {}, ", i + 1, plan.size());
     runs.push_back(finish(std::move(plan[i]), line, team, prefix));
+    if (is_text) write_output(table.row(runs.back()));
   }
   if (line.junit) write_report(*line.junit, runs);
-  if (line.json) {
-    write_output(batch_json(runs));
-  } else if (!line.quiet) {
-    write_output(batch_text(runs, line));
-  }
+  if (is_text) write_output(closing_text(runs, line));
+  if (line.json) write_output(batch_json(runs));
   return static_cast<ExitCode>(worst_exit_code(runs));
 }
 

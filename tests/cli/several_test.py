@@ -3,10 +3,12 @@
 import json
 import os
 import re
+import signal
+import subprocess
 import unittest
 import xml.etree.ElementTree
 
-from program import SPEC, Case, spec_with
+from program import PROGRAM, SPEC, Case, spec_with
 
 MET = {"name": "there", "where": "x <= 0.1 and y <= 0.1 and x >= 0 and y >= 0", "min_delay": 1}
 MISSED = {"name": "far", "where": "x >= 2.9 and x <= 3.1 and y >= 2.9 and y <= 3.1", "min_delay": 1}
@@ -14,10 +16,10 @@ MISSED = {"name": "far", "where": "x >= 2.9 and x <= 3.1 and y >= 2.9 and y <= 3
 GOOD = spec_with(name="good", requirements=[dict(MET, where="x >= 0.9 and x <= 1.1 and y >= 0.9 and y <= 1.1")])
 BAD = spec_with(name="bad", requirements=[*GOOD["requirements"], MISSED])
 
-TABLE = """spec       cells  safe  invariant  F  unbounded  longest finite delay  requirements met  seconds  memory
-good.json     25    22         22  4          0  3 steps (1.5 s)                 1 of 1  SECONDS  MEMORY
+TABLE = """spec       cells  safe  invariant  requirements met   seconds    memory     F  unbounded  longest finite delay
+good.json     25    22         22            1 of 1      SECS    MEMORY     4          0  3 steps (1.5 s)
 none.json  error: no such file (none.json)
-bad.json      25    22         22  4          0  3 steps (1.5 s)                 1 of 2  SECONDS  MEMORY
+bad.json      25    22         22            1 of 2      SECS    MEMORY     4          0  3 steps (1.5 s)
 
 results in 2 files in the current folder
 """
@@ -32,7 +34,7 @@ class Cases(Case):
     def table(self, *arguments, code, errors=""):
         result = self.run_program("analyze", *arguments)
         self.assertEqual((result.stderr.decode(), result.returncode), (errors, code))
-        return re.sub(r" +[0-9.]+ +[0-9]+ MiB$", "  SECONDS  MEMORY", result.stdout.decode(), flags=re.M)
+        return re.sub(r"[0-9.]{4} +[0-9]+ MiB", "SECS    MEMORY", result.stdout.decode())
 
     def test_table(self):
         error = "coordreq: error: none.json: no such file (none.json)\n"
@@ -101,6 +103,33 @@ class Cases(Case):
         (error,) = root.iter("error")
         self.assertEqual(error.get("message"), "no such file (none.json)")
         self.assertEqual([case.get("name") for case in root[2]], ["there", "far"])
+
+    def test_partitions_and_limits(self):
+        apart = [{"name": f"{name}", "classes": []} for name in "p"]
+        together = [{"name": "q", "classes": [["a", "b"]]}]
+        self.write("all.json", spec_with(name="all", coordination={"partitions": "all"}))
+        self.write("cut.json", spec_with(name="cut", coordination={"partitions": apart, "max_delay": 2}))
+        self.write("two.json", spec_with(name="two", coordination={"partitions": [*together, *apart]}))
+        lines = self.table("all.json", "cut.json", "two.json", code=0).splitlines()
+        self.assertRegex(lines[1], r"  0 / 4 +22 / 0  - / 3 steps \(1\.5 s\)$")
+        self.assertRegex(lines[2], r"  not reached +unknown  at least 2 steps \(1 s\)$")
+        self.assertRegex(lines[3], r"  0 / 4 +22 / 0  - / 3 steps \(1\.5 s\)$")
+
+    def test_lines_before_an_interrupt_are_there(self):
+        axes = [{"name": name, "lower": 0, "upper": 3000, "step": 1} for name in "xy"]
+        self.write("long.json", spec_with(name="long", states=axes, safe="x + y <= 3000"))
+        process = subprocess.Popen(
+            [PROGRAM, "analyze", "good.json", "long.json"],
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
+        heading, first = process.stdout.readline(), process.stdout.readline()
+        process.send_signal(signal.SIGINT)
+        rest, errors = process.communicate(timeout=60)
+        self.assertEqual((heading[:4], first[:9], rest), (b"spec", b"good.json", b""))
+        self.assertEqual((errors, process.returncode), (b"coordreq: error: interrupted\n", 130))
+        self.assertEqual(self.files(), ["bad.json", "good.h5", "good.json", "long.json"])
 
     def test_two_that_would_write_one_file(self):
         (self.folder / "sub").mkdir()
