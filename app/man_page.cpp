@@ -31,6 +31,16 @@ coordreq query circle.h5 \-\-at x1=0.1,x2=0
 coordreq verify circle.h5
 .fi
 .RE
+.PP
+The answer for several values in the spec, and what one of them costs, cell by cell:
+.PP
+.RS 4
+.nf
+coordreq analyze circle.json \-\-sweep constants.R=0.8,0.7,0.6
+coordreq analyze circle.json \-\-set constants.R=0.7 \-o smaller.h5
+coordreq compare circle.h5 smaller.h5
+.fi
+.RE
 )";
 
 /// As running text: no character means anything to roff, and a hyphen is one that can be copied.

@@ -17,7 +17,7 @@ int gravity(const DelayChange& change) {
   return change.before == ResultsReader::kNever ? 1 : 0;
 }
 
-/// Steps between the two delays; REQUIRES: lost(change).
+/// Steps between the two delays; REQUIRES: has_lost(change).
 std::int64_t difference(const DelayChange& change) {
   return std::int64_t{change.before} - change.after;
 }
