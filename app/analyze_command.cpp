@@ -1,85 +1,44 @@
-#include "analysis/analyze.hpp"
-
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <optional>
-
+#include "app/analyze_batch.hpp"
 #include "app/analyze_report.hpp"
+#include "app/analyze_run.hpp"
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/junit_report.hpp"
 #include "app/load_spec.hpp"
-#include "app/memory_limit.hpp"
-#include "app/progress_line.hpp"
 #include "app/standard_streams.hpp"
-#include "results/write_results.hpp"
 
 namespace coordreq {
 namespace {
 
-/// Lets a signal end the program at once in every stage that has no temporary file.
-class InterruptPolicy {
- public:
-  // The first thing an analysis does is to try whether it can write.
-  InterruptPolicy() { delay_.emplace(); }
-
-  void enter(const std::string& stage) {
-    if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
-    if (stage != "writing") {
-      delay_.reset();
-    } else if (!delay_) {
-      delay_.emplace();
-    }
-  }
-
- private:
-  std::optional<InterruptDelay> delay_;
-};
-
-bool is_same_file(const std::string& a, const std::string& b) {
-  using std::filesystem::absolute, std::filesystem::weakly_canonical;
-  return weakly_canonical(absolute(a)) == weakly_canonical(absolute(b));
-}
-
-AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const CommandLine& line) {
-  InterruptPolicy interrupts;
-  ProgressLine shown(!line.quiet);
-  AnalysisOptions options;
-  options.output = line.output.value_or(spec.name + ".h5");
-  options.max_memory = line.max_memory ? line.max_memory : available_memory();
-  options.progress = [&shown, &interrupts](const Progress& progress) {
-    interrupts.enter(progress.stage);
-    shown.update(progress);
-  };
+AnalysisSummary analyze_and_write(const ProblemSpec& spec, const CommandLine& line) {
+  const std::string output = line.output.value_or(spec.name + ".h5");
   ThreadTeam team(line.threads);
-  if (line.junit && is_same_file(*line.junit, options.output)) {
+  if (line.junit && is_same_file(*line.junit, output)) {
     throw UsageError(fmt::format("expected another file than the results, found '{}'", *line.junit),
                      "--junit");
   }
-  if (line.junit) check_writable(*line.junit);
-  AnalysisSummary summary = analyze(spec, options, team);
-  if (line.junit) write_junit(*line.junit, summary, spec);
-  if (is_interrupted()) {
-    throw Error(ExitCode::interrupted, "interrupted when the results were complete", options.output);
-  }
+  if (line.junit) try_to_write(*line.junit);
+  AnalysisSummary summary = analyze_with_progress(spec, output, line, team, "");
+  const InterruptDelay delay;
+  if (line.junit) write_junit(*line.junit, {{.name = spec.name, .spec = &spec, .summary = &summary}});
+  check_interrupted(output);
   return summary;
 }
 
 }  // namespace
 
 ExitCode run_analyze(const CommandLine& line) {
-  const ProblemSpec spec = load_spec(line.path);
-  const AnalysisSummary summary = analyze_with_progress(spec, line);
+  if (is_batch(line)) return run_analyze_batch(line);
+  const ProblemSpec spec = load_spec(line.path, line.settings);
+  const AnalysisSummary summary = analyze_and_write(spec, line);
   if (line.json) {
-    write_output(summary_json(summary, spec));
+    write_output(json_text(summary_json(summary, spec)));
   } else if (!line.quiet) {
     write_output(summary_text(summary, spec));
   }
-  const bool hold = std::all_of(summary.requirements.begin(), summary.requirements.end(),
-                                [](const ResultRequirement& requirement) { return requirement.holds; });
-  return hold ? ExitCode::success : ExitCode::requirement_failed;
+  return verdict(summary);
 }
 
 }  // namespace coordreq

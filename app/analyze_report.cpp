@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "app/coalition_report.hpp"
-#include "app/json_text.hpp"
 #include "app/network_report.hpp"
 #include "app/requirement_report.hpp"
 #include "app/text.hpp"
@@ -85,13 +84,6 @@ std::string partition_text(const PartitionSummary& partition, const AnalysisSumm
   return fmt::format("\npartition {}\n{}  {}\n", partition.name, table.text(), meaning(partition, summary));
 }
 
-/// The largest delay of the cells that have a finite one.
-std::string longest_text(const PartitionSummary& partition, const AnalysisSummary& summary) {
-  const auto last = static_cast<std::int64_t>(partition.layers.size()) - 1;
-  if (partition.truncated) return "at least " + duration(last, summary.period, summary.period_unit);
-  return last == 0 ? "" : duration(last - 1, summary.period, summary.period_unit);
-}
-
 /// One line a partition.
 std::string partitions_table(const AnalysisSummary& summary) {
   using Align = Table::Align;
@@ -105,9 +97,9 @@ std::string partitions_table(const AnalysisSummary& summary) {
   Table table(columns);
   table.add(heading);
   for (const PartitionSummary& partition : summary.partitions) {
-    std::vector<std::string> row = {
-        partition.name, partition.truncated ? "not reached" : std::to_string(partition.fixed_point_index),
-        partition.truncated ? "unknown" : cells(partition.fixed_point), longest_text(partition, summary)};
+    std::vector<std::string> row = {partition.name, fixed_point_text(partition),
+                                    partition.truncated ? "unknown" : cells(partition.fixed_point),
+                                    longest_delay_text(partition, summary)};
     if (has_delay) row.push_back(cells(partition.never_without_connection));
     table.add(std::move(row));
   }
@@ -192,7 +184,21 @@ std::string summary_text(const AnalysisSummary& summary, const ProblemSpec& spec
          coalition_text(summary) + requirements_text(summary, spec) + closing_text(summary);
 }
 
-std::string summary_json(const AnalysisSummary& summary, const ProblemSpec& spec) {
+std::string fixed_point_text(const PartitionSummary& partition) {
+  return partition.truncated ? "not reached" : std::to_string(partition.fixed_point_index);
+}
+
+std::string unbounded_text(const PartitionSummary& partition) {
+  return partition.truncated ? "unknown" : grouped(partition.fixed_point);
+}
+
+std::string longest_delay_text(const PartitionSummary& partition, const AnalysisSummary& summary) {
+  const auto last = static_cast<std::int64_t>(partition.layers.size()) - 1;
+  if (partition.truncated) return "at least " + duration(last, summary.period, summary.period_unit);
+  return last == 0 ? "" : duration(last - 1, summary.period, summary.period_unit);
+}
+
+Json summary_json(const AnalysisSummary& summary, const ProblemSpec& spec) {
   Json json;
   json["name"] = summary.name;
   json["states"] = summary.states;
@@ -218,7 +224,7 @@ std::string summary_json(const AnalysisSummary& summary, const ProblemSpec& spec
         Json{{"agent", own.agent}, {"mean", own.mean}, {"full", own.full}, {"histogram", own.histogram}});
   }
   json["requirements"] = requirements_json(summary, spec);
-  json["output"] = summary.output;
+  json["output"] = summary.output.empty() ? Json() : Json(summary.output);
   json["threads"] = summary.threads;
   json["seconds"] = Json::object();
   for (const auto& [stage, seconds] : summary.seconds) json["seconds"][stage] = seconds;
@@ -228,7 +234,7 @@ std::string summary_json(const AnalysisSummary& summary, const ProblemSpec& spec
         {"sweeps", work.sweeps}, {"rows_visited", work.rows_visited}, {"rows_skipped", work.rows_skipped}};
   }
   json["peak_memory_bytes"] = summary.peak_memory_bytes;
-  return json_text(json);
+  return json;
 }
 
 }  // namespace coordreq

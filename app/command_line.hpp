@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -7,13 +8,17 @@
 #include <vector>
 
 #include "app/simulate_arguments.hpp"
+#include "app/sweep.hpp"
 #include "base/error.hpp"
 
 namespace coordreq {
 
 /// What the user asked for, read and checked.
 struct CommandLine {
-  std::string path;                         ///< SPEC or RESULTS
+  std::vector<std::string> paths;           ///< all arguments that are no options
+  std::string path;                         ///< the first of them: SPEC or RESULTS
+  std::vector<SpecSetting> settings;        ///< --set, in their order
+  std::vector<Sweep> sweeps;                ///< --sweep, in their order
   std::optional<std::string> output;        ///< -o
   std::optional<std::string> junit;         ///< --junit
   std::optional<std::string> at;            ///< --at; none: states come from standard input
@@ -24,6 +29,8 @@ struct CommandLine {
   int threads = 0;                          ///< 0: all cores
   std::optional<std::uint64_t> max_memory;  ///< bytes
   std::optional<std::int64_t> sample;       ///< --sample: cells that verify looks at
+  std::int64_t tolerance = 0;               ///< --tolerance: steps that a cell may lose
+  std::size_t limit = 5;                    ///< --limit: cells that are named for each partition
   bool json = false;
   bool quiet = false;
   SimulateArguments simulate;

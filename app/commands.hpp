@@ -11,6 +11,7 @@ ExitCode run_info(const CommandLine& line);
 ExitCode run_query(const CommandLine& line);
 ExitCode run_simulate(const CommandLine& line);
 ExitCode run_verify(const CommandLine& line);
+ExitCode run_compare(const CommandLine& line);
 ExitCode run_export(const CommandLine& line);
 ExitCode run_report(const CommandLine& line);
 ExitCode run_schema(const CommandLine& line);

@@ -100,9 +100,11 @@ std::string options_function(const ProgramHelp& help) {
 std::string argument_function(const ProgramHelp& help) {
   std::string text = "\n_coordreq_argument() {\n  kind=\n  case $command,$arguments in\n";
   for (const CommandHelp& command : help.commands) {
-    if (command.argument.empty()) continue;
-    text += fmt::format("    {},{}) kind='{}' ;;\n", command.name, command.many_arguments ? "*" : "0",
-                        kind_of(command.argument_value));
+    for (std::size_t i = 0; i < command.arguments.size(); ++i) {
+      const ArgumentHelp& argument = command.arguments[i];
+      text += fmt::format("    {},{}) kind='{}' ;;\n", command.name, argument.many ? "*" : std::to_string(i),
+                          kind_of(argument.value));
+    }
   }
   return text + "  esac\n}\n";
 }

@@ -17,7 +17,8 @@ function __coordreq_in --argument-names command
     test (count $words) -gt 1; and test $words[2] = $command
 end
 
-# COMMAND HOW_MANY OPTION...: in COMMAND with fewer arguments so far; each OPTION takes a value.
+# COMMAND FROM TO OPTION...: in COMMAND with at least FROM and fewer than TO arguments so far; each OPTION takes
+# a value.
 function __coordreq_wants
     __coordreq_in $argv[1]; or return
     set -l arguments 0
@@ -25,13 +26,13 @@ function __coordreq_wants
     for word in (commandline -opc)[3..]
         if test $is_value = 1
             set is_value 0
-        else if contains -- $word $argv[3..]
+        else if contains -- $word $argv[4..]
             set is_value 1
         else if not string match -q -- '-?*' $word
             set arguments (math $arguments + 1)
         end
     end
-    test $is_value = 0; and test $arguments -lt $argv[2]
+    test $is_value = 0; and test $arguments -ge $argv[2]; and test $arguments -lt $argv[3]
 end
 
 # Folders, and files whose names end in ENDING.
@@ -81,10 +82,15 @@ std::string value_options(const CommandHelp& command) {
   return names;
 }
 
-std::string argument_line(const CommandHelp& command) {
-  return fmt::format("complete -c coordreq -n '__coordreq_wants {} {}{}' {}\n", command.name,
-                     command.many_arguments ? 1000000 : 1, value_options(command),
-                     value_source(command.argument_value));
+std::string argument_lines(const CommandHelp& command) {
+  constexpr std::size_t kMany = 1'000'000;
+  std::string lines;
+  for (std::size_t i = 0; i < command.arguments.size(); ++i) {
+    const ArgumentHelp& argument = command.arguments[i];
+    lines += fmt::format("complete -c coordreq -n '__coordreq_wants {} {} {}{}' {}\n", command.name, i,
+                         argument.many ? kMany : i + 1, value_options(command), value_source(argument.value));
+  }
+  return lines;
 }
 
 }  // namespace
@@ -98,7 +104,7 @@ std::string fish_completion(const ProgramHelp& help) {
   for (const CommandHelp& command : help.commands) {
     text += fmt::format("\ncomplete -c coordreq -n __coordreq_no_command -a {} -d '{}'\n", command.name,
                         quoted(command.description));
-    if (!command.argument.empty()) text += argument_line(command);
+    text += argument_lines(command);
     for (const OptionHelp& option : command.options) {
       text += option_line("__coordreq_in " + command.name, option);
     }

@@ -52,9 +52,10 @@ std::string option_specifications(const OptionHelp& option) {
 std::string command_case(const CommandHelp& command) {
   std::string text = fmt::format("    {})\n      _arguments -s", command.name);
   for (const OptionHelp& option : command.options) text += option_specifications(option);
-  if (!command.argument.empty()) {
-    text += fmt::format(" \\\n        '{}{}'", command.many_arguments ? "*" : "1",
-                        value_action(command.argument, command.argument_value));
+  for (std::size_t i = 0; i < command.arguments.size(); ++i) {
+    const ArgumentHelp& argument = command.arguments[i];
+    text += fmt::format(" \\\n        '{}{}'", argument.many ? "*" : std::to_string(i + 1),
+                        value_action(argument.name, argument.value));
   }
   return text + "\n      ;;\n";
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
 #include <pugixml.hpp>
 #include <sstream>
@@ -29,12 +28,17 @@ std::string xml_text(const std::string& text) {
   return result;
 }
 
-void add_case(pugi::xml_node suite, const ResultRequirement& result, const RequirementSpec& requirement,
-              const ProblemSpec& spec) {
+pugi::xml_node add_case(pugi::xml_node suite, const std::string& class_name, const std::string& name) {
   pugi::xml_node test = suite.append_child("testcase");
-  set(test, "classname", spec.name);
-  set(test, "name", xml_text(result.name));
+  set(test, "classname", class_name);
+  set(test, "name", name);
   set(test, "time", "0");
+  return test;
+}
+
+void add_requirement(pugi::xml_node suite, const std::string& class_name, const ResultRequirement& result,
+                     const RequirementSpec& requirement, const ProblemSpec& spec) {
+  pugi::xml_node test = add_case(suite, class_name, xml_text(result.name));
   if (result.holds) return;
   pugi::xml_node failure = test.append_child("failure");
   set(failure, "message", failure_line(result, spec));
@@ -44,33 +48,66 @@ void add_case(pugi::xml_node suite, const ResultRequirement& result, const Requi
   failure.append_child(pugi::node_pcdata).set_value(text.c_str());
 }
 
+/// What suites say of themselves, and the sum of them.
+struct Totals {
+  std::size_t tests = 0;
+  std::size_t failures = 0;
+  std::size_t errors = 0;
+  double seconds = 0;
+
+  void add(const Totals& other) {
+    tests += other.tests;
+    failures += other.failures;
+    errors += other.errors;
+    seconds += other.seconds;
+  }
+};
+
+Totals totals_of(const JunitSuite& suite) {
+  if (suite.summary == nullptr) return {.tests = 1, .errors = 1};
+  const std::vector<ResultRequirement>& all = suite.summary->requirements;
+  Totals totals{.tests = all.size()};
+  for (const ResultRequirement& requirement : all) totals.failures += requirement.holds ? 0U : 1U;
+  for (const auto& stage : suite.summary->seconds) totals.seconds += stage.second;
+  return totals;
+}
+
+void set_head(pugi::xml_node node, const std::string& name, const Totals& totals) {
+  set(node, "name", name);
+  set(node, "tests", std::to_string(totals.tests));
+  set(node, "failures", std::to_string(totals.failures));
+  set(node, "errors", std::to_string(totals.errors));
+  set(node, "time", fmt::format("{:.3f}", totals.seconds));
+}
+
+void add_suite(pugi::xml_node root, const JunitSuite& own) {
+  pugi::xml_node suite = root.append_child("testsuite");
+  const std::string name = xml_text(own.name);
+  set_head(suite, name, totals_of(own));
+  if (own.summary == nullptr) {
+    set(add_case(suite, name, "analysis").append_child("error"), "message", xml_text(own.error));
+    return;
+  }
+  for (std::size_t r = 0; r < own.summary->requirements.size(); ++r)
+    add_requirement(suite, name, own.summary->requirements[r], own.spec->requirements[r], *own.spec);
+}
+
 }  // namespace
 
-std::string junit_text(const AnalysisSummary& summary, const ProblemSpec& spec) {
-  const auto failures =
-      std::count_if(summary.requirements.begin(), summary.requirements.end(),
-                    [](const ResultRequirement& requirement) { return !requirement.holds; });
-  double seconds = 0;
-  for (const auto& stage : summary.seconds) seconds += stage.second;
+std::string junit_text(const std::vector<JunitSuite>& suites) {
+  Totals totals;
+  for (const JunitSuite& suite : suites) totals.add(totals_of(suite));
   pugi::xml_document document;
   pugi::xml_node root = document.append_child("testsuites");
-  pugi::xml_node suite = root.append_child("testsuite");
-  for (pugi::xml_node node : {root, suite}) {
-    set(node, "name", node == root ? "coordreq" : spec.name);
-    set(node, "tests", std::to_string(summary.requirements.size()));
-    set(node, "failures", std::to_string(failures));
-    set(node, "errors", "0");
-    set(node, "time", fmt::format("{:.3f}", seconds));
-  }
-  for (std::size_t r = 0; r < summary.requirements.size(); ++r)
-    add_case(suite, summary.requirements[r], spec.requirements[r], spec);
+  set_head(root, "coordreq", totals);
+  for (const JunitSuite& suite : suites) add_suite(root, suite);
   std::ostringstream out;
   document.save(out, "  ", pugi::format_default, pugi::encoding_utf8);
   return out.str();
 }
 
-void write_junit(const std::string& path, const AnalysisSummary& summary, const ProblemSpec& spec) {
-  const std::string text = junit_text(summary, spec);
+void write_junit(const std::string& path, const std::vector<JunitSuite>& suites) {
+  const std::string text = junit_text(suites);
   write_whole_file(path, "the JUnit report", [&](const std::string& temporary) {
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
     file << text << std::flush;

@@ -1,13 +1,17 @@
 #include "app/load_spec.hpp"
 
 #include <iostream>
-
-#include "spec/read_spec.hpp"
+#include <utility>
 
 namespace coordreq {
 
-ProblemSpec load_spec(const std::string& path) {
-  return read_spec_file(path, std::cin);
+SpecSource with_settings(SpecSource source, const std::vector<SpecSetting>& settings) {
+  for (const SpecSetting& setting : settings) source.text = with_setting(source.text, source.name, setting);
+  return source;
+}
+
+ProblemSpec load_spec(const std::string& path, const std::vector<SpecSetting>& settings) {
+  return read_spec(with_settings(read_spec_source(path, std::cin), settings));
 }
 
 }  // namespace coordreq

@@ -1,13 +1,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "spec/problem_spec.hpp"
+#include "spec/read_spec.hpp"
+#include "spec/set_value.hpp"
 
 namespace coordreq {
 
-/// The spec at `path` ("-": standard input), checked, with nothing in it that this version cannot do.
-/// @throws IoError, SpecError
-[[nodiscard]] ProblemSpec load_spec(const std::string& path);
+/// The spec at `path` ("-": standard input), as the settings make it, checked.
+/// @throws IoError, SpecError; UsageError for a setting that leads nowhere
+[[nodiscard]] ProblemSpec load_spec(const std::string& path, const std::vector<SpecSetting>& settings);
+
+/// `source` with the settings carried out, one after the other. @throws SpecError, UsageError
+[[nodiscard]] SpecSource with_settings(SpecSource source, const std::vector<SpecSetting>& settings);
 
 }  // namespace coordreq

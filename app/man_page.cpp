@@ -31,6 +31,16 @@ coordreq query circle.h5 \-\-at x1=0.1,x2=0
 coordreq verify circle.h5
 .fi
 .RE
+.PP
+The answer for several values in the spec, and what one of them costs, cell by cell:
+.PP
+.RS 4
+.nf
+coordreq analyze circle.json \-\-sweep constants.R=0.8,0.7,0.6
+coordreq analyze circle.json \-\-set constants.R=0.7 \-o smaller.h5
+coordreq compare circle.h5 smaller.h5
+.fi
+.RE
 )";
 
 /// As running text: no character means anything to roff, and a hyphen is one that can be copied.
@@ -83,18 +93,19 @@ std::string option_entry(const OptionHelp& option) {
 
 std::string command_heading(const std::string& program, const CommandHelp& command) {
   std::string heading = bold(program + " " + command.name);
-  if (!command.argument.empty()) heading += " " + italic(command.argument);
-  return heading + (command.many_arguments ? "..." : "");
+  for (const ArgumentHelp& argument : command.arguments)
+    heading += " " + italic(argument.name) + (argument.many ? "..." : "");
+  return heading;
 }
 
 std::string command_entry(const ProgramHelp& help, const CommandHelp& command,
                           const std::vector<OptionHelp>& common) {
   std::string text =
       fmt::format(".SS {}\n{}", command_heading(help.name, command), sentence(command.description));
-  if (!command.argument.empty()) {
-    text += ".TP\n" + value_text({command.argument});
-    if (!command.argument_value.words().empty()) text += " (" + value_text(command.argument_value) + ")";
-    text += "\n" + sentence(command.argument_description);
+  for (const ArgumentHelp& argument : command.arguments) {
+    text += ".TP\n" + value_text({argument.name});
+    if (!argument.value.words().empty()) text += " (" + value_text(argument.value) + ")";
+    text += "\n" + sentence(argument.description);
   }
   for (const OptionHelp& option : command.options) {
     if (std::find(common.begin(), common.end(), option) == common.end()) text += option_entry(option);

@@ -40,10 +40,10 @@ CommandHelp read_command(const CLI::App& command) {
       .name = command.get_name(), .description = command.get_description(), .options = read_options(command)};
   for (const CLI::Option* option : command.get_options()) {
     if (!option->get_positional()) continue;
-    help.argument = option->get_name(true);
-    help.argument_value.text = option->get_type_name().empty() ? help.argument : option->get_type_name();
-    help.argument_description = option->get_description();
-    help.many_arguments = takes_many(*option);
+    const std::string name = option->get_name(true);
+    const std::string takes = option->get_type_name();
+    help.arguments.push_back(
+        {name, {takes.empty() ? name : takes}, option->get_description(), takes_many(*option)});
   }
   return help;
 }

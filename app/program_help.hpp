@@ -33,13 +33,17 @@ struct OptionHelp {
   }
 };
 
+struct ArgumentHelp {
+  std::string name;  ///< "SPEC"
+  ValueHelp value;
+  std::string description;
+  bool many = false;  ///< one or more of them
+};
+
 struct CommandHelp {
   std::string name;
   std::string description;
-  std::string argument;  ///< "SPEC"; empty if the command takes none
-  ValueHelp argument_value;
-  std::string argument_description;
-  bool many_arguments = false;
+  std::vector<ArgumentHelp> arguments;  ///< in their order; only the last one may be many
   std::vector<OptionHelp> options;
 };
 
@@ -67,7 +71,7 @@ struct ExitCodeHelp {
 
 inline constexpr ExitCodeHelp kExitCodes[] = {
     {0, "done"},
-    {1, "a requirement, a verification or a run fails"},
+    {1, "a requirement, a verification, a comparison or a run fails"},
     {2, "wrong usage"},
     {3, "invalid spec or results file"},
     {4, "a limit refused"},

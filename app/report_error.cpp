@@ -11,32 +11,48 @@
 namespace coordreq {
 namespace {
 
-void print(std::string_view prefix, std::string_view what) {
-  write_diagnostics("coordreq: error: " + std::string(prefix) + printable(what) + "\n");
+constexpr const char* kNoMemory =
+    "the system gave no more memory; make the grids coarser, or find the need with \"coordreq validate\"";
+
+void print(std::string_view what) {
+  write_diagnostics("coordreq: error: " + std::string(what) + "\n");
 }
 
 int report() {
   try {
     throw;
-  } catch (const Error& error) {
-    print("", error.what());
-    return static_cast<int>(error.exit_code());
   } catch (const std::bad_alloc&) {
     // No string is built here: there may be no memory for one.
-    write_diagnostics(
-        "coordreq: error: the system gave no more memory; make the grids coarser, or find the need with "
-        "\"coordreq validate\"\n");
+    write_diagnostics("coordreq: error: ");
+    write_diagnostics(kNoMemory);
+    write_diagnostics("\n");
     return static_cast<int>(ExitCode::limit);
-  } catch (const std::exception& error) {
-    print("internal error, please report it: ", error.what());
-    return kInternalError;
   } catch (...) {
-    print("internal error, please report it: ", "an exception of unknown type");
-    return kInternalError;
+    const Failure failure = describe_current_exception();
+    print(failure.what);
+    return failure.exit_code;
   }
 }
 
 }  // namespace
+
+Failure describe_current_exception() {
+  try {
+    throw;
+  } catch (const Error& error) {
+    return {printable(error.what()), static_cast<int>(error.exit_code())};
+  } catch (const std::bad_alloc&) {
+    return {kNoMemory, static_cast<int>(ExitCode::limit)};
+  } catch (const std::exception& error) {
+    return {std::string("internal error, please report it: ") + printable(error.what()), kInternalError};
+  } catch (...) {
+    return {"internal error, please report it: an exception of unknown type", kInternalError};
+  }
+}
+
+void report_failure(const std::string& subject, const Failure& failure) {
+  print(printable(subject) + ": " + failure.what);
+}
 
 int report_current_exception() noexcept {
   try {

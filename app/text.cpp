@@ -114,20 +114,33 @@ std::string shortened(const std::vector<std::int64_t>& numbers) {
   return text;
 }
 
+std::size_t Table::aligned(const std::vector<std::string>& row) const {
+  return row.size() - (row.size() < columns_.size() ? 1 : 0);
+}
+
+void Table::add(std::vector<std::string> row) {
+  widen(row);
+  rows_.push_back(std::move(row));
+}
+
+void Table::widen(const std::vector<std::string>& row) {
+  for (std::size_t i = 0; i < aligned(row); ++i) widths_[i] = std::max(widths_[i], character_count(row[i]));
+}
+
+std::string Table::line(const std::vector<std::string>& row) const {
+  std::string line;
+  for (std::size_t i = 0; i < aligned(row); ++i) {
+    const std::size_t length = character_count(row[i]);
+    const std::string padding(widths_[i] - std::min(length, widths_[i]), ' ');
+    line += (i == 0 ? "" : "  ") + (columns_[i] == Align::left ? row[i] + padding : padding + row[i]);
+  }
+  if (aligned(row) < row.size()) line += (line.empty() ? "" : "  ") + row.back();
+  return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+}
+
 std::string Table::text() const {
-  std::vector<std::size_t> widths(columns_.size(), 0);
-  for (const auto& row : rows_) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], character_count(row[i]));
-  }
   std::string text;
-  for (const auto& row : rows_) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(widths[i] - character_count(row[i]), ' ');
-      line += (i == 0 ? "" : "  ") + (columns_[i] == Align::left ? row[i] + padding : padding + row[i]);
-    }
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
+  for (const auto& row : rows_) text += line(row);
   return text;
 }
 

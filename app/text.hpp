@@ -33,20 +33,31 @@ namespace coordreq {
 /// The numbers with blanks between, the middle of a long list left out: "9 8 7 6 5 4 ... 2 1 0".
 [[nodiscard]] std::string shortened(const std::vector<std::int64_t>& numbers);
 
-/// Rows of cells in aligned columns, two blanks between; the first row is the heading.
+/// Rows of cells in aligned columns, two blanks between; the first row is the heading. The last cell of a row
+/// with fewer cells than columns runs on, without making its column wider.
 class Table {
  public:
   enum class Align : std::uint8_t { left, right };
 
-  /// @param columns their alignment; every row has that many cells
-  explicit Table(std::vector<Align> columns) : columns_(std::move(columns)) {}
+  /// @param columns their alignment; every row has at most that many cells
+  explicit Table(std::vector<Align> columns) : columns_(std::move(columns)), widths_(columns_.size(), 0) {}
 
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  void add(std::vector<std::string> row);
   /// Every line ends in a newline and has no blanks at its end.
   [[nodiscard]] std::string text() const;
 
+  /// For a table that is printed as it grows: makes columns as wide as the cells of this row, which is not
+  /// one of the table.
+  void widen(const std::vector<std::string>& row);
+  /// A row that is not added, as a line of this table.
+  [[nodiscard]] std::string line(const std::vector<std::string>& row) const;
+
  private:
+  /// How many cells of the row are aligned.
+  [[nodiscard]] std::size_t aligned(const std::vector<std::string>& row) const;
+
   std::vector<Align> columns_;
+  std::vector<std::size_t> widths_;
   std::vector<std::vector<std::string>> rows_;
 };
 

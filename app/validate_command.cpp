@@ -103,7 +103,7 @@ std::string report_json(const SpecReport& report) {
 }  // namespace
 
 ExitCode run_validate(const CommandLine& line) {
-  const ProblemSpec spec = load_spec(line.path);
+  const ProblemSpec spec = load_spec(line.path, line.settings);
   const SpecReport report = inspect(spec);
   // What cannot be analysed here need not be looked at closely.
   const std::optional<std::uint64_t> memory = line.max_memory ? line.max_memory : available_memory();

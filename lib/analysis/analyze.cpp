@@ -9,10 +9,22 @@
 #include "results/write_results.hpp"
 
 namespace coordreq {
+namespace {
+
+void write(const std::string& path, const Solution& solution, const std::optional<CoalitionMap>& coalitions,
+           const AnalysisSummary& summary, ThreadTeam& team) {
+  ResultComposer composer(solution, team);
+  ResultContent content = composer.content();
+  if (coalitions) add_coalitions(*coalitions, solution, content);
+  content.requirements = summary.requirements;
+  write_results(path, content, team);
+}
+
+}  // namespace
 
 AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team) {
   check_memory(spec, options.max_memory);
-  check_writable(options.output);
+  if (!options.output.empty()) check_writable(options.output);
   StageTimer timer;
   const auto report = [&options](const Progress& progress) {
     if (options.progress) options.progress(progress);
@@ -35,15 +47,11 @@ AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options,
     enter("requirements");
     summary.requirements = judge_requirements(solution, team);
   }
-  enter("writing");
-  ResultComposer composer(solution, team);
-  ResultContent content = composer.content();
-  if (coalitions) {
-    summary.coalition = summary_of(*coalitions, spec);
-    add_coalitions(*coalitions, solution, content);
+  if (coalitions) summary.coalition = summary_of(*coalitions, spec);
+  if (!options.output.empty()) {
+    enter("writing");
+    write(options.output, solution, coalitions, summary, team);
   }
-  content.requirements = summary.requirements;
-  write_results(options.output, content, team);
   timer.end();
   summary.output = options.output;
   summary.threads = team.size();

@@ -24,7 +24,7 @@ struct Progress {
 };
 
 struct AnalysisOptions {
-  std::string output;                             ///< path of the results file
+  std::string output;                             ///< path of the results file; empty: none
   std::optional<std::uint64_t> max_memory;        ///< bytes; refuse up front if the estimate is above
   std::function<void(const Progress&)> progress;  ///< may be empty
 };
@@ -102,7 +102,7 @@ struct AnalysisSummary {
   std::optional<NetworkSummary> network;
   std::vector<ConventionSummary> convention;    ///< by agent; none without a convention
   std::vector<ResultRequirement> requirements;  ///< in the order of the spec
-  std::string output;
+  std::string output;                           ///< empty if no file was written
   int threads = 1;
   std::vector<std::pair<std::string, double>> seconds;  ///< by stage, in order, wall time
   /// What each fixed point took, by the names of their stages, in order.
@@ -116,7 +116,7 @@ struct AnalysisSummary {
   std::uint64_t peak_memory_bytes = 0;
 };
 
-/// The whole analysis: abstraction, S, K, layers, trigger tables, results file.
+/// The whole analysis: abstraction, S, K, layers, trigger tables, results file if one is asked for.
 /// @throws SpecError for what only shows when the system is built (undecidable `allow`, a discrete state off
 /// its
 ///   grid, dynamics that this version cannot abstract); LimitError; IoError

@@ -1,8 +1,10 @@
 #include "base/timer.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <fstream>
 
 namespace coordreq {
 
@@ -19,6 +21,12 @@ void StageTimer::begin(std::string name) {
 void StageTimer::end() {
   if (running_) seconds_[current_].second += std::chrono::duration<double>(Clock::now() - started_).count();
   running_ = false;
+}
+
+void reset_peak_memory() {
+  malloc_trim(0);
+  // proc(5): 5 resets the peak resident set size.
+  std::ofstream("/proc/self/clear_refs") << 5;
 }
 
 std::uint64_t peak_memory_bytes() {

@@ -26,7 +26,12 @@ class StageTimer {
   Clock::time_point started_;
 };
 
-/// The largest resident set of this process so far, in bytes; 0 where the system does not tell.
+/// Gives memory that is not in use back to the system and lets peak_memory_bytes() begin anew from what is
+/// left. Without effect where the system cannot do that.
+void reset_peak_memory();
+
+/// The largest resident set of this process so far, or since reset_peak_memory(), in bytes; 0 where the
+/// system does not tell.
 [[nodiscard]] std::uint64_t peak_memory_bytes();
 
 }  // namespace coordreq

@@ -14,9 +14,22 @@ namespace coordreq {
 ///   an expression, with what was found and what was expected.
 [[nodiscard]] ProblemSpec read_spec(std::string text, std::string_view source);
 
-/// Reads the whole file and calls read_spec(); "-" reads `standard_input`. Relative paths in a spec start in
-/// its folder, those in one from standard input in the current folder.
-/// @throws IoError if it is not there, is a folder or cannot be read; SpecError as above.
+/// The text of a spec that is still to be read, and where it comes from.
+struct SpecSource {
+  std::string text;
+  std::string name;    ///< for messages
+  std::string folder;  ///< where relative paths in it start; empty: the current one
+};
+
+/// The whole file; "-" reads `standard_input`. Relative paths in a spec start in its folder, those in one
+/// from standard input in the current folder.
+/// @throws IoError if it is not there, is a folder or cannot be read.
+[[nodiscard]] SpecSource read_spec_source(const std::string& path, std::istream& standard_input);
+
+/// read_spec() of its text. @throws SpecError as above.
+[[nodiscard]] ProblemSpec read_spec(SpecSource source);
+
+/// Both: @throws IoError, SpecError as above.
 [[nodiscard]] ProblemSpec read_spec_file(const std::string& path, std::istream& standard_input);
 
 /// The JSON Schema (draft 7) that specs are validated with, as text ending in a newline.

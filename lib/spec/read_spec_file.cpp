@@ -4,6 +4,7 @@
 #include <fstream>
 #include <istream>
 #include <system_error>
+#include <utility>
 
 #include "base/error.hpp"
 #include "spec/read_spec.hpp"
@@ -30,8 +31,8 @@ std::string reason(int error) {
 
 }  // namespace
 
-ProblemSpec read_spec_file(const std::string& path, std::istream& standard_input) {
-  if (path == "-") return read_spec(read_all(standard_input, "standard input"), "standard input");
+SpecSource read_spec_source(const std::string& path, std::istream& standard_input) {
+  if (path == "-") return {read_all(standard_input, "standard input"), "standard input", ""};
   std::error_code ignored;  // what cannot be examined fails to open below
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (status.type() == std::filesystem::file_type::not_found) throw IoError("no such file", path);
@@ -39,9 +40,17 @@ ProblemSpec read_spec_file(const std::string& path, std::istream& standard_input
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(reason(errno), path);
-  ProblemSpec spec = read_spec(read_all(file, path), path);
-  spec.folder = std::filesystem::path(path).parent_path().string();
+  return {read_all(file, path), path, std::filesystem::path(path).parent_path().string()};
+}
+
+ProblemSpec read_spec(SpecSource source) {
+  ProblemSpec spec = read_spec(std::move(source.text), source.name);
+  spec.folder = std::move(source.folder);
   return spec;
+}
+
+ProblemSpec read_spec_file(const std::string& path, std::istream& standard_input) {
+  return read_spec(read_spec_source(path, standard_input));
 }
 
 }  // namespace coordreq

@@ -15,6 +15,7 @@ set(support ${PROJECT_SOURCE_DIR}/scripts/cmake)
 # program
 install(TARGETS coordreq RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(DIRECTORY configs DESTINATION ${data_dir} COMPONENT program)
+install(PROGRAMS configs/ci/check_specs DESTINATION ${data_dir}/configs/ci COMPONENT program)
 install(PROGRAMS scripts/plot DESTINATION ${data_dir} COMPONENT program)
 install(DIRECTORY scripts/plotting DESTINATION ${data_dir} COMPONENT program FILES_MATCHING PATTERN "*.py")
 file(RELATIVE_PATH plot /${CMAKE_INSTALL_BINDIR} /${data_dir}/plot)

@@ -5,7 +5,10 @@ import unittest
 
 from program import SPEC, Case
 
-COMMANDS = ("analyze", "validate", "info", "query", "simulate", "verify", "export", "report", "schema", "completion")
+COMMANDS = (
+    *("analyze", "validate", "info", "query", "simulate", "verify", "compare", "export", "report"),
+    *("schema", "completion"),
+)
 LISTED = ", ".join(COMMANDS)
 
 
@@ -26,7 +29,7 @@ class Cases(Case):
     def test_unknown_option_of_a_command(self):
         self.assert_fails(
             2,
-            "unknown option '--fast' of validate, expected one of --help, --threads, --max-memory, --json, --quiet",
+            "unknown option '--fast' of validate, expected one of --help, --set, --threads, --max-memory, --json, --quiet",
             "validate",
             "--fast",
             "spec.json",
@@ -43,13 +46,23 @@ class Cases(Case):
         )
 
     def test_no_spec(self):
-        self.assert_fails(2, "no SPEC, expected the name of a file: coordreq analyze SPEC", "analyze")
+        self.assert_fails(2, "no SPEC, expected the name of a file: coordreq analyze SPEC...", "analyze")
 
     def test_no_results(self):
         self.assert_fails(2, "no RESULTS, expected the name of a file: coordreq info RESULTS", "info")
 
     def test_two_specs(self):
-        self.assert_fails(2, "unexpected argument 'b', analyze takes one argument, SPEC", "analyze", "a", "b")
+        self.assert_fails(
+            2, "unexpected argument 'b', validate takes one argument, SPEC", "validate", "a", "b"
+        )
+
+    def test_arguments_of_compare(self):
+        usage = "expected the name of a file: coordreq compare A B"
+        self.assert_fails(2, f"no A, {usage}", "compare")
+        self.assert_fails(2, f"no B, {usage}", "compare", "a.h5")
+        self.assert_fails(
+            2, "unexpected argument 'c', compare takes two arguments, A and B", "compare", "a", "b", "c"
+        )
 
     def test_argument_of_schema(self):
         self.assert_fails(2, "unexpected argument 'a', schema takes no argument", "schema", "a")

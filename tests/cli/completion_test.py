@@ -42,7 +42,7 @@ class Cases(Case):
         for command in commands:
             with self.subTest(command=command):
                 self.check_options(offers, command)
-                self.check_argument(offers, command)
+                self.check_arguments(offers, command)
         self.check_line(offers)
 
     def check_options(self, offers, command):
@@ -54,15 +54,17 @@ class Cases(Case):
             elif value and value != "FILE":
                 self.assertEqual(offers([command, option, ""]), [])
 
-    def check_argument(self, offers, command):
-        argument = program_help.argument(self.help_of(command))
-        expected = {
-            None: [],
-            "SPEC": ["a.json", "sub"],
-            "RESULTS": ["b.h5", "sub", "with space.h5"],
-            "SHELL": ["bash", "fish", "zsh"],
-        }
-        self.assertEqual(offers([command, ""]), expected[argument and argument[0]])
+    def check_arguments(self, offers, command):
+        specs, results = ["a.json", "sub"], ["b.h5", "sub", "with space.h5"]
+        kinds = {"SPEC": specs, "RESULTS": results, "A": results, "B": results, "SHELL": ["bash", "fish", "zsh"]}
+        arguments = program_help.arguments(self.help_of(command))
+        words = [command]
+        for name, many, _ in arguments:
+            for _ in range(3 if many else 1):
+                self.assertEqual(offers([*words, ""]), kinds[name])
+                words.append(kinds[name][0])
+        if not (arguments and arguments[-1][1]):
+            self.assertEqual(offers([*words, ""]), [])
 
     def check_line(self, offers):
         """Further on in a line, as far as --help does not say it."""

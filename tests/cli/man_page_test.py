@@ -44,10 +44,12 @@ class Cases(Case):
         for command, description in program_help.commands(general).items():
             with self.subTest(command=command):
                 text = self.run_program(command, "--help").stdout.decode()
-                argument = program_help.argument(text)
-                section = sections[f"coordreq {command} {argument[0] if argument else ''}".strip()]
+                arguments = program_help.arguments(text)
+                names = "".join(f" {name}{'...' * many}" for name, many, _ in arguments)
+                section = sections[f"coordreq {command}{names}"]
                 self.assertIn(description, section)
-                self.assertIn(argument[1] if argument else "", section)
+                for _, _, described in arguments:
+                    self.assertIn(described, section)
                 self.assert_describes(section + sections["OPTIONS OF EVERY COMMAND"], program_help.options(text))
 
     def test_name_that_whatis_finds(self):

@@ -16,7 +16,8 @@ def blocks(page, language):
 
 
 def without_effort(text):
-    return re.sub(r"\([0-9.]+ s on [0-9]+ threads?(, [0-9.]+ MiB)?\)", "(effort)", text)
+    text = re.sub(r"\([0-9.]+ s on [0-9]+ threads?(, [0-9.]+ MiB)?\)", "(effort)", text)
+    return re.sub(r" +[0-9]+\.[0-9]{2} +[0-9.]+ MiB  ", " effort ", text)  # in a table
 
 
 class PageCase(Case):

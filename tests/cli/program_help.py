@@ -17,10 +17,11 @@ def options(help_text):
     return {name: (value, description) for name, value, description in found}
 
 
-def argument(help_text):
-    """(name, description) of the positional argument; None if there is none."""
+def arguments(help_text):
+    """[(name, whether there may be many, description)] of the positional arguments."""
     if "\nPositionals:\n" not in help_text:
-        return None
+        return []
     listed = help_text.split("\nPositionals:\n")[1].split("\n\n")[0]
-    name, rest = re.match(r"  (\S+) (.*)", listed, re.S).groups()
-    return name, re.split(r"REQUIRED(?: \.\.\.)?\s+", rest)[1].strip()
+    listed = re.sub(r"\n {20,}", "  ", listed)
+    found = re.findall(r"(?m)^  (\S+)( \.\.\.)?(?: \S+)? REQUIRED\s+(.*)$", listed)
+    return [(name, bool(many), description) for name, many, description in found]

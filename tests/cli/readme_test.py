@@ -8,7 +8,7 @@ from program import CONFIGS
 
 class Cases(PageCase):
     def test_sessions(self):
-        self.assert_sessions_happen(README, 7)
+        self.assert_sessions_happen(README, 9)
 
     def test_python(self):
         self.analyze(str(CONFIGS / "circle.json"))

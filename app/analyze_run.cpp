@@ -1,0 +1,72 @@
+#include "app/analyze_run.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "app/interrupt.hpp"
+#include "app/memory_limit.hpp"
+#include "app/progress_line.hpp"
+#include "results/write_results.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Lets a signal end the program at once in every stage that has no temporary file.
+class InterruptPolicy {
+ public:
+  // The first thing an analysis does is to try whether it can write.
+  InterruptPolicy() { delay_.emplace(); }
+
+  void enter(const std::string& stage) {
+    if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
+    if (stage != "writing") {
+      delay_.reset();
+    } else if (!delay_) {
+      delay_.emplace();
+    }
+  }
+
+ private:
+  std::optional<InterruptDelay> delay_;
+};
+
+}  // namespace
+
+AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const std::string& output,
+                                      const CommandLine& line, ThreadTeam& team, const std::string& prefix) {
+  InterruptPolicy interrupts;
+  ProgressLine shown(!line.quiet);
+  AnalysisOptions options;
+  options.output = output;
+  options.max_memory = line.max_memory ? line.max_memory : available_memory();
+  options.progress = [&](const Progress& progress) {
+    interrupts.enter(progress.stage);
+    shown.update(Progress{prefix + progress.stage, progress.sweep, progress.rows});
+  };
+  return analyze(spec, options, team);
+}
+
+void check_interrupted(const std::string& place) {
+  if (is_interrupted()) {
+    throw Error(ExitCode::interrupted, "interrupted when the results were complete", place);
+  }
+}
+
+void try_to_write(const std::string& path) {
+  const InterruptDelay delay;  // while there is a temporary file
+  check_writable(path);
+}
+
+ExitCode verdict(const AnalysisSummary& summary) {
+  const bool hold = std::all_of(summary.requirements.begin(), summary.requirements.end(),
+                                [](const ResultRequirement& requirement) { return requirement.holds; });
+  return hold ? ExitCode::success : ExitCode::requirement_failed;
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  using std::filesystem::absolute, std::filesystem::weakly_canonical;
+  return weakly_canonical(absolute(a)) == weakly_canonical(absolute(b));
+}
+
+}  // namespace coordreq

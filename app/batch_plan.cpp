@@ -1,0 +1,121 @@
+#include "app/batch_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <utility>
+
+#include "app/load_spec.hpp"
+#include "app/text.hpp"
+
+namespace coordreq {
+namespace {
+
+namespace fs = std::filesystem;
+
+void read_into(PlannedRun& run, const SpecSource& source, std::vector<SpecSetting> settings) {
+  settings.insert(settings.end(), run.values.begin(), run.values.end());
+  try {
+    run.spec = read_spec(with_settings(source, settings));
+  } catch (...) {
+    run.failure = describe_current_exception();
+  }
+}
+
+/// The runs of one spec.
+void add_runs(const CommandLine& line, const std::string& path,
+              const std::vector<std::vector<SpecSetting>>& values, std::vector<PlannedRun>& runs) {
+  std::optional<SpecSource> source;
+  std::optional<Failure> failure;
+  try {
+    source = read_spec_source(path, std::cin);
+  } catch (...) {
+    failure = describe_current_exception();
+  }
+  for (const std::vector<SpecSetting>& combination : values) {
+    runs.push_back({.path = path, .values = combination, .failure = failure});
+    if (source) read_into(runs.back(), *source, line.settings);
+  }
+}
+
+/// As a part of a file name: letters, digits and a few signs that need no quotes anywhere.
+std::string file_part(const std::string& text) {
+  std::string part = text;
+  for (char& c : part) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                       std::string_view(".+-=").find(c) != std::string_view::npos;
+    if (!plain) c = '_';
+  }
+  return part;
+}
+
+/// "circle.h5", "circle_constants.R=0.7.h5"
+std::string file_name(const PlannedRun& run) {
+  std::string name = run.spec->name;
+  for (const SpecSetting& value : run.values) name += "_" + file_part(value.path + "=" + value.value);
+  return name + ".h5";
+}
+
+void check_folder(const std::string& path) {
+  std::error_code ignored;  // what cannot be examined is no folder that could be written to
+  if (fs::is_directory(path, ignored)) return;
+  throw UsageError(
+      fmt::format("expected a folder that is there, for the results are several files, found '{}'", path),
+      "--output");
+}
+
+/// Two runs, or a run and the JUnit report, may not write to one place.
+void check_different(const std::vector<PlannedRun>& runs, const CommandLine& line) {
+  std::map<fs::path, const PlannedRun*> writers;
+  const auto place = [](const std::string& path) { return fs::weakly_canonical(fs::absolute(path)); };
+  for (const PlannedRun& run : runs) {
+    if (run.output.empty()) continue;
+    const auto [other, is_new] = writers.emplace(place(run.output), &run);
+    if (!is_new) {
+      throw UsageError(fmt::format("'{}' and '{}' would both write {}, expected different files",
+                                   run_label(*other->second), run_label(run), run.output));
+    }
+  }
+  if (line.junit && writers.count(place(*line.junit)) > 0) {
+    throw UsageError(fmt::format("expected another file than the results, found '{}'", *line.junit),
+                     "--junit");
+  }
+}
+
+std::string values_text(const PlannedRun& run) {
+  std::string text;
+  for (const SpecSetting& value : run.values) text += fmt::format(" {}={}", value.path, value.value);
+  return text;
+}
+
+}  // namespace
+
+std::string run_label(const PlannedRun& run) {
+  return run.path + values_text(run);
+}
+
+std::string run_name(const PlannedRun& run) {
+  return (run.spec ? run.spec->name : run.path) + values_text(run);
+}
+
+std::vector<PlannedRun> plan_runs(const CommandLine& line) {
+  if (std::count(line.paths.begin(), line.paths.end(), "-") > 1) {
+    throw UsageError("standard input is named twice, expected one spec from it");
+  }
+  const std::vector<std::vector<SpecSetting>> values = combinations(line.sweeps);
+  if (line.output) check_folder(*line.output);
+  std::vector<PlannedRun> runs;
+  for (const std::string& path : line.paths) add_runs(line, path, values, runs);
+  const bool writes = line.output || line.sweeps.empty();
+  for (PlannedRun& run : runs) {
+    if (writes && run.spec) run.output = (fs::path(line.output.value_or("")) / file_name(run)).string();
+  }
+  check_different(runs, line);
+  return runs;
+}
+
+}  // namespace coordreq

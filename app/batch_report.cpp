@@ -1,0 +1,169 @@
+#include "app/batch_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "app/analyze_report.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Figures of partitions in one cell: all of up to three, else the first and the last.
+std::string joined(const std::vector<std::string>& figures) {
+  constexpr std::size_t kMost = 3;
+  if (figures.size() > kMost) return fmt::format("{} ... {}", figures.front(), figures.back());
+  return fmt::format("{}", fmt::join(figures, " / "));
+}
+
+template <class Figure>
+std::string of_partitions(const AnalysisSummary& summary, const Figure& figure) {
+  std::vector<std::string> figures;
+  for (const PartitionSummary& partition : summary.partitions) figures.push_back(figure(partition));
+  return joined(figures);
+}
+
+std::string longest(const PartitionSummary& partition, const AnalysisSummary& summary) {
+  const std::string text = longest_delay_text(partition, summary);
+  return text.empty() ? "-" : text;
+}
+
+std::string requirements_met(const AnalysisSummary& summary) {
+  if (summary.requirements.empty()) return "-";
+  const auto met = std::count_if(summary.requirements.begin(), summary.requirements.end(),
+                                 [](const ResultRequirement& own) { return own.holds; });
+  return fmt::format("{} of {}", met, summary.requirements.size());
+}
+
+constexpr const char* kFigures[] = {"cells",  "safe", "invariant", "requirements met",    "seconds",
+                                    "memory", "F",    "unbounded", "longest finite delay"};
+
+std::vector<std::string> figures(const AnalysisSummary& summary) {
+  double seconds = 0;
+  for (const auto& stage : summary.seconds) seconds += stage.second;
+  return {grouped(summary.states),
+          grouped(summary.safe),
+          grouped(summary.invariant),
+          requirements_met(summary),
+          fmt::format("{:.2f}", seconds),
+          byte_size(summary.peak_memory_bytes),
+          of_partitions(summary, fixed_point_text),
+          of_partitions(summary, unbounded_text),
+          of_partitions(summary, [&](const PartitionSummary& own) { return longest(own, summary); })};
+}
+
+/// Figures as wide as those of an analysis can be, or will hardly ever be.
+std::vector<std::string> wide_figures(const ProblemSpec& spec) {
+  std::int64_t count = 1;
+  for (const StateSpec& state : spec.states) count *= state.grid.count;
+  const std::string cells = grouped(count);
+  const bool may_stop = spec.coordination.max_delay.has_value();
+  const auto of_all = [&spec](const std::string& figure) {
+    return joined(std::vector<std::string>(spec.coordination.partitions.size(), figure));
+  };
+  const std::string most_met = std::to_string(spec.requirements.size());
+  return {cells,
+          cells,
+          cells,
+          most_met + " of " + most_met,
+          "12345.67",
+          "1023 MiB",
+          of_all(may_stop ? "not reached" : "1234"),
+          of_all(may_stop && cells.size() < 7 ? "unknown" : cells),
+          ""};
+}
+
+/// What tells one run from the others.
+std::vector<std::string> labels(const PlannedRun& run, bool has_path) {
+  std::vector<std::string> result;
+  if (has_path) result.push_back(printable(run.path));
+  for (const SpecSetting& value : run.values) result.push_back(printable(value.value));
+  return result;
+}
+
+std::vector<std::string> column_names(const CommandLine& line, bool has_path) {
+  std::vector<std::string> names;
+  if (has_path) names.emplace_back("spec");
+  for (const Sweep& sweep : line.sweeps) names.push_back(printable(sweep.path));
+  names.insert(names.end(), std::begin(kFigures), std::end(kFigures));
+  return names;
+}
+
+/// Labels and the last column to the left, figures to the right.
+std::vector<Table::Align> alignment(std::size_t columns) {
+  std::vector<Table::Align> result(columns, Table::Align::right);
+  std::fill_n(result.begin(), columns - std::size(kFigures), Table::Align::left);
+  result.back() = Table::Align::left;
+  return result;
+}
+
+/// As JSON where it is some, else the text.
+Json value_json(const std::string& value) {
+  const Json json = Json::parse(value, nullptr, false);
+  return json.is_discarded() ? Json(value) : json;
+}
+
+Json run_json(const FinishedRun& run) {
+  Json json;
+  json["spec"] = run.plan.path;
+  json["values"] = Json::object();
+  for (const SpecSetting& value : run.plan.values) json["values"][value.path] = value_json(value.value);
+  json["exit_code"] = run.exit_code;
+  if (run.failure) json["error"] = run.failure->what;
+  if (run.summary) json["summary"] = summary_json(*run.summary, *run.plan.spec);
+  return json;
+}
+
+}  // namespace
+
+int worst_exit_code(const std::vector<FinishedRun>& runs) {
+  int worst = 0;
+  for (const FinishedRun& run : runs) worst = std::max(worst, run.exit_code);
+  return worst;
+}
+
+BatchTable::BatchTable(const std::vector<PlannedRun>& runs, const CommandLine& line)
+    : has_path_(line.paths.size() > 1), table_(alignment(column_names(line, has_path_).size())) {
+  table_.add(column_names(line, has_path_));
+  for (const PlannedRun& run : runs) {
+    std::vector<std::string> row = labels(run, has_path_);
+    if (run.spec) {
+      const std::vector<std::string> wide = wide_figures(*run.spec);
+      row.insert(row.end(), wide.begin(), wide.end());
+    } else {
+      row.emplace_back();  // for the error, which has no column
+    }
+    table_.widen(row);
+  }
+}
+
+std::string BatchTable::row(const FinishedRun& run) const {
+  std::vector<std::string> row = labels(run.plan, has_path_);
+  if (run.summary) {
+    const std::vector<std::string> own = figures(*run.summary);
+    row.insert(row.end(), own.begin(), own.end());
+  } else {
+    row.push_back("error: " + run.failure->what);
+  }
+  return table_.line(row);
+}
+
+std::string closing_text(const std::vector<FinishedRun>& runs, const CommandLine& line) {
+  const auto written = std::count_if(runs.begin(), runs.end(), [](const FinishedRun& run) {
+    return run.summary && !run.plan.output.empty();
+  });
+  if (!line.output && !line.sweeps.empty()) return "\nno results files: --output names a folder for them\n";
+  return fmt::format("\nresults in {} file{} in {}\n", grouped(std::int64_t{written}),
+                     written == 1 ? "" : "s", line.output ? printable(*line.output) : "the current folder");
+}
+
+std::string batch_json(const std::vector<FinishedRun>& runs) {
+  Json json;
+  json["runs"] = Json::array();
+  for (const FinishedRun& run : runs) json["runs"].push_back(run_json(run));
+  json["exit_code"] = worst_exit_code(runs);
+  return json_text(json);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/analyze.hpp"
+#include "app/batch_plan.hpp"
+#include "app/text.hpp"
+
+namespace coordreq {
+
+/// What has become of a run.
+struct FinishedRun {
+  PlannedRun plan;
+  std::optional<AnalysisSummary> summary;  ///< none if it failed
+  std::optional<Failure> failure;
+  int exit_code = 0;
+};
+
+/// The largest exit code of the runs.
+[[nodiscard]] int worst_exit_code(const std::vector<FinishedRun>& runs);
+
+/// The table of the runs, which is printed line by line as they end: columns are as wide as their figures can
+/// be, as far as that is known beforehand.
+class BatchTable {
+ public:
+  BatchTable(const std::vector<PlannedRun>& runs, const CommandLine& line);
+
+  [[nodiscard]] std::string heading() const { return table_.text(); }
+  [[nodiscard]] std::string row(const FinishedRun& run) const;
+
+ private:
+  bool has_path_;
+  Table table_;
+};
+
+/// Where the results are.
+[[nodiscard]] std::string closing_text(const std::vector<FinishedRun>& runs, const CommandLine& line);
+
+/// One document: every run with its summary, as `analyze --json` prints it, or its error.
+[[nodiscard]] std::string batch_json(const std::vector<FinishedRun>& runs);
+
+}  // namespace coordreq

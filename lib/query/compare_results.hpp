@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "results/results_reader.hpp"
+
+// What a later result of the same grid has lost and gained against an earlier one.
+namespace coordreq {
+
+/// A set of cells in both files.
+struct SetComparison {
+  std::int64_t before = 0;  ///< cells
+  std::int64_t after = 0;
+  std::int64_t left = 0;    ///< that are only in the earlier one
+  std::int64_t joined = 0;  ///< only in the later one
+};
+
+/// Delays of a cell, as ResultsReader::delay() tells them.
+struct DelayChange {
+  std::int64_t cell = 0;
+  std::int32_t before = 0;
+  std::int32_t after = 0;
+};
+
+/// A partition that both files have. Delays are compared as what each file guarantees: a cell outside K bears
+/// less than a cell with delay 0, unbounded is more than every number, and where `max_delay` stopped an
+/// analysis its last delay counts as it is, though the true one may be larger.
+struct PartitionComparison {
+  std::size_t before = 0;  ///< index into the partitions of the earlier file
+  std::size_t after = 0;
+  std::int64_t lost = 0;          ///< cells with a smaller delay than before
+  std::int64_t left = 0;          ///< of these, cells that have left K
+  std::int64_t from_forever = 0;  ///< of these, cells that are in K and were unbounded
+  /// Of these, cells with the last delay before `max_delay` of the later file: perhaps they have lost
+  /// nothing.
+  std::int64_t cut_off = 0;
+  std::int64_t tolerated = 0;      ///< cells that lost steps, but no more than is tolerated; not in `lost`
+  std::int64_t gained = 0;         ///< cells with a larger delay than before
+  std::vector<DelayChange> worst;  ///< of `lost`, see CompareOptions::worst
+};
+
+/// A requirement that both files have, by its name, with another verdict.
+struct VerdictChange {
+  std::string name;
+  bool holds_after = false;
+};
+
+struct ResultsComparison {
+  SetComparison safe;
+  SetComparison invariant;
+  std::vector<PartitionComparison> partitions;
+  std::vector<std::size_t> only_before;  ///< partitions that the later file does not have
+  std::vector<std::size_t> only_after;   ///< partitions that the earlier file does not have
+  std::vector<VerdictChange> verdicts;
+  std::vector<std::string> requirements_only_before;
+  std::vector<std::string> requirements_only_after;
+
+  /// Whether a cell has lost delay, or left K, or a requirement no longer holds.
+  [[nodiscard]] bool is_worse() const;
+};
+
+struct CompareOptions {
+  /// A cell may lose so many steps, unless it leaves K or was unbounded.
+  std::int64_t tolerance = 0;
+  /// Cells to name for each partition: first those that have left K, then those that were unbounded, each by
+  /// the steps that they have lost, then by number.
+  std::size_t worst = 5;
+  std::function<void(const std::string& subject)> progress;  ///< often; may be empty
+};
+
+/// Reads about a million cells at a time, so that memory does not depend on the size of the files. Partitions
+/// are the same if they have the same name, or else the same classes.
+/// @throws ResultsError naming the first difference if states, grids or periods are not the same, or no
+///   partition is in both files; as ResultsReader does
+[[nodiscard]] ResultsComparison compare_results(const ResultsReader& before, const ResultsReader& after,
+                                                const CompareOptions& options);
+
+}  // namespace coordreq

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+namespace coordreq {
+
+/// A value of a spec that shall be another.
+struct SpecSetting {
+  /// Keys, places in lists (from 0), or in lists of things that have names, their names, with dots between:
+  /// "constants.R", "states.0.step", "states.p1.step". Or a JSON pointer: "/states/0/step".
+  std::string path;
+  /// JSON, or else a text as it is: 0.02, true, ["a"], 2*pi.
+  std::string value;
+};
+
+/// The text of a spec with the value at the path replaced, everything else as it was typed. A key that is not
+/// there is added, with the objects on the way to it; whether there may be such a key is for read_spec() to
+/// say. Constants and definitions are not added: nothing would refer to them.
+/// @param source the file name for messages
+/// @throws SpecError if `text` is no JSON; UsageError with the path as the place if the path leads nowhere or
+///   the value starts like JSON and is none
+[[nodiscard]] std::string with_setting(const std::string& text, const std::string& source,
+                                       const SpecSetting& setting);
+
+}  // namespace coordreq
