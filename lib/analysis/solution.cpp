@@ -34,8 +34,8 @@ std::vector<std::size_t> place_of_states(const std::vector<std::size_t>& layout)
   return place;
 }
 
-std::function<void(std::int64_t, std::int64_t)> stepper(const StageSwept& swept, const std::string& stage) {
-  return [&swept, stage](std::int64_t sweep, std::int64_t rows) { swept(stage, sweep, rows); };
+std::function<void(const WaveStep&)> stepper(const StageSwept& swept, const std::string& stage) {
+  return [&swept, stage](const WaveStep& step) { swept(stage, step.sweep, step.visited); };
 }
 
 }  // namespace
@@ -56,14 +56,15 @@ Solution::Solution(const ProblemSpec& problem, ThreadTeam& team, const EnterStag
       invariance(staged(enter, "invariance",
                         [&] {
                           return find_invariance(engine, hull, safe, spec.controller.synthesis,
-                                                 stepper(swept, "invariance"), team);
+                                                 {.step = stepper(swept, "invariance")}, team);
                         })),
       controller{&engine, &invariance.invariant, &invariance.collision_time, spec.controller.synthesis},
       order(abstraction.grid, place_of_states(layout)) {
   find_layers(team, enter, swept);
   if (spec.network) {
     enter("network");
-    network = find_network_safety(network_problem(spec, controller, hull), stepper(swept, "network"), team);
+    network = find_network_safety(network_problem(spec, controller, hull),
+                                  {.step = stepper(swept, "network")}, team);
   }
   if (spec.coordination.convention) find_convention(team, enter);
 }
@@ -87,7 +88,7 @@ void Solution::find_layers(ThreadTeam& team, const EnterStage& enter, const Stag
 
 /// REQUIRES: the layers of all coarser partitions are known.
 DelayLayers Solution::layers_of(std::size_t p, ThreadTeam& team,
-                                const std::function<void(std::int64_t, std::int64_t)>& step) const {
+                                const std::function<void(const WaveStep&)>& step) const {
   const std::optional<std::int64_t> max_delay = spec.coordination.max_delay;
   if (partitions[p].spec->classes.size() == 1)
     return coordinated_layers(engine, invariance.invariant, max_delay, team);
@@ -96,7 +97,8 @@ DelayLayers Solution::layers_of(std::size_t p, ThreadTeam& team,
   std::vector<const LevelMap*> coarser;
   for (const std::size_t q : next_coarser(spec.coordination.partitions, p))
     coarser.push_back(&partitions[q].layers.layers_of);
-  return find_delay_layers(engine, hull, invariance.invariant, projections, coarser, max_delay, step, team);
+  return find_delay_layers(engine, hull, invariance.invariant, projections, coarser, max_delay,
+                           {.step = step}, team);
 }
 
 std::vector<InputClass> input_classes(const ProblemSpec& spec, const PartitionSpec& partition) {

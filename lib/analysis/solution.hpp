@@ -37,7 +37,8 @@ struct ConventionResult {
 
 /// Told that a stage begins.
 using EnterStage = std::function<void(const std::string& stage)>;
-/// Told after each sweep of a stage's fixed point (number, rows visited).
+/// Told how far the fixed point of a stage has come: the number of the sweep under way, and rows visited in
+/// it.
 using StageSwept = std::function<void(const std::string& stage, std::int64_t sweep, std::int64_t rows)>;
 
 /// What the fixed points of a problem have found, with all that it refers to. What is derived from it
@@ -77,7 +78,7 @@ struct Solution {
   void find_convention(ThreadTeam& team, const EnterStage& enter);
   void find_layers(ThreadTeam& team, const EnterStage& enter, const StageSwept& swept);
   [[nodiscard]] DelayLayers layers_of(std::size_t p, ThreadTeam& team,
-                                      const std::function<void(std::int64_t, std::int64_t)>& step) const;
+                                      const std::function<void(const WaveStep&)>& step) const;
 };
 
 /// The inputs of each class of a partition, ascending.
