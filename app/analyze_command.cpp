@@ -12,22 +12,23 @@
 #include "app/junit_report.hpp"
 #include "app/load_spec.hpp"
 #include "app/memory_limit.hpp"
-#include "app/progress_line.hpp"
+#include "app/progress_display.hpp"
 #include "app/standard_streams.hpp"
 #include "results/write_results.hpp"
 
 namespace coordreq {
 namespace {
 
-/// Lets a signal end the program at once in every stage that has no temporary file.
+/// Lets a signal end the program at once while there is no temporary file, and as soon as it hears of the
+/// work's progress otherwise.
 class InterruptPolicy {
  public:
   // The first thing an analysis does is to try whether it can write.
   InterruptPolicy() { delay_.emplace(); }
 
-  void enter(const std::string& stage) {
+  void obey(const Progress& progress) {
     if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
-    if (stage != "writing") {
+    if (!progress.has_temporary) {
       delay_.reset();
     } else if (!delay_) {
       delay_.emplace();
@@ -43,23 +44,37 @@ bool is_same_file(const std::string& a, const std::string& b) {
   return weakly_canonical(absolute(a)) == weakly_canonical(absolute(b));
 }
 
-AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const CommandLine& line) {
-  InterruptPolicy interrupts;
-  ProgressLine shown(!line.quiet);
-  AnalysisOptions options;
-  options.output = line.output.value_or(spec.name + ".h5");
-  options.max_memory = line.max_memory ? line.max_memory : available_memory();
-  options.progress = [&shown, &interrupts](const Progress& progress) {
-    interrupts.enter(progress.stage);
-    shown.update(progress);
-  };
-  ThreadTeam team(line.threads);
+/// Files that would take the place of one another.
+void check_files(const AnalysisOptions& options, const CommandLine& line) {
   if (line.junit && is_same_file(*line.junit, options.output)) {
     throw UsageError(fmt::format("expected another file than the results, found '{}'", *line.junit),
                      "--junit");
   }
+  if (!line.checkpoint) return;
+  const std::string& file = line.checkpoint->file;
+  if (is_same_file(file, options.output) || (line.junit && is_same_file(file, *line.junit)))
+    throw UsageError(fmt::format("expected a file of its own, found '{}'", file), "--checkpoint");
+}
+
+AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const CommandLine& line) {
+  InterruptPolicy interrupts;
+  ProgressDisplay shown(line.progress, line.quiet);
+  AnalysisOptions options;
+  options.output = line.output.value_or(spec.name + ".h5");
+  options.max_memory = line.max_memory ? line.max_memory : available_memory();
+  options.checkpoint = line.checkpoint;
+  options.progress = [&shown, &interrupts](const Progress& progress) {
+    interrupts.obey(progress);
+    shown.update(progress);
+  };
+  options.notice = [&shown, &line](const std::string& text) {
+    if (!line.quiet) shown.notice(text);
+  };
+  ThreadTeam team(line.threads);
+  check_files(options, line);
   if (line.junit) check_writable(*line.junit);
   AnalysisSummary summary = analyze(spec, options, team);
+  shown.finish();
   if (line.junit) write_junit(*line.junit, summary, spec);
   if (is_interrupted()) {
     throw Error(ExitCode::interrupted, "interrupted when the results were complete", options.output);

@@ -31,6 +31,7 @@ struct RawArguments {
   bool quiet = false;
   bool version = false;
   SimulateArguments simulate;
+  LongRunArguments long_run;
 };
 
 struct CommandInfo {
@@ -110,6 +111,27 @@ void add_simulate_options(CLI::App& command, RawArguments& raw) {
   add("-o,--output", raw.output, "File for the runs (default: none)", "FILE");
 }
 
+void add_progress_options(CLI::App& command, LongRunArguments& long_run) {
+  command
+      .add_option("--progress", long_run.progress,
+                  "auto: a bar on a terminal; bar: that, also with --quiet; log: lines (default: auto)")
+      ->type_name("auto|bar|log|none");
+  command
+      .add_option("--progress-every", long_run.progress_every, "Between two lines of the log (default: 10)")
+      ->type_name("SECONDS");
+}
+
+void add_checkpoint_options(CLI::App& command, LongRunArguments& long_run) {
+  command
+      .add_option("--checkpoint", long_run.checkpoint,
+                  "Save the work there now and then; removed when the results are written")
+      ->type_name("FILE");
+  command.add_option("--checkpoint-every", long_run.checkpoint_every, "How often (default: 60)")
+      ->type_name("SECONDS");
+  command.add_flag("--resume", long_run.resume, "Go on from the checkpoint, if there is one")
+      ->disable_flag_override();
+}
+
 void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
   CLI::App* command = app.add_subcommand(info.name, info.description);
   if (*info.argument != '\0') {
@@ -122,6 +144,7 @@ void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
         ->type_name("FILE");
     command->add_option("--junit", raw.junit, "Also write the requirements as a JUnit report")
         ->type_name("FILE");
+    add_checkpoint_options(*command, raw.long_run);
   }
   if (info.run == run_report) {
     command->add_option("-o,--output", raw.output, "HTML file (default: NAME.html in the current folder)")
@@ -139,6 +162,8 @@ void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {
     command->add_option("--sample", raw.sample, "Look at so many cells, evenly drawn (default: all)")
         ->type_name("N");
   }
+  if (info.run == run_analyze || info.run == run_simulate || info.run == run_verify)
+    add_progress_options(*command, raw.long_run);
   command->add_option("--threads", raw.threads, "Threads to work with (default: all cores)")->type_name("N");
   command
       ->add_option("--max-memory", raw.max_memory,
@@ -255,6 +280,8 @@ CommandLine checked(const RawArguments& raw, const CommandInfo& info, const CLI:
     line.projections = raw.projections;
   }
   line.simulate = raw.simulate;
+  line.progress = progress_options(raw.long_run);
+  line.checkpoint = checkpoint_options(raw.long_run);
   if (info.run == run_analyze && command.count("--junit") > 0) line.junit = file_name(raw.junit, "--junit");
   const bool has_output =
       info.run == run_analyze || info.run == run_export || info.run == run_report || info.run == run_simulate;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/long_run_options.hpp"
 #include "app/simulate_arguments.hpp"
 #include "base/error.hpp"
 
@@ -26,6 +27,8 @@ struct CommandLine {
   std::optional<std::int64_t> sample;       ///< --sample: cells that verify looks at
   bool json = false;
   bool quiet = false;
+  ProgressOptions progress;                     ///< --progress, --progress-every
+  std::optional<CheckpointOptions> checkpoint;  ///< --checkpoint, --checkpoint-every, --resume
   SimulateArguments simulate;
   std::function<ExitCode(const CommandLine&)> command;
 
