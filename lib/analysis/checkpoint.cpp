@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "analysis/saved_tables.hpp"
 #include "base/error.hpp"
 #include "results/controller_file.hpp"
 #include "results/output_file.hpp"
@@ -21,7 +20,6 @@ namespace {
 constexpr const char* kWhat = "the checkpoint";
 constexpr const char* kSuffix = ".new";
 constexpr const char* kFiletype = "coordreq-checkpoint 1";
-constexpr const char* kAbstraction = "abstraction";
 /// Saving takes at most one part in so many of the time.
 constexpr double kShare = 10;
 /// No name of a stage is longer.
@@ -152,14 +150,14 @@ void Checkpoint::end_record() {
   if (reader_->at_end()) reader_.reset();
 }
 
-std::optional<Abstraction> Checkpoint::take_abstraction(const ProblemSpec& engine_spec) {
-  const std::optional<Record> record = next_record(kAbstraction);
-  if (!record) return std::nullopt;
-  Abstraction abstraction =
-      load_tables(engine_spec, record->numbers,
-                  [this](std::byte* out, std::uint64_t bytes) { reader_->read(bytes, out); });
+bool Checkpoint::take_lists(
+    const std::string& stage,
+    const std::function<void(const std::vector<std::uint64_t>&, const ReadList&)>& load) {
+  const std::optional<Record> record = next_record(stage);
+  if (!record) return false;
+  load(record->numbers, [this](std::byte* out, std::uint64_t bytes) { reader_->read(bytes, out); });
   end_record();
-  return abstraction;
+  return true;
 }
 
 template <class Level>
@@ -205,9 +203,8 @@ std::optional<SavedState<std::vector<CellSet>>> Checkpoint::take_sets(const std:
   return saved;
 }
 
-void Checkpoint::finish(const Abstraction& abstraction) {
-  SavedTables tables = save_tables(abstraction);
-  add_finished({kAbstraction, true, std::move(tables.numbers), std::move(tables.lists)});
+void Checkpoint::finish(const std::string& stage, SavedLists lists) {
+  add_finished({stage, true, std::move(lists.numbers), std::move(lists.lists)});
 }
 
 void Checkpoint::finish(const std::string& stage, const LevelMap& levels) {

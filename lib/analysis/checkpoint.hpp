@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "abstraction/abstraction.hpp"
 #include "analysis/checkpoint_options.hpp"
+#include "analysis/saved_lists.hpp"
 #include "base/thread_team.hpp"
 #include "bitset/level_map.hpp"
 #include "bitset/row_bytes.hpp"
@@ -27,8 +27,8 @@ struct SavedState {
   bool is_finished = false;
 };
 
-/// The state of an analysis in a file, so that it can go on after it was killed: the abstraction, and for
-/// each fixed point its levels or sets, of those that are finished and the one under way.
+/// The state of an analysis in a file, so that it can go on after it was killed: of each stage that is
+/// finished what it has found, and of a fixed point that is under way its levels or sets.
 ///
 /// 1. The file appears whole or not at all, and an older one stays until then; every block has a checksum.
 /// 2. It belongs to one spec, one controller file and one version of the program, by their SHA-256; for
@@ -51,9 +51,12 @@ class Checkpoint {
   ///   else
   Checkpoint(CheckpointOptions options, const ProblemSpec& spec, ThreadTeam& team, Listener listener);
 
-  /// What the file has of a stage; none if it has nothing.
+  /// What the file has of a stage; none, or false, if it has nothing.
+  /// @param load makes use of the numbers and then reads all lists
   /// @throws ResultsError if that is of another kind
-  [[nodiscard]] std::optional<Abstraction> take_abstraction(const ProblemSpec& engine_spec);
+  [[nodiscard]] bool take_lists(
+      const std::string& stage,
+      const std::function<void(const std::vector<std::uint64_t>& numbers, const ReadList& read)>& load);
   [[nodiscard]] std::optional<SavedState<LevelMap>> take_levels(const std::string& stage,
                                                                 const RowEngine& engine);
   [[nodiscard]] std::optional<SavedState<std::vector<CellSet>>> take_sets(const std::string& stage,
@@ -61,7 +64,7 @@ class Checkpoint {
 
   /// The stage is over. From now on the file is to hold its result, which must stay where it is in memory:
   /// the lists of an object that is moved do.
-  void finish(const Abstraction& abstraction);
+  void finish(const std::string& stage, SavedLists lists);
   void finish(const std::string& stage, const LevelMap& levels);
   void finish(const std::string& stage, const std::vector<CellSet>& sets);
 

@@ -47,11 +47,15 @@ std::function<void(const WaveStep&)> stepper(const SolutionWatch& watch, const s
 // are.
 
 Abstraction find_abstraction(const ProblemSpec& spec, ThreadTeam& team, const SolutionWatch& watch) {
-  watch.enter("abstraction");
+  const std::string stage = "abstraction";
+  watch.enter(stage);
   if (watch.checkpoint == nullptr) return build_abstraction(spec, team);
-  std::optional<Abstraction> saved = watch.checkpoint->take_abstraction(spec);
-  Abstraction abstraction = saved ? std::move(*saved) : build_abstraction(spec, team);
-  watch.checkpoint->finish(abstraction);
+  std::optional<Abstraction> saved;
+  const bool is_saved = watch.checkpoint->take_lists(stage, [&](const auto& numbers, const ReadList& read) {
+    saved = load_abstraction(spec, numbers, read);
+  });
+  Abstraction abstraction = is_saved ? std::move(*saved) : build_abstraction(spec, team);
+  watch.checkpoint->finish(stage, save(abstraction));
   return abstraction;
 }
 
@@ -119,11 +123,18 @@ void Solution::find_network(ThreadTeam& team, const SolutionWatch& watch) {
 }
 
 void Solution::find_convention(ThreadTeam& team, const SolutionWatch& watch) {
-  watch.enter("convention");
+  const std::string stage = "convention";
+  watch.enter(stage);
   std::vector<InputClass> classes;
   for (const AgentSpec& agent : spec.agents) classes.push_back(agent.inputs);
   convention.emplace(ConventionResult{ActionGrouping(engine, std::move(classes), team), {}});
-  convention->freedom = coordreq::find_convention(controller, hull, convention->agents, team);
+  ConventionFreedom& freedom = convention->freedom;
+  const auto load = [&](const auto& numbers, const ReadList& read) {
+    freedom = load_convention(spec.agents.size(), abstraction.grid.cells(), numbers, read);
+  };
+  const bool is_saved = watch.checkpoint != nullptr && watch.checkpoint->take_lists(stage, load);
+  if (!is_saved) freedom = coordreq::find_convention(controller, hull, convention->agents, team);
+  if (watch.checkpoint != nullptr) watch.checkpoint->finish(stage, save(freedom));
 }
 
 void Solution::find_layers(ThreadTeam& team, const SolutionWatch& watch) {

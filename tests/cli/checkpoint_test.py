@@ -160,6 +160,28 @@ class Cases(Case):
         self.assertEqual(work["layers first|second"], none)
         self.assertGreater(work["network"]["sweeps"], 0)
 
+    def test_killed_in_the_writing(self):
+        output = {"controller": True, "actions": True, "layers": True}
+        spec = self.config("crossing_convention", output=output)
+        expected = self.analyze_to("expected.h5", spec)
+        log = ["--progress", "log", "--progress-every", "0"]
+        for _ in range(5):
+            process = subprocess.Popen(
+                [PROGRAM, "analyze", spec, "-o", "out.h5", *RESUME, *OFTEN, *log],
+                cwd=self.folder,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+            )
+            with process:
+                self.assertIsNotNone(next((line for line in process.stderr if b"convention: done" in line), None))
+                process.kill()
+            if (self.folder / "run.ckpt").exists():  # else it was faster
+                break
+        self.assertNotIn("out.h5", self.files())
+        result = self.run_program("analyze", spec, "-o", "out.h5", *RESUME)
+        self.assertEqual(result.stderr, b"coordreq: going on from the checkpoint (run.ckpt)\n")
+        self.assertEqual((self.folder / "out.h5").read_bytes(), expected)
+
     def test_nothing_is_left_of_a_run_that_ends(self):
         self.analyze(CIRCLE, *CHECKPOINT, *OFTEN)
         self.assertEqual(self.files(), ["circle.h5"])

@@ -1,4 +1,6 @@
-#include "analysis/saved_tables.hpp"
+#include "analysis/saved_lists.hpp"
+
+#include <bit>
 
 #include "base/error.hpp"
 
@@ -24,31 +26,42 @@ void for_each_list(Table& table, const Visit& visit) {
 }
 
 template <class Element>
-std::int64_t bytes_in(const std::vector<Element>& list) {
+std::int64_t size_of(const std::vector<Element>& list) {
   static_assert(std::is_trivially_copyable_v<Element>);
   return static_cast<std::int64_t>(list.size() * sizeof(Element));
 }
 
-void save(const TransitionTable& table, SavedTables& saved) {
+template <class Element>
+RowBytes bytes_of(const std::vector<Element>& list) {
+  const std::int64_t bytes = size_of(list);
+  const void* first = list.data();
+  return {static_cast<const std::byte*>(first), bytes, bytes == 0 ? 0 : 1, bytes, 1};
+}
+
+template <class Element>
+void fill(std::vector<Element>& list, const ReadList& read) {
+  void* first = list.data();
+  if (!list.empty()) read(static_cast<std::byte*>(first), static_cast<std::uint64_t>(size_of(list)));
+}
+
+void save(const TransitionTable& table, SavedLists& saved) {
   saved.numbers.push_back(table.shift ? 1 : 0);
   saved.numbers.push_back(table.terms.size());
   for (const TransitionTerm& term : table.terms)
     saved.numbers.push_back(static_cast<std::uint64_t>(term.state));
   for_each_list(table, [&](const auto& list) {
     saved.numbers.push_back(list.size());
-    const std::int64_t bytes = bytes_in(list);
-    const void* first = list.data();
-    saved.lists.push_back({static_cast<const std::byte*>(first), bytes, bytes == 0 ? 0 : 1, bytes, 1});
+    saved.lists.push_back(bytes_of(list));
   });
 }
 
-/// Hands out the numbers of SavedTables again.
+/// Hands out the numbers of SavedLists again.
 class Numbers {
  public:
   explicit Numbers(const std::vector<std::uint64_t>& numbers) : numbers_(numbers) {}
 
   std::uint64_t next() {
-    if (position_ == numbers_.size()) throw ResultsError("tables do not fit the spec");
+    if (position_ == numbers_.size()) throw ResultsError("saved lists do not fit the spec");
     return numbers_[position_++];
   }
 
@@ -57,22 +70,20 @@ class Numbers {
   std::size_t position_ = 0;
 };
 
-template <class Read>
-void load(Numbers& numbers, const Read& read, TransitionTable& table) {
+void load(Numbers& numbers, const ReadList& read, TransitionTable& table) {
   table.shift = numbers.next() != 0;
   table.terms.resize(numbers.next());
   for (TransitionTerm& term : table.terms) term.state = static_cast<std::int32_t>(numbers.next());
   for_each_list(table, [&](auto& list) {
     list.resize(numbers.next());
-    void* first = list.data();
-    if (!list.empty()) read(static_cast<std::byte*>(first), static_cast<std::uint64_t>(bytes_in(list)));
+    fill(list, read);
   });
 }
 
 }  // namespace
 
-SavedTables save_tables(const Abstraction& abstraction) {
-  SavedTables saved;
+SavedLists save(const Abstraction& abstraction) {
+  SavedLists saved;
   saved.numbers = {abstraction.exact ? std::uint64_t{1} : 0, abstraction.tables.size(),
                    abstraction.tubes.size()};
   for (const TransitionTable& table : abstraction.tables) save(table, saved);
@@ -80,8 +91,8 @@ SavedTables save_tables(const Abstraction& abstraction) {
   return saved;
 }
 
-Abstraction load_tables(const ProblemSpec& spec, const std::vector<std::uint64_t>& numbers,
-                        const std::function<void(std::byte*, std::uint64_t)>& read) {
+Abstraction load_abstraction(const ProblemSpec& spec, const std::vector<std::uint64_t>& numbers,
+                             const ReadList& read) {
   Abstraction abstraction{.grid = make_grid(spec), .inputs = make_input_space(spec)};
   Numbers left(numbers);
   abstraction.exact = left.next() != 0;
@@ -90,6 +101,32 @@ Abstraction load_tables(const ProblemSpec& spec, const std::vector<std::uint64_t
   for (TransitionTable& table : abstraction.tables) load(left, read, table);
   for (TransitionTable& tube : abstraction.tubes) load(left, read, tube);
   return abstraction;
+}
+
+SavedLists save(const ConventionFreedom& freedom) {
+  SavedLists saved;
+  for (const ConventionFreedom::Agent& agent : freedom.agents) {
+    saved.numbers.push_back(std::bit_cast<std::uint64_t>(agent.mean));
+    saved.numbers.push_back(static_cast<std::uint64_t>(agent.full));
+    for (const std::int64_t cells : agent.histogram)
+      saved.numbers.push_back(static_cast<std::uint64_t>(cells));
+    saved.lists.push_back(bytes_of(agent.freedom));
+  }
+  return saved;
+}
+
+ConventionFreedom load_convention(std::size_t agents, std::int64_t cells,
+                                  const std::vector<std::uint64_t>& numbers, const ReadList& read) {
+  ConventionFreedom freedom{.agents = std::vector<ConventionFreedom::Agent>(agents)};
+  Numbers left(numbers);
+  for (ConventionFreedom::Agent& agent : freedom.agents) {
+    agent.mean = std::bit_cast<double>(left.next());
+    agent.full = static_cast<std::int64_t>(left.next());
+    for (std::int64_t& count : agent.histogram) count = static_cast<std::int64_t>(left.next());
+    agent.freedom.resize(static_cast<std::size_t>(cells));
+    fill(agent.freedom, read);
+  }
+  return freedom;
 }
 
 }  // namespace coordreq
