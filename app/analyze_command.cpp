@@ -27,12 +27,10 @@ class InterruptPolicy {
   InterruptPolicy() { delay_.emplace(); }
 
   void obey(const Progress& progress) {
+    if (progress.has_temporary && !delay_) delay_.emplace();
+    if (!progress.has_temporary) delay_.reset();
+    // After that: one that came before the end of the delay has been kept waiting.
     if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
-    if (!progress.has_temporary) {
-      delay_.reset();
-    } else if (!delay_) {
-      delay_.emplace();
-    }
   }
 
  private:

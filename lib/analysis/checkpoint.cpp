@@ -1,11 +1,11 @@
 #include "analysis/checkpoint.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "base/error.hpp"
@@ -280,8 +280,11 @@ void Checkpoint::write(const Record* under_way) {
   output.commit();
 }
 
+// A symbolic link stays, as it does when the file is written.
 void Checkpoint::remove() {
-  static_cast<void>(::unlink(options_.file.c_str()));
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::canonical(options_.file, error);
+  if (!error) static_cast<void>(std::filesystem::remove(file, error));
 }
 
 void check_checkpoint(const CheckpointOptions& options) {

@@ -47,6 +47,7 @@ class Cases(Case):
             if now is not None and now != seen:
                 times -= 1
             seen = now
+            time.sleep(0.0005)
         process.send_signal(number)
         code = process.wait(timeout=60)
         self.assertIn(code, (0, 1, 130, -signal.SIGKILL))
@@ -187,6 +188,16 @@ class Cases(Case):
         self.assertEqual(self.files(), ["circle.h5"])
         self.assert_prints("", "analyze", CIRCLE, *CHECKPOINT, *OFTEN, "--resume", "--quiet")
         self.assertEqual(self.files(), ["circle.h5"])
+
+    def test_a_link_to_the_checkpoint_stays(self):
+        (self.folder / "disk").mkdir()
+        (self.folder / "run.ckpt").symlink_to("disk/state")
+        spec = self.config("circle")
+        self.assertTrue(self.run_until_saved(3, signal.SIGKILL, spec, "-o", "out.h5", *RESUME, *OFTEN))
+        self.assertTrue((self.folder / "disk/state").exists())
+        self.analyze(spec, *RESUME, "--quiet")
+        self.assertTrue((self.folder / "run.ckpt").is_symlink())
+        self.assertEqual([path.name for path in (self.folder / "disk").iterdir() if path.name == "state"], [])
 
     def test_without_a_checkpoint_resume_starts_anew_and_says_so(self):
         result = self.run_program("analyze", CIRCLE, *RESUME)
