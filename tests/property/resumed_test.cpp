@@ -115,26 +115,21 @@ TEST(Resumed, WideLevelsAreTheSameFromAnyStep) {
 {"name": "y", "discrete": true, "lower": 0, "upper": 99, "step": 1, "outside": "unsafe"}],
 "inputs": [{"name": "u", "values": [0]}], "agents": [{"name": "a", "inputs": ["u"]}],
 "dynamics": {"time": "discrete", "period": 1,
-  "equations": {"x": "x + if(y >= 99, 1, 0)", "y": "if(y >= 99, 0, y + 1) + u"
-}
-}
-, "safe" : "true", "abstraction" : {
-  "cells" : "half_open"
-}
-})",
+  "equations": {"x": "x + if(y >= 99, 1, 0)", "y": "if(y >= 99, 0, y + 1) + u"}},
+"safe": "true", "abstraction": {"cells": "half_open"}})json",
                                      "chain");
-for (const int threads : {1, 2}) {
-  ThreadTeam team(threads);
-  const FastAnalysis fast(spec, team);
-  EXPECT_EQ(fast.invariance.iterations, 301);
-  EXPECT_TRUE(resumes(
-      fast.engine,
-      [&](const WaveWatch& watch) {
-        return find_invariance(fast.engine, fast.hull, fast.safe, spec.controller.synthesis, watch, team)
-            .collision_time;
-      },
-      7));
-}
+  for (const int threads : {1, 2}) {
+    ThreadTeam team(threads);
+    const FastAnalysis fast(spec, team);
+    EXPECT_EQ(fast.invariance.iterations, 301);
+    EXPECT_TRUE(resumes(
+        fast.engine,
+        [&](const WaveWatch& watch) {
+          return find_invariance(fast.engine, fast.hull, fast.safe, spec.controller.synthesis, watch, team)
+              .collision_time;
+        },
+        7));
+  }
 }
 
 std::string with_network(std::string problem, bool resynthesise) {
