@@ -59,6 +59,8 @@ bool is_batch(const CommandLine& line) {
 
 ExitCode run_analyze_batch(const CommandLine& line) {
   std::vector<PlannedRun> plan = plan_runs(line);
+  if (line.checkpoint)
+    throw UsageError(fmt::format("expected one analysis, found {}", plan.size()), "--checkpoint");
   if (line.junit) try_to_write(*line.junit);
   const BatchTable table(plan, line);
   const bool is_text = !line.json && !line.quiet;

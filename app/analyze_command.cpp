@@ -12,13 +12,22 @@
 namespace coordreq {
 namespace {
 
-AnalysisSummary analyze_and_write(const ProblemSpec& spec, const CommandLine& line) {
-  const std::string output = line.output.value_or(spec.name + ".h5");
-  ThreadTeam team(line.threads);
+/// Files that would take the place of one another.
+void check_files(const std::string& output, const CommandLine& line) {
   if (line.junit && is_same_file(*line.junit, output)) {
     throw UsageError(fmt::format("expected another file than the results, found '{}'", *line.junit),
                      "--junit");
   }
+  if (!line.checkpoint) return;
+  const std::string& file = line.checkpoint->file;
+  if (is_same_file(file, output) || (line.junit && is_same_file(file, *line.junit)))
+    throw UsageError(fmt::format("expected a file of its own, found '{}'", file), "--checkpoint");
+}
+
+AnalysisSummary analyze_and_write(const ProblemSpec& spec, const CommandLine& line) {
+  const std::string output = line.output.value_or(spec.name + ".h5");
+  ThreadTeam team(line.threads);
+  check_files(output, line);
   if (line.junit) try_to_write(*line.junit);
   AnalysisSummary summary = analyze_with_progress(spec, output, line, team, "");
   const InterruptDelay delay;

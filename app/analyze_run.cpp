@@ -6,25 +6,24 @@
 
 #include "app/interrupt.hpp"
 #include "app/memory_limit.hpp"
-#include "app/progress_line.hpp"
+#include "app/progress_display.hpp"
 #include "results/write_results.hpp"
 
 namespace coordreq {
 namespace {
 
-/// Lets a signal end the program at once in every stage that has no temporary file.
+/// Lets a signal end the program at once while there is no temporary file, and as soon as it hears of the
+/// work's progress otherwise.
 class InterruptPolicy {
  public:
   // The first thing an analysis does is to try whether it can write.
   InterruptPolicy() { delay_.emplace(); }
 
-  void enter(const std::string& stage) {
+  void obey(const Progress& progress) {
+    if (progress.has_temporary && !delay_) delay_.emplace();
+    if (!progress.has_temporary) delay_.reset();
+    // After that: one that came before the end of the delay has been kept waiting.
     if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
-    if (stage != "writing") {
-      delay_.reset();
-    } else if (!delay_) {
-      delay_.emplace();
-    }
   }
 
  private:
@@ -36,15 +35,23 @@ class InterruptPolicy {
 AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const std::string& output,
                                       const CommandLine& line, ThreadTeam& team, const std::string& prefix) {
   InterruptPolicy interrupts;
-  ProgressLine shown(!line.quiet);
+  ProgressDisplay shown(line.progress, line.quiet);
   AnalysisOptions options;
   options.output = output;
   options.max_memory = line.max_memory ? line.max_memory : available_memory();
+  options.checkpoint = line.checkpoint;
   options.progress = [&](const Progress& progress) {
-    interrupts.enter(progress.stage);
-    shown.update(Progress{prefix + progress.stage, progress.sweep, progress.rows});
+    interrupts.obey(progress);
+    Progress of_many = progress;
+    of_many.stage = prefix + progress.stage;
+    shown.update(of_many);
   };
-  return analyze(spec, options, team);
+  options.notice = [&](const std::string& text) {
+    if (!line.quiet) shown.notice(text);
+  };
+  AnalysisSummary summary = analyze(spec, options, team);
+  shown.finish();
+  return summary;
 }
 
 void check_interrupted(const std::string& place) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/long_run_options.hpp"
 #include "app/simulate_arguments.hpp"
 #include "app/sweep.hpp"
 #include "base/error.hpp"
@@ -33,6 +34,8 @@ struct CommandLine {
   std::size_t limit = 5;                    ///< --limit: cells that are named for each partition
   bool json = false;
   bool quiet = false;
+  ProgressOptions progress;                     ///< --progress, --progress-every
+  std::optional<CheckpointOptions> checkpoint;  ///< --checkpoint, --checkpoint-every, --resume
   SimulateArguments simulate;
   std::function<ExitCode(const CommandLine&)> command;
 

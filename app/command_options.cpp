@@ -52,6 +52,27 @@ void add_analyze_options(const Adder& add, RawArguments& raw) {
            "PATH=VALUE,VALUE");
 }
 
+void add_progress_options(CLI::App& command, LongRunArguments& long_run) {
+  command
+      .add_option("--progress", long_run.progress,
+                  "auto: a bar on a terminal; bar: that, also with --quiet; log: lines (default: auto)")
+      ->type_name("auto|bar|log|none");
+  command
+      .add_option("--progress-every", long_run.progress_every, "Between two lines of the log (default: 10)")
+      ->type_name("SECONDS");
+}
+
+void add_checkpoint_options(CLI::App& command, LongRunArguments& long_run) {
+  command
+      .add_option("--checkpoint", long_run.checkpoint,
+                  "Save the work there now and then; removed when the results are written")
+      ->type_name("FILE");
+  command.add_option("--checkpoint-every", long_run.checkpoint_every, "How often (default: 60)")
+      ->type_name("SECONDS");
+  command.add_flag("--resume", long_run.resume, "Go on from the checkpoint, if there is one")
+      ->disable_flag_override();
+}
+
 void add_export_options(const Adder& add, RawArguments& raw) {
   add.one("--format", raw.format, "The format to write; scs is that of SCOTS, vtk that of ParaView",
           "csv|scs|c-header|vtk");
@@ -101,7 +122,10 @@ void add_arguments(CLI::App& command, const CommandInfo& info, RawArguments& raw
 
 void add_own_options(CLI::App& command, const CommandInfo& info, RawArguments& raw) {
   const Adder add(command);
-  if (info.run == run_analyze) add_analyze_options(add, raw);
+  if (info.run == run_analyze) {
+    add_analyze_options(add, raw);
+    add_checkpoint_options(command, raw.long_run);
+  }
   if (info.run == run_validate) add_set_option(add, raw);
   if (info.run == run_report)
     add.one("-o,--output", raw.output, "HTML file (default: NAME.html in the current folder)", "FILE");
@@ -114,6 +138,9 @@ void add_own_options(CLI::App& command, const CommandInfo& info, RawArguments& r
   if (info.run == run_simulate) add_simulate_options(command, raw);
   if (info.run == run_verify)
     add.one("--sample", raw.sample, "Look at so many cells, evenly drawn (default: all)", "N");
+  if (info.run == run_analyze || info.run == run_compare || info.run == run_simulate ||
+      info.run == run_verify)
+    add_progress_options(command, raw.long_run);
 }
 
 void add_command(CLI::App& app, const CommandInfo& info, RawArguments& raw) {

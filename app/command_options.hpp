@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/command_line.hpp"
+#include "app/long_run_options.hpp"
 #include "app/simulate_arguments.hpp"
 
 namespace CLI {
@@ -28,6 +29,7 @@ struct RawArguments {
   bool quiet = false;
   bool version = false;
   SimulateArguments simulate;
+  LongRunArguments long_run;
 };
 
 /// An argument without the name of an option.

@@ -104,6 +104,8 @@ CommandLine checked_values(const RawArguments& raw, const CommandInfo& info, con
   if (info.run == run_export) add_export_values(raw, command, line);
   if (info.run == run_compare) add_compare_values(raw, command, line);
   line.simulate = raw.simulate;
+  line.progress = progress_options(raw.long_run);
+  line.checkpoint = checkpoint_options(raw.long_run);
   for (const std::string& text : raw.settings) line.settings.push_back(parse_setting(text));
   for (const std::string& text : raw.sweeps) line.sweeps.push_back(parse_sweep(text));
   if (info.run == run_analyze && command.count("--junit") > 0) line.junit = file_name(raw.junit, "--junit");

@@ -1,6 +1,6 @@
 #include "app/commands.hpp"
 #include "app/compare_report.hpp"
-#include "app/progress_line.hpp"
+#include "app/progress_display.hpp"
 #include "app/standard_streams.hpp"
 
 namespace coordreq {
@@ -8,9 +8,13 @@ namespace {
 
 ResultsComparison compare_with_progress(const ResultsReader& before, const ResultsReader& after,
                                         CompareOptions options, const CommandLine& line) {
-  ProgressLine shown(!line.quiet);
-  options.progress = [&shown](const std::string& subject) { shown.update("comparing " + subject); };
-  return compare_results(before, after, options);
+  ProgressDisplay shown(line.progress, line.quiet);
+  options.progress = [&shown](const std::string& subject) {
+    shown.update({.stage = "comparing " + subject});
+  };
+  ResultsComparison comparison = compare_results(before, after, options);
+  shown.finish();
+  return comparison;
 }
 
 }  // namespace

@@ -19,8 +19,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not
 
 void handle(int) {
   if (is_delayed && !is_pending.exchange(true)) return;
-  // The terminal has echoed ^C, perhaps behind a progress line.
-  if (is_on_terminal) write_diagnostics("\n");
+  if (is_on_terminal) clear_terminal_line();
   write_diagnostics("coordreq: error: interrupted\n");
   ::_exit(static_cast<int>(ExitCode::interrupted));
 }

@@ -6,6 +6,7 @@
 #include "app/interrupt.hpp"
 #include "app/memory_limit.hpp"
 #include "app/named_values.hpp"
+#include "app/progress_display.hpp"
 #include "app/simulate_report.hpp"
 #include "app/standard_streams.hpp"
 
@@ -69,19 +70,31 @@ SimulationOptions simulation_options(const CommandLine& line) {
   return options;
 }
 
-Simulation simulate_with_care(const ResultsReader& results, SimulationOptions& options, int threads) {
+Simulation simulate_with_care(const ResultsReader& results, SimulationOptions& options,
+                              const CommandLine& line) {
+  ProgressDisplay shown(line.progress, line.quiet);
+  Progress progress;
   // A signal waits while there may be a temporary file; without one it ends the program at once.
   std::optional<InterruptDelay> delay;
-  options.entered = [&delay](const std::string& stage) {
+  options.entered = [&](const std::string& stage) {
     if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
+    progress = {.stage = stage};
+    shown.update(progress);
     if (stage == "running") {
       delay.reset();
     } else if (!delay) {
       delay.emplace();
     }
   };
-  ThreadTeam team(threads);
+  ThreadTeam team(line.threads);
+  team.set_watch([&](std::int64_t done, std::int64_t all) {
+    if (delay && is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
+    progress.done = done;
+    progress.all = all;
+    shown.update(progress);
+  });
   Simulation simulation = simulate(results, options, team);
+  shown.finish();
   if (is_interrupted()) {
     throw Error(ExitCode::interrupted, "interrupted when the runs were complete",
                 options.output.value_or(""));
@@ -94,7 +107,7 @@ Simulation simulate_with_care(const ResultsReader& results, SimulationOptions& o
 ExitCode run_simulate(const CommandLine& line) {
   SimulationOptions options = simulation_options(line);
   const ResultsReader results(line.path);
-  const Simulation simulation = simulate_with_care(results, options, line.threads);
+  const Simulation simulation = simulate_with_care(results, options, line);
   if (line.json) {
     write_output(simulation_json(simulation, results, options));
   } else if (!line.quiet) {

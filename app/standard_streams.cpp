@@ -4,6 +4,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -28,6 +30,16 @@ int write_all(int descriptor, std::string_view text) noexcept {
   return 0;
 }
 
+// A signal handler clears the line.
+std::atomic<std::size_t> line_length = 0;
+static_assert(std::atomic<std::size_t>::is_always_lock_free, "a signal handler must not take a lock");
+
+void write_blanks(std::size_t count) noexcept {
+  constexpr std::string_view kBlanks = "                                                                ";
+  for (; count > 0; count -= std::min(count, kBlanks.size()))
+    static_cast<void>(write_all(STDERR_FILENO, kBlanks.substr(0, std::min(count, kBlanks.size()))));
+}
+
 }  // namespace
 
 void hold_standard_streams() {
@@ -48,6 +60,24 @@ void write_output(std::string_view text) {
 
 void write_diagnostics(std::string_view text) noexcept {
   static_cast<void>(write_all(STDERR_FILENO, text));
+}
+
+void rewrite_terminal_line(std::string_view text) noexcept {
+  const std::size_t before = line_length;
+  if (text.empty() && before == 0) return;
+  line_length = std::max(before, text.size());
+  write_diagnostics("\r");
+  write_diagnostics(text);
+  write_blanks(before > text.size() ? before - text.size() : 0);
+  if (text.empty()) write_diagnostics("\r");
+  line_length = text.size();
+}
+
+void clear_terminal_line() noexcept {
+  write_diagnostics("\r");
+  write_blanks(line_length + 2);
+  write_diagnostics("\r");
+  line_length = 0;
 }
 
 int diagnostics_terminal_width() {

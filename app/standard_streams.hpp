@@ -16,6 +16,13 @@ void write_output(std::string_view text);
 /// Writes `text` to standard error as far as possible; there is nobody to tell about a failure.
 void write_diagnostics(std::string_view text) noexcept;
 
+/// Shows `text` in place of what this has shown before, in one line of the terminal that standard error is;
+/// empty: nothing.
+void rewrite_terminal_line(std::string_view text) noexcept;
+
+/// Removes that line and the ^C that a terminal may have put behind it. A signal handler may call it.
+void clear_terminal_line() noexcept;
+
 /// Columns of the terminal that standard error is; 0 if it is none, or one that cannot rewrite a line.
 [[nodiscard]] int diagnostics_terminal_width();
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace coordreq {
 namespace {
@@ -90,6 +91,19 @@ std::string duration(std::int64_t steps, double period, std::string_view unit) {
   const std::string count = fmt::format("{} step{}", grouped(steps), steps == 1 ? "" : "s");
   if (unit.empty()) return count;
   return fmt::format("{} ({:.6g} {})", count, static_cast<double>(steps) * period, printable(unit));
+}
+
+std::string time_span(double seconds) {
+  if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
+  const double whole = std::round(seconds);
+  if (whole < 60) return fmt::format("{:.0f} s", whole);
+  const auto two = [](double number, double unit, const char* large, double part, const char* small) {
+    const double many = std::floor(number / unit);
+    return fmt::format("{:.0f} {} {:.0f} {}", many, large, std::floor((number - many * unit) / part), small);
+  };
+  if (whole < 3600) return two(whole, 60, "min", 1, "s");
+  if (whole < 2 * 86400) return two(whole, 3600, "h", 60, "min");
+  return two(whole, 86400, "days", 3600, "h");
 }
 
 std::string guarantee_text(std::string_view guarantee) {

@@ -26,6 +26,9 @@ namespace coordreq {
 /// "28 steps (0.28 s)", "1 step"; without the time if `unit` is empty. `unit` is user text.
 [[nodiscard]] std::string duration(std::int64_t steps, double period, std::string_view unit);
 
+/// "12 s", "3 min 20 s", "5 h 12 min", "3 days 4 h"; less than 10 s with a tenth. REQUIRES: seconds >= 0
+[[nodiscard]] std::string time_span(double seconds);
+
 /// The guarantee of a result in words: "samples" -> "samples: at the sampling instants, for every point of a
 /// cell".
 [[nodiscard]] std::string guarantee_text(std::string_view guarantee);

@@ -7,26 +7,22 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/checkpoint_options.hpp"
+#include "analysis/progress.hpp"
 #include "base/thread_team.hpp"
 #include "results/result_requirement.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
-/// What is under way; called from the calling thread only, often.
-struct Progress {
-  /// "controller" (if there is a file with one), "regions" (if there are requirements), "abstraction", "safe
-  /// set", "invariance", "layers PARTITION", "network", "convention", "coalitions", "requirements" (where
-  /// asked for), "writing"
-  std::string stage;
-  std::int64_t sweep = 0;  ///< number of the sweep that has ended, 0 where there is none
-  std::int64_t rows = 0;   ///< rows of cells that it has worked out
-};
-
 struct AnalysisOptions {
-  std::string output;                             ///< path of the results file; empty: none
-  std::optional<std::uint64_t> max_memory;        ///< bytes; refuse up front if the estimate is above
-  std::function<void(const Progress&)> progress;  ///< may be empty
+  std::string output;                       ///< path of the results file; empty: none
+  std::optional<std::uint64_t> max_memory;  ///< bytes; refuse up front if the estimate is above
+  /// Called from the calling thread only, when something begins and often in between; may be empty. What it
+  /// throws ends the work, with nothing left behind.
+  std::function<void(const Progress&)> progress;
+  std::optional<CheckpointOptions> checkpoint;
+  std::function<void(const std::string&)> notice;  ///< a line for the user; may be empty
 };
 
 struct PartitionSummary {
@@ -116,7 +112,9 @@ struct AnalysisSummary {
   std::uint64_t peak_memory_bytes = 0;
 };
 
-/// The whole analysis: abstraction, S, K, layers, trigger tables, results file if one is asked for.
+/// The whole analysis: abstraction, S, K, layers, trigger tables, results file if one is asked for. The file
+/// is the same to the byte whether or not the work was broken off and gone on with from a checkpoint; that is
+/// removed in the end.
 /// @throws SpecError for what only shows when the system is built (undecidable `allow`, a discrete state off
 /// its
 ///   grid, dynamics that this version cannot abstract); LimitError; IoError

@@ -9,6 +9,7 @@
 
 #include "abstraction/abstraction.hpp"
 #include "analysis/cell_order.hpp"
+#include "analysis/checkpoint.hpp"
 #include "base/thread_team.hpp"
 #include "coordination/controller.hpp"
 #include "coordination/convention_freedom.hpp"
@@ -37,8 +38,16 @@ struct ConventionResult {
 
 /// Told that a stage begins.
 using EnterStage = std::function<void(const std::string& stage)>;
-/// Told after each sweep of a stage's fixed point (number, rows visited).
-using StageSwept = std::function<void(const std::string& stage, std::int64_t sweep, std::int64_t rows)>;
+
+/// Who is told how the work goes on, and where it can be taken up. All functions are there.
+struct SolutionWatch {
+  EnterStage enter;
+  /// A part of the stage begins: "projections", or "" for the stage itself.
+  std::function<void(const std::string& part)> part;
+  /// A step of the stage's fixed point, and how many cells a row has.
+  std::function<void(const WaveStep& step, std::int64_t row_length)> step;
+  Checkpoint* checkpoint = nullptr;  ///< may be none
+};
 
 /// What the fixed points of a problem have found, with all that it refers to. What is derived from it
 /// (summary, arrays) reads it and changes nothing.
@@ -52,7 +61,7 @@ struct Solution {
   /// PARTITION" for each partition, coarser ones before finer ones, and what is derived from them: see
   /// Progress. REQUIRES: `problem` outlives the solution.
   /// @throws as analyze()
-  Solution(const ProblemSpec& problem, ThreadTeam& team, const EnterStage& enter, const StageSwept& swept);
+  Solution(const ProblemSpec& problem, ThreadTeam& team, const SolutionWatch& watch);
   Solution(const Solution&) = delete;
   Solution& operator=(const Solution&) = delete;
 
@@ -74,10 +83,12 @@ struct Solution {
   CellOrder order;
 
  private:
-  void find_convention(ThreadTeam& team, const EnterStage& enter);
-  void find_layers(ThreadTeam& team, const EnterStage& enter, const StageSwept& swept);
-  [[nodiscard]] DelayLayers layers_of(std::size_t p, ThreadTeam& team,
-                                      const std::function<void(std::int64_t, std::int64_t)>& step) const;
+  void find_convention(ThreadTeam& team, const SolutionWatch& watch);
+  void find_layers(ThreadTeam& team, const SolutionWatch& watch);
+  [[nodiscard]] Invariance find_invariance_set(ThreadTeam& team, const SolutionWatch& watch) const;
+  void find_network(ThreadTeam& team, const SolutionWatch& watch);
+  [[nodiscard]] DelayLayers layers_of(std::size_t p, const std::string& stage, ThreadTeam& team,
+                                      const SolutionWatch& watch) const;
 };
 
 /// The inputs of each class of a partition, ascending.

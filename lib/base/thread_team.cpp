@@ -7,6 +7,7 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace coordreq {
@@ -45,6 +46,7 @@ struct ThreadTeam::State {
   std::atomic<std::int64_t> next{0};
   std::exception_ptr failure;
   std::int64_t failed_at = 0;
+  Watch watch;
 
   void run(int worker) {
     for (;;) {
@@ -52,6 +54,7 @@ struct ThreadTeam::State {
       if (begin >= count) return;
       try {
         (*body)({begin, std::min(begin + grain, count)}, worker);
+        if (worker == 0 && watch) watch(std::min(next.load(std::memory_order_relaxed), count), count);
       } catch (...) {
         const std::lock_guard lock(mutex);
         if (!failure || begin < failed_at) {
@@ -131,8 +134,11 @@ void ThreadTeam::for_each(std::int64_t count, std::int64_t grain, const Body& bo
   State& state = *state_;
   grain = std::max<std::int64_t>(1, grain);
   if (state.threads.empty() || count <= grain) {
-    for (std::int64_t begin = 0; begin < count; begin += grain)
-      body({begin, std::min(begin + grain, count)}, 0);
+    for (std::int64_t begin = 0; begin < count; begin += grain) {
+      const std::int64_t end = std::min(begin + grain, count);
+      body({begin, end}, 0);
+      if (state.watch) state.watch(end, count);
+    }
     return;
   }
   state.body = &body;
@@ -143,6 +149,10 @@ void ThreadTeam::for_each(std::int64_t count, std::int64_t grain, const Body& bo
   state.run(0);
   state.wait_for_helpers();
   if (state.failure) std::rethrow_exception(state.failure);
+}
+
+void ThreadTeam::set_watch(Watch watch) {
+  state_->watch = std::move(watch);
 }
 
 }  // namespace coordreq

@@ -21,6 +21,8 @@ class ThreadTeam {
   };
   /// `worker` in [0, size()) names the thread that runs the range, for scratch memory.
   using Body = std::function<void(Range range, int worker)>;
+  /// Told how many of the indices of a loop have been handed out.
+  using Watch = std::function<void(std::int64_t done, std::int64_t count)>;
 
   /// @param threads number of threads that work, the calling one included; 0 means all cores. Where the
   /// system
@@ -37,6 +39,10 @@ class ThreadTeam {
   /// several the one of the lowest range, which is the same whatever the number of threads: ranges are handed
   /// out in order.
   void for_each(std::int64_t count, std::int64_t grain, const Body& body);
+
+  /// From now on `watch` is called in every loop, by the thread that called for_each(), after each range that
+  /// this thread has run; what it throws ends the loop like what a body throws. Empty: nobody is told.
+  void set_watch(Watch watch);
 
  private:
   struct State;

@@ -26,6 +26,12 @@ class LevelMap {
     return std::visit(visit, rows_);
   }
 
+  /// The rows if they are of this width, else null.
+  template <class Level>
+  [[nodiscard]] LevelRows<Level>* get_if() {
+    return std::get_if<LevelRows<Level>>(&rows_);
+  }
+
   [[nodiscard]] std::int64_t rows() const {
     return visit([](const auto& levels) { return levels.rows(); });
   }

@@ -1,6 +1,7 @@
 #include "coordination/delay_layers.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "coordination/independent_actions.hpp"
 #include "safety/find_levels.hpp"
@@ -35,8 +36,7 @@ void summarise(std::optional<std::int64_t> max_delay, ThreadTeam& team, DelayLay
 
 DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, const CellSet& invariant,
                               const Projections& projections, const std::vector<const LevelMap*>& coarser,
-                              std::optional<std::int64_t> max_delay,
-                              const std::function<void(std::int64_t, std::int64_t)>& swept,
+                              std::optional<std::int64_t> max_delay, const WaveWatch& watch,
                               ThreadTeam& team) {
   const int workers = team.size();
   const LevelProblem problem{
@@ -47,16 +47,20 @@ DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, cons
       .make8 = [&] { return make_operator<std::uint8_t>(projections, hull, invariant, workers); },
       .make16 = [&] { return make_operator<std::uint16_t>(projections, hull, invariant, workers); },
       .make32 = [&] { return make_operator<std::uint32_t>(projections, hull, invariant, workers); }};
-  DelayLayers result;
-  result.layers_of = find_levels(engine, hull, problem, swept, team, result.counts);
-  summarise(max_delay, team, result);
+  WaveCounts counts;
+  DelayLayers result =
+      layers_of_levels(find_levels(engine, hull, problem, watch, team, counts), max_delay, team);
+  result.counts = counts;
   return result;
 }
 
 DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
                                std::optional<std::int64_t> max_delay, ThreadTeam& team) {
-  DelayLayers result;
-  result.layers_of = LevelMap(top_levels<std::uint8_t>(engine, invariant, team));
+  return layers_of_levels(LevelMap(top_levels<std::uint8_t>(engine, invariant, team)), max_delay, team);
+}
+
+DelayLayers layers_of_levels(LevelMap layers_of, std::optional<std::int64_t> max_delay, ThreadTeam& team) {
+  DelayLayers result{.layers_of = std::move(layers_of)};
   summarise(max_delay, team, result);
   return result;
 }

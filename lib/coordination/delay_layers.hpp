@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -42,17 +41,19 @@ struct DelayLayers {
 /// M to each of them, M(min L') = min M(L') = min L'. Without bounds M is of the levels of K alone, and none
 /// of its cells is lost by any action.
 /// @param coarser layers_of for some partitions that this one refines, with the same `max_delay`
-/// @param swept told after each sweep of the wave (number, rows visited); may be empty
 [[nodiscard]] DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull,
                                             const CellSet& invariant, const Projections& projections,
                                             const std::vector<const LevelMap*>& coarser,
-                                            std::optional<std::int64_t> max_delay,
-                                            const std::function<void(std::int64_t, std::int64_t)>& swept,
+                                            std::optional<std::int64_t> max_delay, const WaveWatch& watch,
                                             ThreadTeam& team);
 
 /// The same for the partition in which all agents are together, at no cost: IND_C = C, and C keeps every cell
 /// of K in K, so Z_k = K for every k.
 [[nodiscard]] DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
                                              std::optional<std::int64_t> max_delay, ThreadTeam& team);
+
+/// All that follows from the levels; `counts` are none.
+[[nodiscard]] DelayLayers layers_of_levels(LevelMap layers_of, std::optional<std::int64_t> max_delay,
+                                           ThreadTeam& team);
 
 }  // namespace coordreq

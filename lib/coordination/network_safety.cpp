@@ -13,7 +13,6 @@ namespace coordreq {
 namespace {
 
 using Level = std::uint8_t;
-using Swept = std::function<void(std::int64_t, std::int64_t)>;
 
 /// Rows that one thread takes at a time.
 constexpr std::int64_t kPieceRows = 16;
@@ -76,14 +75,15 @@ struct Losses {
 
 class Iteration {
  public:
-  Iteration(const NetworkProblem& problem, const Swept& swept, ThreadTeam& team)
+  Iteration(const NetworkProblem& problem, const NetworkWatch& watch, ThreadTeam& team)
       : engine_(*problem.controller->engine),
         modes_(problem.modes),
-        swept_(swept),
+        watch_(watch),
         team_(team),
         operators_(problem, team),
         targets_(engine_, *problem.hull, problem.modes, *problem.controller->invariant) {
     for (int w = 0; w < team.size(); ++w) workers_.emplace_back(engine_, targets_.levels());
+    if (watch.resumed != nullptr) resume(*watch.resumed);
   }
 
   /// In the order that is best; REQUIRES: the operators are monotone.
@@ -94,6 +94,7 @@ class Iteration {
       for (const std::size_t mode : order) {
         while (targets_.has_changed(mode)) {
           commit(sweep(mode));
+          tell(true);
           changed = true;
         }
       }
@@ -105,9 +106,12 @@ class Iteration {
     for (bool changed = true; changed;) {
       std::vector<Losses> lost;
       for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
-        if (targets_.has_changed(mode)) lost.push_back(sweep(mode));
+        if (!targets_.has_changed(mode)) continue;
+        lost.push_back(sweep(mode));
+        tell(false);
       }
       for (const Losses& losses : lost) commit(losses);
+      tell(true);
       changed = !lost.empty();
     }
   }
@@ -143,8 +147,26 @@ class Iteration {
     ++counts_.sweeps;
     counts_.rows_visited += count;
     counts_.rows_skipped += alive - count;
-    if (swept_) swept_(counts_.sweeps, count);
+    step_ = {.sweep = counts_.sweeps, .visited = count, .rows = alive};
     return collect(mode);
+  }
+
+  void resume(std::vector<CellSet>& sets) {
+    for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
+      for (std::int64_t row = 0; row < engine_.rows(); ++row)
+        targets_.shrink(mode, row, std::as_const(sets[mode]).row(row));
+      sets[mode] = {};
+    }
+  }
+
+  /// @param whole whether the sets are such that the work can be taken up from them
+  void tell(bool whole) {
+    if (!watch_.step) return;
+    std::vector<RowBytes> sets;
+    for (std::size_t mode = 0; whole && mode < modes_.size(); ++mode)
+      sets.push_back(bytes_of(targets_.set(mode)));
+    step_.state = sets;
+    watch_.step(step_);
   }
 
   void visit(std::size_t mode, std::int64_t row, Worker& worker, int w) {
@@ -183,7 +205,8 @@ class Iteration {
 
   const RowEngine& engine_;
   const std::vector<NetworkMode>& modes_;
-  const Swept& swept_;
+  const NetworkWatch& watch_;
+  WaveStep step_;
   ThreadTeam& team_;
   Operators operators_;
   ModeTargets targets_;
@@ -193,8 +216,9 @@ class Iteration {
 
 }  // namespace
 
-NetworkSafety find_network_safety(const NetworkProblem& problem, const Swept& swept, ThreadTeam& team) {
-  Iteration iteration(problem, swept, team);
+NetworkSafety find_network_safety(const NetworkProblem& problem, const NetworkWatch& watch,
+                                  ThreadTeam& team) {
+  Iteration iteration(problem, watch, team);
   problem.resynthesise ? iteration.run_synchronously() : iteration.run_in_any_order();
   return iteration.result();
 }

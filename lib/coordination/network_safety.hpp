@@ -32,6 +32,20 @@ struct NetworkSafety {
   WaveCounts counts;
 };
 
+/// Looks on while the sets shrink, and says where to take up work that was broken off.
+struct NetworkWatch {
+  /// As WaveWatch::step, after each sweep over the rows of a mode; the state is the sets of all modes. Where
+  /// rounds are synchronous there is one at the end of a round only.
+  std::function<void(const WaveStep&)> step;
+  /// Sets that `step` has been shown; taken away. Null: begin with K.
+  ///
+  /// The result is the same. Usually the operator is monotone, and the sets lie above the greatest solution.
+  /// For `resynthesise` they are those of a round, and the next round finds the same as it would have: it
+  /// works out every row, and a row that it would have passed over has met nothing that changed, so that
+  /// it loses nothing.
+  std::vector<CellSet>* resumed = nullptr;
+};
+
 /// From which cells the agents stay safe in each mode, whatever the network does from there on. With T(q) the
 /// intersection of W(q') over the successors q' of q:
 /// - usually the greatest W with W(q) = {x in K : empty != f(x,u) subset of T(q) for all u in IND_C(x)},
@@ -45,9 +59,7 @@ struct NetworkSafety {
 ///
 /// Memory: a set of cells for each mode (`resynthesise`: up to two), a byte a cell, and the projections of C
 /// for all partitions (`resynthesise`: none).
-/// @param swept told after each sweep over the rows of a mode (number, rows visited); may be empty
-[[nodiscard]] NetworkSafety find_network_safety(const NetworkProblem& problem,
-                                                const std::function<void(std::int64_t, std::int64_t)>& swept,
+[[nodiscard]] NetworkSafety find_network_safety(const NetworkProblem& problem, const NetworkWatch& watch,
                                                 ThreadTeam& team);
 
 }  // namespace coordreq

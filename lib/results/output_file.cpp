@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "base/error.hpp"
 
@@ -26,7 +27,7 @@ std::string because(const std::string& what, int error) {
 }
 
 /// Where a chain of symbolic links ends, whether or not something is there.
-fs::path resolve_links(const std::string& path) {
+fs::path resolve_links(const std::string& path, const std::string& what) {
   fs::path result = path;
   for (int i = 0; i < kMostLinks; ++i) {
     std::error_code error;
@@ -35,7 +36,7 @@ fs::path resolve_links(const std::string& path) {
     if (error) return result;
     result = result.parent_path() / next;
   }
-  throw IoError("cannot write the results: too many symbolic links", path);
+  throw IoError("cannot write " + what + ": too many symbolic links", path);
 }
 
 void check_folder(const fs::path& folder) {
@@ -48,18 +49,20 @@ void check_folder(const fs::path& folder) {
 }
 
 /// Permission bits of the file that would be replaced, if there is one.
-std::optional<mode_t> check_target(const std::string& target, const std::string& path) {
+std::optional<mode_t> check_target(const std::string& target, const std::string& path,
+                                   const std::string& what) {
   struct stat info {};
   if (stat(target.c_str(), &info) != 0) {
     if (errno == ENOENT) return std::nullopt;
-    throw IoError(because("cannot write the results", errno), path);
+    throw IoError(because("cannot write " + what, errno), path);
   }
-  if (S_ISDIR(info.st_mode)) throw IoError("cannot write the results: this is a folder", path);
+  if (S_ISDIR(info.st_mode)) throw IoError("cannot write " + what + ": this is a folder", path);
   if (!S_ISREG(info.st_mode)) {
-    throw IoError("cannot write the results: this is a device, a pipe or a socket, not a regular file", path);
+    throw IoError("cannot write " + what + ": this is a device, a pipe or a socket, not a regular file",
+                  path);
   }
   if (access(target.c_str(), W_OK) != 0) {
-    throw IoError(because("cannot replace the results", errno), path);
+    throw IoError(because("cannot replace " + what, errno), path);
   }
   return info.st_mode & 07777U;
 }
@@ -80,27 +83,37 @@ std::string create_temporary(const fs::path& folder, std::optional<mode_t> mode)
   throw IoError("cannot create a file in the folder: too many temporary files", folder.string());
 }
 
+/// The file of this name, empty.
+std::string create_named(const std::string& path, std::optional<mode_t> mode, const std::string& what) {
+  const int file = open(path.c_str(), O_CREAT | O_TRUNC | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
+  if (file < 0) throw IoError(because("cannot write " + what, errno), path);
+  if (mode) static_cast<void>(fchmod(file, *mode));
+  close(file);
+  return path;
+}
+
 /// @param flags of open()
-void sync(const std::string& path, int flags, const std::string& where) {
+void sync(const std::string& path, int flags, const std::string& where, const std::string& what) {
   const int file = open(path.c_str(), flags | O_CLOEXEC);
   const bool failed = file < 0 || fsync(file) != 0;
   const int error = errno;
   if (file >= 0) close(file);
-  if (failed) throw IoError(because("cannot bring the results to the disk", error), where);
+  if (failed) throw IoError(because("cannot bring " + what + " to the disk", error), where);
 }
 
 }  // namespace
 
-OutputFile::OutputFile(const std::string& path) {
-  if (path.empty()) throw IoError("cannot write the results: the path is empty");
-  const fs::path target = resolve_links(path);
+OutputFile::OutputFile(const std::string& path, std::string what, const std::string& suffix)
+    : what_(std::move(what)) {
+  if (path.empty()) throw IoError("cannot write " + what_ + ": the path is empty");
+  const fs::path target = resolve_links(path, what_);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   check_folder(folder);
-  if (!target.has_filename()) throw IoError("cannot write the results: this is a folder", path);
+  if (!target.has_filename()) throw IoError("cannot write " + what_ + ": this is a folder", path);
   target_ = target.string();
   folder_ = folder.string();
-  const std::optional<mode_t> mode = check_target(target_, path);
-  temporary_ = create_temporary(folder, mode);
+  const std::optional<mode_t> mode = check_target(target_, path, what_);
+  temporary_ = suffix.empty() ? create_temporary(folder, mode) : create_named(target_ + suffix, mode, what_);
 }
 
 OutputFile::~OutputFile() {
@@ -108,12 +121,12 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::commit() {
-  sync(temporary_, O_RDONLY, target_);
+  sync(temporary_, O_RDONLY, target_, what_);
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) {
-    throw IoError(because("cannot write the results", errno), target_);
+    throw IoError(because("cannot write " + what_, errno), target_);
   }
   temporary_.clear();
-  sync(folder_, O_RDONLY | O_DIRECTORY, target_);
+  sync(folder_, O_RDONLY | O_DIRECTORY, target_, what_);
 }
 
 }  // namespace coordreq

@@ -13,10 +13,15 @@ namespace coordreq {
 class OutputFile {
  public:
   /// Makes the temporary file, empty.
+  /// @param what the content in words, for messages
+  /// @param suffix of the temporary file, to be put behind the name of `path`: one that was left behind is
+  /// used
+  ///   again then, and there can be one at a time only. Empty: any free name
   /// @throws IoError if the folder is missing or no file can be made in it, or `path` is a folder, a device,
   /// a pipe
   ///   or a file without write permission
-  explicit OutputFile(const std::string& path);
+  explicit OutputFile(const std::string& path, std::string what = "the results",
+                      const std::string& suffix = "");
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -28,6 +33,7 @@ class OutputFile {
   void commit();
 
  private:
+  std::string what_;
   std::string target_;  // links resolved
   std::string folder_;
   std::string temporary_;  // empty once committed

@@ -1,6 +1,8 @@
 #include "safety/find_levels.hpp"
 
 #include <algorithm>
+#include <type_traits>
+#include <utility>
 
 #include "safety/set_levels.hpp"
 
@@ -63,30 +65,72 @@ Level clipped(std::int64_t limit) {
   return static_cast<Level>(limit < 0 ? kMost : std::min(limit, kMost));
 }
 
+/// One problem, with as many bits a cell as it takes.
+class LevelFinder {
+ public:
+  LevelFinder(const RowEngine& engine, const RowHull& hull, const LevelProblem& problem,
+              const WaveWatch& watch, ThreadTeam& team, WaveCounts& counts)
+      : engine_(engine), hull_(hull), problem_(problem), watch_(watch), team_(team), counts_(counts) {}
+
+  LevelMap from_start() {
+    auto levels = top_levels<std::uint8_t>(engine_, *problem_.start, team_);
+    for (const LevelMap* bound : problem_.bounds) lower_to(*bound, levels, team_);
+    const std::vector<std::uint8_t> nothing;
+    return from(std::move(levels), problem_.settled == nullptr ? nothing : *problem_.settled);
+  }
+
+  /// What is settled at the bounds may not be so at levels that have sunk below them.
+  template <class Level>
+  LevelMap from(LevelRows<Level> levels, const std::vector<std::uint8_t>& settled = {}) {
+    const auto op = make_operator<Level>();
+    // The sweeps of all widths are numbered through.
+    const std::int64_t before = counts_.sweeps;
+    const WaveWatch watch{.step = watch_.step ? [&, before](WaveStep step) {
+      step.sweep += before;
+      watch_.step(step);
+    } : std::function<void(const WaveStep&)>()};
+    counts_.add(run_wave(levels, engine_, hull_, clipped<Level>(problem_.limit), settled, *op, watch, team_));
+    if constexpr (sizeof(Level) < sizeof(std::uint32_t)) {
+      if (!is_enough(levels, problem_.limit)) return from(widened_and_bounded(std::move(levels)));
+    }
+    return LevelMap(std::move(levels));
+  }
+
+ private:
+  template <class Level>
+  auto widened_and_bounded(LevelRows<Level> levels) {
+    using Wide = std::conditional_t<sizeof(Level) == 1, std::uint16_t, std::uint32_t>;
+    LevelRows<Wide> wide = widened<Wide>(engine_, levels);
+    levels = {};
+    for (const LevelMap* bound : problem_.bounds) lower_to(*bound, wide, team_);
+    return wide;
+  }
+
+  template <class Level>
+  std::unique_ptr<RowOperator<Level>> make_operator() const {
+    if constexpr (sizeof(Level) == 1) return problem_.make8();
+    if constexpr (sizeof(Level) == 2) return problem_.make16();
+    if constexpr (sizeof(Level) == 4) return problem_.make32();
+  }
+
+  const RowEngine& engine_;
+  const RowHull& hull_;
+  const LevelProblem& problem_;
+  const WaveWatch& watch_;
+  ThreadTeam& team_;
+  WaveCounts& counts_;
+};
+
 }  // namespace
 
 LevelMap find_levels(const RowEngine& engine, const RowHull& hull, const LevelProblem& problem,
-                     const std::function<void(std::int64_t, std::int64_t)>& swept, ThreadTeam& team,
-                     WaveCounts& counts) {
-  // What is settled at the bounds may not be so at levels that have sunk below them.
-  const std::vector<std::uint8_t> nothing;
-  const auto run = [&](auto& levels, const auto& make, const std::vector<std::uint8_t>& settled) {
-    using Level = std::remove_cvref_t<decltype(*levels.row(0))>;
-    for (const LevelMap* bound : problem.bounds) lower_to(*bound, levels, team);
-    const auto op = make();
-    counts.add(run_wave(levels, engine, hull, clipped<Level>(problem.limit), settled, *op, swept, team));
-  };
-  auto levels = top_levels<std::uint8_t>(engine, *problem.start, team);
-  run(levels, problem.make8, problem.settled == nullptr ? nothing : *problem.settled);
-  if (is_enough(levels, problem.limit)) return LevelMap(std::move(levels));
-  auto wider = widened<std::uint16_t>(engine, levels);
-  levels = {};
-  run(wider, problem.make16, nothing);
-  if (is_enough(wider, problem.limit)) return LevelMap(std::move(wider));
-  auto widest = widened<std::uint32_t>(engine, wider);
-  wider = {};
-  run(widest, problem.make32, nothing);
-  return LevelMap(std::move(widest));
+                     const WaveWatch& watch, ThreadTeam& team, WaveCounts& counts) {
+  LevelFinder finder(engine, hull, problem, watch, team, counts);
+  if (watch.resumed == nullptr) return finder.from_start();
+  LevelMap resumed = std::move(*watch.resumed);
+  if (auto* levels = resumed.get_if<std::uint8_t>()) return finder.from(std::move(*levels));
+  if (auto* levels = resumed.get_if<std::uint16_t>()) return finder.from(std::move(*levels));
+  return finder.from(std::move(*resumed.get_if<std::uint32_t>()));
 }
 
 }  // namespace coordreq

@@ -32,9 +32,9 @@ struct LevelProblem {
   std::function<std::unique_ptr<RowOperator<std::uint32_t>>()> make32;
 };
 
-/// Runs the wave with 8 bits a cell, and goes on with more where they turn out not to be enough.
+/// Runs the wave with 8 bits a cell, and goes on with more where they turn out not to be enough. Levels that
+/// are resumed keep the bits they have.
 [[nodiscard]] LevelMap find_levels(const RowEngine& engine, const RowHull& hull, const LevelProblem& problem,
-                                   const std::function<void(std::int64_t, std::int64_t)>& swept,
-                                   ThreadTeam& team, WaveCounts& counts);
+                                   const WaveWatch& watch, ThreadTeam& team, WaveCounts& counts);
 
 }  // namespace coordreq

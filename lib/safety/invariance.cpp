@@ -1,6 +1,7 @@
 #include "safety/invariance.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "safety/find_levels.hpp"
 #include "safety/tuple_walk.hpp"
@@ -119,8 +120,7 @@ std::unique_ptr<RowOperator<Level>> make_operator(const ActionGrouping& grouping
 }  // namespace
 
 Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
-                           Synthesis synthesis, const std::function<void(std::int64_t, std::int64_t)>& swept,
-                           ThreadTeam& team) {
+                           Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team) {
   const ActionGrouping grouping(engine, single_inputs(engine.abstraction().inputs), team);
   const int workers = team.size();
   const LevelProblem problem{
@@ -128,9 +128,14 @@ Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const C
       .make8 = [&] { return make_operator<std::uint8_t>(grouping, hull, synthesis, workers); },
       .make16 = [&] { return make_operator<std::uint16_t>(grouping, hull, synthesis, workers); },
       .make32 = [&] { return make_operator<std::uint32_t>(grouping, hull, synthesis, workers); }};
-  Invariance result;
-  result.collision_time = find_levels(engine, hull, problem, swept, team, result.counts);
-  result.invariant = result.collision_time.top_cells(team);
+  WaveCounts counts;
+  Invariance result = invariance_of(find_levels(engine, hull, problem, watch, team, counts), team);
+  result.counts = counts;
+  return result;
+}
+
+Invariance invariance_of(LevelMap collision_time, ThreadTeam& team) {
+  Invariance result{.invariant = collision_time.top_cells(team), .collision_time = std::move(collision_time)};
   // Synchronously, one sweep loses the cells of each collision time, and one more finds nothing to lose.
   const std::size_t levels = result.collision_time.histogram(team).finite.size();
   result.iterations = static_cast<std::int64_t>(std::max<std::size_t>(levels, 1));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 #include "base/thread_team.hpp"
 #include "bitset/level_map.hpp"
@@ -23,10 +22,10 @@ struct Invariance {
 
 /// K: for `maximal` the greatest K with K = {x in K n S : some allowed u has empty != f(x,u) subset of K};
 /// for `given` the limit of SPRE_S^i(X) of the paper, C(x) being all that `allow` permits.
-/// @param swept told after each sweep of the wave (number, rows visited); may be empty
 [[nodiscard]] Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
-                                         Synthesis synthesis,
-                                         const std::function<void(std::int64_t, std::int64_t)>& swept,
-                                         ThreadTeam& team);
+                                         Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team);
+
+/// All that follows from the collision times; `counts` are none.
+[[nodiscard]] Invariance invariance_of(LevelMap collision_time, ThreadTeam& team);
 
 }  // namespace coordreq

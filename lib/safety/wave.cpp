@@ -23,13 +23,15 @@ template <class Level>
 class WaveRunner {
  public:
   WaveRunner(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
-             const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, ThreadTeam& team)
+             const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,
+             ThreadTeam& team)
       : levels_(levels),
         engine_(engine),
         hull_(hull),
         limit_(limit),
         settled_(settled),
         op_(op),
+        watch_(watch),
         team_(team) {
     unit_rows_ = std::min(engine.unit_rows(), engine.outer() == 0 ? kBlockRows : engine.unit_rows());
     units_ = (engine.rows() + unit_rows_ - 1) / unit_rows_;
@@ -42,23 +44,33 @@ class WaveRunner {
   }
 
   /// @returns rows visited
-  std::int64_t sweep(bool backwards) {
-    std::int64_t visited = 0;
+  std::int64_t sweep(std::int64_t number) {
+    const bool backwards = number % 2 == 1;
+    WaveStep step{.sweep = number, .rows_left = alive_rows_, .rows = alive_rows_, .layer = layer_};
+    lowest_ = kTop;
     std::vector<std::int64_t> batch;
     for (std::int64_t k = 0; k < units_; ++k) {
       const std::int64_t unit = backwards ? units_ - 1 - k : k;
+      step.rows_left -= unit_alive_[static_cast<std::size_t>(unit)];
       if (is_pending(unit)) batch.push_back(unit);
       if (batch.empty() || (static_cast<std::int64_t>(batch.size()) < batch_units_ && k + 1 < units_))
         continue;
-      visited += run(batch);
+      step.visited += run(batch);
       batch.clear();
+      tell(step);
     }
-    return visited;
+    // Levels below the lowest to which a cell has sunk in a whole sweep are final: the sets they make have
+    // not changed while it was found of each cell that it stays in them.
+    layer_ = std::max<std::int64_t>(layer_, lowest_ == kTop ? layer_ : std::int64_t{lowest_} - 1);
+    step.layer = layer_;
+    tell(step);
+    return step.visited;
   }
 
   [[nodiscard]] std::int64_t alive_rows() const { return alive_rows_; }
 
  private:
+  static constexpr Level kTop = LevelRows<Level>::kTop;
   /// As what a unit has been looked at in: in no batch, or in one whose changes, and all after, are news to
   /// it.
   static constexpr std::uint32_t kNever = 0;
@@ -87,6 +99,7 @@ class WaveRunner {
     std::vector<std::int64_t> counter;
     RowHull::Box box;
     std::int64_t visited = 0;
+    Level lowest = kTop;      ///< to which a cell has sunk
     std::uint32_t batch = 0;  ///< and unit: what the reader has entered
     std::int64_t unit = -1;
   };
@@ -109,7 +122,7 @@ class WaveRunner {
       alive_[static_cast<std::size_t>(r)] = alive ? 1 : 0;
       if (!alive) continue;
       const auto unit = static_cast<std::size_t>(r / unit_rows_);
-      unit_alive_[unit] = 1;
+      ++unit_alive_[unit];
       if (!is_settled(r)) unit_seen_[unit] = kNever;
       ++alive_rows_;
     }
@@ -137,6 +150,7 @@ class WaveRunner {
       worker.changes.clear();
       worker.storage.clear();
       worker.visited = 0;
+      worker.lowest = kTop;
     }
     cut_into_pieces(batch);
     team_.for_each(static_cast<std::int64_t>(pieces_.size()), 1, [&](ThreadTeam::Range range, int w) {
@@ -147,6 +161,7 @@ class WaveRunner {
     std::int64_t visited = 0;
     for (const Worker& worker : workers_) {
       visited += worker.visited;
+      lowest_ = std::min(lowest_, worker.lowest);
       for (const Change& change : worker.changes) {
         unit_changed_[static_cast<std::size_t>(change.row / unit_rows_)] = batch_;
         last_change_ = batch_;
@@ -218,9 +233,22 @@ class WaveRunner {
     if (!op_.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w)) return;
     const LevelKernels<Level>& kernels = worker.posts.kernels();
     if (!kernels.advance(worker.next.data(), worker.old.data(), limit_, worker.result.data(), n)) return;
+    Level lowest = worker.lowest;
+    for (std::size_t c = 0; c < n; ++c) {
+      const Level sunk = worker.result[c] == worker.old[c] ? kTop : worker.result[c];
+      lowest = std::min(lowest, sunk);
+    }
+    worker.lowest = lowest;
     worker.changes.push_back({place.row, worker.storage.size()});
     worker.storage.insert(worker.storage.end(), worker.result.begin(),
                           worker.result.begin() + static_cast<std::ptrdiff_t>(n));
+  }
+
+  void tell(WaveStep& step) const {
+    if (!watch_.step) return;
+    const RowBytes state = bytes_of(levels_);
+    step.state = {&state, 1};
+    watch_.step(step);
   }
 
   void commit_all() {
@@ -249,18 +277,21 @@ class WaveRunner {
   Level limit_;
   const std::vector<std::uint8_t>& settled_;
   RowOperator<Level>& op_;
+  const WaveWatch& watch_;
   ThreadTeam& team_;
   std::int64_t unit_rows_ = 1;
   std::int64_t units_ = 0;
   std::int64_t batch_units_ = 1;
   std::int64_t alive_rows_ = 0;
+  std::int64_t layer_ = -1;                  ///< levels up to it are final
+  Level lowest_ = kTop;                      ///< to which a cell has sunk in this sweep
   std::uint32_t batch_ = 0;                  ///< number of the last batch
   std::uint32_t last_change_ = 0;            ///< the last batch with a change
   std::vector<std::uint32_t> changed_;       ///< [row] the batch that changed it last
   std::vector<std::uint32_t> unit_changed_;  ///< [unit] likewise
   std::vector<std::uint32_t> unit_seen_;     ///< [unit] the batch that looked at it last
   std::vector<std::uint8_t> alive_;
-  std::vector<std::uint8_t> unit_alive_;
+  std::vector<std::int64_t> unit_alive_;  ///< [unit] rows that are alive
   std::deque<Worker> workers_;
   std::vector<Piece> pieces_;
   RowHull::Box box_;
@@ -271,28 +302,26 @@ class WaveRunner {
 
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
-                    const std::vector<std::uint8_t>& settled, RowOperator<Level>& op,
-                    const std::function<void(std::int64_t, std::int64_t)>& swept, ThreadTeam& team) {
-  WaveRunner<Level> runner(levels, engine, hull, limit, settled, op, team);
+                    const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,
+                    ThreadTeam& team) {
+  WaveRunner<Level> runner(levels, engine, hull, limit, settled, op, watch, team);
   WaveCounts counts;
   for (;;) {
-    const std::int64_t visited = runner.sweep(counts.sweeps % 2 == 0);
-    ++counts.sweeps;
+    const std::int64_t visited = runner.sweep(++counts.sweeps);
     counts.rows_visited += visited;
     counts.rows_skipped += runner.alive_rows() - visited;
-    if (swept) swept(counts.sweeps, visited);
     if (visited == 0) return counts;
   }
 }
 
 template WaveCounts run_wave(LevelRows<std::uint8_t>&, const RowEngine&, const RowHull&, std::uint8_t,
-                             const std::vector<std::uint8_t>&, RowOperator<std::uint8_t>&,
-                             const std::function<void(std::int64_t, std::int64_t)>&, ThreadTeam&);
+                             const std::vector<std::uint8_t>&, RowOperator<std::uint8_t>&, const WaveWatch&,
+                             ThreadTeam&);
 template WaveCounts run_wave(LevelRows<std::uint16_t>&, const RowEngine&, const RowHull&, std::uint16_t,
-                             const std::vector<std::uint8_t>&, RowOperator<std::uint16_t>&,
-                             const std::function<void(std::int64_t, std::int64_t)>&, ThreadTeam&);
+                             const std::vector<std::uint8_t>&, RowOperator<std::uint16_t>&, const WaveWatch&,
+                             ThreadTeam&);
 template WaveCounts run_wave(LevelRows<std::uint32_t>&, const RowEngine&, const RowHull&, std::uint32_t,
-                             const std::vector<std::uint8_t>&, RowOperator<std::uint32_t>&,
-                             const std::function<void(std::int64_t, std::int64_t)>&, ThreadTeam&);
+                             const std::vector<std::uint8_t>&, RowOperator<std::uint32_t>&, const WaveWatch&,
+                             ThreadTeam&);
 
 }  // namespace coordreq

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "base/thread_team.hpp"
 #include "safety/post_reader.hpp"
 #include "safety/row_hull.hpp"
+#include "safety/wave_watch.hpp"
 
 namespace coordreq {
 
@@ -50,10 +50,10 @@ class RowOperator {
 /// @param settled [row] not 0 where 1 + op(levels) is known to be the given levels: such a row is not looked
 /// at
 ///   before a row that its posts can meet has changed. Empty: nothing is known
-/// @param swept told after each sweep (its number, rows visited in it); may be empty
+/// @param watch its `resumed` is not looked at
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
-                    const std::vector<std::uint8_t>& settled, RowOperator<Level>& op,
-                    const std::function<void(std::int64_t, std::int64_t)>& swept, ThreadTeam& team);
+                    const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,
+                    ThreadTeam& team);
 
 }  // namespace coordreq

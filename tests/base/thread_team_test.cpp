@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace coordreq {
@@ -48,6 +50,40 @@ TEST(ThreadTeam, RunsManyShortLoops) {
     team.for_each(8, 1, [&](ThreadTeam::Range range, int) { sum += range.begin; });
   }
   EXPECT_EQ(sum, 2000 * 28);
+}
+
+TEST(ThreadTeam, TellsHowFarALoopHasCome) {
+  for (const int threads : {1, 3}) {
+    ThreadTeam team(threads);
+    std::vector<std::int64_t> told;
+    team.set_watch([&](std::int64_t done, std::int64_t count) {
+      EXPECT_EQ(count, 100);
+      told.push_back(done);
+    });
+    team.for_each(100, 7, [](ThreadTeam::Range, int) {});
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_EQ(told.size(), threads == 1 ? 15U : told.size());
+    EXPECT_TRUE(told.empty() || told.back() <= 100);
+    team.set_watch({});
+    told.clear();
+    team.for_each(100, 7, [](ThreadTeam::Range, int) {});
+    EXPECT_TRUE(told.empty());
+  }
+}
+
+TEST(ThreadTeam, AWatchCanEndALoop) {
+  for (const int threads : {1, 3}) {
+    ThreadTeam team(threads);
+    team.set_watch([](std::int64_t, std::int64_t) { throw std::runtime_error("enough"); });
+    std::atomic<bool> main_works = false;
+    const auto wait_for_main = [&](ThreadTeam::Range, int worker) {
+      if (worker == 0) main_works = true;
+      while (!main_works) std::this_thread::yield();
+    };
+    EXPECT_THROW(team.for_each(100, 1, wait_for_main), std::runtime_error);
+    team.set_watch({});
+    EXPECT_NO_THROW(team.for_each(100, 1, wait_for_main));
+  }
 }
 
 }  // namespace

@@ -62,7 +62,8 @@ class Cases(Case):
         os.read(reader, 1)  # the first sign of progress
         process.send_signal(number)
         self.assertEqual(process.wait(timeout=120), 130)
-        self.assertTrue(self.read_all(reader).endswith(b"\r\ncoordreq: error: interrupted\r\n"))
+        # The line of progress, and the ^C that a terminal shows behind it, are gone.
+        self.assertRegex(self.read_all(reader), rb"\r +\rcoordreq: error: interrupted\r\n$")
         self.assertEqual(process.stdout.read(), b"")
         self.assertEqual(self.files(), ["spec.json"])
 
@@ -109,9 +110,12 @@ class Cases(Case):
         lines = shown.split("\r")
         self.assertNotIn("\n", shown)
         self.assertNotIn("\x1b", shown)
-        self.assertRegex(shown, r"layers horizontal\|vertical, sweep [0-9,]+, [0-9,]+ rows")
+        self.assertRegex(
+            shown, r"layers horizontal\|vertical \[#*-*\] sweep [0-9,]+, (layer [0-9,]+, )?[0-9,]+ cells? left"
+        )
         self.assertEqual((lines[0], lines[-2].strip(), lines[-1]), ("", "", ""))
-        self.assertEqual(len(lines[-2]), len(lines[-3].rstrip()))
+        self.assertGreaterEqual(len(lines[-2]), len(lines[-3].rstrip()))
+        self.assertLessEqual(max(len(line) for line in lines), 80)
 
     def test_no_progress_when_quiet(self):
         self.write("spec.json", fine_circle(0.0025))

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+
+namespace coordreq {
+
+enum class ProgressMode : std::uint8_t {
+  automatic,  ///< the bar, but for --quiet
+  bar,        ///< on a terminal; nothing elsewhere
+  log,
+  none,
+};
+
+/// --progress and --progress-every.
+struct ProgressOptions {
+  ProgressMode mode = ProgressMode::automatic;
+  double every_seconds = 10;  ///< between two lines of a log
+};
+
+}  // namespace coordreq

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "analysis/progress.hpp"
+#include "base/thread_team.hpp"
+#include "base/timer.hpp"
+#include "results/result_content.hpp"
+#include "safety/wave_watch.hpp"
+
+namespace coordreq {
+
+/// Puts together what is to be told of an analysis: its stages, the steps of fixed points, and loops of the
+/// team, which it watches as long as it lives.
+class StageReporter {
+ public:
+  /// @param tell may be empty; called at once for what begins or ends, else some twenty times a second
+  StageReporter(std::function<void(const Progress&)> tell, ThreadTeam& team);
+  ~StageReporter();
+  StageReporter(const StageReporter&) = delete;
+  StageReporter& operator=(const StageReporter&) = delete;
+
+  void enter(const std::string& stage);
+  void enter_part(const std::string& part);
+  /// @param row_length cells in a row
+  void step(const WaveStep& step, std::int64_t row_length);
+  /// Until told otherwise there may be a temporary file.
+  void set_temporary(bool has_temporary);
+  /// From now on the pass is to fill the arrays of `content`, as far as they are cells; their functions are
+  /// replaced by ones that count. REQUIRES: this outlives the content.
+  void watch_writing(ResultContent& content);
+
+  /// Ends the last stage. @returns the stages and their seconds
+  const std::vector<std::pair<std::string, double>>& finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void on_loop(std::int64_t done, std::int64_t count);
+  void tell_now();
+  void tell_if_due();
+
+  std::function<void(const Progress&)> tell_;
+  ThreadTeam& team_;
+  StageTimer timer_;
+  Progress progress_;
+  Clock::time_point next_;
+  std::atomic<std::uint64_t> written_{0};  ///< bytes of arrays
+  std::uint64_t to_write_ = 0;             ///< 0 outside of the writing
+};
+
+}  // namespace coordreq

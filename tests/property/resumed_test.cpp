@@ -1,0 +1,171 @@
+// Work on fixed points that is taken up where it was broken off, on random systems and on chains with levels
+// of more than 8 bits: the result is the same from any step on.
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cstring>
+#include <vector>
+
+#include "analysis/network_problem.hpp"
+#include "spec/read_spec.hpp"
+#include "support/fast_engine.hpp"
+#include "support/random_problem.hpp"
+
+namespace coordreq {
+namespace {
+
+std::vector<std::int64_t> levels_of(const LevelMap& map) {
+  std::vector<std::int64_t> result;
+  for (std::int64_t x = 0; x < map.cells(); ++x) result.push_back(map.at(x));
+  return result;
+}
+
+template <class Level>
+LevelMap read_levels(const RowEngine& engine, const RowBytes& bytes) {
+  LevelRows<Level> levels = engine.make_levels<Level>(engine.posts());
+  for (std::int64_t r = 0; r < levels.rows(); ++r) {
+    std::memcpy(levels.row(r), bytes.row(r), static_cast<std::size_t>(bytes.row_bytes));
+    levels.close(r);
+  }
+  return LevelMap(std::move(levels));
+}
+
+/// A copy of the levels that a step shows.
+LevelMap copy_of(const RowEngine& engine, const WaveStep& step) {
+  const RowBytes& bytes = step.state.front();
+  if (bytes.element_bytes == 1) return read_levels<std::uint8_t>(engine, bytes);
+  if (bytes.element_bytes == 2) return read_levels<std::uint16_t>(engine, bytes);
+  return read_levels<std::uint32_t>(engine, bytes);
+}
+
+/// What one step of a fixed point was told.
+struct Seen {
+  LevelMap levels;
+  std::int64_t layer = -1;
+};
+
+/// Every `stride`-th step.
+WaveWatch recorder(const RowEngine& engine, std::vector<Seen>& seen, std::int64_t stride) {
+  return {.step = [&engine, &seen, stride, count = std::int64_t{0}](const WaveStep& step) mutable {
+    if (step.rows_left < 0 || step.rows_left > step.rows) throw std::logic_error("impossible rows");
+    if (count++ % stride == 0) seen.push_back({copy_of(engine, step), step.layer});
+  }};
+}
+
+/// Levels up to the layer, and those alone, have to be the ones of the end.
+bool is_final(const Seen& seen, const std::vector<std::int64_t>& end) {
+  const auto known = [&](std::int64_t level) { return level != LevelMap::kTop && level <= seen.layer; };
+  for (std::size_t x = 0; x < end.size(); ++x) {
+    const std::int64_t own = seen.levels.at(static_cast<std::int64_t>(x));
+    if ((known(own) || known(end[x])) && own != end[x]) return false;
+  }
+  return true;
+}
+
+/// @returns whether every step of `find` leads to the same end, and tells the truth about it
+template <class Find>
+bool resumes(const RowEngine& engine, const Find& find, std::int64_t stride = 1) {
+  std::vector<Seen> seen;
+  const std::vector<std::int64_t> end = levels_of(find(recorder(engine, seen, stride)));
+  for (Seen& one : seen) {
+    if (!is_final(one, end)) return false;
+    const WaveWatch watch{.resumed = &one.levels};
+    if (levels_of(find(watch)) != end) return false;
+  }
+  return !seen.empty();
+}
+
+ProblemSpec draw_spec(RandomAgents agents) {
+  const RandomTime time = *rc::gen::inRange(0, 4) == 0 ? RandomTime::between_samples : RandomTime::any;
+  return read_spec(draw_problem(time, RandomEdges::any, agents), "random");
+}
+
+TEST(Resumed, CollisionTimesAreTheSameFromAnyStep) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("the invariance fixed point", [&] {
+    const ProblemSpec spec = draw_spec(RandomAgents::few);
+    const FastAnalysis fast(spec, team);
+    RC_ASSERT(resumes(fast.engine, [&](const WaveWatch& watch) {
+      return find_invariance(fast.engine, fast.hull, fast.safe, spec.controller.synthesis, watch, team)
+          .collision_time;
+    }));
+  }));
+}
+
+TEST(Resumed, LayersAreTheSameFromAnyStep) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("the layers of every partition", [&] {
+    const ProblemSpec spec = draw_spec(RandomAgents::few);
+    const FastAnalysis fast(spec, team);
+    for (const Projections& projections : fast.projections) {
+      RC_ASSERT(resumes(fast.engine, [&](const WaveWatch& watch) {
+        return find_delay_layers(fast.engine, fast.hull, fast.invariance.invariant, projections, {},
+                                 spec.coordination.max_delay, watch, team)
+            .layers_of;
+      }));
+    }
+  }));
+}
+
+/// One cell is lost a step, so that 300 cells need more than 8 bits.
+TEST(Resumed, WideLevelsAreTheSameFromAnyStep) {
+  const ProblemSpec spec = read_spec(R"json({"coordreq": 1, "name": "chain",
+"states": [{"name": "x", "discrete": true, "lower": 0, "upper": 2, "step": 1, "outside": "unsafe"},
+{"name": "y", "discrete": true, "lower": 0, "upper": 99, "step": 1, "outside": "unsafe"}],
+"inputs": [{"name": "u", "values": [0]}], "agents": [{"name": "a", "inputs": ["u"]}],
+"dynamics": {"time": "discrete", "period": 1,
+  "equations": {"x": "x + if(y >= 99, 1, 0)", "y": "if(y >= 99, 0, y + 1) + u"}},
+"safe": "true", "abstraction": {"cells": "half_open"}})json",
+                                     "chain");
+  for (const int threads : {1, 2}) {
+    ThreadTeam team(threads);
+    const FastAnalysis fast(spec, team);
+    EXPECT_EQ(fast.invariance.iterations, 301);
+    EXPECT_TRUE(resumes(
+        fast.engine,
+        [&](const WaveWatch& watch) {
+          return find_invariance(fast.engine, fast.hull, fast.safe, spec.controller.synthesis, watch, team)
+              .collision_time;
+        },
+        7));
+  }
+}
+
+std::string with_network(std::string problem, bool resynthesise) {
+  problem.erase(problem.rfind('}'));
+  return problem + R"(, "network": {"weakly_hard": {"misses": 2, "window": 4}, "resynthesise": )" +
+         (resynthesise ? "true" : "false") + "}}";
+}
+
+CellSet read_set(const RowBytes& bytes, const CellSet& like) {
+  CellSet set(like.rows(), like.row_length());
+  for (std::int64_t r = 0; r < set.rows(); ++r)
+    std::memcpy(set.row(r).data(), bytes.row(r), static_cast<std::size_t>(bytes.row_bytes));
+  return set;
+}
+
+TEST(Resumed, SetsOfANetworkAreTheSameFromAnyStep) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("W(q) of both kinds", [&] {
+    const std::string text = draw_problem(RandomTime::any);
+    for (const bool resynthesise : {false, true}) {
+      const ProblemSpec spec = read_spec(with_network(text, resynthesise), "random");
+      const FastAnalysis fast(spec, team);
+      const NetworkProblem problem = network_problem(spec, fast.controller, fast.hull);
+      std::vector<std::vector<CellSet>> seen;
+      const NetworkWatch record{.step = [&](const WaveStep& step) {
+        if (step.state.empty()) return;
+        std::vector<CellSet>& sets = seen.emplace_back();
+        for (const RowBytes& bytes : step.state) sets.push_back(read_set(bytes, fast.invariance.invariant));
+      }};
+      const std::vector<CellSet> end = find_network_safety(problem, record, team).safe;
+      RC_ASSERT(!seen.empty());
+      for (std::vector<CellSet>& sets : seen)
+        RC_ASSERT(find_network_safety(problem, {.resumed = &sets}, team).safe == end);
+    }
+  }));
+}
+
+}  // namespace
+}  // namespace coordreq
