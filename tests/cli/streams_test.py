@@ -103,7 +103,7 @@ class Cases(Case):
         self.assertEqual((process.returncode, output, errors), (130, b"", b"coordreq: error: interrupted\n"))
 
     def test_progress_on_a_terminal_is_one_line_that_goes_away(self):
-        self.write("spec.json", fine_circle(0.0025))
+        self.write("spec.json", fine_circle(0.001))  # the layers take several tenths of a second
         process, reader = self.start_on_terminal("analyze", "spec.json", NO_COLOR="1")
         shown = self.read_all(reader).decode()
         self.assertEqual(process.wait(), 0)
