@@ -45,7 +45,8 @@ Abstraction with_rows(const ProblemSpec& spec, Abstraction abstraction) {
 /// Tells of every step, and saves it when it is time.
 std::function<void(const WaveStep&)> stepper(const SolutionWatch& watch, const std::string& stage,
                                              const RowEngine& engine) {
-  return [&watch, stage, row_length = engine.row_length()](const WaveStep& step) {
+  // Cells of a row, without its gaps.
+  return [&watch, stage, row_length = engine.grid().points() / engine.rows()](const WaveStep& step) {
     watch.step(step, row_length);
     if (watch.checkpoint != nullptr) watch.checkpoint->step(stage, step.state);
   };
