@@ -107,12 +107,15 @@ double projected_actions(const ProblemSpec& spec, const PartitionSpec& partition
 /// along several dimensions most cells have a label.
 double projection_bytes(const ProblemSpec& spec, const PartitionSpec& partition,
                         const std::vector<TableShape>& shapes, const Rows& rows) {
-  const double boxes_of_row = rows.joined ? 1.45 * rows.lanes : 220;
+  const auto classes = static_cast<double>(partition.classes.size());
+  const double boxes_of_row = rows.joined ? 1.45 * rows.lanes : 220 + 100 * std::max(0.0, classes - 2);
   const bool boxes = is_product(partition, spec, shapes) && !spec.abstraction.between_samples &&
                      !spec.controller.allow && !spec.controller.file &&
                      spec.controller.synthesis == Synthesis::maximal;
   const double masks = rows.set_bytes() * projected_actions(spec, partition);
-  return boxes ? std::min(masks, rows.count * boxes_of_row) : masks;
+  if (!boxes || classes < 2) return masks;
+  // The parts that two classes with few actions can have are few, too.
+  return classes > 2 ? rows.count * boxes_of_row : std::min(masks, rows.count * boxes_of_row);
 }
 
 /// At a time: those of one partition for its layers, then those of all partitions of a network.
