@@ -36,11 +36,6 @@ std::int64_t parse_sample(const std::string& text) {
   return value;
 }
 
-std::string file_name(const std::string& text, const std::string& option) {
-  if (!text.empty() && text != "-") return text;
-  throw UsageError(fmt::format("expected the name of a file, found '{}'", text), option);
-}
-
 void add_export_values(const RawArguments& raw, const CLI::App& command, CommandLine& line) {
   if (command.count("--format") == 0) throw UsageError("no --format, expected csv, scs, c-header or vtk");
   line.format = raw.format;
@@ -65,6 +60,11 @@ bool writes_a_file(const CommandInfo& info) {
 }
 
 }  // namespace
+
+std::string file_name(const std::string& text, const std::string& option) {
+  if (!text.empty() && text != "-") return text;
+  throw UsageError(fmt::format("expected the name of a file, found '{}'", text), option);
+}
 
 std::uint64_t parse_memory_size(const std::string& text) {
   const auto fail = [&text] {

@@ -79,9 +79,7 @@ std::string worst_text(const PartitionComparison& partition, const Files& files)
   columns[states.size() + 1] = columns[states.size() + 2] = Align::left;
   Table table(columns);
   std::vector<std::string> heading = {"  cell"};
-  for (const StateSpec& state : states)
-    heading.push_back(state.unit.empty() ? state.name
-                                         : fmt::format("{} [{}]", state.name, printable(state.unit)));
+  for (const StateSpec& state : states) heading.push_back(column_heading(state.name, state.unit));
   heading.emplace_back("before");
   heading.emplace_back("after");
   table.add(heading);

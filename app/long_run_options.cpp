@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "app/command_values.hpp"
 #include "base/error.hpp"
 
 namespace coordreq {
@@ -47,11 +48,8 @@ std::optional<CheckpointOptions> checkpoint_options(const LongRunArguments& argu
       throw UsageError("save where? expected --checkpoint FILE", "--checkpoint-every");
     return std::nullopt;
   }
-  if (arguments.checkpoint->empty() || *arguments.checkpoint == "-") {
-    throw UsageError(fmt::format("expected the name of a file, found '{}'", *arguments.checkpoint),
-                     "--checkpoint");
-  }
-  CheckpointOptions options{.file = *arguments.checkpoint, .resume = arguments.resume};
+  CheckpointOptions options{.file = file_name(*arguments.checkpoint, "--checkpoint"),
+                            .resume = arguments.resume};
   if (arguments.checkpoint_every)
     options.every_seconds = parse_seconds(*arguments.checkpoint_every, "--checkpoint-every");
   return options;

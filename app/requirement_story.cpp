@@ -28,10 +28,6 @@ std::string action_text(const AgentSpec& agent, const ResultPath& path, std::siz
   return text;
 }
 
-std::string heading(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : fmt::format("{} [{}]", name, printable(unit));
-}
-
 std::string delay_cell(std::int32_t delay) {
   return delay == kForever ? "unbounded" : delay < 0 ? "-" : grouped(std::int64_t{delay});
 }
@@ -85,7 +81,7 @@ StoryTable story_table(const ResultPath& path, const RequirementSpec& requiremen
   const bool shows_delay = !requirement.invariant;
   StoryTable table;
   table.heads = {"step"};
-  for (const StateSpec& state : spec.states) table.heads.push_back(heading(state.name, state.unit));
+  for (const StateSpec& state : spec.states) table.heads.push_back(column_heading(state.name, state.unit));
   if (shows_delay) table.heads.emplace_back("delay");
   table.heads.emplace_back("collision time");
   table.numbers = table.heads.size();

@@ -12,6 +12,8 @@ namespace coordreq {
 /// `text` on one line: control characters and what is not UTF-8 are spelt out (\n, \x1b), all else stays.
 [[nodiscard]] std::string printable(std::string_view text);
 
+/// "v1 [m/s]", or "n" without a unit.
+[[nodiscard]] std::string column_heading(const std::string& name, const std::string& unit);
 /// 1234567 -> "1,234,567".
 [[nodiscard]] std::string grouped(std::uint64_t number);
 /// REQUIRES: number >= 0

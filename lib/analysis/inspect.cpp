@@ -37,12 +37,7 @@ Rows rows_of(const ProblemSpec& spec, const std::vector<TableShape>& shapes) {
   constexpr double kGap = 4;
   const auto count = [&](std::size_t i) { return static_cast<double>(spec.states[i].grid.count); };
   const auto is_alone = [&](std::size_t i) {
-    for (std::size_t t = 0; t < shapes.size(); ++t) {
-      for (const std::int32_t state : shapes[t].states) {
-        if (static_cast<std::size_t>(state) >= i && static_cast<std::size_t>(state) != t) return false;
-      }
-    }
-    return shapes[i].shift && !shapes[i].sum && spec.states[i].grid.count > 1;
+    return are_alone_from(i, shapes) && shapes[i].shift && !shapes[i].sum && spec.states[i].grid.count > 1;
   };
   const bool can_join = !is_read_by_runs(spec) && !spec.abstraction.between_samples;
   std::size_t i = shapes.size() - 1;

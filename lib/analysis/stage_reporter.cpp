@@ -2,31 +2,21 @@
 
 #include <utility>
 
+#include "results/chunk_layout.hpp"
+
 namespace coordreq {
 namespace {
 
 constexpr std::chrono::milliseconds kPause{50};
-
-std::uint64_t size_of(ElementType type) {
-  switch (type) {
-    case ElementType::uint8:
-      return 1;
-    case ElementType::int16:
-      return 2;
-    case ElementType::uint64:
-    case ElementType::float64:
-      return 8;
-    default:
-      return 4;
-  }
-}
 
 /// Makes the arrays of a result count the bytes that are filled.
 class FillCounter {
  public:
   explicit FillCounter(std::atomic<std::uint64_t>& written) : written_(written) {}
 
-  void watch(ResultArray& array, std::uint64_t elements) { watch(array.fill, elements, size_of(array.type)); }
+  void watch(ResultArray& array, std::uint64_t elements) {
+    watch(array.fill, elements, element_size(array.type));
+  }
   void watch(ResultBits& bits, std::uint64_t cells) { watch(bits.fill, cells * ((bits.actions + 7) / 8), 1); }
 
   [[nodiscard]] std::uint64_t total() const { return total_; }

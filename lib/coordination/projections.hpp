@@ -22,7 +22,7 @@ class Projections {
   enum class Form : std::uint8_t {
     full,     ///< every action is in C(x) for all x of K in the row (or there are none)
     masks,    ///< a bit row for each group of actions of each class, see mask()
-    product,  ///< boxes of posts with bit rows, see IndependentPosts
+    product,  ///< boxes of posts for parts of the row, see IndependentPosts
   };
   [[nodiscard]] Form form(std::int64_t row) const {
     const auto r = static_cast<std::size_t>(row);

@@ -25,16 +25,6 @@ std::optional<RowMargins> margins(const TransitionTable& table, const GridDimens
   return result;
 }
 
-/// True if no state but `i` itself depends on those from `i` on.
-bool is_followed_by_none(const std::vector<TransitionTable>& tables, std::size_t i) {
-  for (std::size_t t = 0; t < tables.size(); ++t) {
-    for (const std::int32_t state : tables[t].states) {
-      if (static_cast<std::size_t>(state) >= i && static_cast<std::size_t>(state) != t) return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 UniformGrid join_rows(const Abstraction& abstraction) {
@@ -44,8 +34,7 @@ UniformGrid join_rows(const Abstraction& abstraction) {
   std::int64_t lanes = 1;
   for (std::size_t i = grid.size() - 1; i > 0; --i) {
     const auto own = margins(abstraction.tables[i], grid[i]);
-    if (!own || !is_followed_by_none(abstraction.tables, i) || lanes * grid[i].count > kMostJoinedLanes)
-      break;
+    if (!own || !are_alone_from(i, abstraction.tables) || lanes * grid[i].count > kMostJoinedLanes) break;
     gaps.insert(gaps.begin(), own->before + own->after);
     lanes *= grid[i].count + gaps.front();
   }

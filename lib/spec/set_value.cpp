@@ -24,31 +24,31 @@ using Json = nlohmann::json;
   throw UsageError(what, one_line(path));
 }
 
-std::vector<std::string> split(std::string_view text, char separator) {
+std::vector<std::string> split_at_dots(std::string_view text) {
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    const std::size_t end = std::min(text.find('.', begin), text.size());
     parts.emplace_back(text.substr(begin, end - begin));
     begin = end + 1;
   }
   return parts;
 }
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
+/// The tokens of a JSON pointer, RFC 6901.
+std::vector<std::string> tokens_of(const std::string& path) {
+  std::vector<std::string> tokens;
+  try {
+    for (Json::json_pointer pointer(path); !pointer.empty(); pointer.pop_back())
+      tokens.insert(tokens.begin(), pointer.back());
+  } catch (const Json::parse_error&) {
+    throw UsageError("expected '~0' or '~1' where a '~' stands in a JSON pointer, found " + quote_text(path));
+  }
+  return tokens;
 }
 
 std::vector<std::string> steps_of(const std::string& path) {
-  if (path.rfind('/', 0) == 0) {
-    std::vector<std::string> steps = split(std::string_view(path).substr(1), '/');
-    for (std::string& step : steps) {
-      replace_all(step, "~1", "/");
-      replace_all(step, "~0", "~");
-    }
-    return steps;
-  }
-  std::vector<std::string> steps = split(path, '.');
+  if (path.rfind('/', 0) == 0) return tokens_of(path);
+  std::vector<std::string> steps = split_at_dots(path);
   if (std::find(steps.begin(), steps.end(), "") == steps.end()) return steps;
   throw UsageError("expected keys with dots between, as states.0.step, found " + quote_text(path));
 }

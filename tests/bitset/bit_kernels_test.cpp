@@ -5,17 +5,12 @@
 
 #include <vector>
 
+#include "instruction_sets.hpp"
+
 namespace coordreq {
 namespace {
 
 using Words = std::vector<std::uint64_t>;
-
-std::vector<InstructionSet> sets_at_hand() {
-  std::vector<InstructionSet> sets = {InstructionSet::portable};
-  if (best_instruction_set() != InstructionSet::portable) sets.push_back(InstructionSet::avx2);
-  if (best_instruction_set() == InstructionSet::avx512) sets.push_back(InstructionSet::avx512);
-  return sets;
-}
 
 /// Empty, full and mixed words.
 Words draw_words(std::size_t n) {

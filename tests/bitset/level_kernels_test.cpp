@@ -6,15 +6,10 @@
 #include <limits>
 #include <vector>
 
+#include "instruction_sets.hpp"
+
 namespace coordreq {
 namespace {
-
-std::vector<InstructionSet> sets_at_hand() {
-  std::vector<InstructionSet> sets = {InstructionSet::portable};
-  if (best_instruction_set() != InstructionSet::portable) sets.push_back(InstructionSet::avx2);
-  if (best_instruction_set() == InstructionSet::avx512) sets.push_back(InstructionSet::avx512);
-  return sets;
-}
 
 /// A row of n levels that begins anywhere, with the rest of its last block after it. Small and extreme levels
 /// are frequent, as they are in life.

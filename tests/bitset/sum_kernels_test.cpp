@@ -6,15 +6,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "instruction_sets.hpp"
+
 namespace coordreq {
 namespace {
-
-std::vector<InstructionSet> sets_at_hand() {
-  std::vector<InstructionSet> sets = {InstructionSet::portable};
-  if (best_instruction_set() != InstructionSet::portable) sets.push_back(InstructionSet::avx2);
-  if (best_instruction_set() == InstructionSet::avx512) sets.push_back(InstructionSet::avx512);
-  return sets;
-}
 
 /// Indices of either sign with fractions that carry, nearly carry, or are none.
 std::int64_t random_sum() {
