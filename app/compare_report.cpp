@@ -7,8 +7,8 @@
 #include "app/json_text.hpp"
 #include "app/requirement_report.hpp"
 #include "app/text.hpp"
+#include "cell/state_query.hpp"
 #include "numeric/rational.hpp"
-#include "query/state_query.hpp"
 
 namespace coordreq {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "query/compare_results.hpp"
+#include "results/compare_results.hpp"
 
 namespace coordreq {
 

@@ -5,7 +5,7 @@
 #include <charconv>
 
 #include "base/error.hpp"
-#include "query/state_text.hpp"
+#include "cell/state_text.hpp"
 
 namespace coordreq {
 

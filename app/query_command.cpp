@@ -4,9 +4,9 @@
 #include "app/commands.hpp"
 #include "app/query_report.hpp"
 #include "app/standard_streams.hpp"
-#include "query/state_query.hpp"
-#include "query/state_reader.hpp"
-#include "query/state_text.hpp"
+#include "cell/state_query.hpp"
+#include "cell/state_reader.hpp"
+#include "cell/state_text.hpp"
 #include "results/results_reader.hpp"
 
 namespace coordreq {

@@ -1,8 +1,8 @@
+#include "answers/layers/trigger_table.hpp"
 #include "app/json_text.hpp"
 #include "app/network_report.hpp"
 #include "app/query_report.hpp"
 #include "app/query_values.hpp"
-#include "trigger/trigger_table.hpp"
 
 namespace coordreq {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "query/state_query.hpp"
+#include "cell/state_query.hpp"
 #include "results/results_reader.hpp"
 
 namespace coordreq {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "answers/layers/trigger_table.hpp"
 #include "app/network_report.hpp"
 #include "app/query_values.hpp"
 #include "app/text.hpp"
-#include "trigger/trigger_table.hpp"
 
 namespace coordreq {
 namespace {

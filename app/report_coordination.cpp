@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
+#include "answers/coalition/coalition_cost.hpp"
 #include "app/network_report.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/requirement_story.hpp"
 #include "app/text.hpp"
-#include "coordination/coalition_cost.hpp"
 
 namespace coordreq {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid/uniform_grid.hpp"
+#include "model/uniform_grid.hpp"
 
 namespace coordreq {
 

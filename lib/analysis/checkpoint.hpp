@@ -12,10 +12,10 @@
 #include "analysis/checkpoint_options.hpp"
 #include "analysis/saved_lists.hpp"
 #include "base/thread_team.hpp"
-#include "bitset/level_map.hpp"
-#include "bitset/row_bytes.hpp"
+#include "engine/level_map.hpp"
+#include "engine/row_bytes.hpp"
+#include "engine/row_engine.hpp"
 #include "results/block_file.hpp"
-#include "safety/row_engine.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

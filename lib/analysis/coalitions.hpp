@@ -4,7 +4,7 @@
 
 #include "analysis/analyze.hpp"
 #include "analysis/solution.hpp"
-#include "coordination/coalition_map.hpp"
+#include "answers/coalition/coalition_map.hpp"
 #include "results/result_content.hpp"
 
 // What a solution says about who must talk to whom, if its spec has a horizon.

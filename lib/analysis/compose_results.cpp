@@ -5,8 +5,8 @@
 
 #include "analysis/analyze.hpp"
 #include "analysis/result_arrays.hpp"
-#include "coordination/action_bits.hpp"
-#include "grid/uniform_grid.hpp"
+#include "engine/action_bits.hpp"
+#include "model/uniform_grid.hpp"
 #include "spec/partition_names.hpp"
 
 namespace coordreq {

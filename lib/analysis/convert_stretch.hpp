@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "analysis/cell_order.hpp"
-#include "bitset/level_rows.hpp"
+#include "engine/level_rows.hpp"
 
 namespace coordreq {
 

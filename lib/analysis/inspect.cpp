@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "abstraction/build_abstraction.hpp"
 #include "analysis/analyze.hpp"
 #include "analysis/layout.hpp"
 #include "analysis/network_problem.hpp"
 #include "base/error.hpp"
+#include "engine/join_rows.hpp"
+#include "reach/build_abstraction.hpp"
 #include "results/controller_file.hpp"
-#include "safety/join_rows.hpp"
 
 namespace coordreq {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "answers/requirements/requirement.hpp"
 #include "base/error.hpp"
-#include "coordination/requirement.hpp"
 
 namespace coordreq {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <tuple>
 
-#include "abstraction/build_abstraction.hpp"
+#include "reach/build_abstraction.hpp"
 
 namespace coordreq {
 namespace {

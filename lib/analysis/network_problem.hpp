@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coordination/network_safety.hpp"
+#include "answers/network/network_safety.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "analysis/convert_stretch.hpp"
-#include "trigger/trigger_table.hpp"
+#include "answers/layers/trigger_table.hpp"
 
 namespace coordreq {
 namespace {

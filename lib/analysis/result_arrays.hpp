@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "analysis/cell_order.hpp"
-#include "bitset/level_map.hpp"
-#include "coordination/convention_freedom.hpp"
-#include "coordination/delay_layers.hpp"
+#include "answers/convention/convention_freedom.hpp"
+#include "answers/layers/delay_layers.hpp"
+#include "engine/level_map.hpp"
 #include "results/result_content.hpp"
 
 // Turns what the analysis holds into the arrays of the results file. The functions returned refer to their

@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "abstraction/abstraction.hpp"
-#include "bitset/row_bytes.hpp"
-#include "coordination/convention_freedom.hpp"
+#include "answers/convention/convention_freedom.hpp"
+#include "engine/row_bytes.hpp"
+#include "reach/abstraction.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

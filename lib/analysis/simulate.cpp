@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <limits>
 
-#include "abstraction/build_abstraction.hpp"
 #include "analysis/run_arrays.hpp"
 #include "base/error.hpp"
-#include "grid/locate.hpp"
-#include "grid/sample_reset.hpp"
-#include "query/state_text.hpp"
+#include "cell/state_text.hpp"
+#include "engine/safe_tubes.hpp"
+#include "model/locate.hpp"
+#include "model/sample_reset.hpp"
+#include "reach/build_abstraction.hpp"
 #include "results/write_results.hpp"
 #include "results/write_runs.hpp"
-#include "safety/safe_tubes.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
+#include "cell/simulate_runs.hpp"
 #include "results/results_reader.hpp"
-#include "trigger/simulate_runs.hpp"
 
 namespace coordreq {
 

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "abstraction/build_abstraction.hpp"
 #include "analysis/layout.hpp"
 #include "analysis/network_problem.hpp"
-#include "coordination/projections.hpp"
-#include "coordination/refinement.hpp"
-#include "safety/join_rows.hpp"
-#include "safety/safe_set.hpp"
-#include "safety/safe_tubes.hpp"
+#include "answers/layers/refinement.hpp"
+#include "engine/join_rows.hpp"
+#include "engine/projections.hpp"
+#include "engine/safe_set.hpp"
+#include "engine/safe_tubes.hpp"
+#include "reach/build_abstraction.hpp"
 
 namespace coordreq {
 namespace {

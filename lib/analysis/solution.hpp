@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "abstraction/abstraction.hpp"
 #include "analysis/cell_order.hpp"
 #include "analysis/checkpoint.hpp"
+#include "answers/convention/convention_freedom.hpp"
+#include "answers/invariance/invariance.hpp"
+#include "answers/layers/delay_layers.hpp"
+#include "answers/network/network_safety.hpp"
 #include "base/thread_team.hpp"
-#include "coordination/controller.hpp"
-#include "coordination/convention_freedom.hpp"
-#include "coordination/delay_layers.hpp"
-#include "coordination/network_safety.hpp"
+#include "engine/controller.hpp"
+#include "engine/pair_table.hpp"
+#include "engine/row_engine.hpp"
+#include "reach/abstraction.hpp"
 #include "results/controller_file.hpp"
-#include "safety/invariance.hpp"
-#include "safety/pair_table.hpp"
-#include "safety/row_engine.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

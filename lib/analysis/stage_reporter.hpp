@@ -9,8 +9,8 @@
 #include "analysis/progress.hpp"
 #include "base/thread_team.hpp"
 #include "base/timer.hpp"
+#include "engine/wave_watch.hpp"
 #include "results/result_content.hpp"
-#include "safety/wave_watch.hpp"
 
 namespace coordreq {
 

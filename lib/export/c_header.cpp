@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "cell/cell_controller.hpp"
 #include "export/c_header_tables.hpp"
 #include "export/c_header_text.hpp"
-#include "query/cell_controller.hpp"
 
 namespace coordreq {
 namespace {

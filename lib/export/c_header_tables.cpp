@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "query/cell_controller.hpp"
+#include "cell/cell_controller.hpp"
 
 namespace coordreq {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
-#include "grid/uniform_grid.hpp"
+#include "model/uniform_grid.hpp"
 #include "results/results_reader.hpp"
 
 namespace coordreq {

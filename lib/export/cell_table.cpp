@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "trigger/trigger_table.hpp"
+#include "answers/layers/trigger_table.hpp"
 
 namespace coordreq {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "grid/cell_block.hpp"
+#include "model/cell_block.hpp"
 #include "results/results_reader.hpp"
 
 namespace coordreq {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "grid/locate.hpp"
-#include "query/state_text.hpp"
+#include "cell/state_text.hpp"
+#include "model/locate.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {

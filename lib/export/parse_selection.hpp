@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "export/cell_table.hpp"
-#include "grid/uniform_grid.hpp"
+#include "model/uniform_grid.hpp"
 
 namespace coordreq {
 

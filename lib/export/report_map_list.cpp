@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coordination/coalition_cost.hpp"
+#include "answers/coalition/coalition_cost.hpp"
 
 namespace coordreq {
 namespace {

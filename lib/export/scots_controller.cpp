@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "grid/reversed_numbers.hpp"
-#include "query/cell_controller.hpp"
+#include "cell/cell_controller.hpp"
+#include "model/reversed_numbers.hpp"
 
 namespace coordreq {
 namespace {

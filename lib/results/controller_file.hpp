@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "bitset/packed_pairs.hpp"
+#include "engine/packed_pairs.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "coordination/escape_path.hpp"
+#include "answers/requirements/escape_path.hpp"
 
 // Requirements, their verdicts and counterexamples as a results file holds them and reports tell them.
 namespace coordreq {

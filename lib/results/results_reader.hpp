@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "abstraction/abstraction.hpp"
-#include "grid/cell_block.hpp"
-#include "grid/input_space.hpp"
-#include "grid/uniform_grid.hpp"
+#include "model/cell_block.hpp"
+#include "model/input_space.hpp"
+#include "model/uniform_grid.hpp"
+#include "reach/abstraction.hpp"
 #include "results/result_content.hpp"
 #include "spec/problem_spec.hpp"
 

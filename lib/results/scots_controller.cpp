@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "grid/reversed_numbers.hpp"
+#include "model/reversed_numbers.hpp"
 #include "results/same_grid.hpp"
 #include "results/scots_text.hpp"
 

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
-#include "bitset/packed_pairs.hpp"
+#include "engine/packed_pairs.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
-#include "grid/input_space.hpp"
-#include "grid/uniform_grid.hpp"
+#include "model/input_space.hpp"
+#include "model/uniform_grid.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "grid/uniform_grid.hpp"
+#include "model/uniform_grid.hpp"
 
 namespace coordreq {
 

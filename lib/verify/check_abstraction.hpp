@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "grid/uniform_grid.hpp"
+#include "model/uniform_grid.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/post_table.hpp"
 #include "verify/tally.hpp"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
-#include "grid/input_space.hpp"
-#include "grid/uniform_grid.hpp"
+#include "model/input_space.hpp"
+#include "model/uniform_grid.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/cell_tubes.hpp"
 #include "verify/claims.hpp"

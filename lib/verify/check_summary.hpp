@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "grid/uniform_grid.hpp"
+#include "model/uniform_grid.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/claims.hpp"
 #include "verify/tally.hpp"

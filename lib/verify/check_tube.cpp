@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "grid/pieces.hpp"
+#include "model/pieces.hpp"
 #include "verify/check_abstraction.hpp"
 
 namespace coordreq {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
-#include "grid/input_space.hpp"
+#include "model/input_space.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/post_table.hpp"
 #include "verify/tally.hpp"

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "safety/safe_tubes.hpp"
+#include "engine/safe_tubes.hpp"
 #include "verify/check_tube.hpp"
 #include "verify/safe_beyond.hpp"
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "abstraction/abstraction.hpp"
 #include "base/thread_team.hpp"
+#include "reach/abstraction.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/post_table.hpp"
 #include "verify/tally.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bitset/packed_pairs.hpp"
+#include "engine/packed_pairs.hpp"
 #include "results/result_requirement.hpp"
 #include "verify/post_table.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "grid/input_space.hpp"
+#include "model/input_space.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

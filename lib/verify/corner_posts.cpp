@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "base/error.hpp"
-#include "grid/pieces.hpp"
+#include "model/pieces.hpp"
 #include "verify/odometer.hpp"
 #include "verify/parameter_choices.hpp"
 #include "verify/post_table.hpp"

@@ -2,7 +2,7 @@
 #include <atomic>
 #include <utility>
 
-#include "grid/pieces.hpp"
+#include "model/pieces.hpp"
 #include "verify/check_tube.hpp"
 #include "verify/odometer.hpp"
 #include "verify/parameter_choices.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "grid/input_space.hpp"
+#include "model/input_space.hpp"
 #include "results/results_paths.hpp"
 #include "results/sha256.hpp"
 #include "results/unit_text.hpp"

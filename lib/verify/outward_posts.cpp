@@ -4,7 +4,7 @@
 #include <atomic>
 #include <memory>
 
-#include "grid/pieces.hpp"
+#include "model/pieces.hpp"
 #include "verify/check_abstraction.hpp"
 #include "verify/flow_bounds.hpp"
 #include "verify/map_bounds.hpp"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "grid/pieces.hpp"
+#include "model/pieces.hpp"
 #include "verify/check_tube.hpp"
 #include "verify/piece_choices.hpp"
 #include "verify/tube_bounds.hpp"

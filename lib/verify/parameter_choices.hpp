@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid/input_space.hpp"
-#include "grid/uniform_grid.hpp"
+#include "model/input_space.hpp"
+#include "model/uniform_grid.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/odometer.hpp"
 #include "verify/post_table.hpp"

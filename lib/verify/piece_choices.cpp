@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "grid/pieces.hpp"
+#include "model/pieces.hpp"
 
 namespace coordreq {
 namespace {

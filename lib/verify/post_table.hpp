@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
-#include "grid/input_space.hpp"
-#include "grid/outside.hpp"
-#include "grid/uniform_grid.hpp"
+#include "model/input_space.hpp"
+#include "model/outside.hpp"
+#include "model/uniform_grid.hpp"
 #include "numeric/rational.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/sampled_map.hpp"

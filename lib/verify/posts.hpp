@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "grid/input_space.hpp"
-#include "grid/outside.hpp"
-#include "grid/uniform_grid.hpp"
+#include "model/input_space.hpp"
+#include "model/outside.hpp"
+#include "model/uniform_grid.hpp"
 #include "verify/post_table.hpp"
 
 namespace coordreq {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "expression/evaluate.hpp"
-#include "grid/pieces.hpp"
+#include "model/pieces.hpp"
 #include "verify/corner_truth.hpp"
 #include "verify/odometer.hpp"
 

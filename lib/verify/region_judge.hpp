@@ -5,7 +5,7 @@
 
 #include "base/thread_team.hpp"
 #include "expression/program.hpp"
-#include "grid/uniform_grid.hpp"
+#include "model/uniform_grid.hpp"
 #include "results/result_requirement.hpp"
 #include "spec/problem_spec.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
-#include "grid/uniform_grid.hpp"
+#include "model/uniform_grid.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/post_table.hpp"
 #include "verify/tally.hpp"

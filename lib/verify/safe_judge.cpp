@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "grid/pieces.hpp"
+#include "model/pieces.hpp"
 #include "verify/odometer.hpp"
 
 namespace coordreq {

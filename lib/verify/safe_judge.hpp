@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "expression/evaluate.hpp"
-#include "grid/uniform_grid.hpp"
+#include "model/uniform_grid.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/corner_truth.hpp"
 

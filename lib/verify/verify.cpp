@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
-#include "abstraction/build_abstraction.hpp"
 #include "base/error.hpp"
+#include "reach/build_abstraction.hpp"
 #include "verify/check_abstraction.hpp"
 #include "verify/check_cells.hpp"
 #include "verify/check_coalition.hpp"

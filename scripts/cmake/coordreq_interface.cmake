@@ -4,13 +4,13 @@ set(COORDREQ_PUBLIC_HEADERS
   base/error.hpp base/thread_team.hpp
   numeric/rational.hpp
   spec/problem_spec.hpp spec/read_spec.hpp
-  grid/uniform_grid.hpp grid/input_space.hpp grid/cell_block.hpp grid/locate.hpp
+  model/uniform_grid.hpp model/input_space.hpp model/cell_block.hpp model/locate.hpp
   results/read_results.hpp results/results_reader.hpp results/version.hpp
-  query/state_query.hpp query/state_text.hpp
+  cell/state_query.hpp cell/state_text.hpp
   verify/verify.hpp verify/verify_file.hpp verify/tally.hpp
   export/csv_table.hpp export/c_header.hpp export/scots_controller.hpp export/parse_selection.hpp export/text_sink.hpp
   analysis/analyze.hpp analysis/simulate.hpp
-  trigger/simulate_runs.hpp)
+  cell/simulate_runs.hpp)
 
 # `doc`: what Doxygen makes of them.
 list(TRANSFORM COORDREQ_PUBLIC_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/lib/ OUTPUT_VARIABLE doxygen_input)

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "abstraction/abstraction.hpp"
 #include "analysis/analyze.hpp"
 #include "base/error.hpp"
+#include "reach/abstraction.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <iostream>
 
-#include "abstraction/build_abstraction.hpp"
 #include "analysis/analyze.hpp"
-#include "coordination/delay_layers.hpp"
-#include "coordination/projections.hpp"
-#include "safety/invariance.hpp"
-#include "safety/safe_set.hpp"
+#include "answers/invariance/invariance.hpp"
+#include "answers/layers/delay_layers.hpp"
+#include "engine/projections.hpp"
+#include "engine/safe_set.hpp"
+#include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {

@@ -8,11 +8,11 @@
 #include <iostream>
 #include <vector>
 
-#include "abstraction/build_abstraction.hpp"
 #include "analysis/analyze.hpp"
 #include "base/timer.hpp"
-#include "safety/row_engine.hpp"
-#include "safety/safe_set.hpp"
+#include "engine/row_engine.hpp"
+#include "engine/safe_set.hpp"
+#include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {

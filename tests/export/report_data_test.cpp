@@ -6,7 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "query/analyzed_file.hpp"
+#include "cell/analyzed_file.hpp"
 #include "results/scratch_folder.hpp"
 
 namespace coordreq {

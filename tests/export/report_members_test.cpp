@@ -5,8 +5,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cell/analyzed_file.hpp"
 #include "export/report_data.hpp"
-#include "query/analyzed_file.hpp"
 #include "results/scratch_folder.hpp"
 
 namespace coordreq {

@@ -10,9 +10,9 @@
 #include <limits>
 #include <optional>
 
-#include "abstraction/build_abstraction.hpp"
 #include "base/error.hpp"
 #include "property/random_dynamics.hpp"
+#include "reach/build_abstraction.hpp"
 
 namespace coordreq {
 namespace {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <set>
 
-#include "coordination/coalition_map.hpp"
-#include "coordination/refinement.hpp"
+#include "answers/coalition/coalition_map.hpp"
+#include "answers/layers/refinement.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 #include "support/plain_engine.hpp"

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 
-#include "abstraction/build_abstraction.hpp"
-#include "safety/safe_set.hpp"
-#include "safety/safe_tubes.hpp"
+#include "cell/simulate_runs.hpp"
+#include "engine/safe_set.hpp"
+#include "engine/safe_tubes.hpp"
+#include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 #include "support/plain_engine.hpp"
 #include "support/random_problem.hpp"
-#include "trigger/simulate_runs.hpp"
 
 namespace coordreq {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "coordination/convention.hpp"
-#include "coordination/convention_freedom.hpp"
+#include "answers/convention/convention.hpp"
+#include "answers/convention/convention_freedom.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 #include "support/random_problem.hpp"

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "coordination/independent_actions.hpp"
-#include "safety/join_rows.hpp"
-#include "safety/set_levels.hpp"
+#include "engine/independent_actions.hpp"
+#include "engine/join_rows.hpp"
+#include "engine/set_levels.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 

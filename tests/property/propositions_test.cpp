@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "abstraction/build_abstraction.hpp"
+#include "reach/build_abstraction.hpp"
 #include "support/analysed_file.hpp"
 #include "support/random_problem.hpp"
 #include "verify/class_actions.hpp"

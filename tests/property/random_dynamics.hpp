@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/random_flow.hpp"
+#include "reach/random_flow.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

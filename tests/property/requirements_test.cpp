@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <optional>
 
-#include "abstraction/build_abstraction.hpp"
-#include "abstraction/counter.hpp"
 #include "analysis/analyze.hpp"
-#include "grid/pieces.hpp"
+#include "engine/safe_set.hpp"
+#include "engine/safe_tubes.hpp"
+#include "model/pieces.hpp"
+#include "reach/build_abstraction.hpp"
+#include "reach/counter.hpp"
 #include "results/scratch_folder.hpp"
-#include "safety/safe_set.hpp"
-#include "safety/safe_tubes.hpp"
 #include "spec/read_spec.hpp"
 #include "support/analysed_file.hpp"
 #include "support/plain_engine.hpp"

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "safety/box_reader.hpp"
-#include "safety/tuple_walk.hpp"
+#include "engine/box_reader.hpp"
+#include "engine/tuple_walk.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 #include "support/random_problem.hpp"

@@ -8,10 +8,10 @@
 
 #include <algorithm>
 
-#include "abstraction/build_abstraction.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
-#include "grid/pieces.hpp"
+#include "model/pieces.hpp"
+#include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 #include "support/random_problem.hpp"
 

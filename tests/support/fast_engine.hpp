@@ -4,12 +4,12 @@
 #include <optional>
 #include <utility>
 
-#include "abstraction/build_abstraction.hpp"
-#include "coordination/delay_layers.hpp"
-#include "coordination/projections.hpp"
-#include "safety/invariance.hpp"
-#include "safety/safe_set.hpp"
-#include "safety/safe_tubes.hpp"
+#include "answers/invariance/invariance.hpp"
+#include "answers/layers/delay_layers.hpp"
+#include "engine/projections.hpp"
+#include "engine/safe_set.hpp"
+#include "engine/safe_tubes.hpp"
+#include "reach/build_abstraction.hpp"
 
 namespace coordreq {
 

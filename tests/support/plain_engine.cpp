@@ -4,13 +4,13 @@
 #include <set>
 #include <utility>
 
-#include "abstraction/counter.hpp"
-#include "coordination/delay_layers.hpp"
+#include "answers/invariance/invariance.hpp"
+#include "answers/layers/delay_layers.hpp"
+#include "engine/safe_tubes.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
-#include "grid/pieces.hpp"
-#include "safety/invariance.hpp"
-#include "safety/safe_tubes.hpp"
+#include "model/pieces.hpp"
+#include "reach/counter.hpp"
 
 namespace coordreq {
 namespace {

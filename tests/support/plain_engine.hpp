@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "abstraction/abstraction.hpp"
-#include "bitset/packed_pairs.hpp"
+#include "engine/packed_pairs.hpp"
+#include "reach/abstraction.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "coordination/region.hpp"
+#include "answers/requirements/region.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "abstraction/abstraction.hpp"
+#include "reach/abstraction.hpp"
 
 namespace coordreq {
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "abstraction/build_abstraction.hpp"
+#include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 #include "verify/check_tube.hpp"
 #include "verify/check_tubes.hpp"

@@ -2,8 +2,8 @@
 // agents may be silent from a state such as x1=0.1,x2=0.
 #include <coordreq/analysis/analyze.hpp>
 #include <coordreq/base/error.hpp>
-#include <coordreq/query/state_query.hpp>
-#include <coordreq/query/state_text.hpp>
+#include <coordreq/cell/state_query.hpp>
+#include <coordreq/cell/state_text.hpp>
 #include <coordreq/spec/read_spec.hpp>
 #include <iostream>
 

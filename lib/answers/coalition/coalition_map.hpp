@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "answers/coalition/coalition_cost.hpp"
+#include "answers/layers/delay_layers.hpp"
+#include "base/thread_team.hpp"
+#include "engine/cell_set.hpp"
+#include "engine/level_map.hpp"
+
+namespace coordreq {
+
+/// Who must talk to whom: for each cell x of K the most wanted partition P with delay_P(x) >= horizon, that
+/// is the cheapest network with which the system stays in K for that many steps though its classes do not
+/// hear from one another.
+struct CoalitionMap {
+  std::int64_t horizon = 0;              ///< steps
+  std::vector<CoalitionChoice> choices;  ///< the partitions, the most wanted first
+  std::vector<AgentPair> pairs;          ///< all pairs of agents
+  /// [cells]: 0 outside K, 1 + i where choices[i] is the first whose delay is enough, LevelMap::kTop where
+  /// none of them is. With all agents in one class among them there is no such cell.
+  LevelMap chosen;
+  /// [pair]: the cells at which the two are together in every partition that is enough and costs as little as
+  /// the chosen one. Empty outside K and where none is enough.
+  std::vector<CellSet> critical;
+  std::vector<std::int64_t> cells;           ///< [choice] that are given it
+  std::int64_t without = 0;                  ///< cells of K for which no partition is enough
+  std::vector<std::int64_t> critical_cells;  ///< [pair] |critical|
+};
+
+/// Delays that `max_delay` cut off count as lower bounds, so that a cell is never given a partition that has
+/// not been shown to be enough.
+/// @param layers of the partitions of `coordination`, in its order
+/// REQUIRES: coordination.horizon is set.
+[[nodiscard]] CoalitionMap find_coalitions(const CoordinationSpec& coordination, std::size_t agents,
+                                           const CellSet& invariant,
+                                           const std::vector<const DelayLayers*>& layers, ThreadTeam& team);
+
+}  // namespace coordreq

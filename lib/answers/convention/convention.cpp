@@ -1,0 +1,45 @@
+#include "answers/convention/convention.hpp"
+
+#include <algorithm>
+
+namespace coordreq {
+
+AgentActions agent_actions(const InputSpace& space, const std::vector<std::int32_t>& inputs) {
+  AgentActions result;
+  for (const std::int32_t i : inputs) result.count *= space[static_cast<std::size_t>(i)].count();
+  for (std::int64_t u = 0; u < space.count(); ++u) {
+    std::int64_t action = 0;
+    for (const std::int32_t i : inputs) {
+      const auto input = static_cast<std::size_t>(i);
+      action = action * space[input].count() + space.index(u, input);
+    }
+    result.of_input.push_back(static_cast<std::int32_t>(action));
+  }
+  return result;
+}
+
+std::vector<std::vector<bool>> convention_at(const std::vector<bool>& admissible,
+                                             const std::vector<AgentActions>& agents) {
+  std::vector<std::vector<bool>> sets;
+  sets.reserve(agents.size());
+  for (const AgentActions& agent : agents) sets.emplace_back(static_cast<std::size_t>(agent.count), false);
+  const auto seed = std::find(admissible.begin(), admissible.end(), true) - admissible.begin();
+  if (seed == static_cast<std::ptrdiff_t>(admissible.size())) return sets;
+  const auto part = [&](std::size_t i, std::size_t u) {
+    return static_cast<std::size_t>(agents[i].of_input[u]);
+  };
+  for (std::size_t i = 0; i < agents.size(); ++i) sets[i][part(i, static_cast<std::size_t>(seed))] = true;
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    std::vector<bool> kept(sets[i].size(), true);
+    for (std::size_t u = 0; u < admissible.size(); ++u) {
+      if (admissible[u]) continue;
+      bool others = true;
+      for (std::size_t j = 0; others && j < agents.size(); ++j) others = j == i || sets[j][part(j, u)];
+      if (others) kept[part(i, u)] = false;
+    }
+    sets[i] = std::move(kept);
+  }
+  return sets;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,180 @@
+#include "answers/convention/convention_freedom.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <limits>
+#include <numeric>
+
+#include "answers/convention/convention_row.hpp"
+#include "engine/packed_pairs.hpp"
+
+namespace coordreq {
+namespace {
+
+using Histogram = std::array<std::int64_t, 10>;
+
+/// What the rows of one thread add up to.
+struct Count {
+  std::int64_t full = 0;
+  Histogram histogram{};
+};
+
+/// The sizes of sets of actions in every cell of a row.
+void count_actions(const ActionGroups& groups, const std::vector<Word>& rows, std::size_t words,
+                   std::vector<std::int32_t>& sizes) {
+  std::vector<std::int32_t> members(groups.size(), 0);
+  for (const std::uint32_t g : groups.group_of) ++members[g];
+  std::fill(sizes.begin(), sizes.end(), 0);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for_each_bit(ConstRow(rows.data() + g * words, words),
+                 [&](std::int64_t x) { sizes[static_cast<std::size_t>(x)] += members[g]; });
+  }
+}
+
+/// Writes the freedom of one agent in one row, and adds it up.
+class Measure {
+ public:
+  explicit Measure(std::int64_t row_length)
+      : kept_(static_cast<std::size_t>(row_length)), all_(static_cast<std::size_t>(row_length)) {}
+
+  /// @returns the sum over the row, from the first cell on
+  double measure(const ConventionRow& row, std::size_t agent, ConstRow invariant, float* freedom,
+                 Count& count) {
+    if (row.is_free) {
+      std::int64_t cells = 0;
+      for_each_bit(invariant, [&](std::int64_t x) {
+        freedom[x] = 1;
+        ++cells;
+      });
+      count.full += cells;
+      count.histogram.back() += cells;
+      return static_cast<double>(cells);
+    }
+    const ActionGroups& groups = *row.groups.classes[agent];
+    count_actions(groups, row.kept[agent], invariant.size(), kept_);
+    count_actions(groups, row.projection[agent], invariant.size(), all_);
+    double sum = 0;
+    for_each_bit(invariant, [&](std::int64_t x) {
+      const std::int64_t kept = kept_[static_cast<std::size_t>(x)];
+      const std::int64_t all = all_[static_cast<std::size_t>(x)];
+      const double part = static_cast<double>(kept) / static_cast<double>(all);
+      freedom[x] = static_cast<float>(part);
+      sum += part;
+      if (kept == all) ++count.full;
+      ++count.histogram[static_cast<std::size_t>((10 * kept + all - 1) / all - 1)];
+    });
+    return sum;
+  }
+
+ private:
+  std::vector<std::int32_t> kept_;
+  std::vector<std::int32_t> all_;
+};
+
+/// Sums of rows are added in their order, so that the mean does not depend on who has found them.
+void add_up(const std::vector<std::vector<Count>>& counts, const std::vector<std::vector<double>>& sums,
+            std::int64_t cells, ConventionFreedom& result) {
+  for (std::size_t i = 0; i < result.agents.size(); ++i) {
+    ConventionFreedom::Agent& agent = result.agents[i];
+    for (const std::vector<Count>& worker : counts) {
+      agent.full += worker[i].full;
+      for (std::size_t k = 0; k < agent.histogram.size(); ++k) agent.histogram[k] += worker[i].histogram[k];
+    }
+    if (cells == 0) continue;
+    agent.mean = std::accumulate(sums[i].begin(), sums[i].end(), 0.0) / static_cast<double>(cells);
+  }
+}
+
+}  // namespace
+
+ConventionFreedom find_convention(const Controller& controller, const RowHull& hull,
+                                  const ActionGrouping& agents, ThreadTeam& team) {
+  const RowEngine& engine = *controller.engine;
+  ConventionFreedom result;
+  result.agents.resize(agents.size());
+  for (ConventionFreedom::Agent& agent : result.agents) {
+    agent.freedom.assign(static_cast<std::size_t>(engine.grid().cells()),
+                         std::numeric_limits<float>::quiet_NaN());
+  }
+  std::vector<std::vector<Count>> counts(static_cast<std::size_t>(team.size()),
+                                         std::vector<Count>(agents.size()));
+  std::vector<std::vector<double>> sums(agents.size(),
+                                        std::vector<double>(static_cast<std::size_t>(engine.rows()), 0));
+  const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
+  controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
+    std::deque<ConventionRows<Level>> finders;
+    for (int w = 0; w < team.size(); ++w) finders.emplace_back(controller, hull, agents, levels);
+    team.for_each((engine.rows() + grain - 1) / grain, 1, [&](ThreadTeam::Range range, int worker) {
+      ConventionRows<Level>& finder = finders[static_cast<std::size_t>(worker)];
+      ConventionRow row;
+      Measure measure(engine.row_length());
+      const std::int64_t end = std::min(range.end * grain, engine.rows());
+      for (RowPlace place(engine.grid(), range.begin * grain); place.row < end;
+           place.advance(engine.grid())) {
+        // Minima are shared within a unit.
+        if (place.row == range.begin * grain || place.row % engine.unit_rows() == 0) finder.enter();
+        const ConstRow invariant = controller.invariant->row(place.row);
+        if (!any_set(invariant)) continue;
+        finder.find(place, row);
+        for (std::size_t i = 0; i < agents.size(); ++i) {
+          sums[i][static_cast<std::size_t>(place.row)] = measure.measure(
+              row, i, invariant, result.agents[i].freedom.data() + place.row * engine.row_length(),
+              counts[static_cast<std::size_t>(worker)][i]);
+        }
+      }
+    });
+  });
+  add_up(counts, sums, controller.invariant->count(), result);
+  return result;
+}
+
+namespace {
+
+/// The sets of one agent in the cells of one row.
+template <class Level>
+void write_row(ConventionRows<Level>& finder, const Controller& controller, const RowPlace& place,
+               std::size_t agent, std::int64_t bytes, std::uint8_t* cells) {
+  const ConstRow invariant = controller.invariant->row(place.row);
+  if (!any_set(invariant)) return;
+  ConventionRow row;
+  finder.enter();
+  finder.find(place, row);
+  const ActionGroups& groups = *row.groups.classes[agent];
+  for (std::size_t a = 0; a < groups.group_of.size(); ++a) {
+    const ConstRow kept =
+        row.is_free
+            ? invariant
+            : ConstRow(row.kept[agent].data() + groups.group_of[a] * invariant.size(), invariant.size());
+    for_each_bit(kept, [&](std::int64_t x) {
+      std::uint8_t& byte = cells[x * bytes + static_cast<std::int64_t>(a / 8)];
+      byte = static_cast<std::uint8_t>(byte | 1U << (a % 8));
+    });
+  }
+}
+
+}  // namespace
+
+void fill_convention_bits(const Controller& controller, const RowHull& hull, const ActionGrouping& agents,
+                          std::size_t agent, std::uint64_t begin, std::uint64_t count, void* out) {
+  const std::int64_t bytes = PackedPairs::bytes_for(agents.actions(agent));
+  const auto row_bytes = static_cast<std::uint64_t>(controller.engine->row_length() * bytes);
+  auto* target = static_cast<std::uint8_t*>(out);
+  controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
+    ConventionRows<Level> finder(controller, hull, agents, levels);
+    std::vector<std::uint8_t> cells(row_bytes);
+    // A stretch may begin and end inside a row.
+    while (count > 0) {
+      const std::uint64_t offset = begin % row_bytes;
+      const std::uint64_t take = std::min(count, row_bytes - offset);
+      std::fill(cells.begin(), cells.end(), 0);
+      const RowPlace place(controller.engine->grid(), static_cast<std::int64_t>(begin / row_bytes));
+      write_row(finder, controller, place, agent, bytes, cells.data());
+      std::copy_n(cells.begin() + static_cast<std::ptrdiff_t>(offset), take, target);
+      begin += take;
+      count -= take;
+      target += take;
+    }
+  });
+}
+
+}  // namespace coordreq

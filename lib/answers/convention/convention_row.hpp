@@ -1,0 +1,150 @@
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "engine/free_rows.hpp"
+
+namespace coordreq {
+
+/// The convention of the cells of one row (see convention_at()), by groups of actions: two actions of one
+/// group are in the same pairs, so that a set has all of a group or nothing.
+struct ConventionRow {
+  RowGroups groups;
+  bool is_free = false;  ///< every cell of K keeps everything; the rows below are not filled
+  /// [agent], then [group * words + word]: the cells in whose P_i the group is, and in whose projection of
+  /// C(x) on the agent it is.
+  std::vector<std::vector<Word>> kept;
+  std::vector<std::vector<Word>> projection;
+};
+
+/// Works out one row after the other. One object a thread.
+template <class Level>
+class ConventionRows {
+ public:
+  /// @param agents the actions of each agent as a class of its own, in the order of the spec
+  /// REQUIRES: all outlive this object; `levels` are those of controller.collision_time.
+  ConventionRows(const Controller& controller, const RowHull& hull, const ActionGrouping& agents,
+                 const LevelRows<Level>& levels)
+      : controller_(controller),
+        agents_(agents),
+        words_(controller.engine->row_words()),
+        posts_(*controller.engine, levels),
+        free_(controller, hull, posts_) {
+    const InputSpace& space = controller.engine->abstraction().inputs;
+    for (std::size_t i = 0; i < agents.size(); ++i) {
+      std::vector<std::int64_t> parts = {0};
+      for (const std::int32_t input : agents.inputs(i)) {
+        const auto own = static_cast<std::size_t>(input);
+        std::vector<std::int64_t> longer;
+        for (const std::int64_t part : parts) {
+          for (std::int64_t k = 0; k < space[own].count(); ++k)
+            longer.push_back(part + k * space.stride(own));
+        }
+        parts = std::move(longer);
+      }
+      parts_.push_back(std::move(parts));
+    }
+  }
+
+  /// Begins with the rows of another unit.
+  void enter() { posts_.enter(); }
+
+  /// REQUIRES: some cell of the row is in K.
+  void find(const RowPlace& place, ConventionRow& row) {
+    agents_.group(place, row.groups);
+    row.is_free = free_.is_free(place);
+    if (row.is_free) return;
+    find_controller(place, row);
+    find_seeds(controller_.invariant->row(place.row), row);
+    for (std::size_t i = 0; i < agents_.size(); ++i)
+      add_actions(i, controller_.invariant->row(place.row), row);
+  }
+
+ private:
+  /// C(x) of all choices of groups, the last agent fastest, and its projections.
+  void find_controller(const RowPlace& place, ConventionRow& row) {
+    row.projection.resize(agents_.size());
+    for (std::size_t i = 0; i < agents_.size(); ++i)
+      row.projection[i].assign(row.groups.classes[i]->size() * words_, 0);
+    choose_groups(row.groups, GroupChoice::all, candidates_);
+    tuple_.begin(agents_, place, row.groups, candidates_);
+    admissible_.clear();
+    choices_.clear();
+    numbers_.clear();
+    std::vector<Word> members(words_);
+    do {
+      controller_row(controller_, place.row, tuple_, posts_, members);
+      admissible_.insert(admissible_.end(), members.begin(), members.end());
+      std::int64_t number = 0;
+      for (std::size_t i = 0; i < agents_.size(); ++i) {
+        const std::uint32_t g = tuple_.chosen(i);
+        choices_.push_back(g);
+        number += parts_[i][row.groups.classes[i]->representative[g]];
+        for (std::size_t w = 0; w < words_; ++w) row.projection[i][g * words_ + w] |= members[w];
+      }
+      numbers_.push_back(number);
+    } while (tuple_.next());
+  }
+
+  /// The groups of the lowest-numbered joint input of every cell, as the first sets. The lowest one of a
+  /// choice of groups has the lowest action of each, for numbers grow with every agent's action.
+  void find_seeds(ConstRow invariant, ConventionRow& row) {
+    row.kept.resize(agents_.size());
+    for (std::size_t i = 0; i < agents_.size(); ++i)
+      row.kept[i].assign(row.groups.classes[i]->size() * words_, 0);
+    order_.resize(numbers_.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    if (!std::is_sorted(numbers_.begin(), numbers_.end())) {
+      std::sort(order_.begin(), order_.end(),
+                [this](std::size_t a, std::size_t b) { return numbers_[a] < numbers_[b]; });
+    }
+    std::vector<Word> open(invariant.begin(), invariant.end());
+    for (const std::size_t t : order_) {
+      for (std::size_t w = 0; w < words_; ++w) {
+        const Word first = open[w] & admissible_[t * words_ + w];
+        if (first == 0) continue;
+        open[w] &= ~first;
+        for (std::size_t i = 0; i < agents_.size(); ++i) row.kept[i][chosen(t, i) * words_ + w] |= first;
+      }
+      if (!any_set(open)) return;
+    }
+  }
+
+  /// Of agent i all that goes with the sets of the others as they are.
+  void add_actions(std::size_t i, ConstRow invariant, ConventionRow& row) {
+    std::vector<Word>& own = row.kept[i];
+    refused_.assign(own.size(), 0);
+    for (std::size_t t = 0; t < numbers_.size(); ++t) {
+      for (std::size_t w = 0; w < words_; ++w) {
+        Word bad = invariant[w] & ~admissible_[t * words_ + w];
+        for (std::size_t j = 0; bad != 0 && j < agents_.size(); ++j) {
+          if (j != i) bad &= row.kept[j][chosen(t, j) * words_ + w];
+        }
+        refused_[chosen(t, i) * words_ + w] |= bad;
+      }
+    }
+    for (std::size_t k = 0; k < own.size(); ++k) own[k] = invariant[k % words_] & ~refused_[k];
+  }
+
+  [[nodiscard]] std::size_t chosen(std::size_t t, std::size_t i) const {
+    return choices_[t * agents_.size() + i];
+  }
+
+  const Controller& controller_;
+  const ActionGrouping& agents_;
+  std::size_t words_;
+  PostReader<Level> posts_;
+  FreeRows<Level> free_;
+  std::vector<std::vector<std::int64_t>> parts_;  ///< [agent][action]: its part of a joint input's number
+  TupleWalk::Candidates candidates_;
+  TupleWalk tuple_;
+  std::vector<Word> admissible_;        ///< [choice of groups * words + word]
+  std::vector<std::uint32_t> choices_;  ///< [choice of groups * agents + agent]
+  std::vector<std::int64_t> numbers_;   ///< [choice of groups]: its lowest joint input
+  std::vector<std::size_t> order_;
+  std::vector<Word> refused_;
+};
+
+}  // namespace coordreq

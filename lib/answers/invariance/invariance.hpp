@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include "base/thread_team.hpp"
+#include "engine/action_groups.hpp"
+#include "engine/level_map.hpp"
+#include "engine/wave.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// The invariance set K and when each cell was lost, contract "Controller".
+struct Invariance {
+  CellSet invariant;
+  /// [cells]: 0 outside S, i if the i-th sweep of the synchronous iteration removes the cell, LevelMap::kTop
+  /// in K.
+  LevelMap collision_time;
+  std::int64_t iterations = 0;  ///< synchronous sweeps, the confirming last one included
+  WaveCounts counts;
+};
+
+/// K: for `maximal` the greatest K with K = {x in K n S : some allowed u has empty != f(x,u) subset of K};
+/// for `given` the limit of SPRE_S^i(X) of the paper, C(x) being all that `allow` permits.
+[[nodiscard]] Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
+                                         Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team);
+
+/// All that follows from the collision times; `counts` are none.
+[[nodiscard]] Invariance invariance_of(LevelMap collision_time, ThreadTeam& team);
+
+}  // namespace coordreq

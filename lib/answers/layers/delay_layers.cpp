@@ -1,0 +1,68 @@
+#include "answers/layers/delay_layers.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/find_levels.hpp"
+#include "engine/independent_actions.hpp"
+#include "engine/set_levels.hpp"
+
+namespace coordreq {
+namespace {
+
+template <class Level>
+std::unique_ptr<RowOperator<Level>> make_operator(const Projections& projections, const RowHull& hull,
+                                                  const CellSet& invariant, int workers) {
+  return std::make_unique<IndependentActions<Level>>(projections, hull, invariant, workers);
+}
+
+/// |Z_0|, |Z_1|, ...: a cell of level i is in the first i layers.
+std::vector<std::int64_t> layer_sizes(const LevelMap::Histogram& cells) {
+  std::vector<std::int64_t> sizes(std::max<std::size_t>(cells.finite.size(), 1), cells.top);
+  for (std::size_t level = sizes.size(); level-- > 1;) sizes[level - 1] = sizes[level] + cells.finite[level];
+  return sizes;
+}
+
+/// All that follows from the levels.
+void summarise(std::optional<std::int64_t> max_delay, ThreadTeam& team, DelayLayers& result) {
+  result.sizes = layer_sizes(result.layers_of.histogram(team));
+  const auto steps = static_cast<std::int64_t>(result.sizes.size()) - 1;
+  // A fixed point is known as such only by one more step.
+  result.truncated = max_delay && steps >= *max_delay && result.sizes.back() != 0;
+  result.fixed_point_index = result.truncated ? -1 : static_cast<std::int32_t>(steps);
+}
+
+}  // namespace
+
+DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, const CellSet& invariant,
+                              const Projections& projections, const std::vector<const LevelMap*>& coarser,
+                              std::optional<std::int64_t> max_delay, const WaveWatch& watch,
+                              ThreadTeam& team) {
+  const int workers = team.size();
+  const LevelProblem problem{
+      .start = &invariant,
+      .bounds = coarser,
+      .settled = &projections.full_rows(),
+      .limit = max_delay.value_or(-1),
+      .make8 = [&] { return make_operator<std::uint8_t>(projections, hull, invariant, workers); },
+      .make16 = [&] { return make_operator<std::uint16_t>(projections, hull, invariant, workers); },
+      .make32 = [&] { return make_operator<std::uint32_t>(projections, hull, invariant, workers); }};
+  WaveCounts counts;
+  DelayLayers result =
+      layers_of_levels(find_levels(engine, hull, problem, watch, team, counts), max_delay, team);
+  result.counts = counts;
+  return result;
+}
+
+DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
+                               std::optional<std::int64_t> max_delay, ThreadTeam& team) {
+  return layers_of_levels(LevelMap(top_levels<std::uint8_t>(engine, invariant, team)), max_delay, team);
+}
+
+DelayLayers layers_of_levels(LevelMap layers_of, std::optional<std::int64_t> max_delay, ThreadTeam& team) {
+  DelayLayers result{.layers_of = std::move(layers_of)};
+  summarise(max_delay, team, result);
+  return result;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/thread_team.hpp"
+#include "engine/projections.hpp"
+#include "engine/wave.hpp"
+
+namespace coordreq {
+
+/// The delay layers of one partition, contract "Layers".
+struct DelayLayers {
+  static constexpr std::int32_t kOutsideSafe = -2;
+  static constexpr std::int32_t kOutsideInvariant = -1;
+  static constexpr std::int32_t kUnbounded = INT32_MAX;
+
+  /// [cells]: 0 outside K, else delay(x) + 1, the number of layers that hold x; LevelMap::kTop where it is
+  /// not bounded, or not known to be.
+  LevelMap layers_of;
+  std::vector<std::int64_t> sizes;     ///< |Z_0|, |Z_1|, ..., |Z_F| (or as far as `max_delay` went)
+  std::int32_t fixed_point_index = 0;  ///< F; -1 if truncated
+  bool truncated =
+      false;  ///< `max_delay` came first: the last layer's delays are lower bounds, none is unbounded
+  WaveCounts counts;
+
+  /// What LevelMap::kTop means as a delay.
+  [[nodiscard]] std::int32_t top_delay() const {
+    return truncated ? static_cast<std::int32_t>(sizes.size() - 1) : kUnbounded;
+  }
+};
+
+/// Z_0 = K, Z_{k+1} = SIPRE_S(Z_k) (paper, Proposition 1), with IND_C given by its projections.
+/// An empty layer is a fixed point also where `max_delay` stops at it.
+///
+/// Partitions that this one refines have delays that are nowhere shorter: their IND_C(x) is within this
+/// one's, a smaller set of choices, so that the worst of them is no worse. The work begins at the least of
+/// those. Rows of K where C(x) has every action need not be looked at before a neighbour changes: there all
+/// partitions take the same minimum M(level)(x) over all actions, and a minimum of the bounds L' goes through
+/// M to each of them, M(min L') = min M(L') = min L'. Without bounds M is of the levels of K alone, and none
+/// of its cells is lost by any action.
+/// @param coarser layers_of for some partitions that this one refines, with the same `max_delay`
+[[nodiscard]] DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull,
+                                            const CellSet& invariant, const Projections& projections,
+                                            const std::vector<const LevelMap*>& coarser,
+                                            std::optional<std::int64_t> max_delay, const WaveWatch& watch,
+                                            ThreadTeam& team);
+
+/// The same for the partition in which all agents are together, at no cost: IND_C = C, and C keeps every cell
+/// of K in K, so Z_k = K for every k.
+[[nodiscard]] DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
+                                             std::optional<std::int64_t> max_delay, ThreadTeam& team);
+
+/// All that follows from the levels; `counts` are none.
+[[nodiscard]] DelayLayers layers_of_levels(LevelMap layers_of, std::optional<std::int64_t> max_delay,
+                                           ThreadTeam& team);
+
+}  // namespace coordreq

@@ -1,0 +1,96 @@
+#include "answers/network/mode_targets.hpp"
+
+#include <algorithm>
+
+#include "engine/row_box.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Rows that one thread takes at a time.
+constexpr std::int64_t kGrain = 256;
+
+}  // namespace
+
+ModeTargets::ModeTargets(const RowEngine& engine, const RowHull& hull, const std::vector<NetworkMode>& modes,
+                         const CellSet& start)
+    : engine_(engine),
+      hull_(hull),
+      modes_(modes),
+      predecessors_(modes.size()),
+      sets_(modes.size(), start),
+      state_(modes.size(), State::untouched),
+      changed_(modes.size(), std::vector<Word>(static_cast<std::size_t>(engine.rows() + 63) / 64, 0)),
+      levels_(engine.make_levels<std::uint8_t>(engine.posts())),
+      loaded_(modes.size()) {
+  for (std::size_t mode = 0; mode < modes.size(); ++mode) {
+    for (const std::size_t successor : modes[mode].successors) predecessors_[successor].push_back(mode);
+  }
+}
+
+void ModeTargets::load_row(std::size_t mode, std::int64_t row, std::vector<Word>& cells,
+                           std::vector<std::uint8_t>& lanes) {
+  const std::vector<std::size_t>& successors = modes_[mode].successors;
+  const ConstRow first = sets_[successors.front()].row(row);
+  cells.assign(first.begin(), first.end());
+  for (const std::size_t successor : successors) {
+    const ConstRow other = sets_[successor].row(row);
+    for (std::size_t w = 0; w < cells.size(); ++w) cells[w] &= other[w];
+  }
+  const auto n = static_cast<std::size_t>(engine_.row_length());
+  level_kernels<std::uint8_t>(best_instruction_set()).spread(cells.data(), lanes.data(), n);
+  std::copy_n(lanes.begin(), n, levels_.row(row));
+  levels_.close(row);
+}
+
+void ModeTargets::load(std::size_t mode, ThreadTeam& team) {
+  const bool again = loaded_ == mode;
+  loaded_ = mode;
+  team.for_each(engine_.rows(), kGrain, [&](ThreadTeam::Range range, int) {
+    std::vector<Word> cells;
+    std::vector<std::uint8_t> lanes(static_cast<std::size_t>(engine_.row_length()) + kLevelBlock);
+    for (std::int64_t row = range.begin; row < range.end; ++row) {
+      if (!again || is_changed(mode, row)) load_row(mode, row, cells, lanes);
+    }
+  });
+}
+
+std::vector<std::int64_t> ModeTargets::take_pending(std::size_t mode, std::int64_t& alive, ThreadTeam& team) {
+  std::vector<std::uint8_t> is_alive(static_cast<std::size_t>(engine_.rows()), 0);
+  std::vector<std::uint8_t> is_pending(is_alive.size(), 0);
+  const bool all = state_[mode] == State::untouched;
+  team.for_each(engine_.rows(), kGrain, [&](ThreadTeam::Range range, int) {
+    RowHull::Box box;
+    std::vector<std::int64_t> counter;
+    RowPlace place(engine_.grid(), range.begin);
+    for (; place.row < range.end; place.advance(engine_.grid())) {
+      if (!any_set(sets_[mode].row(place.row))) continue;
+      bool meets = all;
+      if (!all) {
+        hull_.box(place, box);
+        for_each_row(engine_, 0, box.ranges, counter,
+                     [&](std::int64_t row) { meets = meets || is_changed(mode, row); });
+      }
+      is_alive[static_cast<std::size_t>(place.row)] = 1;
+      is_pending[static_cast<std::size_t>(place.row)] = meets ? 1 : 0;
+    }
+  });
+  std::vector<std::int64_t> rows;
+  for (std::size_t row = 0; row < is_pending.size(); ++row) {
+    if (is_pending[row] != 0) rows.push_back(static_cast<std::int64_t>(row));
+  }
+  alive = std::count(is_alive.begin(), is_alive.end(), 1);
+  state_[mode] = State::settled;
+  std::fill(changed_[mode].begin(), changed_[mode].end(), 0);
+  return rows;
+}
+
+void ModeTargets::shrink(std::size_t mode, std::int64_t row, ConstRow cells) {
+  std::copy(cells.begin(), cells.end(), sets_[mode].row(row).begin());
+  for (const std::size_t before : predecessors_[mode]) {
+    changed_[before][static_cast<std::size_t>(row / 64)] |= Word{1} << (row % 64);
+    if (state_[before] == State::settled) state_[before] = State::changed;
+  }
+}
+
+}  // namespace coordreq

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "answers/network/network_safety.hpp"
+#include "base/thread_team.hpp"
+
+namespace coordreq {
+
+/// The sets W(q) of all modes while they shrink, and the target T(q) of one mode at a time, the intersection
+/// of W(q') over the modes q' that follow q: as levels, kTop for members and 0 for others.
+///
+/// Remembers of each mode in which rows its target has changed since it was last asked for pending rows.
+class ModeTargets {
+ public:
+  /// All W(q) are `start`, and all rows are pending.
+  ModeTargets(const RowEngine& engine, const RowHull& hull, const std::vector<NetworkMode>& modes,
+              const CellSet& start);
+
+  [[nodiscard]] std::size_t modes() const { return sets_.size(); }
+  [[nodiscard]] const CellSet& set(std::size_t mode) const { return sets_[mode]; }
+  [[nodiscard]] std::vector<CellSet> take_sets() { return std::move(sets_); }
+
+  /// Whether any row of the target of a mode has changed.
+  [[nodiscard]] bool has_changed(std::size_t mode) const { return state_[mode] != State::settled; }
+  /// Makes levels() those of this mode's target.
+  void load(std::size_t mode, ThreadTeam& team);
+  [[nodiscard]] const LevelRows<std::uint8_t>& levels() const { return levels_; }
+  /// The rows with cells in W(mode) from which a row of the target can be met that has changed, ascending.
+  /// From now on nothing counts as changed for this mode.
+  /// @param alive how many rows have cells in W(mode)
+  [[nodiscard]] std::vector<std::int64_t> take_pending(std::size_t mode, std::int64_t& alive,
+                                                       ThreadTeam& team);
+  /// Replaces a row of W(mode).
+  void shrink(std::size_t mode, std::int64_t row, ConstRow cells);
+
+ private:
+  enum class State : std::uint8_t { untouched, changed, settled };
+
+  void load_row(std::size_t mode, std::int64_t row, std::vector<Word>& cells,
+                std::vector<std::uint8_t>& lanes);
+  [[nodiscard]] bool is_changed(std::size_t mode, std::int64_t row) const {
+    return (changed_[mode][static_cast<std::size_t>(row / 64)] >> (row % 64) & 1U) != 0;
+  }
+
+  const RowEngine& engine_;
+  const RowHull& hull_;
+  const std::vector<NetworkMode>& modes_;
+  std::vector<std::vector<std::size_t>> predecessors_;
+  std::vector<CellSet> sets_;
+  std::vector<State> state_;
+  std::vector<std::vector<Word>> changed_;  ///< [mode] a bit a row of its target
+  LevelRows<std::uint8_t> levels_;
+  std::size_t loaded_;
+};
+
+}  // namespace coordreq

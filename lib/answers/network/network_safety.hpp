@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "base/thread_team.hpp"
+#include "engine/cell_set.hpp"
+#include "engine/controller.hpp"
+#include "engine/row_hull.hpp"
+#include "engine/wave.hpp"
+
+namespace coordreq {
+
+/// One mode of a network: who is connected in a step, and which modes the next step can be in.
+struct NetworkMode {
+  std::size_t partition = 0;            ///< index into NetworkProblem::partitions
+  std::vector<std::size_t> successors;  ///< indices of modes; at least one
+};
+
+struct NetworkProblem {
+  const Controller* controller = nullptr;  ///< of K
+  const RowHull* hull = nullptr;
+  std::vector<std::vector<InputClass>> partitions;  ///< all different; the classes of each
+  std::vector<NetworkMode> modes;
+  bool resynthesise = false;
+};
+
+struct NetworkSafety {
+  std::vector<CellSet> safe;  ///< [mode] W(q)
+  WaveCounts counts;
+};
+
+/// Looks on while the sets shrink, and says where to take up work that was broken off.
+struct NetworkWatch {
+  /// As WaveWatch::step, after each sweep over the rows of a mode; the state is the sets of all modes. Where
+  /// rounds are synchronous there is one at the end of a round only.
+  std::function<void(const WaveStep&)> step;
+  /// Sets that `step` has been shown; taken away. Null: begin with K.
+  ///
+  /// The result is the same. Usually the operator is monotone, and the sets lie above the greatest solution.
+  /// For `resynthesise` they are those of a round, and the next round finds the same as it would have: it
+  /// works out every row, and a row that it would have passed over has met nothing that changed, so that
+  /// it loses nothing.
+  std::vector<CellSet>* resumed = nullptr;
+};
+
+/// From which cells the agents stay safe in each mode, whatever the network does from there on. With T(q) the
+/// intersection of W(q') over the successors q' of q:
+/// - usually the greatest W with W(q) = {x in K : empty != f(x,u) subset of T(q) for all u in IND_C(x)},
+///   IND_C that of q's partition. The operator is monotone, so that any order of work gives the same;
+/// - `resynthesise`: agents restrict themselves to C_q(x) = {u allowed : empty != f(x,u) subset of T(q)}.
+/// From
+///   W(q) = K on, synchronously, W(q) <- W(q) n {x : C_q(x) != empty, IND(C_q)(x) subset of C_q(x)} until
+///   nothing changes. Sound, as the last W is a fixed point; perhaps not the largest, as the operator is not
+///   monotone. Where everything is allowed it has all cells of the W above: at those C_q = C = IND_C in every
+///   iteration, since T(q) lies between that of the W above and K.
+///
+/// Memory: a set of cells for each mode (`resynthesise`: up to two), a byte a cell, and the projections of C
+/// for all partitions (`resynthesise`: none).
+[[nodiscard]] NetworkSafety find_network_safety(const NetworkProblem& problem, const NetworkWatch& watch,
+                                                ThreadTeam& team);
+
+}  // namespace coordreq

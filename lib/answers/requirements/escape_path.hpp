@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "answers/requirements/pair_posts.hpp"
+#include "engine/controller.hpp"
+
+namespace coordreq {
+
+/// What the agents do at a step of an escape.
+enum class EscapePhase : std::uint8_t {
+  independent,  ///< in K: each class picks from its projection of C(x), so that u is in IND_C(x)
+  /// Outside K: the allowed joint action that puts off the collision longest; if the controller is `given`,
+  /// one that it may choose, the one that does so least.
+  evasive,
+};
+
+/// How an escape ends.
+enum class EscapeEnd : std::uint8_t {
+  outside_safe_set,        ///< the last cell is not in S
+  left_domain,             ///< the last action leads out of the domain through an unsafe side
+  unsafe_between_samples,  ///< the last action's way between the samples is not safe
+  no_allowed_action,       ///< in the last cell, outside K, nothing is allowed
+};
+
+/// How the system can get from a cell out of S although all agents do what is reasonable to them.
+struct EscapePath {
+  /// Visited; each but the first is in f(the cell before, the joint input before). One more than there are
+  /// steps, unless the last action leads nowhere (`left_domain`, `unsafe_between_samples`).
+  std::vector<std::int64_t> cells;
+  std::vector<std::int64_t> joint_inputs;  ///< one a step
+  std::vector<EscapePhase> phases;         ///< one a step
+  EscapeEnd end = EscapeEnd::outside_safe_set;
+  std::vector<DomainSide> sides;  ///< through which the last action leads, if `left_domain`
+};
+
+/// What escapes are made of.
+struct EscapeSets {
+  const Controller* controller = nullptr;
+  SafeTubes tubes;
+  /// Of the partition: its classes, and DelayLayers::layers_of. Not used outside K; may be null if no path
+  /// starts in K.
+  const ActionGrouping* grouping = nullptr;
+  const LevelMap* layers_of = nullptr;
+  /// [dimension]: what one index adds to a cell's number, by which ties are broken.
+  std::vector<std::int64_t> number_stride;
+};
+
+/// A shortest way out of S as the abstraction has it.
+///
+/// - From x in K with delay k, k + 1 steps lead out of K, and fewer cannot: each takes the lowest-numbered u
+///   in IND_C(x) that may lead to delay k - 1, and there the lowest-numbered such cell. With k = 0 it is the
+///   u that leads out of K to the least collision time.
+/// - From x outside K, collision_time(x) steps lead out of S, the worst successor each time: C can do no
+///   better. The lowest-numbered u, and the lowest-numbered successor, of those that are equal.
+/// REQUIRES: the delay of x is bounded, and known.
+/// Cost: a look at every joint input in every step, and at every cell of each different post.
+[[nodiscard]] EscapePath find_escape(const EscapeSets& sets, std::int64_t cell);
+
+}  // namespace coordreq

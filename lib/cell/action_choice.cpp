@@ -1,0 +1,213 @@
+#include "cell/action_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "answers/layers/delay_layers.hpp"
+#include "reach/counter.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::size_t at(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// The candidate with the smallest (score, number). Scores in double arithmetic sort out most of them, so
+/// that few need the sharp one.
+template <class Approximate, class Sharp>
+std::int64_t smallest(const std::vector<std::int64_t>& candidates, const Approximate& approximate,
+                      const Sharp& sharp) {
+  std::vector<double> scores;
+  for (const std::int64_t u : candidates) scores.push_back(approximate(u));
+  const double lowest = *std::min_element(scores.begin(), scores.end());
+  const double slack = std::isfinite(lowest) ? 1e-9 * std::max(1.0, std::fabs(lowest)) : 0.0;
+  std::pair<double, std::int64_t> best{kInfinity, std::numeric_limits<std::int64_t>::max()};
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (scores[i] <= lowest + slack) best = std::min(best, std::pair(sharp(candidates[i]), candidates[i]));
+  }
+  return best.second;
+}
+
+double known(double score) {
+  return std::isnan(score) ? kInfinity : score;
+}
+
+}  // namespace
+
+ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDynamics& dynamics)
+    : problem_(problem),
+      policy_(policy),
+      inputs_(*problem.spec, *problem.abstraction,
+              {.invariant = [delay = problem.delay](std::int64_t cell) { return delay[at(cell)] >= 0; },
+               .safe = [delay = problem.delay](
+                           std::int64_t cell) { return delay[at(cell)] != DelayLayers::kOutsideSafe; },
+               .safe_beyond = problem.safe_beyond,
+               .listed = problem.listed}),
+      classes_(action_classes(*problem.spec, *problem.partition, problem.abstraction->inputs)),
+      margin_(problem.spec->safe),
+      nominal_(*problem.spec, *problem.abstraction, dynamics),
+      no_error_(problem.spec->states.size()),
+      slots_(problem.spec->slot_count()),
+      doubles_(problem.spec->slot_count()) {
+  for (const AgentSpec& agent : problem.spec->agents) {
+    prefer_.emplace_back();
+    if (agent.prefer) prefer_.back().emplace(*agent.prefer);
+  }
+  for (const DisturbanceSpec& w : problem.spec->disturbances) middle_.emplace_back((w.lower + w.upper) / 2);
+  find_nominal();
+}
+
+void ActionChooser::find_nominal() {
+  const InputSpace& space = problem_.abstraction->inputs;
+  for (std::size_t i = 0; i < space.size(); ++i) {
+    const std::vector<Rational>& values = space[i].values;
+    const auto nearest = std::min_element(values.begin(), values.end(), [](const auto& a, const auto& b) {
+      return abs(a) != abs(b) ? abs(a) < abs(b) : a < b;
+    });
+    input_values_.emplace_back();
+    for (const Rational& value : values) input_values_.back().push_back(nearest_double(value));
+    nominal_parts_.push_back((nearest - values.begin()) * space.stride(i));
+  }
+}
+
+std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<const Rational> measured,
+                                                  bool coordinated, NextStates& next, RandomStream& random) {
+  admissible_ = &inputs_.of(cell);
+  if (admissible_->empty()) return std::nullopt;
+  projections_.clear();
+  if (coordinated) projections_.push_back(*admissible_);
+  for (std::size_t c = 0; !coordinated && c < classes_.size(); ++c) {
+    Numbers& parts = projections_.emplace_back();
+    for (const std::int64_t a : classes_[c].project(*admissible_)) parts.push_back(classes_[c].part(a));
+  }
+  if (policy_ == Policy::random) return choose_randomly(random);
+  return policy_ == Policy::adversarial ? choose_worst(next) : choose_preferred(measured);
+}
+
+std::int64_t ActionChooser::choose_randomly(RandomStream& random) const {
+  std::int64_t u = 0;
+  for (const Numbers& parts : projections_) u += parts[random.below(parts.size())];
+  return u;
+}
+
+template <class Visit>
+void ActionChooser::for_each_choice(const Visit& visit) const {
+  std::vector<std::int64_t> counts;
+  for (const Numbers& parts : projections_) counts.push_back(static_cast<std::int64_t>(parts.size()));
+  Counter choice(counts);
+  do {
+    std::int64_t u = 0;
+    for (std::size_t c = 0; c < projections_.size(); ++c) u += projections_[c][at(choice.indices()[c])];
+    visit(u);
+  } while (choice.next());
+}
+
+std::int64_t ActionChooser::delay_after(NextStates& next, std::int64_t u) const {
+  const NextStates::Place place = next.place(u);
+  if (place.kind == Location::Kind::cell) return problem_.delay[at(place.cell)];
+  return place.kind == Location::Kind::left_safely ? std::numeric_limits<std::int64_t>::max()
+                                                   : DelayLayers::kOutsideSafe;
+}
+
+std::int64_t ActionChooser::choose_worst(NextStates& next) {
+  std::int64_t lowest = std::numeric_limits<std::int64_t>::max();
+  Numbers worst;
+  for_each_choice([&](std::int64_t u) {
+    const std::int64_t delay = delay_after(next, u);
+    if (delay > lowest) return;
+    if (delay < lowest) worst.clear();
+    lowest = delay;
+    worst.push_back(u);
+  });
+  return worst.size() == 1 ? worst.front() : smallest_margin(next, worst);
+}
+
+std::int64_t ActionChooser::smallest_margin(NextStates& next, const Numbers& candidates) {
+  return smallest(
+      candidates,
+      [&](std::int64_t u) {
+        if (!next.is_known(u)) return -kInfinity;
+        fill_approximately(next, u);
+        return margin_.approximate(doubles_);
+      },
+      [&](std::int64_t u) {
+        if (!next.is_known(u)) return -kInfinity;
+        fill(next, u);
+        return margin_.value(slots_);
+      });
+}
+
+std::int64_t ActionChooser::choose_preferred(std::span<const Rational> measured) {
+  nominal_.begin(measured, middle_, no_error_);
+  if (projections_.size() == 1) {  // coordinated, or one class of all
+    std::vector<std::int32_t> everyone(prefer_.size());
+    std::iota(everyone.begin(), everyone.end(), 0);
+    return smallest_preference(everyone, projections_.front());
+  }
+  std::int64_t u = 0;
+  for (std::size_t c = 0; c < classes_.size(); ++c) {
+    std::int64_t others = 0;
+    for (std::size_t i = 0; i < nominal_parts_.size(); ++i) {
+      const auto& own = classes_[c].inputs();
+      if (!std::binary_search(own.begin(), own.end(), static_cast<std::int32_t>(i))) {
+        others += nominal_parts_[i];
+      }
+    }
+    Numbers candidates = projections_[c];
+    for (std::int64_t& candidate : candidates) candidate += others;
+    u += smallest_preference(problem_.partition->classes[c], candidates) - others;
+  }
+  return u;
+}
+
+std::int64_t ActionChooser::smallest_preference(const std::vector<std::int32_t>& agents,
+                                                const Numbers& candidates) {
+  const auto sum = [&](const auto& value_of) {
+    double total = 0;
+    for (const std::int32_t agent : agents) {
+      if (std::optional<PointValue>& prefer = prefer_[at(agent)]) total += value_of(*prefer);
+    }
+    return known(total);
+  };
+  return smallest(
+      candidates,
+      [&](std::int64_t u) {
+        if (!nominal_.is_known(u)) return kInfinity;
+        fill_approximately(nominal_, u);
+        return sum([&](PointValue& prefer) { return prefer.approximate(doubles_); });
+      },
+      [&](std::int64_t u) {
+        if (!nominal_.is_known(u)) return kInfinity;
+        fill(nominal_, u);
+        return sum([&](PointValue& prefer) { return prefer.value(slots_); });
+      });
+}
+
+/// The next state and the inputs that lead to it, at their slots. REQUIRES: the state is known.
+void ActionChooser::fill(NextStates& next, std::int64_t u) {
+  const ProblemSpec& spec = *problem_.spec;
+  for (std::size_t i = 0; i < spec.states.size(); ++i) slots_[spec.state_slot(i)] = next.state(i, u).value;
+  const InputSpace& space = problem_.abstraction->inputs;
+  for (std::size_t i = 0; i < space.size(); ++i) {
+    slots_[spec.input_slot(i)] = space[i].values[at(space.index(u, i))];
+  }
+}
+
+void ActionChooser::fill_approximately(NextStates& next, std::int64_t u) {
+  const ProblemSpec& spec = *problem_.spec;
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    doubles_[spec.state_slot(i)] = next.state(i, u).approximate;
+  }
+  const InputSpace& space = problem_.abstraction->inputs;
+  for (std::size_t i = 0; i < space.size(); ++i) {
+    doubles_[spec.input_slot(i)] = input_values_[i][at(space.index(u, i))];
+  }
+}
+
+}  // namespace coordreq

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cell/admissible_inputs.hpp"
+#include "cell/margin.hpp"
+#include "cell/next_states.hpp"
+#include "cell/random_stream.hpp"
+
+namespace coordreq {
+
+/// How agents choose among the actions that are open to them.
+enum class Policy : std::uint8_t {
+  random,       ///< uniformly
+  adversarial,  ///< together, for the worst next cell
+  prefer,       ///< what their `prefer` likes best
+};
+
+/// What a closed loop runs on. REQUIRES: all parts belong together and outlive whoever is handed this.
+struct LoopProblem {
+  const ProblemSpec* spec = nullptr;
+  const Abstraction* abstraction = nullptr;
+  const PartitionSpec* partition = nullptr;
+  std::span<const std::int32_t> delay;   ///< [cells], steps; as DelayLayers names what has none
+  const CellSet* safe_beyond = nullptr;  ///< SafeTubes::beyond
+  const PackedPairs* listed = nullptr;   ///< what `controller.file` lists; null: it has none
+  std::int64_t connection_delay = 0;     ///< D, steps
+};
+
+/// What nature does in one period, and the measuring at its end.
+struct Nature {
+  std::vector<Rational> disturbance;  ///< one a disturbance, constant within the period
+  std::vector<Rational> error;        ///< one a state: measured less true
+};
+
+/// Chooses joint inputs. With coordination all agents choose from C(x) together; without it each class
+/// chooses from the projection of C(x) onto its inputs, so that together they choose from IND_C(x).
+///
+/// - random: uniform in C(x); uniform in each projection, class after class.
+/// - adversarial: of C(x) or IND_C(x) the joint input with the smallest delay of the cell in which the next
+///   state will be measured, then the smallest margin of the next state, then the smallest number. It knows
+///   what nature will do. Outside K counts as smaller than any delay, T as larger.
+/// - prefer: smallest sum of the agents' `prefer` at the nominal next state: over C(x), or, each class for
+///   itself and over the sum of its own agents, over its projection; then the smallest number. Nominal: from
+///   the measured state, with every disturbance in the middle of its range and, without coordination, the
+///   inputs of other classes at their values nearest to 0 (of two the smaller one). An undefined `prefer`
+///   counts as infinite.
+class ActionChooser {
+ public:
+  ActionChooser(const LoopProblem& problem, Policy policy, PointDynamics& dynamics);
+
+  /// @param next begun at the true state with what nature does
+  /// @param measured the state as it was measured; its cell is `cell`, in K
+  /// @returns nothing if no action is admissible
+  [[nodiscard]] std::optional<std::int64_t> choose(std::int64_t cell, std::span<const Rational> measured,
+                                                   bool coordinated, NextStates& next, RandomStream& random);
+
+ private:
+  using Numbers = std::vector<std::int64_t>;
+
+  [[nodiscard]] std::int64_t choose_randomly(RandomStream& random) const;
+  [[nodiscard]] std::int64_t choose_worst(NextStates& next);
+  [[nodiscard]] std::int64_t choose_preferred(std::span<const Rational> measured);
+  /// Each joint input that can be chosen, once.
+  template <class Visit>
+  void for_each_choice(const Visit& visit) const;
+  [[nodiscard]] std::int64_t delay_after(NextStates& next, std::int64_t u) const;
+  [[nodiscard]] std::int64_t smallest_margin(NextStates& next, const Numbers& candidates);
+  [[nodiscard]] std::int64_t smallest_preference(const std::vector<std::int32_t>& agents,
+                                                 const Numbers& candidates);
+  void find_nominal();
+  void fill(NextStates& next, std::int64_t u);
+  void fill_approximately(NextStates& next, std::int64_t u);
+
+  LoopProblem problem_;
+  Policy policy_;
+  AdmissibleInputs inputs_;
+  std::vector<ActionClass> classes_;
+  Margin margin_;
+  std::vector<std::optional<PointValue>> prefer_;  ///< by agent
+  NextStates nominal_;
+  std::vector<Rational> middle_;    ///< of each disturbance
+  std::vector<Rational> no_error_;  ///< zeros
+  Numbers nominal_parts_;           ///< by input: what its nominal value adds to a joint input
+  std::vector<std::vector<double>> input_values_;
+  const Numbers* admissible_ = nullptr;  ///< C(x) of the cell at work
+  std::vector<Numbers> projections_;     ///< IND_C(x), or one class of all if coordinated: joint input parts
+  std::vector<Rational> slots_;
+  std::vector<double> doubles_;
+};
+
+}  // namespace coordreq

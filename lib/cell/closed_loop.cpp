@@ -1,0 +1,159 @@
+#include "cell/closed_loop.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "model/sample_reset.hpp"
+
+namespace coordreq {
+namespace {
+
+using Kind = Location::Kind;
+
+std::vector<double> nearest_doubles(const std::vector<Rational>& values) {
+  std::vector<double> result;
+  for (const Rational& value : values) result.push_back(nearest_double(value));
+  return result;
+}
+
+Rational draw_between(const Rational& lower, const Rational& upper, Disturbance kind, RandomStream& random) {
+  if (lower == upper) return lower;
+  if (kind == Disturbance::extremes) return random.below(2) == 0 ? lower : upper;
+  return lower + (upper - lower) * random.fraction();
+}
+
+}  // namespace
+
+std::int64_t RunTrace::coordinated_steps() const {
+  return std::count_if(steps.begin(), steps.end(), [](const Step& step) { return step.coordinated; });
+}
+
+std::int64_t RunTrace::longest_silence() const {
+  std::int64_t longest = 0;
+  std::int64_t current = 0;
+  for (const Step& step : steps) {
+    current = step.coordinated ? 0 : current + 1;
+    longest = std::max(longest, current);
+  }
+  return longest;
+}
+
+double RunTrace::smallest_margin() const {
+  double smallest = std::numeric_limits<double>::infinity();
+  const std::size_t count = samples.size() - (outcome == Outcome::left_safely ? 1 : 0);
+  for (std::size_t k = 0; k < count; ++k) smallest = std::min(smallest, samples[k].margin);
+  return smallest;
+}
+
+ClosedLoop::ClosedLoop(const LoopProblem& problem, const LoopOptions& options)
+    : problem_(problem),
+      options_(options),
+      dynamics_(*problem.spec),
+      chooser_(problem, options.policy, dynamics_),
+      next_(*problem.spec, *problem.abstraction, dynamics_),
+      margin_(problem.spec->safe),
+      slots_(problem.spec->slot_count()) {}
+
+RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
+  RandomStream actions(options_.seed, run, RandomStream::Purpose::actions);
+  RandomStream disturbances(options_.seed, run, RandomStream::Purpose::disturbances);
+  State state = first_state(std::move(measured), draw_nature(disturbances));
+  RunTrace trace;
+  trace.samples.push_back(sample(state));
+  std::int32_t countdown = reset_countdown(trace.samples.back().delay);
+  trace.samples.back().countdown = countdown;
+  for (std::int64_t k = 0; k < options_.steps; ++k) {
+    const bool coordinated = countdown == 0;
+    const Nature nature = draw_nature(disturbances);
+    next_.begin(state.exact, nature.disturbance, nature.error);
+    const std::optional<std::int64_t> u =
+        chooser_.choose(state.place.cell, state.measured, coordinated, next_, actions);
+    if (!u) {
+      trace.outcome = Outcome::no_action;
+      return trace;
+    }
+    trace.steps.push_back({*u, coordinated, nearest_doubles(nature.disturbance)});
+    const bool known = advance(state, *u, nature);
+    RunTrace::Sample& reached = trace.samples.emplace_back(sample(state));
+    if (countdown != RunTrace::kForever) {
+      countdown = coordinated ? reset_countdown(reached.delay) : countdown - 1;
+    }
+    reached.countdown = countdown;
+    if (state.place.kind == Kind::left_safely) {
+      trace.outcome = Outcome::left_safely;
+      return trace;
+    }
+    if (!known || reached.delay < 0) {
+      trace.outcome = Outcome::left_invariant;
+      return trace;
+    }
+  }
+  return trace;
+}
+
+std::int32_t ClosedLoop::reset_countdown(std::int32_t delay) const {
+  if (delay < 0) return 0;
+  return delay >= problem_.connection_delay || delay == RunTrace::kForever ? delay : 0;
+}
+
+Nature ClosedLoop::draw_nature(RandomStream& random) const {
+  Nature nature;
+  const bool constant = options_.disturbance == Disturbance::constant;
+  for (const DisturbanceSpec& w : problem_.spec->disturbances) {
+    const std::size_t l = nature.disturbance.size();
+    nature.disturbance.push_back(constant ? options_.constant_disturbance[l]
+                                          : draw_between(w.lower, w.upper, options_.disturbance, random));
+  }
+  for (const GridDimension& dimension : problem_.abstraction->grid.dimensions()) {
+    const Rational& most = dimension.measurement_error;
+    nature.error.push_back(constant ? Rational(0) : draw_between(-most, most, options_.disturbance, random));
+  }
+  return nature;
+}
+
+/// The true state is the measured one less the error; never beyond a `stop` limit, where no state is.
+ClosedLoop::State ClosedLoop::first_state(std::vector<Rational> measured, const Nature& nature) const {
+  State state;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const GridDimension& dimension = problem_.abstraction->grid[i];
+    Rational value = measured[i] - nature.error[i];
+    if (dimension.periodic()) value = reset_at_sample(dimension, value);
+    if (dimension.below == Outside::stop) value = std::max(value, dimension.first);
+    if (dimension.above == Outside::stop) value = std::min(value, dimension.point(dimension.count - 1));
+    state.exact.push_back(value);
+  }
+  const Location location = locate(problem_.abstraction->grid, measured);
+  state.place = {.kind = location.kind, .cell = location.cell};
+  state.measured = std::move(measured);
+  return state;
+}
+
+bool ClosedLoop::advance(State& state, std::int64_t u, const Nature& nature) {
+  state.place = next_.place(u);
+  bool all_known = true;
+  for (std::size_t i = 0; i < state.exact.size(); ++i) {
+    const NextStates::Value& value = next_.state(i, u);
+    all_known = all_known && value.known;
+    if (!value.known) continue;  // the trace keeps the last value that was known
+    state.exact[i] = value.value;
+    const GridDimension& dimension = problem_.abstraction->grid[i];
+    state.measured[i] = value.value + nature.error[i];
+    if (dimension.periodic()) state.measured[i] = reset_at_sample(dimension, state.measured[i]);
+  }
+  return all_known;
+}
+
+RunTrace::Sample ClosedLoop::sample(const State& state) {
+  RunTrace::Sample result{.state = nearest_doubles(state.exact), .measured = nearest_doubles(state.measured)};
+  for (std::size_t i = 0; i < state.exact.size(); ++i) slots_[problem_.spec->state_slot(i)] = state.exact[i];
+  result.margin = margin_.value(slots_);
+  if (state.place.kind == Kind::cell) {
+    result.delay = problem_.delay[static_cast<std::size_t>(state.place.cell)];
+  } else {
+    result.delay = state.place.kind == Kind::left_safely ? RunTrace::kForever : DelayLayers::kOutsideSafe;
+  }
+  return result;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "answers/layers/delay_layers.hpp"
+#include "cell/action_choice.hpp"
+
+namespace coordreq {
+
+/// What disturbances and measurement errors do from period to period.
+enum class Disturbance : std::uint8_t {
+  random,    ///< uniform in their ranges
+  extremes,  ///< at one end or the other of their ranges, with equal chances
+  constant,  ///< given values; nothing is measured wrongly
+};
+
+struct LoopOptions {
+  std::int64_t steps = 0;
+  Policy policy = Policy::random;
+  Disturbance disturbance = Disturbance::random;
+  std::vector<Rational> constant_disturbance;  ///< one a disturbance; used if constant
+  std::uint64_t seed = 1;
+};
+
+enum class Outcome : std::uint8_t {
+  completed,       ///< all steps, in K all the time
+  left_safely,     ///< ended early beyond a `safe` side of the domain
+  left_invariant,  ///< ended early because the measured cell is not in K, or the state is not finite
+  no_action,       ///< ended early in K where no action is admissible
+};
+/// The last two contradict the analysis.
+[[nodiscard]] constexpr bool is_violation(Outcome outcome) {
+  return outcome == Outcome::left_invariant || outcome == Outcome::no_action;
+}
+
+/// One run. A sample is a state at a sampling instant; sample k is followed by step k, the last by none.
+struct RunTrace {
+  static constexpr std::int32_t kForever = DelayLayers::kUnbounded;
+
+  struct Sample {
+    std::vector<double> state;     ///< the true one
+    std::vector<double> measured;  ///< its cell is what agents know
+    double margin = 0;             ///< of `safe` at the true state, see Margin
+    /// Of the cell, steps, as LoopProblem has them; kForever in T, kOutsideSafe beyond an unsafe side.
+    std::int32_t delay = 0;
+    /// i of Definition 3: steps that the agents still go on without coordination. kForever where they never
+    /// need any.
+    std::int32_t countdown = 0;
+  };
+  struct Step {
+    std::int64_t input = 0;  ///< number of the joint input
+    bool coordinated = false;
+    std::vector<double> disturbance;
+  };
+  std::vector<Sample> samples;  ///< at least one
+  std::vector<Step> steps;      ///< one fewer
+  Outcome outcome = Outcome::completed;
+
+  [[nodiscard]] std::int64_t coordinated_steps() const;
+  /// The most steps in a row without coordination.
+  [[nodiscard]] std::int64_t longest_silence() const;
+  /// Of all samples but one that has left safely; infinity if there is none.
+  [[nodiscard]] double smallest_margin() const;
+};
+
+/// The self-triggered closed loop on the system itself (paper, Definition 3), measured into cells [a, b).
+///
+/// At a start in x, and after each coordinated step into x: if delay(x) >= D the connection is dropped and a
+/// countdown of delay(x) begins. While it is above 0 the agents act from IND_C, and start to connect when it
+/// is D; at 0 they coordinate: they act from C. If delay(x) < D the connection stays and the next step is
+/// coordinated too. Cells of unbounded delay never coordinate again.
+///
+/// Holds the scratch memory of a run: one object a thread.
+class ClosedLoop {
+ public:
+  ClosedLoop(const LoopProblem& problem, const LoopOptions& options);
+
+  /// @param measured the state as first measured; the true one is off by a measurement error
+  /// @param run number of the run: the random streams depend on it, the seed and nothing else
+  /// REQUIRES: the cell of `measured` is in K.
+  [[nodiscard]] RunTrace run(std::vector<Rational> measured, std::uint64_t run);
+
+ private:
+  struct State {
+    std::vector<Rational> exact;
+    std::vector<Rational> measured;
+    NextStates::Place place;
+  };
+
+  [[nodiscard]] Nature draw_nature(RandomStream& random) const;
+  [[nodiscard]] State first_state(std::vector<Rational> measured, const Nature& nature) const;
+  /// @returns whether the next state is known
+  [[nodiscard]] bool advance(State& state, std::int64_t u, const Nature& nature);
+  [[nodiscard]] RunTrace::Sample sample(const State& state);
+  [[nodiscard]] std::int32_t reset_countdown(std::int32_t delay) const;
+
+  LoopProblem problem_;
+  LoopOptions options_;
+  PointDynamics dynamics_;
+  ActionChooser chooser_;
+  NextStates next_;
+  Margin margin_;
+  std::vector<Rational> slots_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "expression/point_value.hpp"
+#include "model/formula.hpp"
+
+namespace coordreq {
+
+/// How far a point is from making a condition false, in the units of what is compared: the quantitative
+/// semantics of a condition (Fainekos and Pappas 2009, doi 10.1016/j.tcs.2009.06.021).
+///
+///   a < b, a <= b: b - a     a == b: -|a - b|     p and q: min     true: infinity
+///   a > b, a >= b: a - b     a != b: |a - b|      p or q: max      false: -infinity     not p: -p
+///
+/// Above 0 the condition holds, below 0 it does not. Where an undefined difference leaves it open, as in
+/// Kleene's logic, it is -infinity. Scratch inside: one object a thread.
+class Margin {
+ public:
+  explicit Margin(const Program& condition);
+
+  /// Exact before its last rounding where PointValue is.
+  [[nodiscard]] double value(std::span<const Rational> slots);
+  /// In double arithmetic.
+  [[nodiscard]] double approximate(std::span<const double> slots);
+
+ private:
+  [[nodiscard]] double combine();
+
+  std::unique_ptr<const Formula> formula_;
+  std::vector<PointValue> differences_;
+  std::vector<double> difference_values_;
+  std::vector<double> node_values_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "model/locate.hpp"
+#include "reach/abstraction.hpp"
+#include "reach/point_dynamics.hpp"
+
+namespace coordreq {
+
+/// The next states from one point under one disturbance and any joint input. What depends only on few inputs
+/// is computed once for each of their values, when it is asked for.
+class NextStates {
+ public:
+  struct Value {
+    bool known = false;  ///< false: undefined or not finite; the rest then means nothing
+    Rational value;      ///< at the sample, after its resets
+    double approximate = 0;
+    Location::Kind kind = Location::Kind::beyond;  ///< where it is measured in its dimension
+    std::int64_t index = -1;
+  };
+  /// Where a next state is measured.
+  struct Place {
+    Location::Kind kind = Location::Kind::cell;
+    std::int64_t cell = -1;  ///< -1 unless `kind` is `cell`
+  };
+
+  /// REQUIRES: all outlive this object.
+  NextStates(const ProblemSpec& spec, const Abstraction& abstraction, PointDynamics& dynamics);
+
+  /// @param error what measuring the next state adds, one a state
+  void begin(std::span<const Rational> state, std::span<const Rational> disturbance,
+             std::span<const Rational> error);
+
+  [[nodiscard]] const Value& state(std::size_t i, std::int64_t u);
+  /// Where the next state is measured, as locate() has it; `beyond` if it is not known.
+  [[nodiscard]] Place place(std::int64_t u);
+  /// All states are known under `u`.
+  [[nodiscard]] bool is_known(std::int64_t u);
+
+ private:
+  const ProblemSpec* spec_;
+  const Abstraction* abstraction_;
+  PointDynamics* dynamics_;
+  std::vector<Rational> slots_;
+  std::vector<Rational> error_;
+  std::vector<std::unordered_map<std::int64_t, Value>> values_;  ///< by state, then the number of its inputs
+  std::vector<UniformGrid> axes_;                                ///< each dimension as a grid of its own
+};
+
+}  // namespace coordreq

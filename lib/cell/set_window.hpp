@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "model/cell_block.hpp"
+#include "model/outside.hpp"
+#include "model/uniform_grid.hpp"
+
+namespace coordreq {
+
+/// The part of a set of cells that a question needs, read when it is needed; answers whether boxes lie in it,
+/// each in a time that does not depend on its size, from prefix sums.
+class SetWindow {
+ public:
+  /// Membership of the cells of a block: 0 or 1.
+  using Read = std::function<std::vector<std::uint8_t>(const CellBlock&)>;
+
+  /// REQUIRES: `grid` outlives this object.
+  SetWindow(const UniformGrid& grid, Read read) : grid_(grid), read_(std::move(read)) {}
+
+  /// Reads the box unless it is there already. Ranges as ResolvedRange::inside has them: an index beyond the
+  /// last one of a periodic dimension wraps.
+  void cover(std::span<const IndexRange> box);
+  /// Reads all of it.
+  void cover_all();
+  /// Whether all cells of the box are in the set. REQUIRES: a box that cover() was called for, or part of
+  /// one.
+  [[nodiscard]] bool contains(std::span<const IndexRange> box) const;
+
+  [[nodiscard]] const UniformGrid& grid() const { return grid_; }
+
+ private:
+  void add_up();
+  [[nodiscard]] std::int64_t members(std::span<const IndexRange> box, std::size_t i,
+                                     std::int64_t corner) const;
+
+  const UniformGrid& grid_;
+  Read read_;
+  CellBlock block_;
+  std::vector<std::int64_t> stride_;  ///< of `sums_`
+  /// Members among the cells of the block before an index in every dimension; one entry more a
+  /// dimension.
+  std::vector<std::int32_t> sums_;
+};
+
+/// One range of cells a dimension under each joint input: (dimension, input).
+using RangeUnder = std::function<ResolvedRange(std::size_t, std::int64_t)>;
+
+/// Those of the candidate joint inputs whose box of ranges is not blocked and lies in the set, but for what
+/// left safely.
+[[nodiscard]] std::vector<bool> keep_inside(SetWindow& set, std::vector<bool> candidates,
+                                            const RangeUnder& range);
+
+}  // namespace coordreq

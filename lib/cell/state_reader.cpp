@@ -1,0 +1,124 @@
+#include "cell/state_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.hpp"
+#include "cell/state_text.hpp"
+#include "spec/json_document.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+namespace {
+
+/// The fields of a line of CSV (RFC 4180). @throws UsageError
+std::vector<std::string> csv_fields(std::string_view line, const std::string& where) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
+      fields.back() += line[++i];
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      fields.emplace_back();
+    } else {
+      fields.back() += c;
+    }
+  }
+  if (quoted) throw UsageError("a quotation mark is not closed", where);
+  return fields;
+}
+
+}  // namespace
+
+StateReader::StateReader(std::istream& stream, std::vector<std::string> names, std::string source)
+    : stream_(stream), names_(std::move(names)), source_(std::move(source)) {
+  pending_ = read_line();
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (line_.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0) line_.erase(0, kByteOrderMark.size());
+  if (!pending_) return;
+  if (trimmed(line_).front() == '{') {
+    format_ = Format::json_lines;
+  } else {
+    read_header();
+  }
+}
+
+std::string StateReader::place() const {
+  return fmt::format("{}, line {}", source_, line_number_);
+}
+
+bool StateReader::read_line() {
+  while (std::getline(stream_, line_)) {
+    ++line_number_;
+    if (!trimmed(line_).empty()) return true;
+  }
+  if (stream_.bad()) throw IoError("cannot be read", source_);
+  return false;
+}
+
+void StateReader::read_header() {
+  for (const std::string& field : csv_fields(line_, place())) {
+    const std::size_t state = state_number(trimmed(field), names_, place());
+    if (std::find(columns_.begin(), columns_.end(), state) != columns_.end()) {
+      throw UsageError(fmt::format("'{}' is given twice", names_[state]), place());
+    }
+    columns_.push_back(state);
+  }
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (std::find(columns_.begin(), columns_.end(), i) == columns_.end()) {
+      throw UsageError(fmt::format("no column for the state '{}'", names_[i]), place());
+    }
+  }
+  pending_ = false;
+}
+
+std::optional<std::vector<Rational>> StateReader::next() {
+  if (!std::exchange(pending_, false) && !read_line()) return std::nullopt;
+  return format_ == Format::csv ? csv_state() : json_state();
+}
+
+std::vector<Rational> StateReader::csv_state() const {
+  const std::vector<std::string> fields = csv_fields(line_, place());
+  if (fields.size() != columns_.size()) {
+    throw UsageError(fmt::format("expected {} values, found {}", columns_.size(), fields.size()), place());
+  }
+  std::vector<Rational> state(names_.size());
+  for (std::size_t c = 0; c < fields.size(); ++c) {
+    state[columns_[c]] = parse_value(fields[c], place() + ", " + names_[columns_[c]]);
+  }
+  return state;
+}
+
+std::vector<Rational> StateReader::json_state() const {
+  try {
+    const JsonDocument document = JsonDocument::parse(line_, source_);
+    const JsonDocument::Node root = document.root();
+    if (!root.value().is_object()) throw UsageError("expected a JSON object a line", place());
+    for (const std::string& key : root.keys()) static_cast<void>(state_number(key, names_, place()));
+    std::vector<Rational> state;
+    for (const std::string& name : names_) {
+      if (!root.has(name)) throw UsageError(fmt::format("no value for the state '{}'", name), place());
+      const JsonDocument::Node node = root[name];
+      if (!node.value().is_number() && !node.value().is_string()) {
+        throw UsageError("expected a number or a string", place() + ", " + name);
+      }
+      const std::string text = node.value().is_number() ? node.token() : node.text();
+      state.push_back(parse_value(text, place() + ", " + name));
+    }
+    return state;
+  } catch (const SpecError& error) {
+    // Its place is one in this line alone, or none.
+    const std::string what = error.what();
+    const std::size_t cut = what.rfind(" (");
+    const std::size_t column = what.find(", column ", cut);
+    const std::string tail = column == std::string::npos ? "" : what.substr(column, what.size() - 1 - column);
+    throw UsageError(what.substr(0, cut), place() + tail);
+  }
+}
+
+}  // namespace coordreq

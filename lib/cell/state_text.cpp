@@ -1,0 +1,76 @@
+#include "cell/state_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "base/error.hpp"
+#include "expression/program.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+std::vector<std::string_view> split_at_commas(std::string_view text) {
+  std::vector<std::string_view> parts;
+  std::size_t begin = 0;
+  int depth = 0;
+  for (std::size_t i = 0; i <= text.size(); ++i) {
+    if (i < text.size() && text[i] == '(') ++depth;
+    if (i < text.size() && text[i] == ')') --depth;
+    if (i < text.size() && (text[i] != ',' || depth > 0)) continue;
+    parts.push_back(text.substr(begin, i - begin));
+    begin = i + 1;
+  }
+  return parts;
+}
+
+Rational parse_value(std::string_view text, const std::string& where) {
+  text = trimmed(text);
+  if (text.empty()) throw UsageError("expected a number, found nothing", where);
+  if (const std::optional<Rational> value = parse_decimal(text)) return *value;
+  const auto nothing = [](std::string_view) { return Binding(); };
+  try {
+    return constant_value(link(text, nothing, ExpectedType::number, where), where);
+  } catch (const SpecError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+std::size_t state_number(std::string_view name, const std::vector<std::string>& names,
+                         const std::string& where) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  throw UsageError(fmt::format("{} is no state{}, expected {}", quote_text(name), suggestion(name, names),
+                               quote_list(names, "or")),
+                   where);
+}
+
+std::vector<Rational> parse_state(std::string_view text, const std::vector<std::string>& names,
+                                  const std::string& where) {
+  std::vector<std::optional<Rational>> values(names.size());
+  for (const std::string_view part : split_at_commas(text)) {
+    const std::size_t equals = part.find('=');
+    if (equals == std::string_view::npos) {
+      throw UsageError(fmt::format("expected NAME=VALUE, found {}", quote_text(trimmed(part))), where);
+    }
+    const std::size_t i = state_number(trimmed(part.substr(0, equals)), names, where);
+    if (values[i]) throw UsageError(fmt::format("'{}' is given twice", names[i]), where);
+    values[i] = parse_value(part.substr(equals + 1), where + ", " + names[i]);
+  }
+  std::vector<Rational> state;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!values[i]) throw UsageError(fmt::format("no value for the state '{}'", names[i]), where);
+    state.push_back(*values[i]);
+  }
+  return state;
+}
+
+}  // namespace coordreq

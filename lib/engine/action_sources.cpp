@@ -1,0 +1,29 @@
+#include "engine/action_sources.hpp"
+
+namespace coordreq {
+
+std::vector<ActionSource> action_sources(const RowEngine& engine) {
+  std::vector<ActionSource> sources;
+  for (const RowSlices& slices : engine.slices()) {
+    ActionSource& source = sources.emplace_back();
+    source.ids_of = &slices.ids;
+    source.is_summed = slices.sums.has_value();
+    source.state_stride = slices.state_stride;
+    source.input_stride = slices.input_stride;
+    source.inputs = slices.inputs;
+    source.input_combinations = slices.input_combinations;
+  }
+  const PairTable* allow = engine.allow();
+  if (allow == nullptr) return sources;
+  ActionSource& source = sources.emplace_back();
+  source.ids_of = &allow->ids();
+  source.state_stride = allow->state_stride();
+  source.input_stride = allow->input_stride();
+  source.inputs = allow->inputs();
+  for (const std::int32_t i : source.inputs) {
+    source.input_combinations *= engine.abstraction().inputs[static_cast<std::size_t>(i)].count();
+  }
+  return sources;
+}
+
+}  // namespace coordreq

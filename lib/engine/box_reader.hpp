@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/level_rows.hpp"
+#include "engine/row_engine.hpp"
+#include "engine/row_hull.hpp"
+
+namespace coordreq {
+
+/// Least levels over boxes of cells, for a whole row at once: for each cell of the row the minimum over the
+/// box that slices say. 0 where they are blocked, the greatest level where all has left for good.
+///
+/// One object a thread. The levels may change between one enter() and the next, not in between.
+template <class Level>
+class BoxReader {
+ public:
+  static constexpr Level kTop = LevelRows<Level>::kTop;
+
+  /// @param outer number of leading dimensions whose minimum is shared by the rows of a unit
+  /// REQUIRES: `engine` and `levels` (from engine.make_levels(family)) outlive this object.
+  BoxReader(const RowEngine& engine, const RowFamily& family, std::size_t outer,
+            const LevelRows<Level>& levels);
+
+  /// Begins with the rows of another unit: forgets the minima that rows of a unit share.
+  void enter();
+
+  /// Least levels of the boxes given by the numbers of their slices, one a table. The row may be read up to
+  /// the next call; whole blocks, as LevelKernels ask.
+  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids);
+  /// Least levels of the box around all posts of a row, for its lanes [begin, end). REQUIRES box.covers.
+  [[nodiscard]] const Level* minimum(const RowHull::Box& box, std::int64_t begin, std::int64_t end);
+
+  [[nodiscard]] const LevelKernels<Level>& kernels() const { return *kernels_; }
+  /// A row of this many levels holds the lanes of a row and the rest of its last block.
+  [[nodiscard]] std::size_t lanes() const { return lanes_; }
+
+ private:
+  /// Rows of minima over the leading dimensions, by the number of the row within a unit.
+  struct Shared {
+    std::vector<IndexRange> ranges;
+    std::vector<const Level*> rows;  ///< null: not taken yet
+    std::vector<Level> storage;
+    std::uint64_t epoch = 0;
+  };
+
+  [[nodiscard]] bool fits_one_piece(std::span<const std::uint32_t> ids, bool& blocked, bool& gone);
+  void read_piece(const RowSegment& last, bool gone, std::int64_t begin, std::int64_t end, Level* out);
+  void read_windows(bool gone, std::int64_t begin, std::int64_t end, Level* out);
+  void take_window(std::size_t k, std::size_t lanes, Level* out);
+  void read_row(std::span<const std::uint32_t> ids, bool gone);
+  void read_fixed(IndexRange range, bool gone, std::int64_t begin, std::int64_t end, Level* out);
+  void read_in_pieces(std::span<const std::uint32_t> ids);
+  void collect_rows(bool gone);
+  [[nodiscard]] Shared& shared();
+  [[nodiscard]] const Level* shared_row(Shared& shared, std::int64_t inner);
+
+  const RowEngine& engine_;
+  RowFamily family_;
+  std::size_t outer_;
+  const LevelRows<Level>& levels_;
+  const LevelKernels<Level>* kernels_;
+  std::size_t lanes_;
+  RowShape shape_;
+  std::vector<IndexRange> ranges_;   ///< box of rows in question
+  std::vector<IndexRange> windows_;  ///< and windows along them
+  std::vector<const Level*> rows_;   ///< the rows in it, the shared dimensions taken
+  std::vector<const Level*> sources_;
+  std::vector<std::int64_t> counter_;
+  std::vector<std::int64_t> shared_counter_;
+  std::vector<const std::vector<RowSegment>*> slices_;
+  std::vector<std::size_t> positions_;
+  std::vector<Level> gone_row_;  ///< a row of greatest levels with its margins
+  std::vector<Level> wide_;      ///< a row with margins, before the window is taken
+  std::vector<Level> result_;
+  std::vector<Shared> slots_;
+  std::uint64_t epoch_ = 1;
+  std::size_t recent_ = 0;  ///< slot used last
+};
+
+extern template class BoxReader<std::uint8_t>;
+extern template class BoxReader<std::uint16_t>;
+extern template class BoxReader<std::uint32_t>;
+
+}  // namespace coordreq

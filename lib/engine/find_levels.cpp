@@ -1,0 +1,136 @@
+#include "engine/find_levels.hpp"
+
+#include <algorithm>
+#include <type_traits>
+#include <utility>
+
+#include "engine/set_levels.hpp"
+
+namespace coordreq {
+namespace {
+
+/// A level in fewer or more bits: what does not fit is kTop, which is not too low.
+template <class Level, class Other>
+Level converted(Other level) {
+  if (level == LevelRows<Other>::kTop || level >= LevelRows<Level>::kTop) return LevelRows<Level>::kTop;
+  return static_cast<Level>(level);
+}
+
+template <class Wide, class Narrow>
+LevelRows<Wide> widened(const RowEngine& engine, const LevelRows<Narrow>& narrow) {
+  LevelRows<Wide> levels = engine.make_levels<Wide>(engine.posts());
+  for (std::int64_t r = 0; r < levels.rows(); ++r) {
+    const Narrow* source = narrow.row(r);
+    std::transform(source, source + levels.row_length(), levels.row(r), converted<Wide, Narrow>);
+    levels.close(r);
+  }
+  return levels;
+}
+
+template <class Level>
+void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team) {
+  bound.visit([&]<class Other>(const LevelRows<Other>& other) {
+    team.for_each(levels.rows(), 256, [&](ThreadTeam::Range range, int) {
+      for (std::int64_t r = range.begin; r < range.end; ++r) {
+        std::transform(levels.row(r), levels.row(r) + levels.row_length(), other.row(r), levels.row(r),
+                       [](Level own, Other least) { return std::min(own, converted<Level>(least)); });
+        levels.close(r);
+      }
+    });
+  });
+}
+
+/// True if a cell has the greatest finite level of the width: the ones before it may need more.
+template <class Level>
+bool is_full(const LevelRows<Level>& levels) {
+  for (std::int64_t r = 0; r < levels.rows(); ++r) {
+    const Level* row = levels.row(r);
+    if (std::find(row, row + levels.row_length(), LevelRows<Level>::kTop - 1) != row + levels.row_length()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+template <class Level>
+bool is_enough(const LevelRows<Level>& levels, std::int64_t limit) {
+  return (limit >= 0 && limit < LevelRows<Level>::kTop - 1) || !is_full(levels);
+}
+
+/// Above the limit of the width in use levels count as kTop, which is not too low: the wave can go on from
+/// there with more bits.
+template <class Level>
+Level clipped(std::int64_t limit) {
+  constexpr std::int64_t kMost = std::int64_t{LevelRows<Level>::kTop} - 1;
+  return static_cast<Level>(limit < 0 ? kMost : std::min(limit, kMost));
+}
+
+/// One problem, with as many bits a cell as it takes.
+class LevelFinder {
+ public:
+  LevelFinder(const RowEngine& engine, const RowHull& hull, const LevelProblem& problem,
+              const WaveWatch& watch, ThreadTeam& team, WaveCounts& counts)
+      : engine_(engine), hull_(hull), problem_(problem), watch_(watch), team_(team), counts_(counts) {}
+
+  LevelMap from_start() {
+    auto levels = top_levels<std::uint8_t>(engine_, *problem_.start, team_);
+    for (const LevelMap* bound : problem_.bounds) lower_to(*bound, levels, team_);
+    const std::vector<std::uint8_t> nothing;
+    return from(std::move(levels), problem_.settled == nullptr ? nothing : *problem_.settled);
+  }
+
+  /// What is settled at the bounds may not be so at levels that have sunk below them.
+  template <class Level>
+  LevelMap from(LevelRows<Level> levels, const std::vector<std::uint8_t>& settled = {}) {
+    const auto op = make_operator<Level>();
+    // The sweeps of all widths are numbered through.
+    const std::int64_t before = counts_.sweeps;
+    const WaveWatch watch{.step = watch_.step ? [&, before](WaveStep step) {
+      step.sweep += before;
+      watch_.step(step);
+    } : std::function<void(const WaveStep&)>()};
+    counts_.add(run_wave(levels, engine_, hull_, clipped<Level>(problem_.limit), settled, *op, watch, team_));
+    if constexpr (sizeof(Level) < sizeof(std::uint32_t)) {
+      if (!is_enough(levels, problem_.limit)) return from(widened_and_bounded(std::move(levels)));
+    }
+    return LevelMap(std::move(levels));
+  }
+
+ private:
+  template <class Level>
+  auto widened_and_bounded(LevelRows<Level> levels) {
+    using Wide = std::conditional_t<sizeof(Level) == 1, std::uint16_t, std::uint32_t>;
+    LevelRows<Wide> wide = widened<Wide>(engine_, levels);
+    levels = {};
+    for (const LevelMap* bound : problem_.bounds) lower_to(*bound, wide, team_);
+    return wide;
+  }
+
+  template <class Level>
+  std::unique_ptr<RowOperator<Level>> make_operator() const {
+    if constexpr (sizeof(Level) == 1) return problem_.make8();
+    if constexpr (sizeof(Level) == 2) return problem_.make16();
+    if constexpr (sizeof(Level) == 4) return problem_.make32();
+  }
+
+  const RowEngine& engine_;
+  const RowHull& hull_;
+  const LevelProblem& problem_;
+  const WaveWatch& watch_;
+  ThreadTeam& team_;
+  WaveCounts& counts_;
+};
+
+}  // namespace
+
+LevelMap find_levels(const RowEngine& engine, const RowHull& hull, const LevelProblem& problem,
+                     const WaveWatch& watch, ThreadTeam& team, WaveCounts& counts) {
+  LevelFinder finder(engine, hull, problem, watch, team, counts);
+  if (watch.resumed == nullptr) return finder.from_start();
+  LevelMap resumed = std::move(*watch.resumed);
+  if (auto* levels = resumed.get_if<std::uint8_t>()) return finder.from(std::move(*levels));
+  if (auto* levels = resumed.get_if<std::uint16_t>()) return finder.from(std::move(*levels));
+  return finder.from(std::move(*resumed.get_if<std::uint32_t>()));
+}
+
+}  // namespace coordreq

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/bit_kernels.hpp"
+#include "engine/merge_boxes.hpp"
+#include "engine/row_boxes.hpp"
+
+namespace coordreq {
+
+/// The union of the posts under IND_C for one row, where posts are products: the cells of the row fall into
+/// parts, in each of which the classes have the same choices, and for each part there is a list of boxes for
+/// each class. The posts of a cell are the product of what its classes may do, so is their union, and a box
+/// that several actions fill together is tested once.
+///
+/// Parts are told apart by one label a cell, in pages: a row of the gridworld has some 44 parts, at steps of
+/// 5 mm up to 136.
+class IndependentPosts {
+ public:
+  static constexpr std::size_t kLabelsOfPage = 255;  ///< 1, ..., 255; 0 for cells of other pages
+
+  /// Boxes of one class, one after the other.
+  struct Boxes {
+    std::span<const Word> ranges;  ///< packed, for RowBoxes::put(); as many a box as the class moves
+    std::size_t count = 0;         ///< 1 for a class that moves nothing
+    [[nodiscard]] std::span<const Word> operator[](std::size_t i) const {
+      const std::size_t dimensions = ranges.size() / count;
+      return ranges.subspan(i * dimensions, dimensions);
+    }
+  };
+  struct Part {
+    std::int64_t begin = 0;  ///< lanes of its cells are in [begin, end)
+    std::int64_t end = 0;
+    std::span<const Word> boxes;  ///< for each class where its list stands in Row::lists
+  };
+  /// A row as it was packed; views of it.
+  struct Row {
+    std::vector<Part> parts;  ///< that page * kLabelsOfPage + label - 1
+    std::vector<Boxes> lists;
+    /// [page] label of each lane; whole blocks, as LevelKernels ask. Empty: there is one part, all of K.
+    std::vector<const std::uint8_t*> pages;
+  };
+
+  /// @param words of a bit row
+  explicit IndependentPosts(std::size_t words)
+      : words_(words), kernels_(&bit_kernels(best_instruction_set())) {}
+
+  /// Packs a row. @param masks [class][group * words], the projections of C on this row
+  /// @param invariant K on this row
+  void pack(const RowBoxes& boxes, const RowGroups& groups, const std::vector<std::vector<Word>>& masks,
+            ConstRow invariant, const UniformGrid& grid, std::vector<Word>& packed);
+  static void unpack(std::span<const Word> packed, const RowBoxes& boxes, std::size_t classes,
+                     std::size_t words, Row& row);
+
+ private:
+  /// Parts of the row as one class sees it.
+  struct ClassParts {
+    std::vector<BoxList> lists;  ///< distinct ones
+    std::vector<Word> masks;     ///< [list * words_] the cells that have it
+  };
+
+  void find_worst(const RowBoxes& boxes, const ActionGroups& own, std::size_t c,
+                  const std::vector<Word>& masks);
+  void find_parts(const std::vector<Word>& masks, ConstRow invariant);
+  void split_part(std::size_t p, ConstRow mask);
+  void find_lists(const RowBoxes& boxes, std::size_t c, ClassParts& own);
+  void join_classes(ConstRow invariant);
+  void join_masks(std::size_t c);
+  void join_lanes();
+  void pack_lists(std::vector<Word>& packed) const;
+  void pack_parts(std::vector<Word>& packed) const;
+
+  [[nodiscard]] ConstRow mask_of(const std::vector<Word>& masks, std::uint32_t g) const {
+    return {masks.data() + g * words_, words_};
+  }
+  [[nodiscard]] std::size_t lanes() const { return words_ * CellSet::kWordBits; }
+
+  std::size_t words_;
+  const BitKernels* kernels_;
+  std::vector<std::uint32_t> worst_;
+  std::vector<std::int64_t> longest_;
+  BoxList list_;
+  std::size_t parts_ = 0;
+  std::vector<Word> part_masks_;           ///< [part * words_]
+  std::vector<std::uint8_t> part_groups_;  ///< [part * worst groups]: 1 if reasonable there
+  std::vector<ClassParts> classes_;
+  std::vector<std::int32_t> labels_;  ///< [lane] 1 + number of its joint part, or 0
+  struct JointPart {
+    std::int64_t begin;
+    std::int64_t end;
+    std::vector<std::uint32_t> lists;  ///< [class]
+  };
+  bool is_whole_ = false;  ///< there is one joint part, all of K
+  std::vector<JointPart> joint_;
+  std::vector<JointPart> joint_before_;
+  std::vector<Word> mask_;             ///< [class * words_] cells of the choices so far
+  std::vector<std::uint32_t> chosen_;  ///< those choices
+  std::vector<std::uint32_t> own_labels_;
+  std::vector<std::int32_t> numbers_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,221 @@
+// The row kernels, written once over vectors of COORDREQ_VECTOR_BYTES bytes, and built once for each
+// instruction set with that set's compiler flags.
+//
+// Shape: all kernels are bound by loads, so each block of a row is loaded once, combined in registers, and
+// stored once; `minimum` runs over its sources in the inner loop for that reason. Rows have a few hundred
+// bytes and stay in the first-level cache.
+//
+// Nothing of the standard library is called here: an inline function built with wide instructions could be
+// the copy that the linker keeps for everybody.
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "engine/level_kernels.hpp"
+
+namespace coordreq::COORDREQ_KERNEL_NAMESPACE {
+namespace {
+
+template <class Level>
+struct Lanes {
+  typedef Level Vector __attribute__((vector_size(COORDREQ_VECTOR_BYTES), aligned(1), may_alias));
+  static constexpr size_t kCount = COORDREQ_VECTOR_BYTES / sizeof(Level);
+};
+
+template <class Level>
+inline __attribute__((always_inline)) typename Lanes<Level>::Vector& block(Level* row) {
+  return *reinterpret_cast<typename Lanes<Level>::Vector*>(row);
+}
+
+template <class Level>
+inline __attribute__((always_inline)) const typename Lanes<Level>::Vector& block(const Level* row) {
+  return *reinterpret_cast<const typename Lanes<Level>::Vector*>(row);
+}
+
+/// True if any lane is not zero.
+template <class Vector>
+inline __attribute__((always_inline)) bool any(const Vector& v) {
+  typedef unsigned long long Wide __attribute__((vector_size(COORDREQ_VECTOR_BYTES), aligned(1), may_alias));
+  const Wide& wide = reinterpret_cast<const Wide&>(v);
+  unsigned long long together = 0;
+  for (size_t i = 0; i < COORDREQ_VECTOR_BYTES / sizeof(unsigned long long); ++i) together |= wide[i];
+  return together != 0;
+}
+
+template <class Level>
+void minimum(const Level* const* rows, size_t count, Level* out, size_t n) {
+  for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
+    typename Lanes<Level>::Vector least = block(rows[0] + j);
+    for (size_t k = 1; k < count; ++k) {
+      const typename Lanes<Level>::Vector other = block(rows[k] + j);
+      least = least < other ? least : other;
+    }
+    block(out + j) = least;
+  }
+}
+
+template <class Level>
+void raise(const Level* source, Level* target, size_t n) {
+  for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
+    const typename Lanes<Level>::Vector a = block(source + j);
+    const typename Lanes<Level>::Vector b = block(target + j);
+    block(target + j) = a > b ? a : b;
+  }
+}
+
+template <class Level>
+void raise_where(const Level* source, const Level* lanes, Level* target, size_t n) {
+  for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
+    const typename Lanes<Level>::Vector a = block(source + j) & block(lanes + j);
+    const typename Lanes<Level>::Vector b = block(target + j);
+    block(target + j) = a > b ? a : b;
+  }
+}
+
+template <class Level>
+void lower_where(const Level* source, const Level* lanes, Level* target, size_t n) {
+  for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
+    const typename Lanes<Level>::Vector a = block(source + j) | ~block(lanes + j);
+    const typename Lanes<Level>::Vector b = block(target + j);
+    block(target + j) = a < b ? a : b;
+  }
+}
+
+template <class Level>
+void lower_at(const Level* source, const Level* labels, Level label, Level* target, size_t n) {
+  typedef typename Lanes<Level>::Vector Vector;
+  for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
+    const Vector other = reinterpret_cast<Vector>(block(labels + j) != label);
+    const Vector a = block(source + j) | other;
+    const Vector b = block(target + j);
+    block(target + j) = a < b ? a : b;
+  }
+}
+
+template <class Level>
+bool is_top(const Level* row, const Level* lanes, size_t n) {
+  constexpr auto kTop = static_cast<Level>(~Level{0});
+  for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
+    const auto below = (block(row + j) != kTop) & (block(lanes + j) != Level{0});
+    if (n - j >= Lanes<Level>::kCount) {
+      if (any(below)) return false;
+      continue;
+    }
+    for (size_t i = 0; i < n - j; ++i) {
+      if (below[i] != 0) return false;
+    }
+  }
+  return true;
+}
+
+template <class Level>
+bool is_settled(const Level* row, const Level* bound, size_t n) {
+  for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
+    // bound <= row + 1 without overflow: bound is 0, or bound - 1 <= row.
+    const typename Lanes<Level>::Vector b = block(bound + j);
+    const auto open = (b != Level{0}) & (b - Level{1} > block(row + j));
+    if (n - j >= Lanes<Level>::kCount) {
+      if (any(open)) return false;
+      continue;
+    }
+    for (size_t i = 0; i < n - j; ++i) {
+      if (open[i] != 0) return false;
+    }
+  }
+  return true;
+}
+
+template <class Level>
+void spread(const uint64_t* bits, Level* lanes, size_t n) {
+  typedef typename Lanes<Level>::Vector Vector;
+  constexpr size_t kCount = Lanes<Level>::kCount;
+  constexpr size_t kBits = 8 * sizeof(Level);
+  // Lane i looks at bit i % kBits of the (i / kBits)-th part of the word.
+  Vector part{};
+  Vector bit{};
+  for (size_t i = 0; i < kCount; ++i) {
+    part[i] = static_cast<Level>(i / kBits);
+    bit[i] = static_cast<Level>(Level{1} << (i % kBits));
+  }
+  for (size_t j = 0; j < n; j += kCount) {
+    typedef uint64_t Words __attribute__((vector_size(COORDREQ_VECTOR_BYTES)));
+    const Words word = Words{} + (bits[j / 64] >> (j % 64));
+    const Vector parts = __builtin_shuffle(reinterpret_cast<const Vector&>(word), part);
+    block(lanes + j) = reinterpret_cast<Vector>((parts & bit) != Level{0});
+  }
+}
+
+/// One bit of each lane, lanes being all ones or 0.
+inline __attribute__((always_inline)) uint64_t packed(const uint8_t* lanes, size_t count) {
+  uint64_t bits = 0;
+  for (size_t i = 0; i < count; i += 8) {
+    uint64_t eight = 0;
+    __builtin_memcpy(&eight, lanes + i, 8);
+    // Bit i of byte i stays; the product adds all bytes up in its highest one. Little-endian, as the words
+    // are.
+    bits |= ((eight & 0x8040201008040201U) * 0x0101010101010101U >> 56) << i;
+  }
+  return bits;
+}
+
+template <class Level>
+inline __attribute__((always_inline)) uint64_t packed(const Level* lanes, size_t count) {
+  uint64_t bits = 0;
+  for (size_t i = 0; i < count; ++i) bits |= static_cast<uint64_t>(lanes[i] & 1U) << i;
+  return bits;
+}
+
+template <class Level>
+void top_bits(const Level* row, uint64_t* bits, size_t n) {
+  typedef typename Lanes<Level>::Vector Vector;
+  constexpr size_t kCount = Lanes<Level>::kCount;
+  constexpr auto kTop = static_cast<Level>(~Level{0});
+  for (size_t j = 0; j < n; j += kCount) {
+    Level lanes[kCount];
+    block(lanes) = reinterpret_cast<Vector>(block(row + j) == kTop);
+    uint64_t word = packed(lanes, kCount);
+    if (n - j < kCount) word &= (uint64_t{1} << (n - j)) - 1;
+    bits[j / 64] = (j % 64 == 0 ? 0 : bits[j / 64]) | word << (j % 64);
+  }
+}
+
+template <class Level>
+bool advance(const Level* next, const Level* old, Level limit, Level* out, size_t n) {
+  typedef typename Lanes<Level>::Vector Vector;
+  const Vector zero = Vector{} + Level{0};
+  const Vector top = ~zero;
+  const Vector bound = zero + limit;
+  bool changed = false;
+  for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
+    const Vector before = block(old + j);
+    const Vector value = block(next + j);
+    // Not below the limit: one more would be above it.
+    const Vector stepped = value < bound ? value + Level{1} : top;
+    const Vector result = before == zero ? zero : stepped;
+    const Vector difference = result ^ before;
+    block(out + j) = result;
+    if (changed) continue;
+    if (n - j >= Lanes<Level>::kCount) {
+      changed = any(difference);
+    } else {
+      for (size_t i = 0; i < n - j; ++i) changed = changed || difference[i] != 0;
+    }
+  }
+  return changed;
+}
+
+template <class Level>
+constexpr LevelKernels<Level> kKernels{minimum<Level>,  raise<Level>,  raise_where<Level>, lower_where<Level>,
+                                       lower_at<Level>, is_top<Level>, is_settled<Level>,  spread<Level>,
+                                       top_bits<Level>, advance<Level>};
+
+}  // namespace
+
+extern const LevelKernels<uint8_t> kKernels8;
+extern const LevelKernels<uint16_t> kKernels16;
+extern const LevelKernels<uint32_t> kKernels32;
+const LevelKernels<uint8_t> kKernels8 = kKernels<uint8_t>;
+const LevelKernels<uint16_t> kKernels16 = kKernels<uint16_t>;
+const LevelKernels<uint32_t> kKernels32 = kKernels<uint32_t>;
+
+}  // namespace coordreq::COORDREQ_KERNEL_NAMESPACE

@@ -1,0 +1,103 @@
+#include "engine/level_map.hpp"
+
+#include <array>
+
+namespace coordreq {
+namespace {
+
+template <class Level>
+std::int64_t decoded(Level level) {
+  return level == LevelRows<Level>::kTop ? LevelMap::kTop : static_cast<std::int64_t>(level);
+}
+
+/// Adds the cells of some rows to the counts of their levels.
+template <class Level>
+void count_rows(const LevelRows<Level>& levels, ThreadTeam::Range rows, std::vector<std::int64_t>& counts) {
+  for (std::int64_t r = rows.begin; r < rows.end; ++r) {
+    levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+      const Level* cells = levels.row(r) + lane;
+      for (std::int64_t c = 0; c < count; ++c) {
+        const std::size_t level = cells[c] == LevelRows<Level>::kTop ? 0 : std::size_t{cells[c]} + 1;
+        if (level >= counts.size()) counts.resize(level + 1, 0);
+        ++counts[level];
+      }
+    });
+  }
+}
+
+/// 8-bit levels need no look at the size; four counters a level, so that equal neighbours do not wait for
+/// each other.
+void count_rows(const LevelRows<std::uint8_t>& levels, ThreadTeam::Range rows,
+                std::vector<std::int64_t>& counts) {
+  std::array<std::array<std::int64_t, 256>, 4> part{};
+  for (std::int64_t r = rows.begin; r < rows.end; ++r) {
+    levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+      const std::uint8_t* cells = levels.row(r) + lane;
+      for (std::int64_t c = 0; c < count; ++c) ++part[static_cast<std::size_t>(c % 4)][cells[c]];
+    });
+  }
+  counts.resize(256, 0);
+  for (std::size_t level = 0; level < 256; ++level) {
+    counts[(level + 1) % 256] += part[0][level] + part[1][level] + part[2][level] + part[3][level];
+  }
+}
+
+/// [1 + level] cells of that level, [0] those never lost.
+template <class Level>
+std::vector<std::int64_t> count_levels(const LevelRows<Level>& levels, ThreadTeam& team) {
+  constexpr std::int64_t kGrain = 1024;
+  std::vector<std::vector<std::int64_t>> counts(static_cast<std::size_t>(team.size()));
+  team.for_each(levels.rows(), kGrain, [&](ThreadTeam::Range range, int worker) {
+    count_rows(levels, range, counts[static_cast<std::size_t>(worker)]);
+  });
+  std::vector<std::int64_t> total(1, 0);
+  for (const std::vector<std::int64_t>& own : counts) {
+    if (own.size() > total.size()) total.resize(own.size(), 0);
+    for (std::size_t k = 0; k < own.size(); ++k) total[k] += own[k];
+  }
+  while (total.size() > 1 && total.back() == 0) total.pop_back();
+  return total;
+}
+
+/// Gaps hold what lies beyond the ends of runs, which are no cells.
+void clear_gaps(const RowShape& shape, CellSet& set, ThreadTeam& team) {
+  if (shape.dimensions.size() == 1) return;
+  CellSet cells(1, set.row_length());
+  shape.for_each_run(
+      [&](std::int64_t lane, std::int64_t count) { set_bits(cells.row(0), lane, lane + count); });
+  team.for_each(set.rows(), 256, [&](ThreadTeam::Range range, int) {
+    for (std::int64_t r = range.begin; r < range.end; ++r) {
+      for (std::size_t w = 0; w < cells.words().size(); ++w) set.row(r)[w] &= cells.words()[w];
+    }
+  });
+}
+
+}  // namespace
+
+std::int64_t LevelMap::at(std::int64_t cell) const {
+  return visit([cell](const auto& levels) {
+    return decoded(levels.row(cell / levels.row_length())[cell % levels.row_length()]);
+  });
+}
+
+LevelMap::Histogram LevelMap::histogram(ThreadTeam& team) const {
+  const std::vector<std::int64_t> counts =
+      visit([&](const auto& levels) { return count_levels(levels, team); });
+  return {.finite = {counts.begin() + 1, counts.end()}, .top = counts[0]};
+}
+
+CellSet LevelMap::top_cells(ThreadTeam& team) const {
+  CellSet result(rows(), row_length());
+  visit([&]<class Level>(const LevelRows<Level>& levels) {
+    const LevelKernels<Level>& kernels = level_kernels<Level>(best_instruction_set());
+    const auto lanes = static_cast<std::size_t>(levels.row_length());
+    team.for_each(levels.rows(), 256, [&](ThreadTeam::Range range, int) {
+      for (std::int64_t r = range.begin; r < range.end; ++r)
+        kernels.top_bits(levels.row(r), result.row(r).data(), lanes);
+    });
+    clear_gaps(levels.shape(), result, team);
+  });
+  return result;
+}
+
+}  // namespace coordreq

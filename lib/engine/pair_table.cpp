@@ -1,0 +1,108 @@
+#include "engine/pair_table.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace coordreq {
+namespace {
+
+std::size_t words_for(const UniformGrid& grid) {
+  return static_cast<std::size_t>((grid.row_length() + CellSet::kWordBits - 1) / CellSet::kWordBits);
+}
+
+/// The 8 x 8 bits of a word with rows (bytes) and columns exchanged; Warren, Hacker's Delight, 7-3.
+Word transposed(Word bits) {
+  Word swap = (bits ^ (bits >> 7U)) & 0x00AA00AA00AA00AAU;
+  bits ^= swap ^ (swap << 7U);
+  swap = (bits ^ (bits >> 14U)) & 0x0000CCCC0000CCCCU;
+  bits ^= swap ^ (swap << 14U);
+  swap = (bits ^ (bits >> 28U)) & 0x00000000F0F0F0F0U;
+  return bits ^ swap ^ (swap << 28U);
+}
+
+/// The sets of the cells of one row turned into a row of cells for each joint input; `out` has room for a
+/// multiple of 8 of them.
+void turn_row(const std::uint8_t* cells, std::int64_t row_length, std::int64_t bytes, std::size_t words,
+              std::vector<Word>& out) {
+  out.assign(static_cast<std::size_t>(bytes) * 8 * words, 0);
+  for (std::int64_t first = 0; first < row_length; first += 8) {
+    const std::int64_t count = std::min<std::int64_t>(8, row_length - first);
+    const auto word = static_cast<std::size_t>(first / CellSet::kWordBits);
+    const auto shift = static_cast<unsigned>(first % CellSet::kWordBits);
+    for (std::int64_t b = 0; b < bytes; ++b) {
+      Word block = 0;
+      for (std::int64_t x = 0; x < count; ++x) block |= Word{cells[(first + x) * bytes + b]} << (8 * x);
+      if (block == 0) continue;
+      block = transposed(block);
+      for (std::size_t u = 0; u < 8; ++u) {
+        out[(static_cast<std::size_t>(b) * 8 + u) * words + word] |= (block >> (8 * u) & 0xFFU) << shift;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+PairTable::PairTable(const ConditionTable& allow)
+    : grid_(&allow.grid()),
+      input_space_(&allow.input_space()),
+      inputs_(allow.inputs()),
+      state_stride_(allow.state_stride()),
+      input_stride_(allow.input_stride()),
+      rows_(words_for(*grid_)) {
+  for (std::int64_t r = 0; r < allow.bits().rows(); ++r) ids_.push_back(rows_.number(allow.bits().row(r)));
+}
+
+PairTable::PairTable(const UniformGrid& grid, const InputSpace& inputs, const PackedPairs& listed,
+                     const ConditionTable* allow, ThreadTeam& team)
+    : grid_(&grid),
+      input_space_(&inputs),
+      inputs_(inputs.size()),
+      state_stride_(grid.size(), 0),
+      input_stride_(inputs.size()),
+      rows_(words_for(grid)) {
+  std::iota(inputs_.begin(), inputs_.end(), 0);
+  for (std::size_t i = 0; i < inputs.size(); ++i) input_stride_[i] = inputs.stride(i);
+  for (std::size_t i = 0; i + 1 < grid.size(); ++i)
+    state_stride_[i] = grid.stride(i) / grid.row_length() * inputs.count();
+  ids_.reserve(static_cast<std::size_t>(grid.rows() * inputs.count()));
+
+  const std::size_t words = words_for(grid);
+  const std::int64_t bytes = listed.bytes_per_cell();
+  std::vector<std::vector<Word>> turned(64);  // so many rows at a time: turning is work for all threads
+  const auto block = static_cast<std::int64_t>(turned.size());
+  for (std::int64_t first = 0; first < grid.rows(); first += block) {
+    const std::int64_t count = std::min(block, grid.rows() - first);
+    team.for_each(count, 4, [&](ThreadTeam::Range range, int) {
+      for (std::int64_t r = range.begin; r < range.end; ++r) {
+        std::vector<Word>& own = turned[static_cast<std::size_t>(r)];
+        turn_row(listed.bytes.data() + (first + r) * grid.row_length() * bytes, grid.row_length(), bytes,
+                 words, own);
+        for (std::int64_t u = 0; allow != nullptr && u < inputs.count(); ++u) {
+          const ConstRow permitted = allow->row(first + r, u);
+          for (std::size_t w = 0; w < words; ++w)
+            own[static_cast<std::size_t>(u) * words + w] &= permitted[w];
+        }
+      }
+    });
+    for (std::int64_t r = 0; r < count; ++r) {
+      const Word* own = turned[static_cast<std::size_t>(r)].data();
+      for (std::int64_t u = 0; u < inputs.count(); ++u, own += words)
+        ids_.push_back(rows_.number({own, words}));
+    }
+  }
+}
+
+ConstRow PairTable::row(std::int64_t row, std::int64_t u) const {
+  std::int64_t position = 0;
+  for (std::size_t i = 0; i + 1 < grid_->size(); ++i) {
+    if (state_stride_[i] != 0) position += grid_->index(row * grid_->row_length(), i) * state_stride_[i];
+  }
+  for (const std::int32_t i : inputs_) {
+    const auto input = static_cast<std::size_t>(i);
+    position += input_space_->index(u, input) * input_stride_[input];
+  }
+  return this->row(position);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/thread_team.hpp"
+#include "engine/packed_pairs.hpp"
+#include "engine/row_numbers.hpp"
+#include "model/condition_table.hpp"
+
+namespace coordreq {
+
+/// The admissible pairs of states and joint inputs: one bit row along the last state dimension for each
+/// choice of the other states and the inputs in use, equal rows held once. Laid out as ConditionTable is.
+class PairTable {
+ public:
+  /// What a condition permits.
+  explicit PairTable(const ConditionTable& allow);
+  /// What is listed, and permitted by a condition too. It depends on all states and inputs.
+  /// @param allow may be null: everything is permitted
+  /// REQUIRES: `listed` is over the cells of `grid` in its order, and over all joint inputs; grid and inputs
+  /// outlive this object.
+  PairTable(const UniformGrid& grid, const InputSpace& inputs, const PackedPairs& listed,
+            const ConditionTable* allow, ThreadTeam& team);
+
+  /// The bits at a position of the table.
+  [[nodiscard]] ConstRow row(std::int64_t position) const {
+    return rows_[ids_[static_cast<std::size_t>(position)]];
+  }
+  /// The bits of all cells of grid row `row` under joint input `u`.
+  [[nodiscard]] ConstRow row(std::int64_t row, std::int64_t u) const;
+
+  /// [position]: equal numbers mean equal bits.
+  [[nodiscard]] const std::vector<std::uint32_t>& ids() const { return ids_; }
+  [[nodiscard]] const std::vector<std::int32_t>& inputs() const { return inputs_; }  ///< in use, ascending
+  [[nodiscard]] const std::vector<std::int64_t>& state_stride() const { return state_stride_; }
+  [[nodiscard]] const std::vector<std::int64_t>& input_stride() const { return input_stride_; }
+
+ private:
+  const UniformGrid* grid_;
+  const InputSpace* input_space_;
+  std::vector<std::int32_t> inputs_;
+  std::vector<std::int64_t> state_stride_;  ///< in positions; 0 where not in use
+  std::vector<std::int64_t> input_stride_;
+  RowNumbers rows_;
+  std::vector<std::uint32_t> ids_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/box_reader.hpp"
+#include "engine/sum_reader.hpp"
+
+namespace coordreq {
+
+/// The one question that every operator asks, answered for a whole row of cells at once: the least level in
+/// f(x, u) for each cell x. 0 where f(x, u) is empty: the post is blocked, or its tube is not safe.
+///
+/// One object a thread. The levels may change between one enter() and the next, not in between.
+template <class Level>
+class PostReader {
+ public:
+  static constexpr Level kTop = LevelRows<Level>::kTop;
+
+  /// REQUIRES: `engine` and `levels` (from engine.make_levels(engine.posts())) outlive this object.
+  PostReader(const RowEngine& engine, const LevelRows<Level>& levels);
+
+  /// Begins with the rows of another unit.
+  void enter() {
+    posts_.enter();
+    if (sums_) sums_->enter();
+  }
+
+  /// For the slices numbered `ids`, one for each of engine.slices(). The row may be read up to the next call;
+  /// whole blocks, as LevelKernels ask.
+  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) {
+    const auto own = ids.first(engine_.tables());
+    const Level* levels = sums_ ? sums_->minimum(own) : posts_.minimum(own);
+    return tubes_.empty() ? levels : with_tubes(ids, levels);
+  }
+  /// Least levels of the box around all posts of a row. REQUIRES box.covers.
+  [[nodiscard]] const Level* minimum(const RowHull::Box& box) {
+    return posts_.minimum(box, 0, engine_.row_length());
+  }
+  /// The same for the lanes [begin, end) of the row alone.
+  [[nodiscard]] const Level* minimum(const RowHull::Box& box, std::int64_t begin, std::int64_t end) {
+    return posts_.minimum(box, begin, end);
+  }
+
+  [[nodiscard]] const LevelKernels<Level>& kernels() const { return posts_.kernels(); }
+  /// A row of this many levels holds the lanes of a row and the rest of its last block.
+  [[nodiscard]] std::size_t lanes() const { return posts_.lanes(); }
+
+ private:
+  [[nodiscard]] const Level* with_tubes(std::span<const std::uint32_t> ids, const Level* levels);
+
+  const RowEngine& engine_;
+  BoxReader<Level> posts_;
+  std::optional<SumReader<Level>> sums_;  ///< reads the posts if the engine is summed
+  std::vector<BoxReader<std::uint8_t>> tubes_;
+  std::vector<Word> safe_;
+  std::vector<Word> one_;
+  std::vector<Level> lanes_;
+  std::vector<Level> result_;
+};
+
+extern template class PostReader<std::uint8_t>;
+extern template class PostReader<std::uint16_t>;
+extern template class PostReader<std::uint32_t>;
+
+}  // namespace coordreq

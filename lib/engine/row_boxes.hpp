@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/action_groups.hpp"
+#include "engine/row_hull.hpp"
+
+namespace coordreq {
+
+/// A range in one word.
+[[nodiscard]] inline Word pack_range(IndexRange range) {
+  return Word{static_cast<std::uint32_t>(range.first)} | Word{static_cast<std::uint32_t>(range.last)} << 32U;
+}
+[[nodiscard]] inline IndexRange unpack_range(Word word) {
+  return {static_cast<std::int32_t>(word & 0xFFFFFFFFU), static_cast<std::int32_t>(word >> 32U)};
+}
+
+/// The posts of a row class by class, where each state's motion depends on the inputs of one class at most:
+/// the post of a joint action is then the product of one box for each class.
+class RowBoxes {
+ public:
+  enum class Kind : std::uint8_t {
+    box,
+    gone,     ///< all left the domain safely in some dimension
+    blocked,  ///< left through an unsafe side
+  };
+
+  /// REQUIRES: `grouping` outlives this object.
+  explicit RowBoxes(const ActionGrouping& grouping);
+
+  /// True if posts are products: no state is moved by two classes, and no tube can block a post.
+  [[nodiscard]] bool is_product() const { return is_product_; }
+
+  /// Takes up the posts of a row. @returns false if some slice of it falls into several pieces, or leads all
+  /// cells of the row to the same ones. REQUIRES: is_product()
+  bool fill(const RowPlace& place, const RowGroups& groups);
+
+  [[nodiscard]] Kind kind(std::size_t c, std::uint32_t g) const { return kinds_[c][g]; }
+  /// Ranges of group g in the dimensions that class c moves, in the order of moved(c).
+  [[nodiscard]] std::span<const IndexRange> ranges(std::size_t c, std::uint32_t g) const {
+    return {ranges_[c].data() + g * moved_[c].size(), moved_[c].size()};
+  }
+  /// Dimensions that class c moves; those that nothing moves count with the first class.
+  [[nodiscard]] const std::vector<std::size_t>& moved(std::size_t c) const { return moved_[c]; }
+
+  /// True if a group of the row leaves for good in some dimension.
+  [[nodiscard]] bool has_gone() const { return has_gone_; }
+
+  /// Writes the part of class c into a box of all dimensions; `ranges` packed by pack_range().
+  void put(std::size_t c, std::span<const Word> ranges, RowHull::Box& box) const;
+  void put(std::size_t c, std::span<const IndexRange> ranges, RowHull::Box& box) const;
+
+ private:
+  bool add(std::size_t c, std::uint32_t action);
+
+  const ActionGrouping& grouping_;
+  std::vector<std::vector<std::size_t>> moved_;
+  bool is_product_ = true;
+  bool has_gone_ = false;
+  std::vector<std::int64_t> base_;  ///< by table, of the row
+  std::vector<std::vector<Kind>> kinds_;
+  std::vector<std::vector<IndexRange>> ranges_;
+};
+
+}  // namespace coordreq

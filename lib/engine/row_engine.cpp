@@ -1,0 +1,190 @@
+#include "engine/row_engine.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "engine/row_window.hpp"
+#include "engine/set_levels.hpp"
+
+namespace coordreq {
+namespace {
+
+using Kind = RowSegment::Kind;
+
+/// More levels than this to a unit, with all sizes of boxes, and eroding them would take longer than it
+/// saves.
+constexpr double kMostBlockLevels = 1 << 22;
+
+/// Rough figures of a table, from a sample of its entries: how many slices there are to choose from in a
+/// row, and how many cells wide their ranges are.
+struct TableProfile {
+  double choices = 1;
+  double width = 1;
+};
+
+TableProfile profile(const RowSlices& slices) {
+  constexpr std::size_t kSamples = 32;
+  const auto combinations = static_cast<std::size_t>(slices.input_combinations);
+  const std::size_t bases = slices.ids.size() / combinations;
+  const std::size_t step = std::max<std::size_t>(1, bases / kSamples);
+  TableProfile result{0, 0};
+  double ranges = 0;
+  double samples = 0;
+  for (std::size_t b = 0; b < bases; b += step, ++samples) {
+    const auto* begin = slices.ids.data() + b * combinations;
+    const std::set<std::uint32_t> distinct(begin, begin + combinations);
+    result.choices += static_cast<double>(distinct.size());
+    for (const std::uint32_t id : distinct) {
+      for (const RowSegment& segment : slices.slices[id]) {
+        if (segment.kind == Kind::blocked || segment.kind == Kind::gone) continue;
+        result.width += 1.0 + segment.range.last - segment.range.first;
+        ++ranges;
+      }
+    }
+  }
+  return {result.choices / samples, std::max(1.0, result.width / std::max(1.0, ranges))};
+}
+
+}  // namespace
+
+RowEngine::RowEngine(const Abstraction& abstraction, const PairTable* allow, const SafeTubes& tubes)
+    : abstraction_(&abstraction), allow_(allow) {
+  std::vector<GridDimension> dimensions = abstraction.grid.dimensions();
+  for (std::size_t i = 0; i < dimensions.size(); ++i) {
+    row_stride_.push_back(abstraction.grid.stride(i) / abstraction.grid.row_length());
+  }
+  add_family(abstraction.tables, dimensions);
+  choose_outer();
+  if (tubes.inside == nullptr) return;
+  add_demand(tubes.beyond != nullptr ? *tubes.beyond : *tubes.inside, dimensions);
+  if (tubes.beyond == nullptr) return;
+  // The same tubes again, now blocked where they pass a limit: what is left need not be safe beyond it.
+  for (GridDimension& dimension : dimensions) {
+    if (dimension.below == Outside::saturate) dimension.below = Outside::unsafe;
+    if (dimension.above == Outside::saturate) dimension.above = Outside::unsafe;
+  }
+  add_demand(*tubes.inside, dimensions);
+}
+
+void RowEngine::add_demand(const CellSet& inside, const std::vector<GridDimension>& targets) {
+  add_family(abstraction_->tubes, targets);
+  inside_.push_back(make_levels<std::uint8_t>(family(inside_.size() + 1)));
+  set_levels(inside, 0, rows(), inside_.back());
+}
+
+/// The inner dimensions' tables as sums, if all of them are, and if what is left out moves all cells of a
+/// unit alike; else none. One that is a shift along the row alone is cut as usual.
+std::vector<RowSlices> RowEngine::summed_slices() const {
+  const std::vector<TransitionTable>& tables = abstraction_->tables;
+  std::size_t outer = 0;
+  while (outer < tables.size() && !tables[outer].is_sum()) ++outer;
+  if (outer == 0 || !is_closed(outer) || along() != 1) return {};
+  std::vector<RowSlices> result;
+  double variants = 1;
+  for (std::size_t t = outer; t < tables.size(); ++t) {
+    std::optional<SumRows> sums = SumRows::make(*abstraction_, tables[t], t);
+    if (!sums) return {};
+    variants *= 1 + sums->widths().last - sums->widths().first;
+    variants *= static_cast<double>(grid()[t].count) + 2 * sums->widths().last + 2;
+    result.push_back(keep_as_sums(*abstraction_, tables[t], *std::move(sums)));
+  }
+  return variants <= kMostBlockLevels ? std::move(result) : std::vector<RowSlices>{};
+}
+
+void RowEngine::add_family(const std::vector<TransitionTable>& tables,
+                           const std::vector<GridDimension>& targets) {
+  std::vector<RowSlices> sums;
+  if (slices_.empty()) sums = summed_slices();
+  const std::size_t cut = tables.size() - sums.size();
+  for (std::size_t i = 0; i < cut; ++i)
+    slices_.push_back(cut_into_rows(*abstraction_, tables[i], i, targets[i]));
+  for (RowSlices& slices : sums) slices_.push_back(std::move(slices));
+  RowShape& shape = shapes_.emplace_back();
+  for (std::size_t i = across(); i < tables.size(); ++i) {
+    const RowEnds ends{targets[i].below, targets[i].above};
+    RowSlices& slices = slices_[slices_.size() - tables.size() + i];
+    const std::int64_t count = targets[i].count;
+    shape.dimensions.push_back({count, grid().stride(i), margins_of(slices, count, ends), ends});
+  }
+}
+
+/// Offsets along the row are brought to the shortest that mean the same; they decide on the margins.
+RowMargins RowEngine::margins_of(RowSlices& slices, std::int64_t count, RowEnds ends) const {
+  RowMargins margins;
+  const auto widen = [&margins](IndexRange window) {
+    margins.before = std::max<std::int64_t>(margins.before, -window.first);
+    margins.after = std::max<std::int64_t>(margins.after, window.last);
+  };
+  for (std::vector<RowSegment>& slice : slices.slices) {
+    for (RowSegment& segment : slice) {
+      if (segment.kind != Kind::shifted) continue;
+      segment.range = fit_window(segment.range, count, ends);
+      widen(segment.range);
+    }
+  }
+  if (slices.sums) {
+    SumRows::Reader reader(*slices.sums);
+    for (std::int64_t i = 0; i < slices.size(); ++i) {
+      const SumRows::Row row = reader.row(static_cast<std::uint32_t>(i));
+      widen(fit_window(slices.sums->offset_hull(row), count, ends));
+    }
+  }
+  return margins;
+}
+
+RowFamily RowEngine::family(std::size_t number) const {
+  return {std::span(slices_).subspan(number * tables(), tables()), shapes_[number]};
+}
+
+std::vector<RowEngine::Demand> RowEngine::demands() const {
+  std::vector<Demand> result;
+  for (std::size_t k = 0; k < inside_.size(); ++k) result.push_back({family(k + 1), &inside_[k]});
+  return result;
+}
+
+/// The first dimensions may be taken first if nothing that moves them depends on those that follow.
+bool RowEngine::is_closed(std::size_t outer) const {
+  for (std::size_t t = 0; t < outer; ++t) {
+    // Not its strides: they are 0, too, for what a table depends on in another way than by its entries.
+    const std::vector<std::int32_t>& states = abstraction_->tables[t].states;
+    if (std::any_of(states.begin(), states.end(),
+                    [&](std::int32_t j) { return static_cast<std::size_t>(j) >= outer; })) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Least rows read for one row: the rows for the shared minima, then those of them.
+void RowEngine::choose_outer() {
+  if (is_summed()) {
+    while (!slices_[outer_].sums) ++outer_;
+    unit_rows_ = row_stride_[outer_ - 1];
+    return;
+  }
+  const std::size_t last = across();
+  std::vector<TableProfile> profiles;
+  for (const RowSlices& slices : posts().slices) profiles.push_back(profile(slices));
+  const auto cost = [&](std::size_t outer) {
+    double shared = outer == 0 ? 0 : 1;
+    double choices = 1;
+    double inner = 1;
+    for (std::size_t t = 0; t < tables(); ++t) {
+      // Of all choices about two are tried: the rest is dominated, or joined with others.
+      const double tried = std::min(profiles[t].choices, 2.0);
+      choices *= tried;
+      if (t < outer) {
+        shared *= tried * profiles[t].width;
+      } else {
+        inner *= profiles[t].width;
+      }
+    }
+    return shared + choices * inner;
+  };
+  for (std::size_t outer = 1; outer <= last; ++outer) {
+    if (is_closed(outer) && cost(outer) < cost(outer_)) outer_ = outer;
+  }
+  unit_rows_ = outer_ == 0 ? rows() : row_stride_[outer_ - 1];
+}
+
+}  // namespace coordreq

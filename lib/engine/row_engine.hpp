@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/level_rows.hpp"
+#include "engine/pair_table.hpp"
+#include "engine/row_place.hpp"
+#include "engine/row_slices.hpp"
+#include "engine/safe_tubes.hpp"
+#include "reach/abstraction.hpp"
+
+namespace coordreq {
+
+/// Slices of all states that are tested against one target.
+struct RowFamily {
+  /// One table a state. In those that rows run along offsets are at most as long as the dimension, either
+  /// way.
+  std::span<const RowSlices> slices;
+  RowShape shape;  ///< margins as far as offsets go
+};
+
+/// The abstraction laid out for whole rows of cells, and how work on it is cut up.
+///
+/// The post of a row is the minimum over a box of rows (dimensions across them) of levels, and over windows
+/// along the row. Rows run along the last dimension, or along several where each of these moves by an offset
+/// of its own: see join_rows(). Where the first `outer()` dimensions move by themselves, whatever the others
+/// do, the minimum over them is the same for all rows that share these indices: a *unit*. PostReader takes it
+/// once. Immutable once built, so safe to share between threads.
+class RowEngine {
+ public:
+  /// @param allow may be null: everything is allowed
+  /// @param tubes what tubes must stay in, if there are any
+  /// REQUIRES: they outlive this object.
+  RowEngine(const Abstraction& abstraction, const PairTable* allow, const SafeTubes& tubes);
+
+  [[nodiscard]] const Abstraction& abstraction() const { return *abstraction_; }
+  [[nodiscard]] const UniformGrid& grid() const { return abstraction_->grid; }
+  /// Those of the posts, one a state; then, if there are tubes, those of the tubes in the same order, once or
+  /// twice.
+  [[nodiscard]] const std::vector<RowSlices>& slices() const { return slices_; }
+  [[nodiscard]] RowFamily posts() const { return family(0); }
+  /// A post counts as blocked unless its tube is inside the set of one of these.
+  struct Demand {
+    RowFamily family;
+    const LevelRows<std::uint8_t>* inside;  ///< the greatest level for members, else 0
+  };
+  [[nodiscard]] std::vector<Demand> demands() const;
+  [[nodiscard]] const PairTable* allow() const { return allow_; }
+  [[nodiscard]] std::int64_t rows() const { return grid().rows(); }
+  [[nodiscard]] std::int64_t row_length() const { return grid().row_length(); }
+  [[nodiscard]] std::size_t row_words() const {
+    return static_cast<std::size_t>((row_length() + CellSet::kWordBits - 1) / CellSet::kWordBits);
+  }
+  /// Number of tables of slices of posts: one a state.
+  [[nodiscard]] std::size_t tables() const { return row_stride_.size(); }
+  /// Number of dimensions across rows, and along them.
+  [[nodiscard]] std::size_t across() const { return grid().across(); }
+  [[nodiscard]] std::size_t along() const { return tables() - across(); }
+  /// Rows from one index of a dimension across rows to the next.
+  [[nodiscard]] std::int64_t row_stride(std::size_t dimension) const { return row_stride_[dimension]; }
+
+  /// True if the first dimensions move by themselves: none of their tables depends on the state of one that
+  /// follows.
+  [[nodiscard]] bool is_closed(std::size_t outer) const;
+  /// Number of leading dimensions whose minimum is shared by the rows of a unit; may be 0.
+  [[nodiscard]] std::size_t outer() const { return outer_; }
+  /// Rows of a unit, which have neighbouring numbers. All rows if outer() is 0.
+  [[nodiscard]] std::int64_t unit_rows() const { return unit_rows_; }
+
+  /// The dimensions from outer() on are sums (RowSlices::sums), those before it move all cells of a unit
+  /// alike: posts are read by a SumReader.
+  [[nodiscard]] bool is_summed() const { return posts().slices.back().sums.has_value(); }
+
+  /// Levels of all rows, 0, with the margins that a family asks for.
+  template <class Level>
+  [[nodiscard]] LevelRows<Level> make_levels(const RowFamily& family) const {
+    return {rows(), family.shape};
+  }
+
+ private:
+  [[nodiscard]] std::vector<RowSlices> summed_slices() const;
+  void add_family(const std::vector<TransitionTable>& tables, const std::vector<GridDimension>& targets);
+  void add_demand(const CellSet& inside, const std::vector<GridDimension>& targets);
+  [[nodiscard]] RowFamily family(std::size_t number) const;
+  void choose_outer();
+  [[nodiscard]] RowMargins margins_of(RowSlices& slices, std::int64_t count, RowEnds ends) const;
+
+  const Abstraction* abstraction_;
+  const PairTable* allow_;
+  std::vector<RowSlices> slices_;
+  std::vector<LevelRows<std::uint8_t>> inside_;  ///< one for each family of tubes
+  std::vector<RowShape> shapes_;                 ///< one a family: posts; tubes; tubes that pass no limit
+  std::vector<std::int64_t> row_stride_;
+  std::size_t outer_ = 0;
+  std::int64_t unit_rows_ = 1;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/sum_rows.hpp"
+#include "reach/abstraction.hpp"
+
+namespace coordreq {
+
+/// A stretch [begin, end) of the cells of a row for which one state's next range has one simple form.
+struct RowSegment {
+  enum class Kind : std::uint8_t {
+    fixed,    ///< the same cells `range` for all
+    shifted,  ///< cell c goes to the raw indices c + range.first, ..., c + range.last (modulo count on a
+              ///< ring)
+    gone,     ///< all left the domain through a safe side
+    blocked,  ///< left through an unsafe side
+  };
+  std::int32_t begin = 0;
+  std::int32_t end = 0;
+  Kind kind = Kind::fixed;
+  IndexRange range;
+  [[nodiscard]] auto operator<=>(const RowSegment&) const = default;
+};
+
+/// One state's transition table (or that of its tube) cut into rows along the last state dimension: for each
+/// choice of the other states and of the inputs in use the number of a slice, equal slices stored once.
+///
+/// A slice is a list of segments that together cover the row. `shifted` occurs only for the last dimension
+/// itself: there a whole row is eroded at once, and integrators (x' = x + c) give one segment a row.
+///
+/// If the state is periodic, 0 <= range.first < count, and range.last may go beyond as in ResolvedRange.
+///
+/// Where rows run along several dimensions, each of their tables is cut along its own, into one `shifted`
+/// segment a slice.
+///
+/// Or rows are not cut at all but added up when they are read (`sums`); then each row is a slice of its own,
+/// whose number is its position, and `ids` and `slices` are empty.
+struct RowSlices {
+  std::vector<std::uint32_t> ids;  ///< row-major over states (those across rows), then inputs
+  std::vector<std::vector<RowSegment>> slices;
+  std::vector<std::int64_t> state_stride;  ///< into `ids`; 0 where not in use, and along rows
+  std::vector<std::int64_t> input_stride;
+  std::vector<std::int32_t> inputs;     ///< in use, ascending
+  std::int64_t input_combinations = 1;  ///< product of their counts; divides every state stride
+  std::optional<SumRows> sums;
+
+  /// Number of positions.
+  [[nodiscard]] std::int64_t size() const {
+    return sums ? sums->size() : static_cast<std::int64_t>(ids.size());
+  }
+};
+
+/// @param table the one of `state` in abstraction.tables or abstraction.tubes
+/// @param target the dimension of `state`, maybe with other rules for leaving the domain
+[[nodiscard]] RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& table,
+                                      std::size_t state, const GridDimension& target);
+
+/// The same for a table whose rows stay sums.
+[[nodiscard]] RowSlices keep_as_sums(const Abstraction& abstraction, const TransitionTable& table,
+                                     SumRows sums);
+
+}  // namespace coordreq

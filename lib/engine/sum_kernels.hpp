@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/level_kernels.hpp"
+
+namespace coordreq {
+
+/// Fixed-point numbers of 64 bits whose upper half is the index, the halves in rows of their own: sums are
+/// then taken in 32-bit lanes.
+struct SplitRow {
+  const std::int32_t* whole = nullptr;
+  const std::uint32_t* fraction = nullptr;
+};
+
+/// One dimension of the boxes of a row of cells: first = (lower + lower_run[c]) >> 32, last = (upper +
+/// upper_run[c])
+/// >> 32. Nothing overflows.
+struct BoxSides {
+  SplitRow lower_run;
+  SplitRow upper_run;
+  std::int64_t lower = 0;
+  std::int64_t upper = 0;
+  std::int32_t count = 0;         ///< of indices in the domain: 0, ..., count - 1
+  std::int32_t stride = 0;        ///< what an index adds to a place
+  std::int32_t width_stride = 0;  ///< what one more index in the box adds
+};
+
+/// Operations on rows of boxes. As with LevelKernels rows are read and written in whole blocks of kLevelBlock
+/// bytes.
+struct SumKernels {
+  /// place[c] = origin + sum over the sides of at(first, last) * stride + (last - first) * width_stride,
+  /// where at = first, but at least first - last - 1 and at most count: a box beyond the domain is moved to
+  /// where it just touches it, and meets the same there. REQUIRES size >= 1.
+  void (*find_places)(const BoxSides* sides, std::size_t size, std::int32_t origin, std::int32_t* place,
+                      std::size_t n);
+};
+
+[[nodiscard]] const SumKernels& sum_kernels(InstructionSet set);
+
+}  // namespace coordreq

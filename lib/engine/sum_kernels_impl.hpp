@@ -1,0 +1,48 @@
+// The kernels on rows of boxes, built as level_kernels_impl.hpp is, and with the same rules.
+//
+// Shape: two additions and shifts a side in 64 bits, then all else in 32: there are two to four cells of work
+// for each level that is then fetched by its place, so these few operations cost as much as the fetching.
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "engine/sum_kernels.hpp"
+
+namespace coordreq::COORDREQ_KERNEL_NAMESPACE {
+namespace {
+
+typedef int32_t Places __attribute__((vector_size(COORDREQ_VECTOR_BYTES), aligned(1), may_alias));
+typedef uint32_t Fractions __attribute__((vector_size(COORDREQ_VECTOR_BYTES), aligned(1), may_alias));
+constexpr size_t kPlaces = COORDREQ_VECTOR_BYTES / sizeof(int32_t);
+
+/// The upper halves of number + run: the carry of the lower halves is a comparison.
+inline __attribute__((always_inline)) Places upper_half(const SplitRow& run, int64_t number, size_t c) {
+  const auto fraction = static_cast<uint32_t>(static_cast<uint64_t>(number));
+  const auto whole = static_cast<int32_t>(number >> 32);
+  const Fractions sum = *reinterpret_cast<const Fractions*>(run.fraction + c) + fraction;
+  const Places carry = reinterpret_cast<Places>(sum < fraction);  // -1 or 0
+  return *reinterpret_cast<const Places*>(run.whole + c) + whole - carry;
+}
+
+void find_places(const BoxSides* sides, size_t size, int32_t origin, int32_t* place, size_t n) {
+  for (size_t c = 0; c < n; c += kPlaces) {
+    Places sum = Places{} + origin;
+    for (const BoxSides* side = sides; side < sides + size; ++side) {
+      const Places first = upper_half(side->lower_run, side->lower, c);
+      const Places wide = upper_half(side->upper_run, side->upper, c) - first;
+      const Places before = -1 - wide;
+      const Places count = Places{} + side->count;
+      const Places from = first > before ? first : before;
+      const Places at = from < count ? from : count;
+      sum += at * side->stride + wide * side->width_stride;
+    }
+    *reinterpret_cast<Places*>(place + c) = sum;
+  }
+}
+
+}  // namespace
+
+extern const SumKernels kSumKernels;
+const SumKernels kSumKernels{find_places};
+
+}  // namespace coordreq::COORDREQ_KERNEL_NAMESPACE

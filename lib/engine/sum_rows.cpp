@@ -1,0 +1,262 @@
+#include "engine/sum_rows.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "reach/counter.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Cells of a run are read in blocks of this many.
+constexpr std::int64_t kRunBlock = kLevelBlock / sizeof(std::int32_t);
+
+constexpr int kBits = TransitionTable::kFractionBits;
+
+/// More numbers than this in the runs are no small table any more.
+constexpr std::int64_t kMostRunNumbers = std::int64_t{1} << 22;
+
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// One part of a sum as the table stores it.
+struct Source {
+  const std::int64_t* lower;
+  const std::int64_t* upper;
+  std::size_t size;
+  const std::vector<std::int64_t>* state_stride;
+  const std::vector<std::int64_t>* input_stride;
+};
+
+std::vector<Source> sources(const TransitionTable& table) {
+  std::vector<Source> result{{table.base_lower.data(), table.base_upper.data(), table.base_lower.size(),
+                              &table.state_stride, &table.input_stride}};
+  for (const TransitionTerm& term : table.terms) {
+    result.push_back(
+        {term.lower.data(), term.upper.data(), term.lower.size(), &term.state_stride, &term.input_stride});
+  }
+  return result;
+}
+
+}  // namespace
+
+/// Takes a table apart into what varies along rows and what does not.
+class SumRows::Builder {
+ public:
+  Builder(const Abstraction& abstraction, const TransitionTable& table, std::size_t state)
+      : grid_(abstraction.grid), inputs_(abstraction.inputs), table_(table), state_(state) {
+    for (const Source& source : sources(table))
+      ((*source.state_stride)[last()] != 0 ? along_ : apart_).push_back(source);
+  }
+
+  [[nodiscard]] std::optional<SumRows> build() {
+    if (along_.empty()) return std::nullopt;
+    rows_.length_ = grid_.row_length();
+    rows_.run_stride_ = (rows_.length_ + kRunBlock - 1) / kRunBlock * kRunBlock;
+    number_rows();
+    lay_out_runs();
+    if (rows_.size_ > std::int64_t{UINT32_MAX} || runs_.size() > kMostRunNumbers / rows_.run_stride_)
+      return std::nullopt;
+    add_up_runs();
+    rows_.run_strides_ = strides(run_state_stride_, run_input_stride_);
+    for (const Source& source : apart_) {
+      rows_.parts_.push_back(
+          {source.lower, source.upper, strides(*source.state_stride, *source.input_stride)});
+    }
+    rows_.find_bounds();
+    rows_.find_widths(table_);
+    return std::move(rows_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t last() const { return grid_.size() - 1; }
+
+  void number_rows() {
+    for (const std::int32_t j : table_.inputs) rows_.combinations_ *= inputs_[at(j)].count();
+    rows_.size_ = rows_.combinations_;
+    for (const std::int32_t j : table_.states) {
+      if (at(j) == last()) continue;
+      if (table_.shift && at(j) == state_) rows_.own_ = rows_.counts_.size();
+      rows_.counts_.push_back(grid_[at(j)].count);
+      rows_.size_ *= grid_[at(j)].count;
+    }
+  }
+
+  /// Runs are told apart by the variables that some part uses which varies along the row.
+  void lay_out_runs() {
+    std::vector<std::int64_t> counts;
+    const auto is_used = [&](std::size_t i, auto strides) {
+      return std::any_of(along_.begin(), along_.end(),
+                         [&](const Source& s) { return (*(s.*strides))[i] != 0; });
+    };
+    for (const std::int32_t j : table_.states) {
+      if (at(j) == last() || !is_used(at(j), &Source::state_stride)) continue;
+      run_states_.push_back(at(j));
+      counts.push_back(grid_[at(j)].count);
+    }
+    for (const std::int32_t j : table_.inputs) {
+      if (!is_used(at(j), &Source::input_stride)) continue;
+      run_inputs_.push_back(at(j));
+      counts.push_back(inputs_[at(j)].count());
+    }
+    runs_ = Counter(counts);
+    run_state_stride_.assign(grid_.size(), 0);
+    run_input_stride_.assign(inputs_.size(), 0);
+    std::int64_t stride = 1;
+    for (std::size_t v = counts.size(); v-- > 0;) {
+      const bool is_state = v < run_states_.size();
+      (is_state ? run_state_stride_[run_states_[v]]
+                : run_input_stride_[run_inputs_[v - run_states_.size()]]) = stride;
+      stride *= counts[v];
+    }
+  }
+
+  void add_up_runs() {
+    do {
+      // Beyond the row its last cell again: blocks are read as a whole.
+      for (std::int64_t c = 0; c < rows_.run_stride_; ++c) add_up_cell(std::min(c, rows_.length_ - 1));
+    } while (runs_.next());
+  }
+
+  void add_up_cell(std::int64_t cell) {
+    const std::int64_t own = table_.shift && state_ == last() ? cell << kBits : 0;
+    std::int64_t lower = own;
+    std::int64_t upper = own;
+    for (const Source& source : along_) {
+      std::int64_t place = cell * (*source.state_stride)[last()];
+      std::size_t v = 0;
+      for (const std::size_t j : run_states_) place += runs_.indices()[v++] * (*source.state_stride)[j];
+      for (const std::size_t j : run_inputs_) place += runs_.indices()[v++] * (*source.input_stride)[j];
+      lower += source.lower[place];
+      upper += source.upper[place];
+    }
+    rows_.lower_.add(lower);
+    rows_.upper_.add(upper);
+  }
+
+  /// What the variables that number the rows add to a place, given its strides by state and by input.
+  [[nodiscard]] Strides strides(const std::vector<std::int64_t>& of_state,
+                                const std::vector<std::int64_t>& of_input) const {
+    Strides result;
+    for (const std::int32_t j : table_.states) {
+      if (at(j) != last()) result.state.push_back(of_state[at(j)]);
+    }
+    std::vector<std::int64_t> counts;
+    for (const std::int32_t j : table_.inputs) counts.push_back(inputs_[at(j)].count());
+    Counter inputs(counts);
+    do {
+      std::int64_t offset = 0;
+      for (std::size_t v = 0; v < counts.size(); ++v)
+        offset += inputs.indices()[v] * of_input[at(table_.inputs[v])];
+      result.input.push_back(offset);
+    } while (inputs.next());
+    return result;
+  }
+
+  const UniformGrid& grid_;
+  const InputSpace& inputs_;
+  const TransitionTable& table_;
+  std::size_t state_;
+  std::vector<Source> along_, apart_;
+  std::vector<std::size_t> run_states_, run_inputs_;
+  std::vector<std::int64_t> run_state_stride_, run_input_stride_;
+  Counter runs_{{}};
+  SumRows rows_;
+};
+
+std::optional<SumRows> SumRows::make(const Abstraction& abstraction, const TransitionTable& table,
+                                     std::size_t state) {
+  if (!table.is_sum() || abstraction.grid[state].periodic()) return std::nullopt;
+  return Builder(abstraction, table, state).build();
+}
+
+void SumRows::SplitRuns::add(std::int64_t number) {
+  whole.push_back(static_cast<std::int32_t>(number >> kBits));
+  fraction.push_back(static_cast<std::uint32_t>(static_cast<std::uint64_t>(number)));
+}
+
+std::int64_t SumRows::SplitRuns::operator[](std::size_t i) const {
+  return (std::int64_t{whole[i]} << kBits) + fraction[i];
+}
+
+void SumRows::find_bounds() {
+  for (std::size_t first = 0; first < lower_.whole.size(); first += static_cast<std::size_t>(run_stride_)) {
+    Bounds& bounds = bounds_.emplace_back(Bounds{INT64_MAX, INT64_MIN, INT64_MAX, INT64_MIN});
+    for (std::int64_t c = 0; c < length_; ++c) {
+      const std::int64_t lower = lower_[first + static_cast<std::size_t>(c)];
+      const std::int64_t upper = upper_[first + static_cast<std::size_t>(c)];
+      bounds.least = std::min(bounds.least, lower);
+      bounds.greatest = std::max(bounds.greatest, upper);
+      bounds.least_offset = std::min(bounds.least_offset, lower - (c << kBits));
+      bounds.greatest_offset = std::max(bounds.greatest_offset, upper - (c << kBits));
+    }
+  }
+}
+
+/// floor(a + d) - floor(a) is floor(d) or one more, whatever a is; d is a sum of one difference a part.
+void SumRows::find_widths(const TransitionTable& table) {
+  std::int64_t least = 0;
+  std::int64_t greatest = 0;
+  for (const Source& source : sources(table)) {
+    std::int64_t low = INT64_MAX;
+    std::int64_t high = 0;
+    for (std::size_t i = 0; i < source.size; ++i) {
+      low = std::min(low, source.upper[i] - source.lower[i]);
+      high = std::max(high, source.upper[i] - source.lower[i]);
+    }
+    least += low;
+    greatest += high;
+  }
+  widths_ = TransitionTable::sum_range(least, greatest);
+  ++widths_.last;
+}
+
+IndexRange SumRows::hull(const Row& row) const {
+  const Bounds& bounds = bounds_[row.run];
+  return TransitionTable::sum_range(row.lower + bounds.least, row.upper + bounds.greatest);
+}
+
+IndexRange SumRows::offset_hull(const Row& row) const {
+  const Bounds& bounds = bounds_[row.run];
+  return TransitionTable::sum_range(row.lower + bounds.least_offset, row.upper + bounds.greatest_offset);
+}
+
+std::uint64_t SumRows::bytes() const {
+  return (lower_.whole.size() + upper_.whole.size()) * sizeof(std::int64_t);
+}
+
+SumRows::Reader::Reader(const SumRows& rows) : rows_(&rows), base_(rows.parts_.size()) {}
+
+SumRows::Row SumRows::Reader::row(std::uint32_t number) {
+  const std::int64_t choice = number / rows_->combinations_;
+  const auto combination = static_cast<std::size_t>(number - choice * rows_->combinations_);
+  if (choice != choice_) {
+    choice_ = choice;
+    std::fill(base_.begin(), base_.end(), 0);
+    run_base_ = 0;
+    own_ = 0;
+    std::int64_t rest = choice;
+    for (std::size_t v = rows_->counts_.size(); v-- > 0;) {
+      const std::int64_t index = rest % rows_->counts_[v];
+      rest /= rows_->counts_[v];
+      for (std::size_t p = 0; p < base_.size(); ++p) base_[p] += index * rows_->parts_[p].strides.state[v];
+      run_base_ += index * rows_->run_strides_.state[v];
+      if (v == rows_->own_) own_ = index << kBits;
+    }
+  }
+  Row row{.lower = own_, .upper = own_};
+  for (std::size_t p = 0; p < base_.size(); ++p) {
+    const Part& part = rows_->parts_[p];
+    const std::int64_t place = base_[p] + part.strides.input[combination];
+    row.lower += part.lower[place];
+    row.upper += part.upper[place];
+  }
+  row.run = static_cast<std::size_t>(run_base_ + rows_->run_strides_.input[combination]);
+  const std::size_t first = row.run * static_cast<std::size_t>(rows_->run_stride_);
+  row.run_lower = rows_->lower_.row(first);
+  row.run_upper = rows_->upper_.row(first);
+  return row;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/sum_kernels.hpp"
+#include "reach/abstraction.hpp"
+
+namespace coordreq {
+
+/// The ranges of one state along rows, added up when they are read, from a table that is a sum.
+///
+/// Cut into segments, such a row falls into a dozen pieces, and hardly two rows are alike: where a motion is
+/// coupled (a turn moves x by a multiple of y) there would be a slice for every row and every joint input.
+/// The sums themselves are small tables.
+///
+/// A row is one *run* (what varies along it) plus parts that are the same for all its cells. Rows are
+/// numbered as in RowSlices: row-major over the states in use without the last, then the inputs in use.
+class SumRows {
+ public:
+  /// Nothing if the table is no sum, does not vary along the row but by a shift, or if its state wraps round.
+  [[nodiscard]] static std::optional<SumRows> make(const Abstraction& abstraction,
+                                                   const TransitionTable& table, std::size_t state);
+
+  /// Ends of the ranges of a row: cell c goes to [(lower + run_lower[c]) >> kFractionBits, likewise upper].
+  struct Row {
+    SplitRow run_lower;
+    SplitRow run_upper;
+    std::int64_t lower = 0;
+    std::int64_t upper = 0;
+    std::size_t run = 0;  ///< number of the run
+  };
+
+  /// Adds up rows, one after the other. One object a thread.
+  class Reader {
+   public:
+    /// REQUIRES: `rows` outlives this object.
+    explicit Reader(const SumRows& rows);
+    [[nodiscard]] Row row(std::uint32_t number);
+
+   private:
+    const SumRows* rows_;
+    std::int64_t choice_ = -1;        ///< of states, that the bases below belong to
+    std::vector<std::int64_t> base_;  ///< by part
+    std::int64_t run_base_ = 0;
+    std::int64_t own_ = 0;  ///< the state's own index, for a shift
+  };
+
+  /// Number of all rows, a multiple of combinations().
+  [[nodiscard]] std::int64_t size() const { return size_; }
+  /// Joint inputs in use.
+  [[nodiscard]] std::int64_t combinations() const { return combinations_; }
+  /// No range has fewer cells than first + 1, none more than last + 1.
+  [[nodiscard]] IndexRange widths() const { return widths_; }
+  /// A range that holds those of all cells of a row: of indices, or of offsets from the cell's own index.
+  [[nodiscard]] IndexRange hull(const Row& row) const;
+  [[nodiscard]] IndexRange offset_hull(const Row& row) const;
+  [[nodiscard]] std::uint64_t bytes() const;
+
+ private:
+  /// Numbers of 64 bits in halves, as SumKernels take them; each run with room for whole blocks.
+  struct SplitRuns {
+    std::vector<std::int32_t> whole;
+    std::vector<std::uint32_t> fraction;
+    void add(std::int64_t number);
+    [[nodiscard]] std::int64_t operator[](std::size_t i) const;
+    [[nodiscard]] SplitRow row(std::size_t first) const {
+      return {whole.data() + first, fraction.data() + first};
+    }
+  };
+  struct Strides {
+    std::vector<std::int64_t> state;  ///< by state in use but the last one
+    std::vector<std::int64_t> input;  ///< by joint input in use: the offset
+  };
+  struct Part {
+    const std::int64_t* lower;
+    const std::int64_t* upper;
+    Strides strides;
+  };
+  /// Least and greatest of what a run adds.
+  struct Bounds {
+    std::int64_t least, greatest;                ///< of lower, of upper
+    std::int64_t least_offset, greatest_offset;  ///< the same less the cell's own index
+  };
+
+  class Builder;
+
+  void find_bounds();
+  void find_widths(const TransitionTable& table);
+
+  std::int64_t length_ = 0;
+  std::int64_t run_stride_ = 0;  ///< length_ and a block, rounded up to whole blocks
+  SplitRuns lower_, upper_;
+  Strides run_strides_;
+  std::vector<Bounds> bounds_;        ///< by run
+  std::vector<Part> parts_;           ///< views of the table
+  std::vector<std::int64_t> counts_;  ///< of the states in use but the last one
+  std::size_t own_ = SIZE_MAX;        ///< which of them is the state's own, of a shift
+  std::int64_t combinations_ = 1;
+  std::int64_t size_ = 1;
+  IndexRange widths_;
+};
+
+}  // namespace coordreq

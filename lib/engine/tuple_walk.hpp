@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/action_groups.hpp"
+
+namespace coordreq {
+
+/// Visits all choices of one candidate group a class in one row, the last class fastest. Keeps its memory
+/// from row to row. One object a thread.
+class TupleWalk {
+ public:
+  /// Groups of each class to choose from.
+  using Candidates = std::vector<std::span<const std::uint32_t>>;
+
+  /// Stands at the first choice. REQUIRES: no class is without a candidate; the arguments outlive the walk.
+  void begin(const ActionGrouping& grouping, const RowPlace& place, const RowGroups& groups,
+             const Candidates& candidates);
+  /// @returns false after the last choice
+  bool next();
+
+  /// Group chosen in class c.
+  [[nodiscard]] std::uint32_t chosen(std::size_t c) const { return candidates_[c][position_[c]]; }
+  /// Numbers of the slices, one for each of RowEngine::slices(), for PostReader::minimum.
+  [[nodiscard]] std::span<const std::uint32_t> slice_ids();
+  /// Allowed cells of the row; empty if everything is allowed.
+  [[nodiscard]] ConstRow allowed() const;
+
+ private:
+  void add_up(std::size_t from_class);
+
+  const ActionGrouping* grouping_ = nullptr;
+  Candidates candidates_;
+  std::size_t sources_ = 0;                        ///< tables of slices, and one more if there is `allow`
+  std::vector<std::vector<std::int64_t>> offset_;  ///< [class][position of the candidate * sources_ + source]
+  std::vector<std::int64_t> sum_;                  ///< [classes added up * sources_ + source], bases first
+  std::vector<std::size_t> position_;
+  std::vector<std::uint32_t> ids_;
+};
+
+/// Which of the groups of each class are worth a look.
+enum class GroupChoice : std::uint8_t { minimal, maximal, all };
+void choose_groups(const RowGroups& groups, GroupChoice choice, TupleWalk::Candidates& candidates);
+
+}  // namespace coordreq

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/thread_team.hpp"
+#include "engine/post_reader.hpp"
+#include "engine/row_hull.hpp"
+#include "engine/wave_watch.hpp"
+
+namespace coordreq {
+
+/// How much work a fixed point took. The same whatever the number of threads.
+struct WaveCounts {
+  std::int64_t sweeps = 0;
+  std::int64_t rows_visited = 0;  ///< rows whose levels were worked out, again each time
+  std::int64_t rows_skipped =
+      0;  ///< rows whose levels can still sink, passed over as nothing near them had changed
+
+  void add(const WaveCounts& other) {
+    sweeps += other.sweeps;
+    rows_visited += other.rows_visited;
+    rows_skipped += other.rows_skipped;
+  }
+};
+
+/// The least of the levels that a row's cells can go to, under the worst or best actions; what it is the wave
+/// is told.
+template <class Level>
+class RowOperator {
+ public:
+  virtual ~RowOperator() = default;
+  /// Writes to `next` (whole blocks) for each cell x of the row the greatest i such that x is in op(Z) for
+  /// the first i sets Z; Z_i = {y : level(y) > i}. Monotone in the levels. Cells with old[c] = 0 do not
+  /// count.
+  /// @param old present levels, 0 in lanes beyond the row
+  /// @returns false if nothing is lower than it was; `next` is then not looked at
+  virtual bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
+                           int worker) = 0;
+};
+
+/// The greatest solution of level(x) = 1 + op(level)(x) below the given levels, a level above `limit`
+/// counting as kTop. That is the level sequence of the synchronous iteration Z <- Z n op(Z), by Knaster and
+/// Tarski: op is monotone, so the order in which rows are worked out does not matter.
+///
+/// Rows are therefore swept in batches, to and fro over the grid, each batch seeing what those before it have
+/// found: levels travel through the whole grid in one sweep where motion is one way, instead of one
+/// step a sweep. A row is looked at again only after a row that its posts can meet has changed.
+/// REQUIRES: 1 + op(levels) is nowhere above the given levels, so that they only ever sink.
+/// @param settled [row] not 0 where 1 + op(levels) is known to be the given levels: such a row is not looked
+/// at
+///   before a row that its posts can meet has changed. Empty: nothing is known
+/// @param watch its `resumed` is not looked at
+template <class Level>
+WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
+                    const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,
+                    ThreadTeam& team);
+
+}  // namespace coordreq

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "engine/level_map.hpp"
+#include "engine/row_bytes.hpp"
+
+namespace coordreq {
+
+/// How far the work on a fixed point has come.
+struct WaveStep {
+  std::int64_t sweep = 0;      ///< number of the sweep under way
+  std::int64_t visited = 0;    ///< rows that it has worked out so far
+  std::int64_t rows_left = 0;  ///< rows that it has not come to yet, of those whose cells can still be lost
+  std::int64_t rows = 0;       ///< all of those
+  /// The greatest i such that the first i sets of the sequence (see RowOperator) are known to be final: no
+  /// cell will have another level up to i than it has now. -1: nothing is known.
+  std::int64_t layer = -1;
+  /// What the work can be taken up from later; empty where it is not at such a point.
+  std::span<const RowBytes> state;
+};
+
+/// Looks on while a fixed point is worked out, and says where to take up work that was broken off.
+struct WaveWatch {
+  /// Told often, between two pieces of work, by the thread that asked for the fixed point; may be empty. What
+  /// it throws ends the work.
+  std::function<void(const WaveStep&)> step;
+  /// Levels that `step` has been shown once, under the same problem; taken away. Null: begin at the start.
+  ///
+  /// The result is the same. At any step the levels L lie above the greatest solution G, for they began above
+  /// it and only sink by level(x) <- 1 + op(level)(x), under which nothing above G gets below it. And
+  /// 1 + op(L) <= L: it holds at the start, and where a row has sunk to 1 + op(L), op of the lower levels is
+  /// nowhere higher than it was. So L is as good a start as any, however much of it a sweep had seen, if
+  /// every row is looked at again.
+  LevelMap* resumed = nullptr;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/uniform_grid.hpp"
+
+namespace coordreq {
+
+/// A box of cells: the grid indices first[i], ..., first[i] + count[i] - 1 of each dimension i. Arrays over
+/// it are row-major, the last dimension fastest.
+struct CellBlock {
+  std::vector<std::int64_t> first;
+  std::vector<std::int64_t> count;
+  /// Number of cells.
+  [[nodiscard]] std::int64_t cells() const;
+};
+
+[[nodiscard]] CellBlock all_cells(const UniformGrid& grid);
+/// REQUIRES: 0 <= cell < grid.cells().
+[[nodiscard]] CellBlock one_cell(const UniformGrid& grid, std::int64_t cell);
+
+/// The cells with linear indices begin, ..., end - 1 as at most 2 * grid.size() - 1 blocks, which one after
+/// the other hold them in that order. REQUIRES: 0 <= begin <= end <= grid.cells().
+[[nodiscard]] std::vector<CellBlock> blocks_of_stretch(const UniformGrid& grid, std::int64_t begin,
+                                                       std::int64_t end);
+
+}  // namespace coordreq

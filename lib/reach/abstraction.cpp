@@ -1,0 +1,92 @@
+#include "reach/abstraction.hpp"
+
+#include <algorithm>
+
+#include "reach/counter.hpp"
+
+namespace coordreq {
+namespace {
+
+IndexRange read(const Abstraction& a, const TransitionTable& table, std::size_t state, std::int64_t x,
+                std::int64_t u) {
+  return table.range(
+      state, [&](std::size_t s) { return a.grid.index(x, s); },
+      [&](std::size_t s) { return a.inputs.index(u, s); });
+}
+
+}  // namespace
+
+bool TransitionTable::has_term(std::size_t state) const {
+  return std::any_of(terms.begin(), terms.end(), [&](const TransitionTerm& term) {
+    return static_cast<std::size_t>(term.state) == state;
+  });
+}
+
+std::uint64_t TransitionTable::bytes() const {
+  std::uint64_t numbers = base_lower.size() + base_upper.size();
+  for (const TransitionTerm& term : terms) numbers += term.lower.size() + term.upper.size();
+  return entries.size() * sizeof(IndexRange) + numbers * sizeof(std::int64_t);
+}
+
+IndexRange Abstraction::raw(std::size_t i, std::int64_t x, std::int64_t u) const {
+  return read(*this, tables[i], i, x, u);
+}
+
+ResolvedRange Abstraction::resolved(std::size_t i, std::int64_t x, std::int64_t u) const {
+  return resolve(raw(i, x, u), grid[i].count, grid[i].below, grid[i].above);
+}
+
+IndexRange Abstraction::raw_tube(std::size_t i, std::int64_t x, std::int64_t u) const {
+  return read(*this, tubes[i], i, x, u);
+}
+
+ResolvedRange Abstraction::resolved_tube(std::size_t i, std::int64_t x, std::int64_t u) const {
+  return resolve(raw_tube(i, x, u), grid[i].count, grid[i].below, grid[i].above);
+}
+
+std::int64_t lay_out(TransitionTable& table, std::size_t state, const UniformGrid& grid,
+                     const InputSpace& inputs) {
+  table.state_stride.assign(grid.size(), 0);
+  table.input_stride.assign(inputs.size(), 0);
+  std::int64_t entries = 1;
+  for (auto it = table.inputs.rbegin(); it != table.inputs.rend(); ++it) {
+    const auto j = static_cast<std::size_t>(*it);
+    table.input_stride[j] = entries;
+    entries *= inputs[j].count();
+  }
+  for (auto it = table.states.rbegin(); it != table.states.rend(); ++it) {
+    const auto j = static_cast<std::size_t>(*it);
+    if ((table.shift && j == state) || table.has_term(j)) continue;
+    table.state_stride[j] = entries;
+    entries *= grid[j].count;
+  }
+  return entries;
+}
+
+TransitionTable written_out(const Abstraction& abstraction, std::size_t state) {
+  const TransitionTable& table = abstraction.tables[state];
+  if (!table.shift && !table.is_sum()) return table;
+  TransitionTable result{.states = table.states, .inputs = table.inputs};
+  result.entries.reserve(
+      static_cast<std::size_t>(lay_out(result, state, abstraction.grid, abstraction.inputs)));
+  std::vector<std::int64_t> counts;
+  std::vector<std::size_t> of_state(abstraction.grid.size());  // positions among the counts
+  std::vector<std::size_t> of_input(abstraction.inputs.size());
+  for (const std::int32_t j : table.states) {
+    of_state[static_cast<std::size_t>(j)] = counts.size();
+    counts.push_back(abstraction.grid[static_cast<std::size_t>(j)].count);
+  }
+  for (const std::int32_t j : table.inputs) {
+    of_input[static_cast<std::size_t>(j)] = counts.size();
+    counts.push_back(abstraction.inputs[static_cast<std::size_t>(j)].count());
+  }
+  Counter choice(counts);
+  do {
+    result.entries.push_back(table.range(
+        state, [&](std::size_t s) { return choice.indices()[of_state[s]]; },
+        [&](std::size_t s) { return choice.indices()[of_input[s]]; }));
+  } while (choice.next());
+  return result;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/pieces.hpp"
+#include "reach/abstraction.hpp"
+#include "reach/affine_dynamics.hpp"
+#include "reach/counter.hpp"
+#include "reach/index_form.hpp"
+
+namespace coordreq {
+
+/// What SampledRow says of whole cells.
+struct AffinePost {
+  const UniformGrid& grid;
+  const std::vector<std::int32_t>& moving;  ///< states that the row has coefficients of
+  std::size_t state;                        ///< whose value the row is
+  bool shift = false;                       ///< the table is one of a shift
+
+  /// Lower or upper end of the values from a cell, widened by the measurement errors of the states it starts
+  /// from, plus `more`: in units of the grid step, the first grid point being 0, as a form of the cell's
+  /// indices.
+  [[nodiscard]] IndexForm end_form(const SampledRow& row, bool upper, const Rational& more) const;
+
+  /// The values from one piece of each moving state.
+  [[nodiscard]] Piece from_pieces(const SampledRow& row, const std::vector<Piece>& pieces) const;
+
+  /// How many indices of a state are filled in: of a shift only 0 of its own, so that raw indices are
+  /// relative.
+  [[nodiscard]] std::int64_t filled_count(std::size_t source) const {
+    return shift && source == state ? 1 : grid[source].count;
+  }
+
+  /// A shifted cell need not be cut at its seam, for all goes round with it.
+  [[nodiscard]] std::vector<Piece> pieces_of(std::size_t source, std::int64_t k) const {
+    const GridDimension& dimension = grid[source];
+    if (!shift || source != state) return pieces(dimension, k);
+    const Rational reach = dimension.radius() + dimension.measurement_error;
+    return {{dimension.point(k) - reach, dimension.point(k) + reach}};
+  }
+
+  /// Calls `visit` for every choice of one piece of each moving state of a cell.
+  template <class Visit>
+  void for_each_choice_of_pieces(const std::vector<std::int64_t>& cell, const Visit& visit) const {
+    std::vector<std::vector<Piece>> parts;
+    std::vector<std::int64_t> counts;
+    for (std::size_t j = 0; j < cell.size(); ++j) {
+      parts.push_back(pieces_of(static_cast<std::size_t>(moving[j]), cell[j]));
+      counts.push_back(static_cast<std::int64_t>(parts.back().size()));
+    }
+    Counter choice(counts);
+    std::vector<Piece> chosen(cell.size());
+    do {
+      for (std::size_t j = 0; j < cell.size(); ++j) {
+        chosen[j] = parts[j][static_cast<std::size_t>(choice.indices()[j])];
+      }
+      visit(chosen);
+    } while (choice.next());
+  }
+
+  /// Fills the entries of all cells from position `base` on; `entry` is called with the indices of the moving
+  /// states.
+  template <class Entry>
+  void fill(TransitionTable& table, std::int64_t base, const Entry& entry) const {
+    std::vector<std::int64_t> counts;
+    for (const std::int32_t j : moving) counts.push_back(filled_count(static_cast<std::size_t>(j)));
+    Counter cell(counts);
+    do {
+      std::int64_t position = base;
+      for (std::size_t j = 0; j < counts.size(); ++j) {
+        position += cell.indices()[j] * table.state_stride[static_cast<std::size_t>(moving[j])];
+      }
+      table.entries[static_cast<std::size_t>(position)] = entry(cell.indices());
+    } while (cell.next());
+  }
+};
+
+}  // namespace coordreq

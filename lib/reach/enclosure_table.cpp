@@ -1,0 +1,206 @@
+#include "reach/enclosure_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/error.hpp"
+#include "expression/place.hpp"
+#include "model/pieces.hpp"
+#include "reach/box_choices.hpp"
+#include "reach/cells_meeting.hpp"
+#include "reach/shift.hpp"
+#include "reach/state_enclosure.hpp"
+
+namespace coordreq {
+namespace {
+
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+constexpr IndexRange kEverywhere{std::numeric_limits<std::int32_t>::min(),
+                                 std::numeric_limits<std::int32_t>::max()};
+
+/// The part of one state: its table and maybe its tube, and what an enclosure means for them.
+class EnclosureTable {
+ public:
+  EnclosureTable(const ProblemSpec& spec, const Dependencies& dependencies, Abstraction& abstraction,
+                 const BoxChoices& choices, std::size_t state, bool differences)
+      : spec_(spec),
+        choices_(choices),
+        target_(abstraction.grid[state]),
+        table_(abstraction.tables[state]),
+        tube_(abstraction.tubes.empty() ? nullptr : &abstraction.tubes[state]),
+        state_(state),
+        differences_(differences) {
+    table_.states = dependencies.moving;
+    table_.states.insert(table_.states.end(), dependencies.parameters.begin(), dependencies.parameters.end());
+    std::sort(table_.states.begin(), table_.states.end());
+    table_.inputs = dependencies.inputs;
+    table_.shift = is_shift(spec, dependencies, state);
+    table_.entries.resize(
+        static_cast<std::size_t>(lay_out(table_, state, abstraction.grid, abstraction.inputs)));
+    if (tube_ != nullptr) *tube_ = table_;
+  }
+
+  [[nodiscard]] std::size_t state() const { return state_; }
+  [[nodiscard]] const TransitionTable& table() const { return table_; }
+
+  /// Says where the state itself is among the choices; only a tube asks for it, and not of differences.
+  void set_own(std::size_t place) {
+    own_ = place;
+    if (tube_ == nullptr) return;
+    for (std::int64_t k = 0; k < target_.count; ++k) own_pieces_.push_back(pieces(target_, k));
+  }
+
+  /// Widens the entry by an enclosure of one choice of pieces.
+  void add(std::int64_t entry, bool first, const StateEnclosure& enclosure,
+           const std::vector<std::int64_t>& choice, const std::vector<std::int64_t>& piece) {
+    const StateEnclosure::Result result = enclosure.result(state_);
+    const auto widen = [&](TransitionTable& table, IndexRange next) {
+      IndexRange& range = table.entries[static_cast<std::size_t>(entry)];
+      range = first ? next : merge_ranges(range, next, target_);
+    };
+    widen(table_, indices(result, enclosure, choice));
+    if (tube_ != nullptr) widen(*tube_, tube_indices(result, choice, piece));
+  }
+
+ private:
+  [[nodiscard]] IndexRange indices(const StateEnclosure::Result& result, const StateEnclosure& enclosure,
+                                   const std::vector<std::int64_t>& choice) const {
+    if (result.status != StateEnclosure::Status::ok) return indices_of_failure(enclosure, result, choice);
+    const Interval& value = result.value;
+    if (!std::isfinite(value.lower) || !std::isfinite(value.upper)) {
+      throw SpecError(fmt::format("the next value of '{}', {}, has no bound{}", target_.name,
+                                  equation_text(state_), choices_.place(choice)),
+                      where());
+    }
+    if (target_.discrete) return index_of_point(value, choice);
+    if (differences_) return cells_meeting_shifted(target_, spec_.abstraction.cells, value);
+    return cells_meeting(target_, spec_.abstraction.cells, value);
+  }
+
+  /// From both bounds: where the state is, and how far it can have moved from the exact piece it started in.
+  [[nodiscard]] IndexRange tube_indices(const StateEnclosure::Result& result,
+                                        const std::vector<std::int64_t>& choice,
+                                        const std::vector<std::int64_t>& piece) const {
+    if (result.status != StateEnclosure::Status::ok) return kEverywhere;  // and so is its post
+    if (differences_) {
+      return cells_covering_shifted(target_, intersect(result.tube, result.drift).value_or(result.tube));
+    }
+    const Piece& start =
+        own_pieces_[static_cast<std::size_t>(choice[own_])][static_cast<std::size_t>(piece[own_])];
+    const Rational from_below = start.lower + exact(result.drift.lower);
+    const Rational from_above = start.upper + exact(result.drift.upper);
+    return cells_covering(target_, std::max(from_below, exact(result.tube.lower)),
+                          std::min(from_above, exact(result.tube.upper)));
+  }
+
+  /// A solution without an enclosure is no harm where its state has left the domain through an unsafe side by
+  /// then.
+  [[nodiscard]] IndexRange indices_of_failure(const StateEnclosure& enclosure,
+                                              const StateEnclosure::Result& result,
+                                              const std::vector<std::int64_t>& choice) const {
+    if (result.left_unsafely) return kEverywhere;
+    const std::string& name = spec_.states[result.culprit].name;
+    const std::string equation = equation_text(result.culprit);
+    const std::string pointer = "/dynamics/equations/" + name;
+    if (result.status == StateEnclosure::Status::undefined) {
+      const std::string reason = enclosure.reason(result);
+      throw SpecError(fmt::format("the equation of '{}', {}, is not defined everywhere{}{}{}", name, equation,
+                                  choices_.place(choice), reason.empty() ? "" : ": ", reason),
+                      pointer);
+    }
+    throw SpecError(fmt::format("the solution of '{}', with the equation {}, may escape to infinity within "
+                                "one period{}, or change too fast to be followed that long",
+                                name, equation, choices_.place(choice)),
+                    pointer);
+  }
+
+  [[nodiscard]] IndexRange index_of_point(const Interval& value,
+                                          const std::vector<std::int64_t>& choice) const {
+    const Rational origin = differences_ ? Rational(0) : target_.first;
+    const Rational index = (exact(value.lower) - origin) / target_.step;
+    if (!value.is_point() || !is_integer(index)) {
+      throw SpecError(
+          fmt::format("the next value of the discrete state '{}' is in [{}, {}]{}, expected one of {} + k * "
+                      "{} with an integer k",
+                      target_.name, value.lower, value.upper, choices_.place(choice), to_text(target_.first),
+                      to_text(target_.step)),
+          where());
+    }
+    const std::int32_t k = saturate_index(floor_to_int(index));
+    return {k, k};
+  }
+
+  [[nodiscard]] std::string equation_text(std::size_t state) const {
+    return quoted(spec_.dynamics.equations[state].text);
+  }
+
+  [[nodiscard]] std::string where() const { return "/dynamics/equations/" + target_.name; }
+
+  const ProblemSpec& spec_;
+  const BoxChoices& choices_;
+  const GridDimension& target_;
+  TransitionTable& table_;
+  TransitionTable* tube_;  ///< null if not asked for
+  std::size_t state_;
+  bool differences_;                            ///< enclosures are of the next value less the present one
+  std::size_t own_ = 0;                         ///< its place among the choices, unless these are differences
+  std::vector<std::vector<Piece>> own_pieces_;  ///< [index][piece], exactly
+};
+
+}  // namespace
+
+void build_enclosure_tables(const ProblemSpec& spec, const Dependencies& dependencies,
+                            Abstraction& abstraction, const std::vector<std::size_t>& states,
+                            ThreadTeam& team) {
+  const StateEnclosure enclosure(spec, dependencies, states.front());
+  BoxChoices choices;
+  std::vector<EnclosureTable> tables;
+  for (const std::size_t state : states) {
+    tables.emplace_back(spec, dependencies, abstraction, choices, state, enclosure.shifts());
+  }
+  const TransitionTable& layout = tables.front().table();
+  std::vector<std::int64_t> strides;
+  for (const std::int32_t j : layout.states) {
+    const bool own_of_shift = layout.shift && at(j) == states.front();
+    if (own_of_shift && enclosure.shifts()) continue;
+    for (EnclosureTable& table : tables) {
+      if (table.state() == at(j)) table.set_own(strides.size());
+    }
+    const GridDimension& dimension = abstraction.grid[at(j)];
+    choices.add_state(dimension, spec.state_slot(at(j)), own_of_shift ? 1 : dimension.count);
+    strides.push_back(layout.state_stride[at(j)]);
+  }
+  for (const std::int32_t j : layout.inputs) {
+    choices.add_input(abstraction.inputs[at(j)], spec.input_slot(at(j)));
+    strides.push_back(layout.input_stride[at(j)]);
+  }
+
+  std::vector<StateEnclosure> enclosures(static_cast<std::size_t>(team.size()), enclosure);
+  const Counter all = choices.counter();
+  team.for_each(all.size(), 64, [&](ThreadTeam::Range range, int worker) {
+    StateEnclosure& mine = enclosures[static_cast<std::size_t>(worker)];
+    Counter choice = all;
+    choice.seek(range.begin);
+    for (std::int64_t i = range.begin; i < range.end; ++i, choice.next()) {
+      std::int64_t entry = 0;
+      for (std::size_t v = 0; v < strides.size(); ++v) entry += choice.indices()[v] * strides[v];
+      bool first = true;
+      choices.for_each_piece(choice.indices(), mine, [&](const std::vector<std::int64_t>& piece) {
+        mine.enclose();
+        for (EnclosureTable& table : tables) {
+          table.add(entry, first, mine, choice.indices(), piece);
+        }
+        first = false;
+      });
+    }
+  });
+}
+
+}  // namespace coordreq

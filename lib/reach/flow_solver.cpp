@@ -1,0 +1,231 @@
+#include "reach/flow_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace coordreq {
+namespace {
+
+/// The period is divided into at most so many parts; if one of them has no enclosure, nothing helps.
+constexpr std::uint32_t kParts = 1U << 20U;
+constexpr std::size_t kMostTries = 20000;
+/// No box of initial states may take more of them, nor much longer than a second.
+constexpr std::size_t kMostSteps = 30000;
+/// Longer steps are tried again after so many that went well.
+constexpr int kPatience = 3;
+/// Steps this small are taken although the sensitivity stays unbounded.
+constexpr std::uint32_t kSmallWithoutBound = kParts / 32;
+constexpr std::uint32_t kSmallWithoutRemainder = kParts / 4096;
+/// Seams are passed in steps as small.
+constexpr std::uint32_t kSmallOnSeam = kParts / 64;
+/// What the remainder of a step may add, relative to the width of the initial box and to the magnitude.
+constexpr double kWidthTolerance = 1e-7;
+constexpr double kMagnitudeTolerance = 1e-15;
+constexpr double kLeastTolerance = 1e-290;
+/// A state that decays faster than this within the step counts as damped without bound.
+constexpr double kStrongDecay = 8.0;
+
+double magnitude(const Interval& a) {
+  return std::max(std::fabs(a.lower), std::fabs(a.upper));
+}
+
+}  // namespace
+
+ValidatedFlow::Solver::Solver(FlowSystem system, const Interval& period)
+    : system_(std::move(system)),
+      period_(period),
+      n_(system_.equations.size()),
+      m_(system_.disturbance_slots.size()),
+      tape_(system_.equations, system_.state_slots, system_.disturbance_slots),
+      field_(system_, tape_),
+      jacobian_(system_, tape_),
+      transition_(n_, tape_.affine ? TransitionMatrix::kManyTerms : TransitionMatrix::kFewTerms),
+      sensitivity_(n_, m_),
+      taylor_(tape_),
+      nominal_(tape_, field_),
+      affine_kernel_(n_, m_),
+      wanted_(2 * n_, std::vector<End>(n_ + m_)),
+      solution_of_(2 * n_),
+      initial_(n_),
+      disturbance_(m_),
+      now_(n_),
+      box_(n_),
+      derivative_(n_),
+      next_(n_),
+      deviation_(n_),
+      damped_(n_),
+      none_held_(n_),
+      tolerance_(n_) {
+  result_.end.resize(n_);
+  result_.tube.resize(n_);
+  result_.drift.resize(n_);
+}
+
+const FlowEnclosure& ValidatedFlow::Solver::flow(std::span<const Interval> slots) {
+  begin(slots);
+  if (run_steps()) result_.end = now_;
+  return result_;
+}
+
+void ValidatedFlow::Solver::begin(std::span<const Interval> slots) {
+  field_.begin(slots);
+  jacobian_.begin(slots);
+  sensitivity_.reset();
+  step_count_ = 0;
+  for (std::size_t i = 0; i < n_; ++i) initial_[i] = field_.clipped(i, slots[system_.state_slots[i]]);
+  for (std::size_t l = 0; l < m_; ++l) disturbance_[l] = slots[system_.disturbance_slots[l]];
+  now_ = initial_;
+  solution_count_ = 0;
+  ever_stopped_ = false;
+  result_.status = FlowEnclosure::Status::ok;
+  result_.tube = initial_;
+  std::fill(result_.drift.begin(), result_.drift.end(), Interval{});
+}
+
+bool ValidatedFlow::Solver::run_steps() {
+  std::uint32_t left = kParts;
+  std::uint32_t parts = kParts;
+  int successes = 0;
+  tries_ = 0;
+  while (left > 0) {
+    parts = std::min(parts, left);
+    ++tries_;
+    const double share = static_cast<double>(parts) / kParts;
+    const auto failure = try_step(period_ * Interval{share, share}, parts > kSmallWithoutRemainder);
+    if (!failure) {
+      left -= parts;
+      finish_step(left == 0);
+      if (++successes % kPatience == 0) parts *= 2;
+      if (tries_ >= kMostSteps && left > 0) {
+        fail(FlowFailure{false, fastest()});
+        return false;
+      }
+    } else if (parts > 1 && tries_ < kMostTries) {
+      parts /= 2;
+      successes = 0;
+    } else {
+      fail(*failure);
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The state that changes most in the last step.
+std::size_t ValidatedFlow::Solver::fastest() const {
+  const auto slower = [](const Interval& a, const Interval& b) { return magnitude(a) < magnitude(b); };
+  const auto found = std::max_element(derivative_.begin(), derivative_.end(), slower);
+  return static_cast<std::size_t>(found - derivative_.begin());
+}
+
+void ValidatedFlow::Solver::fail(const FlowFailure& failure) {
+  result_.status = failure.undefined ? FlowEnclosure::Status::undefined : FlowEnclosure::Status::blows_up;
+  result_.culprit = failure.equation;
+  if (failure.undefined) result_.undefined_at.assign(field_.slots().begin(), field_.slots().end());
+  result_.end = now_;
+}
+
+FlowStep& ValidatedFlow::Solver::next_step() {
+  if (step_count_ == steps_.size()) {
+    steps_.emplace_back();
+    steps_.back().choices.resize(tape_.nodes.size());
+    steps_.back().transition.resize(n_ * n_);
+  }
+  return steps_[step_count_];
+}
+
+/// @returns why the step is too long; nothing if it is done
+std::optional<FlowFailure> ValidatedFlow::Solver::try_step(const Interval& duration, bool divisible) {
+  if (const auto failure = field_.enclose_solutions(now_, duration, box_, derivative_)) return failure;
+  if (field_.is_on_seam(box_)) return try_step_on_seam(duration);
+  FlowStep& step = next_step();
+  step.duration = duration;
+  find_damping(duration);
+  step.smooth = decide(tape_, field_.values(), step.choices) && all_free_;
+  set_tolerance();
+  if (step.smooth) {
+    taylor_.find_remainder(field_, duration, step.choices, none_held_, tolerance_, step.remainder);
+    step.smooth = step.remainder.order > 0;
+    // A singularity is better dealt with along single solutions, which are farther away from it.
+    if (!step.smooth && divisible && step.remainder.bounded) return FlowFailure{};
+  }
+  if (!append_sensitivity(duration, divisible)) return FlowFailure{};
+  ++step_count_;
+  return std::nullopt;
+}
+
+/// Where a right-hand side jumps by a whole period, all that is kept is the box and f over it.
+std::optional<FlowFailure> ValidatedFlow::Solver::try_step_on_seam(const Interval& duration) {
+  if (duration.upper * kParts > period_.upper * kSmallOnSeam) return FlowFailure{};
+  next_step().duration = duration;
+  find_damping(duration);
+  sensitivity_.lose();
+  ++step_count_;
+  return std::nullopt;
+}
+
+void ValidatedFlow::Solver::set_tolerance() {
+  for (std::size_t i = 0; i < n_; ++i) {
+    tolerance_[i] = std::max(kWidthTolerance * (initial_[i].upper - initial_[i].lower),
+                             kMagnitudeTolerance * magnitude(box_[i]) + kLeastTolerance);
+    if (tape_.affine) tolerance_[i] = kMagnitudeTolerance * magnitude(box_[i]) + kLeastTolerance;
+  }
+}
+
+void ValidatedFlow::Solver::find_damping(const Interval& duration) {
+  all_free_ = true;
+  for (std::size_t i = 0; i < n_; ++i) {
+    damped_[i] = !system_.stops.empty() && !is_free(system_.stops[i], now_[i], derivative_[i], duration);
+    all_free_ = all_free_ && !damped_[i];
+    ever_stopped_ = ever_stopped_ || damped_[i];
+  }
+}
+
+/// @returns false if a shorter step is worth trying
+bool ValidatedFlow::Solver::append_sensitivity(const Interval& duration, bool divisible) {
+  jacobian_.evaluate(box_);
+  for (std::size_t i = 0; i < n_; ++i) {
+    const double strongest = jacobian_.state()[i * n_ + i].lower * duration.upper;
+    if (strongest < -kStrongDecay) damped_[i] = true;
+  }
+  if (transition_.enclose(jacobian_.state(), duration, damped_)) {
+    sensitivity_.append(transition_, jacobian_);
+    std::copy(transition_.end().begin(), transition_.end().end(), next_step().transition.begin());
+    return true;
+  }
+  const bool small = duration.upper * kParts <= period_.upper * kSmallWithoutBound;
+  if (divisible && !small) return false;
+  sensitivity_.lose();
+  return true;
+}
+
+/// Where a component of f keeps its sign, the state moves one way, from `now_` to `next_`.
+void ValidatedFlow::Solver::finish_step(bool last) {
+  const Interval duration = steps_[step_count_ - 1].duration;
+  for (std::size_t i = 0; i < n_; ++i) {
+    next_[i] = field_.clipped(i, now_[i] + duration * derivative_[i]);
+    next_[i] = intersect(next_[i], box_[i]).value_or(next_[i]);
+  }
+  if (sensitivity_.is_bounded()) follow_extremes(last);
+  for (std::size_t i = 0; i < n_; ++i) {
+    // On the seam itself the equations see its other side: what may just have reached it must be beyond it.
+    if (field_.has_seams(i) && derivative_[i].upper > 0.0) next_[i].upper = outward::next_up(next_[i].upper);
+  }
+  for (std::size_t i = 0; i < n_; ++i) {
+    const bool one_way = derivative_[i].lower >= 0.0 || derivative_[i].upper <= 0.0;
+    result_.tube[i] = hull(result_.tube[i], one_way ? hull(now_[i], next_[i]) : box_[i]);
+    result_.drift[i] = result_.drift[i] + duration * hull(derivative_[i], Interval{});
+  }
+  now_ = next_;
+  if (!sensitivity_.is_bounded()) restart();
+}
+
+/// Forgets how the box came about and goes on from it.
+void ValidatedFlow::Solver::restart() {
+  initial_ = now_;
+  sensitivity_.reset();
+  step_count_ = 0;
+  solution_count_ = 0;
+}
+
+}  // namespace coordreq

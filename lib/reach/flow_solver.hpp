@@ -1,0 +1,108 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "reach/affine_kernel.hpp"
+#include "reach/flow_sensitivity.hpp"
+#include "reach/nominal_flow.hpp"
+#include "reach/validated_flow.hpp"
+
+namespace coordreq {
+
+/// What a sub-step of the flow leaves behind for the solutions that are followed through it.
+struct FlowStep {
+  Interval duration;
+  bool smooth = false;  ///< the remainder holds for every solution from the initial box
+  TaylorRemainder remainder;
+  Choices choices;
+  std::vector<Interval> transition;  ///< of the difference of two solutions, row-major
+};
+
+/// A solution that is followed from a corner of the boxes of initial states and of disturbances, or from the
+/// middle in some variables.
+struct FollowedSolution {
+  enum class End : std::uint8_t { any, lower, upper, middle };
+  std::vector<End> ends;     ///< states, then disturbances
+  NominalFlow::State state;  ///< after `steps_done` steps
+  std::size_t steps_done = 0;
+};
+
+/// The work behind ValidatedFlow; see there.
+class ValidatedFlow::Solver {
+ public:
+  Solver(FlowSystem system, const Interval& period);
+
+  const FlowEnclosure& flow(std::span<const Interval> slots);
+
+  [[nodiscard]] const FlowSystem& system() const { return system_; }
+  [[nodiscard]] const Interval& period() const { return period_; }
+
+ private:
+  using End = FollowedSolution::End;
+
+  // Steps (flow_solver.cpp).
+  void begin(std::span<const Interval> slots);
+  bool run_steps();
+  std::optional<FlowFailure> try_step(const Interval& duration, bool divisible);
+  std::optional<FlowFailure> try_step_on_seam(const Interval& duration);
+  void set_tolerance();
+  void find_damping(const Interval& duration);
+  bool append_sensitivity(const Interval& duration, bool divisible);
+  void finish_step(bool last);
+  void restart();
+  [[nodiscard]] std::size_t fastest() const;
+  void fail(const FlowFailure& failure);
+  FlowStep& next_step();
+
+  // Solutions that are followed (follow_extremes.cpp).
+  void set_start(FollowedSolution& solution) const;
+  void set_disturbances(const std::vector<End>& ends);
+  void restore_disturbances();
+  bool advance(const FlowStep& step, NominalFlow::State& state);
+  void advance_smoothly(const FlowStep& step, std::vector<Interval>& state);
+  bool follow(FollowedSolution& solution);
+  void choose_ends(std::size_t i, bool upper, std::vector<End>& ends) const;
+  std::size_t solution_for(const std::vector<End>& ends);
+  void follow_extremes(bool last);
+  void integrate_affine_kernels();
+  [[nodiscard]] double deviation(std::size_t i, bool upper, const std::vector<End>& ends) const;
+  void use_extreme(std::size_t i, bool upper, const FollowedSolution& solution, const std::vector<End>& ends);
+
+  FlowSystem system_;
+  Interval period_;
+  std::size_t n_;
+  std::size_t m_;
+  FlowTape tape_;
+  VectorField field_;
+  Jacobian jacobian_;
+  TransitionMatrix transition_;
+  FlowSensitivity sensitivity_;
+  TaylorStep taylor_;
+  NominalFlow nominal_;
+  AffineKernel affine_kernel_;
+
+  std::vector<FlowStep> steps_;
+  std::size_t step_count_ = 0;  ///< since the start, or since the last restart
+  std::size_t tries_ = 0;
+  std::vector<FollowedSolution> solutions_;
+  std::size_t solution_count_ = 0;
+  std::vector<std::vector<End>> wanted_;  ///< lower and upper extreme of every state: where it comes from
+  std::vector<std::size_t> solution_of_;  ///< the same: index into solutions_
+
+  std::vector<Interval> initial_;      ///< box of initial states
+  std::vector<Interval> disturbance_;  ///< their boxes
+  std::vector<Interval> now_;          ///< box of the states after the steps so far
+  std::vector<Interval> box_;          ///< during the step
+  std::vector<Interval> derivative_;
+  std::vector<Interval> next_;
+  std::vector<Interval> deviation_;
+  std::vector<bool> damped_;
+  std::vector<bool> none_held_;
+  std::vector<double> tolerance_;
+  bool all_free_ = true;       ///< no state may run into a limit in this step
+  bool ever_stopped_ = false;  ///< in an earlier one it might
+  FlowEnclosure result_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,276 @@
+#include "reach/flow_tape.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace coordreq {
+namespace {
+
+using Index = std::uint32_t;
+using Node = FlowTape::Node;
+using Rule = FlowTape::Rule;
+
+/// Powers above this are taken by the general rule, which needs a base without 0.
+constexpr int kLargestProduct = 64;
+
+/// Puts nodes on a tape, equal ones once.
+class TapeWriter {
+ public:
+  TapeWriter(FlowTape& tape, std::span<const Index> states, std::span<const Index> disturbances)
+      : tape_(tape) {
+    for (Index i = 0; i < states.size(); ++i) moving_[states[i]] = i;
+    for (const Index slot : disturbances) moving_[slot] = FlowTape::kNone;
+  }
+
+  Index write(const Program& program) {
+    std::vector<Index> place(program.nodes.size());
+    for (std::size_t i = 0; i < program.nodes.size(); ++i) {
+      const Program::Node& node = program.nodes[i];
+      if (node.op == Operator::constant) {
+        place[i] = constant(program.constants[node.a]);
+      } else if (node.op == Operator::variable) {
+        place[i] = put(node.op, node.a);
+      } else {
+        place[i] = put(node.op, place[node.a], place[node.b], place[node.c]);
+      }
+    }
+    return place.back();
+  }
+
+  [[nodiscard]] bool is_fixed(Index i) const { return degree_[i] == 0; }
+  [[nodiscard]] bool is_affine(Index i) const { return degree_[i] <= 1; }
+
+ private:
+  Index constant(const Rational& value) {
+    const auto [known, is_new] = constants_.emplace(value, static_cast<Index>(tape_.constants.size()));
+    if (is_new) tape_.constants.push_back(value);
+    return put(Operator::constant, known->second);
+  }
+
+  Index put(Operator op, Index a = 0, Index b = 0, Index c = 0) {
+    const bool leaf = op == Operator::constant || op == Operator::variable;
+    const bool unary = leaf || is_unary_function(op) || op == Operator::logical_not;
+    if (unary) b = c = 0;
+    if (op != Operator::if_else) c = 0;
+    const auto key = std::make_tuple(op, a, b, c);
+    if (const auto known = index_of_.find(key); known != index_of_.end()) return known->second;
+    const bool moving_power = op == Operator::power && !(is_fixed(a) && is_fixed(b));
+    return moving_power ? power(key) : add({op, a, b, c}, key);
+  }
+
+  using Key = std::tuple<Operator, Index, Index, Index>;
+
+  Index add(Node node, const Key& key) {
+    const auto index = static_cast<Index>(tape_.nodes.size());
+    index_of_[key] = index;
+    degree_.push_back(degree_of(node));
+    tape_.nodes.push_back(node);
+    if (degree_.back() == 0 || is_condition(node.op)) return index;
+    if (node.rule == Rule::fixed) set_rule(index);
+    return index;
+  }
+
+  /// 0: fixed, 1: at most linear, 2: anything.
+  [[nodiscard]] int degree_of(const Node& node) const {
+    if (node.op == Operator::constant || node.op == Operator::literal_true ||
+        node.op == Operator::literal_false) {
+      return 0;
+    }
+    if (node.op == Operator::variable) return moving_.contains(node.a) ? 1 : 0;
+    const int a = degree_[node.a];
+    if (node.op == Operator::negate) return a;
+    if (is_unary_function(node.op) || node.op == Operator::logical_not) return a == 0 ? 0 : 2;
+    const int b = degree_[node.b];
+    if (node.op == Operator::add || node.op == Operator::subtract) return std::max(a, b);
+    if (node.op == Operator::multiply) return std::min(a + b, 2);
+    if (node.op == Operator::divide) return b == 0 ? a : 2;
+    if (node.op == Operator::if_else) return a == 0 ? std::max(b, degree_[node.c]) : 2;
+    return a == 0 && b == 0 ? 0 : 2;
+  }
+
+  void set_rule(Index i) {
+    const Node node = tape_.nodes[i];
+    switch (node.op) {
+      case Operator::variable:
+        return rule(i, Rule::variable, moving_.at(node.a), 0);
+      case Operator::add:
+        return rule(i, Rule::sum, node.a, node.b);
+      case Operator::subtract:
+        return rule(i, Rule::difference, node.a, node.b);
+      case Operator::multiply:
+        return rule(i, Rule::product, node.a, node.b);
+      case Operator::divide:
+        return rule(i, Rule::quotient, node.a, node.b);
+      case Operator::negate:
+        return rule(i, Rule::negation, node.a, 0);
+      case Operator::square_root:
+        return rule(i, Rule::root, node.a, 0);
+      case Operator::minimum:
+      case Operator::maximum:
+      case Operator::absolute:
+      case Operator::sign:
+        return rule(i, Rule::pick, node.a, node.b);
+      case Operator::if_else:
+        return rule(i, Rule::pick, node.b, node.c);
+      case Operator::power:
+        return rule(i, Rule::power, node.a, node.b);
+      default:
+        return set_function_rule(i, node.op, node.a);
+    }
+  }
+
+  /// Functions by their differential equations, r' = q a' or q r' = a'.
+  void set_function_rule(Index i, Operator op, Index a) {
+    const auto one = [&] { return constant(Rational(1)); };
+    const auto squared = [&](Index x) { return put(Operator::multiply, x, x); };
+    switch (op) {
+      case Operator::exponential:
+        return rule(i, Rule::chain, a, i);
+      case Operator::sine:
+        return rule(i, Rule::chain, a, put(Operator::cosine, a));
+      case Operator::cosine:
+        return rule(i, Rule::chain, a, put(Operator::negate, put(Operator::sine, a)));
+      case Operator::hyperbolic_sine:
+        return rule(i, Rule::chain, a, put(Operator::hyperbolic_cosine, a));
+      case Operator::hyperbolic_cosine:
+        return rule(i, Rule::chain, a, put(Operator::hyperbolic_sine, a));
+      case Operator::tangent:
+        return rule(i, Rule::chain, a, put(Operator::add, one(), squared(i)));
+      case Operator::hyperbolic_tangent:
+        return rule(i, Rule::chain, a, put(Operator::subtract, one(), squared(i)));
+      case Operator::logarithm:
+        return rule(i, Rule::inverse_chain, a, a);
+      case Operator::arctangent:
+        return rule(i, Rule::inverse_chain, a, put(Operator::add, one(), squared(a)));
+      case Operator::arcsine:
+        return rule(i, Rule::inverse_chain, a, cosine_of_arcsine(a));
+      default:
+        return rule(i, Rule::inverse_chain, a, put(Operator::negate, cosine_of_arcsine(a)));
+    }
+  }
+
+  /// sqrt(1 - a^2).
+  Index cosine_of_arcsine(Index a) {
+    const Index square = put(Operator::multiply, a, a);
+    return put(Operator::square_root, put(Operator::subtract, constant(Rational(1)), square));
+  }
+
+  /// Integer powers as products, so that a base that contains 0 does no harm; moving exponents by exp, log.
+  Index power(const Key& key) {
+    const Index base = std::get<1>(key);
+    const Index exponent = std::get<2>(key);
+    const Node node{Operator::power, base, exponent, 0};
+    const Node by = tape_.nodes[exponent];
+    if (!is_fixed(exponent)) {
+      const Index logarithm = put(Operator::logarithm, base);
+      const Index argument = put(Operator::multiply, exponent, logarithm);
+      const Index index = add(node, key);
+      rule(index, Rule::chain, argument, index);
+      return index;
+    }
+    if (by.op == Operator::constant && is_integer(tape_.constants[by.a]) &&
+        abs(tape_.constants[by.a]) <= kLargestProduct) {
+      return integer_power(node, key, static_cast<int>(tape_.constants[by.a].get_d()));
+    }
+    return add(node, key);
+  }
+
+  Index integer_power(Node node, const Key& key, int n) {
+    const auto to = [&](int m) {
+      return m == 1 ? node.a : put(Operator::power, node.a, constant(Rational(m)));
+    };
+    if (n == 0) {
+      node.rule = Rule::product;  // 1 * 1, although 0 ^ 0 has moving parts
+      node.p = node.q = constant(Rational(1));
+    } else if (n < 0) {
+      node.rule = Rule::quotient;
+      node.p = constant(Rational(1));
+      node.q = to(-n);
+    } else if (n == 1) {
+      node.rule = Rule::product;
+      node.p = constant(Rational(1));
+      node.q = node.a;
+    } else {
+      node.rule = Rule::product;
+      node.p = to(n / 2);
+      node.q = to(n - n / 2);
+    }
+    return add(node, key);
+  }
+
+  void rule(Index i, Rule rule, Index p, Index q) {
+    tape_.nodes[i].rule = rule;
+    tape_.nodes[i].p = p;
+    tape_.nodes[i].q = q;
+  }
+
+  FlowTape& tape_;
+  std::map<Index, Index> moving_;  ///< slot -> state, or kNone for a disturbance
+  std::map<Rational, Index> constants_;
+  std::map<Key, Index> index_of_;
+  std::vector<int> degree_;
+};
+
+std::vector<Index> value_operands(const Node& node) {
+  if (node.op == Operator::constant || node.op == Operator::variable || node.op == Operator::literal_true ||
+      node.op == Operator::literal_false) {
+    return {};
+  }
+  if (is_unary_function(node.op) || node.op == Operator::logical_not) return {node.a};
+  if (node.op == Operator::if_else) return {node.a, node.b, node.c};
+  return {node.a, node.b};
+}
+
+std::vector<Index> series_operands(const Node& node) {
+  switch (node.rule) {
+    case Rule::fixed:
+    case Rule::variable:
+      return {};
+    case Rule::negation:
+    case Rule::root:
+      return {node.p};
+    case Rule::pick:
+      return node.op == Operator::absolute || node.op == Operator::sign ? std::vector<Index>{node.p}
+                                                                        : std::vector<Index>{node.p, node.q};
+    default:
+      return {node.p, node.q};
+  }
+}
+
+/// Which nodes are reached from the outputs.
+template <class Operands>
+std::vector<bool> reached(const FlowTape& tape, Operands operands) {
+  std::vector<bool> seen(tape.nodes.size());
+  std::vector<Index> open = tape.outputs;
+  while (!open.empty()) {
+    const Index i = open.back();
+    open.pop_back();
+    if (seen[i]) continue;
+    seen[i] = true;
+    for (const Index next : operands(tape.nodes[i])) open.push_back(next);
+  }
+  return seen;
+}
+
+}  // namespace
+
+FlowTape::FlowTape(std::span<const Program* const> equations, std::span<const std::uint32_t> states,
+                   std::span<const std::uint32_t> disturbances)
+    : state_slots(states.begin(), states.end()) {
+  TapeWriter writer(*this, states, disturbances);
+  for (const Program* equation : equations) outputs.push_back(writer.write(*equation));
+  for (const Index i : outputs) affine = affine && writer.is_affine(i);
+  const std::vector<bool> for_value = reached(*this, value_operands);
+  const std::vector<bool> for_series = reached(*this, series_operands);
+  for (Index i = 0; i < nodes.size(); ++i) {
+    if (writer.is_fixed(i)) {
+      fixed_values.push_back(i);
+      continue;
+    }
+    if (for_value[i]) values.push_back(i);
+    if (for_series[i]) series.push_back(i);
+  }
+}
+
+}  // namespace coordreq

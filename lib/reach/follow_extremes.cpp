@@ -1,0 +1,222 @@
+#include <algorithm>
+
+#include "reach/flow_solver.hpp"
+
+namespace coordreq {
+namespace {
+
+using End = FollowedSolution::End;
+
+Interval point(double value) {
+  return {value, value};
+}
+
+bool is_zero(const Interval& a) {
+  return a.lower == 0.0 && a.upper == 0.0;
+}
+
+/// Where to start for the extreme of something that depends on a variable with this sensitivity.
+/// @param tolerated a part of the sensitivity that may have the other sign
+End extreme_end(const Interval& range, const Interval& sensitivity, double tolerated, bool upper) {
+  if (range.is_point() || is_zero(sensitivity)) return End::any;
+  const End if_rising = upper ? End::upper : End::lower;
+  const End if_falling = upper ? End::lower : End::upper;
+  if (sensitivity.lower >= 0.0) return if_rising;
+  if (sensitivity.upper <= 0.0) return if_falling;
+  const bool rising = sensitivity.upper >= -sensitivity.lower;
+  if (std::min(-sensitivity.lower, sensitivity.upper) > tolerated) return End::middle;
+  return rising ? if_rising : if_falling;
+}
+
+/// What lies in the range, seen from where the solution starts.
+Interval around(const Interval& range, End end) {
+  const double value = end == End::lower ? range.lower : end == End::upper ? range.upper : midpoint(range);
+  return range - point(value);
+}
+
+bool keeps_sign(const Interval& a) {
+  return a.lower >= 0.0 || a.upper <= 0.0;
+}
+
+bool agree(const std::vector<End>& a, const std::vector<End>& b) {
+  for (std::size_t j = 0; j < a.size(); ++j) {
+    if (a[j] != b[j] && a[j] != End::any && b[j] != End::any) return false;
+  }
+  return true;
+}
+
+double value_at(const Interval& range, End end) {
+  switch (end) {
+    case End::lower:
+      return range.lower;
+    case End::upper:
+      return range.upper;
+    default:
+      return midpoint(range);
+  }
+}
+
+/// At a limit the state is the limit itself, which need not be a double.
+struct StartValue {
+  Interval value;
+  bool at_limit = false;
+};
+StartValue start_value(const FlowSystem::Limit& limit, double value) {
+  if (limit.above && value >= limit.upper.lower) return {limit.upper, true};
+  if (limit.below && value <= limit.lower.upper) return {limit.lower, true};
+  return {point(value), false};
+}
+
+}  // namespace
+
+void ValidatedFlow::Solver::set_start(FollowedSolution& solution) const {
+  solution.steps_done = 0;
+  for (std::size_t j = 0; j < n_; ++j) {
+    const FlowSystem::Limit limit = system_.stops.empty() ? FlowSystem::Limit{} : system_.stops[j];
+    const StartValue start = start_value(limit, value_at(initial_[j], solution.ends[j]));
+    solution.state.value[j] = start.value;
+    solution.state.at_limit[j] = start.at_limit;
+  }
+}
+
+void ValidatedFlow::Solver::set_disturbances(const std::vector<End>& ends) {
+  for (std::size_t l = 0; l < m_; ++l) {
+    field_.set_disturbance(l, point(value_at(disturbance_[l], ends[n_ + l])));
+  }
+}
+
+void ValidatedFlow::Solver::restore_disturbances() {
+  for (std::size_t l = 0; l < m_; ++l) field_.set_disturbance(l, disturbance_[l]);
+}
+
+bool ValidatedFlow::Solver::advance(const FlowStep& step, NominalFlow::State& state) {
+  if (!step.smooth) return nominal_.advance(step.duration, step.choices, tolerance_, state);
+  advance_smoothly(step, state.value);
+  std::fill(state.at_limit.begin(), state.at_limit.end(), false);
+  return true;
+}
+
+/// A Taylor step from the middle of the enclosure so far, which grows as differences of solutions do:
+/// evaluating the polynomial over all of it would let rounding errors grow where solutions converge.
+void ValidatedFlow::Solver::advance_smoothly(const FlowStep& step, std::vector<Interval>& state) {
+  bool wide = false;
+  for (std::size_t i = 0; i < n_; ++i) {
+    const Interval middle = point(midpoint(state[i]));
+    deviation_[i] = state[i] - middle;
+    state[i] = middle;
+    wide = wide || !is_zero(deviation_[i]);
+  }
+  taylor_.advance(field_, step.duration, step.choices, none_held_, step.remainder, state);
+  if (!wide) return;
+  for (std::size_t i = 0; i < n_; ++i) {
+    const auto row = std::span<const Interval>(step.transition).subspan(i * n_, n_);
+    state[i] = state[i] + scalar_product(row, deviation_, 0, 1);
+  }
+}
+
+/// Brings the solution up to the present step. @returns whether it could be enclosed
+bool ValidatedFlow::Solver::follow(FollowedSolution& solution) {
+  set_disturbances(solution.ends);
+  bool found = true;
+  while (solution.steps_done < step_count_ && found) {
+    found = advance(steps_[solution.steps_done], solution.state);
+    if (found) ++solution.steps_done;
+  }
+  restore_disturbances();
+  return found;
+}
+
+/// What an extreme can lie beyond the solution that is followed for it: the mean value theorem for the
+/// variables without a proven sign, and the discontinuities.
+double ValidatedFlow::Solver::deviation(std::size_t i, bool upper, const std::vector<End>& ends) const {
+  Interval sum{-sensitivity_.jump(i), sensitivity_.jump(i)};
+  for (std::size_t j = 0; j < n_; ++j) {
+    const Interval& sensitivity = sensitivity_.initial(i, j);
+    if (ends[j] == End::any || keeps_sign(sensitivity)) continue;
+    sum = sum + sensitivity * around(initial_[j], ends[j]);
+  }
+  for (std::size_t l = 0; l < m_; ++l) {
+    const Interval& kernel = sensitivity_.kernel(i, l);
+    const End end = ends[n_ + l];
+    if (end == End::any || keeps_sign(kernel)) continue;
+    const Interval weight =
+        end == End::middle ? point(sensitivity_.weight(i, l)) * Interval{-1.0, 1.0} : period_ * kernel;
+    sum = sum + weight * around(disturbance_[l], end);
+  }
+  return upper ? sum.upper : sum.lower;
+}
+
+/// The ends from which the lower and the upper extreme of state i are followed.
+void ValidatedFlow::Solver::choose_ends(std::size_t i, bool upper, std::vector<End>& ends) const {
+  // An end that is nearly right costs less than the middle: at most the width times what has the other sign,
+  // against half the width times the largest sensitivity.
+  for (std::size_t j = 0; j < n_; ++j) {
+    const Interval& sensitivity = sensitivity_.initial(i, j);
+    const double tolerated = 0.5 * std::max(-sensitivity.lower, sensitivity.upper);
+    ends[j] = extreme_end(initial_[j], sensitivity, tolerated, upper);
+  }
+  for (std::size_t l = 0; l < m_; ++l) {
+    const double tolerated = tape_.affine ? 0.0 : 0.5 * sensitivity_.weight(i, l) / period_.upper;
+    ends[n_ + l] = extreme_end(disturbance_[l], sensitivity_.kernel(i, l), tolerated, upper);
+  }
+}
+
+/// A solution whose start agrees with `ends`; an earlier one if possible.
+std::size_t ValidatedFlow::Solver::solution_for(const std::vector<End>& ends) {
+  for (std::size_t s = 0; s < solution_count_; ++s) {
+    FollowedSolution& known = solutions_[s];
+    if (!agree(known.ends, ends)) continue;
+    for (std::size_t j = 0; j < ends.size(); ++j) {
+      if (known.ends[j] == End::any) known.ends[j] = ends[j];
+    }
+    return s;
+  }
+  if (solution_count_ == solutions_.size()) {
+    solutions_.push_back({ends, {std::vector<Interval>(n_), std::vector<bool>(n_)}, 0});
+  }
+  solutions_[solution_count_].ends = ends;
+  return solution_count_++;
+}
+
+/// Where a disturbance of an affine system acts with both signs, its weight up to rounding. Limits would put
+/// an end to what cancels.
+void ValidatedFlow::Solver::integrate_affine_kernels() {
+  for (std::size_t i = 0; i < n_; ++i) {
+    for (std::size_t l = 0; l < m_; ++l) {
+      if (extreme_end(disturbance_[l], sensitivity_.kernel(i, l), 0.0, true) != End::middle) continue;
+      const double weight = affine_kernel_.integral(jacobian_, period_, i, l);
+      sensitivity_.set_weight(i, l, std::min(weight, sensitivity_.weight(i, l)));
+    }
+  }
+}
+
+void ValidatedFlow::Solver::follow_extremes(bool last) {
+  if (last && tape_.affine && !ever_stopped_) integrate_affine_kernels();
+  const std::size_t old_count = solution_count_;
+  for (std::size_t e = 0; e < 2 * n_; ++e) {
+    choose_ends(e / 2, e % 2 == 1, wanted_[e]);
+    solution_of_[e] = solution_for(wanted_[e]);
+  }
+  for (std::size_t s = old_count; s < solution_count_; ++s) {
+    std::vector<End>& ends = solutions_[s].ends;
+    std::replace(ends.begin(), ends.end(), End::any, End::middle);
+    set_start(solutions_[s]);
+  }
+  for (std::size_t s = 0; s < solution_count_; ++s) {
+    if (std::find(solution_of_.begin(), solution_of_.end(), s) == solution_of_.end()) continue;
+    if (!follow(solutions_[s])) continue;
+    for (std::size_t e = 0; e < 2 * n_; ++e) {
+      if (solution_of_[e] == s) use_extreme(e / 2, e % 2 == 1, solutions_[s], wanted_[e]);
+    }
+  }
+}
+
+/// Moves one end of `next_` to what the solution that was followed says.
+void ValidatedFlow::Solver::use_extreme(std::size_t i, bool upper, const FollowedSolution& solution,
+                                        const std::vector<End>& ends) {
+  const Interval found = field_.clipped(i, solution.state.value[i] + point(deviation(i, upper, ends)));
+  if (upper && found.upper >= next_[i].lower) next_[i].upper = std::min(next_[i].upper, found.upper);
+  if (!upper && found.lower <= next_[i].upper) next_[i].lower = std::max(next_[i].lower, found.lower);
+}
+
+}  // namespace coordreq

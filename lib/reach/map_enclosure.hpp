@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "expression/evaluate.hpp"
+#include "expression/program.hpp"
+#include "reach/dual.hpp"
+
+namespace coordreq {
+
+/// The range of an expression over a box.
+///
+/// Variables with a derivative of proven sign are put at the end where the extreme is, again and again as the
+/// box so shrunk proves more; over what is left natural interval evaluation is intersected with the mean
+/// value form f(m) + sum_j f'_j (x_j - m_j). The exact hull up to rounding where interval derivatives show f
+/// to be monotone in every variable, so also for sums of multiples in which variables are repeated.
+///
+/// Over-approximates. Not thread-safe, as it holds its scratch memory: use a copy a thread.
+class MapEnclosure {
+ public:
+  /// @param box_slots the variables that may be more than points; all others count as constants
+  /// REQUIRES: `equation` is a number and outlives this object.
+  MapEnclosure(const Program& equation, std::span<const std::uint32_t> box_slots);
+
+  /// `total` is false if the expression is not defined somewhere in the box; the ends may be infinite.
+  /// @param slots a value for every variable of the equation at its slot
+  [[nodiscard]] Interval enclose(std::span<const Interval> slots);
+
+ private:
+  Interval bounds(std::span<const Interval> slots, bool upper, const Interval& natural);
+  const Interval& evaluate_with_gradient();
+  [[nodiscard]] bool move_to_extreme(bool upper);
+  [[nodiscard]] Interval mean_value_form();
+
+  Evaluator<Interval> natural_;
+  Evaluator<Dual> derivative_;
+  std::vector<std::uint32_t> directions_;  ///< slots that the equation mentions and that may be boxes
+  std::vector<Interval> box_;
+  std::vector<Interval> middle_;
+  std::vector<Dual> dual_;
+  std::vector<Interval> gradient_;
+  double jump_ = 0.0;
+  Interval value_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "expression/evaluate.hpp"
+#include "reach/affine_dynamics.hpp"
+#include "reach/point_flow.hpp"
+
+namespace coordreq {
+
+/// The sampled system followed from a point, for simulation. Disturbances are constant within a period.
+///
+/// Where the sampled map of a state is affine with rational coefficients (AffineDynamics), its next value is
+/// exact; elsewhere it is that of PointFlow or, in discrete time, of the equation in double arithmetic,
+/// brought to the nearest lattice point if the state is discrete. Scratch inside: one object a thread.
+class PointDynamics {
+ public:
+  /// Beyond this many bits an exact state is refused: a run of that length should be cut in two.
+  static constexpr std::size_t kMostBits = 100'000;
+
+  /// REQUIRES: `spec` outlives this object.
+  explicit PointDynamics(const ProblemSpec& spec);
+
+  /// Inputs, states and disturbances that next() of a state looks at.
+  [[nodiscard]] const Dependencies& dependencies(std::size_t state) const {
+    return affine_.dependencies(state);
+  }
+
+  /// Value of state `i` at the end of a period, before the rules of the sample (reset_at_sample()).
+  /// @param slots values of what it depends on, at their slots
+  /// @returns nothing if it is undefined or not finite. @throws LimitError beyond kMostBits
+  [[nodiscard]] std::optional<Rational> next(std::size_t i, const std::vector<Rational>& slots);
+
+ private:
+  [[nodiscard]] std::optional<Rational> exact_next(std::size_t i, const std::vector<Rational>& slots);
+  [[nodiscard]] std::optional<Rational> approximate_next(std::size_t i, const std::vector<Rational>& slots);
+  [[nodiscard]] std::optional<double> double_next(std::size_t i);
+
+  const ProblemSpec* spec_;
+  std::unique_ptr<ProblemSpec> pinned_;  ///< the spec with each disturbance as a single value
+  AffineDynamics affine_;
+  std::vector<std::unique_ptr<PointFlow>> flows_;  ///< by state, made when needed
+  std::vector<std::size_t> positions_;             ///< of a state among the moving ones of its flow
+  std::vector<double> doubles_;
+};
+
+}  // namespace coordreq

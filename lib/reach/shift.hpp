@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+
+#include "numeric/interval.hpp"
+#include "reach/affine_dynamics.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// All values that a state can have in some cell, measurement errors included, rounded outward.
+[[nodiscard]] Interval range_of(const StateSpec& state);
+/// From the least to the greatest value of an input.
+[[nodiscard]] Interval range_of(const InputSpec& input);
+
+/// True if the state saturates and is measured with an error: what lies beyond its limit is then seen not
+/// only in the boundary cell.
+[[nodiscard]] bool has_measured_limit(const StateSpec& state);
+
+/// True if x_i(next) - x_i provably does not depend on x_i, so that one offset serves all its cells: in
+/// discrete time the equation is x_i plus what does not mention x_i, or its derivative by x_i is exactly 1
+/// over the whole domain and all inputs and disturbances; in continuous time no equation that x_i depends on
+/// mentions x_i, nor has x_i a `stop`. Not where has_measured_limit(). False where that is true but not seen.
+[[nodiscard]] bool is_shift(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state);
+
+}  // namespace coordreq

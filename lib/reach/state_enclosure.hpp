@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "numeric/interval.hpp"
+#include "reach/affine_dynamics.hpp"
+#include "reach/map_enclosure.hpp"
+#include "reach/periodic_flow.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// Encloses the next value of one state over boxes of what it depends on, in discrete or continuous time.
+///
+/// Over-approximates. Not thread-safe: use a copy a thread.
+class StateEnclosure {
+ public:
+  enum class Status : std::uint8_t { ok, blows_up, undefined };
+  struct Result {
+    Status status = Status::ok;
+    std::size_t culprit = 0;  ///< state whose equation is at fault, unless ok
+    bool left_unsafely =
+        false;       ///< unless ok: by then this state may have left through an unsafe side of its own
+    Interval value;  ///< of the next state; of the difference to the present one if shifts()
+    Interval tube;   ///< in continuous time: the same at all times in [0, tau]
+    Interval drift;  ///< in continuous time: the difference to the present one, see FlowEnclosure::drift
+  };
+
+  /// REQUIRES: `spec` outlives this object.
+  StateEnclosure(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state);
+
+  /// x_i(tau) - x_i(0) does not depend on x_i: result() then gives the difference and needs no box of x_i.
+  [[nodiscard]] bool shifts() const { return shifts_; }
+
+  /// Sets the box of a state, input or parameter; disturbances are set already.
+  void set(std::uint32_t slot, const Interval& box) { slots_[slot] = box; }
+
+  /// Finds out what result() tells.
+  void enclose();
+  /// @param state the one of the constructor; in continuous time any moving one that it depends on, if this
+  ///   does not shift
+  [[nodiscard]] Result result(std::size_t state) const;
+
+  /// What made the equation at fault undefined in the last enclose(), or nothing known. REQUIRES: something
+  /// did.
+  [[nodiscard]] std::string reason(const Result& result) const;
+
+ private:
+  void prepare_map();
+  void prepare_flow();
+  [[nodiscard]] Result result_of_map() const;
+  [[nodiscard]] Result result_of_flow(std::size_t state) const;
+
+  const ProblemSpec* spec_;
+  Dependencies dependencies_;
+  std::size_t state_;
+  bool shifts_ = false;
+  double origin_ = 0;  ///< the present value put in where the map shifts
+  std::vector<Interval> slots_;
+  std::optional<MapEnclosure> map_;
+  std::optional<PeriodicFlow> flow_;
+  Interval map_value_;                    ///< by the last enclose()
+  const FlowEnclosure* found_ = nullptr;  ///< likewise, within flow_
+};
+
+}  // namespace coordreq

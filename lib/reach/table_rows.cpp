@@ -1,0 +1,95 @@
+#include "reach/table_rows.hpp"
+
+#include <algorithm>
+
+namespace coordreq {
+namespace {
+
+/// Position of the row's first cell in a part of a table.
+template <class Strides>
+std::size_t row_position(const Strides& strides, std::size_t along, std::span<const std::int64_t> states,
+                         std::span<const std::int64_t> inputs) {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (i != along) sum += states[i] * strides.state_stride[i];
+  }
+  for (std::size_t i = 0; i < inputs.size(); ++i) sum += inputs[i] * strides.input_stride[i];
+  return static_cast<std::size_t>(sum);
+}
+
+}  // namespace
+
+TableRows::TableRows(const TransitionTable& table, std::size_t state, std::size_t along)
+    : table_(&table),
+      state_(state),
+      along_(along),
+      stride_(table_->state_stride[along]),
+      shifts_along_(table_->shift && state == along) {
+  varies_ = stride_ != 0 || std::any_of(table_->terms.begin(), table_->terms.end(),
+                                        [&](const auto& term) { return term.state_stride[along] != 0; });
+}
+
+void TableRows::read(std::span<const std::int64_t> states, std::span<const std::int64_t> inputs,
+                     std::span<IndexRange> out) const {
+  const std::size_t base = row_position(*table_, along_, states, inputs);
+  const std::int64_t offset = table_->shift && !shifts_along_ ? states[state_] : 0;
+  if (table_->is_sum()) {
+    read_sum(states, inputs, base, offset, out);
+    return;
+  }
+  const IndexRange* entry = table_->entries.data() + base;
+  for (std::size_t c = 0; c < out.size(); ++c, entry += stride_) {
+    out[c] =
+        table_->shift ? moved(*entry, offset + (shifts_along_ ? static_cast<std::int64_t>(c) : 0)) : *entry;
+  }
+}
+
+void TableRows::read_sum(std::span<const std::int64_t> states, std::span<const std::int64_t> inputs,
+                         std::size_t base, std::int64_t offset, std::span<IndexRange> out) const {
+  // The parts that vary along the row, each a run of numbers with a stride; the sum of the others.
+  struct Run {
+    const std::int64_t* lower;
+    const std::int64_t* upper;
+    std::int64_t stride;
+  };
+  constexpr std::size_t kMostRuns = 16;
+  Run runs[kMostRuns];
+  std::size_t count = 0;
+  std::int64_t lower = 0;
+  std::int64_t upper = 0;
+  const auto add = [&](const std::int64_t* low, const std::int64_t* high, std::int64_t stride) {
+    if (stride == 0) {
+      lower += *low;
+      upper += *high;
+    } else {
+      runs[count++] = {low, high, stride};
+    }
+  };
+  add(table_->base_lower.data() + base, table_->base_upper.data() + base, stride_);
+  for (const TransitionTerm& term : table_->terms) {
+    const std::size_t place = row_position(term, along_, states, inputs);
+    add(term.lower.data() + place, term.upper.data() + place, term.state_stride[along_]);
+  }
+  // A shift along the row adds a whole step a cell.
+  lower += offset << TransitionTable::kFractionBits;
+  upper += offset << TransitionTable::kFractionBits;
+  const std::int64_t step = shifts_along_ ? std::int64_t{1} << TransitionTable::kFractionBits : 0;
+  if (count == 1 && runs[0].stride == 1 && step == 0) {
+    for (std::size_t c = 0; c < out.size(); ++c) {
+      out[c] = TransitionTable::sum_range(lower + runs[0].lower[c], upper + runs[0].upper[c]);
+    }
+    return;
+  }
+  for (std::size_t c = 0; c < out.size(); ++c) {
+    std::int64_t low = lower + static_cast<std::int64_t>(c) * step;
+    std::int64_t high = upper + static_cast<std::int64_t>(c) * step;
+    for (std::size_t r = 0; r < count; ++r) {
+      const std::int64_t at = static_cast<std::int64_t>(c) * runs[r].stride;
+      low += runs[r].lower[at];
+      high += runs[r].upper[at];
+    }
+    out[c] = TransitionTable::sum_range(low, high);
+  }
+}
+
+}  // namespace coordreq

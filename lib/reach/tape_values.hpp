@@ -1,0 +1,127 @@
+#pragma once
+
+#include <concepts>
+#include <span>
+#include <vector>
+
+#include "expression/domains.hpp"
+#include "reach/dual.hpp"
+#include "reach/flow_tape.hpp"
+
+namespace coordreq {
+
+/// What a `pick` node of a FlowTape amounts to over some box.
+struct Choice {
+  enum class Kind : std::uint8_t {
+    first,          ///< p
+    second,         ///< q
+    first_negated,  ///< -p
+    pinned,         ///< the constant `value`: a discontinuity that the box does not decide, or a sign
+    undecided,      ///< a kink of abs, min or max
+  };
+  Kind kind = Kind::undecided;
+  Interval value;
+};
+/// One a node of the tape; entries of other nodes mean nothing.
+using Choices = std::vector<Choice>;
+
+/// Values of all nodes of a tape in an evaluation domain T, `Interval` or `Dual`. Scratch memory: use one a
+/// thread. REQUIRES: the tape outlives it.
+template <class T>
+class TapeValues {
+ public:
+  explicit TapeValues(const FlowTape& tape)
+      : tape_(&tape), numbers_(tape.nodes.size()), truths_(tape.nodes.size()) {
+    for (const Rational& q : tape.constants)
+      constants_.push_back(from_rational(static_cast<const T*>(nullptr), q));
+  }
+
+  /// Evaluates what does not move; first after a change of the other slots.
+  void run_fixed(std::span<const T> slots) {
+    for (const std::uint32_t i : tape_->fixed_values) run_node(i, slots);
+  }
+
+  /// Evaluates what moves.
+  void run_moving(std::span<const T> slots) {
+    for (const std::uint32_t i : tape_->values) run_node(i, slots);
+  }
+
+  /// Evaluates what moves, except that nodes pinned in `pins` have the value given there.
+  void run_moving(std::span<const Interval> slots, const Choices& pins) requires std::same_as<T, Interval> {
+    for (const std::uint32_t i : tape_->values) {
+      const bool pick = tape_->nodes[i].rule == FlowTape::Rule::pick;
+      if (pick && pins[i].kind == Choice::Kind::pinned) {
+        numbers_[i] = pins[i].value;
+      } else {
+        run_node(i, slots);
+      }
+    }
+  }
+
+  [[nodiscard]] const T& operator[](std::uint32_t node) const { return numbers_[node]; }
+  [[nodiscard]] Truth truth(std::uint32_t node) const { return truths_[node].value; }
+
+ private:
+  struct Condition {
+    Truth value = Truth::undecided;
+    bool total = true;
+  };
+
+  void run_node(std::uint32_t i, std::span<const T> slots) {
+    const FlowTape::Node& node = tape_->nodes[i];
+    if (is_condition(node.op)) {
+      truths_[i] = condition_of(node);
+    } else if (node.op == Operator::variable) {
+      numbers_[i] = slots[node.a];
+    } else if (node.op == Operator::constant) {
+      numbers_[i] = constants_[node.a];
+    } else if (node.op == Operator::if_else) {
+      numbers_[i] = select(truths_[node.a].value, numbers_[node.b], numbers_[node.c]);
+      if (!truths_[node.a].total) numbers_[i].total = false;
+    } else if (is_unary_function(node.op)) {
+      numbers_[i] = apply(node.op, numbers_[node.a]);
+    } else {
+      numbers_[i] = apply(node.op, numbers_[node.a], numbers_[node.b]);
+    }
+  }
+
+  /// A condition that is decided is so whatever part of it is undefined.
+  static Condition made(Truth value, bool total) { return {value, total || value != Truth::undecided}; }
+
+  Condition condition_of(const FlowTape::Node& node) const {
+    switch (node.op) {
+      case Operator::logical_and:
+        return made(truth_and(truths_[node.a].value, truths_[node.b].value), both_total(node));
+      case Operator::logical_or:
+        return made(truth_or(truths_[node.a].value, truths_[node.b].value), both_total(node));
+      case Operator::logical_not:
+        return {!truths_[node.a].value, truths_[node.a].total};
+      case Operator::literal_true:
+        return {Truth::yes, true};
+      case Operator::literal_false:
+        return {Truth::no, true};
+      default:
+        break;
+    }
+    const T& a = numbers_[node.a];
+    const T& b = numbers_[node.b];
+    return made(compare(node.op, a, b), a.total && b.total);
+  }
+
+  bool both_total(const FlowTape::Node& node) const { return truths_[node.a].total && truths_[node.b].total; }
+
+  const FlowTape* tape_;
+  std::vector<T> constants_;
+  std::vector<T> numbers_;
+  std::vector<Condition> truths_;
+};
+
+/// Decides the `pick` nodes by the values over a box. Discontinuities that stay open are pinned to the middle
+/// of their range.
+/// @returns whether no kink was left undecided
+bool decide(const FlowTape& tape, const TapeValues<Interval>& values, Choices& choices);
+
+/// As decide(), but leaves discontinuities (`sign` and `if`) as they are in `choices`.
+bool decide_kinks(const FlowTape& tape, const TapeValues<Interval>& values, Choices& choices);
+
+}  // namespace coordreq

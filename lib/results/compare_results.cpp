@@ -1,0 +1,178 @@
+#include "results/compare_results.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/error.hpp"
+#include "results/comparable_results.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr std::int64_t kPartCells = 1 << 20;
+
+/// 2: the cell has left K, 1: it was unbounded and is no longer, 0: it has fewer steps.
+int gravity(const DelayChange& change) {
+  if (change.after < 0) return 2;
+  return change.before == ResultsReader::kNever ? 1 : 0;
+}
+
+/// Steps between the two delays; REQUIRES: has_lost(change).
+std::int64_t difference(const DelayChange& change) {
+  return std::int64_t{change.before} - change.after;
+}
+
+/// A code of what is no number of steps counts as it does in the file: kNever is the largest number.
+bool has_lost(const DelayChange& change) {
+  return change.before >= 0 && change.after < change.before;
+}
+bool has_gained(const DelayChange& change) {
+  return change.after >= 0 && change.after > change.before;
+}
+
+/// Whether `a` is to be named before `b`.
+bool is_worse(const DelayChange& a, const DelayChange& b) {
+  if (gravity(a) != gravity(b)) return gravity(a) > gravity(b);
+  if (difference(a) != difference(b)) return difference(a) > difference(b);
+  return a.cell < b.cell;
+}
+
+/// Calls `visit(first cell, values before, values after)` for one part of the cells after the other.
+template <class Read, class Visit>
+void for_each_part(const ResultsReader& before, const ResultsReader& after, const Read& read,
+                   const Visit& visit) {
+  const std::int64_t cells = before.grid().cells();
+  for (std::int64_t begin = 0; begin < cells; begin += kPartCells) {
+    const std::int64_t end = std::min(begin + kPartCells, cells);
+    visit(begin, read(before, begin, end, true), read(after, begin, end, false));
+  }
+}
+
+using Members = std::vector<std::uint8_t> (ResultsReader::*)(const CellBlock&) const;
+
+SetComparison compare_sets(const ResultsReader& before, const ResultsReader& after, Members members) {
+  SetComparison result;
+  const auto read = [members](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool) {
+    return file.stretch(begin, end, [&](const CellBlock& block) { return (file.*members)(block); });
+  };
+  for_each_part(before, after, read, [&result](std::int64_t, const auto& old, const auto& now) {
+    for (std::size_t i = 0; i < old.size(); ++i) {
+      result.before += old[i];
+      result.after += now[i];
+      result.left += old[i] > now[i] ? 1 : 0;
+      result.joined += old[i] < now[i] ? 1 : 0;
+    }
+  });
+  return result;
+}
+
+/// Adds up the cells of a partition, and keeps the worst of them.
+class PartitionCounter {
+ public:
+  /// @param last delay of the later file that only says "at least"; none if it was not cut off
+  PartitionCounter(PartitionComparison& result, const CompareOptions& options,
+                   std::optional<std::int64_t> last)
+      : result_(result), options_(options), last_(last) {}
+
+  void add(const DelayChange& change) {
+    if (has_gained(change)) ++result_.gained;
+    if (!has_lost(change)) return;
+    if (gravity(change) == 0 && difference(change) <= options_.tolerance) {
+      ++result_.tolerated;
+      return;
+    }
+    ++result_.lost;
+    if (gravity(change) == 2) ++result_.left;
+    if (gravity(change) == 1) ++result_.from_forever;
+    if (last_ == change.after) ++result_.cut_off;
+    keep(change);
+  }
+
+  /// Puts the worst cells in order.
+  void finish() { std::sort_heap(result_.worst.begin(), result_.worst.end(), is_worse); }
+
+ private:
+  /// A heap with the least bad one on top.
+  void keep(const DelayChange& change) {
+    std::vector<DelayChange>& worst = result_.worst;
+    if (options_.worst == 0) return;
+    if (worst.size() == options_.worst) {
+      if (!is_worse(change, worst.front())) return;
+      std::pop_heap(worst.begin(), worst.end(), is_worse);
+      worst.pop_back();
+    }
+    worst.push_back(change);
+    std::push_heap(worst.begin(), worst.end(), is_worse);
+  }
+
+  PartitionComparison& result_;
+  const CompareOptions& options_;
+  std::optional<std::int64_t> last_;
+};
+
+void compare_delays(const ResultsReader& before, const ResultsReader& after, const CompareOptions& options,
+                    PartitionComparison& result) {
+  const bool truncated = after.partitions()[result.after].truncated();
+  PartitionCounter counter(result, options,
+                           truncated ? after.spec().coordination.max_delay : std::optional<std::int64_t>());
+  const auto read = [&result](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool earlier) {
+    const std::size_t partition = earlier ? result.before : result.after;
+    return file.stretch(begin, end, [&](const CellBlock& block) { return file.delay(partition, block); });
+  };
+  for_each_part(before, after, read, [&](std::int64_t begin, const auto& old, const auto& now) {
+    if (options.progress) options.progress("partition " + before.partitions()[result.before].name);
+    for (std::size_t i = 0; i < old.size(); ++i)
+      counter.add({begin + static_cast<std::int64_t>(i), old[i], now[i]});
+  });
+  counter.finish();
+}
+
+const ResultRequirement* find_requirement(const ResultsReader& file, const std::string& name) {
+  const auto& all = file.requirements();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&name](const ResultRequirement& own) { return own.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+void compare_requirements(const ResultsReader& before, const ResultsReader& after,
+                          ResultsComparison& result) {
+  for (const ResultRequirement& old : before.requirements()) {
+    const ResultRequirement* const now = find_requirement(after, old.name);
+    if (now == nullptr) {
+      result.requirements_only_before.push_back(old.name);
+    } else if (now->holds != old.holds) {
+      result.verdicts.push_back({old.name, now->holds});
+    }
+  }
+  for (const ResultRequirement& now : after.requirements()) {
+    if (find_requirement(before, now.name) == nullptr) result.requirements_only_after.push_back(now.name);
+  }
+}
+
+}  // namespace
+
+bool ResultsComparison::is_worse() const {
+  return invariant.left > 0 ||
+         std::any_of(partitions.begin(), partitions.end(),
+                     [](const PartitionComparison& partition) { return partition.lost > 0; }) ||
+         std::any_of(verdicts.begin(), verdicts.end(),
+                     [](const VerdictChange& verdict) { return !verdict.holds_after; });
+}
+
+ResultsComparison compare_results(const ResultsReader& before, const ResultsReader& after,
+                                  const CompareOptions& options) {
+  check_comparable(before, after);
+  ResultsComparison result;
+  match_partitions(before.spec(), after.spec(), result);
+  if (result.partitions.empty()) {
+    throw ResultsError("no partition of " + before.path() + " is in it", after.path());
+  }
+  if (options.progress) options.progress("sets");
+  result.safe = compare_sets(before, after, &ResultsReader::safe);
+  result.invariant = compare_sets(before, after, &ResultsReader::invariant);
+  for (PartitionComparison& partition : result.partitions) compare_delays(before, after, options, partition);
+  compare_requirements(before, after, result);
+  return result;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,33 @@
+#include "answers/layers/trigger_table.hpp"
+
+#include <gtest/gtest.h>
+
+namespace coordreq {
+namespace {
+
+TEST(TriggerTable, WithoutConnectionDelayItIsThePapersCountdown) {
+  for (const int delay : {0, 1, 28}) EXPECT_EQ(trigger_of(delay, 0), delay);
+}
+
+TEST(TriggerTable, CountsDownToTheStartOfConnecting) {
+  EXPECT_EQ(trigger_of(5, 3), 2);
+  EXPECT_EQ(trigger_of(3, 3), 0);
+}
+
+TEST(TriggerTable, TooLateMeansAConnectionMustStand) {
+  EXPECT_EQ(trigger_of(2, 3), TriggerTable::kMustBeConnected);
+  EXPECT_EQ(trigger_of(0, 1), TriggerTable::kMustBeConnected);
+  EXPECT_EQ(trigger_of(7, std::int64_t{1} << 40), TriggerTable::kMustBeConnected);
+}
+
+TEST(TriggerTable, UnboundedCellsNeverNeedTo) {
+  EXPECT_EQ(trigger_of(DelayLayers::kUnbounded, 1000), TriggerTable::kNever);
+}
+
+TEST(TriggerTable, CellsOutsideSAndKStayMarked) {
+  EXPECT_EQ(trigger_of(DelayLayers::kOutsideSafe, 2), -2);
+  EXPECT_EQ(trigger_of(DelayLayers::kOutsideInvariant, 2), -1);
+}
+
+}  // namespace
+}  // namespace coordreq

@@ -1,0 +1,173 @@
+#include "engine/level_kernels.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <limits>
+#include <vector>
+
+#include "instruction_sets.hpp"
+
+namespace coordreq {
+namespace {
+
+/// A row of n levels that begins anywhere, with the rest of its last block after it. Small and extreme levels
+/// are frequent, as they are in life.
+template <class Level>
+struct Row {
+  std::vector<Level> storage;
+  std::size_t offset = 0;
+
+  explicit Row(std::size_t n)
+      : storage(n + 33 + kLevelBlock / sizeof(Level)), offset(*rc::gen::inRange<std::size_t>(0, 33)) {
+    for (Level& level : storage) {
+      constexpr Level kTop = std::numeric_limits<Level>::max();
+      level = *rc::gen::element<Level>(0, 1, 2, 7, 8, kTop / 2, kTop / 2 + 1, kTop - 2, kTop - 1, kTop);
+    }
+  }
+  [[nodiscard]] Level* data() { return storage.data() + offset; }
+  [[nodiscard]] Level operator[](std::size_t i) const { return storage[offset + i]; }
+};
+
+template <class Level>
+class LevelKernelsTest : public testing::Test {
+ protected:
+  static constexpr Level kMost = std::numeric_limits<Level>::max();
+
+  /// Rows of every length, in every instruction set that this processor has.
+  template <class Property>
+  static void check(const char* name, const Property& property) {
+    EXPECT_TRUE(rc::check(name, [&] {
+      const auto n = *rc::gen::inRange<std::size_t>(1, 300);
+      for (const InstructionSet set : sets_at_hand()) property(level_kernels<Level>(set), n);
+    }));
+  }
+  static Row<Level> lanes(std::size_t n) {
+    Row<Level> row(n);
+    for (Level& level : row.storage) level = level > 2 ? kMost : Level{0};
+    return row;
+  }
+};
+
+using LevelTypes = testing::Types<std::uint8_t, std::uint16_t, std::uint32_t>;
+TYPED_TEST_SUITE(LevelKernelsTest, LevelTypes);
+
+TYPED_TEST(LevelKernelsTest, MinimumOfManyRows) {
+  this->check("minimum", [](const auto& kernels, std::size_t n) {
+    std::vector<Row<TypeParam>> rows;
+    const auto count = *rc::gen::inRange<std::size_t>(1, 6);
+    for (std::size_t k = 0; k < count; ++k) rows.emplace_back(n);
+    std::vector<const TypeParam*> pointers;
+    for (Row<TypeParam>& row : rows) pointers.push_back(row.data());
+    Row<TypeParam> out(n);
+    kernels.minimum(pointers.data(), count, out.data(), n);
+    for (std::size_t j = 0; j < n; ++j) {
+      TypeParam least = rows[0][j];
+      for (const Row<TypeParam>& row : rows) least = row[j] < least ? row[j] : least;
+      RC_ASSERT(out[j] == least);
+    }
+  });
+}
+
+TYPED_TEST(LevelKernelsTest, LoweringAtALabel) {
+  this->check("lower_at", [](const auto& kernels, std::size_t n) {
+    Row<TypeParam> source(n);
+    Row<TypeParam> labels(n);
+    Row<TypeParam> target(n);
+    const Row<TypeParam> before = target;
+    const TypeParam label = labels[*rc::gen::inRange<std::size_t>(0, n)];
+    kernels.lower_at(source.data(), labels.data(), label, target.data(), n);
+    for (std::size_t j = 0; j < n; ++j)
+      RC_ASSERT(target[j] == (labels[j] == label ? std::min(before[j], source[j]) : before[j]));
+  });
+}
+
+TYPED_TEST(LevelKernelsTest, RaisingAndLowering) {
+  this->check("raise, raise_where, lower_where", [](const auto& kernels, std::size_t n) {
+    Row<TypeParam> source(n);
+    Row<TypeParam> where = TestFixture::lanes(n);
+    Row<TypeParam> raised(n);
+    Row<TypeParam> raised_where = raised;
+    Row<TypeParam> lowered_where = raised;
+    const Row<TypeParam> before = raised;
+    kernels.raise(source.data(), raised.data(), n);
+    kernels.raise_where(source.data(), where.data(), raised_where.data(), n);
+    kernels.lower_where(source.data(), where.data(), lowered_where.data(), n);
+    for (std::size_t j = 0; j < n; ++j) {
+      RC_ASSERT(raised[j] == std::max(before[j], source[j]));
+      RC_ASSERT(raised_where[j] == (where[j] != 0 ? std::max(before[j], source[j]) : before[j]));
+      RC_ASSERT(lowered_where[j] == (where[j] != 0 ? std::min(before[j], source[j]) : before[j]));
+    }
+  });
+}
+
+TYPED_TEST(LevelKernelsTest, TopAndSettled) {
+  this->check("is_top, is_settled", [](const auto& kernels, std::size_t n) {
+    Row<TypeParam> row(n);
+    Row<TypeParam> where = TestFixture::lanes(n);
+    if (*rc::gen::arbitrary<bool>()) {  // else it is hardly ever true
+      for (std::size_t j = 0; j < n; ++j)
+        row.data()[j] = where[j] != 0 || j % 3 == 0 ? TestFixture::kMost : TypeParam{1};
+      if (*rc::gen::arbitrary<bool>()) row.data()[*rc::gen::inRange<std::size_t>(0, n)] = 3;
+    }
+    bool top = true;
+    for (std::size_t j = 0; j < n; ++j) top = top && (where[j] == 0 || row[j] == TestFixture::kMost);
+    RC_ASSERT(kernels.is_top(row.data(), where.data(), n) == top);
+
+    Row<TypeParam> bound = row;
+    for (std::size_t j = 0; j < n; ++j) {
+      bound.data()[j] = *rc::gen::arbitrary<bool>() || row[j] == TestFixture::kMost
+                            ? row[j]
+                            : static_cast<TypeParam>(row[j] + 1);
+    }
+    RC_ASSERT(kernels.is_settled(row.data(), bound.data(), n));
+    const auto j = *rc::gen::inRange<std::size_t>(0, n);
+    if (row[j] < TestFixture::kMost - 1) {
+      bound.data()[j] = static_cast<TypeParam>(row[j] + 2);
+      RC_ASSERT(!kernels.is_settled(row.data(), bound.data(), n));
+    }
+  });
+}
+
+TYPED_TEST(LevelKernelsTest, BitsToLanesAndBack) {
+  this->check("spread, top_bits", [](const auto& kernels, std::size_t n) {
+    std::vector<std::uint64_t> bits(n / 64 + 2);
+    for (std::uint64_t& word : bits) word = *rc::gen::arbitrary<std::uint64_t>() * 0x9E3779B97F4A7C15U;
+    Row<TypeParam> spread(n);
+    kernels.spread(bits.data(), spread.data(), n);
+    std::vector<std::uint64_t> back((n + 63) / 64, 0x5555);
+    kernels.top_bits(spread.data(), back.data(), n);
+    for (std::size_t j = 0; j < n; ++j) {
+      const bool bit = (bits[j / 64] >> (j % 64) & 1) != 0;
+      RC_ASSERT(spread[j] == (bit ? TestFixture::kMost : 0));
+    }
+    if (n % 64 != 0) bits[n / 64] &= (std::uint64_t{1} << (n % 64)) - 1;
+    RC_ASSERT(std::equal(back.begin(), back.end(), bits.begin()));
+  });
+}
+
+TYPED_TEST(LevelKernelsTest, AdvanceAddsOneUpToTheLimit) {
+  this->check("advance", [](const auto& kernels, std::size_t n) {
+    Row<TypeParam> next(n);
+    Row<TypeParam> old(n);
+    const auto limit = *rc::gen::element<TypeParam>(0, 1, 8, TestFixture::kMost - 2, TestFixture::kMost - 1);
+    if (*rc::gen::arbitrary<bool>()) {  // nothing changes
+      for (std::size_t j = 0; j < n; ++j) {
+        const TypeParam stepped = next[j] < limit ? static_cast<TypeParam>(next[j] + 1) : TestFixture::kMost;
+        old.data()[j] = j % 4 == 0 ? TypeParam{0} : stepped;
+      }
+    }
+    Row<TypeParam> out(n);
+    const bool changed = kernels.advance(next.data(), old.data(), limit, out.data(), n);
+    bool differs = false;
+    for (std::size_t j = 0; j < n; ++j) {
+      const TypeParam stepped = next[j] < limit ? static_cast<TypeParam>(next[j] + 1) : TestFixture::kMost;
+      RC_ASSERT(out[j] == (old[j] == 0 ? 0 : stepped));
+      differs = differs || out[j] != old[j];
+    }
+    RC_ASSERT(changed == differs);
+  });
+}
+
+}  // namespace
+}  // namespace coordreq

@@ -1,0 +1,87 @@
+#include "engine/level_rows.hpp"
+
+#include <gtest/gtest.h>
+
+namespace coordreq {
+namespace {
+
+using Levels = LevelRows<std::uint8_t>;
+
+/// The row 7 8 9 with all it goes on with: two cells before, four after.
+std::vector<int> closed(RowEnds ends) {
+  Levels levels(2, 3, {2, 4}, ends);
+  for (int c = 0; c < 3; ++c) levels.row(1)[c] = static_cast<std::uint8_t>(7 + c);
+  levels.close(1);
+  return {levels.row(1) - 2, levels.row(1) + 7};
+}
+
+TEST(LevelRows, GoOnBeyondTheirEndsByTheRulesForLeaving) {
+  EXPECT_EQ(closed({Outside::unsafe, Outside::safe}), (std::vector<int>{0, 0, 7, 8, 9, 255, 255, 255, 255}));
+  EXPECT_EQ(closed({Outside::safe, Outside::unsafe}), (std::vector<int>{255, 255, 7, 8, 9, 0, 0, 0, 0}));
+  EXPECT_EQ(closed({Outside::saturate, Outside::stop}), (std::vector<int>{7, 7, 7, 8, 9, 9, 9, 9, 9}));
+  EXPECT_EQ(closed({Outside::periodic, Outside::periodic}), (std::vector<int>{8, 9, 7, 8, 9, 7, 8, 9, 7}));
+}
+
+TEST(LevelRows, ClosingOneRowLeavesTheOthers) {
+  Levels levels(3, 5, {3, 3}, {Outside::safe, Outside::safe});
+  levels.close(1);
+  for (const std::int64_t r : {0, 2}) {
+    EXPECT_EQ(std::vector<int>(levels.row(r) - 3, levels.row(r) + 8), std::vector<int>(11, 0));
+  }
+}
+
+/// Level of cell (i, j) of a row of 3 times 2 cells, or of what lies beyond: rule after rule, the slower
+/// dimension first, an unsafe end being stronger than any other.
+int expected_level(std::int64_t i, std::int64_t j, RowEnds slow, RowEnds fast) {
+  bool gone = false;
+  const auto bring_in = [&gone](std::int64_t& k, std::int64_t n, RowEnds ends) {
+    if (k >= 0 && k < n) return true;
+    const Outside rule = k < 0 ? ends.below : ends.above;
+    if (rule == Outside::unsafe) return false;
+    gone = gone || rule == Outside::safe;
+    k = rule == Outside::periodic ? (k % n + n) % n : (k < 0 ? 0 : n - 1);
+    return true;
+  };
+  if (!bring_in(i, 3, slow) || !bring_in(j, 2, fast)) return 0;
+  return gone ? 255 : static_cast<int>(10 * i + j + 1);
+}
+
+TEST(LevelRows, OfSeveralDimensionsGoOnInEach) {
+  const std::vector<RowEnds> all = {{Outside::unsafe, Outside::safe},
+                                    {Outside::safe, Outside::unsafe},
+                                    {Outside::saturate, Outside::stop},
+                                    {Outside::periodic, Outside::periodic}};
+  for (const RowEnds slow : all) {
+    for (const RowEnds fast : all) {
+      // Runs of 2 cells with a gap of 5; one index before and two after in the slower dimension.
+      Levels levels(2, RowShape{{{3, 7, {1, 2}, slow}, {2, 1, {2, 3}, fast}}});
+      ASSERT_EQ(levels.row_length(), 21);
+      std::uint8_t* const row = levels.row(1);
+      for (std::int64_t i = 0; i < 3; ++i) {
+        for (std::int64_t j = 0; j < 2; ++j) row[7 * i + j] = static_cast<std::uint8_t>(10 * i + j + 1);
+      }
+      levels.close(1);
+      for (std::int64_t i = -1; i < 5; ++i) {
+        for (std::int64_t j = -2; j < 5; ++j)
+          EXPECT_EQ(row[7 * i + j], expected_level(i, j, slow, fast)) << i << ", " << j;
+      }
+      levels.clear_gaps(row);
+      for (std::int64_t lane = 0; lane < 21; ++lane)
+        EXPECT_EQ(row[lane], lane % 7 < 2 ? 10 * (lane / 7) + lane % 7 + 1 : 0);
+    }
+  }
+}
+
+TEST(LevelRows, MarkCellsThatLeaveThroughUnsafeEnds) {
+  const RowShape shape{{{3, 7, {1, 2}, {Outside::unsafe, Outside::safe}},
+                        {2, 1, {2, 3}, {Outside::saturate, Outside::unsafe}}}};
+  std::vector<Word> bits(1, 0);
+  mark_leaving(shape, 0, {-1, 5}, bits);  // indices below 1 of the slower one, all lanes
+  EXPECT_EQ(bits[0], Word{0x7F});
+  bits[0] = 0;
+  mark_leaving(shape, 1, {-2, 1}, bits);  // the last cell of each run
+  EXPECT_EQ(bits[0], Word{1} << 1 | Word{1} << 8 | Word{1} << 15);
+}
+
+}  // namespace
+}  // namespace coordreq

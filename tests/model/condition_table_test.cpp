@@ -1,0 +1,64 @@
+#include "model/condition_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include "condition_helpers.hpp"
+
+namespace coordreq {
+namespace {
+
+/// [1, 5), points 1, 2, 3, 4.
+GridDimension ring() {
+  return {.name = "x",
+          .first = 1,
+          .step = 1,
+          .count = 4,
+          .below = Outside::periodic,
+          .above = Outside::periodic,
+          .lower = 1,
+          .upper = 5};
+}
+
+/// "1" where the condition holds on the cell, "?" where the callback was asked.
+std::string table(const char* text, const GridDimension& dimension, Sampling sampling) {
+  const Program program = test::condition(text);
+  const UniformGrid grid({dimension});
+  const InputSpace inputs({});
+  ThreadTeam team(1);
+  std::string result(static_cast<std::size_t>(dimension.count), '.');
+  const auto undecided = [&](const std::vector<std::int64_t>& indices) {
+    result[static_cast<std::size_t>(indices[0])] = '?';
+    return false;
+  };
+  const ConditionTable conditions(program, grid, inputs, sampling, undecided, team);
+  for (std::int64_t k = 0; k < dimension.count; ++k) {
+    if (conditions.bits().test(k)) result[static_cast<std::size_t>(k)] = '1';
+  }
+  return result;
+}
+
+TEST(ConditionTable, ACellOnTheSeamCountsWithBothPieces) {
+  EXPECT_EQ(table("x <= 1.5 or x >= 4.5", ring(), Sampling::closed_cells), "1?.?");
+  EXPECT_EQ(table("x <= 1.5 or x >= 4", ring(), Sampling::closed_cells), "1?.?");
+  EXPECT_EQ(table("x < 3", ring(), Sampling::closed_cells), "?1?.");
+  EXPECT_EQ(table("x > 1.75 and x < 4.25", ring(), Sampling::closed_cells), ".?1?");
+}
+
+TEST(ConditionTable, CentresKnowNoSeam) {
+  EXPECT_EQ(table("x < 3", ring(), Sampling::centres), "11..");
+}
+
+TEST(ConditionTable, CellsAreWidenedByTheMeasurementError) {
+  GridDimension line{.name = "x", .first = 0, .step = 1, .count = 5};
+  EXPECT_EQ(table("x <= 2.5", line, Sampling::closed_cells), "111?.");
+  line.measurement_error = Rational(1, 4);
+  EXPECT_EQ(table("x <= 2.5", line, Sampling::closed_cells), "11??.");
+  EXPECT_EQ(table("x <= 2.5", line, Sampling::centres), "111..");
+  GridDimension heading = ring();
+  heading.measurement_error = Rational(1, 2);
+  // Cell 3 reaches the seam, whose point is seen as 1.
+  EXPECT_EQ(table("x >= 1.5", heading, Sampling::closed_cells), "??1?");
+}
+
+}  // namespace
+}  // namespace coordreq
