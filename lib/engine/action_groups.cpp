@@ -20,20 +20,6 @@ std::size_t at(std::int32_t i) {
   return static_cast<std::size_t>(i);
 }
 
-/// The offset in a table of every joint action of some inputs, row-major over `inputs`.
-std::vector<std::int64_t> offsets(const InputSpace& space, const std::vector<std::int32_t>& inputs,
-                                  const std::vector<std::int64_t>& stride) {
-  std::vector<std::int64_t> result = {0};
-  for (const std::int32_t i : inputs) {
-    std::vector<std::int64_t> next;
-    for (const std::int64_t offset : result) {
-      for (std::int64_t k = 0; k < space[at(i)].count(); ++k) next.push_back(offset + k * stride[at(i)]);
-    }
-    result = std::move(next);
-  }
-  return result;
-}
-
 std::vector<std::int32_t> intersection(const std::vector<std::int32_t>& a,
                                        const std::vector<std::int32_t>& b) {
   std::vector<std::int32_t> result;
@@ -66,22 +52,20 @@ bool slice_within(const std::vector<RowSegment>& a, const std::vector<RowSegment
 
 }  // namespace
 
-ActionGrouping::ActionGrouping(const RowEngine& engine, std::vector<InputClass> classes, ThreadTeam& team)
+ActionGrouping::ActionGrouping(const RowEngine& engine, const std::vector<InputClass>& classes,
+                               ThreadTeam& team)
     : engine_(&engine), sources_(action_sources(engine)) {
-  for (InputClass& inputs : classes) {
-    std::sort(inputs.begin(), inputs.end());
-    classes_.push_back(make_class(std::move(inputs)));
+  for (const InputClass& inputs : classes) {
+    classes_.push_back(make_class(inputs));
     share_groups(classes_.back(), team);
   }
 }
 
-ActionGrouping::ClassData ActionGrouping::make_class(InputClass inputs) const {
-  const InputSpace& space = engine_->abstraction().inputs;
-  ClassData data{.inputs = std::move(inputs)};
-  for (const std::int32_t i : data.inputs) data.actions *= space[at(i)].count();
+ActionGrouping::ClassData ActionGrouping::make_class(const InputClass& inputs) const {
+  ClassData data{.inputs = inputs};
   for (std::size_t t = 0; t < sources_.size(); ++t) {
-    data.contribution.push_back(offsets(space, data.inputs, sources_[t].input_stride));
-    if (!intersection(sources_[t].inputs, data.inputs).empty()) data.views.push_back(make_view(t, data));
+    data.contribution.push_back(inputs.offsets(sources_[t].input_stride));
+    if (!intersection(sources_[t].inputs, inputs.inputs()).empty()) data.views.push_back(make_view(t, data));
   }
   return data;
 }
@@ -89,32 +73,25 @@ ActionGrouping::ClassData ActionGrouping::make_class(InputClass inputs) const {
 ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassData& data) const {
   const InputSpace& space = engine_->abstraction().inputs;
   const ActionSource& source = sources_[table];
-  const std::vector<std::int32_t> own = intersection(source.inputs, data.inputs);
-  const std::vector<std::int32_t> others = difference(source.inputs, data.inputs);
-  View view{.table = table};
-  for (const std::int32_t i : own) view.width *= space[at(i)].count();
+  const InputClass own(space, intersection(source.inputs, data.inputs.inputs()));
+  const InputClass others(space, difference(source.inputs, data.inputs.inputs()));
+  View view{.table = table, .width = own.actions()};
 
-  // Number of each action's combination of the inputs in use, row-major over `own`.
-  std::vector<std::int64_t> own_stride(space.size(), 0);
-  std::int64_t stride = 1;
-  for (auto it = own.rbegin(); it != own.rend(); ++it) {
-    own_stride[at(*it)] = stride;
-    stride *= space[at(*it)].count();
-  }
   view.is_summed = source.is_summed;
-  if (others.empty()) {
+  if (others.inputs().empty()) {
     // The table's own layout is row-major over `own` too.
-    for (const std::int64_t c : offsets(space, data.inputs, source.input_stride)) {
+    for (const std::int64_t c : data.inputs.offsets(source.input_stride)) {
       view.combination.push_back(static_cast<std::int32_t>(c));
     }
     return view;
   }
-  for (const std::int64_t c : offsets(space, data.inputs, own_stride)) {
+  // Number of each action's combination of the inputs in use.
+  for (const std::int64_t c : data.inputs.offsets(own.strides())) {
     view.combination.push_back(static_cast<std::int32_t>(c));
   }
   if (view.is_summed) return view;
-  const std::vector<std::int64_t> own_offsets = offsets(space, own, source.input_stride);
-  const std::vector<std::int64_t> other_offsets = offsets(space, others, source.input_stride);
+  const std::vector<std::int64_t> own_offsets = own.offsets(source.input_stride);
+  const std::vector<std::int64_t> other_offsets = others.offsets(source.input_stride);
   const auto total = static_cast<std::int64_t>(source.ids().size());
   std::map<std::vector<std::uint32_t>, std::uint32_t> numbers;
   for (std::int64_t base = 0; base < total; base += source.input_combinations) {
@@ -140,7 +117,7 @@ const std::uint32_t* ActionGrouping::view_ids(const View& view, const RowPlace& 
 
 ActionGroups ActionGrouping::find_groups(const ClassData& data, const RowPlace& place) const {
   ActionGroups groups;
-  groups.group_of.assign(static_cast<std::size_t>(data.actions), 0);
+  groups.group_of.assign(static_cast<std::size_t>(data.inputs.actions()), 0);
   std::unordered_map<std::uint64_t, std::uint32_t> numbers;
   for (const View& view : data.views) {
     const std::uint32_t* ids = view_ids(view, place);
@@ -222,8 +199,8 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
     choices *= grid[i].count;
   }
   const auto compared =
-      static_cast<std::int64_t>(std::min(static_cast<std::size_t>(data.actions), kMaxCompared));
-  if (choices > kMaxShared / (data.actions + compared * compared / 4)) return;
+      static_cast<std::int64_t>(std::min(static_cast<std::size_t>(data.inputs.actions()), kMaxCompared));
+  if (choices > kMaxShared / (data.inputs.actions() + compared * compared / 4)) return;
   std::vector<ActionGroups> found(static_cast<std::size_t>(choices));
   team.for_each(choices, 16, [&](ThreadTeam::Range range, int) {
     for (std::int64_t choice = range.begin; choice < range.end; ++choice) {

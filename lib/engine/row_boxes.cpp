@@ -12,9 +12,8 @@ RowBoxes::RowBoxes(const ActionGrouping& grouping)
     std::size_t owners = 0;
     for (std::size_t c = 0; c < grouping.size(); ++c) {
       const std::vector<std::int32_t>& used = grouping.sources()[t].inputs;
-      const bool is_owner = std::any_of(used.begin(), used.end(), [&](std::int32_t i) {
-        return std::binary_search(grouping.inputs(c).begin(), grouping.inputs(c).end(), i);
-      });
+      const bool is_owner =
+          std::any_of(used.begin(), used.end(), [&](std::int32_t i) { return grouping[c].contains(i); });
       if (!is_owner) continue;
       owner = c;
       ++owners;
