@@ -6,10 +6,8 @@ namespace coordreq {
 namespace {
 
 constexpr FieldSection kSection = FieldSection::requirements;
-constexpr char kGroup[] = "/counterexample";
-
 std::string at(const std::string& name) {
-  return std::string(kGroup) + "/" + name;
+  return "/counterexample/" + name;
 }
 
 /// Of the path of a requirement.
