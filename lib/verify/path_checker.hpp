@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "answers/requirements/result_requirement.hpp"
 #include "model/input_class.hpp"
-#include "results/result_requirement.hpp"
 #include "verify/allowed_pairs.hpp"
 #include "verify/check_cells.hpp"
 
