@@ -64,9 +64,9 @@ inline void mark_leaving(const RowShape& shape, std::size_t k, IndexRange window
     for (std::int64_t lane = 0; lane < shape.length(); lane += block)
       set_bits(bits, lane + first * dimension.stride, lane + last * dimension.stride);
   };
-  if (dimension.ends.below == Outside::unsafe)
+  if (traits(dimension.ends.below).blocks)
     mark(0, std::clamp<std::int64_t>(-std::int64_t{window.first}, 0, n));
-  if (dimension.ends.above == Outside::unsafe) mark(n - std::clamp<std::int64_t>(window.last, 0, n), n);
+  if (traits(dimension.ends.above).blocks) mark(n - std::clamp<std::int64_t>(window.last, 0, n), n);
 }
 
 /// One level a cell, in rows, each continued beyond its ends, and those of the runs in it, by what a post
@@ -146,22 +146,22 @@ class LevelRows {
       after += (other.count - 1 + other.margins.after) * other.stride;
     }
     Level* const part = cells + index * dimension.stride;
-    const Outside rule = index < 0 ? dimension.ends.below : dimension.ends.above;
-    if (rule == Outside::unsafe || rule == Outside::safe) {
-      std::fill(part - before, part + after, rule == Outside::safe ? kTop : Level{0});
+    const OutsideTraits& rule = traits(index < 0 ? dimension.ends.below : dimension.ends.above);
+    if (rule.is_open()) {
+      std::fill(part - before, part + after, rule.arrives ? kTop : Level{0});
       // What leaves safely here may leave through an unsafe side there.
-      if (rule == Outside::safe) close_part(part, k + 1);
+      if (rule.arrives) close_part(part, k + 1);
       return;
     }
     const std::int64_t n = dimension.count;
-    const std::int64_t source = rule == Outside::periodic ? (index % n + n) % n : (index < 0 ? 0 : n - 1);
+    const std::int64_t source = rule.wraps ? (index % n + n) % n : (index < 0 ? 0 : n - 1);
     const Level* const other = cells + source * dimension.stride;
     std::copy(other - before, other + after, part - before);
   }
 
   static void close_run(Level* cells, const RowDimension& run) {
     const std::int64_t n = run.count;
-    if (run.ends.below == Outside::periodic) {
+    if (traits(run.ends.below).wraps) {
       for (std::int64_t k = 1; k <= run.margins.before; ++k) cells[-k] = cells[(n - k % n) % n];
       for (std::int64_t k = 0; k < run.margins.after; ++k) cells[n + k] = cells[k % n];
       return;
@@ -171,8 +171,8 @@ class LevelRows {
   }
 
   [[nodiscard]] static Level beyond(Outside rule, Level boundary) {
-    if (rule == Outside::unsafe) return 0;
-    return rule == Outside::safe ? kTop : boundary;
+    if (traits(rule).blocks) return 0;
+    return traits(rule).arrives ? kTop : boundary;
   }
 
   std::int64_t rows_ = 0;

@@ -60,8 +60,8 @@ RowEngine::RowEngine(const Abstraction& abstraction, const PairTable* allow, con
   if (tubes.beyond == nullptr) return;
   // The same tubes again, now blocked where they pass a limit: what is left need not be safe beyond it.
   for (GridDimension& dimension : dimensions) {
-    if (dimension.below == Outside::saturate) dimension.below = Outside::unsafe;
-    if (dimension.above == Outside::saturate) dimension.above = Outside::unsafe;
+    if (traits(dimension.below).resets) dimension.below = Outside::unsafe;
+    if (traits(dimension.above).resets) dimension.above = Outside::unsafe;
   }
   add_demand(*tubes.inside, dimensions);
 }

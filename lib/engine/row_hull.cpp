@@ -95,8 +95,8 @@ RowHull::Entry RowHull::entry_of_sums(std::size_t table, std::int64_t base,
   if (is_last) return {fit_window(raw, target.count, {target.below, target.above}), no_tubes};
   const auto last = static_cast<std::int32_t>(target.count - 1);
   // What leaves safely, or lands in the boundary cell, asks no more than the part of the box that is left.
-  const bool blocks = (raw.first < 0 && target.below == Outside::unsafe) ||
-                      (raw.last > last && target.above == Outside::unsafe);
+  const bool blocks = (raw.first < 0 && traits(target.below).blocks) ||
+                      (raw.last > last && traits(target.above).blocks);
   return {{std::clamp(raw.first, 0, last), std::clamp(raw.last, 0, last)}, no_tubes && !blocks};
 }
 

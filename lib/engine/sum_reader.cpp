@@ -85,11 +85,11 @@ void SumReader<Level>::find_margins() {
       const std::int32_t inside = std::clamp(index[i], 0, sides_[i].count - 1);
       nearest += inside * sides_[i].stride;
       if (inside == index[i]) continue;
-      const Outside rule = index[i] < 0 ? dimension.below : dimension.above;
+      const OutsideTraits& rule = traits(index[i] < 0 ? dimension.below : dimension.above);
       outside = true;
       row_start = false;
-      unsafe = unsafe || rule == Outside::unsafe;
-      safe = safe || rule == Outside::safe;
+      unsafe = unsafe || rule.blocks;
+      safe = safe || rule.arrives;
     }
     if (row_start) places_of_rows_.push_back(cell);
     // What leaves through an unsafe side is blocked, wherever else it leaves; else it may have left for good.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "model/outside.hpp"
 #include "numeric/rational.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -27,7 +28,7 @@ struct GridDimension {
   Rational stretch_above = 0;
 
   /// The dimension wraps round: first = lower, count * step = upper - lower.
-  [[nodiscard]] bool periodic() const { return below == Outside::periodic; }
+  [[nodiscard]] bool periodic() const { return traits(below).wraps; }
   [[nodiscard]] Rational point(std::int64_t k) const { return first + step * Rational(static_cast<long>(k)); }
   /// Half the width of a cell: step / 2, or 0 for a discrete dimension.
   [[nodiscard]] Rational radius() const { return discrete ? Rational(0) : Rational(step / 2); }
