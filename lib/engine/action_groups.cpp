@@ -33,23 +33,6 @@ std::vector<std::int32_t> difference(const std::vector<std::int32_t>& a, const s
   return result;
 }
 
-bool range_within(IndexRange a, IndexRange b, const GridDimension& target) {
-  const auto inside = [&](std::int64_t shift) {
-    return b.first <= a.first + shift && a.last + shift <= b.last;
-  };
-  if (inside(0)) return true;
-  return target.periodic() && (inside(target.count) || std::int64_t{b.last} - b.first + 1 == target.count);
-}
-
-/// True if for every cell of the row the range of `a` asks no more of the target than that of `b`.
-bool slice_within(const std::vector<RowSegment>& a, const std::vector<RowSegment>& b,
-                  const GridDimension& target) {
-  using Kind = RowSegment::Kind;
-  if (a.size() != 1 || b.size() != 1) return a == b;
-  if (a[0].kind == Kind::gone || b[0].kind == Kind::blocked) return true;
-  return a[0].kind == b[0].kind && range_within(a[0].range, b[0].range, target);
-}
-
 }  // namespace
 
 ActionGrouping::ActionGrouping(const RowEngine& engine, const std::vector<InputClass>& classes,
@@ -77,7 +60,7 @@ ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassDat
   const InputClass others(space, difference(source.inputs, data.inputs.inputs()));
   View view{.table = table, .width = own.actions()};
 
-  view.is_summed = source.is_summed;
+  view.all_distinct = source.all_distinct();
   if (others.inputs().empty()) {
     // The table's own layout is row-major over `own` too.
     for (const std::int64_t c : data.inputs.offsets(source.input_stride)) {
@@ -89,16 +72,16 @@ ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassDat
   for (const std::int64_t c : data.inputs.offsets(own.strides())) {
     view.combination.push_back(static_cast<std::int32_t>(c));
   }
-  if (view.is_summed) return view;
+  if (view.all_distinct) return view;
   const std::vector<std::int64_t> own_offsets = own.offsets(source.input_stride);
   const std::vector<std::int64_t> other_offsets = others.offsets(source.input_stride);
-  const auto total = static_cast<std::int64_t>(source.ids().size());
+  const auto total = static_cast<std::int64_t>(source.ids->size());
   std::map<std::vector<std::uint32_t>, std::uint32_t> numbers;
   for (std::int64_t base = 0; base < total; base += source.input_combinations) {
     for (const std::int64_t offset : own_offsets) {
       std::vector<std::uint32_t> column;
       for (const std::int64_t other : other_offsets) {
-        column.push_back(source.ids()[static_cast<std::size_t>(base + offset + other)]);
+        column.push_back((*source.ids)[static_cast<std::size_t>(base + offset + other)]);
       }
       const auto next = static_cast<std::uint32_t>(numbers.size());
       view.partial.push_back(numbers.try_emplace(std::move(column), next).first->second);
@@ -108,10 +91,10 @@ ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassDat
 }
 
 const std::uint32_t* ActionGrouping::view_ids(const View& view, const RowPlace& place) const {
-  if (view.is_summed) return nullptr;
+  if (view.all_distinct) return nullptr;
   const ActionSource& source = sources_[view.table];
   const std::int64_t base = source.base(place);
-  if (view.partial.empty()) return source.ids().data() + base;
+  if (view.partial.empty()) return source.ids->data() + base;
   return view.partial.data() + base / source.input_combinations * view.width;
 }
 
@@ -149,23 +132,20 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
   groups.within.assign(size * size, 1);
   for (const View& view : data.views) {
     const std::uint32_t* ids = view_ids(view, place);
-    const bool is_slices = view.table < engine_->slices().size() && view.partial.empty();
+    // Not easily told where columns or rows of `allow` are numbered.
+    const RowSlices* slices = view.partial.empty() ? sources_[view.table].slices : nullptr;
+    const GridDimension& target = engine_->grid()[view.table % engine_->tables()];
+    const auto number = [&](std::size_t g) {
+      const std::int32_t combination = view.combination[groups.representative[g]];
+      return ids == nullptr ? static_cast<std::uint32_t>(combination) : ids[combination];
+    };
     for (std::size_t g = 0; g < size; ++g) {
       for (std::size_t h = 0; h < size; ++h) {
         std::uint8_t& within = groups.within[g * size + h];
         if (within == 0) continue;
-        const std::int32_t own = view.combination[groups.representative[g]];
-        const std::int32_t other = view.combination[groups.representative[h]];
-        const std::uint32_t a = ids == nullptr ? static_cast<std::uint32_t>(own) : ids[own];
-        const std::uint32_t b = ids == nullptr ? static_cast<std::uint32_t>(other) : ids[other];
-        if (a == b) continue;
-        if (!is_slices || ids == nullptr) {
-          within = 0;
-          continue;
-        }
-        const auto& slices = engine_->slices()[view.table].slices;
-        const GridDimension& target = engine_->abstraction().grid[view.table % engine_->tables()];
-        within = slice_within(slices[a], slices[b], target) ? 1 : 0;
+        const std::uint32_t a = number(g);
+        const std::uint32_t b = number(h);
+        within = a == b || (slices != nullptr && slices->is_within(a, b, target)) ? 1 : 0;
       }
     }
   }
@@ -192,7 +172,7 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
   std::int64_t choices = 1;
   for (std::size_t i = grid.size() - 1; i-- > 0;) {
     const bool used = std::any_of(data.views.begin(), data.views.end(), [&](const View& view) {
-      return !view.is_summed && sources_[view.table].state_stride[i] != 0;
+      return !view.all_distinct && sources_[view.table].state_stride[i] != 0;
     });
     if (!used) continue;
     data.state_stride[i] = choices;

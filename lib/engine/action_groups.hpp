@@ -72,7 +72,7 @@ class ActionGrouping {
   struct View {
     std::size_t table = 0;
     /// Every combination is told apart, in every row.
-    bool is_summed = false;
+    bool all_distinct = false;
     /// Numbers of equal columns, [row choice * width + combination]; empty: the table uses no other class's
     /// inputs and its ids serve directly.
     std::vector<std::uint32_t> partial;

@@ -180,7 +180,7 @@ void SumReader<Level>::fill_block(Slot& slot, bool gone) {
       continue;
     }
     sources_.clear();
-    for_each_row(engine_, 0, slot.ranges, counter_, [&](std::int64_t first) {
+    for_each_row(engine_.grid(), 0, slot.ranges, counter_, [&](std::int64_t first) {
       sources_.push_back(levels_.row(first + static_cast<std::int64_t>(inner)));
     });
     kernels_->minimum(sources_.data(), sources_.size(), target, n);

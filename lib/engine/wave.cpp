@@ -97,7 +97,7 @@ class WaveRunner {
     std::vector<Change> changes;
     std::vector<std::uint32_t> merged;
     std::vector<std::int64_t> counter;
-    RowHull::Box box;
+    RowBox box;
     std::int64_t visited = 0;
     Level lowest = kTop;      ///< to which a cell has sunk
     std::uint32_t batch = 0;  ///< and unit: what the reader has entered
@@ -138,7 +138,7 @@ class WaveRunner {
     hull_.box(place, box_);
     const std::span<const IndexRange> outer(box_.ranges.data(), engine_.outer());
     bool pending = false;
-    for_each_row(engine_, 0, outer, counter_, [&](std::int64_t row) {
+    for_each_row(engine_.grid(), 0, outer, counter_, [&](std::int64_t row) {
       pending = pending || unit_changed_[static_cast<std::size_t>(row / unit_rows_)] >= unit_seen_[u];
     });
     return pending;
@@ -204,7 +204,7 @@ class WaveRunner {
     hull_.box(RowPlace(engine_.grid(), first_row), worker.box);
     worker.merged.assign(static_cast<std::size_t>(unit_rows_), 0);
     const std::span<const IndexRange> outer(worker.box.ranges.data(), engine_.outer());
-    for_each_row(engine_, 0, outer, worker.counter, [&](std::int64_t row) {
+    for_each_row(engine_.grid(), 0, outer, worker.counter, [&](std::int64_t row) {
       const std::uint32_t* changed = changed_.data() + row;
       for (std::size_t i = 0; i < worker.merged.size(); ++i) {
         worker.merged[i] = std::max(worker.merged[i], changed[i]);
@@ -219,7 +219,7 @@ class WaveRunner {
                                             worker.box.ranges.size() - outer);
     const std::uint32_t* changed = outer == 0 ? changed_.data() : worker.merged.data();
     bool meets = false;
-    for_each_row(engine_, outer, inner, worker.counter,
+    for_each_row(engine_.grid(), outer, inner, worker.counter,
                  [&](std::int64_t row) { meets = meets || changed[row] >= seen; });
     return meets;
   }
@@ -294,7 +294,7 @@ class WaveRunner {
   std::vector<std::int64_t> unit_alive_;  ///< [unit] rows that are alive
   std::deque<Worker> workers_;
   std::vector<Piece> pieces_;
-  RowHull::Box box_;
+  RowBox box_;
   std::vector<std::int64_t> counter_;
 };
 

@@ -72,7 +72,7 @@ TEST(RowHull, HoldsThePostsOfTheRow) {
     BoxReader<std::uint8_t> reader(random.engine, random.engine.posts(), random.engine.outer(), levels);
     bool covers = false;
     for (RowPlace place(grid, 0); place.row < grid.rows(); place.advance(grid)) {
-      RowHull::Box box;
+      RowBox box;
       hull.box(place, box);
       covers = covers || box.covers;
       reader.enter();

@@ -14,7 +14,7 @@ struct Workspace {
   RowGroups groups;
   TupleWalk::Candidates candidates;
   TupleWalk tuple;
-  RowHull::Box box;
+  RowBox box;
   std::vector<Level> lanes;
   std::vector<Word> some_allowed;
 };
