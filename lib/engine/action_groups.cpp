@@ -16,10 +16,6 @@ constexpr std::int64_t kMaxShared = std::int64_t{1} << 24;
 /// With more groups than this, comparing each with each costs more than it saves.
 constexpr std::size_t kMaxCompared = 128;
 
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
 std::vector<std::int32_t> intersection(const std::vector<std::int32_t>& a,
                                        const std::vector<std::int32_t>& b) {
   std::vector<std::int32_t> result;
