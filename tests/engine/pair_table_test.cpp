@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "condition_helpers.hpp"
+#include "support/condition_helpers.hpp"
 #include "engine/safe_set.hpp"
 #include "spec/read_spec.hpp"
 
