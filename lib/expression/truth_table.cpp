@@ -31,16 +31,21 @@ void set_all(std::span<Word> row, std::int64_t length) {
   for (std::size_t w = 0; w < row.size(); ++w) row[w] = cells_of_word(w, length);
 }
 
-/// The ranges in doubles.
-std::vector<std::vector<std::vector<Interval>>> enclosed(std::span<const ConditionAxis> axes) {
-  std::vector<std::vector<std::vector<Interval>>> result;
-  for (const ConditionAxis& axis : axes) {
-    auto& of_axis = result.emplace_back();
-    for (const std::vector<RationalInterval>& parts : axis.ranges) {
-      auto& of_index = of_axis.emplace_back();
-      for (const RationalInterval& part : parts) of_index.push_back(enclose(part));
-    }
-  }
+using FastRanges = std::vector<Interval>;
+
+FastRanges enclosed(const ConditionAxis::Ranges& exact) {
+  FastRanges result;
+  for (const RationalInterval& part : exact) result.push_back(enclose(part));
+  return result;
+}
+
+/// The ranges of all indices of an axis in doubles; nothing if they are not asked for often enough to keep
+/// them.
+std::vector<FastRanges> kept_ranges(const ConditionAxis& axis, std::int64_t times_asked) {
+  constexpr std::int64_t kOften = 16;
+  std::vector<FastRanges> result;
+  if (times_asked < kOften) return result;
+  for (std::int64_t k = 0; k < axis.count; ++k) result.push_back(enclosed(axis.ranges(k)));
   return result;
 }
 
@@ -72,22 +77,24 @@ void join_atoms(const ConditionAtoms& atoms, const std::vector<std::span<const W
 /// Evaluates one bit of the table after the other; scratch of one thread.
 class TruthTable::Filler {
  public:
-  using FastRanges = std::vector<std::vector<std::vector<Interval>>>;
-
-  Filler(const Program& condition, std::span<const ConditionAxis> axes, const FastRanges& fast_ranges,
-         const Undecided& undecided, Question question)
+  /// @param kept by slot: see kept_ranges()
+  Filler(const Program& condition, std::span<const ConditionAxis> axes,
+         const std::vector<std::vector<FastRanges>>& kept, const Undecided& undecided, Question question)
       : decider_(condition, question),
         axes_(axes),
-        fast_ranges_(fast_ranges),
+        kept_(kept),
         undecided_(undecided),
         variables_(condition.variables()),
         indices_(axes.size(), 0),
         parts_(axes.size(), 0),
+        ranges_(axes.size()),
         fast_(axes.size()),
         exact_(axes.size()) {}
 
   void set(std::size_t slot, std::int64_t index) {
     indices_[slot] = index;
+    ranges_[slot] = kept_[slot].empty() ? enclosed(axes_[slot].ranges(index))
+                                        : kept_[slot][static_cast<std::size_t>(index)];
     set_part(slot, 0);
   }
 
@@ -97,11 +104,9 @@ class TruthTable::Filler {
   }
 
  private:
-  [[nodiscard]] std::size_t index(std::size_t slot) const { return static_cast<std::size_t>(indices_[slot]); }
-
   void set_part(std::size_t slot, std::size_t part) {
     parts_[slot] = part;
-    fast_[slot] = fast_ranges_[slot][index(slot)][part];
+    fast_[slot] = ranges_[slot][part];
   }
 
   Truth on_all_parts() {
@@ -116,7 +121,7 @@ class TruthTable::Filler {
   /// Goes on to the next combination; @returns false back at the first one
   bool next_parts() {
     for (const std::uint32_t slot : variables_) {
-      const std::size_t count = axes_[slot].ranges[index(slot)].size();
+      const std::size_t count = ranges_[slot].size();
       if (count == 1) continue;
       const bool more = parts_[slot] + 1 < count;
       set_part(slot, more ? parts_[slot] + 1 : 0);
@@ -131,25 +136,26 @@ class TruthTable::Filler {
 
   std::span<const RationalInterval> exact_box() {
     for (const std::uint32_t slot : variables_) {
-      exact_[slot] = axes_[slot].ranges[index(slot)][parts_[slot]];
+      exact_[slot] = axes_[slot].ranges(indices_[slot])[parts_[slot]];
     }
     return exact_;
   }
 
   ConditionDecider decider_;
   std::span<const ConditionAxis> axes_;
-  const FastRanges& fast_ranges_;
+  const std::vector<std::vector<FastRanges>>& kept_;
   const Undecided& undecided_;
   std::vector<std::uint32_t> variables_;
   std::vector<std::int64_t> indices_;
   std::vector<std::size_t> parts_;
+  std::vector<FastRanges> ranges_;  ///< of the indices
   std::vector<Interval> fast_;
   std::vector<RationalInterval> exact_;
 };
 
 TruthTable::TruthTable(const Program& condition, std::span<const ConditionAxis> axes, std::uint32_t along,
                        const Undecided& undecided, ThreadTeam& team, Question question)
-    : along_(along), row_length_(axes[along].count()) {
+    : along_(along), row_length_(axes[along].count) {
   lay_out(condition, axes, along);
   // Comparisons that depend on few variables settle most cells; the others are looked at one by one.
   std::vector<Word> refuted;
@@ -157,11 +163,13 @@ TruthTable::TruthTable(const Program& condition, std::span<const ConditionAxis> 
     bits_ = std::move(proven);
     refuted = proven_by_atoms(condition, axes, true, team);
   }
-  const Filler::FastRanges fast_ranges = enclosed(axes);
+  std::vector<std::vector<FastRanges>> kept(axes.size());
+  if (along_in_use_) kept[along] = kept_ranges(axes[along], rows_);
+  for (const std::size_t slot : across_) kept[slot] = kept_ranges(axes[slot], rows_ / counts_[slot]);
   const auto words = static_cast<std::size_t>(words_per_row());
   const std::int64_t grain = std::max<std::int64_t>(1, 4096 / row_length_);
   team.for_each(rows_, grain, [&](ThreadTeam::Range range, int) {
-    Filler filler(condition, axes, fast_ranges, undecided, question);
+    Filler filler(condition, axes, kept, undecided, question);
     for (std::int64_t r = range.begin; r < range.end; ++r) {
       const std::size_t begin = refuted.empty() ? 0 : static_cast<std::size_t>(r) * words;
       fill_row(r, {refuted.data() + begin, refuted.empty() ? 0 : words}, filler);
@@ -171,7 +179,7 @@ TruthTable::TruthTable(const Program& condition, std::span<const ConditionAxis> 
 
 void TruthTable::lay_out(const Program& condition, std::span<const ConditionAxis> axes, std::uint32_t along) {
   strides_.assign(axes.size(), 0);
-  for (const ConditionAxis& axis : axes) counts_.push_back(axis.count());
+  for (const ConditionAxis& axis : axes) counts_.push_back(axis.count);
   const std::vector<std::uint32_t> used = condition.variables();
   for (std::size_t i = used.size(); i-- > 0;) {
     if (used[i] == along) {

@@ -12,9 +12,11 @@ namespace coordreq {
 
 /// What a variable can be, index by index.
 struct ConditionAxis {
-  /// [index]: mostly one range; several (all of them can occur) for a cell that is cut by a seam.
-  std::vector<std::vector<RationalInterval>> ranges;
-  [[nodiscard]] std::int64_t count() const { return static_cast<std::int64_t>(ranges.size()); }
+  using Ranges = std::vector<RationalInterval>;
+  std::int64_t count = 0;
+  /// Mostly one range; several (all of them can occur) for a cell that is cut by a seam. Called by many
+  /// threads, and again for what is asked again: an axis can be too long to be kept.
+  std::function<Ranges(std::int64_t index)> ranges;
 };
 
 /// The truth of a condition for every choice of an index for each of its variables; true where it holds on

@@ -9,30 +9,27 @@ RationalInterval point_interval(const Rational& point) {
   return {.lower = point, .upper = point};
 }
 
-ConditionAxis axis_of_state(const GridDimension& dimension, Sampling sampling) {
-  ConditionAxis axis;
-  for (std::int64_t k = 0; k < dimension.count; ++k) {
-    std::vector<RationalInterval>& parts = axis.ranges.emplace_back();
-    if (sampling == Sampling::centres) {
-      parts.push_back(point_interval(dimension.point(k)));
-      continue;
-    }
-    for (const Piece& piece : pieces(dimension, k))
-      parts.push_back({.lower = piece.lower, .upper = piece.upper});
-  }
-  return axis;
+ConditionAxis::Ranges ranges_of_cell(const GridDimension& dimension, std::int64_t k, Sampling sampling) {
+  if (sampling == Sampling::centres) return {point_interval(dimension.point(k))};
+  ConditionAxis::Ranges ranges;
+  for (const Piece& piece : pieces(dimension, k))
+    ranges.push_back({.lower = piece.lower, .upper = piece.upper});
+  return ranges;
 }
 
-/// By slot: states, then inputs; filled for the variables of the condition and for the last state.
-std::vector<ConditionAxis> axes_of(const Program& condition, const UniformGrid& grid,
-                                   const InputSpace& inputs, Sampling sampling) {
-  std::vector<ConditionAxis> axes(grid.size() + inputs.size());
-  axes[grid.size() - 1] = axis_of_state(grid[grid.size() - 1], sampling);
-  for (const std::uint32_t slot : condition.variables()) {
-    if (slot + 1 < grid.size()) axes[slot] = axis_of_state(grid[slot], sampling);
-    if (slot < grid.size()) continue;
-    for (const Rational& value : inputs[slot - grid.size()].values)
-      axes[slot].ranges.push_back({point_interval(value)});
+/// By slot: states, then inputs.
+std::vector<ConditionAxis> axes_of(const UniformGrid& grid, const InputSpace& inputs, Sampling sampling) {
+  std::vector<ConditionAxis> axes;
+  for (const GridDimension& dimension : grid.dimensions()) {
+    axes.push_back({dimension.count, [&dimension, sampling](std::int64_t k) {
+                      return ranges_of_cell(dimension, k, sampling);
+                    }});
+  }
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const std::vector<Rational>& values = inputs[i].values;
+    axes.push_back({inputs[i].count(), [&values](std::int64_t k) -> ConditionAxis::Ranges {
+                      return {point_interval(values[static_cast<std::size_t>(k)])};
+                    }});
   }
   return axes;
 }
@@ -44,8 +41,8 @@ ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid
                                Question question)
     : grid_(&grid),
       input_space_(&inputs),
-      table_(condition, axes_of(condition, grid, inputs, sampling),
-             static_cast<std::uint32_t>(grid.size() - 1), undecided, team, question),
+      table_(condition, axes_of(grid, inputs, sampling), static_cast<std::uint32_t>(grid.size() - 1),
+             undecided, team, question),
       state_stride_(table_.strides().begin(),
                     table_.strides().begin() + static_cast<std::ptrdiff_t>(grid.size())),
       input_stride_(table_.strides().begin() + static_cast<std::ptrdiff_t>(grid.size()),
