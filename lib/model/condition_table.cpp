@@ -19,11 +19,12 @@ ConditionAxis::Ranges ranges_of_cell(const GridDimension& dimension, std::int64_
 
 /// By slot: states, then inputs.
 std::vector<ConditionAxis> axes_of(const UniformGrid& grid, const InputSpace& inputs, Sampling sampling) {
-  std::vector<ConditionAxis> axes;
-  for (const GridDimension& dimension : grid.dimensions()) {
-    axes.push_back({dimension.count, [&dimension, sampling](std::int64_t k) {
-                      return ranges_of_cell(dimension, k, sampling);
-                    }});
+  std::vector<ConditionAxis> axes(grid.size());
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const GridDimension& dimension = grid[i];
+    axes[grid.state(i)] = {dimension.count, [&dimension, sampling](std::int64_t k) {
+                             return ranges_of_cell(dimension, k, sampling);
+                           }};
   }
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const std::vector<Rational>& values = inputs[i].values;
@@ -41,12 +42,11 @@ ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid
                                Question question)
     : grid_(&grid),
       input_space_(&inputs),
-      table_(condition, axes_of(grid, inputs, sampling), static_cast<std::uint32_t>(grid.size() - 1),
+      table_(condition, axes_of(grid, inputs, sampling), static_cast<std::uint32_t>(grid.state(grid.size() - 1)),
              undecided, team, question),
-      state_stride_(table_.strides().begin(),
-                    table_.strides().begin() + static_cast<std::ptrdiff_t>(grid.size())),
       input_stride_(table_.strides().begin() + static_cast<std::ptrdiff_t>(grid.size()),
                     table_.strides().end()) {
+  for (std::size_t i = 0; i < grid.size(); ++i) state_stride_.push_back(table_.strides()[grid.state(i)]);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (input_stride_[i] != 0) inputs_.push_back(static_cast<std::int32_t>(i));
   }

@@ -20,9 +20,10 @@ enum class Sampling : std::uint8_t {
   closed_cells,
 };
 
-/// The truth of a condition over the grid, tabulated over only the states and inputs that it depends on.
+/// The truth of a condition over the grid, tabulated over only the states and inputs that it depends on. The
+/// condition numbers variables as the spec does; all else here is about dimensions of the grid.
 ///
-/// One bit row along the last state dimension for each choice of the other states and inputs in use, so that
+/// One bit row along the last dimension for each choice of the other states and inputs in use, so that
 /// rows serve all the cells that differ only in what the condition does not depend on.
 class ConditionTable {
  public:
@@ -47,7 +48,7 @@ class ConditionTable {
   [[nodiscard]] const InputSpace& input_space() const { return *input_space_; }
   /// Numbers of the inputs in use, ascending.
   [[nodiscard]] const std::vector<std::int32_t>& inputs() const { return inputs_; }
-  /// By state and by input: what one index adds to the position; 0 where not in use.
+  /// By dimension and by input: what one index adds to the position; 0 where not in use.
   [[nodiscard]] const std::vector<std::int64_t>& state_stride() const { return state_stride_; }
   [[nodiscard]] const std::vector<std::int64_t>& input_stride() const { return input_stride_; }
 

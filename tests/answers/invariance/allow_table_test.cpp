@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "support/condition_helpers.hpp"
-#include "engine/safe_set.hpp"
+#include "answers/invariance/safe_set.hpp"
 #include "spec/read_spec.hpp"
+#include "support/condition_helpers.hpp"
 
 namespace coordreq {
 namespace {
