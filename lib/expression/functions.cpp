@@ -122,8 +122,12 @@ Constant from_double(double value) {
   if (!std::isfinite(value)) return {Outcome::not_finite, 0};
   return {Outcome::value, exact(value)};
 }
+/// Longer arguments take long to round correctly, and no one means them.
+constexpr std::size_t kMostRoundedBits = 4096;
+
 template <ElementaryFunction f>
 Constant to_double(const Rational& a, const Rational& /*b*/) {
+  if (bit_size(a) > kMostRoundedBits) return {Outcome::too_large, 0};
   const std::optional<double> value = nearest_value(f, a);
   return value ? from_double(*value) : Constant{};
 }
@@ -137,7 +141,7 @@ Constant quotient_constant(const Rational& /*a*/, const Rational& b) {
 Constant power_constant(const Rational& a, const Rational& b) {
   if (sgn(a) == 0) return {Outcome::zero_divisor, 0};  // 0^b with b < 0
   if (sgn(a) < 0 && !is_integer(b)) return {Outcome::undefined, 0};
-  if (is_integer(b)) return {Outcome::too_large, 0};
+  if (is_integer(b) || std::max(bit_size(a), bit_size(b)) > kMostRoundedBits) return {Outcome::too_large, 0};
   return from_double(nearest_power(a, b));
 }
 
