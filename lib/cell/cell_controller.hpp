@@ -8,7 +8,7 @@
 #include "cell/cell_posts.hpp"
 #include "cell/set_window.hpp"
 #include "cell/tube_safety.hpp"
-#include "model/condition.hpp"
+#include "expression/condition.hpp"
 #include "results/results_reader.hpp"
 
 namespace coordreq {

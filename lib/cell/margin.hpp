@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "expression/point_value.hpp"
-#include "model/formula.hpp"
+#include "expression/formula.hpp"
 
 namespace coordreq {
 

@@ -66,8 +66,9 @@ DimensionBounds dimension_bounds(const GridDimension& dimension) {
     result.bounds.push_back(upper_double(dimension.point(k) - dimension.radius()));
   }
   if (result.wraps) {
-    // [lower, upper) begins in the middle of cell 0 and ends where that cell begins again.
-    result.bounds.front() = upper_double(dimension.lower);
+    // [lower, upper) begins in the middle of cell 0 and ends where that cell begins again. The double nearest
+    // to `lower` may lie below it, on the other side of the seam: that is cell 0 too.
+    result.bounds.front() = nearest_double(dimension.lower);
     result.bounds.push_back(upper_double(dimension.upper));
     return result;
   }

@@ -5,7 +5,7 @@
 
 #include "numeric/interval.hpp"
 #include "reach/affine_dynamics.hpp"
-#include "reach/dual.hpp"
+#include "expression/dual.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "numeric/interval.hpp"
-#include "reach/dual.hpp"
+#include "expression/dual.hpp"
 
 namespace coordreq {
 

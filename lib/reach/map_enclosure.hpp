@@ -6,7 +6,7 @@
 
 #include "expression/evaluate.hpp"
 #include "expression/program.hpp"
-#include "reach/dual.hpp"
+#include "expression/dual.hpp"
 
 namespace coordreq {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "expression/evaluate.hpp"
-#include "reach/dual.hpp"
+#include "expression/dual.hpp"
 #include "reach/slope.hpp"
 
 namespace coordreq {

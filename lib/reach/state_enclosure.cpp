@@ -5,7 +5,7 @@
 
 #include "expression/evaluate.hpp"
 #include "expression/undefined_reason.hpp"
-#include "reach/dual.hpp"
+#include "expression/dual.hpp"
 #include "reach/shift.hpp"
 
 namespace coordreq {

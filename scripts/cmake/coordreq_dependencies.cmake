@@ -15,11 +15,11 @@ endforeach()
 find_library(HDF5_HL_LIBRARY hdf5_serial_hl REQUIRED)  # dimension scales; has no pkg-config file
 add_library(coordreq::hdf5_hl UNKNOWN IMPORTED GLOBAL)
 set_target_properties(coordreq::hdf5_hl PROPERTIES IMPORTED_LOCATION ${HDF5_HL_LIBRARY})
-find_path(VALIJSON_INCLUDE_DIR valijson/validator.hpp REQUIRED)
 
 if(COORDREQ_BUILD_TESTS)
   find_package(GTest REQUIRED)
   find_package(rapidcheck REQUIRED)
+  find_path(VALIJSON_INCLUDE_DIR valijson/validator.hpp REQUIRED)
   include(GoogleTest)
 endif()
 if(COORDREQ_BUILD_BENCHMARKS)

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "condition_helpers.hpp"
+#include "support/condition_helpers.hpp"
 
 namespace coordreq {
 namespace {
@@ -32,7 +32,7 @@ std::string table(const char* text, const GridDimension& dimension, Sampling sam
   };
   const ConditionTable conditions(program, grid, inputs, sampling, undecided, team);
   for (std::int64_t k = 0; k < dimension.count; ++k) {
-    if (conditions.bits().test(k)) result[static_cast<std::size_t>(k)] = '1';
+    if ((conditions.row(0, 0)[0] >> k & 1U) != 0) result[static_cast<std::size_t>(k)] = '1';
   }
   return result;
 }

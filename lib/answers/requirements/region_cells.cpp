@@ -3,7 +3,7 @@
 
 #include "answers/requirements/region.hpp"
 #include "engine/row_operations.hpp"
-#include "model/condition.hpp"
+#include "expression/condition.hpp"
 #include "model/pieces.hpp"
 #include "reach/counter.hpp"
 

@@ -4,7 +4,7 @@
 #include <rapidcheck.h>
 
 #include "expression/evaluate.hpp"
-#include "model/condition.hpp"
+#include "expression/condition.hpp"
 #include "model/pieces.hpp"
 #include "spec/read_spec.hpp"
 

@@ -1,9 +1,10 @@
-#include "reach/dual.hpp"
+#include "expression/dual.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "expression/domains.hpp"
+#include "expression/functions.hpp"
 
 namespace coordreq {
 namespace {
@@ -85,24 +86,9 @@ Dual extreme(const Dual& a, const Dual& b, bool first_always, bool second_always
   return result;
 }
 
-/// Delta(a / b) = (Delta a - (a / b) Delta b) / b, with a / b and b at different points.
-Dual quotient_of(const Dual& a, const Dual& b, const Interval& value) {
-  Dual result = combined(a, kOne, b, -value, value);
-  for (std::size_t j = 0; j < result.directions; ++j) {
-    if (!is_zero(result.gradient[j])) result.gradient[j] = result.gradient[j] / b.value;
-  }
-  if (!is_zero(result.jump)) result.jump = result.jump / b.value;
-  return result;
-}
-
-Dual power_of(const Dual& a, const Dual& b, const Interval& value) {
-  if (is_constant(b)) {
-    const Interval factor = b.value * pow(a.value, b.value - kOne);
-    return chained(a, {value.lower, value.upper, value.total && b.total}, factor);
-  }
-  const Interval by_base = b.value * pow(a.value, b.value - kOne);
-  const Interval by_exponent = value * log(a.value);
-  return combined(a, is_constant(a) ? kZero : by_base, b, by_exponent, value);
+/// 1 over the derivative of asin.
+Interval cosine_of_arcsine(const Interval& a) {
+  return sqrt(max(kOne - sqr(a), kZero));
 }
 
 }  // namespace
@@ -128,74 +114,19 @@ Dual Dual::variable(const Interval& range, std::size_t j) {
   return result;
 }
 
-Interval slope(Operator f, const Interval& a, const Interval& value) {
-  switch (f) {
-    case Operator::negate:
-      return {-1.0, -1.0};
-    case Operator::sine:
-      return cos(a);
-    case Operator::cosine:
-      return -sin(a);
-    case Operator::tangent:
-      return kOne + sqr(value);
-    case Operator::arcsine:
-      return kOne / sqrt(max(kOne - sqr(a), kZero));
-    case Operator::arccosine:
-      return -(kOne / sqrt(max(kOne - sqr(a), kZero)));
-    case Operator::arctangent:
-      return kOne / (kOne + sqr(a));
-    case Operator::hyperbolic_sine:
-      return cosh(a);
-    case Operator::hyperbolic_cosine:
-      return sinh(a);
-    case Operator::hyperbolic_tangent:
-      return max(kOne - sqr(value), kZero);
-    case Operator::exponential:
-      return value;
-    case Operator::logarithm:
-      return kOne / max(a, kZero);
-    case Operator::square_root:
-      return Interval{0.5, 0.5} / value;
-    case Operator::absolute:
-      return a.lower >= 0.0 ? kOne : Interval{-1.0, a.upper <= 0.0 ? -1.0 : 1.0};
-    default:
-      return whole_line(false);
-  }
-}
-
 Dual from_rational(const Dual* /*tag*/, const Rational& q) {
   return Dual::constant(enclose(q));
 }
 
 Dual apply(Operator op, const Dual& a) {
-  const Interval value = apply(op, a.value);
-  if (is_constant(a)) return Dual::constant({value.lower, value.upper, value.total && a.total});
-  if (op != Operator::sign) return chained(a, value, slope(op, a.value, value));
-  Dual result = value.is_point() ? Dual::constant(value) : free_value(value);
-  result.total = a.total && value.total;
-  return result;
+  const NumberFunction& function = number_function(op);
+  if (!is_constant(a)) return function.over_dual(a, a);
+  const Interval value = function.over_interval(a.value, a.value);
+  return Dual::constant({value.lower, value.upper, value.total && a.total});
 }
 
 Dual apply(Operator op, const Dual& a, const Dual& b) {
-  const Interval value = apply(op, a.value, b.value);
-  switch (op) {
-    case Operator::add:
-      return combined(a, kOne, b, kOne, value);
-    case Operator::subtract:
-      return combined(a, kOne, b, -kOne, value);
-    case Operator::multiply:
-      return combined(a, b.value, b, a.value, value);
-    case Operator::divide:
-      return quotient_of(a, b, value);
-    case Operator::power:
-      return power_of(a, b, value);
-    case Operator::minimum:
-      return extreme(a, b, a.value.upper <= b.value.lower, b.value.upper <= a.value.lower, value);
-    case Operator::maximum:
-      return extreme(a, b, a.value.lower >= b.value.upper, b.value.lower >= a.value.upper, value);
-    default:
-      return Dual::constant(whole_line(false));
-  }
+  return number_function(op).over_dual(a, b);
 }
 
 Truth compare(Operator op, const Dual& a, const Dual& b) {
@@ -207,6 +138,114 @@ Dual select(Truth condition, const Dual& a, const Dual& b) {
   if (condition != Truth::undecided) return condition == Truth::yes ? a : b;
   Dual result = free_value(hull(a.value, b.value));
   result.total = a.total && b.total;
+  return result;
+}
+
+Dual operator+(const Dual& a, const Dual& b) {
+  return combined(a, kOne, b, kOne, a.value + b.value);
+}
+
+Dual operator-(const Dual& a, const Dual& b) {
+  return combined(a, kOne, b, -kOne, a.value - b.value);
+}
+
+Dual operator*(const Dual& a, const Dual& b) {
+  return combined(a, b.value, b, a.value, a.value * b.value);
+}
+
+/// Delta(a / b) = (Delta a - (a / b) Delta b) / b, with a / b and b at different points.
+Dual operator/(const Dual& a, const Dual& b) {
+  const Interval value = a.value / b.value;
+  Dual result = combined(a, kOne, b, -value, value);
+  for (std::size_t j = 0; j < result.directions; ++j) {
+    if (!is_zero(result.gradient[j])) result.gradient[j] = result.gradient[j] / b.value;
+  }
+  if (!is_zero(result.jump)) result.jump = result.jump / b.value;
+  return result;
+}
+
+Dual pow(const Dual& a, const Dual& b) {
+  const Interval value = pow(a.value, b.value);
+  const Interval by_base = b.value * pow(a.value, b.value - kOne);
+  if (is_constant(b)) return chained(a, {value.lower, value.upper, value.total && b.total}, by_base);
+  const Interval by_exponent = value * log(a.value);
+  return combined(a, is_constant(a) ? kZero : by_base, b, by_exponent, value);
+}
+
+Dual min(const Dual& a, const Dual& b) {
+  return extreme(a, b, a.value.upper <= b.value.lower, b.value.upper <= a.value.lower, min(a.value, b.value));
+}
+
+Dual max(const Dual& a, const Dual& b) {
+  return extreme(a, b, a.value.lower >= b.value.upper, b.value.lower >= a.value.upper, max(a.value, b.value));
+}
+
+Dual operator-(const Dual& a) {
+  return chained(a, -a.value, {-1.0, -1.0});
+}
+
+Dual sin(const Dual& a) {
+  return chained(a, sin(a.value), cos(a.value));
+}
+
+Dual cos(const Dual& a) {
+  return chained(a, cos(a.value), -sin(a.value));
+}
+
+Dual tan(const Dual& a) {
+  const Interval value = tan(a.value);
+  return chained(a, value, kOne + sqr(value));
+}
+
+Dual asin(const Dual& a) {
+  return chained(a, asin(a.value), kOne / cosine_of_arcsine(a.value));
+}
+
+Dual acos(const Dual& a) {
+  return chained(a, acos(a.value), -(kOne / cosine_of_arcsine(a.value)));
+}
+
+Dual atan(const Dual& a) {
+  return chained(a, atan(a.value), kOne / (kOne + sqr(a.value)));
+}
+
+Dual sinh(const Dual& a) {
+  return chained(a, sinh(a.value), cosh(a.value));
+}
+
+Dual cosh(const Dual& a) {
+  return chained(a, cosh(a.value), sinh(a.value));
+}
+
+Dual tanh(const Dual& a) {
+  const Interval value = tanh(a.value);
+  return chained(a, value, max(kOne - sqr(value), kZero));
+}
+
+Dual exp(const Dual& a) {
+  const Interval value = exp(a.value);
+  return chained(a, value, value);
+}
+
+Dual log(const Dual& a) {
+  return chained(a, log(a.value), kOne / max(a.value, kZero));
+}
+
+Dual sqrt(const Dual& a) {
+  const Interval value = sqrt(a.value);
+  return chained(a, value, Interval{0.5, 0.5} / value);
+}
+
+/// Clarke's generalised gradient where `a` contains 0.
+Dual abs(const Dual& a) {
+  const Interval below{-1.0, a.value.upper <= 0.0 ? -1.0 : 1.0};
+  return chained(a, abs(a.value), a.value.lower >= 0.0 ? kOne : below);
+}
+
+Dual sign(const Dual& a) {
+  const Interval value = sign(a.value);
+  Dual result = value.is_point() ? Dual::constant(value) : free_value(value);
+  result.total = a.total && value.total;
   return result;
 }
 

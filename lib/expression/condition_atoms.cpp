@@ -1,8 +1,9 @@
-#include "model/condition_atoms.hpp"
+#include "expression/condition_atoms.hpp"
 
 #include <map>
 #include <tuple>
 
+#include "expression/functions.hpp"
 #include "expression/tape_builder.hpp"
 
 namespace coordreq {
@@ -44,23 +45,10 @@ Operator negation(Operator op) {
   }
 }
 
+/// Whether an operation is defined for all numbers. `if` is not looked into.
 bool is_total_operation(Operator op) {
-  switch (op) {
-    case Operator::constant:
-    case Operator::variable:
-    case Operator::add:
-    case Operator::subtract:
-    case Operator::multiply:
-    case Operator::minimum:
-    case Operator::maximum:
-    case Operator::negate:
-    case Operator::absolute:
-    case Operator::sine:
-    case Operator::cosine:
-      return true;
-    default:
-      return false;
-  }
+  if (is_number_function(op)) return number_function(op).is_defined_everywhere();
+  return op == Operator::constant || op == Operator::variable;
 }
 
 class Finder {
@@ -68,7 +56,7 @@ class Finder {
   explicit Finder(const Program& condition) : condition_(condition) {
     for (const Program::Node& node : condition.nodes) {
       total_.push_back(is_total(node));
-      copies_.push_back(copied(node));
+      copies_.push_back(tape_.copy(condition, node, copies_));
     }
   }
 
@@ -83,16 +71,8 @@ class Finder {
 
   [[nodiscard]] bool is_total(const Program::Node& node) const {
     if (!is_total_operation(node.op)) return false;
-    if (node.op == Operator::constant || node.op == Operator::variable) return true;
-    const bool is_binary = !is_unary_function(node.op);
-    return total_[node.a] && (!is_binary || total_[node.b]);
-  }
-
-  TapeBuilder::Index copied(const Program::Node& node) {
-    if (node.op == Operator::constant) return tape_.constant(condition_.constants[node.a]);
-    if (node.op == Operator::variable) return tape_.variable(node.a);
-    if (node.op == Operator::literal_true || node.op == Operator::literal_false) return tape_.apply(node.op);
-    return tape_.apply(node.op, copies_[node.a], copies_[node.b], copies_[node.c]);
+    const std::size_t operands = operand_count(node.op);
+    return (operands < 1 || total_[node.a]) && (operands < 2 || total_[node.b]);
   }
 
   Index add(Join join, std::uint32_t a = 0, std::uint32_t b = 0) {

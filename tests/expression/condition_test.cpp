@@ -1,4 +1,4 @@
-#include "model/condition.hpp"
+#include "expression/condition.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-#include "condition_helpers.hpp"
+#include "support/condition_helpers.hpp"
 
 namespace coordreq {
 namespace {

@@ -1,4 +1,4 @@
-#include "model/condition.hpp"
+#include "expression/condition.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,17 +12,13 @@ constexpr std::size_t kMostCornerVariables = 4;
 /// Taking a condition apart copies what its comparisons share.
 constexpr std::size_t kMostNodes = std::size_t{1} << 20U;
 
-/// Calls `visit` with the index of each operand of a node that has some.
+/// Calls `visit` with the index of each operand of a node.
 template <class Visit>
 void for_each_operand(const Program::Node& node, const Visit& visit) {
-  visit(node.a);
-  if (node.op == Operator::logical_not || is_unary_function(node.op)) return;
-  visit(node.b);
-  if (node.op == Operator::if_else) visit(node.c);
-}
-
-bool is_leaf(Operator op) {
-  return op == Operator::constant || op == Operator::literal_true || op == Operator::literal_false;
+  const std::size_t operands = operand_count(node.op);
+  if (operands > 0) visit(node.a);
+  if (operands > 1) visit(node.b);
+  if (operands > 2) visit(node.c);
 }
 
 /// A double of the exact box that `range` encloses, next to one of its ends; the range itself if there is
@@ -41,11 +37,7 @@ std::vector<std::uint32_t> repeated_variables(const Program& condition) {
   std::vector<std::uint32_t> repeated;
   for (std::size_t i = condition.nodes.size(); i-- > 0;) {
     const Program::Node& node = condition.nodes[i];
-    if (is_leaf(node.op)) continue;
-    if (node.op == Operator::variable) {
-      if (uses[i] > 1) repeated.push_back(node.a);
-      continue;
-    }
+    if (node.op == Operator::variable && uses[i] > 1) repeated.push_back(node.a);
     for_each_operand(node, [&](std::uint32_t operand) {
       uses[operand] = static_cast<std::uint8_t>(std::min(2, uses[operand] + uses[i]));
     });

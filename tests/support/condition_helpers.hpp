@@ -8,7 +8,7 @@
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/program.hpp"
-#include "model/condition.hpp"
+#include "expression/condition.hpp"
 
 namespace coordreq::test {
 

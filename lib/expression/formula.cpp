@@ -1,4 +1,4 @@
-#include "model/formula.hpp"
+#include "expression/formula.hpp"
 
 #include <utility>
 
@@ -13,22 +13,15 @@ class Dismantler {
 
   Formula run() {
     const auto size = condition_.nodes.size();
-    tape_index_.resize(size);
     formula_index_.resize(size);
     for (std::size_t i = 0; i < size; ++i) {
-      tape_index_[i] = copied(condition_.nodes[i]);
+      tape_index_.push_back(tape_.copy(condition_, condition_.nodes[i], tape_index_));
       if (is_condition(condition_.nodes[i].op)) add(i);
     }
     return std::move(formula_);
   }
 
  private:
-  TapeBuilder::Index copied(const Program::Node& node) {
-    if (node.op == Operator::constant) return tape_.constant(condition_.constants[node.a]);
-    if (node.op == Operator::variable) return tape_.variable(node.a);
-    return tape_.apply(node.op, tape_index_[node.a], tape_index_[node.b], tape_index_[node.c]);
-  }
-
   /// Conditions inside of numbers (of `if`) come along too; they are in no way of the result.
   void add(std::size_t i) {
     const Program::Node& node = condition_.nodes[i];

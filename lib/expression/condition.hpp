@@ -6,7 +6,7 @@
 
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
-#include "model/sharp_condition.hpp"
+#include "expression/sharp_condition.hpp"
 
 namespace coordreq {
 

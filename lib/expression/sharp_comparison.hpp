@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "expression/domains.hpp"
+#include "expression/dual.hpp"
 #include "expression/evaluate.hpp"
-#include "model/formula.hpp"
-#include "reach/dual.hpp"
+#include "expression/formula.hpp"
 
 namespace coordreq {
 

@@ -1,4 +1,4 @@
-#include "model/sharp_comparison.hpp"
+#include "expression/sharp_comparison.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "model/sharp_condition.hpp"
+#include "expression/sharp_condition.hpp"
 
 #include <algorithm>
 #include <utility>

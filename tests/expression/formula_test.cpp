@@ -1,8 +1,8 @@
-#include "model/formula.hpp"
+#include "expression/formula.hpp"
 
 #include <gtest/gtest.h>
 
-#include "condition_helpers.hpp"
+#include "support/condition_helpers.hpp"
 
 namespace coordreq {
 namespace {

@@ -37,10 +37,6 @@ struct Dual {
   [[nodiscard]] static Dual variable(const Interval& range, std::size_t j);
 };
 
-/// Encloses (f(s) - f(t)) / (s - t) for s != t in `a`, where `value` encloses f over `a` and f is a unary
-/// function other than `sign`.
-[[nodiscard]] Interval slope(Operator f, const Interval& a, const Interval& value);
-
 /// A double in the middle of a bounded interval, and in every interval.
 [[nodiscard]] double midpoint(const Interval& a);
 
@@ -50,5 +46,29 @@ struct Dual {
 [[nodiscard]] Dual apply(Operator op, const Dual& a, const Dual& b);
 [[nodiscard]] Truth compare(Operator op, const Dual& a, const Dual& b);
 [[nodiscard]] Dual select(Truth condition, const Dual& a, const Dual& b);
+
+// The operations, by the chain rule.
+[[nodiscard]] Dual operator+(const Dual& a, const Dual& b);
+[[nodiscard]] Dual operator-(const Dual& a, const Dual& b);
+[[nodiscard]] Dual operator*(const Dual& a, const Dual& b);
+[[nodiscard]] Dual operator/(const Dual& a, const Dual& b);
+[[nodiscard]] Dual pow(const Dual& a, const Dual& b);
+[[nodiscard]] Dual min(const Dual& a, const Dual& b);
+[[nodiscard]] Dual max(const Dual& a, const Dual& b);
+[[nodiscard]] Dual operator-(const Dual& a);
+[[nodiscard]] Dual sin(const Dual& a);
+[[nodiscard]] Dual cos(const Dual& a);
+[[nodiscard]] Dual tan(const Dual& a);
+[[nodiscard]] Dual asin(const Dual& a);
+[[nodiscard]] Dual acos(const Dual& a);
+[[nodiscard]] Dual atan(const Dual& a);
+[[nodiscard]] Dual sinh(const Dual& a);
+[[nodiscard]] Dual cosh(const Dual& a);
+[[nodiscard]] Dual tanh(const Dual& a);
+[[nodiscard]] Dual exp(const Dual& a);
+[[nodiscard]] Dual log(const Dual& a);
+[[nodiscard]] Dual sqrt(const Dual& a);
+[[nodiscard]] Dual abs(const Dual& a);
+[[nodiscard]] Dual sign(const Dual& a);
 
 }  // namespace coordreq

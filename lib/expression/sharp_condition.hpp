@@ -6,8 +6,8 @@
 
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
-#include "model/formula.hpp"
-#include "model/sharp_comparison.hpp"
+#include "expression/formula.hpp"
+#include "expression/sharp_comparison.hpp"
 
 namespace coordreq {
 

@@ -1,10 +1,10 @@
-#include "model/condition_atoms.hpp"
+#include "expression/condition_atoms.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "condition_helpers.hpp"
-#include "random_condition.hpp"
+#include "support/condition_helpers.hpp"
+#include "support/random_condition.hpp"
 
 namespace coordreq {
 namespace {
