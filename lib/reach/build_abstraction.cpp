@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "model/odometer.hpp"
 #include "reach/affine_dynamics.hpp"
 #include "reach/affine_table.hpp"
 #include "reach/cells_meeting.hpp"
-#include "reach/counter.hpp"
 #include "reach/enclosure_table.hpp"
 #include "reach/shift.hpp"
 #include "reach/sum_table.hpp"
@@ -50,7 +50,7 @@ void for_each_row(const ProblemSpec& spec, const AffineDynamics& dynamics, std::
   for (const std::int32_t j : dependencies.inputs) {
     counts.push_back(static_cast<std::int64_t>(spec.inputs[at(j)].values.size()));
   }
-  Counter choice(counts);
+  Odometer choice(counts);
   do {
     std::vector<Rational> slots(spec.slot_count());
     std::size_t position = 0;
@@ -64,7 +64,7 @@ void for_each_row(const ProblemSpec& spec, const AffineDynamics& dynamics, std::
           spec.inputs[at(j)].values[static_cast<std::size_t>(choice.indices()[position++])];
     }
     if (!visit(dynamics.row(state, slots))) return;
-  } while (choice.next());
+  } while (choice.advance());
 }
 
 /// The states that get terms if the table of `state` is a sum; empty if it is to be none. With tubes there

@@ -183,12 +183,12 @@ void build_enclosure_tables(const ProblemSpec& spec, const Dependencies& depende
   }
 
   std::vector<StateEnclosure> enclosures(static_cast<std::size_t>(team.size()), enclosure);
-  const Counter all = choices.counter();
+  const Odometer all = choices.odometer();
   team.for_each(all.size(), 64, [&](ThreadTeam::Range range, int worker) {
     StateEnclosure& mine = enclosures[static_cast<std::size_t>(worker)];
-    Counter choice = all;
+    Odometer choice = all;
     choice.seek(range.begin);
-    for (std::int64_t i = range.begin; i < range.end; ++i, choice.next()) {
+    for (std::int64_t i = range.begin; i < range.end; ++i, choice.advance()) {
       std::int64_t entry = 0;
       for (std::size_t v = 0; v < strides.size(); ++v) entry += choice.indices()[v] * strides[v];
       bool first = true;
