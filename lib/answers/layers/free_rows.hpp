@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/controller.hpp"
+#include "answers/invariance/controller.hpp"
 #include "engine/row_hull.hpp"
 
 namespace coordreq {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "answers/invariance/controller.hpp"
 #include "engine/bit_kernels.hpp"
-#include "engine/controller.hpp"
 #include "engine/row_boxes.hpp"
 
 namespace coordreq {

@@ -1,4 +1,4 @@
-#include "engine/pair_projection.hpp"
+#include "answers/layers/pair_projection.hpp"
 
 #include <algorithm>
 

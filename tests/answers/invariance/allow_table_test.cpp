@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "condition_helpers.hpp"
-#include "engine/safe_set.hpp"
+#include "answers/invariance/safe_set.hpp"
+#include "model/condition_helpers.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {

@@ -1,4 +1,4 @@
-#include "engine/independent_posts.hpp"
+#include "answers/layers/independent_posts.hpp"
 
 #include <algorithm>
 

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "answers/invariance/controller.hpp"
+#include "answers/layers/independent_posts.hpp"
 #include "base/thread_team.hpp"
 #include "engine/cell_set.hpp"
-#include "engine/controller.hpp"
-#include "engine/independent_posts.hpp"
 #include "engine/row_hull.hpp"
 
 namespace coordreq {

@@ -1,10 +1,10 @@
-#include "engine/projections.hpp"
+#include "answers/layers/projections.hpp"
 
 #include <algorithm>
 #include <deque>
 
-#include "engine/free_rows.hpp"
-#include "engine/pair_projection.hpp"
+#include "answers/layers/free_rows.hpp"
+#include "answers/layers/pair_projection.hpp"
 
 namespace coordreq {
 namespace {

@@ -1,11 +1,11 @@
-#include "engine/safe_tubes.hpp"
+#include "answers/invariance/safe_tubes.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include "engine/safe_set.hpp"
+#include "answers/invariance/safe_set.hpp"
 
 namespace coordreq {
 namespace {
@@ -48,18 +48,14 @@ void remove_cells(CellSet& set, const UniformGrid& grid, std::size_t dimension, 
 
 }  // namespace
 
-bool passes_a_limit(IndexRange raw, const GridDimension& state) {
-  return (state.below == Outside::saturate && raw.first < 0) ||
-         (state.above == Outside::saturate && raw.last >= state.count);
-}
-
 std::optional<CellSet> safe_beyond_limits(const ProblemSpec& spec, const Abstraction& abstraction,
                                           const CellSet& safe, ThreadTeam& team) {
   if (abstraction.tubes.empty() || spec.abstraction.safe == Membership::center) return std::nullopt;
   std::vector<GridDimension> dimensions = abstraction.grid.dimensions();
   std::vector<std::pair<std::size_t, std::int64_t>> lost;
   bool stretched = false;
-  for (const std::uint32_t i : spec.safe.variables()) {
+  for (const std::uint32_t state : spec.safe.variables()) {
+    const std::size_t i = abstraction.grid.dimension_of(state);
     GridDimension& dimension = dimensions[i];
     const Excess excess = find_excess(abstraction.tubes[i], dimension);
     dimension.stretch_below = dimension.step * Rational(static_cast<long>(excess.below));
@@ -69,7 +65,7 @@ std::optional<CellSet> safe_beyond_limits(const ProblemSpec& spec, const Abstrac
     if (is_lost(excess.above, dimension.count)) lost.emplace_back(i, dimension.count - 1);
   }
   if (!stretched) return std::nullopt;
-  CellSet result = safe_set(spec, UniformGrid(dimensions), abstraction.inputs, team);
+  CellSet result = safe_set(spec, abstraction.grid.with(std::move(dimensions)), abstraction.inputs, team);
   for (const auto& [dimension, index] : lost) remove_cells(result, abstraction.grid, dimension, index);
   // More is asked of these cells, but a sharper evaluation may have more luck with a larger box.
   for (std::size_t w = 0; w < result.words().size(); ++w) result.words()[w] &= safe.words()[w];

@@ -1,11 +1,10 @@
-#include "analysis/layout.hpp"
+#include "model/model.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <optional>
 #include <tuple>
-
-#include "reach/build_abstraction.hpp"
+#include <utility>
 
 namespace coordreq {
 namespace {
@@ -52,20 +51,28 @@ std::optional<std::vector<std::size_t>> sums_last(const ProblemSpec& spec,
   return order;
 }
 
-void remap(Program& program, const std::vector<std::uint32_t>& slot_of) {
-  for (Program::Node& node : program.nodes) {
-    if (node.op == Operator::variable && node.a < slot_of.size()) node.a = slot_of[node.a];
+/// These are read and written row by row, in the order of the spec; so are the cells of a controller's file.
+bool is_bound_to_the_spec(const ProblemSpec& spec) {
+  return spec.output.actions || spec.output.controller || spec.output.abstraction ||
+         spec.controller.file.has_value();
+}
+
+std::vector<TableShape> arranged(const std::vector<TableShape>& shapes, const UniformGrid& grid) {
+  std::vector<TableShape> result;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    TableShape& shape = result.emplace_back(shapes[grid.state(i)]);
+    for (std::int32_t& j : shape.states)
+      j = static_cast<std::int32_t>(grid.dimension_of(static_cast<std::size_t>(j)));
+    std::sort(shape.states.begin(), shape.states.end());
   }
+  return result;
 }
 
 }  // namespace
 
-std::vector<std::size_t> choose_layout(const ProblemSpec& spec) {
+std::vector<std::size_t> choose_order(const ProblemSpec& spec, const std::vector<TableShape>& shapes) {
   std::vector<std::size_t> order = natural_order(spec);
-  // These are written row by row, in the order of the spec.
-  if (spec.output.actions || spec.output.controller || spec.output.abstraction) return order;
-  if (spec.controller.file) return order;  // so are the cells of the file
-  const std::vector<TableShape> shapes = table_shapes(spec);
+  if (is_bound_to_the_spec(spec)) return order;
   const auto quality = [&](std::size_t i) {
     return std::tuple(shapes[i].shift, spec.states[i].grid.count, i);
   };
@@ -81,34 +88,20 @@ std::vector<std::size_t> choose_layout(const ProblemSpec& spec) {
   return order;
 }
 
-bool is_layout_of_sums(const ProblemSpec& spec) {
-  return !spec.output.actions && !spec.output.controller && !spec.output.abstraction &&
-         sums_last(spec, table_shapes(spec)).has_value();
+Model::Model(const ProblemSpec& spec, std::vector<TableShape> shapes)
+    : spec_(&spec),
+      shapes_(std::move(shapes)),
+      order_(choose_order(spec, shapes_)),
+      keeps_sums_(!is_bound_to_the_spec(spec) && sums_last(spec, shapes_).has_value()),
+      grid_(make_grid(spec).arranged(order_)),
+      inputs_(make_input_space(spec)) {
+  arranged_shapes_ = arranged(shapes_, grid_);
 }
 
-bool is_read_by_runs(const ProblemSpec& spec) {
-  const bool pairs = spec.controller.file || spec.controller.allow;
-  const bool lists = spec.output.actions || spec.output.controller || spec.output.abstraction;
-  return pairs || lists || spec.network || spec.coordination.convention || spec.coordination.horizon ||
-         !spec.requirements.empty();
-}
-
-ProblemSpec laid_out(const ProblemSpec& spec, const std::vector<std::size_t>& order) {
-  ProblemSpec result = spec;
-  std::vector<std::uint32_t> slot_of(order.size());
-  for (std::size_t d = 0; d < order.size(); ++d) {
-    result.states[d] = spec.states[order[d]];
-    result.dynamics.equations[d] = spec.dynamics.equations[order[d]];
-    slot_of[order[d]] = static_cast<std::uint32_t>(d);
-  }
-  for (Program& equation : result.dynamics.equations) remap(equation, slot_of);
-  remap(result.safe, slot_of);
-  if (result.controller.allow) remap(*result.controller.allow, slot_of);
-  for (AgentSpec& agent : result.agents) {
-    if (agent.prefer) remap(*agent.prefer, slot_of);
-  }
-  for (RequirementSpec& requirement : result.requirements) remap(requirement.where, slot_of);
-  return result;
+bool Model::is_read_by_runs() const {
+  const ProblemSpec& spec = *spec_;
+  return is_bound_to_the_spec(spec) || spec.controller.allow || spec.network ||
+         spec.coordination.convention || spec.coordination.horizon || !spec.requirements.empty();
 }
 
 }  // namespace coordreq

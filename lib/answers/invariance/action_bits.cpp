@@ -1,4 +1,4 @@
-#include "engine/action_bits.hpp"
+#include "answers/invariance/action_bits.hpp"
 
 #include <algorithm>
 

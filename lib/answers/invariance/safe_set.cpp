@@ -1,4 +1,4 @@
-#include "engine/safe_set.hpp"
+#include "answers/invariance/safe_set.hpp"
 
 #include <fmt/format.h>
 
@@ -22,8 +22,8 @@ std::optional<ConditionTable> condition_table(const ProblemSpec& spec, const Abs
       const bool is_state = slot < spec.states.size();
       const std::size_t i = is_state ? slot : slot - spec.states.size();
       const auto k = indices[slot];
-      const Rational value =
-          is_state ? abstraction.grid[i].point(k) : abstraction.inputs[i].values[static_cast<std::size_t>(k)];
+      const Rational value = is_state ? abstraction.grid[abstraction.grid.dimension_of(i)].point(k)
+                                      : abstraction.inputs[i].values[static_cast<std::size_t>(k)];
       place += fmt::format("{}{} = {}", place.empty() ? "" : ", ",
                            is_state ? spec.states[i].name : spec.inputs[i].name, to_text(value));
     }
@@ -59,7 +59,7 @@ CellSet safe_set(const ProblemSpec& spec, const UniformGrid& grid, const InputSp
   const Sampling sampling =
       spec.abstraction.safe == Membership::inner ? Sampling::closed_cells : Sampling::centres;
   const auto undecided_is_unsafe = [](const std::vector<std::int64_t>&) { return false; };
-  const UniformGrid plain(grid.dimensions());
+  const UniformGrid plain = grid.in_rows({});
   const ConditionTable table(spec.safe, plain, inputs, sampling, undecided_is_unsafe, team,
                              Question::everywhere);
   CellSet safe(plain.rows(), plain.row_length());

@@ -1,4 +1,4 @@
-#include "engine/independent_actions.hpp"
+#include "answers/layers/independent_actions.hpp"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/projections.hpp"
+#include "answers/layers/projections.hpp"
 #include "engine/wave.hpp"
 
 namespace coordreq {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/controller.hpp"
+#include "answers/invariance/controller.hpp"
 
 namespace coordreq {
 
