@@ -46,7 +46,7 @@ StateEnclosure::StateEnclosure(const ProblemSpec& spec, const Dependencies& depe
       slots_(spec.slot_count()) {
   for (const std::int32_t l : dependencies.disturbances) {
     const DisturbanceSpec& w = spec.disturbances[at(l)];
-    slots_[spec.disturbance_slot(at(l))] = enclose(w.lower, w.upper);
+    slots_[spec.disturbance_slot(at(l))] = coordreq::enclose(w.lower, w.upper);
   }
   if (spec.dynamics.time == Time::discrete) {
     prepare_map();
