@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/cell_set.hpp"
+#include "model/outside.hpp"
 #include "model/uniform_grid.hpp"
 
 namespace coordreq {

@@ -1,4 +1,4 @@
-#include "results/unit_text.hpp"
+#include "spec/unit_text.hpp"
 
 #include <gtest/gtest.h>
 
