@@ -36,10 +36,7 @@ class TableBuilder {
         state_(state) {}
 
   std::optional<bool> build(ThreadTeam& team) {
-    table_.states = dependencies_.moving;
-    table_.states.insert(table_.states.end(), dependencies_.parameters.begin(),
-                         dependencies_.parameters.end());
-    std::sort(table_.states.begin(), table_.states.end());
+    table_.states = dependencies_.all_states();
     table_.inputs = dependencies_.inputs;
     table_.shift = is_shift(spec_, dependencies_, state_);
     post_.shift = table_.shift;

@@ -37,9 +37,7 @@ class EnclosureTable {
         tube_(abstraction.tubes.empty() ? nullptr : &abstraction.tubes[state]),
         state_(state),
         differences_(differences) {
-    table_.states = dependencies.moving;
-    table_.states.insert(table_.states.end(), dependencies.parameters.begin(), dependencies.parameters.end());
-    std::sort(table_.states.begin(), table_.states.end());
+    table_.states = dependencies.all_states();
     table_.inputs = dependencies.inputs;
     table_.shift = is_shift(spec, dependencies, state);
     table_.entries.resize(
