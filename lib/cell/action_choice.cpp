@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "answers/layers/delay_layers.hpp"
-#include "reach/counter.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
@@ -104,12 +104,12 @@ template <class Visit>
 void ActionChooser::for_each_choice(const Visit& visit) const {
   std::vector<std::int64_t> counts;
   for (const Numbers& parts : projections_) counts.push_back(static_cast<std::int64_t>(parts.size()));
-  Counter choice(counts);
+  Odometer choice(counts);
   do {
     std::int64_t u = 0;
     for (std::size_t c = 0; c < projections_.size(); ++c) u += projections_[c][at(choice.indices()[c])];
     visit(u);
-  } while (choice.next());
+  } while (choice.advance());
 }
 
 std::int64_t ActionChooser::delay_after(NextStates& next, std::int64_t u) const {

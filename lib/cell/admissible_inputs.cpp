@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/tube_sets.hpp"
-#include "reach/counter.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
@@ -119,7 +119,7 @@ void AdmissibleInputs::find_moves(Component& component, std::int64_t x) {
   std::vector<std::int64_t> counts;
   for (const std::size_t i : component.inputs) counts.push_back(abstraction_->inputs[i].count());
   std::map<Move, std::vector<std::int64_t>> groups;
-  Counter choice(counts);
+  Odometer choice(counts);
   do {
     std::int64_t part = 0;
     for (std::size_t j = 0; j < component.inputs.size(); ++j) {
@@ -127,7 +127,7 @@ void AdmissibleInputs::find_moves(Component& component, std::int64_t x) {
     }
     if (component.has_allow && !is_allowed(x, part)) continue;
     if (std::optional<Move> next = move(component, x, part)) groups[std::move(*next)].push_back(part);
-  } while (choice.next());
+  } while (choice.advance());
   component.groups.assign(groups.begin(), groups.end());
 }
 
@@ -140,10 +140,10 @@ const std::vector<std::int64_t>& AdmissibleInputs::of(std::int64_t x) {
     if (component.groups.empty()) return admissible_;
     counts.push_back(static_cast<std::int64_t>(component.groups.size()));
   }
-  Counter choice(counts);
+  Odometer choice(counts);
   do {
     if (is_safe(choice.indices())) collect(choice.indices());
-  } while (choice.next());
+  } while (choice.advance());
   if (sets_.listed != nullptr)
     std::erase_if(admissible_, [&](std::int64_t u) { return !sets_.listed->test(x, u); });
   sort();
@@ -191,7 +191,7 @@ bool AdmissibleInputs::stays_in(const std::vector<std::int64_t>& choice, Box Mov
       counts[s] = std::int64_t{box[s].last} - box[s].first + 1;
     }
   }
-  Counter offset(counts);
+  Odometer offset(counts);
   do {
     std::int64_t cell = 0;
     for (std::size_t s = 0; s < box.size(); ++s) {
@@ -199,7 +199,7 @@ bool AdmissibleInputs::stays_in(const std::vector<std::int64_t>& choice, Box Mov
       cell += k * abstraction_->grid.stride(s);
     }
     if (!set(cell)) return false;
-  } while (offset.next());
+  } while (offset.advance());
   return true;
 }
 

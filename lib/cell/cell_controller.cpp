@@ -4,7 +4,7 @@
 
 #include "answers/convention/convention.hpp"
 #include "base/error.hpp"
-#include "reach/counter.hpp"
+#include "model/odometer.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {
@@ -128,7 +128,7 @@ std::vector<bool> CellController::allowed(std::int64_t cell) {
   std::vector<Interval> box(results_.spec().slot_count());
   std::vector<RationalInterval> exact_box(box.size());
   const auto set = [&](std::size_t slot, const Rational& value) {
-    box[slot] = {.lower = lower_double(value), .upper = upper_double(value)};
+    box[slot] = enclose(value);
     exact_box[slot] = {.lower = value, .upper = value};
   };
   for (std::size_t i = 0; i < grid.size(); ++i) set(i, grid[i].point(grid.index(cell, i)));
@@ -141,14 +141,14 @@ std::vector<bool> CellController::allowed(std::int64_t cell) {
     counts.push_back(inputs[at(used.back())].count());
   }
   std::vector<bool> decided;
-  Counter choice(counts);
+  Odometer choice(counts);
   do {
     for (std::size_t j = 0; j < used.size(); ++j) {
       const std::size_t i = at(used[j]);
       set(grid.size() + i, inputs[i].values[at(choice.indices()[j])]);
     }
     decided.push_back(is_allowed(box, exact_box));
-  } while (choice.next());
+  } while (choice.advance());
   for (std::int64_t u = 0; u < inputs.count(); ++u)
     result[at(u)] = result[at(u)] && decided[at(action_of(inputs, u, used))];
   return result;

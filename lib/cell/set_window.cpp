@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "model/odometer.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -49,12 +51,12 @@ void SetWindow::add_up() {
   stride_.assign(dimensions, 1);
   for (std::size_t i = dimensions - 1; i-- > 0;) stride_[i] = stride_[i + 1] * (block_.count[i + 1] + 1);
   sums_.assign(static_cast<std::size_t>(stride_[0] * (block_.count[0] + 1)), 0);
-  std::vector<std::int64_t> index(dimensions, 0);
+  Odometer index(block_.count);
   for (const std::uint8_t member : members) {
     std::int64_t place = 0;
     for (std::size_t i = 0; i < dimensions; ++i) place += (index[i] + 1) * stride_[i];
     sums_[static_cast<std::size_t>(place)] = member;
-    for (std::size_t i = dimensions; i-- > 0 && ++index[i] == block_.count[i];) index[i] = 0;
+    index.advance();
   }
   for (std::size_t i = 0; i < dimensions; ++i) {
     const auto step = static_cast<std::size_t>(stride_[i]);

@@ -5,6 +5,7 @@
 
 #include "answers/invariance/safe_tubes.hpp"
 #include "engine/tube_sets.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
@@ -27,15 +28,12 @@ CellSet all_safe_cells(const ResultsReader& results) {
 
 std::vector<std::uint8_t> members_in(const CellSet& set, const UniformGrid& grid, const CellBlock& block) {
   std::vector<std::uint8_t> members;
-  std::vector<std::int64_t> index = block.first;
-  for (std::int64_t left = block.cells(); left > 0; --left) {
+  Odometer index(block.count);
+  do {
     std::int64_t cell = 0;
-    for (std::size_t i = 0; i < index.size(); ++i) cell += index[i] * grid.stride(i);
+    for (std::size_t i = 0; i < grid.size(); ++i) cell += (block.first[i] + index[i]) * grid.stride(i);
     members.push_back(set.test(cell) ? 1 : 0);
-    for (std::size_t i = index.size(); i-- > 0 && ++index[i] == block.first[i] + block.count[i];) {
-      index[i] = block.first[i];
-    }
-  }
+  } while (index.advance());
   return members;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "answers/layers/trigger_table.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
@@ -21,11 +22,6 @@ double trigger_rank(std::int32_t value) {
 
 std::vector<std::int32_t> widened(const std::vector<std::uint8_t>& values) {
   return {values.begin(), values.end()};
-}
-
-/// The next index tuple of a block, the last dimension fastest; counts from 0.
-void step(std::vector<std::int64_t>& index, const std::vector<std::int64_t>& count) {
-  for (std::size_t i = index.size(); i-- > 0 && ++index[i] == count[i];) index[i] = 0;
 }
 
 }  // namespace
@@ -88,10 +84,10 @@ CellTable::Values CellTable::read(const CellBlock& part) const {
 }
 
 void CellTable::visit_rows(const CellBlock& block, const Values& values, const Row& row) const {
-  std::vector<std::int64_t> index(block.count.size(), 0);
+  Odometer index(block.count);
   std::vector<std::int64_t> shown(kept_.size());
   std::vector<std::int32_t> cells(columns_.size());
-  for (std::int64_t x = 0; x < block.cells(); ++x, step(index, block.count)) {
+  for (std::int64_t x = 0; x < block.cells(); ++x, index.advance()) {
     for (std::size_t i = 0; i < kept_.size(); ++i) shown[i] = block.first[kept_[i]] + index[kept_[i]];
     for (std::size_t c = 0; c < cells.size(); ++c) cells[c] = values[c][static_cast<std::size_t>(x)];
     row(shown, cells);
@@ -121,10 +117,10 @@ CellTable::Values CellTable::projected(CellBlock& block) const {
     Values merged(columns_.size(), std::vector<std::int32_t>(static_cast<std::size_t>(target.cells())));
     std::vector<bool> begun(static_cast<std::size_t>(target.cells()), false);
     const auto add = [&](const CellBlock& part, const Values& found) {
-      std::vector<std::int64_t> index(part.count.size(), 0);
-      for (std::int64_t x = 0; x < part.cells(); ++x, step(index, part.count)) {
+      Odometer index(part.count);
+      for (std::int64_t x = 0; x < part.cells(); ++x, index.advance()) {
         std::int64_t place = 0;
-        for (std::size_t i = 0; i < index.size(); ++i) {
+        for (std::size_t i = 0; i < part.count.size(); ++i) {
           const std::int64_t k = part.first[i] + index[i] - block.first[i];
           place = place * target.count[i] + (target.count[i] == 1 ? 0 : k);
         }

@@ -1,23 +1,13 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "model/dependencies.hpp"
 #include "numeric/rational.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
-
-/// What the next value of one state depends on; indices into the spec's lists, ascending.
-struct Dependencies {
-  std::vector<std::int32_t> moving;      ///< states in which the sampled map is affine
-  std::vector<std::int32_t> parameters;  ///< discrete states whose values are put in one by one
-  std::vector<std::int32_t> inputs;
-  std::vector<std::int32_t> disturbances;
-  [[nodiscard]] bool operator==(const Dependencies&) const = default;
-};
 
 /// The sampled map of one state for fixed parameters and inputs:
 /// x_i(tau) in sum_j coefficient[j] * x_{moving[j]}(0) + [lower, upper].
@@ -54,38 +44,13 @@ class AffineDynamics {
                                                                  const std::vector<Rational>& slots) const;
 
  private:
-  /// An equation for fixed parameters: sum_j state[j] * x_{moving[j]} + sum_l disturbance[l] * w_l + [lower,
-  /// upper].
-  struct AffineForm {
-    std::vector<Rational> state;
-    std::vector<Rational> disturbance;
-    Rational lower;
-    Rational upper;
-  };
-
-  /// x' = A x + B w + c with nilpotent A, seen from one state.
-  struct NilpotentFlow {
-    std::vector<AffineForm> forms;            ///< the equations of the moving states
-    std::vector<std::vector<Rational>> rows;  ///< r_k = e_i A^k, up to the last that is not zero
-    /// [disturbance][k] = r_k B / k!: what a pulse of w has done to x_i after s is sum_k kernel[k] s^k.
-    std::vector<std::vector<Rational>> kernels;
-  };
-
-  [[nodiscard]] bool jumps_at_a_seam(const AffineForm& form, const Dependencies& dependencies) const;
-  /// @returns nothing if it is not of that form, has a `stop` limit or a periodic state that an equation
-  /// uses. REQUIRES: `state` is a moving one.
-  [[nodiscard]] std::optional<NilpotentFlow> nilpotent_flow(std::size_t state,
-                                                            const std::vector<Rational>& slots) const;
   /// A discrete state that stays what it is; nothing for one that moves.
   [[nodiscard]] std::optional<SampledRow> constant_row(std::size_t state,
                                                        const std::vector<Rational>& slots) const;
-  [[nodiscard]] std::optional<AffineForm> affine_form(std::size_t equation, const Dependencies& dependencies,
-                                                      const std::vector<Rational>& slots) const;
   [[nodiscard]] std::optional<SampledRow> map_row(std::size_t state,
                                                   const std::vector<Rational>& slots) const;
   [[nodiscard]] std::optional<SampledRow> flow_row(std::size_t state,
                                                    const std::vector<Rational>& slots) const;
-  [[nodiscard]] std::string place(const Dependencies& dependencies, const std::vector<Rational>& slots) const;
 
   const ProblemSpec* spec_;
   std::vector<Dependencies> dependencies_;

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/odometer.hpp"
 #include "model/pieces.hpp"
 #include "reach/abstraction.hpp"
 #include "reach/affine_dynamics.hpp"
-#include "reach/counter.hpp"
 #include "reach/index_form.hpp"
 
 namespace coordreq {
@@ -49,14 +49,14 @@ struct AffinePost {
       parts.push_back(pieces_of(static_cast<std::size_t>(moving[j]), cell[j]));
       counts.push_back(static_cast<std::int64_t>(parts.back().size()));
     }
-    Counter choice(counts);
+    Odometer choice(counts);
     std::vector<Piece> chosen(cell.size());
     do {
       for (std::size_t j = 0; j < cell.size(); ++j) {
         chosen[j] = parts[j][static_cast<std::size_t>(choice.indices()[j])];
       }
       visit(chosen);
-    } while (choice.next());
+    } while (choice.advance());
   }
 
   /// Fills the entries of all cells from position `base` on; `entry` is called with the indices of the moving
@@ -65,14 +65,14 @@ struct AffinePost {
   void fill(TransitionTable& table, std::int64_t base, const Entry& entry) const {
     std::vector<std::int64_t> counts;
     for (const std::int32_t j : moving) counts.push_back(filled_count(static_cast<std::size_t>(j)));
-    Counter cell(counts);
+    Odometer cell(counts);
     do {
       std::int64_t position = base;
       for (std::size_t j = 0; j < counts.size(); ++j) {
         position += cell.indices()[j] * table.state_stride[static_cast<std::size_t>(moving[j])];
       }
       table.entries[static_cast<std::size_t>(position)] = entry(cell.indices());
-    } while (cell.next());
+    } while (cell.advance());
   }
 };
 

@@ -6,10 +6,10 @@
 #include <atomic>
 
 #include "base/error.hpp"
+#include "model/odometer.hpp"
 #include "model/pieces.hpp"
 #include "reach/affine_post.hpp"
 #include "reach/cells_meeting.hpp"
-#include "reach/counter.hpp"
 #include "reach/shift.hpp"
 #include "reach/tube_table.hpp"
 
@@ -36,10 +36,7 @@ class TableBuilder {
         state_(state) {}
 
   std::optional<bool> build(ThreadTeam& team) {
-    table_.states = dependencies_.moving;
-    table_.states.insert(table_.states.end(), dependencies_.parameters.begin(),
-                         dependencies_.parameters.end());
-    std::sort(table_.states.begin(), table_.states.end());
+    table_.states = dependencies_.all_states();
     table_.inputs = dependencies_.inputs;
     table_.shift = is_shift(spec_, dependencies_, state_);
     post_.shift = table_.shift;
@@ -48,11 +45,11 @@ class TableBuilder {
 
     std::atomic<bool> affine = true;
     std::atomic<bool> exact = true;
-    const Counter choices(choice_counts());
+    const Odometer choices(choice_counts());
     team.for_each(choices.size(), 1, [&](ThreadTeam::Range range, int) {
-      Counter choice = choices;
+      Odometer choice = choices;
       choice.seek(range.begin);
-      for (std::int64_t i = range.begin; i < range.end && affine; ++i, choice.next()) {
+      for (std::int64_t i = range.begin; i < range.end && affine; ++i, choice.advance()) {
         const std::optional<bool> filled = fill(choice.indices());
         if (!filled) affine = false;
         if (filled && !*filled) exact = false;

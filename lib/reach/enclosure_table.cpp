@@ -37,9 +37,7 @@ class EnclosureTable {
         tube_(abstraction.tubes.empty() ? nullptr : &abstraction.tubes[state]),
         state_(state),
         differences_(differences) {
-    table_.states = dependencies.moving;
-    table_.states.insert(table_.states.end(), dependencies.parameters.begin(), dependencies.parameters.end());
-    std::sort(table_.states.begin(), table_.states.end());
+    table_.states = dependencies.all_states();
     table_.inputs = dependencies.inputs;
     table_.shift = is_shift(spec, dependencies, state);
     table_.entries.resize(
@@ -183,12 +181,12 @@ void build_enclosure_tables(const ProblemSpec& spec, const Dependencies& depende
   }
 
   std::vector<StateEnclosure> enclosures(static_cast<std::size_t>(team.size()), enclosure);
-  const Counter all = choices.counter();
+  const Odometer all = choices.odometer();
   team.for_each(all.size(), 64, [&](ThreadTeam::Range range, int worker) {
     StateEnclosure& mine = enclosures[static_cast<std::size_t>(worker)];
-    Counter choice = all;
+    Odometer choice = all;
     choice.seek(range.begin);
-    for (std::int64_t i = range.begin; i < range.end; ++i, choice.next()) {
+    for (std::int64_t i = range.begin; i < range.end; ++i, choice.advance()) {
       std::int64_t entry = 0;
       for (std::size_t v = 0; v < strides.size(); ++v) entry += choice.indices()[v] * strides[v];
       bool first = true;

@@ -43,7 +43,7 @@ ValidatedFlow::Solver::Solver(FlowSystem system, const Interval& period)
       sensitivity_(n_, m_),
       taylor_(tape_),
       nominal_(tape_, field_),
-      affine_kernel_(n_, m_),
+      affine_kernel_(n_),
       wanted_(2 * n_, std::vector<End>(n_ + m_)),
       solution_of_(2 * n_),
       initial_(n_),
@@ -129,7 +129,6 @@ FlowStep& ValidatedFlow::Solver::next_step() {
   if (step_count_ == steps_.size()) {
     steps_.emplace_back();
     steps_.back().choices.resize(tape_.nodes.size());
-    steps_.back().transition.resize(n_ * n_);
   }
   return steps_[step_count_];
 }
@@ -185,12 +184,13 @@ void ValidatedFlow::Solver::find_damping(const Interval& duration) {
 bool ValidatedFlow::Solver::append_sensitivity(const Interval& duration, bool divisible) {
   jacobian_.evaluate(box_);
   for (std::size_t i = 0; i < n_; ++i) {
-    const double strongest = jacobian_.state()[i * n_ + i].lower * duration.upper;
+    const auto own = static_cast<Eigen::Index>(i);
+    const double strongest = jacobian_.state()(own, own).lower * duration.upper;
     if (strongest < -kStrongDecay) damped_[i] = true;
   }
   if (transition_.enclose(jacobian_.state(), duration, damped_)) {
     sensitivity_.append(transition_, jacobian_);
-    std::copy(transition_.end().begin(), transition_.end().end(), next_step().transition.begin());
+    next_step().transition = transition_.end();
     return true;
   }
   const bool small = duration.upper * kParts <= period_.upper * kSmallWithoutBound;

@@ -16,7 +16,7 @@ struct FlowStep {
   bool smooth = false;  ///< the remainder holds for every solution from the initial box
   TaylorRemainder remainder;
   Choices choices;
-  std::vector<Interval> transition;  ///< of the difference of two solutions, row-major
+  IntervalMatrix transition;  ///< of the difference of two solutions
 };
 
 /// A solution that is followed from a corner of the boxes of initial states and of disturbances, or from the
@@ -96,7 +96,7 @@ class ValidatedFlow::Solver {
   std::vector<Interval> box_;          ///< during the step
   std::vector<Interval> derivative_;
   std::vector<Interval> next_;
-  std::vector<Interval> deviation_;
+  IntervalVector deviation_;
   std::vector<bool> damped_;
   std::vector<bool> none_held_;
   std::vector<double> tolerance_;

@@ -102,16 +102,14 @@ void ValidatedFlow::Solver::advance_smoothly(const FlowStep& step, std::vector<I
   bool wide = false;
   for (std::size_t i = 0; i < n_; ++i) {
     const Interval middle = point(midpoint(state[i]));
-    deviation_[i] = state[i] - middle;
+    Interval& deviation = deviation_(static_cast<Eigen::Index>(i));
+    deviation = state[i] - middle;
     state[i] = middle;
-    wide = wide || !is_zero(deviation_[i]);
+    wide = wide || !deviation.is_zero();
   }
   taylor_.advance(field_, step.duration, step.choices, none_held_, step.remainder, state);
   if (!wide) return;
-  for (std::size_t i = 0; i < n_; ++i) {
-    const auto row = std::span<const Interval>(step.transition).subspan(i * n_, n_);
-    state[i] = state[i] + scalar_product(row, deviation_, 0, 1);
-  }
+  Eigen::Map<IntervalVector>(state.data(), deviation_.size()) += product(step.transition, deviation_);
 }
 
 /// Brings the solution up to the present step. @returns whether it could be enclosed

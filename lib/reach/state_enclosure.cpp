@@ -15,17 +15,13 @@ std::size_t at(std::int32_t i) {
   return static_cast<std::size_t>(i);
 }
 
-Interval box_of(const Rational& lower, const Rational& upper) {
-  return {.lower = lower_double(lower), .upper = upper_double(upper)};
-}
-
 FlowSystem::Limit limit_of(const StateSpec& state) {
   const Rational last =
       state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
   return {.below = state.below == Outside::stop,
           .above = state.above == Outside::stop,
-          .lower = box_of(state.grid.first, state.grid.first),
-          .upper = box_of(last, last)};
+          .lower = enclose(state.grid.first),
+          .upper = enclose(last)};
 }
 
 /// The state stays within its limits; what rounding adds beyond them is dropped.
@@ -50,7 +46,7 @@ StateEnclosure::StateEnclosure(const ProblemSpec& spec, const Dependencies& depe
       slots_(spec.slot_count()) {
   for (const std::int32_t l : dependencies.disturbances) {
     const DisturbanceSpec& w = spec.disturbances[at(l)];
-    slots_[spec.disturbance_slot(at(l))] = box_of(w.lower, w.upper);
+    slots_[spec.disturbance_slot(at(l))] = coordreq::enclose(w.lower, w.upper);
   }
   if (spec.dynamics.time == Time::discrete) {
     prepare_map();
@@ -68,7 +64,7 @@ void StateEnclosure::prepare_map() {
   if (spec_->states[state_].discrete) shifts_ = false;
   if (shifts_) {
     origin_ = midpoint(range_of(spec_->states[state_]));
-    slots_[spec_->state_slot(state_)] = {.lower = origin_, .upper = origin_};
+    slots_[spec_->state_slot(state_)] = Interval(origin_);
   }
 }
 
@@ -108,7 +104,7 @@ StateEnclosure::Result StateEnclosure::result(std::size_t state) const {
 StateEnclosure::Result StateEnclosure::result_of_map() const {
   if (!map_value_.total) return {.status = Status::undefined, .culprit = state_};
   if (!shifts_) return {.value = map_value_};
-  return {.value = map_value_ - Interval{.lower = origin_, .upper = origin_}};
+  return {.value = map_value_ - Interval(origin_)};
 }
 
 StateEnclosure::Result StateEnclosure::result_of_flow(std::size_t state) const {

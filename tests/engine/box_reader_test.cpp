@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/row_shape.hpp"
-#include "reach/counter.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
@@ -149,7 +149,7 @@ struct Levels {
   void for_each(const std::vector<IndexRange>& box, const Visit& visit) const {
     std::vector<std::int64_t> counts;
     for (const IndexRange& range : box) counts.push_back(range.last - range.first + 1);
-    Counter counter(counts);
+    Odometer counter(counts);
     do {
       std::int64_t row = 0;
       for (std::size_t i = 0; i < box.size(); ++i) {
@@ -157,7 +157,7 @@ struct Levels {
         row = row * problem.dimensions[i].count + k;
       }
       visit(row);
-    } while (counter.next());
+    } while (counter.advance());
   }
 
   [[nodiscard]] Level least(const RowBox& box, std::int64_t c) const {
