@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "analysis/cell_order.hpp"
+#include "model/cell_order.hpp"
 #include "engine/level_rows.hpp"
 
 namespace coordreq {

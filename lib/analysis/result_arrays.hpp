@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "analysis/cell_order.hpp"
+#include "model/cell_order.hpp"
 #include "answers/convention/convention_freedom.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "engine/level_map.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "results/result_requirement.hpp"
+#include "answers/requirements/result_requirement.hpp"
 
 // What goes into a results file, contract section 4, as plain data. Large arrays are handed over as
 // functions that fill a stretch, so that nothing is held twice.

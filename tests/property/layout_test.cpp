@@ -1,6 +1,6 @@
 // The order in which the engine holds the states is nobody's business but its own.
 
-#include "analysis/layout.hpp"
+#include "engine/layout.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "analysis/cell_order.hpp"
+#include "model/cell_order.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 #include "support/random_problem.hpp"

@@ -1,11 +1,11 @@
-#include "analysis/simulate.hpp"
+#include "cell/simulate.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "analysis/run_arrays.hpp"
+#include "cell/run_arrays.hpp"
 #include "base/error.hpp"
 #include "cell/state_text.hpp"
 #include "engine/safe_tubes.hpp"

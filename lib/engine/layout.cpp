@@ -1,4 +1,4 @@
-#include "analysis/layout.hpp"
+#include "engine/layout.hpp"
 
 #include <algorithm>
 #include <numeric>
