@@ -25,10 +25,10 @@ void open_checkpoint(const ProblemSpec& spec, const AnalysisOptions& options, St
 }
 
 void find_answers(Answers& answers, StageReporter& reporter, Checkpoint* checkpoint, ThreadTeam& team) {
-  const StageWork work{
-      .team = team,
-      .part = [&reporter](const std::string& part) { reporter.enter_part(part); },
-      .step = [&reporter](const WaveStep& step, std::int64_t row_length) { reporter.step(step, row_length); }};
+  const StageWork work{.team = team,
+                       .part = [&reporter](const std::string& part) { reporter.enter_part(part); },
+                       .step = [&reporter](const WaveStep& step,
+                                           std::int64_t row_length) { reporter.step(step, row_length); }};
   const PlanWatch watch{.enter = [&reporter](const std::string& stage) { reporter.enter(stage); },
                         .store = [checkpoint](const std::string& stage) -> StageStore* {
                           return checkpoint == nullptr ? nullptr : checkpoint->enter(stage);

@@ -10,8 +10,8 @@
 #include "analysis/checkpoint_options.hpp"
 #include "analysis/progress.hpp"
 #include "answers/invariance/answer.hpp"
-#include "base/thread_team.hpp"
 #include "answers/requirements/result_requirement.hpp"
+#include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

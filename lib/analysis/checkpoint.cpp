@@ -126,13 +126,16 @@ class Checkpoint::Saving : public Archive {
   [[nodiscard]] bool is_loading() const override { return false; }
   void rows(const NumberRows& rows) override {
     Packer head;
-    for (const std::int64_t number : {rows.rows, rows.row_bytes()}) head.add(static_cast<std::uint64_t>(number));
+    for (const std::int64_t number : {rows.rows, rows.row_bytes()})
+      head.add(static_cast<std::uint64_t>(number));
     head.write_to(file_);
     write_rows(rows, file_);
   }
 
  private:
-  [[noreturn]] void refuse(std::string_view what) const override { throw std::logic_error(std::string(what)); }
+  [[noreturn]] void refuse(std::string_view what) const override {
+    throw std::logic_error(std::string(what));
+  }
 
   BlockFileWriter& file_;
 };

@@ -4,9 +4,9 @@
 #include <numeric>
 
 #include "analysis/result_arrays.hpp"
+#include "answers/invariance/action_bits.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/requirements/answer.hpp"
-#include "engine/action_bits.hpp"
 #include "model/uniform_grid.hpp"
 #include "spec/partition_names.hpp"
 

@@ -31,8 +31,7 @@ PartitionSummary summary_of(const ProblemSpec& spec, const PartitionSpec& partit
                           .fixed_point = layers.truncated ? 0 : layers.sizes.back(),
                           .layers = layers.sizes,
                           .truncated = layers.truncated};
-  for (const auto& agents : partition.classes)
-    result.classes.push_back(class_name(spec.agents, agents));
+  for (const auto& agents : partition.classes) result.classes.push_back(class_name(spec.agents, agents));
   result.never_without_connection = cells_bound_to_connect(layers, spec.coordination.connection_delay);
   if (result.fixed_point == 0 && layers.sizes.front() > 0) {
     // Z_k shrinks strictly, so the last layer that is not empty holds the largest delay.
@@ -110,7 +109,8 @@ AnalysisSummary summarise(const Answers& answers) {
                                   .full = own.full,
                                   .histogram = {own.histogram.begin(), own.histogram.end()}});
   }
-  if (const auto* verdicts = answers.find<RequirementVerdicts>()) summary.requirements = verdicts->requirements;
+  if (const auto* verdicts = answers.find<RequirementVerdicts>())
+    summary.requirements = verdicts->requirements;
   return summary;
 }
 

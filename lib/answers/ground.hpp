@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "engine/pair_table.hpp"
 #include "engine/row_engine.hpp"
 #include "engine/row_hull.hpp"
+#include "engine/tube_sets.hpp"
 #include "model/cell_order.hpp"
 #include "reach/abstraction.hpp"
 #include "spec/problem_spec.hpp"
@@ -24,28 +24,27 @@ struct ListedController {
 
 /// What all answers to a problem stand on: its abstraction, S, and the engine that reads them.
 ///
-/// 1. Rows, columns and states of the engine are those of `engine_spec`, the same problem with its states in
-///    the order of `layout`; `order` maps cells of the spec's grid to them. Inputs and agents are the spec's.
+/// 1. Rows, columns and dimensions are those of the grid of the abstraction, with the states in the order of
+/// the
+///    model; `order` maps cells of the spec's grid to them. Inputs and agents are the spec's.
 /// 2. Neither copied nor moved: its parts refer to one another. What stages make is there after them.
 struct Ground {
-  explicit Ground(const ProblemSpec& problem);
+  explicit Ground(const ProblemSpec& problem) : spec(problem) {}
   Ground(const Ground&) = delete;
   Ground& operator=(const Ground&) = delete;
 
   const ProblemSpec& spec;
-  std::vector<std::size_t> layout;  ///< [dimension of the engine] the state
-  ProblemSpec engine_spec;
-  std::optional<ListedController> listed;  ///< of `controller.file`; then the layout is the identity
+  std::optional<ListedController> listed;  ///< of `controller.file`; then the order is that of the spec
   std::optional<Abstraction> abstraction;  ///< after "abstraction", as all that follows after "safe set"
   CellSet safe;
   std::optional<PairTable> allow;
-  std::optional<CellSet> beyond;  ///< SafeTubes::beyond
+  std::optional<CellSet> beyond;  ///< TubeSets::beyond
   std::optional<RowEngine> engine;
   std::optional<RowHull> hull;
   std::optional<CellOrder> order;
 
   /// What tubes must stay in, if there are any. REQUIRES: S is there.
-  [[nodiscard]] SafeTubes tubes() const;
+  [[nodiscard]] TubeSets tubes() const;
 };
 
 /// "abstraction" and "safe set".

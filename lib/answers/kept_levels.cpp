@@ -57,7 +57,8 @@ std::function<void(const WaveStep&)> step_of(const StageWork& work, const RowEng
 }
 
 void serialise(Archive& archive, const RowEngine& engine, const LevelBounds& bounds, LevelMap& levels) {
-  std::uint8_t width = levels.visit([]<class Level>(const LevelRows<Level>&) { return static_cast<std::uint8_t>(sizeof(Level)); });
+  std::uint8_t width = levels.visit(
+      []<class Level>(const LevelRows<Level>&) { return static_cast<std::uint8_t>(sizeof(Level)); });
   archive.number(width);
   if (!archive.is_loading()) return levels.visit([&](const auto& own) { archive.rows(rows_of(own)); });
   archive.expect(width == 1 || width == 2 || width == 4, "levels have another width");
@@ -84,7 +85,8 @@ void find_or_take_levels(const StageWork& work, const RowEngine& engine, const L
                   .resumed = kept == StageStore::Kept::unfinished ? &start : nullptr});
   }
   if (work.store != nullptr)
-    work.store->finish([&engine, bounds, &place](Archive& archive) { serialise(archive, engine, bounds, place); });
+    work.store->finish(
+        [&engine, bounds, &place](Archive& archive) { serialise(archive, engine, bounds, place); });
 }
 
 }  // namespace coordreq

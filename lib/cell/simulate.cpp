@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "cell/run_arrays.hpp"
+#include "answers/invariance/safe_tubes.hpp"
 #include "base/error.hpp"
+#include "cell/run_arrays.hpp"
 #include "cell/state_text.hpp"
-#include "engine/safe_tubes.hpp"
 #include "model/locate.hpp"
 #include "model/sample_reset.hpp"
 #include "reach/build_abstraction.hpp"

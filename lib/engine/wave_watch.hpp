@@ -4,8 +4,8 @@
 #include <functional>
 #include <span>
 
-#include "engine/level_map.hpp"
 #include "engine/kept_rows.hpp"
+#include "engine/level_map.hpp"
 
 namespace coordreq {
 

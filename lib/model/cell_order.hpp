@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "model/uniform_grid.hpp"
@@ -14,10 +13,9 @@ namespace coordreq {
 /// Row-major linear indices of the spec's grid are what users see; rows and columns are the engine's.
 class CellOrder {
  public:
-  /// @param position [state of the spec] its dimension in `grid`, a permutation
-  CellOrder(const UniformGrid& grid, std::vector<std::size_t> position)
-      : position_(std::move(position)), row_length_(grid.row_length()) {
-    for (const std::size_t p : position_) {
+  explicit CellOrder(const UniformGrid& grid) : row_length_(grid.row_length()) {
+    for (std::size_t state = 0; state < grid.size(); ++state) {
+      const std::size_t p = grid.dimension_of(state);
       counts_.push_back(grid[p].count);
       const bool is_along = p >= grid.across();
       row_step_.push_back(is_along ? 0 : grid.stride(p) / grid.row_length());
@@ -77,7 +75,6 @@ class CellOrder {
   }
 
  private:
-  std::vector<std::size_t> position_;
   std::int64_t row_length_;
   std::vector<std::int64_t> counts_;
   std::vector<std::int64_t> row_step_;

@@ -13,8 +13,8 @@
 #include "reach/box_choices.hpp"
 #include "reach/cells_meeting.hpp"
 #include "reach/shift.hpp"
-#include "reach/table_layout.hpp"
 #include "reach/state_enclosure.hpp"
+#include "reach/table_layout.hpp"
 
 namespace coordreq {
 namespace {

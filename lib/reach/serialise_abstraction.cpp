@@ -54,26 +54,26 @@ void serialise(Archive& archive, TransitionTable& table) {
 void serialise(Archive& archive, const ProblemSpec& spec, Abstraction& abstraction) {
   auto& [grid, inputs, tables, tubes, exact] = abstraction;
   const AffineDynamics dynamics(spec);
-  tables.resize(spec.states.size());
-  if (spec.abstraction.between_samples) tubes.resize(spec.states.size());
+  tables.resize(grid.size());
+  if (spec.abstraction.between_samples) tubes.resize(grid.size());
   auto is_exact = static_cast<std::uint8_t>(exact ? 1 : 0);
   archive.number(is_exact);
   exact = is_exact != 0;
-  for (std::size_t i = 0; i < tables.size(); ++i) {
-    auto is_sum = static_cast<std::uint8_t>(tables[i].is_sum() ? 1 : 0);
+  for (std::size_t state = 0; state < grid.size(); ++state) {
+    const std::size_t d = grid.dimension_of(state);
+    auto is_sum = static_cast<std::uint8_t>(tables[d].is_sum() ? 1 : 0);
     archive.number(is_sum);
-    if (archive.is_loading() && is_sum != 0) {
-      const AffinePart part = find_affine_part(spec, dynamics.dependencies(i), i);
-      archive.expect(!summed_states(spec, dynamics.dependencies(i), part, i).empty(), "a table is a sum");
-      tables[i] = sum_layout(spec, dynamics.dependencies(i), part, i, grid, inputs);
-    } else if (archive.is_loading()) {
-      tables[i] = full_layout(spec, dynamics.dependencies(i), i, grid, inputs);
+    if (archive.is_loading()) {
+      const Dependencies& dependencies = dynamics.dependencies(d);
+      const AffinePart part = find_affine_part(spec, dependencies, d);
+      archive.expect(is_sum == 0 || !summed_states(spec, dependencies, part, d).empty(), "a table is a sum");
+      tables[d] = is_sum == 0 ? full_layout(spec, dependencies, d, grid, inputs)
+                              : sum_layout(spec, dependencies, part, d, grid, inputs);
     }
-    serialise(archive, tables[i]);
-  }
-  for (std::size_t i = 0; i < tubes.size(); ++i) {
-    if (archive.is_loading()) tubes[i] = full_layout(spec, dynamics.dependencies(i), i, grid, inputs);
-    serialise(archive, tubes[i]);
+    serialise(archive, tables[d]);
+    if (tubes.empty()) continue;
+    if (archive.is_loading()) tubes[d] = full_layout(spec, dynamics.dependencies(d), d, grid, inputs);
+    serialise(archive, tubes[d]);
   }
 }
 

@@ -8,7 +8,7 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"
 #include "answers/plan.hpp"
-#include "engine/controller.hpp"
+#include "answers/invariance/controller.hpp"
 #include "reach/build_abstraction.hpp"
 
 namespace coordreq {
@@ -60,7 +60,7 @@ struct FastAnalysis {
   std::unique_ptr<Answers> answers;
   const Abstraction& abstraction;
   const CellSet& safe;
-  const std::optional<CellSet>& beyond;  ///< SafeTubes::beyond
+  const std::optional<CellSet>& beyond;  ///< TubeSets::beyond
   const RowEngine& engine;
   const RowHull& hull;
   const Invariance& invariance;
@@ -73,7 +73,6 @@ struct FastAnalysis {
                                         const PackedPairs* listed) {
     auto result = std::make_unique<Answers>(spec);
     Ground& ground = result->ground;
-    ground.engine_spec = spec;
     if (listed != nullptr) ground.listed = ListedController{.pairs = *listed};
     ground.abstraction = std::move(given);
     lay_ground(ground, team);

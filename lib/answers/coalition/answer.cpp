@@ -31,7 +31,8 @@ Json coalition_json(const CoalitionMap& map, const ProblemSpec& spec) {
   json["no_partition_suffices"] = map.without;
   json["critical_pairs"] = Json::array();
   for (std::size_t i = 0; i < map.pairs.size(); ++i)
-    json["critical_pairs"].push_back({{"name", pair_name(spec, map.pairs[i])}, {"cells", map.critical_cells[i]}});
+    json["critical_pairs"].push_back(
+        {{"name", pair_name(spec, map.pairs[i])}, {"cells", map.critical_cells[i]}});
   return json;
 }
 

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "answers/invariance/answer.hpp"
-#include "engine/controller.hpp"
 
 namespace coordreq {
 namespace {
@@ -38,8 +37,8 @@ std::vector<InputClass> inputs_of_agents(const ProblemSpec& spec) {
 
 void find_a_convention(Answers& answers, const StageWork& work) {
   const Ground& ground = answers.ground;
-  ConventionAnswer& result =
-      answers.add(ConventionAnswer{ActionGrouping(*ground.engine, inputs_of_agents(ground.spec), work.team), {}});
+  ConventionAnswer& result = answers.add(
+      ConventionAnswer{ActionGrouping(*ground.engine, inputs_of_agents(ground.spec), work.team), {}});
   const auto exchange = [&answers](Archive& archive) {
     serialise(archive, answers.ground.engine->grid().cells(), answers.get<ConventionAnswer>().freedom);
   };
@@ -66,8 +65,8 @@ void summarise_convention(const Answers& answers, Json& summary, Json& /*work*/)
   const std::vector<AgentSpec>& agents = answers.ground.spec.agents;
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const ConventionFreedom::Agent& own = convention->freedom.agents[i];
-    summary["convention"].push_back(
-        Json{{"agent", agents[i].name}, {"mean", own.mean}, {"full", own.full}, {"histogram", own.histogram}});
+    summary["convention"].push_back(Json{
+        {"agent", agents[i].name}, {"mean", own.mean}, {"full", own.full}, {"histogram", own.histogram}});
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include "answers/kept_levels.hpp"
 #include "answers/work_json.hpp"
-#include "engine/controller.hpp"
 
 namespace coordreq {
 namespace {
@@ -16,7 +15,8 @@ void find_invariance_set(Answers& answers, const StageWork& work) {
   // No cell is lost later than all others one after the other.
   const LevelBounds bounds{&ground.safe, ground.engine->grid().points() + 1};
   find_or_take_levels(work, *ground.engine, bounds, result.collision_time, [&](const WaveWatch& watch) {
-    Invariance found = find_invariance(*ground.engine, *ground.hull, ground.safe, synthesis, watch, work.team);
+    Invariance found =
+        find_invariance(*ground.engine, *ground.hull, ground.safe, synthesis, watch, work.team);
     result.counts = found.counts;
     return std::move(found.collision_time);
   });

@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "answers/answers.hpp"
-#include "answers/stage.hpp"
+#include "answers/invariance/controller.hpp"
 #include "answers/invariance/invariance.hpp"
+#include "answers/stage.hpp"
 #include "base/json.hpp"
 namespace coordreq {
 

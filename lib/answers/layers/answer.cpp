@@ -8,8 +8,6 @@
 #include "answers/kept_levels.hpp"
 #include "answers/layers/refinement.hpp"
 #include "answers/work_json.hpp"
-#include "engine/controller.hpp"
-#include "engine/projections.hpp"
 #include "spec/partition_names.hpp"
 
 namespace coordreq {
@@ -26,15 +24,16 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
     return;
   }
   const std::int64_t steps = ground.engine->grid().points();
-  const LevelBounds bounds{&invariant, coordination.max_delay ? std::min(*coordination.max_delay, steps) : steps};
+  const LevelBounds bounds{&invariant,
+                           coordination.max_delay ? std::min(*coordination.max_delay, steps) : steps};
   find_or_take_levels(work, *ground.engine, bounds, all[p].layers_of, [&](const WaveWatch& watch) {
     work.enter_part("projections");
     const PartitionActions actions(answers, p, work.team);
     work.enter_part("");
     std::vector<const LevelMap*> coarser;
     for (const std::size_t q : next_coarser(coordination.partitions, p)) coarser.push_back(&all[q].layers_of);
-    DelayLayers found = find_delay_layers(*ground.engine, *ground.hull, invariant, actions.projections, coarser,
-                                          coordination.max_delay, watch, work.team);
+    DelayLayers found = find_delay_layers(*ground.engine, *ground.hull, invariant, actions.projections,
+                                          coarser, coordination.max_delay, watch, work.team);
     all[p].counts = found.counts;
     return std::move(found.layers_of);
   });

@@ -4,6 +4,7 @@
 
 #include "answers/answers.hpp"
 #include "answers/layers/delay_layers.hpp"
+#include "answers/layers/projections.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
 namespace coordreq {

@@ -6,7 +6,6 @@
 #include "answers/kept_levels.hpp"
 #include "answers/network/network_problem.hpp"
 #include "answers/work_json.hpp"
-#include "engine/controller.hpp"
 
 namespace coordreq {
 namespace {

@@ -93,7 +93,8 @@ Json counterexample_json(const ResultRequirement& result, const ProblemSpec& spe
   return json;
 }
 
-Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked, const ProblemSpec& spec) {
+Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
+                      const ProblemSpec& spec) {
   Json json;
   json["name"] = result.name;
   json["holds"] = result.holds;
@@ -115,9 +116,8 @@ Json requirement_json(const ResultRequirement& result, const RequirementSpec& as
 
 std::vector<Stage> requirements_checks(const ProblemSpec& spec) {
   if (spec.requirements.empty()) return {};
-  return {{"regions", [](Answers& answers, const StageWork& work) {
-             check_regions(answers.ground.spec, work.team);
-           }}};
+  return {{"regions",
+           [](Answers& answers, const StageWork& work) { check_regions(answers.ground.spec, work.team); }}};
 }
 
 std::vector<Stage> requirements_stages(const ProblemSpec& spec) {

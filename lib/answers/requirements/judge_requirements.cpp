@@ -24,7 +24,9 @@ class Judge {
         controller_(answers.get<Controller>()),
         team_(team),
         grid_(make_grid(ground_.spec)) {
-    for (const std::size_t state : ground_.layout) number_stride_.push_back(grid_.stride(state));
+    const UniformGrid& engine_grid = ground_.abstraction->grid;
+    for (std::size_t d = 0; d < engine_grid.size(); ++d)
+      number_stride_.push_back(grid_.stride(engine_grid.state(d)));
   }
 
   ResultRequirement judge(std::size_t r) {
@@ -52,7 +54,7 @@ class Judge {
 
   [[nodiscard]] CellVerdict judge_all_cells(std::size_t r, std::optional<std::size_t> partition) const {
     const UniformGrid& grid = ground_.abstraction->grid;
-    const CellSet region = cells_of_region(ground_.engine_spec.requirements[r].where, grid, team_);
+    const CellSet region = cells_of_region(ground_.spec.requirements[r].where, grid, team_);
     const CellRequirement requirement{.collision_time = controller_.collision_time,
                                       .layers = layers_of(partition),
                                       .min_delay = ground_.spec.requirements[r].min_delay.value_or(0)};
@@ -69,12 +71,13 @@ class Judge {
       sets.grouping = &*grouping;
       sets.layers_of = &layers_of(partition)->layers_of;
     }
+    const UniformGrid& grid = ground_.abstraction->grid;
     const EscapePath found = find_escape(sets, cell);
     ResultPath path{.phase = found.phases, .end = found.end};
     for (const std::int64_t x : found.cells) add_sample(x, partition, path);
     for (const std::int64_t u : found.joint_inputs) add_step(u, path);
     for (const DomainSide& side : found.sides) {
-      const ResultSide named{.state = ground_.layout[side.dimension], .above = side.above};
+      const ResultSide named{.state = grid.state(side.dimension), .above = side.above};
       if (!path.left_side || named.state < path.left_side->state) path.left_side = named;
     }
     return path;
