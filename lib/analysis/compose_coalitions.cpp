@@ -57,8 +57,8 @@ ResultArray critical_array(const CoalitionMap& map, const Answers& answers) {
             while (count > 0) {
               const std::uint64_t first = begin % cells;
               const std::uint64_t here = std::min(count, cells - first);
-              fill_members(map.critical[begin / cells], *answers.ground.order, static_cast<std::int64_t>(first),
-                           static_cast<std::int64_t>(here), place);
+              fill_members(map.critical[begin / cells], *answers.ground.order,
+                           static_cast<std::int64_t>(first), static_cast<std::int64_t>(here), place);
               begin += here;
               count -= here;
               place += here;

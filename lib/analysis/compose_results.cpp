@@ -119,8 +119,7 @@ ResultPartition ResultComposer::partition_content(std::size_t p, ElementType typ
                          .delay = delay_array(layers, collision_time, *ground_.order, type),
                          .trigger = trigger_array(layers, collision_time, spec.coordination.connection_delay,
                                                   *ground_.order, type)};
-  for (const auto& agents : partition.classes)
-    result.classes.push_back(class_name(spec.agents, agents));
+  for (const auto& agents : partition.classes) result.classes.push_back(class_name(spec.agents, agents));
   if (spec.output.layers) result.layers = layer_lists(layers, *ground_.order);
   if (!spec.output.actions) return result;
   const ActionGrouping& grouping =
@@ -135,8 +134,8 @@ ResultBits ResultComposer::bits(const ActionGrouping& grouping, std::size_t c,
   ResultBits result{.class_name = name, .actions = static_cast<std::uint64_t>(grouping.actions(c))};
   for (const std::int32_t i : grouping.inputs(c))
     result.inputs.push_back(ground_.spec.inputs[static_cast<std::size_t>(i)].name);
-  result.fill = [controller = answers_.get<Controller>(), &grouping, c](std::uint64_t begin, std::uint64_t count,
-                                                                  void* out) {
+  result.fill = [controller = answers_.get<Controller>(), &grouping, c](std::uint64_t begin,
+                                                                        std::uint64_t count, void* out) {
     fill_action_bits(controller, grouping, c, begin, count, out);
   };
   return result;
@@ -155,7 +154,8 @@ void ResultComposer::add_convention(const ConventionAnswer& convention, ResultCo
   for (std::size_t i = 0; ground_.spec.output.actions && i < agents.names.size(); ++i) {
     ResultBits& own = content.convention.emplace_back(bits(convention.agents, i, agents.names[i]));
     own.fill = [this, &convention, i](std::uint64_t begin, std::uint64_t count, void* out) {
-      fill_convention_bits(answers_.get<Controller>(), *ground_.hull, convention.agents, i, begin, count, out);
+      fill_convention_bits(answers_.get<Controller>(), *ground_.hull, convention.agents, i, begin, count,
+                           out);
     };
   }
 }

@@ -5,6 +5,7 @@
 #include <random>
 #include <utility>
 
+#include "answers/invariance/safe_set.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 #include "support/random_problem.hpp"

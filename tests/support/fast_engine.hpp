@@ -6,15 +6,15 @@
 
 #include "answers/answers.hpp"
 #include "answers/invariance/answer.hpp"
+#include "answers/invariance/controller.hpp"
 #include "answers/layers/answer.hpp"
 #include "answers/plan.hpp"
-#include "answers/invariance/controller.hpp"
 #include "reach/build_abstraction.hpp"
 
 namespace coordreq {
 
-/// The plan of the program on an abstraction of the states in the order of the spec, with what can be asked of
-/// it near at hand.
+/// The plan of the program on an abstraction of the states in the order of the spec, with what can be asked
+/// of it near at hand.
 struct FastAnalysis {
   FastAnalysis(const ProblemSpec& spec, ThreadTeam& team, const PackedPairs* listed = nullptr)
       : FastAnalysis(spec, build_abstraction(spec, team), team, listed) {}

@@ -62,8 +62,7 @@ class Judge {
   }
 
   [[nodiscard]] ResultPath path_from(std::int64_t cell, std::optional<std::size_t> partition) const {
-    EscapeSets sets{
-        .controller = &controller_, .tubes = ground_.tubes(), .number_stride = number_stride_};
+    EscapeSets sets{.controller = &controller_, .tubes = ground_.tubes(), .number_stride = number_stride_};
     std::optional<ActionGrouping> grouping;
     if (partition) {
       const PartitionSpec& own = ground_.spec.coordination.partitions[*partition];
