@@ -36,7 +36,9 @@ Coefficients absolute_antiderivative(const Coefficients& kernel, const Rational&
 }  // namespace
 
 std::optional<std::vector<SampledRow>> AffineDynamics::tube_rows(std::size_t state,
-                                                                 const std::vector<Rational>& slots) const {
+                                                                 const std::vector<Rational>& slots,
+                                                                 Limits limits) const {
+  if (limits == Limits::obeyed && has_limit(state)) return std::nullopt;
   if (const std::optional<SampledRow> constant = constant_row(state, slots)) return std::vector{*constant};
   const std::optional<NilpotentFlow> flow = nilpotent_flow(state, slots);
   if (!flow) return std::nullopt;

@@ -82,8 +82,6 @@ std::optional<AffineDynamics::NilpotentFlow> AffineDynamics::nilpotent_flow(
   std::size_t start = 0;
   for (const std::int32_t j : dependencies.moving) {
     if (static_cast<std::size_t>(j) == state) start = flow.forms.size();
-    const StateSpec& moving = spec_->states[static_cast<std::size_t>(j)];
-    if (moving.below == Outside::stop || moving.above == Outside::stop) return std::nullopt;
     const std::optional<AffineForm> form = affine_form(static_cast<std::size_t>(j), dependencies, slots);
     if (!form || jumps_at_a_seam(*form, dependencies)) return std::nullopt;
     flow.forms.push_back(*form);
