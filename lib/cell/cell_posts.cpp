@@ -72,7 +72,7 @@ void CellPosts::build_parts(std::int64_t cell) {
   for (std::size_t i = 0; i < results_.grid().size(); ++i) {
     Abstraction& part = parts_.emplace_back(part_of(i, cell));
     const bool is_affine = build_affine_table(results_.spec(), dynamics_, part, i, team_).has_value();
-    if (!is_affine) build_enclosure_tables(results_.spec(), dynamics_.dependencies(i), part, {i}, team_);
+    if (!is_affine) build_enclosure_tables(results_.spec(), dynamics_, part, {i}, team_);
     std::int64_t place = 0;
     for (std::size_t j = 0; j < part.grid.size(); ++j) {
       if (part.grid[j].count > 1) place += results_.grid().index(cell, j) * part.grid.stride(j);

@@ -57,4 +57,17 @@ IndexRange merge_ranges(IndexRange a, IndexRange b, const GridDimension& target)
   return {saturate_index(first), saturate_index(first + std::min(from_a, from_b))};
 }
 
+IndexRange raw_range(const GridDimension& dimension, std::int64_t first, std::int64_t last) {
+  constexpr std::int64_t kFar = std::int64_t{1} << 30;
+  constexpr std::int64_t kUnknown = std::int64_t{1} << 62;
+  const bool known = first > -kUnknown && last < kUnknown;
+  const bool far = first < -kFar || last > kFar;
+  if (dimension.periodic() && known && far) {
+    const std::int64_t turns = first / dimension.count * dimension.count;
+    first -= turns;
+    last -= turns;
+  }
+  return {saturate_index(first), saturate_index(last)};
+}
+
 }  // namespace coordreq

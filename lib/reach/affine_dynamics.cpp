@@ -10,7 +10,17 @@ AffineDynamics::AffineDynamics(const ProblemSpec& spec) : spec_(&spec) {
   for (std::size_t i = 0; i < spec.states.size(); ++i) dependencies_.push_back(find_dependencies(spec, i));
 }
 
-std::optional<SampledRow> AffineDynamics::row(std::size_t state, const std::vector<Rational>& slots) const {
+bool AffineDynamics::has_limit(std::size_t state) const {
+  const std::vector<std::int32_t>& moving = dependencies_[state].moving;
+  return std::any_of(moving.begin(), moving.end(), [&](std::int32_t j) {
+    const StateSpec& one = spec_->states[static_cast<std::size_t>(j)];
+    return one.below == Outside::stop || one.above == Outside::stop;
+  });
+}
+
+std::optional<SampledRow> AffineDynamics::row(std::size_t state, const std::vector<Rational>& slots,
+                                              Limits limits) const {
+  if (limits == Limits::obeyed && has_limit(state)) return std::nullopt;
   return spec_->dynamics.time == Time::discrete ? map_row(state, slots) : flow_row(state, slots);
 }
 

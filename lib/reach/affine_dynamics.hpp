@@ -18,6 +18,9 @@ struct SampledRow {
   bool exact = true;  ///< [lower, upper] is the exact hull, both ends attained; else it is rounded outward
 };
 
+/// Whether `stop` limits are part of the dynamics, or cannot be reached.
+enum class Limits : std::uint8_t { obeyed, ignored };
+
 /// Systems whose sampled map is affine in the continuous states with rational coefficients for every fixed
 /// input and value of the discrete states (contract, "Cells"): discrete-time maps of that form, and
 /// differential equations of that form whose matrix is nilpotent, solved in rational arithmetic.
@@ -30,18 +33,23 @@ class AffineDynamics {
 
   [[nodiscard]] const Dependencies& dependencies(std::size_t state) const { return dependencies_[state]; }
 
+  /// Whether a state that it depends on may be stopped.
+  [[nodiscard]] bool has_limit(std::size_t state) const;
+
   /// @param slots exact values of all parameters and inputs of `state` at their slots; others are ignored
   /// @returns nothing if the system is not of the class above for these values, or if a state of it has a
-  ///   `stop` limit or, in continuous time, is periodic and used in an equation
+  ///   `stop` limit that is obeyed or, in continuous time, is periodic and used in an equation
   /// @throws SpecError if the equation is not defined there; the message names the state and the values
-  [[nodiscard]] std::optional<SampledRow> row(std::size_t state, const std::vector<Rational>& slots) const;
+  [[nodiscard]] std::optional<SampledRow> row(std::size_t state, const std::vector<Rational>& slots,
+                                              Limits limits = Limits::obeyed) const;
 
   /// Where the state is at any time in [0, tau] under continuous time: x_i(t) is in the convex hull of the
   /// rows' values, for every initial state. The first row is x_i(0), and for integrators (x' = c + w) the
   /// hull is exact.
   /// @param slots as in row() @returns nothing where row() returns nothing
   [[nodiscard]] std::optional<std::vector<SampledRow>> tube_rows(std::size_t state,
-                                                                 const std::vector<Rational>& slots) const;
+                                                                 const std::vector<Rational>& slots,
+                                                                 Limits limits = Limits::obeyed) const;
 
  private:
   /// A discrete state that stays what it is; nothing for one that moves.

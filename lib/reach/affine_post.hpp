@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "model/odometer.hpp"
@@ -17,6 +18,8 @@ struct AffinePost {
   const std::vector<std::int32_t>& moving;  ///< states that the row has coefficients of
   std::size_t state;                        ///< whose value the row is
   bool shift = false;                       ///< the table is one of a shift
+  /// Says which cells are filled, by the indices of the moving states; all if it is empty.
+  std::function<bool(const std::vector<std::int64_t>&)> applies;
 
   /// Lower or upper end of the values from a cell, widened by the measurement errors of the states it starts
   /// from, plus `more`: in units of the grid step, the first grid point being 0, as a form of the cell's
@@ -67,6 +70,7 @@ struct AffinePost {
     for (const std::int32_t j : moving) counts.push_back(filled_count(static_cast<std::size_t>(j)));
     Odometer cell(counts);
     do {
+      if (applies && !applies(cell.indices())) continue;
       std::int64_t position = base;
       for (std::size_t j = 0; j < counts.size(); ++j) {
         position += cell.indices()[j] * table.state_stride[static_cast<std::size_t>(moving[j])];

@@ -64,7 +64,9 @@ void add_disturbance(const DisturbanceSpec& w, const Coefficients& kernel, const
 }  // namespace
 
 std::optional<std::vector<SampledRow>> AffineDynamics::tube_rows(std::size_t state,
-                                                                 const std::vector<Rational>& slots) const {
+                                                                 const std::vector<Rational>& slots,
+                                                                 Limits limits) const {
+  if (limits == Limits::obeyed && has_limit(state)) return std::nullopt;
   if (const std::optional<SampledRow> constant = constant_row(state, slots)) return std::vector{*constant};
   const Dependencies& dependencies = dependencies_[state];
   const std::optional<NilpotentFlow> flow = nilpotent_flow(*spec_, state, dependencies, slots);

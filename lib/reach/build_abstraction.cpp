@@ -61,7 +61,7 @@ void build_in_full(const ProblemSpec& spec, const std::vector<TableShape>& shape
     if (!exact) others.push_back(i);
   }
   for (const std::vector<std::size_t>& group : group_by_flow(spec, shapes, others)) {
-    build_enclosure_tables(spec, shapes[group.front()], abstraction, group, team);
+    build_enclosure_tables(spec, dynamics, abstraction, group, team);
   }
 }
 

@@ -203,10 +203,17 @@ void ValidatedFlow::Solver::follow_extremes(bool last) {
   for (std::size_t s = 0; s < solution_count_; ++s) {
     if (std::find(solution_of_.begin(), solution_of_.end(), s) == solution_of_.end()) continue;
     if (!follow(solutions_[s])) continue;
+    if (last) note_attained(solutions_[s]);
     for (std::size_t e = 0; e < 2 * n_; ++e) {
       if (solution_of_[e] == s) use_extreme(e / 2, e % 2 == 1, solutions_[s], wanted_[e]);
     }
   }
+}
+
+void ValidatedFlow::Solver::note_attained(const FollowedSolution& solution) {
+  const std::vector<Interval>& value = solution.state.value;
+  if (attained_.empty()) attained_ = value;
+  for (std::size_t i = 0; i < n_; ++i) attained_[i] = hull(attained_[i], value[i]);
 }
 
 /// Moves one end of `next_` to what the solution that was followed says.

@@ -31,7 +31,6 @@ std::optional<AffineSystem> affine_system(const ProblemSpec& spec, const Depende
   AffineSystem system{RationalMatrix(n, n), RationalMatrix(n, m), RationalVector(n), RationalVector(n)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto j = static_cast<std::size_t>(dependencies.moving[static_cast<std::size_t>(i)]);
-    if (spec.states[j].below == Outside::stop || spec.states[j].above == Outside::stop) return std::nullopt;
     const std::optional<AffineForm> form = affine_form(spec, j, dependencies, slots);
     if (!form || jumps_at_a_seam(spec, dependencies, *form)) return std::nullopt;
     system.state.row(i) = form->state;

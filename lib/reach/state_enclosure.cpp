@@ -31,6 +31,13 @@ Interval within_limits(const StateSpec& state, Interval value) {
   return value;
 }
 
+/// Whether it may have left the domain through an unsafe side.
+bool has_left(const StateSpec& state, const Interval& tube) {
+  const Interval domain = range_of(state);
+  return (state.below == Outside::unsafe && tube.lower < domain.lower) ||
+         (state.above == Outside::unsafe && tube.upper > domain.upper);
+}
+
 std::optional<Ring> ring_of(const StateSpec& state) {
   if (state.below != Outside::periodic) return std::nullopt;
   return Ring{.lower = state.lower, .upper = state.upper};
@@ -117,14 +124,15 @@ StateEnclosure::Result StateEnclosure::result_of_flow(std::size_t state) const {
             .tube = within_limits(own, found_->tube[position]),
             .drift = found_->drift[position]};
   }
-  Result result{
-      .status = found_->status == FlowEnclosure::Status::blows_up ? Status::blows_up : Status::undefined,
-      .culprit = at(dependencies_.moving[found_->culprit])};
-  if (!shifts_ && position < found_->tube.size()) {
-    const Interval domain = range_of(own);
-    const Interval& tube = found_->tube[position];
-    result.left_unsafely = (own.below == Outside::unsafe && tube.lower < domain.lower) ||
-                           (own.above == Outside::unsafe && tube.upper > domain.upper);
+  Result result{.status = found_->status,
+                .culprit = at(dependencies_.moving[found_->culprit]),
+                .rate = found_->rate};
+  // Without an enclosure a post is everything, which blocks the pair where this state has an unsafe side.
+  const bool can_block = own.below == Outside::unsafe || own.above == Outside::unsafe;
+  for (std::size_t k = 0; can_block && k < found_->tube.size(); ++k) {
+    if (shifts_ && k == position) continue;  // its box is not known
+    const StateSpec& other = spec_->states[at(dependencies_.moving[k])];
+    result.left_unsafely = result.left_unsafely || has_left(other, found_->tube[k]);
   }
   return result;
 }

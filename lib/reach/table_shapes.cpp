@@ -26,7 +26,7 @@ bool contains(const std::vector<std::int32_t>& list, std::int32_t value) {
 /// Calls `visit` with the exact row of a state for each choice of its parameters and inputs, until it returns
 /// false.
 template <class Visit>
-void for_each_row(const ProblemSpec& spec, const AffineDynamics& dynamics, std::size_t state,
+void for_each_row(const ProblemSpec& spec, const AffineDynamics& dynamics, std::size_t state, Limits limits,
                   const Visit& visit) {
   const Dependencies& dependencies = dynamics.dependencies(state);
   std::vector<std::int64_t> counts;
@@ -47,7 +47,7 @@ void for_each_row(const ProblemSpec& spec, const AffineDynamics& dynamics, std::
       slots[spec.input_slot(at(j))] =
           spec.inputs[at(j)].values[static_cast<std::size_t>(choice.indices()[position++])];
     }
-    if (!visit(dynamics.row(state, slots))) return;
+    if (!visit(dynamics.row(state, slots, limits))) return;
   } while (choice.advance());
 }
 
@@ -58,8 +58,8 @@ std::vector<std::int32_t> states_of_sum(const ProblemSpec& spec, const AffineDyn
   if (spec.abstraction.between_samples || has_measured_limit(spec.states[state])) return {};
   std::vector<std::int32_t> summed = summed_states(spec, dynamics.dependencies(state), part, state);
   if (summed.empty()) return summed;
-  bool exact = true;  // then the table holds exact hulls
-  for_each_row(spec, dynamics, state, [&](const std::optional<SampledRow>& row) {
+  bool exact = true;  // then the table holds exact hulls, away from limits at least
+  for_each_row(spec, dynamics, state, Limits::ignored, [&](const std::optional<SampledRow>& row) {
     exact = row.has_value();
     return exact;
   });
@@ -107,7 +107,7 @@ bool check_dynamics(const ProblemSpec& spec) {
   if (spec.abstraction.between_samples) check_between_samples(spec);
   bool exact = true;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
-    for_each_row(spec, dynamics, i, [&](const std::optional<SampledRow>& row) {
+    for_each_row(spec, dynamics, i, Limits::obeyed, [&](const std::optional<SampledRow>& row) {
       exact = exact && row && row->exact;
       return true;
     });

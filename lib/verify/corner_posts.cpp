@@ -155,8 +155,8 @@ class CornerPosts {
       throw SpecError(fmt::format("the discrete state '{}' can leave its grid", target_.name),
                       "/dynamics/equations/" + target_.name);
     }
-    const std::int32_t k = saturate_index(floor_to_int(index));
-    return {k, k};
+    const std::int64_t k = floor_to_int(index);
+    return raw_range(target_, k, k);
   }
 
   const ProblemSpec& spec_;

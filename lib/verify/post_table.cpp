@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/pieces.hpp"
+
 namespace coordreq {
 
 PostTable empty_table(const UniformGrid& grid, const InputSpace& inputs, const Influences& influences) {
@@ -32,7 +34,7 @@ IndexRange cells_met(const GridDimension& dimension, Cells cells, const Rational
   const bool closed = cells == Cells::closed;
   const std::int64_t first = closed ? ceil_to_int(low) : floor_to_int(low) + 1;
   const std::int64_t last = closed || upper_attained ? floor_to_int(high) : ceil_to_int(high) - 1;
-  return {saturate_index(first), saturate_index(last)};
+  return raw_range(dimension, first, last);
 }
 
 void add_measurements_at_limits(const GridDimension& dimension, Cells cells, PostTable& table) {
