@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/odometer.hpp"
+
 
 namespace coordreq {
 namespace {

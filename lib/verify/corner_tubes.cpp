@@ -67,9 +67,13 @@ class CornerTubes {
     do {
       std::int64_t position = base;
       for (std::size_t j = 0; j < parts_.size(); ++j) position += cell[j] * parts_[j].stride;
-      const std::vector<OwnTube> own = tubes(map, cell);
-      for (std::int64_t k = 0; k < (follows_ ? target_.count : 1); ++k)
-        tally_.add(position + k * claimed_.state_stride[state_], k, own);
+      std::vector<OwnTube> own;
+      for (std::int64_t k = 0; k < (follows_ ? target_.count : 1); ++k) {
+        const std::int64_t entry = position + k * claimed_.state_stride[state_];
+        if (!tally_.is_asked(entry)) continue;
+        if (own.empty()) own = tubes(map, cell);
+        tally_.add(entry, k, own);
+      }
     } while (cell.advance());
   }
 
@@ -199,18 +203,19 @@ class CornerTubes {
 
 }  // namespace
 
-std::optional<TubeFinding> check_corner_tubes(const ProblemSpec& spec, const UniformGrid& grid,
-                                              const InputSpace& inputs, std::size_t state,
-                                              const PostTable& claimed, ThreadTeam& team) {
-  const Influences influences = influences_on(spec, state);
-  const ParameterChoices choices(spec, grid, inputs, influences, claimed);
-  TubeTally tally(grid[state], claimed);
+std::optional<TubeFinding> check_corner_tubes(const PostQuestion& question, ThreadTeam& team) {
+  const ProblemSpec& spec = *question.spec;
+  const UniformGrid& grid = *question.grid;
+  const PostTable& claimed = *question.claimed;
+  const Influences influences = influences_on(spec, question.state);
+  const ParameterChoices choices(spec, grid, *question.inputs, influences, claimed);
+  TubeTally tally(question);
   std::atomic<bool> solved = true;
   team.for_each(choices.size(), 1, [&](ThreadTeam::Range range, int) {
-    CornerTubes tubes(spec, grid, influences, state, claimed, tally);
+    CornerTubes tubes(spec, grid, influences, question.state, claimed, tally);
     Odometer choice(choices.counts(), range.begin);
     for (std::int64_t i = range.begin; i < range.end && solved; ++i, choice.advance()) {
-      const std::optional<TimedMap> map = timed_map(spec, influences, state, choices.slots(choice));
+      const std::optional<TimedMap> map = timed_map(spec, influences, question.state, choices.slots(choice));
       if (map) {
         tubes.check(*map, choices.position(choice));
       } else {

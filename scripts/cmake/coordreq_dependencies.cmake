@@ -15,6 +15,13 @@ endforeach()
 find_library(HDF5_HL_LIBRARY hdf5_serial_hl REQUIRED)  # dimension scales; has no pkg-config file
 add_library(coordreq::hdf5_hl UNKNOWN IMPORTED GLOBAL)
 set_target_properties(coordreq::hdf5_hl PROPERTIES IMPORTED_LOCATION ${HDF5_HL_LIBRARY})
+# Ball arithmetic of the verifier; neither has a pkg-config file.
+foreach(library flint flint-arb)
+  string(REPLACE - _ name ${library})
+  find_library(${name}_LIBRARY ${library} REQUIRED)
+  add_library(coordreq::${name} UNKNOWN IMPORTED GLOBAL)
+  set_target_properties(coordreq::${name} PROPERTIES IMPORTED_LOCATION ${${name}_LIBRARY})
+endforeach()
 
 if(COORDREQ_BUILD_TESTS)
   find_package(GTest REQUIRED)
