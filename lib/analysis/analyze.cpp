@@ -3,6 +3,7 @@
 #include "analysis/checkpoint.hpp"
 #include "analysis/coalitions.hpp"
 #include "analysis/compose_results.hpp"
+#include "analysis/field_values.hpp"
 #include "analysis/judge_requirements.hpp"
 #include "analysis/solution.hpp"
 #include "analysis/stage_reporter.hpp"
@@ -43,7 +44,7 @@ void write(const std::string& path, const Solution& solution, const std::optiona
   content.requirements = summary.requirements;
   reporter.watch_writing(content);
   reporter.set_temporary(true);
-  write_results(path, content, team);
+  write_results(path, solution.spec, field_values(content), team);
 }
 
 }  // namespace

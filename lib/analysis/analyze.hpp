@@ -11,6 +11,7 @@
 #include "analysis/progress.hpp"
 #include "base/thread_team.hpp"
 #include "answers/requirements/result_requirement.hpp"
+#include "spec/guarantee.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -120,10 +121,6 @@ struct AnalysisSummary {
 ///   grid, dynamics that this version cannot abstract); LimitError; IoError
 [[nodiscard]] AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options,
                                       ThreadTeam& team);
-
-/// What a result of this spec guarantees: "samples", "samples-center" or "continuous" (contract, "What is
-/// guaranteed"). Centres say nothing of the way between the samples, so that they never make it "continuous".
-[[nodiscard]] std::string guarantee_of(const ProblemSpec& spec);
 
 /// What `validate` prints, known before the analysis runs.
 struct SpecReport {
