@@ -77,7 +77,7 @@ void add_export_options(const Adder& add, RawArguments& raw) {
   add.one("--format", raw.format, "The format to write; scs is that of SCOTS, vtk that of ParaView",
           "csv|scs|c-header|vtk");
   add.one("-o,--output", raw.output,
-          "File to write (default: standard output; vtk: a name that ends in .vti or .vtkhdf)", "FILE");
+          "File to write (default: standard output; vtk: a name that ends in .vti)", "FILE");
   add.one("--partition", raw.partition, "The partition to export (csv, vtk: default all)", "NAME");
   add.many("--slice", raw.slices, "csv, vtk: only the cells where a state has this value; may be repeated",
            "STATE=VALUE");

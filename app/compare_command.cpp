@@ -20,8 +20,8 @@ ResultsComparison compare_with_progress(const ResultsReader& before, const Resul
 }  // namespace
 
 ExitCode run_compare(const CommandLine& line) {
-  const ResultsReader before(line.paths[0]);
-  const ResultsReader after(line.paths[1]);
+  const ResultsReader before(line.paths[0], line.max_memory);
+  const ResultsReader after(line.paths[1], line.max_memory);
   const CompareOptions options{.tolerance = line.tolerance, .worst = line.limit};
   const ResultsComparison comparison = compare_with_progress(before, after, options, line);
   if (line.json) {

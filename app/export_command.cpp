@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
-#include "app/interrupt.hpp"
 #include "app/late_file.hpp"
 #include "app/standard_streams.hpp"
 #include "export/c_header.hpp"
@@ -11,8 +10,6 @@
 #include "export/scots_controller.hpp"
 #include "export/vti_image.hpp"
 #include "results/results_reader.hpp"
-#include "results/write_results.hpp"
-#include "results/write_vtkhdf.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -75,22 +72,6 @@ TableSelection selection_of(const CommandLine& line, const ResultsReader& result
   return selection;
 }
 
-bool writes_vtkhdf(const CommandLine& line) {
-  return line.format == "vtk" && line.output && line.output->ends_with(".vtkhdf");
-}
-
-/// HDF5 writes to files only.
-void export_vtkhdf(const CommandLine& line, const ResultsReader& results, ThreadTeam& team) {
-  check_writable(*line.output);
-  const ImageContent image = cell_image(results, selection_of(line, results));
-  const InterruptDelay delay;
-  if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
-  write_vtkhdf(*line.output, image, team);
-  if (is_interrupted()) {
-    throw Error(ExitCode::interrupted, "interrupted when the image was complete", *line.output);
-  }
-}
-
 Exporter exporter(const CommandLine& line, const ResultsReader& results, ThreadTeam& team) {
   if (line.format == "csv") {
     const TableSelection selection = selection_of(line, results);
@@ -98,7 +79,7 @@ Exporter exporter(const CommandLine& line, const ResultsReader& results, ThreadT
   }
   if (line.format == "vtk") {
     if (!line.output || !line.output->ends_with(".vti")) {
-      throw UsageError(fmt::format("expected a name that ends in .vti or .vtkhdf, found {}",
+      throw UsageError(fmt::format("expected a name that ends in .vti, found {}",
                                    line.output ? quote_text(*line.output) : "none"),
                        "-o");
     }
@@ -124,12 +105,8 @@ Exporter exporter(const CommandLine& line, const ResultsReader& results, ThreadT
 }  // namespace
 
 ExitCode run_export(const CommandLine& line) {
-  const ResultsReader results(line.path);
+  const ResultsReader results(line.path, line.max_memory);
   ThreadTeam team(line.threads);
-  if (writes_vtkhdf(line)) {
-    export_vtkhdf(line, results, team);
-    return ExitCode::success;
-  }
   const Exporter write = exporter(line, results, team);
   std::optional<LateFile> file;
   if (line.output) file.emplace(*line.output, "the export");

@@ -191,7 +191,7 @@ std::string info_json(const ResultInfo& info) {
 }  // namespace
 
 ExitCode run_info(const CommandLine& line) {
-  const ResultInfo info = read_info(line.path);
+  const ResultInfo info = read_info(line.path, line.max_memory);
   if (line.json) {
     write_output(info_json(info));
   } else if (!line.quiet) {

@@ -32,7 +32,7 @@ void answer_standard_input(const ResultsReader& results, StateQuery& query, bool
 }  // namespace
 
 ExitCode run_query(const CommandLine& line) {
-  const ResultsReader results(line.path);
+  const ResultsReader results(line.path, line.max_memory);
   ThreadTeam team(line.threads);
   StateQuery query(results, team);
   if (!line.at) {

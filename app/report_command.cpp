@@ -68,7 +68,7 @@ std::string summary_json(const std::string& path, std::size_t bytes, const Repor
 }  // namespace
 
 ExitCode run_report(const CommandLine& line) {
-  const ResultsReader results(line.path);
+  const ResultsReader results(line.path, line.max_memory);
   const std::string path = line.output.value_or(results.spec().name + ".html");
   LateFile file(path, "the report");
   ReportData data;

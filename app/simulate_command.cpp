@@ -106,7 +106,7 @@ Simulation simulate_with_care(const ResultsReader& results, SimulationOptions& o
 
 ExitCode run_simulate(const CommandLine& line) {
   SimulationOptions options = simulation_options(line);
-  const ResultsReader results(line.path);
+  const ResultsReader results(line.path, line.max_memory);
   const Simulation simulation = simulate_with_care(results, options, line);
   if (line.json) {
     write_output(simulation_json(simulation, results, options));

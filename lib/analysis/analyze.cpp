@@ -3,6 +3,7 @@
 #include "analysis/analysis_stages.hpp"
 #include "analysis/checkpoint.hpp"
 #include "analysis/compose_results.hpp"
+#include "analysis/field_values.hpp"
 #include "analysis/stage_reporter.hpp"
 #include "analysis/summarise.hpp"
 #include "answers/plan.hpp"
@@ -43,7 +44,7 @@ void write(const std::string& path, const Answers& answers, StageReporter& repor
   ResultContent content = composer.content();
   reporter.watch_writing(content);
   reporter.set_temporary(true);
-  write_results(path, content, team);
+  write_results(path, answers.ground.spec, field_values(content), team);
 }
 
 }  // namespace

@@ -75,11 +75,9 @@ StoredObject read_object(const ResultsFile& file, const hdf5::Handle& handle, co
 
 std::vector<StoredObject> read_all(const std::string& path, const std::vector<std::string>& paths) {
   const ResultsFile file(path);
-  const hdf5::Handle handle = hdf5::open_file(path);
   std::vector<StoredObject> objects;
   for (const std::string& object : paths) {
-    if (!file.exists(object)) throw ResultsError("missing or damaged", file.place(object));
-    objects.push_back(read_object(file, hdf5::open_object(handle, object), object));
+    objects.push_back(read_object(file, file.open(object), object));
   }
   return objects;
 }

@@ -1,8 +1,13 @@
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
 #include <array>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <istream>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -24,6 +29,37 @@ std::string read_all(std::istream& stream, const std::string& name) {
   return text;
 }
 
+/// A pipe is read once somebody writes to it, who has five seconds to begin.
+std::string read_pipe(const std::string& path) {
+  constexpr int kAttempts = 100;
+  constexpr int kPauseMs = 50;
+  const int pipe = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (pipe < 0) throw IoError("cannot be read: " + std::generic_category().message(errno), path);
+  const std::unique_ptr<const int, void (*)(const int*)> closer(&pipe, [](const int* file) { close(*file); });
+  std::string text;
+  std::array<char, 65'536> block{};
+  bool has_writer = false;
+  for (int attempt = 0; attempt < kAttempts;) {
+    const ssize_t count = read(pipe, block.data(), block.size());
+    pollfd wanted{pipe, POLLIN, 0};
+    if (count > 0) {
+      text.append(block.data(), static_cast<std::size_t>(count));
+      has_writer = true;
+    } else if (count == 0 && has_writer) {
+      return text;
+    } else if (count == 0) {
+      poll(nullptr, 0, kPauseMs);
+      ++attempt;
+    } else if (errno == EAGAIN) {
+      has_writer = true;
+      poll(&wanted, 1, -1);
+    } else if (errno != EINTR) {
+      throw IoError("cannot be read: " + std::generic_category().message(errno), path);
+    }
+  }
+  throw IoError("is a pipe that nobody writes to, expected a spec", path);
+}
+
 /// Why a file could not be opened, in the system's words.
 std::string reason(int error) {
   return error == 0 ? "cannot be read" : "cannot be read: " + std::generic_category().message(error);
@@ -37,10 +73,14 @@ SpecSource read_spec_source(const std::string& path, std::istream& standard_inpu
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (status.type() == std::filesystem::file_type::not_found) throw IoError("no such file", path);
   if (std::filesystem::is_directory(status)) throw IoError("is a folder, expected a spec file", path);
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
+    throw IoError("is a device, expected a spec file", path);
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  if (std::filesystem::is_fifo(status)) return {read_pipe(path), path, folder};
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(reason(errno), path);
-  return {read_all(file, path), path, std::filesystem::path(path).parent_path().string()};
+  return {read_all(file, path), path, folder};
 }
 
 ProblemSpec read_spec(SpecSource source) {

@@ -5,7 +5,8 @@
 namespace coordreq {
 namespace {
 
-Field set_of_cells(const std::string& name, const ProblemSpec& spec, const std::string& long_name) {
+Field set_of_cells(const std::string& name, const std::string& compared, const ProblemSpec& spec,
+                   const std::string& long_name) {
   return {.path = "/" + name,
           .section = FieldSection::sets,
           .types = {ElementType::uint8},
@@ -13,14 +14,14 @@ Field set_of_cells(const std::string& name, const ProblemSpec& spec, const std::
           .most = 1,
           .attributes = described(long_name) +
                         std::vector<FieldAttribute>{flags({{0, "not_" + name}, {1, name}}), counted_cells()},
-          .column = {name}};
+          .shown = {.column = name, .compared = compared}};
 }
 
 }  // namespace
 
 Fields invariance_fields(const ProblemSpec& spec) {
-  Fields fields = {set_of_cells("safe", spec, "cell is in the safe set S"),
-                   set_of_cells("invariant", spec, "cell is in the invariance set K")};
+  Fields fields = {set_of_cells("safe", "safe set", spec, "cell is in the safe set S"),
+                   set_of_cells("invariant", "invariance set", spec, "cell is in the invariance set K")};
   fields.push_back(
       {.path = "/collision_time",
        .section = FieldSection::sets,
@@ -30,7 +31,7 @@ Fields invariance_fields(const ProblemSpec& spec) {
            described("steps within which the worst case leaves the safe set, whatever is coordinated") +
            std::vector<FieldAttribute>{flags({{0, "not_safe"}, {kLargestValue, "never"}}),
                                        {"iterations", std::int64_t{0}, true}},
-       .column = {"collision_time"}});
+       .shown = {.column = "collision_time"}});
   if (spec.output.controller) {
     add_bits(fields, paths::kController, FieldSection::controller, spec, all_inputs(spec),
              "joint inputs that the controller admits, one bit each");

@@ -11,14 +11,14 @@ namespace coordreq {
 namespace {
 
 Field steps_field(const std::string& name, const ProblemSpec& spec, std::int64_t least,
-                  std::vector<FieldAttribute> attributes, FieldColumn column) {
+                  std::vector<FieldAttribute> attributes, FieldShown shown) {
   return {.path = "/" + name,
           .section = FieldSection::steps,
           .types = {ElementType::int16, ElementType::int32},
           .axes = cell_axes("/partition", spec),
           .least = least,
           .attributes = std::move(attributes),
-          .column = std::move(column)};
+          .shown = std::move(shown)};
 }
 
 void add_steps(Fields& fields, const ProblemSpec& spec) {
@@ -28,7 +28,7 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
       "delay", spec, DelayLayers::kOutsideSafe,
       described("largest number of steps without coordination that keeps the system safe") +
           std::vector<FieldAttribute>{flags({outside_safe, outside_invariant, {kLargestValue, "unbounded"}})},
-      {"delay"}));
+      {.column = "delay"}));
   fields.push_back(
       steps_field("trigger", spec, TriggerTable::kMustBeConnected,
                   described("steps until the agents must start to connect") +
@@ -38,7 +38,7 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
                                  outside_invariant,
                                  {kLargestValue, "never"}}),
                           {"connection_delay", spec.coordination.connection_delay}},
-                  {"countdown", TriggerTable::kMustBeConnected}));
+                  {.column = "countdown", .below_zero = TriggerTable::kMustBeConnected}));
 }
 
 void add_sizes(Fields& fields) {
