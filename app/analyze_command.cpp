@@ -1,9 +1,8 @@
-#include <fmt/format.h>
-
 #include "app/analyze_batch.hpp"
 #include "app/analyze_report.hpp"
 #include "app/analyze_run.hpp"
 #include "app/commands.hpp"
+#include "app/files_in_use.hpp"
 #include "app/interrupt.hpp"
 #include "app/junit_report.hpp"
 #include "app/load_spec.hpp"
@@ -12,22 +11,21 @@
 namespace coordreq {
 namespace {
 
-/// Files that would take the place of one another.
-void check_files(const std::string& output, const CommandLine& line) {
-  if (line.junit && is_same_file(*line.junit, output)) {
-    throw UsageError(fmt::format("expected another file than the results, found '{}'", *line.junit),
-                     "--junit");
-  }
+/// @throws UsageError if a file would take the place of another
+void check_files(const ProblemSpec& spec, const std::string& output, const CommandLine& line) {
+  FilesInUse files;
+  add_read_files(line.path, &spec, files);
+  files.writes(output, "the results", "--output");
+  if (line.junit) files.writes(*line.junit, "the JUnit report", "--junit");
   if (!line.checkpoint) return;
-  const std::string& file = line.checkpoint->file;
-  if (is_same_file(file, output) || (line.junit && is_same_file(file, *line.junit)))
-    throw UsageError(fmt::format("expected a file of its own, found '{}'", file), "--checkpoint");
+  for (const std::string& file : files_of(*line.checkpoint))
+    files.writes(file, "the checkpoint", "--checkpoint");
 }
 
 AnalysisSummary analyze_and_write(const ProblemSpec& spec, const CommandLine& line) {
   const std::string output = line.output.value_or(spec.name + ".h5");
   ThreadTeam team(line.threads);
-  check_files(output, line);
+  check_files(spec, output, line);
   if (line.junit) try_to_write(*line.junit);
   AnalysisSummary summary = analyze_with_progress(spec, output, line, team, "");
   const InterruptDelay delay;

@@ -1,7 +1,6 @@
 #include "app/analyze_run.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 
 #include "app/interrupt.hpp"
@@ -69,11 +68,6 @@ ExitCode verdict(const AnalysisSummary& summary) {
   const bool hold = std::all_of(summary.requirements.begin(), summary.requirements.end(),
                                 [](const ResultRequirement& requirement) { return requirement.holds; });
   return hold ? ExitCode::success : ExitCode::requirement_failed;
-}
-
-bool is_same_file(const std::string& a, const std::string& b) {
-  using std::filesystem::absolute, std::filesystem::weakly_canonical;
-  return weakly_canonical(absolute(a)) == weakly_canonical(absolute(b));
 }
 
 }  // namespace coordreq

@@ -24,7 +24,4 @@ void try_to_write(const std::string& path);
 /// Success, or requirement_failed.
 [[nodiscard]] ExitCode verdict(const AnalysisSummary& summary);
 
-/// Whether two paths are of one file, links and "..": resolved as far as there is something.
-[[nodiscard]] bool is_same_file(const std::string& a, const std::string& b);
-
 }  // namespace coordreq

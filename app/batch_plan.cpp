@@ -6,7 +6,6 @@
 #include <cctype>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <utility>
 
 #include "app/load_spec.hpp"
@@ -68,22 +67,14 @@ void check_folder(const std::string& path) {
       "--output");
 }
 
-/// Two runs, or a run and the JUnit report, may not write to one place.
-void check_different(const std::vector<PlannedRun>& runs, const CommandLine& line) {
-  std::map<fs::path, const PlannedRun*> writers;
-  const auto place = [](const std::string& path) { return fs::weakly_canonical(fs::absolute(path)); };
+/// @throws UsageError if a file would take the place of another
+void check_files(const std::vector<PlannedRun>& runs, const CommandLine& line) {
+  FilesInUse files;
+  for (const PlannedRun& run : runs) add_read_files(run.path, run.spec ? &*run.spec : nullptr, files);
   for (const PlannedRun& run : runs) {
-    if (run.output.empty()) continue;
-    const auto [other, is_new] = writers.emplace(place(run.output), &run);
-    if (!is_new) {
-      throw UsageError(fmt::format("'{}' and '{}' would both write {}, expected different files",
-                                   run_label(*other->second), run_label(run), run.output));
-    }
+    if (!run.output.empty()) files.writes(run.output, "the results of " + run_label(run), "--output");
   }
-  if (line.junit && writers.count(place(*line.junit)) > 0) {
-    throw UsageError(fmt::format("expected another file than the results, found '{}'", *line.junit),
-                     "--junit");
-  }
+  if (line.junit) files.writes(*line.junit, "the JUnit report", "--junit");
 }
 
 std::string values_text(const PlannedRun& run) {
@@ -114,7 +105,7 @@ std::vector<PlannedRun> plan_runs(const CommandLine& line) {
   for (PlannedRun& run : runs) {
     if (writes && run.spec) run.output = (fs::path(line.output.value_or("")) / file_name(run)).string();
   }
-  check_different(runs, line);
+  check_files(runs, line);
   return runs;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
+#include "app/files_in_use.hpp"
 #include "app/interrupt.hpp"
 #include "app/late_file.hpp"
 #include "app/standard_streams.hpp"
@@ -124,6 +125,7 @@ Exporter exporter(const CommandLine& line, const ResultsReader& results, ThreadT
 }  // namespace
 
 ExitCode run_export(const CommandLine& line) {
+  if (line.output) check_output(line.path, *line.output, "the export");
   const ResultsReader results(line.path);
   ThreadTeam team(line.threads);
   if (writes_vtkhdf(line)) {

@@ -14,18 +14,17 @@
 namespace coordreq {
 namespace {
 
-void set(pugi::xml_node node, const char* name, const std::string& value) {
-  node.append_attribute(name).set_value(value.c_str());
-}
-
-/// XML knows no control characters, whatever way they are written, and neither U+FFFE nor U+FFFF.
-std::string xml_text(const std::string& text) {
-  std::string result = printable(text);
+/// XML knows neither U+FFFE nor U+FFFF, whatever way they are written.
+std::string xml_text(std::string result) {
   for (const char* const unknown : {"\xef\xbf\xbe", "\xef\xbf\xbf"}) {
     for (std::size_t at = result.find(unknown); at != std::string::npos; at = result.find(unknown, at))
       result.replace(at, 3, "\xef\xbf\xbd");
   }
   return result;
+}
+
+void set(pugi::xml_node node, const char* name, const std::string& value) {
+  node.append_attribute(name).set_value(xml_text(value).c_str());
 }
 
 pugi::xml_node add_case(pugi::xml_node suite, const std::string& class_name, const std::string& name) {
@@ -38,14 +37,14 @@ pugi::xml_node add_case(pugi::xml_node suite, const std::string& class_name, con
 
 void add_requirement(pugi::xml_node suite, const std::string& class_name, const ResultRequirement& result,
                      const RequirementSpec& requirement, const ProblemSpec& spec) {
-  pugi::xml_node test = add_case(suite, class_name, xml_text(result.name));
+  pugi::xml_node test = add_case(suite, class_name, printable(result.name));
   if (result.holds) return;
   pugi::xml_node failure = test.append_child("failure");
   set(failure, "message", failure_line(result, spec));
   set(failure, "type", requirement.invariant ? "invariant" : "min_delay");
   const std::string text =
       requirement_claim(requirement, spec) + "\n" + failure_text(result, requirement, spec);
-  failure.append_child(pugi::node_pcdata).set_value(text.c_str());
+  failure.append_child(pugi::node_pcdata).set_value(xml_text(text).c_str());
 }
 
 /// What suites say of themselves, and the sum of them.
@@ -82,10 +81,10 @@ void set_head(pugi::xml_node node, const std::string& name, const Totals& totals
 
 void add_suite(pugi::xml_node root, const JunitSuite& own) {
   pugi::xml_node suite = root.append_child("testsuite");
-  const std::string name = xml_text(own.name);
+  const std::string name = printable(own.name);
   set_head(suite, name, totals_of(own));
   if (own.summary == nullptr) {
-    set(add_case(suite, name, "analysis").append_child("error"), "message", xml_text(own.error));
+    set(add_case(suite, name, "analysis").append_child("error"), "message", printable(own.error));
     return;
   }
   for (std::size_t r = 0; r < own.summary->requirements.size(); ++r)

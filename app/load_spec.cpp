@@ -3,11 +3,18 @@
 #include <iostream>
 #include <utility>
 
+#include "results/controller_file.hpp"
+
 namespace coordreq {
 
 SpecSource with_settings(SpecSource source, const std::vector<SpecSetting>& settings) {
   for (const SpecSetting& setting : settings) source.text = with_setting(source.text, source.name, setting);
   return source;
+}
+
+void add_read_files(const std::string& path, const ProblemSpec* spec, FilesInUse& files) {
+  files.reads(path, "the spec");
+  if (spec != nullptr && spec->controller.file) files.reads(controller_path(*spec), "the controller");
 }
 
 ProblemSpec load_spec(const std::string& path, const std::vector<SpecSetting>& settings) {

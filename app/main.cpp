@@ -9,6 +9,8 @@ int main(int argc, char** argv) {
     coordreq::install_interrupt_handlers();
     const coordreq::CommandLine line = coordreq::parse_command_line(argc, argv);
     return static_cast<int>(line.run());
+  } catch (const coordreq::ClosedPipe&) {
+    coordreq::end_by_closed_pipe();
   } catch (...) {
     return coordreq::report_current_exception();
   }

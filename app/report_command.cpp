@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "app/commands.hpp"
+#include "app/files_in_use.hpp"
 #include "app/json_text.hpp"
 #include "app/late_file.hpp"
 #include "app/report_html.hpp"
@@ -70,6 +71,7 @@ std::string summary_json(const std::string& path, std::size_t bytes, const Repor
 ExitCode run_report(const CommandLine& line) {
   const ResultsReader results(line.path);
   const std::string path = line.output.value_or(results.spec().name + ".html");
+  check_output(line.path, path, "the report");
   LateFile file(path, "the report");
   ReportData data;
   const std::string page = page_of(results, data);

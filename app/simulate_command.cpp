@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "app/commands.hpp"
+#include "app/files_in_use.hpp"
 #include "app/interrupt.hpp"
 #include "app/memory_limit.hpp"
 #include "app/named_values.hpp"
@@ -106,6 +107,7 @@ Simulation simulate_with_care(const ResultsReader& results, SimulationOptions& o
 
 ExitCode run_simulate(const CommandLine& line) {
   SimulationOptions options = simulation_options(line);
+  if (line.output) check_output(line.path, *line.output, "the runs");
   const ResultsReader results(line.path);
   const Simulation simulation = simulate_with_care(results, options, line);
   if (line.json) {
