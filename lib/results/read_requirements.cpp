@@ -1,5 +1,7 @@
 #include "results/read_requirements.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -54,7 +56,7 @@ class RequirementReader {
  private:
   static constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
 
-  static std::string at(const std::string& name) { return std::string(paths::kRequirements) + "/" + name; }
+  static std::string at(const std::string& name) { return fmt::format("{}/{}", paths::kRequirements, name); }
 
   Numbers list(const std::string& path, std::size_t length, std::int64_t least, std::int64_t most) const {
     file_.expect_shape(path, {length});

@@ -1,5 +1,7 @@
 #include "results/requirement_sections.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -56,7 +58,7 @@ class RequirementWriter {
   }
 
  private:
-  static std::string at(const std::string& name) { return std::string(paths::kRequirements) + "/" + name; }
+  static std::string at(const std::string& name) { return fmt::format("{}/{}", paths::kRequirements, name); }
 
   void write_names(const std::string& name, const std::vector<std::string>& names,
                    const std::string& long_name) {

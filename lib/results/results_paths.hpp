@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "results/results_reader.hpp"
@@ -29,19 +31,19 @@ inline constexpr char kRequirements[] = "/counterexample";
   return actions(partition) + "/" + partition.classes[class_number];
 }
 [[nodiscard]] inline std::string layers(const StoredPartition& partition) {
-  return "/layers/" + partition.name;
+  return fmt::format("/layers/{}", partition.name);
 }
 [[nodiscard]] inline std::string convention(const std::string& agent) {
-  return std::string(kConvention) + "/" + agent;
+  return fmt::format("{}/{}", kConvention, agent);
 }
 /// @param end "first" or "last"
 [[nodiscard]] inline std::string abstraction(const std::string& state, const std::string& end) {
-  return std::string(kAbstraction) + "/" + state + "/" + end;
+  return fmt::format("{}/{}/{}", kAbstraction, state, end);
 }
 
 /// @param requirement its position among the requirements
 [[nodiscard]] inline std::string counterexample(std::size_t requirement) {
-  return std::string(kRequirements) + "/" + std::to_string(requirement);
+  return fmt::format("{}/{}", kRequirements, requirement);
 }
 
 }  // namespace coordreq::paths
