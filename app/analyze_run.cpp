@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "app/interrupt.hpp"
-#include "app/memory_limit.hpp"
 #include "app/progress_display.hpp"
 #include "results/write_results.hpp"
 
@@ -32,13 +31,13 @@ class InterruptPolicy {
 }  // namespace
 
 AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const std::string& output,
-                                      const CommandLine& line, ThreadTeam& team, const std::string& prefix) {
+                                      const AnalyzeOptions& asked, ThreadTeam& team, const std::string& prefix) {
   InterruptPolicy interrupts;
-  ProgressDisplay shown(line.progress, line.quiet);
+  ProgressDisplay shown(asked.progress, asked.quiet);
   AnalysisOptions options;
   options.output = output;
-  options.max_memory = line.max_memory ? line.max_memory : available_memory();
-  options.checkpoint = line.checkpoint;
+  options.max_memory = asked.memory();
+  options.checkpoint = asked.checkpoint;
   options.progress = [&](const Progress& progress) {
     interrupts.obey(progress);
     Progress of_many = progress;
@@ -46,7 +45,7 @@ AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const std::string
     shown.update(of_many);
   };
   options.notice = [&](const std::string& text) {
-    if (!line.quiet) shown.notice(text);
+    if (!asked.quiet) shown.notice(text);
   };
   AnalysisSummary summary = analyze(spec, options, team);
   shown.finish();

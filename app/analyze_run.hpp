@@ -3,7 +3,7 @@
 #include <string>
 
 #include "analysis/analyze.hpp"
-#include "app/command_line.hpp"
+#include "app/analyze_options.hpp"
 
 namespace coordreq {
 
@@ -12,7 +12,7 @@ namespace coordreq {
 /// @param prefix of the progress line: "2 of 5, "
 /// @throws as analyze(); Error if the program was interrupted
 [[nodiscard]] AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const std::string& output,
-                                                    const CommandLine& line, ThreadTeam& team,
+                                                    const AnalyzeOptions& asked, ThreadTeam& team,
                                                     const std::string& prefix);
 
 /// @throws Error if a signal waits. @param place what is complete nevertheless

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command_line.hpp"
+#include "app/analyze_options.hpp"
 #include "app/report_error.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -29,6 +29,6 @@ struct PlannedRun {
 /// with its run.
 /// @throws UsageError if a run would write what another reads or writes, or `--output` is no folder, before
 ///   anything is analysed
-[[nodiscard]] std::vector<PlannedRun> plan_runs(const CommandLine& line);
+[[nodiscard]] std::vector<PlannedRun> plan_runs(const AnalyzeOptions& asked);
 
 }  // namespace coordreq

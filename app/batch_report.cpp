@@ -82,10 +82,10 @@ std::vector<std::string> labels(const PlannedRun& run, bool has_path) {
   return result;
 }
 
-std::vector<std::string> column_names(const CommandLine& line, bool has_path) {
+std::vector<std::string> column_names(const AnalyzeOptions& asked, bool has_path) {
   std::vector<std::string> names;
   if (has_path) names.emplace_back("spec");
-  for (const Sweep& sweep : line.sweeps) names.push_back(printable(sweep.path));
+  for (const Sweep& sweep : asked.sweeps) names.push_back(printable(sweep.path));
   names.insert(names.end(), std::begin(kFigures), std::end(kFigures));
   return names;
 }
@@ -123,9 +123,9 @@ int worst_exit_code(const std::vector<FinishedRun>& runs) {
   return worst;
 }
 
-BatchTable::BatchTable(const std::vector<PlannedRun>& runs, const CommandLine& line)
-    : has_path_(line.paths.size() > 1), table_(alignment(column_names(line, has_path_).size())) {
-  table_.add(column_names(line, has_path_));
+BatchTable::BatchTable(const std::vector<PlannedRun>& runs, const AnalyzeOptions& asked)
+    : has_path_(asked.specs.size() > 1), table_(alignment(column_names(asked, has_path_).size())) {
+  table_.add(column_names(asked, has_path_));
   for (const PlannedRun& run : runs) {
     std::vector<std::string> row = labels(run, has_path_);
     if (run.spec) {
@@ -149,13 +149,13 @@ std::string BatchTable::row(const FinishedRun& run) const {
   return table_.line(row);
 }
 
-std::string closing_text(const std::vector<FinishedRun>& runs, const CommandLine& line) {
+std::string closing_text(const std::vector<FinishedRun>& runs, const AnalyzeOptions& asked) {
   const auto written = std::count_if(runs.begin(), runs.end(), [](const FinishedRun& run) {
     return run.summary && !run.plan.output.empty();
   });
-  if (!line.output && !line.sweeps.empty()) return "\nno results files: --output names a folder for them\n";
+  if (!asked.output && !asked.sweeps.empty()) return "\nno results files: --output names a folder for them\n";
   return fmt::format("\nresults in {} file{} in {}\n", grouped(std::int64_t{written}),
-                     written == 1 ? "" : "s", line.output ? printable(*line.output) : "the current folder");
+                     written == 1 ? "" : "s", asked.output ? printable(*asked.output) : "the current folder");
 }
 
 std::string batch_json(const std::vector<FinishedRun>& runs) {

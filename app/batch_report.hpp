@@ -25,7 +25,7 @@ struct FinishedRun {
 /// be, as far as that is known beforehand.
 class BatchTable {
  public:
-  BatchTable(const std::vector<PlannedRun>& runs, const CommandLine& line);
+  BatchTable(const std::vector<PlannedRun>& runs, const AnalyzeOptions& asked);
 
   [[nodiscard]] std::string heading() const { return table_.text(); }
   [[nodiscard]] std::string row(const FinishedRun& run) const;
@@ -36,7 +36,7 @@ class BatchTable {
 };
 
 /// Where the results are.
-[[nodiscard]] std::string closing_text(const std::vector<FinishedRun>& runs, const CommandLine& line);
+[[nodiscard]] std::string closing_text(const std::vector<FinishedRun>& runs, const AnalyzeOptions& asked);
 
 /// One document: every run with its summary, as `analyze --json` prints it, or its error.
 [[nodiscard]] std::string batch_json(const std::vector<FinishedRun>& runs);

@@ -3,9 +3,16 @@
 #include <iostream>
 #include <utility>
 
+#include "app/sweep.hpp"
 #include "results/controller_file.hpp"
 
 namespace coordreq {
+
+void declare_settings(Options& options, std::vector<SpecSetting>& settings) {
+  options.repeatable(settings, "--set", "PATH=VALUE",
+                     "Take another value in the spec, as constants.R=0.7 or states.0.step=0.02; may be repeated",
+                     parse_setting);
+}
 
 SpecSource with_settings(SpecSource source, const std::vector<SpecSetting>& settings) {
   for (const SpecSetting& setting : settings) source.text = with_setting(source.text, source.name, setting);

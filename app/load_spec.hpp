@@ -4,11 +4,17 @@
 #include <vector>
 
 #include "app/files_in_use.hpp"
+#include "app/options.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"
 #include "spec/set_value.hpp"
 
 namespace coordreq {
+
+inline constexpr const char* kSpecDescription = "The problem spec, a JSON file; - reads standard input";
+
+/// --set.
+void declare_settings(Options& options, std::vector<SpecSetting>& settings);
 
 /// The spec at `path` ("-": standard input), as the settings make it, checked.
 /// @throws IoError, SpecError; UsageError for a setting that leads nowhere

@@ -71,6 +71,11 @@ std::string shortened(std::string_view text, std::size_t most, std::size_t at_en
   return std::string(text.substr(0, begin)) + "..." + std::string(text.substr(end));
 }
 
+std::string echoed(std::string_view text) {
+  constexpr std::size_t kMost = 200, kAtEnd = 20;
+  return "'" + shortened(printable(text), kMost, kAtEnd) + "'";
+}
+
 std::string column_heading(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} [{}]", name, printable(unit));
 }

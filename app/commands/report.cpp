@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <memory>
 #include <numeric>
 
-#include "app/commands.hpp"
+#include "app/commands/all.hpp"
 #include "app/files_in_use.hpp"
 #include "app/json_text.hpp"
 #include "app/late_file.hpp"
+#include "app/option_values.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/standard_streams.hpp"
@@ -66,23 +68,37 @@ std::string summary_json(const std::string& path, std::size_t bytes, const Repor
   return json_text(json);
 }
 
-}  // namespace
+struct ReportOptions : CommonOptions {
+  std::string results;
+  std::optional<std::string> output;
+};
 
-ExitCode run_report(const CommandLine& line) {
-  const ResultsReader results(line.path);
-  const std::string path = line.output.value_or(results.spec().name + ".html");
-  check_output(line.path, path, "the report");
+ExitCode run(const ReportOptions& own) {
+  const ResultsReader results(own.results);
+  const std::string path = own.output.value_or(results.spec().name + ".html");
+  check_output(own.results, path, "the report");
   LateFile file(path, "the report");
   ReportData data;
   const std::string page = page_of(results, data);
   file.write(page);
   file.commit();
-  if (line.json) {
+  if (own.json) {
     write_output(summary_json(path, page.size(), data, results));
-  } else if (!line.quiet) {
+  } else if (!own.quiet) {
     write_output(summary_text(path, page.size(), data, results));
   }
   return ExitCode::success;
+}
+
+}  // namespace
+
+Run declare_report(Options& options) {
+  const auto own = std::make_shared<ReportOptions>();
+  declare_results(options, own->results);
+  options.option(own->output, "-o,--output", "FILE", "HTML file (default: NAME.html in the current folder)",
+                 file_name);
+  declare_common(options, *own);
+  return [own] { return run(*own); };
 }
 
 }  // namespace coordreq

@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
+#include <memory>
 #include <functional>
 #include <numeric>
 
-#include "app/commands.hpp"
+#include "app/commands/all.hpp"
 #include "app/json_text.hpp"
 #include "app/network_report.hpp"
 #include "app/requirement_report.hpp"
@@ -188,16 +189,27 @@ std::string info_json(const ResultInfo& info) {
   return json_text(json);
 }
 
-}  // namespace
+struct InfoOptions : CommonOptions {
+  std::string results;
+};
 
-ExitCode run_info(const CommandLine& line) {
-  const ResultInfo info = read_info(line.path);
-  if (line.json) {
+ExitCode run(const InfoOptions& own) {
+  const ResultInfo info = read_info(own.results);
+  if (own.json) {
     write_output(info_json(info));
-  } else if (!line.quiet) {
+  } else if (!own.quiet) {
     write_output(info_text(info));
   }
   return ExitCode::success;
+}
+
+}  // namespace
+
+Run declare_info(Options& options) {
+  const auto own = std::make_shared<InfoOptions>();
+  declare_results(options, own->results);
+  declare_common(options, *own);
+  return [own] { return run(*own); };
 }
 
 }  // namespace coordreq

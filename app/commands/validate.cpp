@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "analysis/analyze.hpp"
 #include "analysis/judge_requirements.hpp"
-#include "app/commands.hpp"
+#include "app/commands/all.hpp"
 #include "app/json_text.hpp"
 #include "app/load_spec.hpp"
-#include "app/memory_limit.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
 
@@ -100,23 +101,36 @@ std::string report_json(const SpecReport& report) {
   return json_text(json);
 }
 
-}  // namespace
+struct ValidateOptions : CommonOptions {
+  std::string spec;
+  std::vector<SpecSetting> settings;
+};
 
-ExitCode run_validate(const CommandLine& line) {
-  const ProblemSpec spec = load_spec(line.path, line.settings);
+ExitCode run(const ValidateOptions& own) {
+  const ProblemSpec spec = load_spec(own.spec, own.settings);
   const SpecReport report = inspect(spec);
   // What cannot be analysed here need not be looked at closely.
-  const std::optional<std::uint64_t> memory = line.max_memory ? line.max_memory : available_memory();
+  const std::optional<std::uint64_t> memory = own.memory();
   if (!memory || report.memory_bytes <= *memory) {
-    ThreadTeam team(line.threads);
+    ThreadTeam team(own.threads);
     check_regions(spec, team);
   }
-  if (line.json) {
+  if (own.json) {
     write_output(report_json(report));
-  } else if (!line.quiet) {
+  } else if (!own.quiet) {
     write_output(report_text(report));
   }
   return ExitCode::success;
+}
+
+}  // namespace
+
+Run declare_validate(Options& options) {
+  const auto own = std::make_shared<ValidateOptions>();
+  options.argument(own->spec, "SPEC", kSpecDescription);
+  declare_settings(options, own->settings);
+  declare_common(options, *own);
+  return [own] { return run(*own); };
 }
 
 }  // namespace coordreq

@@ -1,7 +1,9 @@
+#include <memory>
 #include <iostream>
 #include <optional>
 
-#include "app/commands.hpp"
+#include "app/commands/all.hpp"
+#include "app/option_values.hpp"
 #include "app/query_report.hpp"
 #include "app/standard_streams.hpp"
 #include "cell/state_query.hpp"
@@ -11,6 +13,11 @@
 
 namespace coordreq {
 namespace {
+
+struct QueryOptions : CommonOptions {
+  std::string results;
+  std::optional<std::string> at;  ///< none: states come from standard input
+};
 
 std::vector<std::string> state_names(const ResultsReader& results) {
   std::vector<std::string> names;
@@ -29,23 +36,32 @@ void answer_standard_input(const ResultsReader& results, StateQuery& query, bool
   }
 }
 
-}  // namespace
-
-ExitCode run_query(const CommandLine& line) {
-  const ResultsReader results(line.path);
-  ThreadTeam team(line.threads);
+ExitCode run(const QueryOptions& own) {
+  const ResultsReader results(own.results);
+  ThreadTeam team(own.threads);
   StateQuery query(results, team);
-  if (!line.at) {
-    answer_standard_input(results, query, line.json);
+  if (!own.at) {
+    answer_standard_input(results, query, own.json);
     return ExitCode::success;
   }
-  const StateAnswer answer = query.at(parse_state(*line.at, state_names(results), "--at"));
-  if (line.json) {
+  const StateAnswer answer = query.at(parse_state(*own.at, state_names(results), "--at"));
+  if (own.json) {
     write_output(answer_json(answer, results));
-  } else if (!line.quiet) {
+  } else if (!own.quiet) {
     write_output(answer_text(answer, results));
   }
   return ExitCode::success;
+}
+
+}  // namespace
+
+Run declare_query(Options& options) {
+  const auto own = std::make_shared<QueryOptions>();
+  declare_results(options, own->results);
+  options.option(own->at, "--at", "STATE",
+                 "The state, as x1=0.1,x2=1/3 (default: many from standard input, CSV or JSON lines)", as_typed);
+  declare_common(options, *own);
+  return [own] { return run(*own); };
 }
 
 }  // namespace coordreq
