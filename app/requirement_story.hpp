@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "results/result_requirement.hpp"
+#include "answers/requirements/result_requirement.hpp"
 #include "spec/problem_spec.hpp"
 
 // A counterexample in words. `analyze` and `report` tell it alike.

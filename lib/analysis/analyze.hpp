@@ -10,7 +10,7 @@
 #include "analysis/checkpoint_options.hpp"
 #include "analysis/progress.hpp"
 #include "base/thread_team.hpp"
-#include "results/result_requirement.hpp"
+#include "answers/requirements/result_requirement.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

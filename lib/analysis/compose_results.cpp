@@ -5,7 +5,7 @@
 
 #include "analysis/analyze.hpp"
 #include "analysis/result_arrays.hpp"
-#include "engine/action_bits.hpp"
+#include "answers/invariance/action_bits.hpp"
 #include "model/uniform_grid.hpp"
 #include "spec/partition_names.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "analysis/cell_order.hpp"
 #include "engine/level_rows.hpp"
+#include "model/cell_order.hpp"
 
 namespace coordreq {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "analysis/analyze.hpp"
-#include "analysis/layout.hpp"
 #include "analysis/network_problem.hpp"
 #include "base/error.hpp"
 #include "engine/join_rows.hpp"
+#include "model/model.hpp"
 #include "reach/build_abstraction.hpp"
 #include "results/controller_file.hpp"
 
@@ -33,13 +33,14 @@ struct Rows {
 };
 
 /// As join_rows() will choose, with gaps that are usual.
-Rows rows_of(const ProblemSpec& spec, const std::vector<TableShape>& shapes) {
+Rows rows_of(const Model& model) {
   constexpr double kGap = 4;
-  const auto count = [&](std::size_t i) { return static_cast<double>(spec.states[i].grid.count); };
+  const std::vector<TableShape>& shapes = model.arranged_shapes();
+  const auto count = [&](std::size_t i) { return static_cast<double>(model.grid()[i].count); };
   const auto is_alone = [&](std::size_t i) {
-    return are_alone_from(i, shapes) && shapes[i].shift && !shapes[i].sum && spec.states[i].grid.count > 1;
+    return are_alone_from(i, shapes) && shapes[i].shift && !shapes[i].sum && model.grid()[i].count > 1;
   };
-  const bool can_join = !is_read_by_runs(spec) && !spec.abstraction.between_samples;
+  const bool can_join = !model.is_read_by_runs() && !model.spec().abstraction.between_samples;
   std::size_t i = shapes.size() - 1;
   Rows rows{.lanes = count(i)};
   while (can_join && i > 1 && is_alone(i) && is_alone(i - 1) &&
@@ -52,15 +53,16 @@ Rows rows_of(const ProblemSpec& spec, const std::vector<TableShape>& shapes) {
 }
 
 /// Bytes of one bit row a choice of the states and inputs that a condition uses.
-double condition_bytes(const Program& condition, const ProblemSpec& spec) {
+double condition_bytes(const Program& condition, const Model& model) {
+  const UniformGrid& grid = model.grid();
   double rows = 1;
   for (const std::uint32_t slot : condition.variables()) {
-    if (slot + 1 < spec.states.size()) rows *= static_cast<double>(spec.states[slot].grid.count);
-    if (slot >= spec.states.size() && slot < spec.states.size() + spec.inputs.size()) {
-      rows *= static_cast<double>(spec.inputs[slot - spec.states.size()].values.size());
-    }
+    if (slot < grid.size() && slot != grid.state(grid.size() - 1))
+      rows *= static_cast<double>(grid[grid.dimension_of(slot)].count);
+    if (slot >= grid.size() && slot < grid.size() + model.inputs().size())
+      rows *= static_cast<double>(model.inputs()[slot - grid.size()].count());
   }
-  return rows * 8 * std::ceil(static_cast<double>(spec.states.back().grid.count) / 64);
+  return rows * 8 * std::ceil(static_cast<double>(grid.row_length()) / 64);
 }
 
 /// True if no state is moved by two classes, so that projections are kept as boxes of posts.
@@ -126,73 +128,72 @@ double projection_bytes(const ProblemSpec& spec, const std::vector<TableShape>& 
 }
 
 /// The sets of all modes, the levels of one target, and which rows of it have changed.
-double network_bytes(const ProblemSpec& spec, double cells, double set_bytes) {
+double network_bytes(const Model& model, double cells, double set_bytes) {
+  const ProblemSpec& spec = model.spec();
   if (!spec.network) return 0;
-  const double rows = cells / static_cast<double>(spec.states.back().grid.count);
+  const double rows = cells / static_cast<double>(model.grid().row_length());
   const auto modes = static_cast<double>(spec.network->modes.size());
   const double sets = spec.network->resynthesise ? 2 : 1;  // what is left of the rows that lose cells
   return modes * (sets * set_bytes + rows / 8) + cells;
 }
 
-/// Choices of the states but the last and of the inputs that a table ranges over: it is cut into so many
-/// rows.
 /// Bytes of the segments of one row, with the list that holds them.
 constexpr double kSegmentsOfSum = 12 * 20 + 40;
 
-double row_choices(const TableShape& shape, const ProblemSpec& spec) {
+/// Choices of the dimensions but the last and of the inputs that a table ranges over: it is cut into so many
+/// rows.
+
+double row_choices(const TableShape& shape, const Model& model) {
   double choices = 1;
   for (const std::int32_t j : shape.states) {
-    const auto state = static_cast<std::size_t>(j);
-    if (state + 1 < spec.states.size()) choices *= static_cast<double>(spec.states[state].grid.count);
+    const auto dimension = static_cast<std::size_t>(j);
+    if (dimension < model.grid().across()) choices *= static_cast<double>(model.grid()[dimension].count);
   }
-  for (const std::int32_t j : shape.inputs) {
-    choices *= static_cast<double>(spec.inputs[static_cast<std::size_t>(j)].values.size());
-  }
+  for (const std::int32_t j : shape.inputs)
+    choices *= static_cast<double>(model.inputs()[static_cast<std::size_t>(j)].count());
   return choices;
 }
 
 /// Pairs of a controller file: packed as in the file; then a row of cells for each joint input, at the most,
 /// with its number.
-double listed_bytes(const ProblemSpec& spec, double cells, double set_bytes) {
-  double inputs = 1;
-  for (const InputSpec& input : spec.inputs) inputs *= static_cast<double>(input.values.size());
-  const double rows = cells / static_cast<double>(spec.states.back().grid.count);
+double listed_bytes(const Model& model, double cells, double set_bytes) {
+  const auto inputs = static_cast<double>(model.inputs().count());
+  const double rows = cells / static_cast<double>(model.grid().row_length());
   return cells * std::ceil(inputs / 8) + inputs * (set_bytes + rows * sizeof(std::uint32_t));
 }
 
 /// Blocks of a unit that SumReader keeps eroded, for two threads: some dozen, in about nine sizes.
-double block_bytes(const ProblemSpec& spec, const std::vector<TableShape>& shapes) {
+double block_bytes(const Model& model) {
   constexpr double kMostBytes = 16.0 * 1024 * 1024;
   double cells = 1;
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (shapes[i].sum) cells *= static_cast<double>(spec.states[i].grid.count) + 6;
+  for (std::size_t i = 0; i < model.grid().size(); ++i) {
+    if (model.arranged_shapes()[i].sum) cells *= static_cast<double>(model.grid()[i].count) + 6;
   }
   return 2 * std::min(kMostBytes, 40 * 9 * cells);
 }
 
-double estimate_memory(const ProblemSpec& given) {
-  // What is cut into rows is the engine's order of the states.
-  const ProblemSpec spec = laid_out(given, choose_layout(given));
-  const bool keeps_sums = is_layout_of_sums(given);
-  const std::vector<TableShape> shapes = table_shapes(spec);
+double estimate_memory(const Model& model) {
+  const ProblemSpec& spec = model.spec();
+  const bool keeps_sums = model.keeps_sums();
+  const std::vector<TableShape>& shapes = model.arranged_shapes();
   const double cells = count_product(spec);
-  const Rows rows = rows_of(spec, shapes);
+  const Rows rows = rows_of(model);
   const double set_bytes = rows.set_bytes();
   double bytes = kFixedBytes;
   for (const TableShape& shape : shapes) {
     const bool is_kept = keeps_sums && shape.sum;
-    bytes += is_kept ? 2 * shape.bytes : shape.bytes + row_choices(shape, spec) * sizeof(std::uint32_t);
+    bytes += is_kept ? 2 * shape.bytes : shape.bytes + row_choices(shape, model) * sizeof(std::uint32_t);
     // Cut, a row of a sum falls into a dozen segments, and hardly two rows are alike.
-    if (shape.sum && !is_kept) bytes += row_choices(shape, spec) * kSegmentsOfSum;
+    if (shape.sum && !is_kept) bytes += row_choices(shape, model) * kSegmentsOfSum;
     // The tubes, as large as the tables, which are no sums then; cut into rows twice where states saturate.
     if (spec.abstraction.between_samples) {
-      bytes += shape.bytes + 2 * row_choices(shape, spec) * sizeof(std::uint32_t);
+      bytes += shape.bytes + 2 * row_choices(shape, model) * sizeof(std::uint32_t);
     }
   }
-  if (keeps_sums) bytes += block_bytes(spec, shapes);
-  bytes += condition_bytes(spec.safe, spec);
-  if (spec.controller.allow) bytes += condition_bytes(*spec.controller.allow, spec);
-  if (spec.controller.file) bytes += listed_bytes(spec, cells, set_bytes);
+  if (keeps_sums) bytes += block_bytes(model);
+  bytes += condition_bytes(spec.safe, model);
+  if (spec.controller.allow) bytes += condition_bytes(*spec.controller.allow, model);
+  if (spec.controller.file) bytes += listed_bytes(model, cells, set_bytes);
   if (!spec.requirements.empty()) bytes += set_bytes;  // a region
   bytes += 3 * set_bytes;                              // S, K and a layer
   if (spec.abstraction.between_samples) bytes += set_bytes;
@@ -204,7 +205,7 @@ double estimate_memory(const ProblemSpec& given) {
     bytes += set_bytes * agents * (agents - 1) / 2;                        // critical pairs
   }
   bytes += projection_bytes(spec, shapes, rows);
-  bytes += network_bytes(spec, cells, set_bytes);
+  bytes += network_bytes(model, cells, set_bytes);
   if (spec.coordination.convention)
     bytes += static_cast<double>(spec.agents.size()) * (cells * sizeof(float) + rows.count * 8);
   bytes += rows.count * 80;  // bookkeeping of rows
@@ -241,7 +242,7 @@ std::string guarantee_of(const ProblemSpec& spec) {
 }
 
 void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit) {
-  const double bytes = estimate_memory(spec);
+  const double bytes = estimate_memory(Model(spec, table_shapes(spec)));
   if (!limit || bytes <= static_cast<double>(*limit)) return;
   throw LimitError(fmt::format("{:.3g} cells need about {} of memory, the limit is {}", count_product(spec),
                                in_words(bytes), in_words(static_cast<double>(*limit))),
@@ -251,7 +252,8 @@ void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit) {
 SpecReport inspect(const ProblemSpec& spec) {
   if (spec.controller.file) check_controller_file(spec);
   SpecReport report{.name = spec.name, .cells = 1, .joint_inputs = 1};
-  const std::vector<TableShape> shapes = table_shapes(spec);
+  const Model model(spec, table_shapes(spec));
+  const std::vector<TableShape>& shapes = model.shapes();
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     const StateSpec& state = spec.states[i];
     report.states.push_back(
@@ -278,7 +280,7 @@ SpecReport inspect(const ProblemSpec& spec) {
     report.modes.push_back(spec.network->modes[mode].name);
   report.exact = check_dynamics(spec);
   report.guarantee = guarantee_of(spec);
-  report.memory_bytes = to_bytes(estimate_memory(spec));
+  report.memory_bytes = to_bytes(estimate_memory(model));
   return report;
 }
 

@@ -18,7 +18,7 @@ class Judge {
  public:
   Judge(const Solution& solution, ThreadTeam& team)
       : solution_(solution), team_(team), grid_(make_grid(solution.spec)) {
-    for (const std::size_t state : solution.layout) number_stride_.push_back(grid_.stride(state));
+    for (const std::size_t state : solution.model.order()) number_stride_.push_back(grid_.stride(state));
   }
 
   ResultRequirement judge(std::size_t r) {
@@ -42,7 +42,7 @@ class Judge {
  private:
   [[nodiscard]] CellVerdict judge_all_cells(std::size_t r, const PartitionResult* partition) const {
     const UniformGrid& grid = solution_.abstraction.grid;
-    const CellSet region = cells_of_region(solution_.engine_spec.requirements[r].where, grid, team_);
+    const CellSet region = cells_of_region(solution_.spec.requirements[r].where, grid, team_);
     const CellRequirement requirement{.collision_time = solution_.controller.collision_time,
                                       .layers = partition == nullptr ? nullptr : &partition->layers,
                                       .min_delay = solution_.spec.requirements[r].min_delay.value_or(0)};
@@ -60,12 +60,13 @@ class Judge {
       sets.grouping = &*grouping;
       sets.layers_of = &partition->layers.layers_of;
     }
+    const UniformGrid& grid = solution_.abstraction.grid;
     const EscapePath found = find_escape(sets, cell);
     ResultPath path{.phase = found.phases, .end = found.end};
     for (const std::int64_t x : found.cells) add_sample(x, partition, path);
     for (const std::int64_t u : found.joint_inputs) add_step(u, path);
     for (const DomainSide& side : found.sides) {
-      const ResultSide named{.state = solution_.layout[side.dimension], .above = side.above};
+      const ResultSide named{.state = grid.state(side.dimension), .above = side.above};
       if (!path.left_side || named.state < path.left_side->state) path.left_side = named;
     }
     return path;

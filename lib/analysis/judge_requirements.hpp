@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "analysis/solution.hpp"
-#include "results/result_requirement.hpp"
+#include "answers/requirements/result_requirement.hpp"
 
 namespace coordreq {
 

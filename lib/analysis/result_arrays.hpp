@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "analysis/cell_order.hpp"
 #include "answers/convention/convention_freedom.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "engine/level_map.hpp"
+#include "model/cell_order.hpp"
 #include "results/result_content.hpp"
 
 // Turns what the analysis holds into the arrays of the results file. The functions returned refer to their

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "analysis/run_arrays.hpp"
+#include "answers/invariance/safe_tubes.hpp"
 #include "base/error.hpp"
 #include "cell/state_text.hpp"
-#include "engine/safe_tubes.hpp"
 #include "model/locate.hpp"
 #include "model/sample_reset.hpp"
 #include "reach/build_abstraction.hpp"

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "analysis/layout.hpp"
 #include "analysis/network_problem.hpp"
+#include "answers/invariance/safe_set.hpp"
+#include "answers/invariance/safe_tubes.hpp"
+#include "answers/layers/projections.hpp"
 #include "answers/layers/refinement.hpp"
 #include "engine/join_rows.hpp"
-#include "engine/projections.hpp"
-#include "engine/safe_set.hpp"
-#include "engine/safe_tubes.hpp"
 #include "reach/build_abstraction.hpp"
 
 namespace coordreq {
@@ -28,17 +27,11 @@ std::optional<ControllerFile> read_listed(const ProblemSpec& spec, const Solutio
   return staged(watch, "controller", [&] { return read_controller_file(spec); });
 }
 
-/// Where each state of the spec stands in the grid.
-std::vector<std::size_t> place_of_states(const std::vector<std::size_t>& layout) {
-  std::vector<std::size_t> place(layout.size());
-  for (std::size_t d = 0; d < layout.size(); ++d) place[layout[d]] = d;
-  return place;
-}
-
-/// Rows along several dimensions where they can be, and all that the spec asks for can be read off them.
-Abstraction with_rows(const ProblemSpec& spec, Abstraction abstraction) {
-  if (is_read_by_runs(spec)) return abstraction;
-  abstraction.grid = join_rows(abstraction);
+/// In the order of the model. Rows run along several dimensions where they can, and all that the spec asks
+/// for can be read off them.
+Abstraction in_order(const Model& model, Abstraction abstraction) {
+  abstraction = arranged(std::move(abstraction), model.order());
+  if (!model.is_read_by_runs()) abstraction.grid = join_rows(abstraction);
   return abstraction;
 }
 
@@ -85,19 +78,18 @@ LevelMap find_levels_of(const std::string& stage, const RowEngine& engine, const
 
 Solution::Solution(const ProblemSpec& problem, ThreadTeam& team, const SolutionWatch& watch)
     : spec(problem),
-      layout(choose_layout(problem)),
-      engine_spec(laid_out(problem, layout)),
+      model(problem, table_shapes(problem)),
       listed(read_listed(problem, watch)),
-      abstraction(with_rows(problem, find_abstraction(engine_spec, team, watch))),
-      safe(staged(watch, "safe set", [&] { return safe_set(engine_spec, abstraction, team); })),
-      allow(allow_table(engine_spec, abstraction, team, listed ? &listed->pairs : nullptr)),
-      beyond(safe_beyond_limits(engine_spec, abstraction, safe, team)),
+      abstraction(in_order(model, find_abstraction(problem, team, watch))),
+      safe(staged(watch, "safe set", [&] { return safe_set(problem, abstraction, team); })),
+      allow(allow_table(problem, abstraction, team, listed ? &listed->pairs : nullptr)),
+      beyond(safe_beyond_limits(problem, abstraction, safe, team)),
       engine(abstraction, allow ? &*allow : nullptr,
-             SafeTubes{problem.abstraction.between_samples ? &safe : nullptr, beyond ? &*beyond : nullptr}),
+             TubeSets{problem.abstraction.between_samples ? &safe : nullptr, beyond ? &*beyond : nullptr}),
       hull(engine),
       invariance(find_invariance_set(team, watch)),
       controller{&engine, &invariance.invariant, &invariance.collision_time, spec.controller.synthesis},
-      order(abstraction.grid, place_of_states(layout)) {
+      order(abstraction.grid) {
   find_layers(team, watch);
   if (spec.network) find_network(team, watch);
   if (spec.coordination.convention) find_convention(team, watch);

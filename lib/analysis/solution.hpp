@@ -7,16 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "analysis/cell_order.hpp"
 #include "analysis/checkpoint.hpp"
 #include "answers/convention/convention_freedom.hpp"
+#include "answers/invariance/controller.hpp"
 #include "answers/invariance/invariance.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "answers/network/network_safety.hpp"
 #include "base/thread_team.hpp"
-#include "engine/controller.hpp"
 #include "engine/pair_table.hpp"
 #include "engine/row_engine.hpp"
+#include "model/cell_order.hpp"
+#include "model/model.hpp"
 #include "reach/abstraction.hpp"
 #include "results/controller_file.hpp"
 #include "spec/problem_spec.hpp"
@@ -52,9 +53,8 @@ struct SolutionWatch {
 /// What the fixed points of a problem have found, with all that it refers to. What is derived from it
 /// (summary, arrays) reads it and changes nothing.
 ///
-/// 1. Rows, columns and states of the engine are those of `engine_spec`, the same problem with its states in
-/// the
-///    order of `layout`; `order` maps cells of the spec's grid to them. Inputs and agents are the spec's.
+/// 1. Rows, columns and dimensions are those of abstraction.grid, with the states in the order of the model;
+///    `order` maps cells of the spec's grid to them. Inputs and agents are the spec's.
 /// 2. Neither copied nor moved: its parts refer to one another.
 struct Solution {
   /// The stages "controller" if there is a file with one, "abstraction", "safe set", "invariance", "layers
@@ -66,13 +66,12 @@ struct Solution {
   Solution& operator=(const Solution&) = delete;
 
   const ProblemSpec& spec;
-  std::vector<std::size_t> layout;  ///< [dimension of the engine] the state
-  ProblemSpec engine_spec;
-  std::optional<ControllerFile> listed;  ///< `controller.file`; then the layout is the identity
+  Model model;
+  std::optional<ControllerFile> listed;  ///< `controller.file`; then the order is that of the spec
   Abstraction abstraction;
   CellSet safe;
   std::optional<PairTable> allow;
-  std::optional<CellSet> beyond;  ///< SafeTubes::beyond
+  std::optional<CellSet> beyond;  ///< TubeSets::beyond
   RowEngine engine;
   RowHull hull;
   Invariance invariance;

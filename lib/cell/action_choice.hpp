@@ -25,7 +25,7 @@ struct LoopProblem {
   const Abstraction* abstraction = nullptr;
   const PartitionSpec* partition = nullptr;
   std::span<const std::int32_t> delay;   ///< [cells], steps; as DelayLayers names what has none
-  const CellSet* safe_beyond = nullptr;  ///< SafeTubes::beyond
+  const CellSet* safe_beyond = nullptr;  ///< TubeSets::beyond
   const PackedPairs* listed = nullptr;   ///< what `controller.file` lists; null: it has none
   std::int64_t connection_delay = 0;     ///< D, steps
 };

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/safe_tubes.hpp"
+#include "engine/tube_sets.hpp"
 #include "reach/counter.hpp"
 
 namespace coordreq {

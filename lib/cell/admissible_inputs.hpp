@@ -27,7 +27,7 @@ class AdmissibleInputs {
   struct Sets {
     IsMember invariant;
     IsMember safe;                         ///< called only if the abstraction has tubes
-    const CellSet* safe_beyond = nullptr;  ///< SafeTubes::beyond
+    const CellSet* safe_beyond = nullptr;  ///< TubeSets::beyond
     const PackedPairs* listed = nullptr;   ///< what `controller.file` lists; null: it has none
   };
 

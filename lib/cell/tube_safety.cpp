@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/safe_tubes.hpp"
+#include "answers/invariance/safe_tubes.hpp"
+#include "engine/tube_sets.hpp"
 
 namespace coordreq {
 namespace {

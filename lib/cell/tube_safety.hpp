@@ -12,7 +12,7 @@
 
 namespace coordreq {
 
-/// Whether the tubes from a cell are safe (see SafeTubes), with S from a results file. Not thread-safe.
+/// Whether the tubes from a cell are safe (see TubeSets), with S from a results file. Not thread-safe.
 class TubeSafety {
  public:
   /// REQUIRES: all outlive this object; the spec asks for safety between the samples.

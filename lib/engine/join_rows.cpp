@@ -40,7 +40,7 @@ UniformGrid join_rows(const Abstraction& abstraction) {
   }
   if (gaps.size() < 2) return grid;
   gaps.erase(gaps.begin());
-  return {grid.dimensions(), gaps};
+  return grid.in_rows(gaps);
 }
 
 }  // namespace coordreq

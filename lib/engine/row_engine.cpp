@@ -47,7 +47,7 @@ TableProfile profile(const RowSlices& slices) {
 
 }  // namespace
 
-RowEngine::RowEngine(const Abstraction& abstraction, const PairTable* allow, const SafeTubes& tubes)
+RowEngine::RowEngine(const Abstraction& abstraction, const PairTable* allow, const TubeSets& tubes)
     : abstraction_(&abstraction), allow_(allow) {
   std::vector<GridDimension> dimensions = abstraction.grid.dimensions();
   for (std::size_t i = 0; i < dimensions.size(); ++i) {

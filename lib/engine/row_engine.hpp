@@ -8,7 +8,7 @@
 #include "engine/pair_table.hpp"
 #include "engine/row_place.hpp"
 #include "engine/row_slices.hpp"
-#include "engine/safe_tubes.hpp"
+#include "engine/tube_sets.hpp"
 #include "reach/abstraction.hpp"
 
 namespace coordreq {
@@ -33,7 +33,7 @@ class RowEngine {
   /// @param allow may be null: everything is allowed
   /// @param tubes what tubes must stay in, if there are any
   /// REQUIRES: they outlive this object.
-  RowEngine(const Abstraction& abstraction, const PairTable* allow, const SafeTubes& tubes);
+  RowEngine(const Abstraction& abstraction, const PairTable* allow, const TubeSets& tubes);
 
   [[nodiscard]] const Abstraction& abstraction() const { return *abstraction_; }
   [[nodiscard]] const UniformGrid& grid() const { return abstraction_->grid; }

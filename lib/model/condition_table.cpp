@@ -27,7 +27,8 @@ struct Ranges {
   Ranges(const UniformGrid& grid, const InputSpace& inputs, Sampling sampling, const std::vector<bool>& used)
       : exact(grid.size() + inputs.size()), fast(exact.size()) {
     for (std::size_t i = 0; i < grid.size(); ++i) {
-      for (std::int64_t k = 0; used[i] && k < grid[i].count; ++k) add_state(i, grid[i], k, sampling);
+      const std::size_t slot = grid.state(i);
+      for (std::int64_t k = 0; used[slot] && k < grid[i].count; ++k) add_state(slot, grid[i], k, sampling);
     }
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       if (!used[grid.size() + i]) continue;
@@ -44,8 +45,8 @@ struct Ranges {
   }
 
  private:
-  void add_state(std::size_t i, const GridDimension& dimension, std::int64_t k, Sampling sampling) {
-    std::vector<RationalInterval>& parts = exact[i].emplace_back();
+  void add_state(std::size_t slot, const GridDimension& dimension, std::int64_t k, Sampling sampling) {
+    std::vector<RationalInterval>& parts = exact[slot].emplace_back();
     if (sampling == Sampling::centres) {
       parts.push_back(point_interval(dimension.point(k)));
       return;
@@ -181,6 +182,7 @@ ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid
   std::vector<bool> used(grid.size() + inputs.size(), false);
   for (const std::uint32_t slot : condition.variables()) used[slot] = true;
   const std::size_t last = grid.size() - 1;
+  const std::size_t last_slot = grid.state(last);
 
   std::int64_t rows = 1;
   for (std::size_t i = inputs.size(); i-- > 0;) {
@@ -190,7 +192,7 @@ ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid
     rows *= inputs[i].count();
   }
   for (std::size_t i = last; i-- > 0;) {
-    if (!used[i]) continue;
+    if (!used[grid.state(i)]) continue;
     states_.insert(states_.begin(), static_cast<std::int32_t>(i));
     state_stride_[i] = rows;
     rows *= grid[i].count;
@@ -211,18 +213,19 @@ ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid
   team.for_each(rows, grain, [&](ThreadTeam::Range range, int) {
     Filler filler(condition, ranges, undecided, question);
     for (std::int64_t r = range.begin; r < range.end; ++r) {
-      for (const std::int32_t i : states_) filler.set(at(i), r / state_stride_[at(i)] % grid[at(i)].count);
+      for (const std::int32_t i : states_)
+        filler.set(grid.state(at(i)), r / state_stride_[at(i)] % grid[at(i)].count);
       for (const std::int32_t i : inputs_) {
         filler.set(grid.size() + at(i), r / input_stride_[at(i)] % inputs[at(i)].count());
       }
       if (refuted.rows() > 0 && settles_row(bits_.row(r), refuted.row(r), grid.row_length())) continue;
-      if (!used[last]) {
+      if (!used[last_slot]) {
         if (filler.holds()) set_bits(bits_.row(r), 0, grid.row_length());
         continue;
       }
       for (std::int64_t k = 0; k < grid.row_length(); ++k) {
         if (is_settled(r, k)) continue;
-        filler.set(last, k);
+        filler.set(last_slot, k);
         if (filler.holds()) set_bits(bits_.row(r), k, k + 1);
       }
     }

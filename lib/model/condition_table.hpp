@@ -24,7 +24,8 @@ enum class Sampling : std::uint8_t {
   closed_cells,
 };
 
-/// The truth of a condition over the grid, tabulated over only the states and inputs that it depends on.
+/// The truth of a condition over the grid, tabulated over only the states and inputs that it depends on. The
+/// condition numbers variables as the spec does; all else here is about dimensions of the grid.
 ///
 /// One bit row along the last state dimension for each choice of the other states and inputs in use, so that
 /// rows serve all the cells that differ only in what the condition does not depend on.
@@ -43,7 +44,7 @@ class ConditionTable {
   [[nodiscard]] std::span<const CellSet::Word> row(std::int64_t row, std::int64_t u) const;
   /// Position of that row in the table: equal positions mean equal bits.
   [[nodiscard]] std::int64_t position(std::int64_t row, std::int64_t u) const;
-  /// Index of state i in row `position` of this table. REQUIRES: the state is in use, and not the last one.
+  /// Index of dimension i in row `position` of this table. REQUIRES: it is in use, and not the last one.
   [[nodiscard]] std::int64_t state_index(std::int64_t position, std::size_t i) const {
     return position / state_stride_[i] % (*grid_)[i].count;
   }

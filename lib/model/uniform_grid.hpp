@@ -38,12 +38,29 @@ struct GridDimension {
 /// Cells come in *rows*: along the last dimension, or along several at once. In rows of several dimensions
 /// each run along one that is not the first of them is followed by a gap, linear indices that are no cells:
 /// room for what lies beyond both ends of the run.
+///
+/// Dimensions may stand in another order than the states of the spec: each knows which state it is. Nothing
+/// else knows: conditions keep their numbering of variables, and users see cells in the order of the spec
+/// (CellOrder).
 class UniformGrid {
  public:
-  explicit UniformGrid(std::vector<GridDimension> dimensions);
+  /// Rows along the last dimension; dimension i is state i.
+  explicit UniformGrid(const std::vector<GridDimension>& dimensions);
+
+  /// The same cells with dimension d for the state that is dimension order[d] here, in rows along the last
+  /// one. REQUIRES: `order` is a permutation.
+  [[nodiscard]] UniformGrid arranged(const std::vector<std::size_t>& order) const;
+  /// The same cells in rows along several dimensions.
   /// @param gaps for each of the last dimensions that rows run along, but for the first of these, its gap, in
-  ///   indices of that dimension
-  UniformGrid(std::vector<GridDimension> dimensions, const std::vector<std::int64_t>& gaps);
+  ///   indices of that dimension; none: rows along the last dimension alone
+  [[nodiscard]] UniformGrid in_rows(const std::vector<std::int64_t>& gaps) const;
+  /// The same rows of as many cells, with other rules for what lies beyond them.
+  /// REQUIRES: as many indices in each of `dimensions`.
+  [[nodiscard]] UniformGrid with(std::vector<GridDimension> dimensions) const;
+
+  /// State of the spec that dimension i is, and the dimension of a state.
+  [[nodiscard]] std::size_t state(std::size_t i) const { return states_[i]; }
+  [[nodiscard]] std::size_t dimension_of(std::size_t state) const;
 
   [[nodiscard]] std::size_t size() const { return dimensions_.size(); }
   [[nodiscard]] const GridDimension& operator[](std::size_t i) const { return dimensions_[i]; }
@@ -67,7 +84,11 @@ class UniformGrid {
   }
 
  private:
+  UniformGrid(std::vector<GridDimension> dimensions, std::vector<std::size_t> states,
+              const std::vector<std::int64_t>& gaps);
+
   std::vector<GridDimension> dimensions_;
+  std::vector<std::size_t> states_;
   std::vector<std::int64_t> strides_;
   std::int64_t cells_ = 1;
   std::int64_t row_length_ = 1;

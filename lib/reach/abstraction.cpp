@@ -63,6 +63,42 @@ std::int64_t lay_out(TransitionTable& table, std::size_t state, const UniformGri
   return entries;
 }
 
+namespace {
+
+std::vector<std::int64_t> arranged(const std::vector<std::int64_t>& strides,
+                                   const std::vector<std::size_t>& order) {
+  std::vector<std::int64_t> result;
+  for (const std::size_t i : order) result.push_back(strides[i]);
+  return result;
+}
+
+std::vector<TransitionTable> arranged(std::vector<TransitionTable> tables,
+                                      const std::vector<std::size_t>& order) {
+  std::vector<std::int32_t> dimension_of(order.size());
+  for (std::size_t d = 0; d < order.size(); ++d) dimension_of[order[d]] = static_cast<std::int32_t>(d);
+  std::vector<TransitionTable> result;
+  for (std::size_t d = 0; d < tables.size(); ++d) {
+    TransitionTable& table = result.emplace_back(std::move(tables[order[d]]));
+    for (std::int32_t& j : table.states) j = dimension_of[static_cast<std::size_t>(j)];
+    std::sort(table.states.begin(), table.states.end());
+    table.state_stride = arranged(table.state_stride, order);
+    for (TransitionTerm& term : table.terms) {
+      term.state = dimension_of[static_cast<std::size_t>(term.state)];
+      term.state_stride = arranged(term.state_stride, order);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Abstraction arranged(Abstraction abstraction, const std::vector<std::size_t>& order) {
+  abstraction.grid = abstraction.grid.arranged(order);
+  abstraction.tables = arranged(std::move(abstraction.tables), order);
+  abstraction.tubes = arranged(std::move(abstraction.tubes), order);
+  return abstraction;
+}
+
 TransitionTable written_out(const Abstraction& abstraction, std::size_t state) {
   const TransitionTable& table = abstraction.tables[state];
   if (!table.shift && !table.is_sum()) return table;

@@ -116,6 +116,10 @@ struct Abstraction {
 std::int64_t lay_out(TransitionTable& table, std::size_t state, const UniformGrid& grid,
                      const InputSpace& inputs);
 
+/// The same abstraction with its states in another order, `order` as for UniformGrid::arranged(). Entries
+/// stay where they are; only strides change places.
+[[nodiscard]] Abstraction arranged(Abstraction abstraction, const std::vector<std::size_t>& order);
+
 /// The table of `state` with every entry written out: the same ranges in full.
 [[nodiscard]] TransitionTable written_out(const Abstraction& abstraction, std::size_t state);
 

@@ -4,21 +4,13 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
+#include "model/table_shape.hpp"
 #include "reach/abstraction.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
-/// The tables' dependencies and sizes, without the entries.
-struct TableShape {
-  std::vector<std::int32_t> states;
-  std::vector<std::int32_t> inputs;
-  std::vector<std::int32_t> disturbances;
-  bool shift = false;  ///< as in TransitionTable
-  bool sum = false;    ///< likewise; if that fails the table is in full after all
-  double entries = 1;  ///< that are stored; may be beyond what an integer holds
-  double bytes = 0;
-};
+/// Looks at the dynamics: what each state depends on, and how its table will be kept.
 [[nodiscard]] std::vector<TableShape> table_shapes(const ProblemSpec& spec);
 
 /// Solves the dynamics for every input and parameter without building tables.

@@ -40,6 +40,34 @@ void shuffle_bytes(std::span<const std::byte> raw, std::size_t element_size, std
   }
 }
 
+bool unpack_chunk(std::span<const std::byte> packed, std::size_t bytes, bool deflated,
+                  std::size_t element_size, std::vector<std::byte>& raw) {
+  raw.assign(packed.begin(), packed.end());
+  if (deflated) {
+    struct Free {
+      void operator()(libdeflate_decompressor* decompressor) const {
+        libdeflate_free_decompressor(decompressor);
+      }
+    };
+    const std::unique_ptr<libdeflate_decompressor, Free> decompressor(libdeflate_alloc_decompressor());
+    if (!decompressor) throw std::bad_alloc();
+    raw.resize(bytes);
+    // Without a place for the length found, another length than that of the buffer is an error.
+    if (libdeflate_zlib_decompress(decompressor.get(), packed.data(), packed.size(), raw.data(), bytes,
+                                   nullptr) != LIBDEFLATE_SUCCESS) {
+      return false;
+    }
+  }
+  if (raw.size() != bytes || bytes % element_size != 0) return false;
+  if (element_size == 1) return true;
+  const std::vector<std::byte> shuffled = raw;
+  const std::size_t count = bytes / element_size;
+  for (std::size_t byte = 0; byte < element_size; ++byte) {
+    for (std::size_t i = 0; i < count; ++i) raw[i * element_size + byte] = shuffled[byte * count + i];
+  }
+  return true;
+}
+
 void ChunkCodec::Free::operator()(libdeflate_compressor* compressor) const {
   libdeflate_free_compressor(compressor);
 }

@@ -45,4 +45,10 @@ class ChunkCodec {
 /// REQUIRES: both of the same size, a multiple of `element_size`.
 void shuffle_bytes(std::span<const std::byte> raw, std::size_t element_size, std::span<std::byte> shuffled);
 
+/// Undoes what was done to a chunk of so many bytes, and never makes more of it.
+/// @param element_size of the elements whose bytes were shuffled; 1: they were not
+/// @returns false if it is not such a chunk
+[[nodiscard]] bool unpack_chunk(std::span<const std::byte> packed, std::size_t bytes, bool deflated,
+                                std::size_t element_size, std::vector<std::byte>& raw);
+
 }  // namespace coordreq

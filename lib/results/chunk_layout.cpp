@@ -24,23 +24,6 @@ std::uint64_t divide_up(std::uint64_t a, std::uint64_t b) {
 
 }  // namespace
 
-std::size_t element_size(ElementType type) {
-  switch (type) {
-    case ElementType::uint8:
-      return 1;
-    case ElementType::int16:
-      return 2;
-    case ElementType::int32:
-    case ElementType::uint32:
-    case ElementType::float32:
-      return 4;
-    case ElementType::uint64:
-    case ElementType::float64:
-      break;
-  }
-  return 8;
-}
-
 ChunkLayout::ChunkLayout(std::vector<std::uint64_t> shape, std::size_t element_size)
     : shape_(std::move(shape)), elements_(product(shape_.begin(), shape_.end())) {
   const std::uint64_t bytes = elements_ * element_size;

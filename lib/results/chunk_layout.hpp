@@ -4,11 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "results/result_content.hpp"
+#include "answers/field.hpp"
 
 namespace coordreq {
-
-[[nodiscard]] std::size_t element_size(ElementType type);
 
 /// How a row-major array is cut into the chunks of an HDF5 dataset.
 ///

@@ -171,6 +171,20 @@ hid_t number_type(ElementType type) {
   return H5T_IEEE_F64LE;
 }
 
+bool holds_long_strings(const Handle& type) {
+  return H5Tget_class(type.get()) == H5T_STRING && H5Tis_variable_str(type.get()) > 0;
+}
+
+LibraryStrings::~LibraryStrings() {
+  H5Dvlen_reclaim(type_.get(), space_.get(), H5P_DEFAULT, texts_.data());
+}
+
+std::vector<std::string> LibraryStrings::copy() const {
+  std::vector<std::string> result;
+  for (const char* text : texts_) result.emplace_back(text == nullptr ? "" : text);
+  return result;
+}
+
 std::vector<hsize_t> shape_of(const Handle& space) {
   const int rank = H5Sget_simple_extent_ndims(space.get());
   check(rank, "read a shape");

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "results/result_content.hpp"
+#include "answers/field.hpp"
 
 // Ownership of HDF5 identifiers. Every identifier of the program is held by a Handle; other files of this
 // module pass Handle::get() to the library and keep nothing.
@@ -101,6 +101,27 @@ struct Storage {
 [[nodiscard]] Handle fixed_string_type(std::size_t size);
 /// A type in the file and in memory alike; little-endian.
 [[nodiscard]] hid_t number_type(ElementType type);
+
+/// Variable-length strings.
+[[nodiscard]] bool holds_long_strings(const Handle& type);
+
+/// Strings that the library makes when it reads into data(), and that are its own.
+class LibraryStrings {
+ public:
+  LibraryStrings(const Handle& type, const Handle& space, std::uint64_t count)
+      : type_(type), space_(space), texts_(count) {}
+  ~LibraryStrings();
+  LibraryStrings(const LibraryStrings&) = delete;
+  LibraryStrings& operator=(const LibraryStrings&) = delete;
+
+  [[nodiscard]] char** data() { return texts_.data(); }
+  [[nodiscard]] std::vector<std::string> copy() const;
+
+ private:
+  const Handle& type_;
+  const Handle& space_;
+  std::vector<char*> texts_;
+};
 
 /// Lengths of all dimensions of a dataset or an attribute's space.
 [[nodiscard]] std::vector<hsize_t> shape_of(const Handle& space);

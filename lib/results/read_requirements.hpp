@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "results/result_requirement.hpp"
+#include "answers/requirements/result_requirement.hpp"
 #include "results/results_file.hpp"
 
 namespace coordreq {

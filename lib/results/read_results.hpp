@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "results/result_requirement.hpp"
+#include "answers/requirements/result_requirement.hpp"
 
 namespace coordreq {
 

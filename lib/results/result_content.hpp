@@ -7,22 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "results/result_requirement.hpp"
+#include "answers/field.hpp"
+#include "answers/requirements/result_requirement.hpp"
 
 // What goes into a results file, contract section 4, as plain data. Large arrays are handed over as
 // functions that fill a stretch, so that nothing is held twice.
 namespace coordreq {
-
-enum class ElementType : std::uint8_t { uint8, int16, int32, uint32, uint64, float32, float64 };
-
-/// Fills `out` with elements [begin, begin + count) of an array, row-major, in its element type.
-/// Called from several threads at once.
-using FillArray = std::function<void(std::uint64_t begin, std::uint64_t count, void* out)>;
-
-struct ResultArray {
-  ElementType type = ElementType::uint8;
-  FillArray fill;
-};
 
 /// A state or an input: one dimension scale.
 struct ResultAxis {

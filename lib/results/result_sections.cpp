@@ -9,7 +9,7 @@
 #include "results/memory_array.hpp"
 #include "results/results_paths.hpp"
 #include "results/sha256.hpp"
-#include "results/unit_text.hpp"
+#include "spec/unit_text.hpp"
 #include "results/version.hpp"
 
 namespace coordreq {

@@ -96,10 +96,6 @@ class LibraryLists {
   std::vector<hvl_t> lists_;
 };
 
-bool holds_long_strings(const hdf5::Handle& type) {
-  return H5Tget_class(type.get()) == H5T_STRING && H5Tis_variable_str(type.get()) > 0;
-}
-
 std::string in_brackets(const std::vector<std::uint64_t>& shape) {
   std::string text = "[";
   for (const std::uint64_t length : shape) text += (text.size() > 1 ? ", " : "") + std::to_string(length);

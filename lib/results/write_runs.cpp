@@ -7,7 +7,7 @@
 #include "results/memory_array.hpp"
 #include "results/netcdf_writer.hpp"
 #include "results/sha256.hpp"
-#include "results/unit_text.hpp"
+#include "spec/unit_text.hpp"
 #include "results/version.hpp"
 #include "results/whole_file.hpp"
 

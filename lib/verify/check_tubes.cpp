@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "engine/safe_tubes.hpp"
+#include "answers/invariance/safe_tubes.hpp"
 #include "verify/check_tube.hpp"
 #include "verify/safe_beyond.hpp"
 

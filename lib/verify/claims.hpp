@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/packed_pairs.hpp"
-#include "results/result_requirement.hpp"
+#include "answers/requirements/result_requirement.hpp"
 #include "verify/post_table.hpp"
 
 namespace coordreq {

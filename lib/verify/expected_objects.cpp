@@ -5,7 +5,7 @@
 #include "model/input_space.hpp"
 #include "results/results_paths.hpp"
 #include "results/sha256.hpp"
-#include "results/unit_text.hpp"
+#include "spec/unit_text.hpp"
 #include "results/version.hpp"
 #include "spec/partition_names.hpp"
 #include "verify/class_actions.hpp"

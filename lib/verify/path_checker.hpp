@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "results/result_requirement.hpp"
+#include "answers/requirements/result_requirement.hpp"
 #include "verify/allowed_pairs.hpp"
 #include "verify/check_cells.hpp"
 #include "verify/class_actions.hpp"

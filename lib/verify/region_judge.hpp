@@ -6,7 +6,7 @@
 #include "base/thread_team.hpp"
 #include "expression/program.hpp"
 #include "model/uniform_grid.hpp"
-#include "results/result_requirement.hpp"
+#include "answers/requirements/result_requirement.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

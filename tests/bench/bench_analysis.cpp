@@ -7,9 +7,9 @@
 
 #include "analysis/analyze.hpp"
 #include "answers/invariance/invariance.hpp"
+#include "answers/invariance/safe_set.hpp"
 #include "answers/layers/delay_layers.hpp"
-#include "engine/projections.hpp"
-#include "engine/safe_set.hpp"
+#include "answers/layers/projections.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 

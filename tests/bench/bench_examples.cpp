@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "analysis/analyze.hpp"
+#include "answers/invariance/safe_set.hpp"
 #include "base/timer.hpp"
 #include "engine/row_engine.hpp"
-#include "engine/safe_set.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 

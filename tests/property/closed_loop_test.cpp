@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
+#include "answers/invariance/safe_set.hpp"
+#include "answers/invariance/safe_tubes.hpp"
 #include "cell/simulate_runs.hpp"
-#include "engine/safe_set.hpp"
-#include "engine/safe_tubes.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 #include "support/plain_engine.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/independent_actions.hpp"
+#include "answers/layers/independent_actions.hpp"
 #include "engine/join_rows.hpp"
 #include "engine/set_levels.hpp"
 #include "spec/read_spec.hpp"

@@ -1,6 +1,6 @@
 // The order in which the engine holds the states is nobody's business but its own.
 
-#include "analysis/layout.hpp"
+#include "model/model.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "analysis/cell_order.hpp"
+#include "model/cell_order.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 #include "support/random_problem.hpp"
@@ -24,12 +24,9 @@ std::vector<std::size_t> draw_order(std::size_t size) {
 }
 
 /// Values of an engine's cells, in the order of the spec.
-std::vector<std::int32_t> in_spec_order(const std::vector<std::int32_t>& values, const UniformGrid& grid,
-                                        const std::vector<std::size_t>& order) {
-  std::vector<std::size_t> place(order.size());
-  for (std::size_t d = 0; d < order.size(); ++d) place[order[d]] = d;
+std::vector<std::int32_t> in_spec_order(const std::vector<std::int32_t>& values, const UniformGrid& grid) {
   std::vector<std::int32_t> result;
-  CellOrder(grid, place).for_each_run(0, grid.cells(), [&](const CellOrder::Run& run) {
+  CellOrder(grid).for_each_run(0, grid.cells(), [&](const CellOrder::Run& run) {
     for (std::int64_t i = 0; i < run.count; ++i) {
       const std::int64_t row = run.row + i * run.row_step;
       const std::int64_t column = run.column + i * run.column_step;
@@ -47,11 +44,11 @@ TEST(Layout, AnyOrderOfTheStatesGivesTheSameResults) {
     const std::vector<std::size_t> order = draw_order(spec.states.size());
     RC_CLASSIFY(!std::is_sorted(order.begin(), order.end()), "another order");
     const FastAnalysis natural(spec, team);
-    const FastAnalysis other(laid_out(spec, order), team);
+    const FastAnalysis other(spec, arranged(build_abstraction(spec, team), order), team);
     const UniformGrid& grid = other.abstraction.grid;
-    RC_ASSERT(in_spec_order(other.collision_times(), grid, order) == natural.collision_times());
+    RC_ASSERT(in_spec_order(other.collision_times(), grid) == natural.collision_times());
     for (std::size_t p = 0; p < natural.layers.size(); ++p) {
-      RC_ASSERT(in_spec_order(other.delays(p), grid, order) == natural.delays(p));
+      RC_ASSERT(in_spec_order(other.delays(p), grid) == natural.delays(p));
     }
   }));
 }
@@ -66,10 +63,13 @@ ProblemSpec four_states(const std::string& equations, const std::string& output 
                    "test");
 }
 
+std::vector<std::size_t> order_of(const ProblemSpec& spec) {
+  return choose_order(spec, table_shapes(spec));
+}
+
 TEST(Layout, RowsRunAlongTheLongestShiftAndWhatMovesWithItComesLast) {
   // a is a shift by b; c and d move by themselves, d is a shift too, but a shorter one.
-  const auto order =
-      choose_layout(four_states(R"("a": "a + b", "b": "0.5*b + u", "c": "0.5*c", "d": "d + 1")"));
+  const auto order = order_of(four_states(R"("a": "a + b", "b": "0.5*b + u", "c": "0.5*c", "d": "d + 1")"));
   EXPECT_EQ(order, (std::vector<std::size_t>{2, 3, 1, 0}));
 }
 
@@ -82,16 +82,16 @@ TEST(Layout, SumsComeAfterWhatLeadsThemTheLongestLast) {
   "equations": {"x": "-5 + 5*cos(h) + u*y", "y": "5*sin(h) - u*x", "h": "u"}},
 "safe": "x^2 + y^2 >= 4"})json",
                                      "turn");
-  EXPECT_EQ(choose_layout(spec), (std::vector<std::size_t>{2, 1, 0}));
+  EXPECT_EQ(order_of(spec), (std::vector<std::size_t>{2, 1, 0}));
 }
 
 TEST(Layout, TheOrderOfTheSpecIsKeptWhereNothingIsGained) {
   const std::string equations = R"("a": "0.5*a", "b": "0.5*b", "c": "c + d", "d": "d + u")";
   EXPECT_EQ(
-      choose_layout(four_states(R"("a": "a", "b": "b", "c": "0.5*c", "d": "0.5*d")", R"({"actions": true})")),
+      order_of(four_states(R"("a": "a", "b": "b", "c": "0.5*c", "d": "0.5*d")", R"({"actions": true})")),
       (std::vector<std::size_t>{0, 1, 2, 3}));
-  EXPECT_EQ(choose_layout(four_states(equations)), (std::vector<std::size_t>{0, 1, 3, 2}));
-  EXPECT_EQ(choose_layout(four_states(R"("a": "a + u", "b": "b + u", "c": "c + u", "d": "0.5*d")")),
+  EXPECT_EQ(order_of(four_states(equations)), (std::vector<std::size_t>{0, 1, 3, 2}));
+  EXPECT_EQ(order_of(four_states(R"("a": "a + u", "b": "b + u", "c": "c + u", "d": "0.5*d")")),
             (std::vector<std::size_t>{0, 1, 3, 2}));
 }
 

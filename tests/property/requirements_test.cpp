@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "analysis/analyze.hpp"
-#include "engine/safe_set.hpp"
-#include "engine/safe_tubes.hpp"
+#include "answers/invariance/safe_set.hpp"
+#include "answers/invariance/safe_tubes.hpp"
 #include "model/pieces.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/counter.hpp"

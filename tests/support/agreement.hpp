@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/action_bits.hpp"
+#include "answers/invariance/action_bits.hpp"
 #include "support/fast_engine.hpp"
 #include "support/plain_engine.hpp"
 

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "answers/invariance/invariance.hpp"
+#include "answers/invariance/safe_set.hpp"
+#include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/delay_layers.hpp"
-#include "engine/projections.hpp"
-#include "engine/safe_set.hpp"
-#include "engine/safe_tubes.hpp"
+#include "answers/layers/projections.hpp"
 #include "reach/build_abstraction.hpp"
 
 namespace coordreq {
@@ -25,7 +25,7 @@ struct FastAnalysis {
         allow(allow_table(spec, abstraction, team, listed)),
         beyond(safe_beyond_limits(spec, abstraction, safe, team)),
         engine(abstraction, allow ? &*allow : nullptr,
-               SafeTubes{abstraction.tubes.empty() ? nullptr : &safe, beyond ? &*beyond : nullptr}),
+               TubeSets{abstraction.tubes.empty() ? nullptr : &safe, beyond ? &*beyond : nullptr}),
         hull(engine),
         invariance(find_invariance(engine, hull, safe, spec.controller.synthesis, {}, team)),
         controller{&engine, &invariance.invariant, &invariance.collision_time, spec.controller.synthesis} {
@@ -72,7 +72,7 @@ struct FastAnalysis {
   Abstraction abstraction;
   CellSet safe;
   std::optional<PairTable> allow;
-  std::optional<CellSet> beyond;  ///< SafeTubes::beyond
+  std::optional<CellSet> beyond;  ///< TubeSets::beyond
   RowEngine engine;
   RowHull hull;
   Invariance invariance;

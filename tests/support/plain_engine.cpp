@@ -5,8 +5,9 @@
 #include <utility>
 
 #include "answers/invariance/invariance.hpp"
+#include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/delay_layers.hpp"
-#include "engine/safe_tubes.hpp"
+#include "engine/tube_sets.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
 #include "model/pieces.hpp"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "engine/controller.hpp"
+#include "answers/invariance/controller.hpp"
 #include "engine/row_hull.hpp"
 
 namespace coordreq {

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "engine/free_rows.hpp"
+#include "answers/layers/free_rows.hpp"
 
 namespace coordreq {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "answers/layers/independent_actions.hpp"
 #include "engine/find_levels.hpp"
-#include "engine/independent_actions.hpp"
 #include "engine/set_levels.hpp"
 
 namespace coordreq {

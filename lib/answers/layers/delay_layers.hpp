@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "answers/layers/projections.hpp"
 #include "base/thread_team.hpp"
-#include "engine/projections.hpp"
 #include "engine/wave.hpp"
 
 namespace coordreq {

@@ -5,9 +5,9 @@
 #include <functional>
 #include <vector>
 
+#include "answers/invariance/controller.hpp"
 #include "base/thread_team.hpp"
 #include "engine/cell_set.hpp"
-#include "engine/controller.hpp"
 #include "engine/row_hull.hpp"
 #include "engine/wave.hpp"
 

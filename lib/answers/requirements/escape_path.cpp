@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/action_bits.hpp"
+#include "answers/invariance/action_bits.hpp"
 
 namespace coordreq {
 namespace {

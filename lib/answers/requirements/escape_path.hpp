@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "answers/invariance/controller.hpp"
 #include "answers/requirements/pair_posts.hpp"
-#include "engine/controller.hpp"
 
 namespace coordreq {
 
@@ -38,7 +38,7 @@ struct EscapePath {
 /// What escapes are made of.
 struct EscapeSets {
   const Controller* controller = nullptr;
-  SafeTubes tubes;
+  TubeSets tubes;
   /// Of the partition: its classes, and DelayLayers::layers_of. Not used outside K; may be null if no path
   /// starts in K.
   const ActionGrouping* grouping = nullptr;

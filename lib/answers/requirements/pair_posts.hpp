@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "answers/requirements/region.hpp"
-#include "engine/safe_tubes.hpp"
+#include "engine/tube_sets.hpp"
 #include "reach/abstraction.hpp"
 
 namespace coordreq {
@@ -26,7 +26,7 @@ class PairPosts {
   };
 
   /// REQUIRES: all outlive this object.
-  PairPosts(const Abstraction& abstraction, const SafeTubes& tubes)
+  PairPosts(const Abstraction& abstraction, const TubeSets& tubes)
       : abstraction_(&abstraction), tubes_(tubes) {}
 
   [[nodiscard]] Post of(std::int64_t x, std::int64_t u) const;
@@ -35,7 +35,7 @@ class PairPosts {
   void follow_tube(std::int64_t x, std::int64_t u, Post& post) const;
 
   const Abstraction* abstraction_;
-  SafeTubes tubes_;
+  TubeSets tubes_;
 };
 
 /// Calls `visit(cell)` for the cells of a box of ranges, which may wrap in periodic dimensions, until it

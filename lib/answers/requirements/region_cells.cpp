@@ -17,11 +17,13 @@ RationalInterval exact_range(const Piece& piece) {
 /// What the states that `where` mentions can be in each of their cells.
 struct Ranges {
   std::vector<std::uint32_t> states;                              // mentioned, ascending
+  std::vector<std::size_t> dimension;                             // [mentioned] of the grid
   std::vector<std::vector<std::vector<RationalInterval>>> exact;  // [mentioned][index][piece]
   std::vector<std::vector<Interval>> hull;                        // [mentioned][index]
 
   Ranges(const Program& where, const UniformGrid& grid) : states(where.variables()) {
-    for (const std::uint32_t i : states) {
+    for (const std::uint32_t state : states) {
+      const std::size_t i = dimension.emplace_back(grid.dimension_of(state));
       auto& indices = exact.emplace_back();
       auto& hulls = hull.emplace_back();
       for (std::int64_t k = 0; k < grid[i].count; ++k) {
@@ -50,7 +52,7 @@ class RegionFinder {
   /// Looks at a block of cells. What natural evaluation decides for all of it is decided for its cells,
   /// because narrower ranges never evaluate to wider ones.
   void visit(std::vector<IndexRange>& block) {
-    for (std::size_t s = 0; s < ranges_.states.size(); ++s) set_hull(s, block[ranges_.states[s]]);
+    for (std::size_t s = 0; s < ranges_.states.size(); ++s) set_hull(s, block[ranges_.dimension[s]]);
     const Truth truth = natural_.condition(box_);
     if (truth == Truth::no) return;
     if (truth == Truth::yes) return fill(block, 0, 0);
@@ -78,10 +80,10 @@ class RegionFinder {
     box_[ranges_.states[s]] = all;
   }
 
-  /// Of the states mentioned; 0 if none is.
+  /// Of the dimensions mentioned; 0 if none is.
   [[nodiscard]] std::size_t longest_side(const std::vector<IndexRange>& block) const {
-    std::size_t longest = ranges_.states.empty() ? 0 : ranges_.states.front();
-    for (const std::uint32_t i : ranges_.states) {
+    std::size_t longest = ranges_.dimension.empty() ? 0 : ranges_.dimension.front();
+    for (const std::size_t i : ranges_.dimension) {
       if (block[i].last - block[i].first > block[longest].last - block[longest].first) longest = i;
     }
     return longest;
@@ -92,7 +94,7 @@ class RegionFinder {
     std::vector<const std::vector<RationalInterval>*> parts;
     std::vector<std::int64_t> counts;
     for (std::size_t s = 0; s < ranges_.states.size(); ++s) {
-      parts.push_back(&ranges_.exact[s][static_cast<std::size_t>(block[ranges_.states[s]].first)]);
+      parts.push_back(&ranges_.exact[s][static_cast<std::size_t>(block[ranges_.dimension[s]].first)]);
       counts.push_back(static_cast<std::int64_t>(parts.back()->size()));
     }
     Counter choice(counts);

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "answers/field.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace paths {
+
+inline constexpr char kCoalition[] = "/coalition";
+inline constexpr char kCriticalPair[] = "/critical_pair";
+
+}  // namespace paths
+
+/// In the place of a partition: no partition of the spec is enough.
+inline constexpr std::int32_t kNoPartitionSuffices = -3;
+
+/// The cheapest partition that is enough, and the pairs that cannot do without one another.
+[[nodiscard]] Fields coalition_fields(const ProblemSpec& spec);
+/// The pairs of agents as they are numbered and called in the file: "a+b".
+[[nodiscard]] std::vector<std::string> pair_names(const ProblemSpec& spec);
+
+}  // namespace coordreq

@@ -1,0 +1,31 @@
+#include "answers/convention/fields.hpp"
+
+#include "answers/field_parts.hpp"
+
+namespace coordreq {
+
+std::string paths::convention(const AgentSpec& agent) {
+  return "/actions:convention/" + agent.name;
+}
+
+Fields convention_fields(const ProblemSpec& spec) {
+  if (!spec.coordination.convention) return {};
+  Fields fields;
+  std::vector<std::string> names;
+  for (const AgentSpec& agent : spec.agents) names.push_back(agent.name);
+  fields.push_back(name_scale("/agent", FieldSection::names, std::move(names), "agent"));
+  fields.push_back(
+      {.path = paths::kConventionFreedom,
+       .section = FieldSection::maps,
+       .types = {ElementType::float32},
+       .axes = cell_axes("/agent", spec),
+       .attributes = described("part of its admissible actions that an agent keeps under the convention")});
+  for (const AgentSpec& agent : spec.agents) {
+    if (!spec.output.actions) break;
+    add_bits(fields, paths::convention(agent), FieldSection::convention, spec, agent.inputs,
+             "actions that the agent may take by convention, whatever the others do of theirs, one bit each");
+  }
+  return fields;
+}
+
+}  // namespace coordreq

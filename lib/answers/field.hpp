@@ -1,0 +1,141 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+// A dataset of the results file, declared once: what writes the file, reads it, checks it and shows what it
+// holds goes over these declarations and knows no dataset by name.
+namespace coordreq {
+
+enum class ElementType : std::uint8_t { uint8, int16, int32, uint32, uint64, float32, float64 };
+
+[[nodiscard]] constexpr std::size_t element_size(ElementType type) {
+  switch (type) {
+    case ElementType::uint8:
+      return 1;
+    case ElementType::int16:
+      return 2;
+    case ElementType::int32:
+    case ElementType::uint32:
+    case ElementType::float32:
+      return 4;
+    case ElementType::uint64:
+    case ElementType::float64:
+      break;
+  }
+  return 8;
+}
+
+/// Fills `out` with elements [begin, begin + count) of an array, row-major, in its element type.
+/// Called from several threads at once.
+using FillArray = std::function<void(std::uint64_t begin, std::uint64_t count, void* out)>;
+
+struct ResultArray {
+  ElementType type = ElementType::uint8;
+  FillArray fill;
+};
+
+/// A value that means a word; kLargestValue stands for the largest value of the type that the field has.
+struct FieldFlag {
+  std::int64_t value = 0;
+  std::string word;
+};
+inline constexpr std::int64_t kLargestValue = std::numeric_limits<std::int64_t>::max();
+
+/// A list of uint64 is stored as one; flags become the two attributes `flag_values`, of the type of the
+/// field, and `flag_meanings`.
+using AttributeValue = std::variant<std::string, double, std::int64_t, std::uint64_t,
+                                    std::vector<std::uint64_t>, std::vector<FieldFlag>>;
+struct FieldAttribute {
+  std::string name;
+  AttributeValue value;
+  /// The analysis finds it: `value` tells no more than its type, and of a list the length.
+  bool is_found = false;
+};
+
+/// Where the coordinates of an axis come from: it has none but its length; the numbers 0, 1, ...; names; or
+/// grid points, which are asked for one by one, for there may be very many.
+struct NoCoordinates {};
+struct Numbers {};
+struct GridPoints {
+  std::function<double(std::uint64_t)> at;
+};
+struct FieldScale {
+  std::variant<NoCoordinates, Numbers, std::vector<std::string>, GridPoints> coordinates;
+  /// The length; not always does the spec tell it.
+  std::uint64_t least = 0, most = 0;
+  /// Whether it is there, and with it all that is over it, the spec does not tell either.
+  bool is_optional = false;
+};
+
+/// The place of a field in the file: fields of a lower section are written first, those of one section in the
+/// order of the answers.
+enum class FieldSection : std::uint8_t {
+  axes,
+  sets,
+  steps,
+  layers,
+  layer_lists,
+  actions,
+  convention,
+  controller,
+  abstraction,
+  names,
+  maps,
+  requirements
+};
+
+/// What tables over cells (CSV, VTK) call a field, and with the value for each of a leading axis by which
+/// names: "delay" over /partition becomes "delay:alone". Fields without a name are no column.
+struct FieldColumn {
+  std::string name;
+  /// A value that is worse than every number of steps, and better than what is lower; none if 0.
+  std::int32_t below_zero = 0;
+};
+
+struct Field {
+  std::string path;  ///< "/delay"
+  FieldSection section = FieldSection::maps;
+  std::vector<ElementType> types;  ///< it has one of these; none: strings
+  std::vector<std::string> axes;   ///< paths of scales; none for a scale or a single value
+  std::optional<FieldScale> scale = {};
+  std::int64_t least = 0, most = kLargestValue;  ///< values of a field of integers
+  std::vector<FieldAttribute> attributes = {};   ///< in the order in which they are written
+  FieldColumn column = {};
+};
+using Fields = std::vector<Field>;
+
+/// What an analysis has found for the fields, by path. Scales with coordinates and what does not depend on
+/// the analysis need no entry.
+struct FieldValues {
+  struct Entry {
+    ResultArray array;
+    std::map<std::string, AttributeValue> attributes = {};  ///< those that are found
+    std::string equals = {};  ///< the path of a field that is known to have the same elements; or empty
+  };
+  std::map<std::string, Entry> entries;
+  /// Lengths of scales that the spec does not tell; optional scales without one are not there.
+  std::map<std::string, std::uint64_t> lengths;
+};
+
+/// An array that owns its elements, which have the width of the type.
+template <class Value>
+[[nodiscard]] ResultArray owned_array(ElementType type, std::vector<Value> values) {
+  auto shared = std::make_shared<const std::vector<Value>>(std::move(values));
+  return {type, [shared](std::uint64_t begin, std::uint64_t count, void* out) {
+            const Value* const first = shared->data() + begin;
+            std::copy(first, first + count, static_cast<Value*>(out));
+          }};
+}
+
+}  // namespace coordreq

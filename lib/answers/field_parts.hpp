@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "answers/field.hpp"
+#include "spec/problem_spec.hpp"
+
+// What declarations of fields are put together from.
+namespace coordreq {
+
+/// `long_name` and `units` of a plain number: a count of steps must not look like a time, or xarray would
+/// make it one.
+[[nodiscard]] std::vector<FieldAttribute> described(std::string long_name);
+[[nodiscard]] FieldAttribute flags(std::vector<FieldFlag> values);
+/// The attribute `cells`: how many of them there are.
+[[nodiscard]] FieldAttribute counted_cells();
+/// The same as a list, one for each of so many; nothing if an attribute would not take them.
+[[nodiscard]] std::vector<FieldAttribute> counted_cells(std::size_t count);
+/// One list of attributes behind the other.
+[[nodiscard]] std::vector<FieldAttribute> operator+(std::vector<FieldAttribute> first,
+                                                    std::vector<FieldAttribute> second);
+
+/// An axis that names things. @param long_name of what it names
+[[nodiscard]] Field name_scale(std::string path, FieldSection section, std::vector<std::string> names,
+                               const std::string& long_name);
+/// The numbers 0, 1, ..., of which the spec tells least and most.
+[[nodiscard]] Field number_scale(std::string path, FieldSection section, std::uint64_t least,
+                                 std::uint64_t most, const std::string& long_name);
+/// An axis without coordinates.
+[[nodiscard]] Field bare_scale(std::string path, FieldSection section, std::uint64_t least,
+                               std::uint64_t most);
+
+/// "/x1", "/x2", ...: the axes of an array over cells.
+[[nodiscard]] std::vector<std::string> cell_axes(const ProblemSpec& spec);
+[[nodiscard]] std::vector<std::string> cell_axes(const std::string& leading, const ProblemSpec& spec);
+[[nodiscard]] std::uint64_t cell_count(const ProblemSpec& spec);
+
+/// Sets of joint actions over cells, a bit each, with their axis of bytes beside them, under their path and
+/// ":byte", which no agent and no state can be called.
+/// @param inputs indices of the inputs that the actions range over, in the order of the spec
+void add_bits(Fields& fields, const std::string& path, FieldSection section, const ProblemSpec& spec,
+              const std::vector<std::int32_t>& inputs, const std::string& long_name);
+/// The inputs of some agents, in the order of the spec.
+[[nodiscard]] std::vector<std::int32_t> inputs_of(const ProblemSpec& spec,
+                                                  const std::vector<std::int32_t>& agents);
+[[nodiscard]] std::vector<std::int32_t> all_inputs(const ProblemSpec& spec);
+/// Joint actions over these inputs.
+[[nodiscard]] std::int64_t joint_actions(const ProblemSpec& spec, const std::vector<std::int32_t>& inputs);
+
+}  // namespace coordreq

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace coordreq {
+
+/// Reads small fields, whose shapes and values are as declared.
+class FieldSource {
+ public:
+  virtual ~FieldSource() = default;
+  /// Whether an optional scale is there.
+  [[nodiscard]] virtual bool has(const std::string& path) const = 0;
+  [[nodiscard]] virtual std::vector<std::int64_t> integers(const std::string& path) const = 0;
+  [[nodiscard]] virtual std::vector<double> numbers(const std::string& path) const = 0;
+  /// @throws ResultsError that names the file and the field
+  [[noreturn]] virtual void fail(const std::string& what, const std::string& path) const = 0;
+};
+
+}  // namespace coordreq

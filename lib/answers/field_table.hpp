@@ -1,0 +1,19 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "answers/field.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// Every dataset that a results file of this spec can have, axes before what is over them, in the order of
+/// the file.
+[[nodiscard]] Fields result_fields(const ProblemSpec& spec);
+
+/// The lengths of the axes of a field: of `scales`, lengths by path. Nothing if one of them is not there.
+[[nodiscard]] std::optional<std::vector<std::uint64_t>> shape_of(
+    const Field& field, const std::map<std::string, std::uint64_t>& scales);
+
+}  // namespace coordreq

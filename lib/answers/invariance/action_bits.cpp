@@ -1,0 +1,77 @@
+#include "answers/invariance/action_bits.hpp"
+
+#include <algorithm>
+
+namespace coordreq {
+namespace {
+
+std::int64_t bytes_for(std::int64_t actions) {
+  return (actions + 7) / 8;
+}
+
+/// The sets of the cells of one row.
+template <class Level>
+void write_row(const Controller& controller, const ActionGrouping& grouping, std::size_t c,
+               const RowPlace& place, PostReader<Level>& posts, std::uint8_t* cells) {
+  const std::int64_t bytes = bytes_for(grouping.actions(c));
+  RowGroups groups;
+  grouping.group(place, groups);
+  std::vector<Word> members(controller.engine->row_words());
+  std::vector<std::vector<Word>> projection(groups.classes[c]->size(), std::vector<Word>(members.size(), 0));
+  TupleWalk::Candidates candidates;
+  choose_groups(groups, GroupChoice::all, candidates);
+  TupleWalk tuple;
+  tuple.begin(grouping, place, groups, candidates);
+  do {
+    controller_row(controller, place.row, tuple, posts, members);
+    std::vector<Word>& target = projection[tuple.chosen(c)];
+    for (std::size_t w = 0; w < members.size(); ++w) target[w] |= members[w];
+  } while (tuple.next());
+  for (std::size_t a = 0; a < groups.classes[c]->group_of.size(); ++a) {
+    for_each_bit(projection[groups.classes[c]->group_of[a]], [&](std::int64_t x) {
+      std::uint8_t& byte = cells[x * bytes + static_cast<std::int64_t>(a / 8)];
+      byte = static_cast<std::uint8_t>(byte | 1U << (a % 8));
+    });
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> action_bits(const Controller& controller, const ActionGrouping& grouping,
+                                      std::size_t c, std::int64_t first_row, std::int64_t last_row) {
+  const std::int64_t length = controller.engine->row_length();
+  const std::int64_t bytes = bytes_for(grouping.actions(c));
+  std::vector<std::uint8_t> result(static_cast<std::size_t>((last_row - first_row) * length * bytes), 0);
+  controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
+    PostReader<Level> posts(*controller.engine, levels);
+    RowPlace place(controller.engine->grid(), first_row);
+    for (; place.row < last_row; place.advance(controller.engine->grid())) {
+      if (!any_set(controller.invariant->row(place.row))) continue;
+      posts.enter();
+      write_row(controller, grouping, c, place, posts,
+                result.data() + (place.row - first_row) * length * bytes);
+    }
+  });
+  return result;
+}
+
+void fill_action_bits(const Controller& controller, const ActionGrouping& grouping, std::size_t c,
+                      std::uint64_t begin, std::uint64_t count, void* out) {
+  const auto row_bytes =
+      static_cast<std::uint64_t>(controller.engine->row_length() * bytes_for(grouping.actions(c)));
+  auto* target = static_cast<std::uint8_t*>(out);
+  // Row by row: a stretch may begin and end inside a row, and memory stays small.
+  while (count > 0) {
+    const std::uint64_t row = begin / row_bytes;
+    const std::uint64_t offset = begin % row_bytes;
+    const std::uint64_t take = std::min(count, row_bytes - offset);
+    const std::vector<std::uint8_t> bits = action_bits(
+        controller, grouping, c, static_cast<std::int64_t>(row), static_cast<std::int64_t>(row + 1));
+    std::copy_n(bits.begin() + static_cast<std::ptrdiff_t>(offset), take, target);
+    begin += take;
+    count -= take;
+    target += take;
+  }
+}
+
+}  // namespace coordreq

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "answers/invariance/controller.hpp"
+#include "engine/row_hull.hpp"
+
+namespace coordreq {
+
+/// Finds the rows in which every joint input is admissible wherever K is, by what all posts have in common.
+/// One object a thread.
+template <class Level>
+class FreeRows {
+ public:
+  /// REQUIRES: all outlive this object; `posts` reads the levels of controller.collision_time.
+  FreeRows(const Controller& controller, const RowHull& hull, PostReader<Level>& posts)
+      : controller_(controller), hull_(hull), posts_(posts), lanes_(posts.lanes(), 0) {}
+
+  /// False may mean that it is not easily seen.
+  [[nodiscard]] bool is_free(const RowPlace& place) {
+    if (controller_.engine->allow() != nullptr) return false;
+    if (controller_.synthesis == Synthesis::given) return true;
+    hull_.box(place, box_);
+    if (!box_.covers) return false;
+    const auto n = static_cast<std::size_t>(controller_.engine->row_length());
+    posts_.kernels().spread(controller_.invariant->row(place.row).data(), lanes_.data(), n);
+    return posts_.kernels().is_top(posts_.minimum(box_), lanes_.data(), n);
+  }
+
+ private:
+  const Controller& controller_;
+  const RowHull& hull_;
+  PostReader<Level>& posts_;
+  RowHull::Box box_;
+  std::vector<Level> lanes_;
+};
+
+}  // namespace coordreq

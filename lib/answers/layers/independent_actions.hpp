@@ -1,0 +1,60 @@
+#pragma once
+
+#include <vector>
+
+#include "answers/layers/projections.hpp"
+#include "engine/wave.hpp"
+
+namespace coordreq {
+
+/// level(x) = 1 + min over u in IND_C(x) of min over f(x,u): the greatest level where IND_C(x) is empty, as
+/// it is nowhere in K.
+template <class Level>
+class IndependentActions final : public RowOperator<Level> {
+ public:
+  /// REQUIRES: all outlive this object.
+  IndependentActions(const Projections& projections, const RowHull& hull, const CellSet& invariant,
+                     int workers);
+
+  bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
+                   int worker) override;
+
+ private:
+  struct Workspace {
+    RowGroups groups;
+    std::vector<std::vector<std::uint32_t>> worst;
+    TupleWalk::Candidates candidates;
+    TupleWalk tuple;
+    RowHull::Box box;
+    IndependentPosts::Row row;
+    const Level* labels = nullptr;  ///< of the page at hand; null: there is one part, all of K
+    Level label = 0;
+    std::vector<Word> reasonable;
+    std::vector<Level> lanes;
+  };
+
+  void lower_by_boxes(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const;
+  void enter_page(const std::uint8_t* labels, std::size_t lanes, Workspace& work) const;
+  void lower_by_class(const IndependentPosts::Part& part, std::size_t c, PostReader<Level>& posts,
+                      Level* next, Workspace& work) const;
+  void lower_by_box(const IndependentPosts::Part& part, PostReader<Level>& posts, Level* next,
+                    Workspace& work) const;
+  void lower_by_all(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const;
+  void lower_by_projections(const RowPlace& place, PostReader<Level>& posts, Level* next,
+                            Workspace& work) const;
+  void find_worst(std::int64_t row, const RowGroups& groups, std::size_t c,
+                  std::vector<std::uint32_t>& result) const;
+
+  const Projections& projections_;
+  const ActionGrouping& grouping_;
+  const RowHull& hull_;
+  RowBoxes boxes_;
+  const CellSet& invariant_;
+  std::vector<Workspace> work_;
+};
+
+extern template class IndependentActions<std::uint8_t>;
+extern template class IndependentActions<std::uint16_t>;
+extern template class IndependentActions<std::uint32_t>;
+
+}  // namespace coordreq

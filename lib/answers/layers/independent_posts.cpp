@@ -1,0 +1,252 @@
+#include "answers/layers/independent_posts.hpp"
+
+#include <algorithm>
+
+namespace coordreq {
+
+/// The groups that can make a difference: reasonable somewhere, with a post inside the domain, and not inside
+/// that of another group that is reasonable wherever they are.
+void IndependentPosts::find_worst(const RowBoxes& boxes, const ActionGroups& own, std::size_t c,
+                                  const std::vector<Word>& masks) {
+  worst_.clear();
+  for (std::uint32_t g = 0; g < own.size(); ++g) {
+    const ConstRow mask = mask_of(masks, g);
+    bool needed = boxes.kind(c, g) == RowBoxes::Kind::box && any_set(mask);
+    for (const std::uint32_t h : own.holders[g]) {
+      if (!needed) break;
+      if (boxes.kind(c, h) != RowBoxes::Kind::box) continue;
+      const ConstRow other = mask_of(masks, h);
+      if (!is_subset(mask, other)) continue;
+      // Of two that cover each other the lower one stays.
+      needed = own.is_within(h, g) && g < h && is_subset(other, mask);
+    }
+    if (needed) worst_.push_back(g);
+  }
+}
+
+/// Cuts the row into parts, in each of which the same of the worst groups are reasonable.
+void IndependentPosts::find_parts(const std::vector<Word>& masks, ConstRow invariant) {
+  parts_ = 1;
+  part_masks_.assign(invariant.begin(), invariant.end());
+  part_groups_.assign(worst_.size(), 0);
+  const std::size_t groups = worst_.size();
+  for (std::size_t k = 0; k < groups; ++k) {
+    const ConstRow mask = mask_of(masks, worst_[k]);
+    const std::size_t before = parts_;
+    for (std::size_t p = 0; p < before; ++p) {
+      const int overlap = kernels_->compare(part_masks_.data() + p * words_, mask.data(), words_);
+      const bool is_inside_mask = overlap == 1;
+      if (overlap == 3) split_part(p, mask);
+      if ((overlap & 1) != 0) part_groups_[(is_inside_mask ? p : parts_ - 1) * groups + k] = 1;
+    }
+  }
+}
+
+/// Takes the cells of `mask` out of a part and makes them one of their own, with the same groups.
+void IndependentPosts::split_part(std::size_t p, ConstRow mask) {
+  const std::size_t groups = worst_.size();
+  part_masks_.resize((parts_ + 1) * words_);
+  part_groups_.resize((parts_ + 1) * groups);
+  Word* const part = part_masks_.data() + p * words_;
+  Word* const other = part_masks_.data() + parts_ * words_;
+  for (std::size_t w = 0; w < words_; ++w) {
+    other[w] = part[w] & mask[w];
+    part[w] &= ~mask[w];
+  }
+  std::copy_n(part_groups_.data() + p * groups, groups, part_groups_.data() + parts_ * groups);
+  ++parts_;
+}
+
+/// What the groups of each part fill together; parts in which that is the same are told apart no more.
+void IndependentPosts::find_lists(const RowBoxes& boxes, std::size_t c, ClassParts& own) {
+  own.lists.clear();
+  own.masks.clear();
+  for (std::size_t p = 0; p < parts_; ++p) {
+    list_.dimensions = boxes.moved(c).size();
+    list_.ranges.clear();
+    for (std::size_t k = 0; k < worst_.size(); ++k) {
+      if (part_groups_[p * worst_.size() + k] == 0) continue;
+      const auto ranges = boxes.ranges(c, worst_[k]);
+      list_.ranges.insert(list_.ranges.end(), ranges.begin(), ranges.end());
+    }
+    if (list_.ranges.empty()) continue;  // all that it may do here leaves for good
+    merge_boxes(list_, longest_);
+    const auto known = std::find_if(own.lists.begin(), own.lists.end(),
+                                    [&](const BoxList& other) { return other.ranges == list_.ranges; });
+    const auto number = static_cast<std::size_t>(known - own.lists.begin());
+    if (known == own.lists.end()) {
+      own.lists.push_back(list_);
+      own.masks.resize(own.masks.size() + words_, 0);
+    }
+    for (std::size_t w = 0; w < words_; ++w) own.masks[number * words_ + w] |= part_masks_[p * words_ + w];
+  }
+}
+
+/// Numbers the combinations of the classes' parts that occur.
+void IndependentPosts::join_classes(ConstRow invariant) {
+  std::size_t combinations = 1;
+  for (const ClassParts& own : classes_) combinations *= own.lists.size();
+  joint_.clear();
+  is_whole_ = combinations == 1 && std::all_of(classes_.begin(), classes_.end(), [&](const ClassParts& own) {
+                return is_subset(invariant, own.masks);
+              });
+  if (is_whole_) joint_.push_back({0, 0, std::vector<std::uint32_t>(classes_.size(), 0)});
+  if (is_whole_ || combinations == 0) return;
+  labels_.assign(lanes(), 0);
+  // One AND a combination, or some looks a lane.
+  if (combinations < CellSet::kWordBits) {
+    mask_.assign((classes_.size() + 1) * words_, 0);
+    std::copy(invariant.begin(), invariant.end(), mask_.begin());
+    chosen_.clear();
+    join_masks(0);
+  } else {
+    join_lanes();
+  }
+}
+
+void IndependentPosts::join_masks(std::size_t c) {
+  const Word* const mask = mask_.data() + c * words_;
+  if (c == classes_.size()) {
+    joint_.push_back({INT64_MAX, 0, chosen_});
+    JointPart& part = joint_.back();
+    for_each_bit({mask, words_}, [&](std::int64_t lane) {
+      labels_[static_cast<std::size_t>(lane)] = static_cast<std::int32_t>(joint_.size());
+      part.begin = std::min(part.begin, lane);
+      part.end = lane + 1;
+    });
+    return;
+  }
+  for (std::size_t i = 0; i < classes_[c].lists.size(); ++i) {
+    const Word* const own = classes_[c].masks.data() + i * words_;
+    Word* const both = mask_.data() + (c + 1) * words_;
+    Word any = 0;
+    for (std::size_t w = 0; w < words_; ++w) any |= both[w] = mask[w] & own[w];
+    if (any == 0) continue;
+    chosen_.push_back(static_cast<std::uint32_t>(i));
+    join_masks(c + 1);
+    chosen_.pop_back();
+  }
+}
+
+void IndependentPosts::join_lanes() {
+  joint_.assign(1, {0, 0, {}});
+  labels_.assign(lanes(), 1);
+  for (const ClassParts& own : classes_) {
+    own_labels_.assign(lanes(), 0);
+    for (std::size_t i = 0; i < own.lists.size(); ++i) {
+      for_each_bit({own.masks.data() + i * words_, words_}, [&](std::int64_t lane) {
+        own_labels_[static_cast<std::size_t>(lane)] = static_cast<std::uint32_t>(i + 1);
+      });
+    }
+    const std::size_t choices = own.lists.size() + 1;
+    joint_before_.swap(joint_);
+    joint_.clear();
+    numbers_.assign((joint_before_.size() + 1) * choices, 0);
+    for (std::size_t lane = 0; lane < labels_.size(); ++lane) {
+      std::int32_t& label = labels_[lane];
+      if (label == 0 || own_labels_[lane] == 0) {
+        label = 0;
+        continue;
+      }
+      std::int32_t& number = numbers_[static_cast<std::size_t>(label) * choices + own_labels_[lane]];
+      if (number == 0) {
+        joint_.push_back(
+            {static_cast<std::int64_t>(lane), 0, joint_before_[static_cast<std::size_t>(label) - 1].lists});
+        joint_.back().lists.push_back(own_labels_[lane] - 1);
+        number = static_cast<std::int32_t>(joint_.size());
+      }
+      label = number;
+      joint_[static_cast<std::size_t>(number) - 1].end = static_cast<std::int64_t>(lane) + 1;
+    }
+  }
+}
+
+void IndependentPosts::pack(const RowBoxes& boxes, const RowGroups& groups,
+                            const std::vector<std::vector<Word>>& masks, ConstRow invariant,
+                            const UniformGrid& grid, std::vector<Word>& packed) {
+  packed.clear();
+  classes_.resize(groups.classes.size());
+  for (std::size_t c = 0; c < classes_.size(); ++c) {
+    if (boxes.moved(c).empty()) {  // whatever it does makes no difference: one list, for all cells
+      classes_[c].lists.assign(1, {.dimensions = 0, .ranges = {}});
+      classes_[c].masks.assign(invariant.begin(), invariant.end());
+      continue;
+    }
+    longest_.clear();
+    for (const std::size_t t : boxes.moved(c))
+      longest_.push_back(grid[t].periodic() ? grid[t].count : INT32_MAX);
+    find_worst(boxes, *groups.classes[c], c, masks[c]);
+    find_parts(masks[c], invariant);
+    find_lists(boxes, c, classes_[c]);
+  }
+  join_classes(invariant);
+  pack_lists(packed);
+  pack_parts(packed);
+}
+
+void IndependentPosts::pack_lists(std::vector<Word>& packed) const {
+  for (const ClassParts& own : classes_) {
+    packed.push_back(own.lists.size());
+    for (const BoxList& list : own.lists) {
+      packed.push_back(list.dimensions == 0 ? 1 : list.size());
+      for (const IndexRange& range : list.ranges) packed.push_back(pack_range(range));
+    }
+  }
+}
+
+void IndependentPosts::pack_parts(std::vector<Word>& packed) const {
+  packed.push_back(joint_.size());
+  std::size_t offset = 0;
+  std::vector<std::size_t> first_list;
+  for (const ClassParts& own : classes_) {
+    first_list.push_back(offset);
+    offset += own.lists.size();
+  }
+  for (const JointPart& part : joint_) {
+    packed.push_back(static_cast<Word>(part.begin) | static_cast<Word>(part.end) << 32U);
+    for (std::size_t c = 0; c < part.lists.size(); ++c) packed.push_back(first_list[c] + part.lists[c]);
+  }
+  const std::size_t pages = is_whole_ ? 0 : (joint_.size() + kLabelsOfPage - 1) / kLabelsOfPage;
+  packed.push_back(pages);
+  const std::size_t words = lanes() / sizeof(Word) + kLevelBlock / sizeof(Word);
+  for (std::size_t page = 0; page < pages; ++page) {
+    const std::size_t at = packed.size();
+    packed.resize(at + words, 0);
+    auto* const labels = reinterpret_cast<std::uint8_t*>(packed.data() + at);
+    const auto before = static_cast<std::int32_t>(page * kLabelsOfPage);
+    for (std::size_t lane = 0; lane < labels_.size(); ++lane) {
+      const std::int32_t label = labels_[lane] - before;
+      if (label > 0 && label <= static_cast<std::int32_t>(kLabelsOfPage))
+        labels[lane] = static_cast<std::uint8_t>(label);
+    }
+  }
+}
+
+void IndependentPosts::unpack(std::span<const Word> packed, const RowBoxes& boxes, std::size_t classes,
+                              std::size_t words, Row& row) {
+  std::size_t at = 0;
+  row.lists.clear();
+  row.parts.clear();
+  row.pages.clear();
+  for (std::size_t c = 0; c < classes; ++c) {
+    for (Word left = packed[at++]; left > 0; --left) {
+      const std::size_t count = packed[at++];
+      const std::size_t size = count * boxes.moved(c).size();
+      row.lists.push_back({packed.subspan(at, size), count});
+      at += size;
+    }
+  }
+  for (Word left = packed[at++]; left > 0; --left) {
+    const Word range = packed[at++];
+    row.parts.push_back({static_cast<std::int64_t>(range & 0xFFFFFFFFU),
+                         static_cast<std::int64_t>(range >> 32U), packed.subspan(at, classes)});
+    at += classes;
+  }
+  const std::size_t page_words = words * kLevelBlock / sizeof(Word) + kLevelBlock / sizeof(Word);
+  for (Word left = packed[at++]; left > 0; --left) {
+    row.pages.push_back(reinterpret_cast<const std::uint8_t*>(packed.data() + at));
+    at += page_words;
+  }
+}
+
+}  // namespace coordreq

@@ -1,0 +1,208 @@
+#include "answers/layers/pair_projection.hpp"
+
+#include <algorithm>
+
+#include "engine/row_box.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr auto kBits = static_cast<std::size_t>(CellSet::kWordBits);
+
+}  // namespace
+
+PairProjection::PairProjection(const Controller& controller, const RowBoxes& boxes, std::size_t classes)
+    : controller_(controller),
+      boxes_(boxes),
+      engine_(*controller.engine),
+      kernels_(&bit_kernels(best_instruction_set())) {
+  if (classes != 2 || !boxes.is_product() || boxes.moved(0).empty() || boxes.moved(1).empty()) return;
+  leader_ = boxes.moved(0).front() == 0 ? 0 : 1;
+  follower_ = 1 - leader_;
+  leading_ = boxes.moved(leader_).size();
+  // Dimensions ascend: the leader has the first ones if its last one comes before all of the follower's.
+  applies_ = boxes.moved(leader_).back() < boxes.moved(follower_).front() && leading_ <= engine_.across() &&
+             engine_.is_closed(leading_);
+  if (!applies_) return;
+  unit_rows_ = engine_.row_stride(leading_ - 1);
+  words_ = engine_.row_words();
+  shape_ = engine_.posts().shape;
+  margins_ = shape_.margins();
+  find_beyond();
+  // Room for the whole last word, wherever a window begins, and the one after it.
+  const RowMargins fastest = shape_.dimensions.back().margins;
+  taken_words_ = static_cast<std::size_t>(fastest.before + fastest.after) / kBits + words_ + 2;
+  plane_words_ = static_cast<std::size_t>(margins_.before + margins_.after) / kBits + taken_words_ + 2;
+  found_.resize(words_);
+}
+
+void PairProjection::find_masks(const RowPlace& place, const RowGroups& groups,
+                                std::vector<std::vector<Word>>& masks) {
+  const ConstRow invariant = controller_.invariant->row(place.row);
+  enter_unit(place, *groups.classes[leader_]);
+  row_boxes_.clear();
+  row_lists_.clear();
+  list(groups, leader_, invariant, leaders_);
+  list(groups, follower_, invariant, followers_);
+  for (Candidate& candidate : followers_) place_follower(candidate);
+  for (std::size_t c = 0; c < 2; ++c) masks[c].assign(groups.classes[c]->size() * words_, 0);
+  for (Candidate& leader : leaders_) {
+    is_taken_.assign(row_boxes_.size(), 0);
+    for (Candidate& follower : followers_) {
+      // Each tries the smallest boxes of the other.
+      const bool for_leader = follower.is_minimal && !leader.is_full;
+      const bool for_follower = leader.is_minimal && !follower.is_full;
+      if (!for_leader && !for_follower) continue;
+      erode(plane(leader.group), follower, invariant);
+      if (for_leader) add(leader, masks[leader_]);
+      if (for_follower) add(follower, masks[follower_]);
+    }
+  }
+}
+
+void PairProjection::enter_unit(const RowPlace& place, const ActionGroups& own) {
+  const std::int64_t unit = place.row / unit_rows_;
+  if (unit == unit_) return;
+  unit_ = unit;
+  planes_.resize(own.size());
+  for (Plane& plane : planes_) plane.is_known = false;
+}
+
+/// REQUIRES: the group's post is a box.
+const PairProjection::Plane& PairProjection::plane(std::uint32_t group) {
+  Plane& plane = planes_[group];
+  if (plane.is_known) return plane;
+  plane.is_known = true;
+  plane.rows.assign(static_cast<std::size_t>(unit_rows_) * plane_words_, 0);
+  std::vector<Word> row(words_);
+  for (std::int64_t inner = 0; inner < unit_rows_; ++inner) {
+    row.assign(words_, ~Word{0});
+    for_each_row(engine_, 0, boxes_.ranges(leader_, group), counter_, [&](std::int64_t first) {
+      const ConstRow invariant = controller_.invariant->row(first + inner);
+      for (std::size_t w = 0; w < words_; ++w) row[w] &= invariant[w];
+    });
+    continue_row(row, plane.rows.data() + static_cast<std::size_t>(inner) * plane_words_);
+  }
+  return plane;
+}
+
+/// Which lanes beyond the ends repeat which cells is the same for all rows: it is read off a row whose levels
+/// are the numbers of its lanes.
+void PairProjection::find_beyond() {
+  LevelRows<std::uint32_t> numbers(1, shape_);
+  std::uint32_t* const row = numbers.row(0);
+  for (std::int64_t lane = 0; lane < shape_.length(); ++lane)
+    row[lane] = static_cast<std::uint32_t>(lane) + 1;
+  numbers.clear_gaps(row);
+  std::vector<std::uint32_t> own(row - margins_.before, row + shape_.length() + margins_.after);
+  numbers.close(0);
+  for (std::size_t lane = 0; lane < own.size(); ++lane) {
+    const std::uint32_t number = row[static_cast<std::int64_t>(lane) - margins_.before];
+    if (own[lane] != 0 || number == 0) continue;
+    beyond_.push_back(
+        {lane, number == LevelRows<std::uint32_t>::kTop ? -1 : static_cast<std::int64_t>(number) - 1});
+  }
+}
+
+/// The row at margins().before, and beyond its ends what a post meets there.
+void PairProjection::continue_row(const std::vector<Word>& row, Word* out) const {
+  const auto before = static_cast<std::size_t>(margins_.before);
+  for (std::size_t w = 0; w < words_; ++w) {
+    const std::size_t word = w + before / kBits;
+    const std::size_t shift = before % kBits;
+    out[word] |= row[w] << shift;
+    if (shift != 0) out[word + 1] |= row[w] >> (kBits - shift);
+  }
+  for (const Beyond& beyond : beyond_) {
+    const auto source = static_cast<std::size_t>(beyond.source);
+    const bool member = beyond.source < 0 || (row[source / kBits] >> (source % kBits) & 1) != 0;
+    out[beyond.lane / kBits] |= Word{member ? 1U : 0U} << (beyond.lane % kBits);
+  }
+}
+
+/// The groups of a class that may be found at all, and where.
+void PairProjection::list(const RowGroups& groups, std::size_t c, ConstRow invariant,
+                          std::vector<Candidate>& candidates) const {
+  const ActionGroups& own = *groups.classes[c];
+  candidates.resize(own.size());
+  std::size_t count = 0;
+  for (std::uint32_t g = 0; g < own.size(); ++g) {
+    if (boxes_.kind(c, g) == RowBoxes::Kind::blocked) continue;
+    Candidate& candidate = candidates[count++];
+    candidate.group = g;
+    candidate.is_minimal = std::binary_search(own.minimal.begin(), own.minimal.end(), g);
+    candidate.is_full = false;
+    candidate.reach.assign(invariant.begin(), invariant.end());
+  }
+  candidates.resize(count);
+}
+
+/// What it reads within the unit, and the cells from which it does not leave an unsafe end of the row.
+void PairProjection::place_follower(Candidate& candidate) {
+  const auto ranges = boxes_.ranges(follower_, candidate.group);
+  const auto all_but_one = ranges.first(ranges.size() - 1);
+  candidate.window = ranges.back();
+  const auto known = std::find_if(row_boxes_.begin(), row_boxes_.end(), [&](const auto& box) {
+    return std::equal(all_but_one.begin(), all_but_one.end(), box.begin(), box.end());
+  });
+  candidate.rows = static_cast<std::size_t>(known - row_boxes_.begin());
+  if (known == row_boxes_.end()) {
+    row_boxes_.emplace_back(all_but_one.begin(), all_but_one.end());
+    list_places(all_but_one, row_lists_.emplace_back());
+    taken_.resize(row_boxes_.size() * taken_words_);
+  }
+  const auto windows = ranges.last(engine_.along());
+  found_.assign(words_, 0);
+  for (std::size_t k = 0; k < windows.size(); ++k) mark_leaving(shape_, k, windows[k], found_);
+  for (std::size_t w = 0; w < words_; ++w) candidate.reach[w] &= ~found_[w];
+}
+
+/// The rows of a box, and in each the lanes that the windows of all dimensions but the fastest lead to.
+void PairProjection::list_places(std::span<const IndexRange> box, std::vector<Place>& places) {
+  const std::size_t windows = engine_.along() - 1;
+  lanes_.assign(1, 0);
+  for (std::size_t k = 0; k < windows; ++k) {
+    const IndexRange window = box[box.size() - windows + k];
+    const std::size_t size = lanes_.size();
+    for (std::int64_t offset = window.first; offset <= window.last; ++offset) {
+      for (std::size_t i = 0; i < size; ++i)
+        lanes_.push_back(lanes_[i] + offset * shape_.dimensions[k].stride);
+    }
+    lanes_.erase(lanes_.begin(), lanes_.begin() + static_cast<std::ptrdiff_t>(size));
+  }
+  // Lanes are counted such that the first of them is 0; erode() adds what the fastest window begins with.
+  const std::int64_t zero = margins_.before - shape_.dimensions.back().margins.before;
+  for_each_row(engine_, leading_, box.first(box.size() - windows), counter_, [&](std::int64_t row) {
+    for (const std::int64_t lane : lanes_) places.push_back({row, static_cast<std::size_t>(zero + lane)});
+  });
+}
+
+/// found_ = the cells of `invariant` from which the follower's box lies in the plane.
+void PairProjection::erode(const Plane& plane, const Candidate& follower, ConstRow invariant) {
+  Word* const rows = taken_.data() + follower.rows * taken_words_;
+  if (is_taken_[follower.rows] == 0) {
+    is_taken_[follower.rows] = 1;
+    take(plane, row_lists_[follower.rows], rows);
+  }
+  const std::int64_t before = shape_.dimensions.back().margins.before;
+  const auto first = static_cast<std::size_t>(before + follower.window.first);
+  const auto last = static_cast<std::size_t>(before + follower.window.last);
+  std::copy(invariant.begin(), invariant.end(), found_.begin());
+  kernels_->and_shifted(rows, first, last - first + 1, found_.data(), words_);
+}
+
+/// The AND of what stands at some places of a plane, as far as the windows along the fastest dimension reach.
+void PairProjection::take(const Plane& plane, const std::vector<Place>& list, Word* rows) const {
+  std::fill_n(rows, taken_words_, ~Word{0});
+  for (const Place& place : list) {
+    const Word* const bits = plane.rows.data() + static_cast<std::size_t>(place.row) * plane_words_;
+    kernels_->and_shifted(bits, place.lane, 1, rows, taken_words_);
+  }
+}
+
+void PairProjection::add(Candidate& candidate, std::vector<Word>& masks) const {
+  candidate.is_full =
+      kernels_->join(found_.data(), candidate.reach.data(), masks.data() + candidate.group * words_, words_);
+}
+
+}  // namespace coordreq

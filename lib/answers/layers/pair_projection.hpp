@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "answers/invariance/controller.hpp"
+#include "engine/bit_kernels.hpp"
+#include "engine/row_boxes.hpp"
+
+namespace coordreq {
+
+/// The projections of C onto two classes of which one, the *leader*, moves the leading dimensions and the
+/// other, the *follower*, all others: two vehicles, each with states of its own.
+///
+/// In the projection of one class is an action with which some action of the other goes; the smallest boxes
+/// are enough to try. Membership in K is all that is asked, so this is done on bits, 64 cells a word: what K
+/// leaves to the follower under an action of the leader is one *plane* of bits, the same for all rows of a
+/// unit, and the follower's boxes are eroded from its rows.
+///
+/// One object a thread.
+class PairProjection {
+ public:
+  /// REQUIRES: the arguments outlive this object.
+  PairProjection(const Controller& controller, const RowBoxes& boxes, std::size_t classes);
+
+  /// False if the classes are not like that. Then find_masks() must not be called.
+  [[nodiscard]] bool applies() const { return applies_; }
+
+  /// Sets masks[class][group * words, ...] to {x in the row : group is in the projection of C(x)}.
+  /// REQUIRES: `boxes` has been filled for this row and has none that are gone, everything is allowed, and C
+  /// is maximal.
+  void find_masks(const RowPlace& place, const RowGroups& groups, std::vector<std::vector<Word>>& masks);
+
+ private:
+  /// {y : the leader's box x {y} in K} for the rows of a unit, continued beyond the ends as levels are.
+  struct Plane {
+    bool is_known = false;
+    std::vector<Word> rows;  ///< [row of the unit * plane_words_]
+  };
+  /// One group of a class in the row at hand.
+  struct Candidate {
+    std::uint32_t group = 0;
+    bool is_minimal = false;
+    bool is_full = false;     ///< nothing more can be found
+    std::size_t rows = 0;     ///< follower: which of row_boxes_ it reads
+    IndexRange window;        ///< follower: along the fastest dimension
+    std::vector<Word> reach;  ///< the cells that may be found
+  };
+
+  /// A lane beyond the ends of a row (counted from its margin on), and what stands there.
+  struct Beyond {
+    std::size_t lane;
+    std::int64_t source;  ///< lane of the row; negative: a member of every set
+  };
+
+  /// A row of the unit, and a lane of it (counted from its margin on) at which to begin.
+  struct Place {
+    std::int64_t row;
+    std::size_t lane;
+  };
+
+  void find_beyond();
+  void enter_unit(const RowPlace& place, const ActionGroups& own);
+  [[nodiscard]] const Plane& plane(std::uint32_t group);
+  void continue_row(const std::vector<Word>& row, Word* out) const;
+  void list(const RowGroups& groups, std::size_t c, ConstRow invariant,
+            std::vector<Candidate>& candidates) const;
+  void place_follower(Candidate& candidate);
+  void list_places(std::span<const IndexRange> box, std::vector<Place>& places);
+  void erode(const Plane& plane, const Candidate& follower, ConstRow invariant);
+  void take(const Plane& plane, const std::vector<Place>& list, Word* rows) const;
+  void add(Candidate& candidate, std::vector<Word>& masks) const;
+
+  const Controller& controller_;
+  const RowBoxes& boxes_;
+  const RowEngine& engine_;
+  const BitKernels* kernels_;
+  bool applies_ = false;
+  std::size_t leader_ = 0;
+  std::size_t follower_ = 1;
+  std::size_t leading_ = 0;  ///< number of leading dimensions
+  std::int64_t unit_rows_ = 1;
+  std::size_t words_ = 0;
+  std::size_t plane_words_ = 0;  ///< of a row of a plane
+  std::size_t taken_words_ = 0;  ///< of what is taken from it
+  RowShape shape_;
+  RowMargins margins_;          ///< in lanes
+  std::vector<Beyond> beyond_;  ///< all but those that are never a member
+  std::int64_t unit_ = -1;
+  std::vector<Plane> planes_;  ///< [group of the leader]
+  std::vector<Candidate> leaders_, followers_;
+  std::vector<std::vector<IndexRange>> row_boxes_;  ///< distinct boxes of the followers but for `window`
+  std::vector<std::vector<Place>> row_lists_;       ///< what they read
+  std::vector<Word> taken_;  ///< [box of rows * taken_words_] the AND of its rows in the plane at hand
+  std::vector<std::uint8_t> is_taken_;
+  std::vector<Word> found_;
+  std::vector<std::int64_t> lanes_;
+  std::vector<std::int64_t> counter_;
+};
+
+}  // namespace coordreq

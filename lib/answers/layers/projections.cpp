@@ -1,0 +1,196 @@
+#include "answers/layers/projections.hpp"
+
+#include <algorithm>
+#include <deque>
+
+#include "answers/layers/free_rows.hpp"
+#include "answers/layers/pair_projection.hpp"
+
+namespace coordreq {
+namespace {
+
+std::size_t group_offset(const RowGroups& groups, std::size_t c) {
+  std::size_t offset = 0;
+  for (std::size_t i = 0; i < c; ++i) offset += groups.classes[i]->size();
+  return offset;
+}
+
+}  // namespace
+
+/// Works for one thread.
+template <class Level>
+class Projections::Builder {
+ public:
+  Builder(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
+          const LevelRows<Level>& levels)
+      : controller_(controller),
+        grouping_(grouping),
+        boxes_(grouping),
+        pair_(controller, boxes_, grouping.size()),
+        independent_(controller.engine->row_words()),
+        posts_(*controller.engine, levels),
+        free_(controller, hull, posts_),
+        members_(controller.engine->row_words()),
+        masks_(grouping.size()) {}
+
+  void enter() { posts_.enter(); }
+
+  /// @param is_full set to whether every action is in C(x) for all x of K in the row
+  /// @returns whether `packed` are boxes of posts
+  bool project(const RowPlace& place, std::vector<Word>& packed, bool& is_full) {
+    const ConstRow invariant = controller_.invariant->row(place.row);
+    is_full = free_.is_free(place);
+    if (is_full && !boxes_.is_product()) return false;
+    grouping_.group(place, groups_);
+    const bool is_product = boxes_.is_product() && boxes_.fill(place, groups_);
+    if (is_full && !is_product) return false;
+    is_simple_ = is_product && !boxes_.has_gone() && controller_.engine->allow() == nullptr &&
+                 controller_.synthesis == Synthesis::maximal;
+    box_.resize(*controller_.engine);
+    if (!is_full && is_simple_ && pair_.applies()) {
+      pair_.find_masks(place, groups_, masks_);
+    } else {
+      for (std::size_t c = 0; c < masks_.size(); ++c)
+        is_full ? fill_masks(c, invariant) : find_masks(place, c);
+    }
+    if (is_product) {
+      independent_.pack(boxes_, groups_, masks_, invariant, controller_.engine->grid(), scratch_);
+      packed.assign(scratch_.begin(), scratch_.end());
+      return true;
+    }
+    for (const std::vector<Word>& own : masks_) packed.insert(packed.end(), own.begin(), own.end());
+    return false;
+  }
+
+ private:
+  void fill_masks(std::size_t c, ConstRow invariant) {
+    masks_[c].clear();
+    for (std::size_t g = 0; g < groups_.classes[c]->size(); ++g) {
+      masks_[c].insert(masks_[c].end(), invariant.begin(), invariant.end());
+    }
+  }
+
+  /// The larger posts first: what is reasonable with them is so with those inside.
+  void find_masks(const RowPlace& place, std::size_t c) {
+    const ActionGroups& own = *groups_.classes[c];
+    masks_[c].assign(own.size() * members_.size(), 0);
+    known_.assign(own.size(), 0);
+    for (const std::uint32_t g : own.maximal) find_mask(place, c, g);
+    for (const std::uint32_t g : own.all) {
+      if (known_[g] == 0) find_mask(place, c, g);
+    }
+  }
+
+  void find_mask(const RowPlace& place, std::size_t c, std::uint32_t g) {
+    const ActionGroups& own = *groups_.classes[c];
+    const ConstRow invariant = controller_.invariant->row(place.row);
+    const MutableRow mask(masks_[c].data() + g * members_.size(), members_.size());
+    for (const std::uint32_t h : own.maximal) {
+      if (known_[h] == 0 || !own.is_within(g, h)) continue;
+      for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= masks_[c][h * mask.size() + w];
+    }
+    known_[g] = 1;
+    find_reachable(c, g, invariant);
+    if (is_subset(reachable_, mask)) return;
+    // An action of class c is in the projection if some action of the others goes with it; their minimal ones
+    // do.
+    choose_groups(groups_, GroupChoice::minimal, candidates_);
+    candidates_[c] = {&g, 1};
+    if (is_simple_) {
+      add_boxes(0, place, mask);
+      return;
+    }
+    tuple_.begin(grouping_, place, groups_, candidates_);
+    do {
+      controller_row(controller_, place.row, tuple_, posts_, members_);
+      for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= members_[w];
+    } while (!is_subset(reachable_, mask) && tuple_.next());
+  }
+
+  /// The cells of K whose post under group g does not leave an unsafe end of the row, whatever the others do:
+  /// no more than these can be found.
+  void find_reachable(std::size_t c, std::uint32_t g, ConstRow invariant) {
+    reachable_.assign(invariant.begin(), invariant.end());
+    if (!is_simple_) return;
+    const RowEngine& engine = *controller_.engine;
+    left_.assign(reachable_.size(), 0);
+    const RowFamily posts = engine.posts();
+    for (std::size_t i = 0; i < boxes_.moved(c).size(); ++i) {
+      const std::size_t t = boxes_.moved(c)[i];
+      if (t >= engine.across()) mark_leaving(posts.shape, t - engine.across(), boxes_.ranges(c, g)[i], left_);
+    }
+    for (std::size_t w = 0; w < left_.size(); ++w) reachable_[w] &= ~left_[w];
+  }
+
+  /// Adds the cells whose post is in K, for all candidates of class c and those after it, to `mask`.
+  /// @returns false if there is no more to find
+  bool add_boxes(std::size_t c, const RowPlace& place, MutableRow mask) {
+    const ConstRow invariant = controller_.invariant->row(place.row);
+    if (c == candidates_.size()) {
+      const auto n = static_cast<std::size_t>(controller_.engine->row_length());
+      posts_.kernels().top_bits(posts_.minimum(box_), members_.data(), n);
+      for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= members_[w] & invariant[w];
+      return !is_subset(reachable_, mask);
+    }
+    for (const std::uint32_t g : candidates_[c]) {
+      if (boxes_.kind(c, g) == RowBoxes::Kind::blocked) continue;
+      boxes_.put(c, boxes_.ranges(c, g), box_);
+      if (!add_boxes(c + 1, place, mask)) return false;
+    }
+    return true;
+  }
+
+  const Controller& controller_;
+  const ActionGrouping& grouping_;
+  RowBoxes boxes_;
+  PairProjection pair_;
+  bool is_simple_ = false;  ///< all joint posts of the row are boxes, and everything is allowed
+  IndependentPosts independent_;
+  PostReader<Level> posts_;
+  FreeRows<Level> free_;
+  RowGroups groups_;
+  TupleWalk::Candidates candidates_;
+  TupleWalk tuple_;
+  RowHull::Box box_;
+  std::vector<Word> members_;
+  std::vector<std::vector<Word>> masks_;
+  std::vector<std::uint8_t> known_;
+  std::vector<Word> scratch_;
+  std::vector<Word> reachable_;
+  std::vector<Word> left_;
+};
+
+Projections::Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
+                         ThreadTeam& team)
+    : grouping_(&grouping),
+      words_(controller.engine->row_words()),
+      rows_(static_cast<std::size_t>(controller.engine->rows())),
+      is_product_(rows_.size(), 0),
+      is_full_(rows_.size(), 0) {
+  const RowEngine& engine = *controller.engine;
+  const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
+  controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
+    std::deque<Builder<Level>> builders;
+    for (int w = 0; w < team.size(); ++w) builders.emplace_back(controller, grouping, hull, levels);
+    team.for_each((engine.rows() + grain - 1) / grain, 1, [&](ThreadTeam::Range range, int worker) {
+      Builder<Level>& builder = builders[static_cast<std::size_t>(worker)];
+      const std::int64_t end = std::min(range.end * grain, engine.rows());
+      for (RowPlace place(engine.grid(), range.begin * grain); place.row < end;
+           place.advance(engine.grid())) {
+        // Minima are shared within a unit.
+        if (place.row == range.begin * grain || place.row % engine.unit_rows() == 0) builder.enter();
+        if (!any_set(controller.invariant->row(place.row))) continue;
+        const auto row = static_cast<std::size_t>(place.row);
+        bool is_full = false;
+        is_product_[row] = builder.project(place, rows_[row], is_full) ? 1 : 0;
+        is_full_[row] = is_full ? 1 : 0;
+      }
+    });
+  });
+}
+
+ConstRow Projections::mask(std::int64_t row, const RowGroups& groups, std::size_t c, std::uint32_t g) const {
+  return {rows_[static_cast<std::size_t>(row)].data() + (group_offset(groups, c) + g) * words_, words_};
+}
+
+}  // namespace coordreq

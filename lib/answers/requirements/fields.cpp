@@ -1,0 +1,241 @@
+#include "answers/requirements/fields.hpp"
+
+#include "answers/field_parts.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr FieldSection kSection = FieldSection::requirements;
+std::string at(const std::string& name) {
+  return "/counterexample/" + name;
+}
+
+/// Of the path of a requirement.
+std::string at(std::size_t requirement, const std::string& name) {
+  return at(std::to_string(requirement) + "/" + name);
+}
+
+template <class Variable>
+std::vector<std::string> names_of(const std::vector<Variable>& variables) {
+  std::vector<std::string> names;
+  for (const Variable& variable : variables) names.push_back(variable.name);
+  return names;
+}
+
+/// "x [m], v [m/s]": units stand in the long name, for CF has one unit a dataset.
+template <class Variable>
+std::string component_text(const std::vector<Variable>& variables) {
+  std::string text;
+  for (const Variable& variable : variables) {
+    text += (text.empty() ? "" : ", ") + variable.name;
+    if (!variable.unit.empty()) text += " [" + variable.unit + "]";
+  }
+  return text;
+}
+
+Field list(const std::string& path, const std::string& axis, ElementType type, const std::string& long_name,
+           std::int64_t least, std::int64_t most, std::vector<FieldFlag> meanings = {}) {
+  Field field{.path = path,
+              .section = kSection,
+              .types = {type},
+              .axes = {axis},
+              .least = least,
+              .most = most,
+              .attributes = described(long_name)};
+  if (!meanings.empty()) field.attributes.push_back(flags(std::move(meanings)));
+  return field;
+}
+
+Field table(const std::string& path, std::vector<std::string> axes, const std::string& long_name) {
+  return {.path = path,
+          .section = kSection,
+          .types = {ElementType::float64},
+          .axes = std::move(axes),
+          .attributes = {{"long_name", long_name}}};
+}
+
+std::vector<FieldFlag> delay_flags() {
+  return {{-2, "not_safe"}, {-1, "not_invariant"}, {kLargestValue, "unbounded"}};
+}
+
+/// The sides of the domain, numbered: 0 for none, then below and above of each state.
+std::vector<FieldFlag> side_flags(const ProblemSpec& spec) {
+  std::vector<FieldFlag> result = {{0, "none"}};
+  for (const StateSpec& state : spec.states) {
+    for (const char* side : {"below_", "above_"})
+      result.push_back({static_cast<std::int64_t>(result.size()), side + state.name});
+  }
+  return result;
+}
+
+std::int32_t side_number(const std::optional<ResultSide>& side) {
+  return side ? static_cast<std::int32_t>(2 * side->state) + (side->above ? 2 : 1) : 0;
+}
+
+std::optional<ResultSide> side_of_number(std::int64_t number) {
+  if (number == 0) return std::nullopt;
+  return ResultSide{static_cast<std::size_t>((number - 1) / 2), number % 2 == 0};
+}
+
+void add_verdicts(Fields& fields, const ProblemSpec& spec) {
+  const std::string axis = at("requirement");
+  const auto sides = static_cast<std::int64_t>(2 * spec.states.size());
+  const auto add = [&](const std::string& name, ElementType type, const std::string& long_name,
+                       std::int64_t least, std::int64_t most, std::vector<FieldFlag> meanings = {}) {
+    fields.push_back(list(at(name), axis, type, long_name, least, most, std::move(meanings)));
+  };
+  add("holds", ElementType::uint8, "verdict", 0, 1, {{0, "fails"}, {1, "holds"}});
+  add("cells", ElementType::uint64, "cells that may meet the region", 0, kLargestValue);
+  add("failing", ElementType::uint64, "cells of the region that fail", 0, kLargestValue);
+  add("least_delay", ElementType::int32, "least delay of the cells of the region", -2, kLargestValue,
+      delay_flags());
+  add("reached_side", ElementType::int32, "side of the domain beyond which the region may reach", 0, sides,
+      side_flags(spec));
+  add("end", ElementType::uint8, "how the counterexample ends", 0, 4,
+      {{0, "none"},
+       {1, "outside_safe_set"},
+       {2, "left_domain"},
+       {3, "unsafe_between_samples"},
+       {4, "no_allowed_action"}});
+  add("left_side", ElementType::int32, "unsafe side of the domain through which the last action leads", 0,
+      sides, side_flags(spec));
+}
+
+void add_path(Fields& fields, const ProblemSpec& spec, std::size_t requirement) {
+  const auto path = [requirement](const char* name) { return at(requirement, name); };
+  const std::uint64_t cells = cell_count(spec);
+  const std::string sample = path("sample");
+  const std::string step = path("step");
+  // Along the layers every cell once, and once more along the collision times.
+  Field samples = number_scale(sample, kSection, 1, 2 * cells + 2, "number of the sample");
+  Field steps = number_scale(step, kSection, 1, 2 * cells + 2, "number of the step");
+  samples.scale->is_optional = steps.scale->is_optional = true;
+  fields.push_back(std::move(samples));
+  fields.push_back(list(path("cell"), sample, ElementType::uint64, "row-major linear index of the cell", 0,
+                        static_cast<std::int64_t>(cells) - 1));
+  fields.push_back(
+      table(path("state"), {sample, at("state_name")}, "centre of the cell: " + component_text(spec.states)));
+  fields.push_back(
+      list(path("delay"), sample, ElementType::int32, "delay of the cell", -2, kLargestValue, delay_flags()));
+  fields.push_back(list(path("collision_time"), sample, ElementType::int32, "collision time of the cell", 0,
+                        kLargestValue, {{0, "not_safe"}, {kLargestValue, "never"}}));
+  fields.push_back(std::move(steps));
+  fields.push_back(
+      table(path("input"), {step, at("input_name")}, "joint input: " + component_text(spec.inputs)));
+  fields.push_back(list(path("phase"), step, ElementType::uint8, "what the joint input is taken from", 0, 1,
+                        {{0, "independent"}, {1, "evasive"}}));
+}
+
+/// One value of each requirement.
+template <class Value, class Get>
+void add_of_each(FieldValues& values, const std::vector<ResultRequirement>& requirements,
+                 const std::string& name, ElementType type, const Get& get) {
+  std::vector<Value> list;
+  for (const ResultRequirement& requirement : requirements)
+    list.push_back(static_cast<Value>(get(requirement)));
+  values.entries[at(name)].array = owned_array(type, std::move(list));
+}
+
+void add_path_values(const ResultPath& path, std::size_t requirement, FieldValues& values) {
+  const auto set = [&](const char* name, ElementType type, auto list) {
+    values.entries[at(requirement, name)].array = owned_array(type, std::move(list));
+  };
+  values.lengths[at(requirement, "sample")] = path.samples();
+  set("cell", ElementType::uint64, path.cell);
+  set("state", ElementType::float64, path.state);
+  set("delay", ElementType::int32, path.delay);
+  set("collision_time", ElementType::int32, path.collision_time);
+  if (path.steps() == 0) return;
+  values.lengths[at(requirement, "step")] = path.steps();
+  set("input", ElementType::float64, path.input);
+  std::vector<std::uint8_t> phases;
+  for (const EscapePhase phase : path.phase) phases.push_back(static_cast<std::uint8_t>(phase));
+  set("phase", ElementType::uint8, std::move(phases));
+}
+
+std::vector<std::int32_t> narrow(const std::vector<std::int64_t>& values) {
+  return {values.begin(), values.end()};
+}
+
+ResultPath read_path(const FieldSource& source, std::size_t requirement) {
+  const auto path = [requirement](const char* name) { return at(requirement, name); };
+  const std::vector<std::int64_t> cells = source.integers(path("cell"));
+  ResultPath result{.cell = {cells.begin(), cells.end()},
+                    .state = source.numbers(path("state")),
+                    .delay = narrow(source.integers(path("delay"))),
+                    .collision_time = narrow(source.integers(path("collision_time")))};
+  if (source.has(path("step"))) {
+    result.input = source.numbers(path("input"));
+    for (const std::int64_t phase : source.integers(path("phase")))
+      result.phase.push_back(static_cast<EscapePhase>(phase));
+  }
+  const std::size_t samples = result.samples(), steps = result.steps();
+  if (steps != samples && steps + 1 != samples) {
+    source.fail("found " + std::to_string(steps) + " steps between " + std::to_string(samples) + " samples",
+                at(std::to_string(requirement)));
+  }
+  return result;
+}
+
+}  // namespace
+
+Fields requirement_fields(const ProblemSpec& spec) {
+  if (spec.requirements.empty()) return {};
+  Fields fields = {
+      name_scale(at("requirement"), kSection, names_of(spec.requirements), "name of the requirement")};
+  add_verdicts(fields, spec);
+  fields.push_back(name_scale(at("state_name"), kSection, names_of(spec.states), "name of the state"));
+  fields.push_back(name_scale(at("input_name"), kSection, names_of(spec.inputs), "name of the input"));
+  for (std::size_t r = 0; r < spec.requirements.size(); ++r) add_path(fields, spec, r);
+  return fields;
+}
+
+void add_requirement_values(const std::vector<ResultRequirement>& requirements, FieldValues& values) {
+  if (requirements.empty()) return;
+  using R = const ResultRequirement&;
+  add_of_each<std::uint8_t>(values, requirements, "holds", ElementType::uint8,
+                            [](R r) { return r.holds ? 1 : 0; });
+  add_of_each<std::uint64_t>(values, requirements, "cells", ElementType::uint64, [](R r) { return r.cells; });
+  add_of_each<std::uint64_t>(values, requirements, "failing", ElementType::uint64,
+                             [](R r) { return r.failing; });
+  add_of_each<std::int32_t>(values, requirements, "least_delay", ElementType::int32,
+                            [](R r) { return r.least_delay; });
+  add_of_each<std::int32_t>(values, requirements, "reached_side", ElementType::int32,
+                            [](R r) { return side_number(r.reached_side); });
+  add_of_each<std::uint8_t>(values, requirements, "end", ElementType::uint8,
+                            [](R r) { return r.path ? static_cast<int>(r.path->end) + 1 : 0; });
+  add_of_each<std::int32_t>(values, requirements, "left_side", ElementType::int32,
+                            [](R r) { return side_number(r.path ? r.path->left_side : std::nullopt); });
+  for (std::size_t r = 0; r < requirements.size(); ++r) {
+    if (requirements[r].path) add_path_values(*requirements[r].path, r, values);
+  }
+}
+
+std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec, const FieldSource& source) {
+  if (spec.requirements.empty()) return {};
+  const auto of_each = [&source](const char* name) { return source.integers(at(name)); };
+  const auto holds = of_each("holds"), cells = of_each("cells"), failing = of_each("failing");
+  const auto delays = of_each("least_delay"), reached = of_each("reached_side");
+  const auto ends = of_each("end"), left = of_each("left_side");
+  std::vector<ResultRequirement> result;
+  for (std::size_t r = 0; r < spec.requirements.size(); ++r) {
+    ResultRequirement& requirement =
+        result.emplace_back(ResultRequirement{.name = spec.requirements[r].name,
+                                              .holds = holds[r] != 0,
+                                              .cells = static_cast<std::uint64_t>(cells[r]),
+                                              .failing = static_cast<std::uint64_t>(failing[r]),
+                                              .least_delay = static_cast<std::int32_t>(delays[r]),
+                                              .reached_side = side_of_number(reached[r])});
+    const bool has_path = source.has(at(r, "sample"));
+    if (ends[r] == 0 && left[r] != 0) source.fail("a side without a counterexample", at("left_side"));
+    if (has_path != (ends[r] != 0))
+      source.fail("an end without a counterexample, or the other way round", at("end"));
+    if (!has_path) continue;
+    requirement.path = read_path(source, r);
+    requirement.path->end = static_cast<EscapeEnd>(ends[r] - 1);
+    requirement.path->left_side = side_of_number(left[r]);
+  }
+  return result;
+}
+
+}  // namespace coordreq

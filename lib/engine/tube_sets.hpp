@@ -1,0 +1,22 @@
+#pragma once
+
+#include "engine/cell_set.hpp"
+#include "model/outside.hpp"
+#include "model/uniform_grid.hpp"
+
+namespace coordreq {
+
+/// Where tubes must stay: f(x, u) counts as empty unless the cells of resolved_tube() are in `inside`, or in
+/// `beyond` if the tube passes the limit of a state that saturates.
+struct TubeSets {
+  const CellSet* inside = nullptr;  ///< null: there are no tubes
+  const CellSet* beyond = nullptr;  ///< a part of `inside`; null: the same
+};
+
+/// True if the tube of `state` with this raw range passes a limit where the state saturates.
+[[nodiscard]] inline bool passes_a_limit(IndexRange raw, const GridDimension& state) {
+  return (state.below == Outside::saturate && raw.first < 0) ||
+         (state.above == Outside::saturate && raw.last >= state.count);
+}
+
+}  // namespace coordreq
