@@ -1,8 +1,10 @@
 #include "app/analyze_run.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/analysis_json.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress_display.hpp"
 #include "results/write_results.hpp"
@@ -30,7 +32,7 @@ class InterruptPolicy {
 
 }  // namespace
 
-AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const std::string& output,
+Json analyze_with_progress(const ProblemSpec& spec, const std::string& output,
                                       const AnalyzeOptions& asked, ThreadTeam& team, const std::string& prefix) {
   InterruptPolicy interrupts;
   ProgressDisplay shown(asked.progress, asked.quiet);
@@ -47,9 +49,9 @@ AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const std::string
   options.notice = [&](const std::string& text) {
     if (!asked.quiet) shown.notice(text);
   };
-  AnalysisSummary summary = analyze(spec, options, team);
+  const AnalysisSummary summary = analyze(spec, options, team);
   shown.finish();
-  return summary;
+  return summary_json(summary, spec);
 }
 
 void check_interrupted(const std::string& place) {
@@ -63,9 +65,9 @@ void try_to_write(const std::string& path) {
   check_writable(path);
 }
 
-ExitCode verdict(const AnalysisSummary& summary) {
-  const bool hold = std::all_of(summary.requirements.begin(), summary.requirements.end(),
-                                [](const ResultRequirement& requirement) { return requirement.holds; });
+ExitCode verdict(const Json& summary) {
+  const Json& all = summary["requirements"];
+  const bool hold = std::all_of(all.begin(), all.end(), [](const Json& own) { return own["holds"].get<bool>(); });
   return hold ? ExitCode::success : ExitCode::requirement_failed;
 }
 

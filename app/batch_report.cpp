@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
-#include "app/analyze_report.hpp"
+#include "app/analysis_text.hpp"
 
 namespace coordreq {
 namespace {
@@ -18,39 +19,38 @@ std::string joined(const std::vector<std::string>& figures) {
 }
 
 template <class Figure>
-std::string of_partitions(const AnalysisSummary& summary, const Figure& figure) {
+std::string of_partitions(const Json& summary, const Figure& figure) {
   std::vector<std::string> figures;
-  for (const PartitionSummary& partition : summary.partitions) figures.push_back(figure(partition));
+  for (const Json& partition : summary["partitions"]) figures.push_back(figure(partition));
   return joined(figures);
 }
 
-std::string longest(const PartitionSummary& partition, const AnalysisSummary& summary) {
+std::string longest(const Json& partition, const Json& summary) {
   const std::string text = longest_delay_text(partition, summary);
   return text.empty() ? "-" : text;
 }
 
-std::string requirements_met(const AnalysisSummary& summary) {
-  if (summary.requirements.empty()) return "-";
-  const auto met = std::count_if(summary.requirements.begin(), summary.requirements.end(),
-                                 [](const ResultRequirement& own) { return own.holds; });
-  return fmt::format("{} of {}", met, summary.requirements.size());
+std::string requirements_met(const Json& summary) {
+  const Json& all = summary["requirements"];
+  if (all.empty()) return "-";
+  const auto met = std::count_if(all.begin(), all.end(), [](const Json& own) { return own["holds"].get<bool>(); });
+  return fmt::format("{} of {}", met, all.size());
 }
 
 constexpr const char* kFigures[] = {"cells",  "safe", "invariant", "requirements met",    "seconds",
                                     "memory", "F",    "unbounded", "longest finite delay"};
 
-std::vector<std::string> figures(const AnalysisSummary& summary) {
-  double seconds = 0;
-  for (const auto& stage : summary.seconds) seconds += stage.second;
-  return {grouped(summary.states),
-          grouped(summary.safe),
-          grouped(summary.invariant),
+std::vector<std::string> figures(const Json& summary) {
+  const auto count = [&summary](const char* key) { return grouped(summary[key].get<std::int64_t>()); };
+  return {count("states"),
+          count("safe"),
+          count("invariant"),
           requirements_met(summary),
-          fmt::format("{:.2f}", seconds),
-          byte_size(summary.peak_memory_bytes),
+          fmt::format("{:.2f}", seconds_of(summary)),
+          byte_size(summary["peak_memory_bytes"].get<std::uint64_t>()),
           of_partitions(summary, fixed_point_text),
           of_partitions(summary, unbounded_text),
-          of_partitions(summary, [&](const PartitionSummary& own) { return longest(own, summary); })};
+          of_partitions(summary, [&](const Json& own) { return longest(own, summary); })};
 }
 
 /// Figures as wide as those of an analysis can be, or will hardly ever be.
@@ -111,7 +111,7 @@ Json run_json(const FinishedRun& run) {
   for (const SpecSetting& value : run.plan.values) json["values"][value.path] = value_json(value.value);
   json["exit_code"] = run.exit_code;
   if (run.failure) json["error"] = run.failure->what;
-  if (run.summary) json["summary"] = summary_json(*run.summary, *run.plan.spec);
+  if (run.summary) json["summary"] = *run.summary;
   return json;
 }
 

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "analysis/analyze.hpp"
 #include "app/batch_plan.hpp"
+#include "app/json_text.hpp"
 #include "app/text.hpp"
 
 namespace coordreq {
@@ -13,7 +14,7 @@ namespace coordreq {
 /// What has become of a run.
 struct FinishedRun {
   PlannedRun plan;
-  std::optional<AnalysisSummary> summary;  ///< none if it failed
+  std::shared_ptr<const Json> summary;  ///< none if it failed
   std::optional<Failure> failure;
   int exit_code = 0;
 };

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <sstream>
 
-#include "app/requirement_report.hpp"
+#include "app/analysis_text.hpp"
+#include "app/requirement_text.hpp"
 #include "app/text.hpp"
 #include "base/error.hpp"
 #include "results/whole_file.hpp"
@@ -35,15 +37,14 @@ pugi::xml_node add_case(pugi::xml_node suite, const std::string& class_name, con
   return test;
 }
 
-void add_requirement(pugi::xml_node suite, const std::string& class_name, const ResultRequirement& result,
-                     const RequirementSpec& requirement, const ProblemSpec& spec) {
-  pugi::xml_node test = add_case(suite, class_name, printable(result.name));
-  if (result.holds) return;
+void add_requirement(pugi::xml_node suite, const std::string& class_name, const Json& own,
+                     const ProblemSpec& spec) {
+  pugi::xml_node test = add_case(suite, class_name, printable(own["name"].get<std::string>()));
+  if (own["holds"]) return;
   pugi::xml_node failure = test.append_child("failure");
-  set(failure, "message", failure_line(result, spec));
-  set(failure, "type", requirement.invariant ? "invariant" : "min_delay");
-  const std::string text =
-      requirement_claim(requirement, spec) + "\n" + failure_text(result, requirement, spec);
+  set(failure, "message", failure_line(own, spec));
+  set(failure, "type", own["kind"].get<std::string>());
+  const std::string text = claim_text(own, spec) + "\n" + failure_text(own, spec);
   failure.append_child(pugi::node_pcdata).set_value(xml_text(text).c_str());
 }
 
@@ -64,10 +65,9 @@ struct Totals {
 
 Totals totals_of(const JunitSuite& suite) {
   if (suite.summary == nullptr) return {.tests = 1, .errors = 1};
-  const std::vector<ResultRequirement>& all = suite.summary->requirements;
-  Totals totals{.tests = all.size()};
-  for (const ResultRequirement& requirement : all) totals.failures += requirement.holds ? 0U : 1U;
-  for (const auto& stage : suite.summary->seconds) totals.seconds += stage.second;
+  const Json& all = (*suite.summary)["requirements"];
+  Totals totals{.tests = all.size(), .seconds = seconds_of(*suite.summary)};
+  for (const Json& own : all) totals.failures += own["holds"] ? 0U : 1U;
   return totals;
 }
 
@@ -87,8 +87,8 @@ void add_suite(pugi::xml_node root, const JunitSuite& own) {
     set(add_case(suite, name, "analysis").append_child("error"), "message", printable(own.error));
     return;
   }
-  for (std::size_t r = 0; r < own.summary->requirements.size(); ++r)
-    add_requirement(suite, name, own.summary->requirements[r], own.spec->requirements[r], *own.spec);
+  for (const Json& requirement : (*own.summary)["requirements"])
+    add_requirement(suite, name, requirement, *own.spec);
 }
 
 }  // namespace

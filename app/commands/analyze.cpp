@@ -1,8 +1,9 @@
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "app/analysis_text.hpp"
 #include "app/analyze_batch.hpp"
 #include "app/analyze_options.hpp"
-#include "app/analyze_report.hpp"
 #include "app/analyze_run.hpp"
 #include "app/commands/all.hpp"
 #include "app/files_in_use.hpp"
@@ -26,12 +27,12 @@ void check_files(const ProblemSpec& spec, const std::string& output, const Analy
     files.writes(file, "the checkpoint", "--checkpoint");
 }
 
-AnalysisSummary analyze_and_write(const ProblemSpec& spec, const AnalyzeOptions& own) {
+Json analyze_and_write(const ProblemSpec& spec, const AnalyzeOptions& own) {
   const std::string output = own.output.value_or(spec.name + ".h5");
   ThreadTeam team(own.threads);
   check_files(spec, output, own);
   if (own.junit) try_to_write(*own.junit);
-  AnalysisSummary summary = analyze_with_progress(spec, output, own, team, "");
+  Json summary = analyze_with_progress(spec, output, own, team, "");
   const InterruptDelay delay;
   if (own.junit) write_junit(*own.junit, {{.name = spec.name, .spec = &spec, .summary = &summary}});
   check_interrupted(output);
@@ -41,9 +42,9 @@ AnalysisSummary analyze_and_write(const ProblemSpec& spec, const AnalyzeOptions&
 ExitCode run(const AnalyzeOptions& own) {
   if (own.is_batch()) return run_analyze_batch(own);
   const ProblemSpec spec = load_spec(own.specs.front(), own.settings);
-  const AnalysisSummary summary = analyze_and_write(spec, own);
+  const Json summary = analyze_and_write(spec, own);
   if (own.json) {
-    write_output(json_text(summary_json(summary, spec)));
+    write_output(json_text(summary));
   } else if (!own.quiet) {
     write_output(summary_text(summary, spec));
   }

@@ -2,12 +2,13 @@
 
 #include <memory>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "app/commands/all.hpp"
 #include "app/json_text.hpp"
 #include "app/network_report.hpp"
-#include "app/requirement_report.hpp"
+#include "app/analysis_json.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
 #include "results/read_results.hpp"

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "analysis/analyze.hpp"
 #include "analysis/judge_requirements.hpp"
