@@ -89,7 +89,8 @@ std::string partition_text(const Json& partition, const Json& summary) {
   table.add({"  layers", shortened(partition["layers"].get<std::vector<std::int64_t>>())});
   table.add({"  fixed point", (partition["truncated"] ? "" : "F = ") + fixed_point_text(partition)});
   table.add({"  unbounded", unbounded_cells(partition)});
-  if (number(summary["connection_delay"]) > 0) table.add({"  connection", connection_text(partition, summary)});
+  if (number(summary["connection_delay"]) > 0)
+    table.add({"  connection", connection_text(partition, summary)});
   return fmt::format("\npartition {}\n{}  {}\n", partition["name"].get<std::string>(), table.text(),
                      meaning(partition, summary));
 }
@@ -107,8 +108,8 @@ std::string partitions_table(const Json& summary) {
   Table table(columns);
   table.add(heading);
   for (const Json& partition : summary["partitions"]) {
-    std::vector<std::string> row = {partition["name"].get<std::string>(), fixed_point_text(partition), unbounded_cells(partition),
-                                    longest_delay_text(partition, summary)};
+    std::vector<std::string> row = {partition["name"].get<std::string>(), fixed_point_text(partition),
+                                    unbounded_cells(partition), longest_delay_text(partition, summary)};
     if (delay > 0) row.push_back(cells(number(partition["never_without_connection"])));
     table.add(std::move(row));
   }
@@ -124,8 +125,9 @@ std::string convention_text(const Json& convention) {
   for (const Json& own : convention) {
     const auto histogram = own["histogram"].get<std::vector<std::int64_t>>();
     const std::int64_t half = std::accumulate(histogram.begin(), histogram.begin() + 5, std::int64_t{0});
-    table.add({"  " + own["agent"].get<std::string>(), fmt::format("{:.1f} %", 100 * own["mean"].get<double>()),
-               cells(number(own["full"])), cells(half)});
+    table.add({"  " + own["agent"].get<std::string>(),
+               fmt::format("{:.1f} %", 100 * own["mean"].get<double>()), cells(number(own["full"])),
+               cells(half)});
   }
   return fmt::format(
       "\nconvention\n{}  Agents that keep to it never need to coordinate inside the invariance set.\n",
@@ -170,16 +172,16 @@ std::string partitions_text(const Json& summary, const ProblemSpec& spec) {
 std::string closing_text(const Json& summary) {
   const std::int64_t threads = number(summary["threads"]);
   const std::string output = summary["output"].is_null() ? "" : summary["output"].get<std::string>();
-  return fmt::format("\nresults in {} ({:.2f} s on {} thread{}, {})\n", printable(output), seconds_of(summary),
-                     threads, threads == 1 ? "" : "s",
+  return fmt::format("\nresults in {} ({:.2f} s on {} thread{}, {})\n", printable(output),
+                     seconds_of(summary), threads, threads == 1 ? "" : "s",
                      byte_size(summary["peak_memory_bytes"].get<std::uint64_t>()));
 }
 
 }  // namespace
 
 std::string summary_text(const Json& summary, const ProblemSpec& spec) {
-  return sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec) + coalition_text(summary) +
-         requirements_text(summary["requirements"], spec) + closing_text(summary);
+  return sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec) +
+         coalition_text(summary) + requirements_text(summary["requirements"], spec) + closing_text(summary);
 }
 
 std::string fixed_point_text(const Json& partition) {

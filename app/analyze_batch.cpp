@@ -17,7 +17,8 @@
 namespace coordreq {
 namespace {
 
-void analyze_into(FinishedRun& run, const AnalyzeOptions& asked, ThreadTeam& team, const std::string& prefix) {
+void analyze_into(FinishedRun& run, const AnalyzeOptions& asked, ThreadTeam& team,
+                  const std::string& prefix) {
   reset_peak_memory();
   try {
     run.summary =
@@ -28,7 +29,8 @@ void analyze_into(FinishedRun& run, const AnalyzeOptions& asked, ThreadTeam& tea
   }
 }
 
-FinishedRun finish(PlannedRun plan, const AnalyzeOptions& asked, ThreadTeam& team, const std::string& prefix) {
+FinishedRun finish(PlannedRun plan, const AnalyzeOptions& asked, ThreadTeam& team,
+                   const std::string& prefix) {
   FinishedRun run{.plan = std::move(plan)};
   run.failure = run.plan.failure;
   if (run.plan.spec) analyze_into(run, asked, team, prefix);

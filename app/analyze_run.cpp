@@ -32,8 +32,8 @@ class InterruptPolicy {
 
 }  // namespace
 
-Json analyze_with_progress(const ProblemSpec& spec, const std::string& output,
-                                      const AnalyzeOptions& asked, ThreadTeam& team, const std::string& prefix) {
+Json analyze_with_progress(const ProblemSpec& spec, const std::string& output, const AnalyzeOptions& asked,
+                           ThreadTeam& team, const std::string& prefix) {
   InterruptPolicy interrupts;
   ProgressDisplay shown(asked.progress, asked.quiet);
   AnalysisOptions options;
@@ -67,7 +67,8 @@ void try_to_write(const std::string& path) {
 
 ExitCode verdict(const Json& summary) {
   const Json& all = summary["requirements"];
-  const bool hold = std::all_of(all.begin(), all.end(), [](const Json& own) { return own["holds"].get<bool>(); });
+  const bool hold =
+      std::all_of(all.begin(), all.end(), [](const Json& own) { return own["holds"].get<bool>(); });
   return hold ? ExitCode::success : ExitCode::requirement_failed;
 }
 

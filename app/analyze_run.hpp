@@ -14,8 +14,8 @@ namespace coordreq {
 /// @param prefix of the progress line: "2 of 5, "
 /// @throws as analyze(); Error if the program was interrupted
 [[nodiscard]] Json analyze_with_progress(const ProblemSpec& spec, const std::string& output,
-                                                    const AnalyzeOptions& asked, ThreadTeam& team,
-                                                    const std::string& prefix);
+                                         const AnalyzeOptions& asked, ThreadTeam& team,
+                                         const std::string& prefix);
 
 /// @throws Error if a signal waits. @param place what is complete nevertheless
 void check_interrupted(const std::string& place);

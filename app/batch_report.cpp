@@ -33,7 +33,8 @@ std::string longest(const Json& partition, const Json& summary) {
 std::string requirements_met(const Json& summary) {
   const Json& all = summary["requirements"];
   if (all.empty()) return "-";
-  const auto met = std::count_if(all.begin(), all.end(), [](const Json& own) { return own["holds"].get<bool>(); });
+  const auto met =
+      std::count_if(all.begin(), all.end(), [](const Json& own) { return own["holds"].get<bool>(); });
   return fmt::format("{} of {}", met, all.size());
 }
 

@@ -96,10 +96,10 @@ std::string taken(const Command& command) {
 
 void check_arguments_are_there(const Command& command) {
   for (const Options::Argument& argument : command.options.argument_list()) {
-    const bool is_there = argument.one != nullptr
-                              ? !argument.one->empty()
-                              : !argument.all->empty() && std::find(argument.all->begin(), argument.all->end(),
-                                                                    "") == argument.all->end();
+    const bool is_there = argument.one != nullptr ? !argument.one->empty()
+                                                  : !argument.all->empty() &&
+                                                        std::find(argument.all->begin(), argument.all->end(),
+                                                                  "") == argument.all->end();
     if (is_there) continue;
     const bool is_file = argument.takes.find('|') == std::string::npos;
     throw UsageError(fmt::format("no {}, expected {}: {} {}", argument.name,
@@ -116,12 +116,12 @@ void check_arguments(const CLI::App& root, const Command& command) {
   const std::vector<std::string> extra = command.app.remaining();
   const auto unknown = std::find_if(extra.begin(), extra.end(), looks_like_option);
   if (unknown != extra.end()) {
-    throw UsageError(fmt::format("unknown option {} of {}, expected one of {}", echoed(*unknown), command.name,
-                                 option_names(command.app)));
+    throw UsageError(fmt::format("unknown option {} of {}, expected one of {}", echoed(*unknown),
+                                 command.name, option_names(command.app)));
   }
   if (!extra.empty()) {
-    throw UsageError(fmt::format("unexpected argument {}, {} {}", echoed(extra.front()), command.name,
-                                 taken(command)));
+    throw UsageError(
+        fmt::format("unexpected argument {}, {} {}", echoed(extra.front()), command.name, taken(command)));
   }
   check_arguments_are_there(command);
 }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/json_text.hpp"
 #include "app/analysis_json.hpp"
+#include "app/json_text.hpp"
 #include "app/text.hpp"
 #include "cell/state_query.hpp"
 #include "numeric/rational.hpp"

@@ -60,7 +60,9 @@ void FilesInUse::writes(const std::string& path, const std::string& what, const 
   const std::string identity = identity_of(path);
   if (identity.empty()) return;  // it cannot be made, as whoever writes it will say
   const auto [use, is_new] = uses_.emplace(identity, what);
-  if (!is_new) throw UsageError(fmt::format("expected another file than {}, found {}", use->second, echoed(path)), option);
+  if (!is_new)
+    throw UsageError(fmt::format("expected another file than {}, found {}", use->second, echoed(path)),
+                     option);
 }
 
 void check_output(const std::string& results, const std::string& output, const std::string& what) {

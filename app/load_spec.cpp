@@ -9,9 +9,10 @@
 namespace coordreq {
 
 void declare_settings(Options& options, std::vector<SpecSetting>& settings) {
-  options.repeatable(settings, "--set", "PATH=VALUE",
-                     "Take another value in the spec, as constants.R=0.7 or states.0.step=0.02; may be repeated",
-                     parse_setting);
+  options.repeatable(
+      settings, "--set", "PATH=VALUE",
+      "Take another value in the spec, as constants.R=0.7 or states.0.step=0.02; may be repeated",
+      parse_setting);
 }
 
 SpecSource with_settings(SpecSource source, const std::vector<SpecSetting>& settings) {

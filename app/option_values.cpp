@@ -37,7 +37,8 @@ double seconds(const std::string& text, const std::string& option) {
   double seconds = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
   const bool is_whole = error == std::errc() && end == text.data() + text.size();
-  if (!is_whole || !(seconds >= 0 && seconds <= kMost)) fail_value("a number of seconds from 0", text, option);
+  if (!is_whole || !(seconds >= 0 && seconds <= kMost))
+    fail_value("a number of seconds from 0", text, option);
   return std::abs(seconds);  // of -0
 }
 

@@ -9,11 +9,12 @@
 
 #include "analysis/simulate.hpp"
 
-// What the values of options stand for. Every reader throws UsageError with what was found, what was expected,
-// and the option as the place.
+// What the values of options stand for. Every reader throws UsageError with what was found, what was
+// expected, and the option as the place.
 namespace coordreq {
 
-[[noreturn]] void fail_value(const std::string& expected, const std::string& found, const std::string& option);
+[[noreturn]] void fail_value(const std::string& expected, const std::string& found,
+                             const std::string& option);
 
 /// "a whole number from 1 to 1024".
 [[nodiscard]] std::string range_text(const std::string& lowest, const std::string& highest);
@@ -27,7 +28,8 @@ struct WholeNumber {
   Number operator()(const std::string& text, const std::string& option) const {
     Number value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc() && end == text.data() + text.size() && value >= lowest && value <= highest) return value;
+    if (error == std::errc() && end == text.data() + text.size() && value >= lowest && value <= highest)
+      return value;
     fail_value(range_text(std::to_string(lowest), std::to_string(highest)), text, option);
   }
 };

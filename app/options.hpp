@@ -27,8 +27,8 @@ class Options {
 
   /// An argument without the name of an option.
   struct Argument {
-    std::string name;   ///< "SPEC"
-    std::string takes;  ///< words, or the kind of file; empty: the kind is the name
+    std::string name;                         ///< "SPEC"
+    std::string takes;                        ///< words, or the kind of file; empty: the kind is the name
     std::vector<std::string>* all = nullptr;  ///< where they go: one or more of them,
     std::string* one = nullptr;               ///< or one
   };
@@ -48,9 +48,10 @@ class Options {
   void option(const char* names, const char* takes, const char* description, Take take);
   template <class Target, class Read>
   void option(Target& target, const char* names, const char* takes, const char* description, Read read) {
-    option(names, takes, description, [&target, read = std::move(read)](const auto& text, const auto& option) {
-      target = read(text, option);
-    });
+    option(names, takes, description,
+           [&target, read = std::move(read)](const auto& text, const auto& option) {
+             target = read(text, option);
+           });
   }
   /// May be given several times.
   template <class Element, class Read>

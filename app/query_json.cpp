@@ -1,6 +1,6 @@
-#include "answers/layers/trigger_table.hpp"
 #include <nlohmann/json.hpp>
 
+#include "answers/layers/trigger_table.hpp"
 #include "app/json_text.hpp"
 #include "app/network_report.hpp"
 #include "app/query_report.hpp"

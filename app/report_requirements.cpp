@@ -23,7 +23,8 @@ std::string verdict(const Json& own) {
   if (own["holds"]) return fmt::format("<span class=\"good\">met</span> by all {}", states_text(cells));
   const char* const failed = "<span class=\"bad\">failed</span>";
   if (own["counterexample"]["state"].is_null()) return failed;
-  return fmt::format("{} in {} of {}", failed, grouped(own["failing"].get<std::uint64_t>()), states_text(cells));
+  return fmt::format("{} in {} of {}", failed, grouped(own["failing"].get<std::uint64_t>()),
+                     states_text(cells));
 }
 
 std::string worst(const Json& own, const ProblemSpec& spec) {
@@ -40,8 +41,8 @@ std::string summary_table(const std::vector<Json>& all, const ProblemSpec& spec)
   std::string rows;
   for (std::size_t r = 0; r < all.size(); ++r) {
     rows += html_row({html_line(all[r]["name"].get<std::string>()), verdict(all[r]),
-                      html_line(capital(claim_text(all[r], spec))), html_code(spec.requirements[r].where.text),
-                      html_line(worst(all[r], spec))});
+                      html_line(capital(claim_text(all[r], spec))),
+                      html_code(spec.requirements[r].where.text), html_line(worst(all[r], spec))});
   }
   return html_table("", {"Requirement", "Verdict", "Asked", "Where", "Worst state"}, rows, "roomy");
 }

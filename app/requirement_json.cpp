@@ -88,7 +88,8 @@ const char* delay_word(std::int32_t delay) {
   return delay == -2 ? "not_safe" : delay == -1 ? "not_invariant" : "steps";
 }
 
-Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked, const ProblemSpec& spec) {
+Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
+                      const ProblemSpec& spec) {
   Json json;
   json["name"] = result.name;
   json["holds"] = result.holds;

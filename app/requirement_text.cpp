@@ -18,9 +18,9 @@ std::string cell_failures(const Json& own, const ProblemSpec& spec) {
   const Json& story = own["counterexample"];
   const Json& first = story["steps"].empty() ? story["end_sample"] : story["steps"].front();
   const auto failing = own["failing"].get<std::int64_t>();
-  return fmt::format("{} of {} {}, the worst at {}: it {}", grouped(failing), cells(own["cells"].get<std::int64_t>()),
-                     failing == 1 ? "fails" : "fail", state_text(story["state"]),
-                     worst_text(first["delay"], first["delay_status"], spec));
+  return fmt::format("{} of {} {}, the worst at {}: it {}", grouped(failing),
+                     cells(own["cells"].get<std::int64_t>()), failing == 1 ? "fails" : "fail",
+                     state_text(story["state"]), worst_text(first["delay"], first["delay_status"], spec));
 }
 
 /// "p1 above its grid".
@@ -60,7 +60,8 @@ std::vector<std::string> story_row(const Json& sample, bool has_delay, const Pro
   if (has_delay) row.push_back(delay_cell(sample));
   row.push_back(time_cell(sample["collision_time"]));
   row.push_back(is_step ? text_of(sample["action"]) : "");
-  for (const AgentSpec& agent : spec.agents) row.push_back(is_step ? state_text(sample["inputs"][agent.name]) : "");
+  for (const AgentSpec& agent : spec.agents)
+    row.push_back(is_step ? state_text(sample["inputs"][agent.name]) : "");
   return row;
 }
 
@@ -150,15 +151,16 @@ std::vector<std::string> story_sentences(const Json& own, const ProblemSpec& spe
   const Json& story = own["counterexample"];
   const Json& steps = story["steps"];
   if (steps.empty() && story["end"] == "outside_safe_set") return {"It is not safe to begin with."};
-  const std::int64_t alone =
-      std::count_if(steps.begin(), steps.end(), [](const Json& step) { return step["action"] == "independent"; });
+  const std::int64_t alone = std::count_if(steps.begin(), steps.end(),
+                                           [](const Json& step) { return step["action"] == "independent"; });
   const auto evasive = static_cast<std::int64_t>(steps.size()) - alone;
   std::vector<std::string> sentences;
   if (alone > 0) {
     const std::string text =
         fmt::format("Each {} does what is reasonable to it alone, and after {}",
                     is_all_alone(own, spec) ? "agent" : "class of agents", steps_text(alone, spec));
-    if (evasive == 0 && story["end"] != "no_allowed_action") return {fmt::format("{} {}.", text, end_text(story))};
+    if (evasive == 0 && story["end"] != "no_allowed_action")
+      return {fmt::format("{} {}.", text, end_text(story))};
     sentences.push_back(text + " it is too late.");
   }
   if (evasive == 0) {

@@ -7,8 +7,8 @@
 #include "app/json_text.hpp"
 #include "spec/problem_spec.hpp"
 
-// A requirement in words, from what requirement_json() says of it: `own` in all that follows. `analyze`, JUnit
-// reports and pages tell it alike.
+// A requirement in words, from what requirement_json() says of it: `own` in all that follows. `analyze`,
+// JUnit reports and pages tell it alike.
 namespace coordreq {
 
 /// "3 steps (1.5 s)".

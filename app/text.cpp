@@ -63,7 +63,9 @@ std::string printable(std::string_view text) {
 
 std::string shortened(std::string_view text, std::size_t most, std::size_t at_end) {
   if (text.size() <= most) return std::string(text);
-  const auto is_inside = [text](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80U; };
+  const auto is_inside = [text](std::size_t i) {
+    return (static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80U;
+  };
   std::size_t begin = most - at_end - 3;
   while (begin > 0 && is_inside(begin)) --begin;
   std::size_t end = text.size() - at_end;

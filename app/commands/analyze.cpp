@@ -11,7 +11,7 @@
 #include "app/junit_report.hpp"
 #include "app/load_spec.hpp"
 #include "app/option_values.hpp"
-#include "app/standard_streams.hpp"
+#include "app/print_answer.hpp"
 
 namespace coordreq {
 namespace {
@@ -43,11 +43,7 @@ ExitCode run(const AnalyzeOptions& own) {
   if (own.is_batch()) return run_analyze_batch(own);
   const ProblemSpec spec = load_spec(own.specs.front(), own.settings);
   const Json summary = analyze_and_write(spec, own);
-  if (own.json) {
-    write_output(json_text(summary));
-  } else if (!own.quiet) {
-    write_output(summary_text(summary, spec));
-  }
+  print_answer(own, summary, [&spec](const Json& found) { return summary_text(found, spec); });
   return verdict(summary);
 }
 

@@ -47,9 +47,10 @@ Run declare_compare(Options& options) {
   const auto own = std::make_shared<CompareArguments>();
   options.argument(own->before, "A", "The earlier results file", "RESULTS");
   options.argument(own->after, "B", "The later results file", "RESULTS");
-  options.option(own->compare.tolerance, "--tolerance", "N",
-                 "Steps that a cell may lose, unless it leaves the invariance set or was unbounded (default: 0)",
-                 WholeNumber<std::int64_t>{0, kMostSteps});
+  options.option(
+      own->compare.tolerance, "--tolerance", "N",
+      "Steps that a cell may lose, unless it leaves the invariance set or was unbounded (default: 0)",
+      WholeNumber<std::int64_t>{0, kMostSteps});
   options.option(own->compare.worst, "--limit", "N", "Cells to name for each partition (default: 5)",
                  WholeNumber<std::size_t>{0, kMostCells});
   declare_progress(options, own->progress);

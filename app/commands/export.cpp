@@ -126,7 +126,8 @@ Exporter exporter(const ExportOptions& own, const ResultsReader& results, Thread
     return [&](const TextSink& sink) { export_scots(results, team, sink); };
   }
   const std::size_t partition = one_partition(own, results);
-  return [&results, &team, partition](const TextSink& sink) { export_c_header(results, partition, team, sink); };
+  return
+      [&results, &team, partition](const TextSink& sink) { export_c_header(results, partition, team, sink); };
 }
 
 ExitCode run(const ExportOptions& own) {
@@ -160,13 +161,15 @@ Run declare_export(Options& options) {
                                 {"c-header", Format::c_header},
                                 {"vtk", Format::vtk}}});
   options.option(own->output, "-o,--output", "FILE",
-                 "File to write (default: standard output; vtk: a name that ends in .vti or .vtkhdf)", file_name);
+                 "File to write (default: standard output; vtk: a name that ends in .vti or .vtkhdf)",
+                 file_name);
   options.option(own->partition, "--partition", "NAME", "The partition to export (csv, vtk: default all)",
                  as_typed);
   options.repeatable(own->slices, "--slice", "STATE=VALUE",
                      "csv, vtk: only the cells where a state has this value; may be repeated", as_typed);
   options.repeatable(own->projections, "--project", "STATE:KIND",
-                     "csv, vtk: the smallest or largest value along a state, min or max; may be repeated", as_typed);
+                     "csv, vtk: the smallest or largest value along a state, min or max; may be repeated",
+                     as_typed);
   declare_common(options, *own);
   return [own] { return run(*own); };
 }

@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
-#include <memory>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "app/analysis_json.hpp"
 #include "app/commands/all.hpp"
 #include "app/json_text.hpp"
 #include "app/network_report.hpp"
-#include "app/analysis_json.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
 #include "results/read_results.hpp"

@@ -1,5 +1,5 @@
-#include <memory>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 #include "app/commands/all.hpp"
@@ -59,7 +59,8 @@ Run declare_query(Options& options) {
   const auto own = std::make_shared<QueryOptions>();
   declare_results(options, own->results);
   options.option(own->at, "--at", "STATE",
-                 "The state, as x1=0.1,x2=1/3 (default: many from standard input, CSV or JSON lines)", as_typed);
+                 "The state, as x1=0.1,x2=1/3 (default: many from standard input, CSV or JSON lines)",
+                 as_typed);
   declare_common(options, *own);
   return [own] { return run(*own); };
 }

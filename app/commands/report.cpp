@@ -9,9 +9,9 @@
 #include "app/json_text.hpp"
 #include "app/late_file.hpp"
 #include "app/option_values.hpp"
+#include "app/print_answer.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
-#include "app/standard_streams.hpp"
 #include "app/text.hpp"
 #include "export/report_data.hpp"
 #include "export/report_page.hpp"
@@ -48,25 +48,25 @@ std::string page_of(const ResultsReader& results, ReportData& data) {
   return report_page(page);
 }
 
-std::string summary_text(const std::string& path, std::size_t bytes, const ReportData& data,
-                         const ResultsReader& results) {
-  std::string text = fmt::format("report in {} ({})\n", printable(path), byte_size(bytes));
-  if (!data.is_whole) text += "not every cell has room in it: the sliders have some values only\n";
-  if (data.partitions.size() < results.partitions().size())
-    text += fmt::format("its pictures show {} of {} partitions\n", data.partitions.size(),
-                        results.partitions().size());
-  return text;
-}
-
-std::string summary_json(const std::string& path, std::size_t bytes, const ReportData& data,
-                         const ResultsReader& results) {
+Json summary_json(const std::string& path, std::size_t bytes, const ReportData& data,
+                  const ResultsReader& results) {
   Json json;
   json["output"] = path;
   json["bytes"] = bytes;
   json["every_cell"] = data.is_whole;
   json["partitions"] = Json::array();
   for (const std::size_t p : data.partitions) json["partitions"].push_back(results.partitions()[p].name);
-  return json_text(json);
+  return json;
+}
+
+/// @param partitions of the results
+std::string summary_text(const Json& summary, std::size_t partitions) {
+  std::string text = fmt::format("report in {} ({})\n", printable(summary["output"].get<std::string>()),
+                                 byte_size(summary["bytes"].get<std::uint64_t>()));
+  if (!summary["every_cell"]) text += "not every cell has room in it: the sliders have some values only\n";
+  if (summary["partitions"].size() < partitions)
+    text += fmt::format("its pictures show {} of {} partitions\n", summary["partitions"].size(), partitions);
+  return text;
 }
 
 struct ReportOptions : CommonOptions {
@@ -83,11 +83,9 @@ ExitCode run(const ReportOptions& own) {
   const std::string page = page_of(results, data);
   file.write(page);
   file.commit();
-  if (own.json) {
-    write_output(summary_json(path, page.size(), data, results));
-  } else if (!own.quiet) {
-    write_output(summary_text(path, page.size(), data, results));
-  }
+  print_answer(own, summary_json(path, page.size(), data, results), [&results](const Json& summary) {
+    return summary_text(summary, results.partitions().size());
+  });
   return ExitCode::success;
 }
 

@@ -109,14 +109,14 @@ Run declare_simulate(Options& options) {
   options.option(simulation.runs, "--runs", "N", "Number of runs (default: 1)", kCount);
   options.option(simulation.seed, "--seed", "N", "Seed of all that is random (default: 1)",
                  WholeNumber<std::uint64_t>{0, UINT64_MAX});
-  options.option(simulation.policy, "--policy", "random|adversarial|prefer",
-                 "How agents choose (default: random)",
-                 OneOf<Policy>{{{"random", Policy::random},
-                                {"adversarial", Policy::adversarial},
-                                {"prefer", Policy::prefer}}});
-  options.option("--disturbance", "random|extremes|constant|VALUES",
-                 "How it varies (default: random); VALUES: constant, as w1=0.1,w2=0",
-                 [&simulation](const auto& text, const auto& option) { read_disturbance(simulation, text, option); });
+  options.option(
+      simulation.policy, "--policy", "random|adversarial|prefer", "How agents choose (default: random)",
+      OneOf<Policy>{
+          {{"random", Policy::random}, {"adversarial", Policy::adversarial}, {"prefer", Policy::prefer}}});
+  options.option(
+      "--disturbance", "random|extremes|constant|VALUES",
+      "How it varies (default: random); VALUES: constant, as w1=0.1,w2=0",
+      [&simulation](const auto& text, const auto& option) { read_disturbance(simulation, text, option); });
   options.option(simulation.partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
   options.option(simulation.output, "-o,--output", "FILE", "File for the runs (default: none)", file_name);
   declare_progress(options, own->progress);

@@ -8,66 +8,11 @@
 #include "app/commands/all.hpp"
 #include "app/json_text.hpp"
 #include "app/load_spec.hpp"
-#include "app/standard_streams.hpp"
+#include "app/print_answer.hpp"
 #include "app/text.hpp"
 
 namespace coordreq {
 namespace {
-
-std::string dependencies(const SpecReport::State& state) {
-  std::vector<std::string> all = state.states;
-  all.insert(all.end(), state.inputs.begin(), state.inputs.end());
-  all.insert(all.end(), state.disturbances.begin(), state.disturbances.end());
-  return fmt::format("{}", fmt::join(all, ", "));
-}
-
-std::string states_table(const SpecReport& report) {
-  using Align = Table::Align;
-  Table table({Align::left, Align::right, Align::left, Align::left, Align::right, Align::right, Align::left});
-  table.add({"state", "points", "unit", "table", "entries", "memory", "next value depends on"});
-  for (const SpecReport::State& state : report.states) {
-    table.add({state.name, grouped(state.points), printable(state.unit),
-               state.sum     ? "sum"
-               : state.shift ? "shift"
-                             : "full",
-               grouped(state.table_entries), byte_size(state.table_bytes), dependencies(state)});
-  }
-  return table.text();
-}
-
-std::string inputs_table(const SpecReport& report) {
-  Table table({Table::Align::left, Table::Align::right, Table::Align::left});
-  table.add({"input", "points", "unit"});
-  for (const SpecReport::Input& input : report.inputs) {
-    table.add({input.name, grouped(input.points), printable(input.unit)});
-  }
-  return table.text();
-}
-
-/// All of a few, else how many and the first and last of them.
-std::string partitions_text(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 15;
-  if (names.size() <= kMost) return fmt::format("{}", fmt::join(names, ", "));
-  return fmt::format("{}: {}, {}, ... {}", grouped(std::uint64_t{names.size()}), names[0], names[1],
-                     names.back());
-}
-
-std::string totals_table(const SpecReport& report) {
-  Table table({Table::Align::left, Table::Align::left});
-  table.add({"cells", grouped(report.cells)});
-  table.add({"joint inputs", grouped(report.joint_inputs)});
-  table.add({"partitions", partitions_text(report.partitions)});
-  if (!report.modes.empty()) table.add({"modes of the network", grouped(report.modes.size())});
-  table.add({"reachable sets", report.exact ? "exact interval hulls" : "outward rounded"});
-  table.add({"guarantee", guarantee_text(report.guarantee)});
-  table.add({"memory of analyze", "about " + byte_size(report.memory_bytes)});
-  return table.text();
-}
-
-std::string report_text(const SpecReport& report) {
-  return fmt::format("{}: the spec is valid\n\n{}\n{}\n{}", report.name, states_table(report),
-                     inputs_table(report), totals_table(report));
-}
 
 Json state_json(const SpecReport::State& state) {
   Json json;
@@ -83,7 +28,7 @@ Json state_json(const SpecReport::State& state) {
   return json;
 }
 
-std::string report_json(const SpecReport& report) {
+Json report_json(const SpecReport& report) {
   Json json;
   json["name"] = report.name;
   json["cells"] = report.cells;
@@ -99,7 +44,74 @@ std::string report_json(const SpecReport& report) {
   json["exact"] = report.exact;
   json["guarantee"] = report.guarantee;
   json["memory_bytes"] = report.memory_bytes;
-  return json_text(json);
+  return json;
+}
+
+std::string text_of(const Json& json) {
+  return json.get<std::string>();
+}
+
+std::string count_of(const Json& json) {
+  return grouped(json.get<std::uint64_t>());
+}
+
+std::string dependencies(const Json& state) {
+  std::vector<std::string> all;
+  for (const Json& kind : state["depends_on"]) {
+    for (const Json& name : kind) all.push_back(text_of(name));
+  }
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+const char* table_kind(const Json& state) {
+  if (state["sum"]) return "sum";
+  return state["shift"] ? "shift" : "full";
+}
+
+std::string states_table(const Json& states) {
+  using Align = Table::Align;
+  Table table({Align::left, Align::right, Align::left, Align::left, Align::right, Align::right, Align::left});
+  table.add({"state", "points", "unit", "table", "entries", "memory", "next value depends on"});
+  for (const Json& state : states) {
+    table.add({text_of(state["name"]), count_of(state["points"]), printable(text_of(state["unit"])),
+               table_kind(state), count_of(state["table_entries"]),
+               byte_size(state["table_bytes"].get<std::uint64_t>()), dependencies(state)});
+  }
+  return table.text();
+}
+
+std::string inputs_table(const Json& inputs) {
+  Table table({Table::Align::left, Table::Align::right, Table::Align::left});
+  table.add({"input", "points", "unit"});
+  for (const Json& input : inputs)
+    table.add({text_of(input["name"]), count_of(input["points"]), printable(text_of(input["unit"]))});
+  return table.text();
+}
+
+/// All of a few, else how many and the first and last of them.
+std::string partitions_text(const Json& names) {
+  constexpr std::size_t kMost = 15;
+  if (names.size() <= kMost) return fmt::format("{}", fmt::join(names.get<std::vector<std::string>>(), ", "));
+  return fmt::format("{}: {}, {}, ... {}", grouped(std::uint64_t{names.size()}), text_of(names[0]),
+                     text_of(names[1]), text_of(names.back()));
+}
+
+std::string totals_table(const Json& report) {
+  Table table({Table::Align::left, Table::Align::left});
+  table.add({"cells", count_of(report["cells"])});
+  table.add({"joint inputs", count_of(report["joint_inputs"])});
+  table.add({"partitions", partitions_text(report["partitions"])});
+  if (report.contains("modes"))
+    table.add({"modes of the network", grouped(std::uint64_t{report["modes"].size()})});
+  table.add({"reachable sets", report["exact"] ? "exact interval hulls" : "outward rounded"});
+  table.add({"guarantee", guarantee_text(text_of(report["guarantee"]))});
+  table.add({"memory of analyze", "about " + byte_size(report["memory_bytes"].get<std::uint64_t>())});
+  return table.text();
+}
+
+std::string report_text(const Json& report) {
+  return fmt::format("{}: the spec is valid\n\n{}\n{}\n{}", text_of(report["name"]),
+                     states_table(report["states"]), inputs_table(report["inputs"]), totals_table(report));
 }
 
 struct ValidateOptions : CommonOptions {
@@ -116,11 +128,7 @@ ExitCode run(const ValidateOptions& own) {
     ThreadTeam team(own.threads);
     check_regions(spec, team);
   }
-  if (own.json) {
-    write_output(report_json(report));
-  } else if (!own.quiet) {
-    write_output(report_text(report));
-  }
+  print_answer(own, report_json(report), report_text);
   return ExitCode::success;
 }
 

@@ -1,5 +1,5 @@
-#include <memory>
 #include <chrono>
+#include <memory>
 
 #include "app/commands/all.hpp"
 #include "app/option_values.hpp"

@@ -296,7 +296,8 @@ std::vector<std::string> files_of(const CheckpointOptions& options) {
 void check_checkpoint(const CheckpointOptions& options) {
   const std::string unfinished = files_of(options).back();
   if (!may_be_block_file(unfinished))
-    throw UsageError("expected a checkpoint that a kill has left behind, or nothing, found another file", unfinished);
+    throw UsageError("expected a checkpoint that a kill has left behind, or nothing, found another file",
+                     unfinished);
   const OutputFile probe(options.file, kWhat, kSuffix);
   if (options.resume || !std::filesystem::exists(options.file)) return;
   throw UsageError("the checkpoint is there already, expected --resume to go on from it, or another file",

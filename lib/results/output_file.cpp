@@ -62,7 +62,8 @@ std::optional<mode_t> check_target(const std::string& target, const std::string&
     throw IoError("cannot write " + what + ": this is a device, a pipe or a socket, not a regular file",
                   path);
   }
-  // Links of /proc, as /dev/stdout, lead to open files whatever they say: one that has been deleted has no name.
+  // Links of /proc, as /dev/stdout, lead to open files whatever they say: one that has been deleted has no
+  // name.
   struct stat named {};
   if (stat(target.c_str(), &named) != 0 || named.st_dev != info.st_dev || named.st_ino != info.st_ino)
     throw IoError("cannot write " + what + ": this file has no name any more", path);

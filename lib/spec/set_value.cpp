@@ -100,7 +100,8 @@ class Walk {
       } else if (at_->is_array()) {
         enter_element(steps[i]);
       } else {
-        fail(fmt::format("no {} in {}: it is {}", quote_text(steps[i]), place(), quote_text(at_->dump())), path_);
+        fail(fmt::format("no {} in {}: it is {}", quote_text(steps[i]), place(), quote_text(at_->dump())),
+             path_);
       }
     }
     return place_;
@@ -122,7 +123,8 @@ class Walk {
       for (const auto& [key, value] : at_->items()) known.push_back(key);
     }
     std::string expected = suggestion(steps[1], known);
-    if (expected.empty()) expected = known.empty() ? ": there are none" : ", expected " + quote_list(known, "or");
+    if (expected.empty())
+      expected = known.empty() ? ": there are none" : ", expected " + quote_list(known, "or");
     fail(fmt::format("{} is not one of the {}{}", quote_text(steps[1]), steps[0], expected), path_);
   }
 

@@ -54,7 +54,7 @@ class Cases(Case):
                     result = self.run_program(*arguments)
                     self.assertIn(result.returncode, (2, 3, 5))
                     for line in result.stderr.decode().splitlines():
-                        self.assertLess(len(line), 900)
+                        self.assertLess(len(line), 1100)
                         self.assertTrue(line.startswith("coordreq: error: "))
                     self.assertNotIn(text[:201], result.stderr.decode())
 

@@ -70,7 +70,8 @@ TEST(SetValue, NumbersKeepTheirDigits) {
   const char* const kMany = "0.10000000000000000000001";
   const Json set_there = Json::parse(set(kText, "constants.R", kMany));
   EXPECT_EQ(set_there["constants"]["R"], kMany);
-  const Json was_there = Json::parse(set(fmt::format(R"({{"a": {}, "b": 12345678901234567890123, "c": 0.1}})", kMany), "d", "1"));
+  const Json was_there = Json::parse(
+      set(fmt::format(R"({{"a": {}, "b": 12345678901234567890123, "c": 0.1}})", kMany), "d", "1"));
   EXPECT_EQ(was_there, (Json{{"a", kMany}, {"b", "12345678901234567890123"}, {"c", 0.1}, {"d", 1}}));
 }
 
@@ -101,7 +102,8 @@ TEST(SetValue, ConstantsAreNotAdded) {
             "'Radius' is not one of the constants, expected 'R' or 'two' (constants.Radius)");
   EXPECT_EQ(error_of(R"({"definitions": {}})", "definitions.r", "1"),
             "'r' is not one of the definitions: there are none (definitions.r)");
-  EXPECT_EQ(error_of("{}", "constants.q", "1"), "'q' is not one of the constants: there are none (constants.q)");
+  EXPECT_EQ(error_of("{}", "constants.q", "1"),
+            "'q' is not one of the constants: there are none (constants.q)");
   EXPECT_EQ(Json::parse(set("{}", "constants", R"({"q": 1})")).dump(), R"({"constants":{"q":1}})");
 }
 
@@ -110,9 +112,11 @@ TEST(SetValue, BrokenPathsAndValuesAreErrors) {
   EXPECT_EQ(error_of(kText, "", "1"), "expected keys with dots between, as states.0.step, found ''");
   EXPECT_EQ(error_of(kText, "name", "[1,"), "expected JSON, since it starts like it, found '[1,' (name)");
   EXPECT_EQ(error_of(kText, "name", "\xff"), "expected UTF-8 text as the value (name)");
-  EXPECT_EQ(error_of(kText, "constants.\xff", "1"), "expected UTF-8 text as the path, found 'constants.\xff'");
+  EXPECT_EQ(error_of(kText, "constants.\xff", "1"),
+            "expected UTF-8 text as the path, found 'constants.\xff'");
   EXPECT_EQ(error_of(kText, "/\xff", "1"), "expected UTF-8 text as the path, found '/\xff'");
-  EXPECT_THROW(static_cast<void>(set(kText, "name", std::string(300, '[') + std::string(300, ']'))), SpecError);
+  EXPECT_THROW(static_cast<void>(set(kText, "name", std::string(300, '[') + std::string(300, ']'))),
+               SpecError);
 }
 
 TEST(SetValue, BrokenSpecsAreTheirOwnErrors) {
