@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
+#include "app/analysis_json.hpp"
 #include "app/json_text.hpp"
-#include "app/requirement_report.hpp"
 #include "app/text.hpp"
 #include "cell/state_query.hpp"
 #include "numeric/rational.hpp"

@@ -241,7 +241,17 @@ void Checkpoint::remove() {
   if (!error) static_cast<void>(std::filesystem::remove(file, error));
 }
 
+std::vector<std::string> files_of(const CheckpointOptions& options) {
+  std::error_code ignored;  // what leads nowhere is written where it says
+  const std::filesystem::path end = std::filesystem::canonical(options.file, ignored);
+  return {options.file, (end.empty() ? options.file : end.string()) + kSuffix};
+}
+
 void check_checkpoint(const CheckpointOptions& options) {
+  const std::string unfinished = files_of(options).back();
+  if (!may_be_block_file(unfinished))
+    throw UsageError("expected a checkpoint that a kill has left behind, or nothing, found another file",
+                     unfinished);
   const OutputFile probe(options.file, kWhat, kSuffix);
   if (options.resume || !std::filesystem::exists(options.file)) return;
   throw UsageError("the checkpoint is there already, expected --resume to go on from it, or another file",

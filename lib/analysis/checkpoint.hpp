@@ -85,7 +85,8 @@ class Checkpoint : public StageStore {
 };
 
 /// Tries whether the file can be written; leaves nothing behind.
-/// @throws IoError if not; UsageError if the file is there already and not to be resumed
+/// @throws IoError if not; UsageError if the file is there already and not to be resumed, or if the file to
+///   write it to is there and none of ours
 void check_checkpoint(const CheckpointOptions& options);
 
 }  // namespace coordreq

@@ -47,11 +47,9 @@ Location::Kind kind_of(const GridDimension& dimension, const Rational& value, st
 
 Location locate(const UniformGrid& grid, std::span<const Rational> state) {
   Location location;
-  std::int64_t cell = 0;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const std::int64_t k = index_of(grid[i], state[i]);
     location.index.push_back(k);
-    cell += k * grid.stride(i);
     const Location::Kind kind = kind_of(grid[i], state[i], k);
     // What is worst counts, and of that the first.
     if (kind <= location.kind) continue;
@@ -59,7 +57,9 @@ Location locate(const UniformGrid& grid, std::span<const Rational> state) {
     location.dimension = i;
     location.above = k >= grid[i].count;
   }
-  if (location.kind == Location::Kind::cell) location.cell = cell;
+  if (location.kind != Location::Kind::cell) return location;  // indices may be as large as numbers can be
+  location.cell = 0;
+  for (std::size_t i = 0; i < grid.size(); ++i) location.cell += location.index[i] * grid.stride(i);
   return location;
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <string_view>
@@ -48,6 +49,17 @@ std::string because(int error) {
 }
 
 }  // namespace
+
+bool may_be_block_file(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::symlink_status(path, error);
+  if (!std::filesystem::exists(status)) return true;
+  if (!std::filesystem::is_regular_file(status)) return false;
+  std::ifstream file(path, std::ios::binary);
+  std::string begin(kSignature.size(), '\0');
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return file.gcount() == 0 || begin == kSignature;
+}
 
 struct BlockFileWriter::Scratch {
   struct Free {

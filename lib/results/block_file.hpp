@@ -15,6 +15,9 @@ namespace coordreq {
 /// Fills `out` with bytes [begin, begin + count) of something; called from several threads at once.
 using FillBytes = std::function<void(std::uint64_t begin, std::uint64_t count, std::byte* out)>;
 
+/// Whether the file is what is left of a block file, or may be: nothing there, or nothing in it.
+[[nodiscard]] bool may_be_block_file(const std::string& path);
+
 /// Writes a long string of bytes as a file of compressed blocks. Each has its number and a checksum over all
 /// of it, and an empty one is the last: a byte that is damaged, missing, or from another place shows.
 ///

@@ -13,6 +13,7 @@
 #include <csignal>
 #include <exception>
 #include <fstream>
+#include <new>
 #include <optional>
 
 #include "base/error.hpp"
@@ -73,7 +74,7 @@ void limit_memory() {
 
 /// The child leaves no traces: no message of a signal handler, no report of a sanitizer, no core.
 void silence() {
-  for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGSEGV, SIGBUS, SIGABRT, SIGFPE}) {
     static_cast<void>(std::signal(number, SIG_DFL));
   }
   const int null = open("/dev/null", O_RDWR | O_CLOEXEC);
@@ -93,7 +94,9 @@ std::string outcome_of(const std::function<void()>& read) {
     return {kDone};
   } catch (const Error& error) {
     return static_cast<char>(error.exit_code()) + std::string(error.what());
-  } catch (const std::exception&) {  // no more memory, too
+  } catch (const std::bad_alloc&) {
+    return {static_cast<char>(ExitCode::limit)};
+  } catch (const std::exception&) {
     return {};
   }
 }
@@ -102,6 +105,7 @@ std::string outcome_of(const std::function<void()>& read) {
   if (outcome.empty()) throw ResultsError("damaged results file: the HDF5 library cannot read it", path);
   const auto code = static_cast<ExitCode>(outcome.front());
   const std::string text = outcome.substr(1);
+  if (code == ExitCode::limit && text.empty()) throw std::bad_alloc();
   if (code == ExitCode::invalid_input) throw ResultsError(text);
   if (code == ExitCode::input_output) throw IoError(text);
   throw Error(code, text, "");

@@ -1,8 +1,12 @@
 #include "results/hdf5_handle.hpp"
 
+#include <sys/resource.h>
+
 #include <bit>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <utility>
 
 #include "results/output_driver.hpp"
@@ -14,6 +18,17 @@ static_assert(std::endian::native == std::endian::little,
               "chunks are packed as they lie in memory, and the file is little-endian");
 
 constexpr unsigned kOrder = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
+
+/// Without a limit the system gives what is asked for, unless a damaged file asks for too much.
+bool may_lack_memory() {
+  rlimit limit{};
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+herr_t look_for_memory(unsigned /*depth*/, const H5E_error2_t* error, void* result) {
+  if (error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC) *static_cast<bool*>(result) = true;
+  return 0;
+}
 
 /// The innermost error is the one that the system call met; its text holds "errno = N".
 herr_t read_system_error(unsigned /*depth*/, const H5E_error2_t* error, void* result) {
@@ -27,6 +42,9 @@ herr_t read_system_error(unsigned /*depth*/, const H5E_error2_t* error, void* re
 [[noreturn]] void fail(std::string_view what) {
   int system_error = 0;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, read_system_error, &system_error);
+  bool lacks_memory = false;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, look_for_memory, &lacks_memory);
+  if (system_error == ENOMEM || (system_error == 0 && lacks_memory && may_lack_memory())) throw std::bad_alloc();
   std::string text = "cannot " + std::string(what);
   if (system_error != 0) text += std::string(": ") + std::strerror(system_error);
   throw Failure(text, system_error);
