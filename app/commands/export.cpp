@@ -138,8 +138,7 @@ Run declare_export(Options& options) {
                                 {"c-header", Format::c_header},
                                 {"vtk", Format::vtk}}});
   options.option(own->output, "-o,--output", "FILE",
-                 "File to write (default: standard output; vtk: a name that ends in .vti)",
-                 file_name);
+                 "File to write (default: standard output; vtk: a name that ends in .vti)", file_name);
   options.option(own->partition, "--partition", "NAME", "The partition to export (csv, vtk: default all)",
                  as_typed);
   options.repeatable(own->slices, "--slice", "STATE=VALUE",

@@ -52,8 +52,8 @@ ResultContent ResultComposer::content() {
     content.partitions.push_back(partition_content(p, delay_type(partitions)));
   if (spec.output.controller) {
     content.controller =
-        bits(groupings_.emplace_back(*ground_.engine,
-                                     std::vector<InputClass>{whole_class(ground_.abstraction->inputs)}, team_),
+        bits(groupings_.emplace_back(
+                 *ground_.engine, std::vector<InputClass>{whole_class(ground_.abstraction->inputs)}, team_),
              0, "");
   }
   if (ground_.listed) {

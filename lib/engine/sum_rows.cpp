@@ -5,7 +5,6 @@
 
 #include "model/odometer.hpp"
 
-
 namespace coordreq {
 namespace {
 

@@ -75,7 +75,8 @@ DimensionBounds dimension_bounds(const GridDimension& dimension) {
   // What is measured beyond a limit by no more than the error reads as the boundary cell: see locate().
   const Rational lowest = dimension.first - dimension.measurement_error;
   const Rational highest = dimension.point(dimension.count - 1) + dimension.measurement_error;
-  if (traits(dimension.below).clamps) result.bounds.front() = std::min(result.bounds.front(), upper_double(lowest));
+  if (traits(dimension.below).clamps)
+    result.bounds.front() = std::min(result.bounds.front(), upper_double(lowest));
   if (traits(dimension.above).clamps) {
     const double beyond = std::nextafter(lower_double(highest), std::numeric_limits<double>::infinity());
     result.bounds.back() = std::max(result.bounds.back(), beyond);

@@ -42,8 +42,8 @@ ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid
                                Question question)
     : grid_(&grid),
       input_space_(&inputs),
-      table_(condition, axes_of(grid, inputs, sampling), static_cast<std::uint32_t>(grid.state(grid.size() - 1)),
-             undecided, team, question),
+      table_(condition, axes_of(grid, inputs, sampling),
+             static_cast<std::uint32_t>(grid.state(grid.size() - 1)), undecided, team, question),
       input_stride_(table_.strides().begin() + static_cast<std::ptrdiff_t>(grid.size()),
                     table_.strides().end()) {
   for (std::size_t i = 0; i < grid.size(); ++i) state_stride_.push_back(table_.strides()[grid.state(i)]);

@@ -25,11 +25,11 @@ struct OutsideTraits {
 
 /// In the order of Outside.
 inline constexpr std::array<OutsideTraits, 5> kOutsideTraits{{
-    {.blocks = true},                   // unsafe
-    {.arrives = true},                  // safe
-    {.clamps = true, .resets = true},   // saturate
-    {.clamps = true, .stops = true},    // stop
-    {.wraps = true},                    // periodic
+    {.blocks = true},                  // unsafe
+    {.arrives = true},                 // safe
+    {.clamps = true, .resets = true},  // saturate
+    {.clamps = true, .stops = true},   // stop
+    {.wraps = true},                   // periodic
 }};
 
 [[nodiscard]] constexpr const OutsideTraits& traits(Outside rule) {

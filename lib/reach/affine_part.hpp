@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "expression/dual.hpp"
 #include "numeric/matrix.hpp"
 #include "reach/affine_dynamics.hpp"
-#include "expression/dual.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

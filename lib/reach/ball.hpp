@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "numeric/interval.hpp"
 #include "expression/dual.hpp"
+#include "numeric/interval.hpp"
 
 namespace coordreq {
 

@@ -137,7 +137,8 @@ bool FaceFlow::try_step(const Interval& duration, bool divisible) {
 /// speed on the way to it, or no solution moves on from it; the others being in `box_`, with a margin.
 bool FaceFlow::find_levels(double duration) {
   for (std::size_t i = 0; i < n_; ++i) {
-    for (const bool upper : {false, true}) set_level(i, upper, add_up(start(i, upper), margin(start(i, upper))));
+    for (const bool upper : {false, true})
+      set_level(i, upper, add_up(start(i, upper), margin(start(i, upper))));
   }
   for (int round = 0; round < kLevelRounds; ++round) {
     bool all_hold = true;

@@ -114,7 +114,7 @@ class ValidatedFlow::Solver {
   std::vector<double> tolerance_;
   std::vector<Interval> attained_;  ///< hull of solutions that were followed to the end; empty: none
   std::vector<double> allowed_excess_;
-  bool restarted_ = false;          ///< they were not followed from the start
+  bool restarted_ = false;  ///< they were not followed from the start
   double fastest_decay_ = 0.0;
   double fastest_growth_ = 0.0;
   std::size_t stiffest_ = 0;

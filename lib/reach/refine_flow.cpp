@@ -119,7 +119,8 @@ bool ValidatedFlow::Solver::bound_by_faces(std::span<const Interval> slots, bool
   if (!system_.seams.empty()) return false;
   if (faces_.enclose(slots, field_, period_, by_faces_)) return false;
   if (found) {
-    combine(result_, by_faces_, [](const Interval& a, const Interval& b) { return intersect(a, b).value_or(a); });
+    combine(result_, by_faces_,
+            [](const Interval& a, const Interval& b) { return intersect(a, b).value_or(a); });
   } else {
     result_ = by_faces_;
   }

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "expression/evaluate.hpp"
 #include "expression/dual.hpp"
+#include "expression/evaluate.hpp"
 #include "reach/slope.hpp"
 
 namespace coordreq {

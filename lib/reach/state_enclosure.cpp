@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "expression/dual.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/undefined_reason.hpp"
-#include "expression/dual.hpp"
 #include "reach/shift.hpp"
 
 namespace coordreq {
@@ -124,9 +124,8 @@ StateEnclosure::Result StateEnclosure::result_of_flow(std::size_t state) const {
             .tube = within_limits(own, found_->tube[position]),
             .drift = found_->drift[position]};
   }
-  Result result{.status = found_->status,
-                .culprit = at(dependencies_.moving[found_->culprit]),
-                .rate = found_->rate};
+  Result result{
+      .status = found_->status, .culprit = at(dependencies_.moving[found_->culprit]), .rate = found_->rate};
   // Without an enclosure a post is everything, which blocks the pair where this state has an unsafe side.
   const bool can_block = own.below == Outside::unsafe || own.above == Outside::unsafe;
   for (std::size_t k = 0; can_block && k < found_->tube.size(); ++k) {

@@ -44,7 +44,8 @@ herr_t read_system_error(unsigned /*depth*/, const H5E_error2_t* error, void* re
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, read_system_error, &system_error);
   bool lacks_memory = false;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, look_for_memory, &lacks_memory);
-  if (system_error == ENOMEM || (system_error == 0 && lacks_memory && may_lack_memory())) throw std::bad_alloc();
+  if (system_error == ENOMEM || (system_error == 0 && lacks_memory && may_lack_memory()))
+    throw std::bad_alloc();
   std::string text = "cannot " + std::string(what);
   if (system_error != 0) text += std::string(": ") + std::strerror(system_error);
   throw Failure(text, system_error);

@@ -70,7 +70,8 @@ class OpenFile {
       } else if (count == 0 && (!text.empty() || has_writer_ || !is_pipe())) {
         return text;
       } else if (count == 0) {
-        if (Clock::now() - begin > kWaitForWriter) throw IoError("is a pipe that nobody writes to, expected a spec", path_);
+        if (Clock::now() - begin > kWaitForWriter)
+          throw IoError("is a pipe that nobody writes to, expected a spec", path_);
         static_cast<void>(::poll(nullptr, 0, kPauseMilliseconds));
       }
     }

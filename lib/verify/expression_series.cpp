@@ -42,7 +42,8 @@ Truth compare(Operator op, const Arb& a, const Arb& b) {
   }
 }
 
-/// Rounding a ball widens it by some 2^-30 of its radius: no reason to call a root undefined that begins at 0.
+/// Rounding a ball widens it by some 2^-30 of its radius: no reason to call a root undefined that begins at
+/// 0.
 bool is_nonnegative_before_rounding(const Arb& a) {
   return a.is_nonnegative() || -a.lower().approximately() <= 1e-7 * a.width();
 }
@@ -227,7 +228,8 @@ void ExpressionSeries::run_sign(std::size_t n) {
   Arb sign;
   arb_sgn(sign.get(), value.get());
   if (!sign.is_point()) {
-    if (value.is_finite()) sign = hull(Arb(value.is_nonnegative() ? 0.0 : -1.0), Arb(value.is_nonpositive() ? 0.0 : 1.0));
+    if (value.is_finite())
+      sign = hull(Arb(value.is_nonnegative() ? 0.0 : -1.0), Arb(value.is_nonpositive() ? 0.0 : 1.0));
     lose(Smoothness::jumps);
   } else if (sign.is_zero()) {
     lose(Smoothness::jumps);  // only here

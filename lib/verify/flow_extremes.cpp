@@ -47,7 +47,8 @@ std::optional<Extremes> FlowExtremes::extremes(const SpanBox& box, const Effort&
   Extremes result{bound_after(steps_.size(), false), bound_after(steps_.size(), true)};
   if (enough(result.least.bound, result.greatest.bound)) return result;
   result.least = extreme_after(steps_.size(), false);
-  if (!enough(result.least.bound, result.greatest.bound)) result.greatest = extreme_after(steps_.size(), true);
+  if (!enough(result.least.bound, result.greatest.bound))
+    result.greatest = extreme_after(steps_.size(), true);
   return result;
 }
 
@@ -74,7 +75,8 @@ Extreme FlowExtremes::bound_after(std::size_t steps, bool greatest) const {
 
 Extreme FlowExtremes::extreme_after(std::size_t steps, bool greatest) {
   Extreme result = bound_after(steps, greatest);
-  if (const std::optional<Influence>& influence = influence_after(steps)) follow(*influence, steps, greatest, result);
+  if (const std::optional<Influence>& influence = influence_after(steps))
+    follow(*influence, steps, greatest, result);
   return result;
 }
 
@@ -135,7 +137,8 @@ void FlowExtremes::follow(const Influence& influence, std::size_t steps, bool gr
     std::size_t end = k + 1;
     while (end < steps && same(signal[k], signal[end])) ++end;
     set_disturbances(now, k);
-    const Arb duration = period_ * Arb(static_cast<double>(end - k)) / Arb(static_cast<double>(effort_.steps));
+    const Arb duration =
+        period_ * Arb(static_cast<double>(end - k)) / Arb(static_cast<double>(effort_.steps));
     if (!trajectory_.advance(now, duration, effort_.tolerance * cell_)) return;
     k = end;
   }

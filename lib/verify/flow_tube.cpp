@@ -68,8 +68,8 @@ class StepMaker {
     return face[slot].lower + duration_ * change + duration_ * duration_ * Arb(0.5) * bend;
   }
 
-  /// The same without slopes: a state that is beyond the moving end has to have got there with a derivative that is
-  /// taken there.
+  /// The same without slopes: a state that is beyond the moving end has to have got there with a derivative
+  /// that is taken there.
   [[nodiscard]] Arb beyond_face(const SpanBox& start, std::size_t i, bool greatest) {
     const std::uint32_t slot = field_.variables()[i];
     const Arb from = greatest ? start[slot].upper : start[slot].lower;

@@ -4,8 +4,8 @@
 
 namespace coordreq {
 
-/// The next value of a state in discrete time, or of any expression of states and disturbances: the better of its
-/// natural range and of its mean value form, which begins at the ends of what is monotone.
+/// The next value of a state in discrete time, or of any expression of states and disturbances: the better of
+/// its natural range and of its mean value form, which begins at the ends of what is monotone.
 class MapExtremes : public NextValue {
  public:
   /// REQUIRES: `spec` outlives this object.

@@ -79,8 +79,7 @@ bool Trajectory::integrate(ArbBox& box, const Arb& duration, double tolerance) {
   while (left > 0) {
     parts = std::min(parts, left);
     const Arb share(static_cast<double>(parts) / kFinest);
-    std::optional<ArbBox> next =
-        step(box, duration * share, tolerance * share.approximately(), parts == 1);
+    std::optional<ArbBox> next = step(box, duration * share, tolerance * share.approximately(), parts == 1);
     if (next) {
       box = std::move(*next);
       left -= parts;
@@ -129,7 +128,8 @@ std::optional<ArbBox> Trajectory::analytic_step(const ArbBox& box, const ArbBox&
   return end;
 }
 
-/// x(h) is in x + h f(x) + h^2 / 2 J f(tube), J the slopes over the tube; where there are none in x + h f(tube).
+/// x(h) is in x + h f(x) + h^2 / 2 J f(tube), J the slopes over the tube; where there are none in x + h
+/// f(tube).
 ArbBox Trajectory::kinked_step(const ArbBox& box, const ArbBox& tube, const std::vector<Arb>& change,
                                const Arb& duration) {
   ArbBox end = box;

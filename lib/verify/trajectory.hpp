@@ -9,8 +9,8 @@
 namespace coordreq {
 
 /// Solutions of x' = f(x, w) from a point with constant w, enclosed step by step: by Taylor's formula with
-/// Lagrange's remainder where f is analytic, by one of second order with Clarke's slopes where it has kinks, by
-/// the range of f where it jumps. Steps are halved until the remainder is small enough.
+/// Lagrange's remainder where f is analytic, by one of second order with Clarke's slopes where it has kinks,
+/// by the range of f where it jumps. Steps are halved until the remainder is small enough.
 class Trajectory {
  public:
   /// REQUIRES: `field` outlives this object.

@@ -21,8 +21,8 @@ struct VerifyProgress {
 };
 
 struct VerifyOptions {
-  std::optional<std::int64_t> sample;                   ///< check so many cells, evenly drawn; all if none
-  double budget_seconds = kDefaultBudget;               ///< for reachable sets that are hard to confirm
+  std::optional<std::int64_t> sample;      ///< check so many cells, evenly drawn; all if none
+  double budget_seconds = kDefaultBudget;  ///< for reachable sets that are hard to confirm
 
   static constexpr double kDefaultBudget = 60;
   std::function<void(const VerifyProgress&)> progress;  ///< may be empty

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "support/condition_helpers.hpp"
 #include "model/condition_table.hpp"
 #include "model/pieces.hpp"
+#include "support/condition_helpers.hpp"
 #include "support/random_condition.hpp"
 
 namespace coordreq {

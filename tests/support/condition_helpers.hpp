@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "expression/condition.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/program.hpp"
-#include "expression/condition.hpp"
 
 namespace coordreq::test {
 

@@ -31,8 +31,7 @@ void serialise(Archive& archive, std::int64_t cells, ConventionFreedom& conventi
 
 void find_a_convention(Answers& answers, const StageWork& work) {
   const Ground& ground = answers.ground;
-  ConventionAnswer& result = answers.add(
-      ConventionAnswer{
+  ConventionAnswer& result = answers.add(ConventionAnswer{
       ActionGrouping(*ground.engine, agent_classes(ground.spec, ground.abstraction->inputs), work.team), {}});
   const auto exchange = [&answers](Archive& archive) {
     serialise(archive, answers.ground.engine->grid().cells(), answers.get<ConventionAnswer>().freedom);
