@@ -60,5 +60,24 @@ TEST(ConditionTable, CellsAreWidenedByTheMeasurementError) {
   EXPECT_EQ(table("x >= 1.5", heading, Sampling::closed_cells), "??1?");
 }
 
+TEST(ConditionTable, NumbersVariablesAsTheSpecWhateverTheOrderOfTheGrid) {
+  GridDimension x{.name = "x", .first = 0, .step = 1, .count = 3};
+  GridDimension y{.name = "y", .first = 0, .step = 1, .count = 4};
+  const UniformGrid grid({x, y});
+  const UniformGrid turned = grid.arranged({1, 0});
+  const InputSpace inputs({});
+  const Program condition = test::condition("x > y");
+  const auto undecided = [](const std::vector<std::int64_t>&) { return false; };
+  ThreadTeam team(1);
+  const ConditionTable natural(condition, grid, inputs, Sampling::centres, undecided, team);
+  const ConditionTable other(condition, turned, inputs, Sampling::centres, undecided, team);
+  for (std::int64_t i = 0; i < 3; ++i) {
+    for (std::int64_t j = 0; j < 4; ++j) {
+      EXPECT_EQ(natural.row(i, 0)[0] >> j & 1U, i > j ? 1U : 0U);
+      EXPECT_EQ(other.row(j, 0)[0] >> i & 1U, i > j ? 1U : 0U);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace coordreq
