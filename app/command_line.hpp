@@ -30,6 +30,8 @@ struct CommandLine {
   int threads = 0;                          ///< 0: all cores
   std::optional<std::uint64_t> max_memory;  ///< bytes
   std::optional<std::int64_t> sample;       ///< --sample: cells that verify looks at
+  std::optional<double> budget;             ///< --budget: seconds that verify may spend on what is hard
+  bool strict = false;                      ///< --strict: what is not confirmed is a failure
   std::int64_t tolerance = 0;               ///< --tolerance: steps that a cell may lose
   std::size_t limit = 5;                    ///< --limit: cells that are named for each partition
   bool json = false;

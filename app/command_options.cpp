@@ -110,6 +110,13 @@ void add_compare_options(const Adder& add, RawArguments& raw) {
   add.one("--limit", raw.limit, "Cells to name for each partition (default: 5)", "N");
 }
 
+void add_verify_options(const Adder& add, CLI::App& command, RawArguments& raw) {
+  add.one("--sample", raw.sample, "Look at so many cells, evenly drawn (default: all)", "N");
+  add.one("--budget", raw.budget,
+          "Time for reachable sets that are hard to confirm; 0: only a first look (default: 60)", "SECONDS");
+  command.add_flag("--strict", raw.strict, "Fail if something is not confirmed")->disable_flag_override();
+}
+
 void add_arguments(CLI::App& command, const CommandInfo& info, RawArguments& raw) {
   for (std::size_t i = 0; i < info.arguments.size(); ++i) {
     const ArgumentInfo& argument = info.arguments[i];
@@ -136,8 +143,7 @@ void add_own_options(CLI::App& command, const CommandInfo& info, RawArguments& r
             "The state, as x1=0.1,x2=1/3 (default: many from standard input, CSV or JSON lines)", "STATE");
   }
   if (info.run == run_simulate) add_simulate_options(command, raw);
-  if (info.run == run_verify)
-    add.one("--sample", raw.sample, "Look at so many cells, evenly drawn (default: all)", "N");
+  if (info.run == run_verify) add_verify_options(add, command, raw);
   if (info.run == run_analyze || info.run == run_compare || info.run == run_simulate ||
       info.run == run_verify)
     add_progress_options(command, raw.long_run);

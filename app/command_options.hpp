@@ -23,10 +23,11 @@ inline constexpr const char* kProgramDescription = "When must agents that share 
 struct RawArguments {
   std::vector<std::string> paths;     ///< of a command that takes many
   std::array<std::string, 2> places;  ///< of one that takes each in its place
-  std::string output, junit, threads, max_memory, at, format, partition, sample, tolerance, limit;
+  std::string output, junit, threads, max_memory, at, format, partition, sample, budget, tolerance, limit;
   std::vector<std::string> slices, projections, settings, sweeps;
   bool json = false;
   bool quiet = false;
+  bool strict = false;
   bool version = false;
   SimulateArguments simulate;
   LongRunArguments long_run;

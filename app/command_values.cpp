@@ -36,6 +36,13 @@ std::int64_t parse_sample(const std::string& text) {
   return value;
 }
 
+double parse_budget(const std::string& text) {
+  const std::optional<Rational> seconds = parse_decimal(text);
+  if (!seconds || *seconds < 0 || *seconds > 1e9)
+    throw UsageError(fmt::format("expected a number of seconds from 0 to 1e9, found '{}'", text), "--budget");
+  return seconds->get_d();
+}
+
 void add_export_values(const RawArguments& raw, const CLI::App& command, CommandLine& line) {
   if (command.count("--format") == 0) throw UsageError("no --format, expected csv, scs, c-header or vtk");
   line.format = raw.format;
@@ -101,6 +108,8 @@ CommandLine checked_values(const RawArguments& raw, const CommandInfo& info, con
   if (command.count("--max-memory") > 0) line.max_memory = parse_memory_size(raw.max_memory);
   if (info.run == run_query && command.count("--at") > 0) line.at = raw.at;
   if (info.run == run_verify && command.count("--sample") > 0) line.sample = parse_sample(raw.sample);
+  if (info.run == run_verify && command.count("--budget") > 0) line.budget = parse_budget(raw.budget);
+  line.strict = raw.strict;
   if (info.run == run_export) add_export_values(raw, command, line);
   if (info.run == run_compare) add_compare_values(raw, command, line);
   line.simulate = raw.simulate;

@@ -19,6 +19,7 @@ double seconds_since(Clock::time_point start) {
 Verification verify_with_progress(const ClaimedFile& file, const CommandLine& line, ThreadTeam& team) {
   ProgressDisplay shown(line.progress, line.quiet);
   VerifyOptions options{.sample = line.sample};
+  if (line.budget) options.budget_seconds = *line.budget;
   options.progress = [&](const VerifyProgress& progress) {
     shown.update({.stage = "checking " + progress.stage, .done = progress.done, .all = progress.all});
   };
@@ -39,7 +40,9 @@ ExitCode run_verify(const CommandLine& line) {
   } else if (!line.quiet) {
     write_output(verification_text(result, line.path, seconds_since(start), team.size()));
   }
-  return result.holds() ? ExitCode::success : ExitCode::requirement_failed;
+  if (result.verdict() == Verdict::not_confirmed) write_diagnostics(not_confirmed_line(result, line.path));
+  const bool passes = result.verdict() == Verdict::holds || (result.holds() && !line.strict);
+  return passes ? ExitCode::success : ExitCode::requirement_failed;
 }
 
 }  // namespace coordreq

@@ -135,9 +135,7 @@ class ArbMatrix {
 
   [[nodiscard]] arb_mat_struct* get() { return matrix_; }
   [[nodiscard]] const arb_mat_struct* get() const { return matrix_; }
-  [[nodiscard]] arb_ptr entry(std::size_t i, std::size_t j) {
-    return arb_mat_entry(matrix_, i, j);
-  }
+  [[nodiscard]] arb_ptr entry(std::size_t i, std::size_t j) { return arb_mat_entry(matrix_, i, j); }
   [[nodiscard]] Arb operator()(std::size_t i, std::size_t j) const {
     Arb value;
     arb_set(value.get(), arb_mat_entry(matrix_, i, j));

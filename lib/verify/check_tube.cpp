@@ -31,8 +31,9 @@ bool TubeTally::is_unbounded(std::int64_t entry) const {
 
 bool TubeTally::is_enough(std::int64_t entry, std::int64_t by, const std::vector<OwnTube>& own) const {
   const IndexRange claimed = claimed_.entries[static_cast<std::size_t>(entry)];
-  return !own.empty() && std::all_of(own.begin(), own.end(),
-                     [&](const OwnTube& tube) { return holds(dimension_, claimed, moved(tube.outer, by)); });
+  return !own.empty() && std::all_of(own.begin(), own.end(), [&](const OwnTube& tube) {
+    return holds(dimension_, claimed, moved(tube.outer, by));
+  });
 }
 
 bool TubeTally::is_exact(IndexRange claimed, std::int64_t by, const std::vector<OwnTube>& own) const {
@@ -59,8 +60,9 @@ void TubeTally::add(std::int64_t entry, std::int64_t by, const std::vector<OwnTu
     return;
   }
   tally_.add_unproven(entry, [&] {
-    return own.empty() ? entry_text(*question_.grid, *question_.inputs, claimed_, entry) + ": no bound was found"
-                       : text_of(entry, moved(own.front().outer, by));
+    return own.empty()
+               ? entry_text(*question_.grid, *question_.inputs, claimed_, entry) + ": no bound was found"
+               : text_of(entry, moved(own.front().outer, by));
   });
 }
 

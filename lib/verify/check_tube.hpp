@@ -32,8 +32,8 @@ struct TubeFinding {
 };
 
 /// Compares tubes of the analysis with the verifier's own: one that leaves out a cell that is needed is
-/// wrong; one that does not hold all that is enough for the verifier is not confirmed. Safe to use from several
-/// threads.
+/// wrong; one that does not hold all that is enough for the verifier is not confirmed. Safe to use from
+/// several threads.
 class TubeTally {
  public:
   /// REQUIRES: what `question` points to outlives this object.
@@ -71,8 +71,9 @@ class TubeTally {
 /// @returns nothing if the flow is not of this kind for some inputs or parameters
 [[nodiscard]] std::optional<TubeFinding> check_corner_tubes(const PostQuestion& question, ThreadTeam& team);
 
-/// Checks the tubes of any other state by bounds of its derivative during steps of the period and of its value
-/// in between (range_during_period()); the steps get finer until the tube of the analysis holds what they enclose.
+/// Checks the tubes of any other state by bounds of its derivative during steps of the period and of its
+/// value in between (range_during_period()); the steps get finer until the tube of the analysis holds what
+/// they enclose.
 /// @returns nothing where limits stop a state, or a flow jumps
 [[nodiscard]] std::optional<TubeFinding> check_outward_tubes(const PostQuestion& question, ThreadTeam& team);
 

@@ -5,9 +5,9 @@
 #include "model/input_space.hpp"
 #include "results/results_paths.hpp"
 #include "results/sha256.hpp"
-#include "spec/unit_text.hpp"
 #include "results/version.hpp"
 #include "spec/partition_names.hpp"
+#include "spec/unit_text.hpp"
 #include "verify/class_actions.hpp"
 #include "verify/sampled_map.hpp"
 
@@ -278,6 +278,7 @@ class Comparison {
     note("CLASS", expected.is_scale == found.is_scale);
     // An axis without coordinates has its length behind the words.
     note("NAME", found.scale_name.compare(0, expected.scale_name.size(), expected.scale_name) == 0);
+    if (!found.is_blank) note("its elements", false);
     if (expected.is_scale) remember_dimension(found);
   }
 

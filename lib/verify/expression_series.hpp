@@ -16,9 +16,9 @@ enum class Smoothness : std::uint8_t {
   jumps,      ///< perhaps different formulas that do not meet; only coefficient 0 counts
 };
 
-/// Runs an expression over power series: constant terms alone give its range over a box, two terms its slope in one
-/// direction, more its Taylor series in time. Encloses. What is not defined is not finite. Scratch inside: one
-/// object a thread.
+/// Runs an expression over power series: constant terms alone give its range over a box, two terms its slope
+/// in one direction, more its Taylor series in time. Encloses. What is not defined is not finite. Scratch
+/// inside: one object a thread.
 class ExpressionSeries {
  public:
   /// REQUIRES: `program` is a number and outlives this object.

@@ -7,11 +7,13 @@ namespace coordreq {
 /// The value of a state of x' = f(x, w) after a period, or after some of its steps.
 ///
 /// 1. A tube of all solutions (enclose_flow()), and with it bounds.
-/// 2. Two solutions x, y for different starts and disturbances v, w differ by e with e' = A(t) e + B(t) (v - w), A and B
-///    within the slopes over the tube (a mean value theorem that holds with kinks, too). So the row of the state in
-///    bounds of the transition matrices tells how the end depends on the start, and on the disturbance during
-///    each step, whatever measurable signal that is.
-/// 3. A solution from the place, and with the disturbances, that these signs say is extreme; where a sign is open
+/// 2. Two solutions x, y for different starts and disturbances v, w differ by e with e' = A(t) e + B(t) (v -
+/// w), A and B
+///    within the slopes over the tube (a mean value theorem that holds with kinks, too). So the row of the
+///    state in bounds of the transition matrices tells how the end depends on the start, and on the
+///    disturbance during each step, whatever measurable signal that is.
+/// 3. A solution from the place, and with the disturbances, that these signs say is extreme; where a sign is
+/// open
 ///    the rest is added.
 ///
 /// Scratch inside: one object a thread.
@@ -37,9 +39,11 @@ class FlowExtremes : public NextValue {
 
  private:
   struct Influence {
-    std::vector<Arb> of_start;                  ///< [moving state]
+    std::vector<Arb> of_start;                     ///< [moving state]
     std::vector<std::vector<Arb>> of_disturbance;  ///< [step][disturbance]: per time
   };
+  [[nodiscard]] std::optional<std::vector<FlowStep>> enclosed(int steps);
+  [[nodiscard]] int steps_for(const ArbMatrix& slopes, const Effort& effort) const;
   [[nodiscard]] const std::optional<Influence>& influence_after(std::size_t steps);
   [[nodiscard]] std::optional<Influence> find_influence(std::size_t steps) const;
   [[nodiscard]] Extreme bound_after(std::size_t steps, bool greatest) const;

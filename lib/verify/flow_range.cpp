@@ -35,7 +35,9 @@ class RangeFinder {
   }
 
  private:
-  [[nodiscard]] const Arb& change(std::size_t step) const { return flow_.steps()[step].change[flow_.position()]; }
+  [[nodiscard]] const Arb& change(std::size_t step) const {
+    return flow_.steps()[step].change[flow_.position()];
+  }
 
   void visit(std::size_t begin, std::size_t end, int way) {
     if (way == 0) return;
@@ -52,9 +54,11 @@ class RangeFinder {
     result_.lower = lesser(result_.lower, (least.bound + down).lower());
     result_.upper = greater(result_.upper, (greatest.bound + up).upper());
     if (steps == 0) return;
-    if (least.attained) result_.low = result_.low ? lesser(*result_.low, least.attained->upper()) : least.attained->upper();
+    if (least.attained)
+      result_.low = result_.low ? lesser(*result_.low, least.attained->upper()) : least.attained->upper();
     if (greatest.attained)
-      result_.high = result_.high ? greater(*result_.high, greatest.attained->lower()) : greatest.attained->lower();
+      result_.high =
+          result_.high ? greater(*result_.high, greatest.attained->lower()) : greatest.attained->lower();
   }
 
   [[nodiscard]] bool keeps(int way) const {
@@ -87,8 +91,7 @@ class RangeFinder {
 
 }  // namespace
 
-std::optional<FlowRange> range_during_period(FlowExtremes& flow, const SpanBox& box,
-                                             const Effort& effort) {
+std::optional<FlowRange> range_during_period(FlowExtremes& flow, const SpanBox& box, const Effort& effort) {
   if (!flow.enclose(box, effort)) return std::nullopt;
   FlowRange range = RangeFinder(flow.field(), flow, box, flow.duration_of_step()).run();
   if (!range.lower.is_finite() || !range.upper.is_finite()) return std::nullopt;

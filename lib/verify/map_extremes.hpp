@@ -4,8 +4,8 @@
 
 namespace coordreq {
 
-/// The next value of a state in discrete time, or of any expression of states and disturbances: the better of its
-/// natural range and of its mean value form, which begins at the ends of what is monotone.
+/// The next value of a state in discrete time, or of any expression of states and disturbances: the better of
+/// its natural range and of its mean value form, which begins at the ends of what is monotone.
 class MapExtremes : public NextValue {
  public:
   /// REQUIRES: `spec` outlives this object.
@@ -23,7 +23,6 @@ class MapExtremes : public NextValue {
 
 /// The extreme of one equation of a vector field over a box.
 [[nodiscard]] Extreme extreme_of(VectorField& field, std::size_t equation, const SpanBox& box,
-                                 const std::optional<std::vector<Arb>>& slopes, const Arb& natural,
-                                 bool greatest);
+                                 const std::optional<std::vector<Arb>>& slopes, bool greatest);
 
 }  // namespace coordreq

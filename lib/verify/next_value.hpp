@@ -27,9 +27,9 @@ struct Effort {
 
 /// What is known about the least or the greatest value that one state can have next.
 struct Extreme {
-  Arb bound;             ///< a point: no value is beyond it
+  Arb bound;                    ///< a point: no value is beyond it
   std::optional<Arb> attained;  ///< a value that is taken, by `start`
-  ArbBox start;          ///< where from; of disturbances that change their value at the beginning
+  ArbBox start;                 ///< where from; of disturbances that change their value at the beginning
   std::vector<double> excess;   ///< what each variable adds to the bound beyond `attained`, roughly
 };
 struct Extremes {
@@ -57,8 +57,8 @@ class NextValue {
 
 /// What a variable that moves a value with a slope adds beyond the place that is taken for the extreme.
 struct Choice {
-  Arb place;    ///< a point of the span
-  Arb excess;   ///< not negative: how far values for other places are beyond
+  Arb place;   ///< a point of the span
+  Arb excess;  ///< not negative: how far values for other places are beyond
 };
 /// @param slope of the value by the variable, all over the span
 [[nodiscard]] Choice choose_for_extreme(const ArbSpan& span, const Arb& slope, bool greatest);

@@ -17,7 +17,7 @@ namespace coordreq {
 namespace {
 
 /// One round after the other, of more work for what is still open.
-const PostEffort kRounds[] = {{1, {2, 1e-3}},   {2, {8, 1e-4}},     {16, {8, 1e-5}},
+const PostEffort kRounds[] = {{1, {2, 1e-3}},   {2, {8, 1e-4}},    {16, {8, 1e-5}},
                               {64, {16, 1e-6}}, {512, {32, 1e-7}}, {4096, {96, 1e-7}}};
 
 class OutwardPosts {
@@ -58,15 +58,16 @@ class OutwardPosts {
   }
 
  private:
-  void run_round(const PostEffort& effort, std::vector<std::unique_ptr<PostProver>>& provers, ThreadTeam& team) {
+  void run_round(const PostEffort& effort, std::vector<std::unique_ptr<PostProver>>& provers,
+                 ThreadTeam& team) {
     std::vector<std::uint8_t> still_open(open_.size());
     const auto count = static_cast<std::int64_t>(open_.size());
     const std::int64_t grain = effort.most_boxes == 1 ? 16 : 1;
     team.for_each(count, grain, [&](ThreadTeam::Range range, int worker) {
       auto& prover = provers[static_cast<std::size_t>(worker)];
       if (!prover) {
-        prover = std::make_unique<PostProver>(spec_, target_, next_value_of(spec_, influences_, state_, target_),
-                                              shifts_);
+        prover = std::make_unique<PostProver>(spec_, target_,
+                                              next_value_of(spec_, influences_, state_, target_), shifts_);
       }
       for (std::int64_t i = range.begin; i < range.end; ++i) {
         const auto place = static_cast<std::size_t>(i);
@@ -85,7 +86,8 @@ class OutwardPosts {
     const Odometer choice(choices_->counts(), number);
     const bool over = budget_.is_over();
     bool settled = true;
-    const std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int64_t>> claims = claims_of(choice);
+    const std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int64_t>> claims =
+        claims_of(choice);
     std::vector<std::pair<std::int64_t, PostProof>> proofs;
     for (const auto& [range, entries] : claims) {
       PostProof proof = over ? PostProof{PostVerdict::open, "the budget ended"}
@@ -123,7 +125,8 @@ class OutwardPosts {
     PostProof worst;
     choices_->for_each_piece(choice, slots, [&](const Odometer&) {
       PostProof proof = prover.prove(slots, claimed, effort, end);
-      if (proof.verdict != PostVerdict::holds && worst.verdict != PostVerdict::wrong) worst = std::move(proof);
+      if (proof.verdict != PostVerdict::holds && worst.verdict != PostVerdict::wrong)
+        worst = std::move(proof);
       return worst.verdict != PostVerdict::wrong;
     });
     return worst;
@@ -137,7 +140,10 @@ class OutwardPosts {
                          range_text(target_, range),
                          has_limits ? proof.why : "without the cells that may be measured at a limit");
     };
-    if (proof.verdict == PostVerdict::wrong) {
+    if (range.first > range.last) {
+      tally_.add_wrong(entry,
+                       [&] { return entry_text(grid_, inputs_, claimed_, entry) + ": no cell at all"; });
+    } else if (proof.verdict == PostVerdict::wrong) {
       tally_.add_wrong(entry, describe);
     } else if (proof.verdict == PostVerdict::open || !has_limits) {
       tally_.add_unproven(entry, describe);

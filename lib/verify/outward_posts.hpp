@@ -24,9 +24,9 @@ struct PostQuestion {
   std::string check;  ///< name of the finding
 };
 
-/// Proves the entries of a state's table by enclosures in ball arithmetic: a little work for all, then more and more
-/// for those that do not fit, until the budget ends. What follows its own present value is proven once for all its
-/// cells. An entry is wrong only if a value that does come next is not in it.
+/// Proves the entries of a state's table by enclosures in ball arithmetic: a little work for all, then more
+/// and more for those that do not fit, until the budget ends. What follows its own present value is proven
+/// once for all its cells. An entry is wrong only if a value that does come next is not in it.
 /// @returns nothing where these do not do: limits that stop a state, jumps in a flow, another table's shape
 [[nodiscard]] std::optional<Finding> check_outward_posts(const PostQuestion& question, ThreadTeam& team);
 

@@ -23,7 +23,8 @@ class OutwardTubes {
         claimed_(*question.claimed),
         influences_(influences_on(spec_, state_)),
         alike_(flows_alike(spec_, influences_, state_)),
-        choices_(spec_, *question.grid, *question.inputs, claimed_, alike_ ? std::optional(state_) : std::nullopt),
+        choices_(spec_, *question.grid, *question.inputs, claimed_,
+                 alike_ ? std::optional(state_) : std::nullopt),
         asked_(choices_.made_by(*question.cells)),
         slots_(spec_.slot_count()),
         tally_(question) {
@@ -88,15 +89,17 @@ class OutwardTubes {
     return places_[static_cast<std::size_t>(choice[own_])][static_cast<std::size_t>(piece[own_])];
   }
 
-  /// Values are those of the state itself, or of the difference to its beginning. What does not leave the initial
-  /// place on one side has its end there, exactly.
+  /// Values are those of the state itself, or of the difference to its beginning. What does not leave the
+  /// initial place on one side has its end there, exactly.
   [[nodiscard]] OwnTube tube_from(const FlowRange& range, const Piece& place) const {
     const Rational base_lower = alike_ ? place.lower : Rational(0);
     const Rational base_upper = alike_ ? place.upper : Rational(0);
     Rational lower = place.lower;
     Rational upper = place.upper;
-    if (!range.stays_above_start) lower = std::min(lower, Rational(base_lower + range.lower.lower_rational()));
-    if (!range.stays_below_start) upper = std::max(upper, Rational(base_upper + range.upper.upper_rational()));
+    if (!range.stays_above_start)
+      lower = std::min(lower, Rational(base_lower + range.lower.lower_rational()));
+    if (!range.stays_below_start)
+      upper = std::max(upper, Rational(base_upper + range.upper.upper_rational()));
     Rational low = place.lower;
     Rational high = place.upper;
     if (range.low) low = std::min(low, Rational(base_lower + range.low->upper_rational()));

@@ -110,7 +110,8 @@ std::vector<std::int64_t> PieceChoices::made_by(const std::vector<std::int64_t>&
   std::set<std::int64_t> numbers;
   for (const std::int64_t cell : cells) {
     std::int64_t number = 0;
-    for (std::size_t v = 0; v < states_.size(); ++v) number = number * counts_[v] + grid_.index(cell, states_[v]);
+    for (std::size_t v = 0; v < states_.size(); ++v)
+      number = number * counts_[v] + grid_.index(cell, states_[v]);
     numbers.insert(number);
   }
   for (const std::int64_t number : numbers) {

@@ -34,8 +34,8 @@ class PieceChoices {
 
   [[nodiscard]] const std::vector<std::int64_t>& counts() const { return counts_; }
   [[nodiscard]] std::int64_t size() const { return size_; }
-  /// Row-major numbers of the choices that some of the cells make, with all inputs, ascending; all if `cells` is
-  /// empty.
+  /// Row-major numbers of the choices that some of the cells make, with all inputs, ascending; all if `cells`
+  /// is empty.
   [[nodiscard]] std::vector<std::int64_t> made_by(const std::vector<std::int64_t>& cells) const;
   /// Position of a choice in the table.
   [[nodiscard]] std::int64_t position(const Odometer& choice) const;

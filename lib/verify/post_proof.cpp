@@ -43,7 +43,8 @@ PostProof PostProver::prove(const SpanBox& box, IndexRange claimed, const PostEf
     PostProof proof = prove_piece(piece, effort.effort, cut);
     if (proof.verdict == PostVerdict::holds) continue;
     if (proof.verdict == PostVerdict::wrong || !cut) return proof;
-    if (boxes + static_cast<int>(pending.size()) >= effort.most_boxes || Budget::Clock::now() >= end) return proof;
+    if (boxes + static_cast<int>(pending.size()) >= effort.most_boxes || Budget::Clock::now() >= end)
+      return proof;
     SpanBox half = piece;
     half[*cut].upper = piece[*cut].middle();
     piece[*cut].lower = half[*cut].upper;
@@ -53,7 +54,8 @@ PostProof PostProver::prove(const SpanBox& box, IndexRange claimed, const PostEf
   return {};
 }
 
-PostProof PostProver::prove_piece(const SpanBox& box, const Effort& effort, std::optional<std::uint32_t>& cut) {
+PostProof PostProver::prove_piece(const SpanBox& box, const Effort& effort,
+                                  std::optional<std::uint32_t>& cut) {
   const auto enough = [this](const Arb& lower, const Arb& upper) { return is_claimed(lower, upper); };
   const std::optional<Extremes> found = next_->extremes(box, effort, enough);
   if (!found) {
@@ -69,7 +71,8 @@ PostProof PostProver::prove_piece(const SpanBox& box, const Effort& effort, std:
 }
 
 bool PostProver::is_claimed(const Arb& lower, const Arb& upper) const {
-  if (!lower.is_finite() || !upper.is_finite()) return claimed_.first == INT32_MIN && claimed_.last == INT32_MAX;
+  if (!lower.is_finite() || !upper.is_finite())
+    return claimed_.first == INT32_MIN && claimed_.last == INT32_MAX;
   return holds(target_, claimed_, cells_of(lower, upper, false));
 }
 
@@ -77,7 +80,8 @@ bool PostProver::is_claimed(const Arb& lower, const Arb& upper) const {
 IndexRange PostProver::cells_of(const Arb& lower, const Arb& upper, bool closed) const {
   const Rational& error = target_.measurement_error;
   const Cells cells = closed ? Cells::closed : spec_.abstraction.cells;
-  if (!shifts_) return cells_met(target_, cells, lower.lower_rational() - error, upper.upper_rational() + error, true);
+  if (!shifts_)
+    return cells_met(target_, cells, lower.lower_rational() - error, upper.upper_rational() + error, true);
   const Rational reach = target_.radius() + 2 * error;
   return cells_met(target_, cells, target_.first - reach + lower.lower_rational(),
                    target_.first + reach + upper.upper_rational(), false);
@@ -98,14 +102,17 @@ std::optional<std::string> PostProver::witness(const Extreme& extreme) const {
   if (!extreme.attained || !extreme.attained->is_finite()) return std::nullopt;
   const Rational lower = extreme.attained->lower_rational();
   const Rational upper = extreme.attained->upper_rational();
-  const Rational reach = shifts_ ? Rational(target_.radius() + 2 * target_.measurement_error) : target_.measurement_error;
+  const Rational reach =
+      shifts_ ? Rational(target_.radius() + 2 * target_.measurement_error) : target_.measurement_error;
   const Rational base = shifts_ ? target_.first : Rational(0);
-  if (!misses(base + lower - reach, base + upper - reach) && !misses(base + lower + reach, base + upper + reach))
+  if (!misses(base + lower - reach, base + upper - reach) &&
+      !misses(base + lower + reach, base + upper + reach))
     return std::nullopt;
   std::string from;
   for (const std::uint32_t slot : next_->divisible()) {
     if (shifts_ && name_of(spec_, slot) == target_.name) continue;
-    from += fmt::format("{}{} = {}", from.empty() ? "" : ", ", name_of(spec_, slot), number_text(extreme.start[slot]));
+    from += fmt::format("{}{} = {}", from.empty() ? "" : ", ", name_of(spec_, slot),
+                        number_text(extreme.start[slot]));
   }
   for (std::size_t l = 0; l < spec_.disturbances.size(); ++l) {
     const std::uint32_t slot = spec_.disturbance_slot(l);

@@ -32,17 +32,20 @@ struct PostEffort {
 /// Proves claimed ranges of the next value of one state. One object a thread.
 class PostProver {
  public:
-  /// @param shifts the next value is the present one and something that does not depend on it: claims are about
+  /// @param shifts the next value is the present one and something that does not depend on it: claims are
+  /// about
   ///   the cell with index 0
   /// REQUIRES: `spec` and `target` outlive this object.
-  PostProver(const ProblemSpec& spec, const GridDimension& target, std::unique_ptr<NextValue> next, bool shifts);
+  PostProver(const ProblemSpec& spec, const GridDimension& target, std::unique_ptr<NextValue> next,
+             bool shifts);
 
   /// @param box where the present state can be
   [[nodiscard]] PostProof prove(const SpanBox& box, IndexRange claimed, const PostEffort& effort,
                                 Budget::Clock::time_point end);
 
  private:
-  [[nodiscard]] PostProof prove_piece(const SpanBox& box, const Effort& effort, std::optional<std::uint32_t>& cut);
+  [[nodiscard]] PostProof prove_piece(const SpanBox& box, const Effort& effort,
+                                      std::optional<std::uint32_t>& cut);
   [[nodiscard]] bool is_claimed(const Arb& lower, const Arb& upper) const;
   [[nodiscard]] IndexRange cells_of(const Arb& lower, const Arb& upper, bool closed) const;
   [[nodiscard]] std::optional<std::string> witness(const Extreme& extreme) const;

@@ -37,7 +37,8 @@ std::vector<bool> entries_of(const UniformGrid& grid, const InputSpace& inputs, 
     Odometer choice(counts);
     do {
       std::int64_t entry = first;
-      for (std::size_t j = 0; j < counts.size(); ++j) entry += choice[j] * table.input_stride[table.inputs[j]];
+      for (std::size_t j = 0; j < counts.size(); ++j)
+        entry += choice[j] * table.input_stride[table.inputs[j]];
       asked[static_cast<std::size_t>(entry)] = true;
     } while (choice.advance());
   }

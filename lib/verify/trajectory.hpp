@@ -9,8 +9,8 @@
 namespace coordreq {
 
 /// Solutions of x' = f(x, w) from a point with constant w, enclosed step by step: by Taylor's formula with
-/// Lagrange's remainder where f is analytic, by one of second order with Clarke's slopes where it has kinks, by
-/// the range of f where it jumps. Steps are halved until the remainder is small enough.
+/// Lagrange's remainder where f is analytic, by one of second order with Clarke's slopes where it has kinks,
+/// by the range of f where it jumps. Steps are halved until the remainder is small enough.
 class Trajectory {
  public:
   /// REQUIRES: `field` outlives this object.
@@ -34,7 +34,10 @@ class Trajectory {
   [[nodiscard]] ArbBox kinked_step(const ArbBox& box, const ArbBox& tube, const std::vector<Arb>& change,
                                    const Arb& duration);
 
+  static constexpr std::uint32_t kFinest = 1U << 12U;  // parts of a duration
+
   VectorField* field_;
+  std::uint32_t parts_ = kFinest;                         ///< that the last step took
   std::map<ArbBox, std::optional<ArbBox>, Order> known_;  ///< by box and duration
 };
 

@@ -12,8 +12,9 @@ namespace coordreq {
 /// A value for each variable of a spec, by slot.
 using ArbBox = std::vector<Arb>;
 
-/// Several equations of a spec as functions of what varies: some states x, then disturbances w. Encloses their ranges,
-/// slopes and, as right-hand sides of x' = f(x, w), Taylor series in time. Scratch inside: one object a thread.
+/// Several equations of a spec as functions of what varies: some states x, then disturbances w. Encloses
+/// their ranges, slopes and, as right-hand sides of x' = f(x, w), Taylor series in time. Scratch inside: one
+/// object a thread.
 class VectorField {
  public:
   /// @param equations indices of states; for taylor() those of all of x
@@ -27,7 +28,8 @@ class VectorField {
 
   /// The range of one equation over a box; not finite where it is not defined or has no bound.
   [[nodiscard]] Arb value(std::size_t equation, const ArbBox& box);
-  /// Slopes of one equation by all variables, over the box. @returns nothing where it jumps, or they have no bound
+  /// Slopes of one equation by all variables, over the box. @returns nothing where it jumps, or they have no
+  /// bound
   [[nodiscard]] std::optional<std::vector<Arb>> slopes(std::size_t equation, const ArbBox& box);
   /// A row of slopes() an equation.
   [[nodiscard]] std::optional<ArbMatrix> jacobian(const ArbBox& box);
@@ -39,6 +41,7 @@ class VectorField {
   void put(const ArbBox& box);
 
   std::vector<ExpressionSeries> equations_;
+  std::vector<std::vector<bool>> mentions_;  ///< [equation][variable]
   std::vector<std::uint32_t> variables_;
   std::vector<ArbSeries> slots_;
 };

@@ -42,7 +42,8 @@ class Verifier {
         grid_(make_grid(spec)),
         inputs_(make_input_space(spec)),
         budget_(options.budget_seconds) {
-    if (options.sample && *options.sample < grid_.cells()) sample_ = drawn_cells(grid_.cells(), *options.sample);
+    if (options.sample && *options.sample < grid_.cells())
+      sample_ = drawn_cells(grid_.cells(), *options.sample);
     if (!sample_.empty()) cells_of_posts_ = with_paths(sample_);
   }
 
@@ -81,9 +82,9 @@ class Verifier {
       std::optional<PostTable> own = corner_posts(spec_, grid_, inputs_, i, cells_of_posts_, team_);
       if (own && own->exact) {
         if (stored) {
-          result_.findings.push_back(
-              check_abstraction(grid_, inputs_, i, *own, claims_.abstraction[i],
-                                entries_of(grid_, inputs_, *own, cells_of_posts_), "abstraction"));
+          result_.findings.push_back(check_abstraction(grid_, inputs_, i, *own, claims_.abstraction[i],
+                                                       entries_of(grid_, inputs_, *own, cells_of_posts_),
+                                                       "abstraction"));
         }
         tables_.push_back(std::move(*own));
         continue;
@@ -105,6 +106,8 @@ class Verifier {
                                 .check = check};
     std::optional<Finding> finding = check_outward_posts(question, team_);
     if (finding) {
+      result_.enclosed += finding->checked;
+      result_.confirmed += finding->checked - finding->unproven - finding->wrong;
       result_.findings.push_back(std::move(*finding));
     } else {
       borrow(grid_[state].name);
@@ -181,7 +184,8 @@ class Verifier {
 Verdict Verification::verdict() const {
   const auto any = [this](const auto& is) { return std::any_of(findings.begin(), findings.end(), is); };
   if (any([](const Finding& finding) { return finding.wrong > 0; })) return Verdict::wrong;
-  return any([](const Finding& finding) { return finding.unproven > 0; }) ? Verdict::not_confirmed : Verdict::holds;
+  return any([](const Finding& finding) { return finding.unproven > 0; }) ? Verdict::not_confirmed
+                                                                          : Verdict::holds;
 }
 
 Verification verify_claims(const ProblemSpec& spec, const Claims& claims, const VerifyOptions& options,

@@ -90,12 +90,14 @@ Claims read_all(const ResultsReader& results) {
 }
 
 StoredExtras extras_of(const ResultsReader& results) {
-  StoredExtras extras{.controller = results.has_controller(),
-                      .abstraction = results.has_abstraction(),
-                      .convention = results.has_convention()};
+  const OutputSpec& output = results.spec().output;
+  StoredExtras extras{
+      .controller = output.controller || results.has_controller(),
+      .abstraction = output.abstraction || results.has_abstraction(),
+      .convention = results.has_convention() || (output.actions && results.spec().coordination.convention)};
   for (std::size_t p = 0; p < results.partitions().size(); ++p) {
-    extras.actions.push_back(results.has_actions(p));
-    extras.layers.push_back(results.has_layers(p));
+    extras.actions.push_back(output.actions || results.has_actions(p));
+    extras.layers.push_back(output.layers || results.has_layers(p));
   }
   for (const ResultRequirement& requirement : results.requirements()) {
     StoredExtras::Path& path = extras.paths.emplace_back();
