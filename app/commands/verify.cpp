@@ -14,6 +14,8 @@ namespace {
 struct VerifyArguments : CommonOptions {
   std::string results;
   std::optional<std::int64_t> sample;
+  std::optional<double> budget;
+  bool strict = false;
   ProgressOptions progress;
 };
 
@@ -26,6 +28,7 @@ double seconds_since(Clock::time_point start) {
 Verification verify_with_progress(const ClaimedFile& file, const VerifyArguments& own, ThreadTeam& team) {
   ProgressDisplay shown(own.progress, own.quiet);
   VerifyOptions options{.sample = own.sample};
+  if (own.budget) options.budget_seconds = *own.budget;
   options.progress = [&](const VerifyProgress& progress) {
     shown.update({.stage = "checking " + progress.stage, .done = progress.done, .all = progress.all});
   };
@@ -44,7 +47,9 @@ ExitCode run(const VerifyArguments& own) {
   } else if (!own.quiet) {
     write_output(verification_text(result, own.results, seconds_since(start), team.size()));
   }
-  return result.holds() ? ExitCode::success : ExitCode::requirement_failed;
+  if (result.verdict() == Verdict::not_confirmed) write_diagnostics(not_confirmed_line(result, own.results));
+  const bool passes = result.verdict() == Verdict::holds || (result.holds() && !own.strict);
+  return passes ? ExitCode::success : ExitCode::requirement_failed;
 }
 
 }  // namespace
@@ -54,6 +59,10 @@ Run declare_verify(Options& options) {
   declare_results(options, own->results);
   options.option(own->sample, "--sample", "N", "Look at so many cells, evenly drawn (default: all)",
                  WholeNumber<std::int64_t>{1, INT64_MAX});
+  options.option(own->budget, "--budget", "SECONDS",
+                 "Time for reachable sets that are hard to confirm; 0: only a first look (default: 60)",
+                 seconds);
+  options.flag(own->strict, "--strict", "Fail if something is not confirmed");
   declare_progress(options, own->progress);
   declare_common(options, *own);
   return [own] { return run(*own); };

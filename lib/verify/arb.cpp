@@ -1,18 +1,14 @@
 #include "verify/arb.hpp"
 
-#include <flint/fmpq.h>
+#include "verify/flint_rational.hpp"
 
 namespace coordreq {
 namespace {
 
 Rational rational_of(const arf_t end) {
-  fmpq_t exact;
-  fmpq_init(exact);
-  arf_get_fmpq(exact, end);
-  Rational result;
-  fmpq_get_mpq(result.get_mpq_t(), exact);
-  fmpq_clear(exact);
-  return result;
+  FlintRational exact;
+  arf_get_fmpq(exact.get(), end);
+  return exact.value();
 }
 
 using GetEnd = void (*)(arf_t, const arb_t, slong);
@@ -26,10 +22,7 @@ Arb end_of(const Arb& ball, GetEnd get_end) {
 }  // namespace
 
 Arb::Arb(const Rational& value) : Arb() {
-  fmpq_t exact;
-  fmpq_init_set_readonly(exact, value.get_mpq_t());
-  arb_set_fmpq(ball_, exact, kArbBits);
-  fmpq_clear_readonly(exact);
+  arb_set_fmpq(ball_, FlintRational(value).get(), kArbBits);
 }
 
 Arb Arb::lower() const {

@@ -86,6 +86,7 @@ class Comparison {
     note("CLASS", expected.is_scale == found.is_scale);
     // An axis without coordinates has its length behind the words.
     note("NAME", found.scale_name.compare(0, expected.scale_name.size(), expected.scale_name) == 0);
+    if (!found.is_blank) note("its elements", false);
     if (expected.is_scale) remember_dimension(found);
   }
 

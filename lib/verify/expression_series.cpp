@@ -23,6 +23,11 @@ Arb absolute(const Arb& a) {
   return hull(Arb(0.0), greater(a.upper(), Arb(0.0) - a.lower()));
 }
 
+/// Whether it matters that a ball is not the product of one number with itself.
+bool is_wide(const Arb& a) {
+  return a.width() > 1e-3 * std::abs(a.approximately());
+}
+
 /// Comparisons are decided where no point of the balls is on the other side.
 Truth compare(Operator op, const Arb& a, const Arb& b) {
   const auto decided = [](bool yes, bool no) { return yes ? Truth::yes : no ? Truth::no : Truth::undecided; };
@@ -113,7 +118,7 @@ void ExpressionSeries::run_binary(std::size_t n, slong length) {
       return arb_poly_sub_series(result, a, b, length, kArbBits);
     case Operator::multiply:
       arb_poly_mullow(result, a, b, length, kArbBits);
-      if (node.a == node.b) {
+      if (node.a == node.b && is_wide(values_[node.a][0])) {
         const Arb whole = absolute(values_[node.a][0]);
         values_[n].set(0, hull(whole.lower() * whole.lower(), whole.upper() * whole.upper()));
       }
@@ -144,7 +149,7 @@ void ExpressionSeries::run_power(std::size_t n, slong length) {
   }
   const auto times = static_cast<ulong>(whole < 0 ? -whole : whole);
   arb_poly_pow_ui_trunc_binexp(result.get(), a.get(), times, length, kArbBits);
-  if (times % 2 == 0 && times > 0) {
+  if (times % 2 == 0 && times > 0 && is_wide(constant_term(a))) {
     const Arb size = absolute(constant_term(a));
     Arb least, most;
     arb_pow_ui(least.get(), size.lower().get(), times, kArbBits);

@@ -1,12 +1,15 @@
 #include "verify/flow_extremes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "verify/transition_matrix.hpp"
 
 namespace coordreq {
 namespace {
+
+constexpr int kMostSteps = 128;
 
 ArbMatrix columns(const ArbMatrix& a, std::size_t rows, std::size_t first, std::size_t count) {
   ArbMatrix result(rows, count);
@@ -52,16 +55,34 @@ std::optional<Extremes> FlowExtremes::extremes(const SpanBox& box, const Effort&
   return result;
 }
 
+/// Where the slopes would turn things round within a step, more steps are taken.
 bool FlowExtremes::enclose(const SpanBox& box, const Effort& effort) {
   box_ = box;
   effort_ = effort;
-  const int pieces = effort.steps < 8 ? 1 : std::min(effort.steps / 4, 8);
-  std::optional<std::vector<FlowStep>> steps = enclose_flow(field_, box, period_, effort.steps, pieces);
+  std::optional<std::vector<FlowStep>> steps = enclosed(effort.steps);
+  const ArbBox start = all_of(box);
+  const std::optional<ArbMatrix> slopes = steps ? steps->front().slopes : field_.jacobian(start);
+  const int finer = slopes ? steps_for(*slopes, effort) : effort.steps;
+  if (finer > effort.steps) steps = enclosed(finer);
   if (!steps) return false;
   steps_ = std::move(*steps);
-  step_ = period_ / Arb(static_cast<double>(effort.steps));
+  effort_.steps = static_cast<int>(steps_.size());
+  step_ = period_ / Arb(static_cast<double>(effort_.steps));
   influences_.assign(steps_.size() + 1, std::nullopt);
   return true;
+}
+
+std::optional<std::vector<FlowStep>> FlowExtremes::enclosed(int steps) {
+  const int pieces = effort_.steps < 8 ? 1 : std::min(effort_.steps / 4, 8);
+  return enclose_flow(field_, box_, period_, steps, pieces);
+}
+
+int FlowExtremes::steps_for(const ArbMatrix& slopes, const Effort& effort) const {
+  Arb norm;
+  arb_mat_bound_inf_norm(arb_radref(norm.get()), columns(slopes, states_.size(), 0, states_.size()).get());
+  const double turns = norm.upper().approximately() * period_.approximately();
+  const double least = std::min(turns * std::max(2.0, effort.steps / 4.0), double{kMostSteps});
+  return std::max(effort.steps, static_cast<int>(std::ceil(least)));
 }
 
 Extreme FlowExtremes::bound_after(std::size_t steps, bool greatest) const {

@@ -42,6 +42,8 @@ class FlowExtremes : public NextValue {
     std::vector<Arb> of_start;                     ///< [moving state]
     std::vector<std::vector<Arb>> of_disturbance;  ///< [step][disturbance]: per time
   };
+  [[nodiscard]] std::optional<std::vector<FlowStep>> enclosed(int steps);
+  [[nodiscard]] int steps_for(const ArbMatrix& slopes, const Effort& effort) const;
   [[nodiscard]] const std::optional<Influence>& influence_after(std::size_t steps);
   [[nodiscard]] std::optional<Influence> find_influence(std::size_t steps) const;
   [[nodiscard]] Extreme bound_after(std::size_t steps, bool greatest) const;

@@ -14,7 +14,7 @@ Arb extreme_change(VectorField& field, std::size_t i, const SpanBox& face,
     row.emplace();
     for (std::size_t j = 0; j < field.variables().size(); ++j) row->push_back((*slopes)(i, j));
   }
-  const Extreme whole = extreme_of(field, i, face, row, field.value(i, all_of(face)), greatest);
+  const Extreme whole = extreme_of(field, i, face, row, greatest);
   const auto worst = std::max_element(whole.excess.begin(), whole.excess.end());
   if (pieces <= 1 || worst == whole.excess.end() || *worst <= 0.0) return whole.bound;
   const std::uint32_t slot = field.variables()[static_cast<std::size_t>(worst - whole.excess.begin())];
@@ -23,6 +23,7 @@ Arb extreme_change(VectorField& field, std::size_t i, const SpanBox& face,
   Arb found = extreme_change(field, i, half, field.jacobian(all_of(half)), greatest, pieces / 2);
   half[slot] = {half[slot].upper, face[slot].upper};
   const Arb other = extreme_change(field, i, half, field.jacobian(all_of(half)), greatest, pieces / 2);
+  if (!found.is_finite() || !other.is_finite()) return whole.bound;
   found = greatest ? greater(found, other) : lesser(found, other);
   return greatest ? lesser(found, whole.bound) : greater(found, whole.bound);
 }

@@ -23,7 +23,6 @@ class MapExtremes : public NextValue {
 
 /// The extreme of one equation of a vector field over a box.
 [[nodiscard]] Extreme extreme_of(VectorField& field, std::size_t equation, const SpanBox& box,
-                                 const std::optional<std::vector<Arb>>& slopes, const Arb& natural,
-                                 bool greatest);
+                                 const std::optional<std::vector<Arb>>& slopes, bool greatest);
 
 }  // namespace coordreq

@@ -19,9 +19,8 @@ Choice choose_for_extreme(const ArbSpan& span, const Arb& slope, bool greatest) 
   const bool mostly_rising = is_below(falling, rising);
   const Arb& most = mostly_rising ? rising : falling;
   const Arb& least = mostly_rising ? falling : rising;
-  const Arb half(0.5);
+  const Arb half(0.5 + 1e-9);  // the middle is only nearly in the middle
   if (is_below(most * half, least)) return {span.middle(), (most * width * half).upper()};
-  // The middle is only nearly in the middle: half of the width, and as much as rounding may add.
   return {mostly_rising == greatest ? span.upper : span.lower, (least * width).upper()};
 }
 

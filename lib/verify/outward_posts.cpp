@@ -140,7 +140,10 @@ class OutwardPosts {
                          range_text(target_, range),
                          has_limits ? proof.why : "without the cells that may be measured at a limit");
     };
-    if (proof.verdict == PostVerdict::wrong) {
+    if (range.first > range.last) {
+      tally_.add_wrong(entry,
+                       [&] { return entry_text(grid_, inputs_, claimed_, entry) + ": no cell at all"; });
+    } else if (proof.verdict == PostVerdict::wrong) {
       tally_.add_wrong(entry, describe);
     } else if (proof.verdict == PostVerdict::open || !has_limits) {
       tally_.add_unproven(entry, describe);

@@ -6,9 +6,12 @@
 namespace coordreq {
 namespace {
 
-constexpr slong kOrder = 8;
+/// Higher ones pay only where more is wanted.
+slong order_for(double tolerance) {
+  return tolerance > 1e-6 ? 4 : 8;
+}
+
 constexpr int kPicardTries = 30;
-constexpr std::uint32_t kFinest = 1U << 12U;  // parts of the duration
 constexpr std::size_t kMostKnown = 1 << 14;
 
 Arb from_zero(const Arb& duration) {
@@ -75,7 +78,7 @@ bool Trajectory::advance(ArbBox& box, const Arb& duration, double tolerance) {
 
 bool Trajectory::integrate(ArbBox& box, const Arb& duration, double tolerance) {
   std::uint32_t left = kFinest;
-  std::uint32_t parts = kFinest;
+  std::uint32_t parts = parts_;
   while (left > 0) {
     parts = std::min(parts, left);
     const Arb share(static_cast<double>(parts) / kFinest);
@@ -83,6 +86,7 @@ bool Trajectory::integrate(ArbBox& box, const Arb& duration, double tolerance) {
     if (next) {
       box = std::move(*next);
       left -= parts;
+      parts_ = parts;
       if (left % (2 * parts) == 0) parts *= 2;
     } else if (parts > 1) {
       parts /= 2;
@@ -108,16 +112,17 @@ std::optional<ArbBox> Trajectory::step(const ArbBox& box, const Arb& duration, d
 
 std::optional<ArbBox> Trajectory::analytic_step(const ArbBox& box, const ArbBox& tube, const Arb& duration,
                                                 double tolerance) {
-  const std::optional<std::vector<ArbSeries>> rest = field_->taylor(tube, kOrder + 1);
+  const slong order = order_for(tolerance);
+  const std::optional<std::vector<ArbSeries>> rest = field_->taylor(tube, order + 1);
   if (!rest) return std::nullopt;
   Arb power;
-  arb_pow_ui(power.get(), duration.get(), kOrder, kArbBits);
+  arb_pow_ui(power.get(), duration.get(), static_cast<ulong>(order), kArbBits);
   std::vector<Arb> remainder;
   for (const ArbSeries& series : *rest) {
-    remainder.push_back(series[kOrder] * power);
-    if (!(remainder.back().width() <= 1e-3 * tolerance)) return std::nullopt;
+    remainder.push_back(series[order] * power);
+    if (!(remainder.back().width() <= tolerance)) return std::nullopt;
   }
-  const std::optional<std::vector<ArbSeries>> series = field_->taylor(box, kOrder);
+  const std::optional<std::vector<ArbSeries>> series = field_->taylor(box, order);
   if (!series) return std::nullopt;
   ArbBox end = box;
   for (std::size_t i = 0; i < series->size(); ++i) {

@@ -34,7 +34,10 @@ class Trajectory {
   [[nodiscard]] ArbBox kinked_step(const ArbBox& box, const ArbBox& tube, const std::vector<Arb>& change,
                                    const Arb& duration);
 
+  static constexpr std::uint32_t kFinest = 1U << 12U;  // parts of a duration
+
   VectorField* field_;
+  std::uint32_t parts_ = kFinest;                         ///< that the last step took
   std::map<ArbBox, std::optional<ArbBox>, Order> known_;  ///< by box and duration
 };
 

@@ -25,6 +25,11 @@ ArbMatrix paths_in(const ArbMatrix& slopes, slong n) {
 ArbMatrix transition_matrix(const ArbMatrix& slopes, const Arb& duration) {
   const slong n = arb_mat_nrows(slopes.get());
   ArbMatrix sum(static_cast<std::size_t>(n), static_cast<std::size_t>(n));
+  if (n == 1) {  // numbers commute: exp of the integral of A
+    const Arb exponent = slopes(0, 0) * duration;
+    arb_exp(sum.entry(0, 0), exponent.get(), kArbBits);
+    return sum;
+  }
   arb_mat_one(sum.get());
   ArbMatrix term = sum;
   Arb norm;  // of J h

@@ -1,13 +1,22 @@
 #include "verify/vector_field.hpp"
 
+#include <algorithm>
+
 namespace coordreq {
 
 VectorField::VectorField(const ProblemSpec& spec, const Influences& influences,
                          const std::vector<std::size_t>& equations)
     : slots_(spec.slot_count()) {
-  for (const std::size_t i : equations) equations_.emplace_back(spec.dynamics.equations[i]);
   for (const std::size_t j : influences.moving) variables_.push_back(spec.state_slot(j));
   for (const std::size_t l : influences.disturbances) variables_.push_back(spec.disturbance_slot(l));
+  for (const std::size_t i : equations) {
+    const Program& program = spec.dynamics.equations[i];
+    equations_.emplace_back(program);
+    const std::vector<std::uint32_t> mentioned = program.variables();
+    auto& row = mentions_.emplace_back();
+    for (const std::uint32_t slot : variables_)
+      row.push_back(std::binary_search(mentioned.begin(), mentioned.end(), slot));
+  }
 }
 
 void VectorField::put(const ArbBox& box) {
@@ -22,7 +31,12 @@ Arb VectorField::value(std::size_t equation, const ArbBox& box) {
 std::optional<std::vector<Arb>> VectorField::slopes(std::size_t equation, const ArbBox& box) {
   put(box);
   std::vector<Arb> result;
-  for (const std::uint32_t slot : variables_) {
+  for (std::size_t j = 0; j < variables_.size(); ++j) {
+    const std::uint32_t slot = variables_[j];
+    if (!mentions_[equation][j]) {
+      result.emplace_back();
+      continue;
+    }
     slots_[slot].set(1, Arb(1.0));
     const Arb slope = equations_[equation](slots_, 2)[1];
     slots_[slot].assign(box[slot]);

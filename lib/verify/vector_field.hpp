@@ -41,6 +41,7 @@ class VectorField {
   void put(const ArbBox& box);
 
   std::vector<ExpressionSeries> equations_;
+  std::vector<std::vector<bool>> mentions_;  ///< [equation][variable]
   std::vector<std::uint32_t> variables_;
   std::vector<ArbSeries> slots_;
 };

@@ -106,6 +106,8 @@ class Verifier {
                                 .check = check};
     std::optional<Finding> finding = check_outward_posts(question, team_);
     if (finding) {
+      result_.enclosed += finding->checked;
+      result_.confirmed += finding->checked - finding->unproven - finding->wrong;
       result_.findings.push_back(std::move(*finding));
     } else {
       borrow(grid_[state].name);
