@@ -25,12 +25,6 @@ ElementType delay_type(const std::deque<PartitionResult>& partitions) {
   return level_type(greatest);
 }
 
-InputClass all_inputs(const ProblemSpec& spec) {
-  InputClass all(spec.inputs.size());
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
 }  // namespace
 
 ResultContent ResultComposer::content() {
@@ -56,8 +50,10 @@ ResultContent ResultComposer::content() {
     content.partitions.push_back(partition_content(partition, delay_type(solution_.partitions)));
   }
   if (spec.output.controller) {
-    content.controller = bits(
-        groupings_.emplace_back(solution_.engine, std::vector<InputClass>{all_inputs(spec)}, team_), 0, "");
+    content.controller =
+        bits(groupings_.emplace_back(
+                 solution_.engine, std::vector<InputClass>{whole_class(solution_.abstraction.inputs)}, team_),
+             0, "");
   }
   if (solution_.listed) {
     content.listed = listed_bits();
@@ -118,8 +114,8 @@ ResultPartition ResultComposer::partition_content(const PartitionResult& partiti
     result.classes.push_back(class_name(spec.agents, agents));
   if (spec.output.layers) result.layers = layer_lists(layers, solution_.order);
   if (!spec.output.actions) return result;
-  const ActionGrouping& grouping =
-      groupings_.emplace_back(solution_.engine, input_classes(spec, *partition.spec), team_);
+  const ActionGrouping& grouping = groupings_.emplace_back(
+      solution_.engine, input_classes(spec, solution_.abstraction.inputs, *partition.spec), team_);
   for (std::size_t c = 0; c < result.classes.size(); ++c)
     result.actions.push_back(bits(grouping, c, result.classes[c]));
   return result;
@@ -127,8 +123,8 @@ ResultPartition ResultComposer::partition_content(const PartitionResult& partiti
 
 ResultBits ResultComposer::bits(const ActionGrouping& grouping, std::size_t c,
                                 const std::string& name) const {
-  ResultBits result{.class_name = name, .actions = static_cast<std::uint64_t>(grouping.actions(c))};
-  for (const std::int32_t i : grouping.inputs(c))
+  ResultBits result{.class_name = name, .actions = static_cast<std::uint64_t>(grouping[c].actions())};
+  for (const std::int32_t i : grouping[c].inputs())
     result.inputs.push_back(solution_.spec.inputs[static_cast<std::size_t>(i)].name);
   result.fill = [controller = solution_.controller, &grouping, c](std::uint64_t begin, std::uint64_t count,
                                                                   void* out) {

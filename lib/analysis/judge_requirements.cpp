@@ -56,7 +56,8 @@ class Judge {
     }
     std::optional<ActionGrouping> grouping;
     if (partition != nullptr) {
-      grouping.emplace(solution_.engine, input_classes(solution_.spec, *partition->spec), team_);
+      grouping.emplace(solution_.engine,
+                       input_classes(solution_.spec, solution_.abstraction.inputs, *partition->spec), team_);
       sets.grouping = &*grouping;
       sets.layers_of = &partition->layers.layers_of;
     }

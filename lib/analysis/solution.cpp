@@ -126,9 +126,7 @@ void Solution::find_network(ThreadTeam& team, const SolutionWatch& watch) {
 void Solution::find_convention(ThreadTeam& team, const SolutionWatch& watch) {
   const std::string stage = "convention";
   watch.enter(stage);
-  std::vector<InputClass> classes;
-  for (const AgentSpec& agent : spec.agents) classes.push_back(agent.inputs);
-  convention.emplace(ConventionResult{ActionGrouping(engine, std::move(classes), team), {}});
+  convention.emplace(ConventionResult{ActionGrouping(engine, agent_classes(spec, model.inputs()), team), {}});
   ConventionFreedom& freedom = convention->freedom;
   const auto load = [&](const auto& numbers, const ReadList& read) {
     freedom = load_convention(spec.agents.size(), abstraction.grid.cells(), numbers, read);
@@ -156,7 +154,7 @@ DelayLayers Solution::layers_of(std::size_t p, const std::string& stage, ThreadT
   WaveCounts counts;
   LevelMap levels = find_levels_of(stage, engine, watch, [&](const WaveWatch& wave) {
     watch.part("projections");
-    const ActionGrouping grouping(engine, input_classes(spec, *partitions[p].spec), team);
+    const ActionGrouping grouping(engine, input_classes(spec, model.inputs(), *partitions[p].spec), team);
     const Projections projections(controller, grouping, hull, team);
     watch.part("");
     std::vector<const LevelMap*> coarser;
@@ -170,20 +168,6 @@ DelayLayers Solution::layers_of(std::size_t p, const std::string& stage, ThreadT
   DelayLayers result = layers_of_levels(std::move(levels), max_delay, team);
   result.counts = counts;
   return result;
-}
-
-std::vector<InputClass> input_classes(const ProblemSpec& spec, const PartitionSpec& partition) {
-  std::vector<InputClass> classes;
-  for (const auto& agents : partition.classes) {
-    InputClass inputs;
-    for (const std::int32_t agent : agents) {
-      const auto& own = spec.agents[static_cast<std::size_t>(agent)].inputs;
-      inputs.insert(inputs.end(), own.begin(), own.end());
-    }
-    std::sort(inputs.begin(), inputs.end());
-    classes.push_back(std::move(inputs));
-  }
-  return classes;
 }
 
 }  // namespace coordreq

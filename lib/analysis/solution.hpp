@@ -90,7 +90,4 @@ struct Solution {
                                       const SolutionWatch& watch) const;
 };
 
-/// The inputs of each class of a partition, ascending.
-[[nodiscard]] std::vector<InputClass> input_classes(const ProblemSpec& spec, const PartitionSpec& partition);
-
 }  // namespace coordreq

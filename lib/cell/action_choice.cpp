@@ -49,12 +49,16 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
                            std::int64_t cell) { return delay[at(cell)] != DelayLayers::kOutsideSafe; },
                .safe_beyond = problem.safe_beyond,
                .listed = problem.listed}),
-      classes_(action_classes(*problem.spec, *problem.partition, problem.abstraction->inputs)),
+      classes_(input_classes(*problem.spec, problem.abstraction->inputs, *problem.partition)),
       margin_(problem.spec->safe),
       nominal_(*problem.spec, *problem.abstraction, dynamics),
       no_error_(problem.spec->states.size()),
       slots_(problem.spec->slot_count()),
       doubles_(problem.spec->slot_count()) {
+  for (InputClass& own : classes_) {
+    own.tabulate();
+    class_parts_.push_back(own.parts());
+  }
   for (const AgentSpec& agent : problem.spec->agents) {
     prefer_.emplace_back();
     if (agent.prefer) prefer_.back().emplace(*agent.prefer);
@@ -84,7 +88,7 @@ std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<c
   if (coordinated) projections_.push_back(*admissible_);
   for (std::size_t c = 0; !coordinated && c < classes_.size(); ++c) {
     Numbers& parts = projections_.emplace_back();
-    for (const std::int64_t a : classes_[c].project(*admissible_)) parts.push_back(classes_[c].part(a));
+    for (const std::int64_t a : classes_[c].project(*admissible_)) parts.push_back(class_parts_[c][at(a)]);
   }
   if (policy_ == Policy::random) return choose_randomly(random);
   return policy_ == Policy::adversarial ? choose_worst(next) : choose_preferred(measured);

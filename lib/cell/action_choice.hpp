@@ -9,6 +9,7 @@
 #include "cell/margin.hpp"
 #include "cell/next_states.hpp"
 #include "cell/random_stream.hpp"
+#include "model/input_class.hpp"
 
 namespace coordreq {
 
@@ -78,7 +79,8 @@ class ActionChooser {
   LoopProblem problem_;
   Policy policy_;
   AdmissibleInputs inputs_;
-  std::vector<ActionClass> classes_;
+  std::vector<InputClass> classes_;
+  std::vector<std::vector<std::int64_t>> class_parts_;  ///< [class] InputClass::parts()
   Margin margin_;
   std::vector<std::optional<PointValue>> prefer_;  ///< by agent
   NextStates nominal_;

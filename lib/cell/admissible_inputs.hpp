@@ -77,34 +77,4 @@ class AdmissibleInputs {
   std::vector<bool> marks_;
 };
 
-/// The actions of one class: the joint values of its inputs, numbered row-major, the last input fastest.
-class ActionClass {
- public:
-  /// @param inputs indices of the class's inputs, ascending
-  ActionClass(const InputSpace& space, std::vector<std::int32_t> inputs);
-
-  [[nodiscard]] const std::vector<std::int32_t>& inputs() const { return inputs_; }
-  [[nodiscard]] std::int64_t count() const { return count_; }
-  /// The part of joint input u that belongs to this class.
-  [[nodiscard]] std::int64_t action(std::int64_t u) const {
-    return actions_.empty() ? compute_action(u) : actions_[static_cast<std::size_t>(u)];
-  }
-  /// What action `a` adds to the number of a joint input.
-  [[nodiscard]] std::int64_t part(std::int64_t a) const;
-  /// The projection of a set of joint inputs onto the class, ascending.
-  [[nodiscard]] std::vector<std::int64_t> project(const std::vector<std::int64_t>& joint_inputs) const;
-
- private:
-  [[nodiscard]] std::int64_t compute_action(std::int64_t u) const;
-
-  const InputSpace* space_;
-  std::vector<std::int32_t> inputs_;
-  std::int64_t count_ = 1;
-  std::vector<std::int32_t> actions_;  ///< by joint input, where those are few enough for a table
-};
-
-/// The classes of a partition, in its order. REQUIRES: `space` outlives the result.
-[[nodiscard]] std::vector<ActionClass> action_classes(const ProblemSpec& spec, const PartitionSpec& partition,
-                                                      const InputSpace& space);
-
 }  // namespace coordreq

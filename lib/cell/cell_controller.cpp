@@ -92,14 +92,12 @@ std::vector<std::vector<bool>> CellController::actions(std::size_t partition, st
 }
 
 std::vector<std::vector<bool>> CellController::convention(std::int64_t cell) {
-  const std::vector<AgentSpec>& agents = results_.spec().agents;
-  std::vector<AgentActions> actions;
-  for (const AgentSpec& agent : agents) actions.push_back(agent_actions(results_.inputs(), agent.inputs));
-  if (!results_.has_convention()) return convention_at(joint_inputs(cell), actions);
+  const std::vector<InputClass> agents = agent_classes(results_.spec(), results_.inputs());
+  if (!results_.has_convention()) return convention_at(joint_inputs(cell), agents);
   std::vector<std::vector<bool>> result;
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const CellBlock block = one_cell(results_.grid(), cell);
-    result.push_back(unpacked(results_.convention_bits(i, block), actions[i].count));
+    result.push_back(unpacked(results_.convention_bits(i, block), agents[i].actions()));
   }
   return result;
 }

@@ -55,7 +55,7 @@ void CellPosts::move_to(std::int64_t cell) {
 Abstraction CellPosts::part_of(std::size_t state, std::int64_t cell) const {
   std::vector<GridDimension> dimensions = results_.grid().dimensions();
   for (std::size_t j = 0; j < dimensions.size(); ++j) {
-    const bool stops = dimensions[j].below == Outside::stop || dimensions[j].above == Outside::stop;
+    const bool stops = traits(dimensions[j].below).stops || traits(dimensions[j].above).stops;
     if (j == state || stops || !contains(dynamics_.dependencies(state).moving, j)) continue;
     dimensions[j].first = dimensions[j].point(results_.grid().index(cell, j));
     dimensions[j].count = 1;

@@ -35,8 +35,8 @@ class RowCutter {
       const bool whole_ring = first.range == IndexRange{0, length_ - 1};
       return whole_ring ? first : RowSegment{0, length_, Kind::shifted, first.range};
     }
-    const bool all_blocked = (offset.first <= -length_ && target_.below == Outside::unsafe) ||
-                             (offset.last >= length_ && target_.above == Outside::unsafe);
+    const bool all_blocked = (offset.first <= -length_ && traits(target_.below).blocks) ||
+                             (offset.last >= length_ && traits(target_.above).blocks);
     if (all_blocked) return {0, length_, Kind::blocked, {}};
     const bool all_leave = offset.first >= length_ || offset.last <= -length_;
     return length_ == 1 || all_leave ? first : RowSegment{0, length_, Kind::shifted, offset};

@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::int64_t kPartCells = 1 << 20;
 
-bool clamps(Outside rule) {
-  return rule == Outside::saturate || rule == Outside::stop;
-}
-
 /// Gives equal values equal numbers, in the order in which they come.
 template <class Value>
 class Numbering {
@@ -79,8 +75,8 @@ DimensionBounds dimension_bounds(const GridDimension& dimension) {
   // What is measured beyond a limit by no more than the error reads as the boundary cell: see locate().
   const Rational lowest = dimension.first - dimension.measurement_error;
   const Rational highest = dimension.point(dimension.count - 1) + dimension.measurement_error;
-  if (clamps(dimension.below)) result.bounds.front() = std::min(result.bounds.front(), upper_double(lowest));
-  if (clamps(dimension.above)) {
+  if (traits(dimension.below).clamps) result.bounds.front() = std::min(result.bounds.front(), upper_double(lowest));
+  if (traits(dimension.above).clamps) {
     const double beyond = std::nextafter(lower_double(highest), std::numeric_limits<double>::infinity());
     result.bounds.back() = std::max(result.bounds.back(), beyond);
   }

@@ -16,8 +16,8 @@ Piece line_piece(const GridDimension& dimension, std::int64_t k, const Rational&
   Piece piece{dimension.point(k) - reach, dimension.point(k) + reach};
   if (k == 0) piece.lower -= dimension.stretch_below;
   if (k == dimension.count - 1) piece.upper += dimension.stretch_above;
-  if (dimension.below == Outside::stop) piece.lower = std::max(piece.lower, dimension.first);
-  if (dimension.above == Outside::stop) {
+  if (traits(dimension.below).stops) piece.lower = std::max(piece.lower, dimension.first);
+  if (traits(dimension.above).stops) {
     piece.upper = std::min(piece.upper, dimension.point(dimension.count - 1));
   }
   return piece;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "model/input_class.hpp"
 #include "model/input_space.hpp"
 #include "results/results_paths.hpp"
 #include "results/sha256.hpp"
 #include "spec/unit_text.hpp"
 #include "results/version.hpp"
 #include "spec/partition_names.hpp"
-#include "verify/class_actions.hpp"
 #include "verify/sampled_map.hpp"
 
 namespace coordreq {
@@ -122,16 +122,17 @@ class Expectation {
     describe_flags(add_array("/fixed_point_index", {"/partition"}), {-1}, "unknown_because_truncated");
   }
 
-  void add_bits(const std::string& path, const ClassActions& actions) {
+  void add_bits(const std::string& path, const InputClass& actions) {
     add_length(path + ":byte");
     Paths axes = cells_;
     axes.push_back(path + ":byte");
     StoredObject& bits = add_array(path, axes);
     std::string names;
-    for (const std::string& input : actions.inputs) names += (names.empty() ? "" : " ") + input;
+    for (const std::int32_t i : actions.inputs())
+      names += (names.empty() ? "" : " ") + spec_.inputs[static_cast<std::size_t>(i)].name;
     bits.texts["inputs"] = names;
     bits.texts["bitorder"] = "little";
-    bits.integers["actions"] = {actions.count};
+    bits.integers["actions"] = {actions.actions()};
   }
 
   void add_partition(std::size_t p) {
@@ -147,7 +148,7 @@ class Expectation {
     for (const auto& agents : partition.classes) {
       if (extras_.actions[p])
         add_bits("/actions/" + partition.name + "/" + class_name(spec_.agents, agents),
-                 class_actions(spec_, inputs, agents));
+                 class_of(spec_, inputs, agents));
     }
   }
 
@@ -172,7 +173,7 @@ class Expectation {
   void add_joint_bits(const std::string& path) {
     std::vector<std::int32_t> everyone;
     for (std::size_t a = 0; a < spec_.agents.size(); ++a) everyone.push_back(static_cast<std::int32_t>(a));
-    add_bits(path, class_actions(spec_, make_input_space(spec_), everyone));
+    add_bits(path, class_of(spec_, make_input_space(spec_), everyone));
   }
 
   void add_convention() {
@@ -182,7 +183,7 @@ class Expectation {
     add_array(paths::kConventionFreedom, axes);
     for (std::size_t a = 0; extras_.convention && a < spec_.agents.size(); ++a) {
       add_bits(paths::convention(spec_.agents[a].name),
-               class_actions(spec_, make_input_space(spec_), {static_cast<std::int32_t>(a)}));
+               class_of(spec_, make_input_space(spec_), {static_cast<std::int32_t>(a)}));
     }
   }
 

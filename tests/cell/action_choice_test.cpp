@@ -124,15 +124,5 @@ TEST(AdmissibleInputs, ObeyAllow) {
   EXPECT_TRUE(inputs.of(2).empty());
 }
 
-TEST(ActionClass, NumbersActionsRowMajorAndProjects) {
-  const InputSpace space({{"a", {0, 1}}, {"b", {0, 1, 2}}, {"c", {0, 1}}});
-  const ActionClass ends(space, {0, 2});
-  EXPECT_EQ(ends.count(), 4);
-  const std::int64_t u = 1 * 6 + 2 * 2 + 1;  // (1, 2, 1)
-  EXPECT_EQ(ends.action(u), 3);
-  EXPECT_EQ(ends.part(3), 1 * 6 + 1);
-  EXPECT_EQ(ends.project({0, 2, 4, u}), (std::vector<std::int64_t>{0, 3}));
-}
-
 }  // namespace
 }  // namespace coordreq

@@ -117,10 +117,10 @@ void expect_plain_inputs(RandomTime kind) {
       RC_ASSERT(set == plain.controller[x]);
       RC_ASSERT(std::is_sorted(found.begin(), found.end()));
       for (std::size_t p = 0; p < plain.partitions.size(); ++p) {
-        const auto classes = action_classes(analysed.spec, analysed.spec.coordination.partitions[p],
-                                            analysed.abstraction.inputs);
+        const auto classes = input_classes(analysed.spec, analysed.abstraction.inputs,
+                                           analysed.spec.coordination.partitions[p]);
         for (std::size_t c = 0; c < classes.size(); ++c) {
-          std::vector<bool> actions(static_cast<std::size_t>(classes[c].count()), false);
+          std::vector<bool> actions(static_cast<std::size_t>(classes[c].actions()), false);
           for (const std::int64_t a : classes[c].project(found)) actions[static_cast<std::size_t>(a)] = true;
           RC_ASSERT(actions == plain.partitions[p].projection[c][x]);
         }

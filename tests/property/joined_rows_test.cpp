@@ -9,7 +9,6 @@
 
 #include "answers/layers/independent_actions.hpp"
 #include "engine/join_rows.hpp"
-#include "engine/set_levels.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 
@@ -107,7 +106,7 @@ std::int64_t cell_of(const UniformGrid& from, std::int64_t cell, const UniformGr
 /// The layers again with levels of another width.
 template <class Level>
 void expect_same_layers(const FastAnalysis& joined, std::size_t p, ThreadTeam& team) {
-  LevelRows<Level> levels = top_levels<Level>(joined.engine, joined.invariance.invariant, team);
+  LevelRows<Level> levels = joined.engine.make_levels<Level>(joined.invariance.invariant, team);
   IndependentActions<Level> op(joined.projections[p], joined.hull, joined.invariance.invariant, team.size());
   run_wave(levels, joined.engine, joined.hull, static_cast<Level>(LevelRows<Level>::kTop - 1), {}, op, {},
            team);

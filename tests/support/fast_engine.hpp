@@ -30,15 +30,7 @@ struct FastAnalysis {
         invariance(find_invariance(engine, hull, safe, spec.controller.synthesis, {}, team)),
         controller{&engine, &invariance.invariant, &invariance.collision_time, spec.controller.synthesis} {
     for (const PartitionSpec& partition : spec.coordination.partitions) {
-      std::vector<InputClass> classes;
-      for (const auto& agents : partition.classes) {
-        InputClass& inputs = classes.emplace_back();
-        for (const std::int32_t agent : agents) {
-          const auto& own = spec.agents[static_cast<std::size_t>(agent)].inputs;
-          inputs.insert(inputs.end(), own.begin(), own.end());
-        }
-      }
-      groupings.emplace_back(engine, classes, team);
+      groupings.emplace_back(engine, input_classes(spec, abstraction.inputs, partition), team);
       projections.emplace_back(controller, groupings.back(), hull, team);
       layers.push_back(find_delay_layers(engine, hull, invariance.invariant, projections.back(), {},
                                          spec.coordination.max_delay, {}, team));

@@ -5,7 +5,6 @@
 
 #include "answers/layers/independent_actions.hpp"
 #include "engine/find_levels.hpp"
-#include "engine/set_levels.hpp"
 
 namespace coordreq {
 namespace {
@@ -56,7 +55,7 @@ DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, cons
 
 DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
                                std::optional<std::int64_t> max_delay, ThreadTeam& team) {
-  return layers_of_levels(LevelMap(top_levels<std::uint8_t>(engine, invariant, team)), max_delay, team);
+  return layers_of_levels(LevelMap(engine.make_levels<std::uint8_t>(invariant, team)), max_delay, team);
 }
 
 DelayLayers layers_of_levels(LevelMap layers_of, std::optional<std::int64_t> max_delay, ThreadTeam& team) {

@@ -25,7 +25,7 @@ class IndependentActions final : public RowOperator<Level> {
     std::vector<std::vector<std::uint32_t>> worst;
     TupleWalk::Candidates candidates;
     TupleWalk tuple;
-    RowHull::Box box;
+    RowBox box;
     IndependentPosts::Row row;
     const Level* labels = nullptr;  ///< of the page at hand; null: there is one part, all of K
     Level label = 0;

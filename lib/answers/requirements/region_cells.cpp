@@ -116,7 +116,7 @@ class RegionFinder {
       set_bits(cells_.row(row), block[i].first, block[i].last + 1);
       return;
     }
-    const std::int64_t stride = grid_.stride(i) / grid_.row_length();
+    const std::int64_t stride = grid_.row_stride(i);
     for (std::int64_t k = block[i].first; k <= block[i].last; ++k) fill(block, i + 1, row + k * stride);
   }
 

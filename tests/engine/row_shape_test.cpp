@@ -1,4 +1,4 @@
-#include "engine/row_window.hpp"
+#include "engine/row_shape.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
