@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "expression/point_value.hpp"
 #include "expression/formula.hpp"
+#include "expression/point_value.hpp"
 
 namespace coordreq {
 
