@@ -43,12 +43,16 @@ double known(double score) {
 ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDynamics& dynamics)
     : problem_(problem),
       policy_(policy),
-      inputs_(*problem.spec, *problem.abstraction,
-              {.invariant = [delay = problem.delay](std::int64_t cell) { return delay[at(cell)] >= 0; },
-               .safe = [delay = problem.delay](
-                           std::int64_t cell) { return delay[at(cell)] != DelayLayers::kOutsideSafe; },
-               .safe_beyond = problem.safe_beyond,
-               .listed = problem.listed}),
+      invariant_(problem.abstraction->grid,
+                 [delay = problem.delay](std::int64_t cell) { return delay[at(cell)] >= 0; }),
+      safe_(problem.abstraction->grid,
+            [delay = problem.delay](std::int64_t cell) {
+              return delay[at(cell)] != DelayLayers::kOutsideSafe;
+            }),
+      safe_beyond_(problem.abstraction->grid,
+                   [beyond = problem.safe_beyond](std::int64_t cell) { return beyond->test(cell); }),
+      posts_(*problem.abstraction),
+      inputs_(*problem.spec, posts_, sets()),
       classes_(input_classes(*problem.spec, problem.abstraction->inputs, *problem.partition)),
       margin_(problem.spec->safe),
       nominal_(*problem.spec, *problem.abstraction, dynamics),
@@ -65,6 +69,17 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
   }
   for (const DisturbanceSpec& w : problem.spec->disturbances) middle_.emplace_back((w.lower + w.upper) / 2);
   find_nominal();
+}
+
+AdmissibleInputs::Sets ActionChooser::sets() {
+  AdmissibleInputs::Sets sets{.invariant = &invariant_, .safe = &safe_, .safe_beyond = {}, .listed = {}};
+  if (problem_.safe_beyond != nullptr) sets.safe_beyond = [this] { return &safe_beyond_; };
+  if (problem_.listed != nullptr) {
+    sets.listed = [listed = problem_.listed](std::int64_t cell, std::int64_t u) {
+      return listed->test(cell, u);
+    };
+  }
+  return sets;
 }
 
 void ActionChooser::find_nominal() {
@@ -158,10 +173,7 @@ std::int64_t ActionChooser::choose_preferred(std::span<const Rational> measured)
   for (std::size_t c = 0; c < classes_.size(); ++c) {
     std::int64_t others = 0;
     for (std::size_t i = 0; i < nominal_parts_.size(); ++i) {
-      const auto& own = classes_[c].inputs();
-      if (!std::binary_search(own.begin(), own.end(), static_cast<std::int32_t>(i))) {
-        others += nominal_parts_[i];
-      }
+      if (!classes_[c].contains(static_cast<std::int32_t>(i))) others += nominal_parts_[i];
     }
     Numbers candidates = projections_[c];
     for (std::int64_t& candidate : candidates) candidate += others;

@@ -87,40 +87,4 @@ bool SetWindow::contains(std::span<const IndexRange> box) const {
   return members(box, 0, 0) == cells;
 }
 
-std::vector<bool> keep_inside(SetWindow& set, std::vector<bool> candidates, const RangeUnder& range) {
-  const std::size_t dimensions = set.grid().size();
-  std::vector<IndexRange> boxes;    // [candidate that has a box][dimension]
-  std::vector<std::size_t> owners;  // the candidate of each
-  std::vector<IndexRange> hull;
-  for (std::size_t u = 0; u < candidates.size(); ++u) {
-    if (!candidates[u]) continue;
-    bool blocked = false;
-    bool gone = false;
-    const std::size_t begin = boxes.size();
-    for (std::size_t i = 0; i < dimensions; ++i) {
-      const ResolvedRange resolved = range(i, static_cast<std::int64_t>(u));
-      blocked = blocked || resolved.blocked;
-      gone = gone || resolved.all_left();
-      boxes.push_back(resolved.inside);
-    }
-    if (blocked) candidates[u] = false;
-    if (blocked || gone) {
-      boxes.resize(begin);
-      continue;
-    }
-    owners.push_back(u);
-    const std::span<const IndexRange> box(boxes.data() + begin, dimensions);
-    if (hull.empty()) hull.assign(box.begin(), box.end());
-    for (std::size_t i = 0; i < dimensions; ++i) {
-      hull[i] = {std::min(hull[i].first, box[i].first), std::max(hull[i].last, box[i].last)};
-    }
-  }
-  if (!owners.empty()) set.cover(hull);
-  for (std::size_t j = 0; j < owners.size(); ++j) {
-    candidates[owners[j]] =
-        set.contains(std::span<const IndexRange>(boxes.data() + j * dimensions, dimensions));
-  }
-  return candidates;
-}
-
 }  // namespace coordreq

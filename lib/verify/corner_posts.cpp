@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "model/pieces.hpp"
-#include "verify/odometer.hpp"
+#include "model/odometer.hpp"
 #include "verify/parameter_choices.hpp"
 #include "verify/post_table.hpp"
 

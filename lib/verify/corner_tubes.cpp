@@ -4,7 +4,7 @@
 
 #include "model/pieces.hpp"
 #include "verify/check_tube.hpp"
-#include "verify/odometer.hpp"
+#include "model/odometer.hpp"
 #include "verify/parameter_choices.hpp"
 #include "verify/sampled_map.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "spec/problem_spec.hpp"
 #include "verify/next_value.hpp"
-#include "verify/odometer.hpp"
+#include "model/odometer.hpp"
 #include "verify/post_table.hpp"
 
 namespace coordreq {
