@@ -103,7 +103,7 @@ class RowChoices {
 
   [[nodiscard]] std::int64_t size() const { return counter_.size(); }
 
-  bool next() {
+  bool advance() {
     const bool more = counter_.advance();
     std::size_t v = 0;
     for (const std::int32_t i : table_.states) {

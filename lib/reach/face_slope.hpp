@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "expression/evaluate.hpp"
-#include "reach/dual.hpp"
+#include "expression/dual.hpp"
 #include "reach/flow_system.hpp"
 
 namespace coordreq {
