@@ -14,10 +14,9 @@ namespace coordreq {
 ///
 /// Where x_i(tau) = x_i(0) + d and d does not depend on x_i, only d is enclosed, once for each choice of the
 /// other states, and the table is filled by shifting.
-/// @throws SpecError naming the state and a place if the state may be undefined there, may escape to infinity
-/// within a
-///   period (unless it has left through an unsafe side of its own before: then the pair is blocked), or if a
-///   discrete state may be off its grid
+/// @throws SpecError naming the state and a place if the state may be undefined there, may escape to
+///   infinity within a period (unless it has left through an unsafe side of its own before: then the pair is
+///   blocked), or if a discrete state may be off its grid
 void build_enclosure_tables(const ProblemSpec& spec, const Dependencies& dependencies,
                             Abstraction& abstraction, const std::vector<std::size_t>& states,
                             ThreadTeam& team);
