@@ -10,7 +10,6 @@
 #include "model/pieces.hpp"
 #include "reach/affine_post.hpp"
 #include "reach/cells_meeting.hpp"
-#include "reach/shift.hpp"
 #include "reach/table_layout.hpp"
 #include "reach/tube_table.hpp"
 

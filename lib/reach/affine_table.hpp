@@ -10,11 +10,10 @@ namespace coordreq {
 
 /// Fills the table of one state of an exactly solvable system: each post is the exact hull (or rounded
 /// outward where constants are irrational).
-/// @returns whether every post is exact; nothing if the dynamics are not affine for some choice of parameters
-/// and
-///   inputs (the table is then unspecified)
+/// @returns whether every post is exact; nothing if the dynamics are not affine for some choice of
+///   parameters and inputs (the table is then unspecified)
 /// @throws SpecError if a discrete state can leave its grid (naming state and input) or an equation is
-/// undefined
+///   undefined
 [[nodiscard]] std::optional<bool> build_affine_table(const ProblemSpec& spec, const AffineDynamics& dynamics,
                                                      Abstraction& abstraction, std::size_t state,
                                                      ThreadTeam& team);

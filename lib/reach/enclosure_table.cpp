@@ -13,7 +13,6 @@
 #include "reach/affine_table.hpp"
 #include "reach/box_choices.hpp"
 #include "reach/cells_meeting.hpp"
-#include "reach/shift.hpp"
 #include "reach/state_enclosure.hpp"
 #include "reach/table_layout.hpp"
 

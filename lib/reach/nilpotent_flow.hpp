@@ -10,8 +10,8 @@ namespace coordreq {
 
 /// The flow of x' = A x + B w + c with nilpotent A, seen from state i:
 ///
-///   x_i(t) = sum_k r_k x(0) t^k / k! + sum_k r_k c t^(k+1) / (k+1)! + integral of g(s) w(t - s) ds over [0,
-///   t], r_k = e_i A^k, g(s) = sum_k r_k B s^k / k!.
+///   x_i(t) = sum_k r_k x(0) t^k / k! + sum_k r_k c t^(k+1) / (k+1)! + integral_0^t g(s) w(t - s) ds,
+///   r_k = e_i A^k, g(s) = sum_k r_k B s^k / k!.
 ///
 /// The sums end because A is nilpotent, so everything is rational. A measurable w in a box reaches every
 /// value of mid * integral(g) +- radius * integral(|g|), both ends included (bang-bang).
@@ -29,8 +29,8 @@ struct NilpotentFlow {
 };
 
 /// @returns nothing if the system is not of that form, has a periodic state that an
-/// equation
-///   uses. @throws SpecError as affine_form() does. REQUIRES: `state` is a moving one.
+///   equation uses
+/// @throws SpecError as affine_form() does. REQUIRES: `state` is a moving one.
 [[nodiscard]] std::optional<NilpotentFlow> nilpotent_flow(const ProblemSpec& spec, std::size_t state,
                                                           const Dependencies& dependencies,
                                                           const std::vector<Rational>& slots);

@@ -17,12 +17,12 @@ namespace coordreq {
 /// Each sub-step's estimated error is held below 1e-12 of the larger of the state and its grid step. Events
 /// end a sub-step: a state that reaches or leaves a `stop` limit or passes its seam, a switch of an equation
 /// (SwitchedEquation). Between events everything is smooth, so they are found on the interpolant of a
-/// sub-step, to 2^-50 of it. Of two events within an eighth of a sub-step that undo one another nothing is
-/// seen.
+/// sub-step, to 2^-50 of it. Two events that undo one another within an eighth of a sub-step are not seen.
 ///
 /// A solution that slides along a place where f jumps passes it to and fro: after 50 events in short
-/// succession the next ones are only looked for 2^-12 of the period later. Scratch inside: one object a
-/// thread.
+/// succession the next ones are only looked for 2^-12 of the period later.
+///
+/// Scratch memory for one thread.
 class PointFlow {
  public:
   /// @param moving states that are integrated, closed under the equations
