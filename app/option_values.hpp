@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/simulate.hpp"
+#include "cell/simulate.hpp"
 
 // What the values of options stand for. Every reader throws UsageError with what was found, what was
 // expected, and the option as the place.

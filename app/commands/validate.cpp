@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/analyze.hpp"
-#include "analysis/judge_requirements.hpp"
+#include "answers/requirements/judge_requirements.hpp"
 #include "app/commands/all.hpp"
 #include "app/json_text.hpp"
 #include "app/load_spec.hpp"
