@@ -75,7 +75,7 @@ std::string meaning(const Json& partition, const Json& summary) {
 std::string connection_text(const Json& partition, const Json& summary) {
   const std::int64_t delay = number(summary["connection_delay"]);
   const bool unknown =
-      partition["truncated"] && delay >= static_cast<std::int64_t>(partition["layers"].size());
+      partition["truncated"].get<bool>() && delay >= static_cast<std::int64_t>(partition["layers"].size());
   return fmt::format("{}{} may never be without one, which takes {} to stand", unknown ? "at most " : "",
                      cells(number(partition["never_without_connection"])), length(delay, summary));
 }

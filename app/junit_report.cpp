@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <sstream>
+#include <system_error>
 
 #include "app/analysis_text.hpp"
 #include "app/requirement_text.hpp"
@@ -110,7 +112,11 @@ void write_junit(const std::string& path, const std::vector<JunitSuite>& suites)
   write_whole_file(path, "the JUnit report", [&](const std::string& temporary) {
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
     file << text << std::flush;
-    if (!file) throw IoError("cannot write the JUnit report", path);
+    if (!file) {
+      throw IoError(
+          "cannot write the JUnit report: " + std::generic_category().message(errno == 0 ? EIO : errno),
+          path);
+    }
   });
 }
 

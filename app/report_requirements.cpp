@@ -30,7 +30,7 @@ std::string verdict(const Json& own) {
 std::string worst(const Json& own, const ProblemSpec& spec) {
   const Json& status = own["least_delay_status"];
   const auto text = [&] { return worst_text(own["least_delay"], status, spec); };
-  if (!own["holds"] && !own["counterexample"]["state"].is_null())
+  if (!own["holds"].get<bool>() && !own["counterexample"]["state"].is_null())
     return fmt::format("{}: {}", state_text(own["counterexample"]["state"]), text());
   if (!own["reaches_outside"].is_null()) return capital(outside_text(own));
   if (own["kind"] == "invariant") return "";
@@ -99,7 +99,7 @@ std::string report_requirements(const ResultsReader& results) {
   html += summary_table(all, spec);
   std::size_t way = 0;
   for (const Json& own : all) {
-    if (!own["holds"]) html += failure(way, own, spec);
+    if (!own["holds"].get<bool>()) html += failure(way, own, spec);
   }
   return html + "</section>\n";
 }
