@@ -185,8 +185,8 @@ bool VectorField::is_wall(std::size_t i, bool upper, std::span<Interval> box) {
 }
 
 /// Whether the walls are walls for the final box too. Where f may be so steep that solutions leave a side
-/// without reason, two walls could be passed at once, at a corner: then each must hold for states beyond those
-/// that come after it.
+/// without reason, two walls could be passed at once, at a corner: then each must hold for states beyond
+/// those that come after it.
 bool VectorField::walls_hold(std::span<const Interval> start, std::span<Interval> box) {
   if (steep_) {
     for (std::size_t i = 0; i < box.size(); ++i) {

@@ -85,7 +85,7 @@ class VectorField {
   TapeValues<Interval> values_;
   std::vector<Interval> slots_;
   std::vector<Walls> walls_;
-  bool steep_;              ///< solutions may not be unique
+  bool steep_;             ///< solutions may not be unique
   std::size_t worst_ = 0;  ///< the equation that last grew out of its box
 };
 

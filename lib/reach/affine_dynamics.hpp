@@ -80,7 +80,8 @@ class AffineDynamics {
   };
 
   [[nodiscard]] bool jumps_at_a_seam(const AffineForm& form, const Dependencies& dependencies) const;
-  /// @returns nothing if it is not of that form, or has a periodic state that an equation uses. REQUIRES: `state` is a moving one.
+  /// @returns nothing if it is not of that form, or has a periodic state that an equation uses. REQUIRES:
+  /// `state` is a moving one.
   [[nodiscard]] std::optional<NilpotentFlow> nilpotent_flow(std::size_t state,
                                                             const std::vector<Rational>& slots) const;
   /// A discrete state that stays what it is; nothing for one that moves.

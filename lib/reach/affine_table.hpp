@@ -19,9 +19,9 @@ namespace coordreq {
                                                      Abstraction& abstraction, std::size_t state,
                                                      ThreadTeam& team);
 
-/// Puts exact posts, and tubes, into a table made otherwise: those of cells from which, with one input, no state
-/// can come to a limit that would stop it. Nothing where the system would not be exactly solvable without its
-/// limits, or has none.
+/// Puts exact posts, and tubes, into a table made otherwise: those of cells from which, with one input, no
+/// state can come to a limit that would stop it. Nothing where the system would not be exactly solvable
+/// without its limits, or has none.
 void fill_cells_off_limits(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
                            std::size_t state, ThreadTeam& team);
 

@@ -117,11 +117,11 @@ class EnclosureTable {
                       pointer);
     }
     if (result.status == StateEnclosure::Status::too_stiff) {
-      throw SpecError(fmt::format("the equation of '{}', {}, is too stiff{}: it decays at a rate of {:.3g}, "
-                                  "expected one that can be followed for a period of {}",
-                                  name, equation, choices_.place(choice), result.rate,
-                                  to_text(spec_.dynamics.period)),
-                      pointer);
+      throw SpecError(
+          fmt::format("the equation of '{}', {}, is too stiff{}: it decays at a rate of {:.3g}, "
+                      "expected one that can be followed for a period of {}",
+                      name, equation, choices_.place(choice), result.rate, to_text(spec_.dynamics.period)),
+          pointer);
     }
     throw SpecError(fmt::format("the solution of '{}', with the equation {}, may escape to infinity within "
                                 "one period{}, or change too fast to be followed that long",

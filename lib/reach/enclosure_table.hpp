@@ -19,8 +19,7 @@ namespace coordreq {
 /// within a
 ///   period (unless it has left through an unsafe side of its own before: then the pair is blocked), or if a
 ///   discrete state may be off its grid
-void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynamics,
-                            Abstraction& abstraction, const std::vector<std::size_t>& states,
-                            ThreadTeam& team);
+void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
+                            const std::vector<std::size_t>& states, ThreadTeam& team);
 
 }  // namespace coordreq

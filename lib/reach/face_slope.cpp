@@ -124,8 +124,8 @@ void FaceSlope::examine(const MovingBounds& bounds, bool upper, Part& part) {
     const Interval start = value_at_start(bounds, upper);
     const double duration = bounds.duration;
     part.bound.start = outward_end(start, upper);
-    part.bound.end = outward::add_up(
-        part.bound.start, outward_end(Interval{duration, duration} * rate, upper));
+    part.bound.end =
+        outward::add_up(part.bound.start, outward_end(Interval{duration, duration} * rate, upper));
     part.bound.least = std::min(part.bound.start, part.bound.end);
     part.bound.spread = duration * (rate.upper - rate.lower);
     for (std::size_t k = 0; k < states_.size(); ++k) {

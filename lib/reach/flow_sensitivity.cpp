@@ -37,6 +37,7 @@ FlowSensitivity::FlowSensitivity(std::size_t states, std::size_t disturbances)
     : n_(states),
       m_(disturbances),
       initial_(states * states),
+      turning_(states),
       kernel_(states * disturbances),
       weight_(states * disturbances),
       jump_(states),
@@ -46,6 +47,7 @@ FlowSensitivity::FlowSensitivity(std::size_t states, std::size_t disturbances)
 void FlowSensitivity::reset() {
   bounded_ = true;
   first_ = true;
+  turning_.reset();
   for (std::size_t i = 0; i < n_ * n_; ++i) {
     const double entry = i % (n_ + 1) == 0 ? 1.0 : 0.0;
     initial_[i] = {entry, entry};
@@ -68,6 +70,7 @@ void FlowSensitivity::lose() {
 }
 
 void FlowSensitivity::append_initial(const TransitionMatrix& transition) {
+  turning_.append(transition.end());
   if (first_) {
     std::copy(transition.end().begin(), transition.end().end(), initial_.begin());
     return;
@@ -75,6 +78,10 @@ void FlowSensitivity::append_initial(const TransitionMatrix& transition) {
   for (std::size_t i = 0; i < n_; ++i) {
     const auto row = transition.end().subspan(i * n_, n_);
     for (std::size_t j = 0; j < n_; ++j) next_[i * n_ + j] = scalar_product(row, initial_, j, n_);
+    for (std::size_t j = 0; j < n_; ++j) {
+      Interval& entry = next_[i * n_ + j];
+      entry = intersect(entry, turning_.entry(i, j)).value_or(entry);
+    }
   }
   std::copy_n(next_.begin(), n_ * n_, initial_.begin());
 }

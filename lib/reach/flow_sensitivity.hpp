@@ -5,6 +5,7 @@
 
 #include "reach/jacobian.hpp"
 #include "reach/sensitivity.hpp"
+#include "reach/turning_product.hpp"
 
 namespace coordreq {
 
@@ -43,6 +44,7 @@ class FlowSensitivity {
   bool bounded_ = true;
   bool first_ = true;
   std::vector<Interval> initial_;
+  TurningProduct turning_;  ///< the same
   std::vector<Interval> kernel_;
   std::vector<double> weight_;
   std::vector<double> jump_;

@@ -128,9 +128,8 @@ StateEnclosure::Result StateEnclosure::result_of_flow(std::size_t state) const {
             .tube = within_limits(own, found_->tube[position]),
             .drift = found_->drift[position]};
   }
-  Result result{.status = found_->status,
-                .culprit = at(dependencies_.moving[found_->culprit]),
-                .rate = found_->rate};
+  Result result{
+      .status = found_->status, .culprit = at(dependencies_.moving[found_->culprit]), .rate = found_->rate};
   // Without an enclosure a post is everything, which blocks the pair where this state has an unsafe side.
   const bool can_block = own.below == Outside::unsafe || own.above == Outside::unsafe;
   for (std::size_t k = 0; can_block && k < found_->tube.size(); ++k) {

@@ -23,8 +23,8 @@ class StateEnclosure {
     Status status = Status::ok;
     std::size_t culprit = 0;  ///< state whose equation is at fault, unless ok
     double rate = 0.0;        ///< if too stiff, see FlowEnclosure::rate
-    /// Unless ok: by then this state may have left through an unsafe side; or another one may, and this one has
-    /// an unsafe side too.
+    /// Unless ok: by then this state may have left through an unsafe side; or another one may, and this one
+    /// has an unsafe side too.
     bool left_unsafely = false;
     Interval value;  ///< of the next state; of the difference to the present one if shifts()
     Interval tube;   ///< in continuous time: the same at all times in [0, tau]
