@@ -76,7 +76,11 @@ std::optional<FlowFailure> FaceFlow::enclose(std::span<const Interval> slots, co
   result.tube = now_;
   result.drift.assign(n_, Interval{});
   std::uint64_t left = kParts;
-  std::uint64_t parts = kLongest;
+  // Of a state that starts from a point nothing says how exact it should be.
+  const bool any_point =
+      std::any_of(now_.begin(), now_.end(), [](const Interval& a) { return a.is_point(); });
+  const std::uint64_t longest = any_point ? kLongest / 8 : kLongest;
+  std::uint64_t parts = longest;
   int successes = 0;
   for (int tries = 0; left > 0; ++tries) {
     parts = std::min(parts, left);
@@ -86,7 +90,7 @@ std::optional<FlowFailure> FaceFlow::enclose(std::span<const Interval> slots, co
     if (try_step(period * point(share), parts > kFine)) {
       left -= parts;
       finish_step(period * point(share), result);
-      if (++successes % kPatience == 0) parts = std::min(2 * parts, kLongest);
+      if (++successes % kPatience == 0) parts = std::min(2 * parts, longest);
     } else if (parts > 1) {
       parts /= 2;
       successes = 0;

@@ -26,6 +26,7 @@ Sizes carried_on(const TransitionMatrix& transition, const Sizes& before, const 
 
 FlowSensitivity::FlowSensitivity(std::size_t states, std::size_t disturbances)
     : initial_(index(states), index(states)),
+      turning_(index(states)),
       kernel_(index(states), index(disturbances)),
       weight_(index(states), index(disturbances)),
       jump_(index(states)) {
@@ -36,6 +37,7 @@ void FlowSensitivity::reset() {
   bounded_ = true;
   first_ = true;
   initial_.setIdentity();
+  turning_.reset();
   kernel_.setZero();
   weight_.setZero();
   jump_.setZero();
@@ -51,7 +53,12 @@ void FlowSensitivity::append(const TransitionMatrix& transition, const Jacobian&
   weight_ = carried_on(transition, weight_, acting);
   jump_ = carried_on(transition, jump_, jacobian.jump());
   const IntervalMatrix initial = product(transition.end(), initial_);
+  turning_.append(transition.end());
   initial_ = first_ ? transition.end() : initial;
+  for (Eigen::Index i = 0; i < initial_.rows(); ++i) {
+    for (Eigen::Index j = 0; j < initial_.cols(); ++j)
+      initial_(i, j) = intersect(initial_(i, j), turning_.entry(i, j)).value_or(initial_(i, j));
+  }
   first_ = false;
 }
 

@@ -2,6 +2,7 @@
 
 #include "reach/jacobian.hpp"
 #include "reach/sensitivity.hpp"
+#include "reach/turning_product.hpp"
 
 namespace coordreq {
 
@@ -40,6 +41,7 @@ class FlowSensitivity {
   bool bounded_ = true;
   bool first_ = true;
   IntervalMatrix initial_;
+  TurningProduct turning_;  ///< the same
   IntervalMatrix kernel_;
   RealMatrix weight_;
   RealVector jump_;

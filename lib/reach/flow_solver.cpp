@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t kParts = 1U << 20U;
 constexpr std::size_t kMostTries = 20000;
 /// After some tries, steps that would be so many times as many as are allowed in all are not worth more.
-constexpr std::size_t kHopeTries = 64;
+constexpr std::size_t kHopeTries = 24;
 constexpr std::size_t kHope = 8;
 /// Decay by more powers of e than this within a period is called stiff.
 constexpr double kStiff = 1000.0;
@@ -85,8 +85,9 @@ void ValidatedFlow::Solver::begin(std::span<const Interval> slots) {
   std::fill(result_.drift.begin(), result_.drift.end(), Interval{});
 }
 
+/// @param patient goes on although steps are so short that there are not enough of them
 /// @returns whether that led to the end of the period
-bool ValidatedFlow::Solver::run_steps(std::size_t most_steps) {
+bool ValidatedFlow::Solver::run_steps(std::size_t most_steps, bool patient) {
   std::uint32_t left = kParts;
   std::uint32_t parts = kParts;
   int successes = 0;
@@ -100,7 +101,7 @@ bool ValidatedFlow::Solver::run_steps(std::size_t most_steps) {
       left -= parts;
       finish_step(left == 0);
       if (++successes % kPatience == 0) parts *= 2;
-      const bool hopeless = tries_ > kHopeTries && left / parts > kHope * most_steps;
+      const bool hopeless = !patient && tries_ > kHopeTries && left / parts > kHope * most_steps;
       gave_up_ = left > 0 && (tries_ >= most_steps || hopeless);
       if (gave_up_) {
         fail(FlowFailure{false, fastest()});

@@ -44,7 +44,7 @@ class ValidatedFlow::Solver {
 
   // Steps (flow_solver.cpp).
   void begin(std::span<const Interval> slots);
-  bool run_steps(std::size_t most_steps);
+  bool run_steps(std::size_t most_steps, bool patient);
   std::optional<FlowFailure> try_step(const Interval& duration, bool divisible);
   std::optional<FlowFailure> try_step_on_seam(const Interval& duration);
   void set_tolerance();
@@ -58,6 +58,7 @@ class ValidatedFlow::Solver {
 
   // More work for a tighter result (refine_flow.cpp).
   void enclose(std::span<const Interval> slots, int halvings);
+  [[nodiscard]] double allowed_excess(std::size_t i) const;
   [[nodiscard]] bool is_tight() const;
   [[nodiscard]] bool is_smooth() const;
   void enclose_halves(std::span<const Interval> slots, int halvings);

@@ -11,8 +11,10 @@ namespace {
 /// No box of initial states may take more steps, nor much longer than a second; it is tried with fewer first.
 constexpr std::size_t kMostSteps = 30000;
 constexpr std::size_t kFewSteps = 1000;
+/// Decay by more powers of e in a period cannot be followed in as many.
+constexpr double kTooStiff = 1e7;
 /// What may lie beyond solutions that were followed, as a part of the initial box or of the value itself.
-constexpr double kTight = 0.1;
+constexpr double kTight = 0.2;
 constexpr double kTightMagnitude = 1e-6;
 /// A part of what is allowed that is not worth a thought.
 constexpr double kHardly = 0.1;
@@ -43,15 +45,21 @@ const FlowEnclosure& ValidatedFlow::Solver::flow(std::span<const Interval> slots
 /// Puts an enclosure into `result_`.
 void ValidatedFlow::Solver::enclose(std::span<const Interval> slots, int halvings) {
   begin(slots);
-  const bool found = run_steps(kFewSteps);
+  const bool found = run_steps(kFewSteps, false);
   if (found && is_tight()) return;
   const bool divisible = found && is_smooth() && !restarted_;
   if (divisible) {
     if (halvings > 0) enclose_halves(slots, halvings - 1);
-  } else if (!bound_by_faces(slots, found) && gave_up_) {
+  } else if (!bound_by_faces(slots, found) && gave_up_ && fastest_decay_ * period_.upper < kTooStiff) {
     begin(slots);
-    run_steps(kMostSteps);
+    run_steps(kMostSteps, true);
   }
+}
+
+/// What may lie beyond solutions that were followed: of a state that starts from a point, seen from the
+/// result.
+double ValidatedFlow::Solver::allowed_excess(std::size_t i) const {
+  return allowed_excess_[i] > 0.0 ? allowed_excess_[i] : kTight * width(result_.end[i]);
 }
 
 /// Whether solutions that were followed come close to all ends. Affine systems have their hull in any case.
@@ -62,7 +70,7 @@ bool ValidatedFlow::Solver::is_tight() const {
     const double excess = std::max(result_.end[i].upper - attained_[i].upper, 0.0) +
                           std::max(attained_[i].lower - result_.end[i].lower, 0.0);
     const double magnitude = std::max(std::fabs(result_.end[i].lower), std::fabs(result_.end[i].upper));
-    if (excess > allowed_excess_[i] + kTightMagnitude * magnitude) return false;
+    if (excess > allowed_excess(i) + kTightMagnitude * magnitude) return false;
   }
   return true;
 }
@@ -72,7 +80,7 @@ bool ValidatedFlow::Solver::is_smooth() const {
   for (std::size_t i = 0; i < n_; ++i) {
     double other = sensitivity_.jump(i);
     for (std::size_t l = 0; l < m_; ++l) other += sensitivity_.weight(i, l) * width(disturbance_[l]);
-    if (other > kHardly * allowed_excess_[i]) return false;
+    if (other > kHardly * allowed_excess(i)) return false;
   }
   return true;
 }
@@ -105,7 +113,7 @@ std::size_t ValidatedFlow::Solver::most_uncertain() const {
     double sum = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
       const double part = width(sensitivity_.initial(i, j)) * width(initial_[j]);
-      sum += part / std::max(allowed_excess_[i], 1e-300);
+      sum += part / std::max(allowed_excess(i), 1e-300);
     }
     if (sum <= largest) continue;
     largest = sum;
