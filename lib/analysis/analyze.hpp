@@ -9,9 +9,9 @@
 
 #include "analysis/checkpoint_options.hpp"
 #include "analysis/progress.hpp"
-#include "base/thread_team.hpp"
+#include "answers/invariance/answer.hpp"
 #include "answers/requirements/result_requirement.hpp"
-#include "spec/guarantee.hpp"
+#include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "analysis/analyze.hpp"
-#include "analysis/network_problem.hpp"
+#include "answers/network/network_problem.hpp"
 #include "base/error.hpp"
 #include "engine/join_rows.hpp"
 #include "model/model.hpp"

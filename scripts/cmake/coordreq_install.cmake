@@ -22,13 +22,10 @@ file(RELATIVE_PATH plot /${CMAKE_INSTALL_BINDIR} /${data_dir}/plot)
 file(CREATE_LINK ${plot} ${PROJECT_BINARY_DIR}/coordreq-plot SYMBOLIC)
 install(FILES ${PROJECT_BINARY_DIR}/coordreq-plot DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 
-# The README and the pages beside the examples link to each other.
-file(RELATIVE_PATH readme /${data_dir} /${CMAKE_INSTALL_DOCDIR}/README.md)
+# The pages link to the examples.
 file(RELATIVE_PATH configs /${CMAKE_INSTALL_DOCDIR} /${data_dir}/configs)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/links)
-file(CREATE_LINK ${readme} ${PROJECT_BINARY_DIR}/links/README.md SYMBOLIC)
 file(CREATE_LINK ${configs} ${PROJECT_BINARY_DIR}/links/configs SYMBOLIC)
-install(FILES ${PROJECT_BINARY_DIR}/links/README.md DESTINATION ${data_dir} COMPONENT program)
 install(FILES ${PROJECT_BINARY_DIR}/links/configs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 set(completions ${PROJECT_BINARY_DIR}/app/completions)
@@ -42,7 +39,8 @@ install(FILES ${completions}/_coordreq
 # documents
 install(FILES ${PROJECT_BINARY_DIR}/app/coordreq.1 scripts/coordreq-plot.1
         DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT documents)
-install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
 
 # development
 install(EXPORT coordreq-targets NAMESPACE coordreq:: DESTINATION ${package_dir} COMPONENT development)

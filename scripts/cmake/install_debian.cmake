@@ -26,7 +26,8 @@ install_compressed(${source}/CHANGELOG.md ${data}/doc/${package} changelog)
 if(package STREQUAL "coordreq")
   install_compressed(${build}/app/coordreq.1 ${data}/man/man1 coordreq.1)
   install_compressed(${source}/scripts/coordreq-plot.1 ${data}/man/man1 coordreq-plot.1)
-  file(INSTALL ${source}/README.md DESTINATION ${CMAKE_INSTALL_PREFIX}/${data}/doc/${package})
+  file(INSTALL ${source}/README.md ${source}/CONTRIBUTING.md ${source}/docs
+       DESTINATION ${CMAKE_INSTALL_PREFIX}/${data}/doc/${package})
   file(INSTALL ${build}/app/completions/_coordreq
        DESTINATION ${CMAKE_INSTALL_PREFIX}/${data}/zsh/vendor-completions)
 endif()

@@ -8,7 +8,8 @@ import subprocess
 from program import CONFIGS, PROGRAM, ROOT, Case
 
 README = ROOT / "README.md"
-PAGES = sorted(CONFIGS.glob("**/*.md"))
+DOCS = ROOT / "docs"
+PAGES = sorted([*DOCS.glob("**/*.md"), CONFIGS / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "tests/README.md"])
 
 
 def blocks(page, language):

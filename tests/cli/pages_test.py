@@ -1,4 +1,4 @@
-"""What the pages beside the examples show is what happens."""
+"""What the pages of docs show is what happens."""
 
 import json
 import re
@@ -6,11 +6,25 @@ import unittest
 
 import h5py
 import numpy as np
-from pages import PAGES, PageCase, blocks
+from pages import DOCS, PAGES, PageCase, blocks
 from program import CONFIGS, ROOT, without_comments
 
-GRIDS = (CONFIGS / "grids.md").read_text()
-SESSIONS = {"coalitions.md": 2, "networks.md": 1, "requirements.md": 1, "rules.md": 1, "outputs.md": 7, "tutorial/README.md": 10}
+GRIDS = (DOCS / "grids.md").read_text()
+# How many sessions each page has, and the examples whose results they start from.
+SESSIONS = {
+    "coalitions.md": (2, []),
+    "commands.md": (1, []),
+    "networks.md": (1, []),
+    "outputs.md": (7, []),
+    "queries.md": (1, ["circle.json"]),
+    "requirements.md": (1, []),
+    "results.md": (2, ["circle.json"]),
+    "rules.md": (1, []),
+    "simulation.md": (1, ["circle.json"]),
+    "sweeps.md": (2, ["circle.json"]),
+    "tutorial/README.md": (10, []),
+    "verification.md": (1, ["circle.json"]),
+}
 
 
 def example(number):
@@ -27,39 +41,81 @@ class Cases(PageCase):
     def test_sessions_of_coalitions(self):
         self.assert_sessions("coalitions.md")
 
+    def test_sessions_of_commands(self):
+        self.assert_sessions("commands.md")
+
     def test_sessions_of_networks(self):
         self.assert_sessions("networks.md")
+
+    def test_sessions_of_outputs(self):
+        self.assert_sessions("outputs.md")
+
+    def test_sessions_of_queries(self):
+        self.assert_sessions("queries.md")
 
     def test_sessions_of_requirements(self):
         self.assert_sessions("requirements.md")
 
+    def test_sessions_of_results(self):
+        self.assert_sessions("results.md")
+
     def test_sessions_of_rules(self):
         self.assert_sessions("rules.md")
 
-    def test_sessions_of_outputs(self):
-        self.assert_sessions("outputs.md")
+    def test_sessions_of_simulation(self):
+        self.assert_sessions("simulation.md")
+
+    def test_sessions_of_sweeps(self):
+        self.assert_sessions("sweeps.md")
+
+    def test_sessions_of_verification(self):
+        self.assert_sessions("verification.md")
 
     def test_sessions_of_the_tutorial(self):
         self.assert_sessions("tutorial/README.md")
 
     def assert_sessions(self, page):
-        self.assert_sessions_happen(CONFIGS / page, SESSIONS[page])
+        count, prepared = SESSIONS[page]
+        for config in prepared:
+            self.analyze(str(CONFIGS / config))
+        self.assert_sessions_happen(DOCS / page, count)
 
     def test_no_page_has_other_sessions(self):
-        found = {str(page.relative_to(CONFIGS)): len(blocks(page, "console")) for page in PAGES}
-        self.assertEqual({page: count for page, count in found.items() if count > 0}, SESSIONS)
+        found = {str(page.relative_to(DOCS)): len(blocks(page, "console")) for page in DOCS.glob("**/*.md")}
+        expected = {page: count for page, (count, _) in SESSIONS.items()}
+        self.assertEqual({page: count for page, count in found.items() if count > 0}, expected)
+
+    def test_spec(self):
+        (spec,) = blocks(DOCS / "spec.md", "jsonc")
+        result = self.run_program("validate", "-", stdin=spec.encode())
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+
+    def test_python_of_results(self):
+        self.analyze(str(CONFIGS / "circle.json"))
+        self.assert_programs_print(DOCS / "results.md", "(1, 201, 201) m\n")
+
+    def test_every_page_is_in_the_index(self):
+        index = (DOCS / "README.md").read_text()
+        for page in DOCS.glob("**/*.md"):
+            if page != DOCS / "README.md":
+                self.assertIn(f"({page.relative_to(DOCS)})", index)
+
+    def test_every_example_is_in_the_table(self):
+        table = (CONFIGS / "README.md").read_text()
+        for example in CONFIGS.glob("*.json"):
+            self.assertIn(f"[{example.name}]({example.name})", table)
 
     def test_python_of_coalitions(self):
         self.analyze(str(CONFIGS / "platoon_coalition.json"))
-        self.assert_programs_print(CONFIGS / "coalitions.md", "lead+middle|tail\n2880\n")
+        self.assert_programs_print(DOCS / "coalitions.md", "lead+middle|tail\n2880\n")
 
     def test_python_of_rules(self):
-        self.assert_programs_print(CONFIGS / "rules.md", "")
+        self.assert_programs_print(DOCS / "rules.md", "")
         with h5py.File(self.folder / "first_come.h5") as written, h5py.File(CONFIGS / "first_come.h5") as stored:
             self.assertTrue(np.array_equal(written["controller"][...], stored["controller"][...]))
 
     def test_figures_of_the_crossing(self):
-        rows = re.findall(r"(?m)^\| `(configs/crossing\w*\.json)` \|[^|]*\| (.*) \|$", (CONFIGS / "rules.md").read_text())
+        rows = re.findall(r"(?m)^\| `(configs/crossing\w*\.json)` \|[^|]*\| (.*) \|$", (DOCS / "rules.md").read_text())
         self.assertEqual(len(rows), 4)
         for config, figures in rows:
             summary = self.analyze(str(ROOT / config))
@@ -71,7 +127,7 @@ class Cases(PageCase):
             self.assertEqual(figures.split(" | "), [f"{summary['invariant']:,}", bears, longest, f"{never:,}"])
 
     def test_figures_of_networks(self):
-        rows = re.findall(r"(?m)^\| `(\{.*\})`.* \| ([0-9,]+) \| ([0-9,]+) \|$", (CONFIGS / "networks.md").read_text())
+        rows = re.findall(r"(?m)^\| `(\{.*\})`.* \| ([0-9,]+) \| ([0-9,]+) \|$", (DOCS / "networks.md").read_text())
         self.assertEqual(len(rows), 6)
         spec = json.loads(without_comments((CONFIGS / "intersection_network.json").read_text()))
         for row in rows:
@@ -83,7 +139,7 @@ class Cases(PageCase):
                     self.assertEqual(f"{found['modes'][0]['cells']:,}", expected)
 
     def test_specs_of_the_tutorial(self):
-        whole, *parts = blocks(CONFIGS / "tutorial/README.md", "json")
+        whole, *parts = blocks(DOCS / "tutorial/README.md", "json")
         self.assertEqual(json.loads(whole), json.loads(without_comments(example(1))))
         self.assertEqual(len(parts), 5)
         for number, part in enumerate(parts, 2):

@@ -165,25 +165,25 @@ class Cases(PlotCase):
         text = '// one\n{"a": "http://x /* y */ \\" // z", /* two\n */ "b": [1, // three\n 2]} // four'
         self.assertEqual(json.loads(without_comments(text)), {"a": 'http://x /* y */ " // z', "b": [1, 2]})
 
-    # the README
+    # the page
 
-    def test_the_pictures_of_the_readme_are_those_of_its_commands(self):
-        text = (ROOT / "README.md").read_text().split("\n## Pictures\n")[1].split("\n## ")[0]
-        shown = re.findall(r"!\[.*\]\(scripts/pictures/(.*)\)", text)
+    def test_the_pictures_of_the_page_are_those_of_its_commands(self):
+        text = (ROOT / "docs/export.md").read_text().split("\n## Pictures\n")[1].split("\n## ")[0]
+        shown = re.findall(r"!\[.*\]\(pictures/(.*)\)", text)
         commands = [line.split() for line in re.findall(r"(?m)^scripts/plot .*-o .*", text)]
         self.assertEqual(sorted(command[-1] for command in commands), sorted(shown))
         # A browser made that of the report.
-        pictures = {path.name for path in (ROOT / "scripts/pictures").iterdir()} - {"report_intersection.png"}
+        pictures = {path.name for path in (ROOT / "docs/pictures").iterdir()} - {"report_intersection.png"}
         self.assertEqual(sorted(shown), sorted(pictures))
         for command in commands:
-            self.assertLess((ROOT / "scripts/pictures" / command[-1]).stat().st_size, 200_000)
+            self.assertLess((ROOT / "docs/pictures" / command[-1]).stat().st_size, 200_000)
             parse(command[1:])
             config = command[2].replace(".h5", ".json")
             if config == "intersection.json":
                 continue  # takes seconds
             self.analyze(str(CONFIGS / config), "-o", command[2])
             self.plot(*command[1:])
-            found, expected = (imread(folder / command[-1]) for folder in (self.folder, ROOT / "scripts/pictures"))
+            found, expected = (imread(folder / command[-1]) for folder in (self.folder, ROOT / "docs/pictures"))
             self.assertEqual(found.shape, expected.shape)
             # Fonts and compression may change with the libraries, not what is drawn.
             self.assertLess(np.abs(found - expected).mean(), 0.01)

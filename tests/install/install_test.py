@@ -55,7 +55,7 @@ class Cases(unittest.TestCase):
         self.assertFalse([name for name in installed if "debian" in name or "__pycache__" in name])
 
     def test_pages_link_to_each_other(self):
-        for page in ("share/doc/coordreq/README.md", "share/coordreq/configs/outputs.md", "share/coordreq/configs/tutorial/README.md"):
+        for page in ("share/doc/coordreq/README.md", "share/doc/coordreq/docs/README.md", "share/doc/coordreq/docs/tutorial/README.md"):
             path = self.prefix / page
             links = re.findall(r"[^!]\[[^]]*\]\(((?:configs/|\.\.)[^)#]*)", path.read_text(encoding="utf-8"))
             self.assertTrue(links, page)

@@ -1,0 +1,41 @@
+#include "answers/network/network_problem.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "answers/layers/answer.hpp"
+
+namespace coordreq {
+
+std::vector<const PartitionSpec*> network_partitions(const NetworkSpec& network) {
+  std::vector<const PartitionSpec*> partitions;
+  for (const NetworkModeSpec& mode : network.modes) {
+    const bool is_known = std::any_of(partitions.begin(), partitions.end(), [&](const PartitionSpec* known) {
+      return known->classes == mode.partition.classes;
+    });
+    if (!is_known) partitions.push_back(&mode.partition);
+  }
+  return partitions;
+}
+
+NetworkProblem network_problem(const ProblemSpec& spec, const Controller& controller, const RowHull& hull) {
+  const NetworkSpec& network = *spec.network;
+  NetworkProblem problem{.controller = &controller,
+                         .hull = &hull,
+                         .partitions = {},
+                         .modes = std::vector<NetworkMode>(network.modes.size()),
+                         .resynthesise = network.resynthesise};
+  std::map<std::string, std::size_t> number;
+  for (const PartitionSpec* partition : network_partitions(network)) {
+    number.emplace(partition->canonical, number.size());
+    problem.partitions.push_back(input_classes(spec, *partition));
+  }
+  for (std::size_t mode = 0; mode < network.modes.size(); ++mode)
+    problem.modes[mode].partition = number.at(network.modes[mode].partition.canonical);
+  for (const auto& [from, to] : network.transitions)
+    problem.modes[static_cast<std::size_t>(from)].successors.push_back(static_cast<std::size_t>(to));
+  return problem;
+}
+
+}  // namespace coordreq

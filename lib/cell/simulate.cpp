@@ -1,0 +1,247 @@
+#include "cell/simulate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "answers/invariance/safe_tubes.hpp"
+#include "base/error.hpp"
+#include "cell/run_arrays.hpp"
+#include "cell/state_text.hpp"
+#include "model/locate.hpp"
+#include "model/sample_reset.hpp"
+#include "reach/build_abstraction.hpp"
+#include "results/write_results.hpp"
+#include "results/write_runs.hpp"
+#include "spec/read_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+std::size_t find_partition(const ProblemSpec& spec, const std::string& name) {
+  const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
+  std::string names;
+  for (std::size_t p = 0; p < partitions.size(); ++p) {
+    const PartitionSpec& partition = partitions[p];
+    if (name.empty() ? partitions.size() == 1 : name == partition.name || name == partition.canonical) {
+      return p;
+    }
+    names += (names.empty() ? "" : ", ") + partition.name;
+  }
+  throw UsageError(name.empty() ? fmt::format("several partitions, expected the name of one of {}", names)
+                                : fmt::format("unknown partition '{}', expected one of {}", name, names),
+                   "--partition");
+}
+
+/// The given values, and the middles of the ranges of all others.
+std::vector<Rational> constant_disturbance(const ProblemSpec& spec, const NamedValues& given) {
+  std::vector<std::string> names;
+  std::vector<Rational> result;
+  for (const DisturbanceSpec& w : spec.disturbances) {
+    names.push_back(w.name);
+    result.emplace_back((w.lower + w.upper) / 2);
+  }
+  if (names.empty() && !given.empty()) {
+    throw UsageError("the spec has no disturbances, expected no values", "--disturbance");
+  }
+  for (const auto& [name, value] : given) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      throw UsageError(
+          fmt::format("unknown disturbance '{}', expected one of {}", name, fmt::join(names, ", ")),
+          "--disturbance");
+    }
+    const auto l = static_cast<std::size_t>(found - names.begin());
+    const DisturbanceSpec& w = spec.disturbances[l];
+    if (value < w.lower || value > w.upper) {
+      throw UsageError(fmt::format("{} = {} is not in its range [{}, {}]", name, to_text(value),
+                                   to_text(w.lower), to_text(w.upper)),
+                       "--disturbance");
+    }
+    result[l] = value;
+  }
+  return result;
+}
+
+/// No state is beyond a `stop` limit, and none is measured farther than the error from it.
+bool is_beyond_limit(const GridDimension& dimension, const Rational& value) {
+  const Rational& error = dimension.measurement_error;
+  return (dimension.below == Outside::stop && value < dimension.first - error) ||
+         (dimension.above == Outside::stop && value > dimension.point(dimension.count - 1) + error);
+}
+
+std::vector<Rational> start_state(const ResultsReader& results, const std::string& text) {
+  std::vector<std::string> names;
+  for (const StateSpec& state : results.spec().states) names.push_back(state.name);
+  std::vector<Rational> state = parse_state(text, names, "--from");
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const GridDimension& dimension = results.grid()[i];
+    if (dimension.periodic()) state[i] = reset_at_sample(dimension, state[i]);
+  }
+  return state;
+}
+
+void check_start(const ResultsReader& results, const std::vector<Rational>& state,
+                 std::span<const std::int32_t> delay) {
+  const Location location = locate(results.grid(), state);
+  std::optional<std::size_t> fault;
+  if (location.kind != Location::Kind::cell) fault = location.dimension;
+  for (std::size_t i = 0; i < state.size() && !fault; ++i) {
+    if (is_beyond_limit(results.grid()[i], state[i])) fault = i;
+  }
+  if (fault) {
+    const bool off_grid = location.kind == Location::Kind::off_grid;
+    throw UsageError(fmt::format("{} = {} is {}", results.grid()[*fault].name, to_text(state[*fault]),
+                                 off_grid ? "not a value of this discrete state" : "outside of the domain"),
+                     "--from");
+  }
+  const std::int32_t steps = delay[static_cast<std::size_t>(location.cell)];
+  if (steps < 0) {
+    throw UsageError(steps == DelayLayers::kOutsideSafe
+                         ? "the start is not in the safe set"
+                         : "the start is not in the invariance set: from there not even coordination keeps "
+                           "the system safe",
+                     "--from");
+  }
+}
+
+void check_prefer(const ProblemSpec& spec, Policy policy) {
+  const auto has_prefer = [](const AgentSpec& agent) { return agent.prefer.has_value(); };
+  if (policy != Policy::prefer || std::any_of(spec.agents.begin(), spec.agents.end(), has_prefer)) return;
+  throw UsageError("no agent of the spec has a 'prefer'", "--policy");
+}
+
+CellSet safe_cells(const UniformGrid& grid, std::span<const std::int32_t> delay) {
+  CellSet safe(grid.rows(), grid.row_length());
+  for (std::int64_t x = 0; x < grid.cells(); ++x) {
+    if (delay[static_cast<std::size_t>(x)] != DelayLayers::kOutsideSafe) safe.set(x);
+  }
+  return safe;
+}
+
+/// Refuses up front what would not fit: delays, tables, traces.
+void check_simulation_memory(const ResultsReader& results, const SimulationOptions& options) {
+  const ProblemSpec& spec = results.spec();
+  const auto states = static_cast<double>(spec.states.size());
+  const auto disturbances = static_cast<double>(spec.disturbances.size());
+  double bytes = 32e6 + 4 * static_cast<double>(results.grid().cells());
+  if (spec.controller.file) {
+    bytes += static_cast<double>(PackedPairs::bytes_for(results.inputs().count())) *
+             static_cast<double>(results.grid().cells());
+  }
+  const double tables = spec.abstraction.between_samples ? 2 : 1;  // of posts, of tubes
+  for (const TableShape& shape : table_shapes(spec)) bytes += tables * shape.bytes;
+  const double sample = sizeof(RunTrace::Sample) + 2 * (16 + 8 * states);
+  const double step = sizeof(RunTrace::Step) + (disturbances > 0 ? 16 + 8 * disturbances : 0);
+  bytes += static_cast<double>(options.runs) * (static_cast<double>(options.steps) + 1) * 2 * (sample + step);
+  if (!options.max_memory || bytes <= static_cast<double>(*options.max_memory)) return;
+  constexpr double kMebi = 1024 * 1024;
+  throw LimitError(fmt::format("{} runs of {} steps need about {:.0f} MiB of memory, the limit is {:.0f} MiB",
+                               options.runs, options.steps, bytes / kMebi,
+                               static_cast<double>(*options.max_memory) / kMebi),
+                   "--max-memory");
+}
+
+}  // namespace
+
+Simulation simulate(const ResultsReader& results, const SimulationOptions& options, ThreadTeam& team) {
+  const ProblemSpec& spec = results.spec();
+  const std::size_t partition = find_partition(spec, options.partition);
+  check_prefer(spec, options.policy);
+  RunOptions runs{.loop = {.steps = options.steps,
+                           .policy = options.policy,
+                           .disturbance = options.disturbance,
+                           .constant_disturbance = constant_disturbance(spec, options.constant_disturbance),
+                           .seed = options.seed},
+                  .runs = options.runs};
+  if (options.start) runs.start = start_state(results, *options.start);
+  check_simulation_memory(results, options);
+  const auto enter = [&options](const char* stage) {
+    if (options.entered) options.entered(stage);
+  };
+  enter("checking");
+  if (options.output) check_writable(*options.output);
+  enter("running");
+  const std::vector<std::int32_t> delay = results.delay(partition, all_cells(results.grid()));
+  if (runs.start) {
+    check_start(results, *runs.start, delay);
+  } else if (std::none_of(delay.begin(), delay.end(), [](std::int32_t steps) { return steps >= 0; })) {
+    throw UsageError("the invariance set is empty: there is no state to start from", "--start");
+  }
+  // Tubes are not stored.
+  const bool is_stored = results.has_abstraction() && !spec.abstraction.between_samples;
+  const Abstraction abstraction = is_stored ? results.abstraction() : build_abstraction(spec, team);
+  const std::optional<CellSet> beyond =
+      safe_beyond_limits(spec, abstraction, safe_cells(results.grid(), delay), team);
+  std::optional<PackedPairs> listed;
+  if (spec.controller.file) {
+    listed = {.inputs = results.inputs().count(), .bytes = results.listed_bits(all_cells(results.grid()))};
+  }
+  const LoopProblem problem{.spec = &spec,
+                            .abstraction = &abstraction,
+                            .partition = &spec.coordination.partitions[partition],
+                            .delay = delay,
+                            .safe_beyond = beyond ? &*beyond : nullptr,
+                            .listed = listed ? &*listed : nullptr,
+                            .connection_delay = spec.coordination.connection_delay};
+  Simulation simulation{.partition = problem.partition->name, .traces = simulate_runs(problem, runs, team)};
+  if (options.output) {
+    enter("writing");
+    write_runs(*options.output, run_content(results, abstraction.inputs, options, simulation), team);
+  }
+  return simulation;
+}
+
+std::int64_t Simulation::count(Outcome outcome) const {
+  return std::count_if(traces.begin(), traces.end(),
+                       [outcome](const RunTrace& trace) { return trace.outcome == outcome; });
+}
+
+std::int64_t Simulation::steps() const {
+  std::int64_t sum = 0;
+  for (const RunTrace& trace : traces) sum += static_cast<std::int64_t>(trace.steps.size());
+  return sum;
+}
+
+std::int64_t Simulation::coordinated_steps() const {
+  std::int64_t sum = 0;
+  for (const RunTrace& trace : traces) sum += trace.coordinated_steps();
+  return sum;
+}
+
+std::int64_t Simulation::longest_silence() const {
+  std::int64_t longest = 0;
+  for (const RunTrace& trace : traces) longest = std::max(longest, trace.longest_silence());
+  return longest;
+}
+
+double Simulation::smallest_margin() const {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const RunTrace& trace : traces) smallest = std::min(smallest, trace.smallest_margin());
+  return smallest;
+}
+
+std::optional<std::size_t> Simulation::violation() const {
+  const auto found = std::find_if(traces.begin(), traces.end(),
+                                  [](const RunTrace& trace) { return is_violation(trace.outcome); });
+  if (found == traces.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - traces.begin());
+}
+
+std::string outcome_name(Outcome outcome) {
+  constexpr const char* kNames[] = {"completed", "left_safely", "left_invariant", "no_action"};
+  return kNames[static_cast<std::size_t>(outcome)];
+}
+
+std::string policy_name(Policy policy) {
+  constexpr const char* kNames[] = {"random", "adversarial", "prefer"};
+  return kNames[static_cast<std::size_t>(policy)];
+}
+
+std::string disturbance_name(Disturbance disturbance) {
+  constexpr const char* kNames[] = {"random", "extremes", "constant"};
+  return kNames[static_cast<std::size_t>(disturbance)];
+}
+
+}  // namespace coordreq
