@@ -103,6 +103,9 @@ struct FieldShown {
   std::int32_t below_zero = 0;
   /// As a row of the comparison of two files: "safe set". For fields of 0 and 1 without a leading axis.
   std::string compared = {};
+  /// As a map on the page of a report: "Time to arrival". For steps without a leading axis; fields that the
+  /// page draws in a way of their own need none.
+  std::string map = {};
 };
 
 struct Field {

@@ -25,7 +25,7 @@ constexpr char kDone = '+';
 /// A damaged list can be endless, and a name in a file can lead to a pipe.
 constexpr auto kMostTime = std::chrono::seconds(5);
 /// What the library may take more than this process has already, damaged as a file may be.
-constexpr rlim_t kMostBytes = rlim_t{2} << 30U;
+constexpr rlim_t kMostBytes = rlim_t{1} << 30U;
 
 void send(int pipe, const std::string& text) {
   std::size_t sent = 0;

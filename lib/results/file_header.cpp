@@ -1,8 +1,8 @@
 #include "results/file_header.hpp"
 
+#include "answers/invariance/answer.hpp"
 #include "results/sha256.hpp"
 #include "results/version.hpp"
-#include "spec/guarantee.hpp"
 #include "spec/unit_text.hpp"
 
 namespace coordreq {

@@ -85,16 +85,18 @@ class PartsReader {
     attributes.coalition_cells.assign(given.begin(), given.end());
     attributes.critical_pair_cells.assign(critical.begin(), critical.end());
     attributes.network_cells = counted(paths::kNetworkSafe);
+    if (spec.network && attributes.network_cells.size() != spec.network->modes.size())
+      fail("the attribute cells does not hold a number a mode", paths::kNetworkSafe);
   }
 
-  /// The attribute `cells`; empty where the field, or so long a list, is not in the file.
+  /// The attribute `cells`; empty where the field, or the attribute, is not in the file.
   [[nodiscard]] std::vector<std::uint64_t> counted(const std::string& path) const {
     const auto field = std::find_if(parts_.fields.begin(), parts_.fields.end(),
                                     [&path](const Field& one) { return one.path == path; });
     if (field == parts_.fields.end()) return {};
     for (const FieldAttribute& attribute : field->attributes) {
       const auto* const list = std::get_if<std::vector<std::uint64_t>>(&attribute.value);
-      if (attribute.name == "cells" && list != nullptr && !list->empty())
+      if (attribute.name == "cells" && list != nullptr && !list->empty() && file_.has(path, "cells"))
         return file_.naturals(path, attribute.name, list->size());
     }
     return {};

@@ -47,7 +47,7 @@ std::vector<std::int32_t> widened(const std::vector<Integer>& values) {
 
 /// Of unpacked chunks.
 std::size_t cache_bytes(std::optional<std::uint64_t> max_memory) {
-  constexpr std::uint64_t kMost = std::uint64_t{32} << 20U;
+  constexpr std::uint64_t kMost = std::uint64_t{128} << 20U;
   return static_cast<std::size_t>(std::min(kMost, max_memory.value_or(kMost) / 4));
 }
 
@@ -78,6 +78,11 @@ std::vector<Value> ResultsReader::elements(const std::string& dataset, ElementTy
                                            const std::vector<std::uint64_t>& count) const {
   std::uint64_t product = 1;
   for (const std::uint64_t length : count) product *= length;
+  if (max_memory_ && product > *max_memory_ / sizeof(Value)) {
+    throw LimitError(fmt::format("reading needs about {} MiB of memory, the limit is {} MiB",
+                                 product * sizeof(Value) >> 20U, *max_memory_ >> 20U),
+                     file_->place(dataset));
+  }
   std::vector<Value> values(product);
   if (product == 0) return values;
   reading(path_, [&] { file_->read_block(dataset, type, offset, count, values.data()); });

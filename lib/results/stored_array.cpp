@@ -110,7 +110,9 @@ void StoredArray::fail(const std::string& what) const {
 
 void StoredArray::read_type() {
   const hdf5::Handle stored(H5Dget_type(dataset_.get()), H5Tclose, "read a type");
-  element_bytes_ = H5Tget_size(stored.get());
+  // Strings lie elsewhere; the array has the length and the place of each, as long as a file has places.
+  constexpr std::uint64_t kStringBytes = 16;
+  element_bytes_ = hdf5::holds_long_strings(stored) ? kStringBytes : H5Tget_size(stored.get());
   for (const ElementType type :
        {ElementType::uint8, ElementType::int16, ElementType::int32, ElementType::uint32, ElementType::uint64,
         ElementType::float32, ElementType::float64}) {
@@ -174,8 +176,9 @@ void StoredArray::check_storage() const {
   if (elements_ == UINT64_MAX || product(chunk_, element_bytes_) > kMostChunkBytes) {
     fail("stored in chunks of more than " + std::to_string(kMostChunkBytes >> 20U) + " MiB");
   }
+  const hdf5::Handle space(H5Dget_space(dataset_.get()), H5Sclose, "read a shape");
   hsize_t chunks = 0;
-  hdf5::check(H5Dget_num_chunks(dataset_.get(), H5S_ALL, &chunks), "count the chunks");
+  hdf5::check(H5Dget_num_chunks(dataset_.get(), space.get(), &chunks), "count the chunks");
   if (chunks != chunk_count()) fail("damaged: the file does not hold all of its elements");
 }
 

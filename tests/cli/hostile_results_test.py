@@ -8,7 +8,7 @@ import unittest
 
 import h5py
 import numpy as np
-from program import PROGRAM, Case, spec_with
+from program import PROGRAM, ROOT, Case, spec_with
 
 KIBI, MEBI = 1024, 1024 * 1024
 # More than any refusal takes; what is damaged beyond all telling may take five seconds of it.
@@ -193,6 +193,16 @@ class Cases(Case):
                 with self.changed() as file:
                     del file[path]
                 self.assertIn("missing or damaged (out.h5:/" + path, self.refused("verify", "out.h5"))
+
+    def test_files_that_were_found_to_do_harm(self):
+        os.mkfifo(self.folder / "fifo")
+        files = sorted((ROOT / "tests/cli/hostile").glob("*.h5"))
+        self.assertGreater(len(files), 4)
+        for file in files:
+            with self.subTest(file.name):
+                self.write("out.h5", file.read_bytes())
+                self.refused("info", "out.h5")
+                self.refused("query", "out.h5", "--at", "x1=0,x2=0", "--max-memory", "100M")
 
     def test_groups_that_hold_one_another(self):
         with self.changed() as file:

@@ -1,6 +1,9 @@
 #include "answers/invariance/fields.hpp"
 
+#include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
+#include "answers/invariance/action_bits.hpp"
+#include "answers/invariance/answer.hpp"
 
 namespace coordreq {
 namespace {
@@ -42,6 +45,41 @@ Fields invariance_fields(const ProblemSpec& spec) {
     fields.back().attributes.push_back({"sha256", std::string(), true});
   }
   return fields;
+}
+
+void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValues& values) {
+  const Ground& ground = answers.ground;
+  const auto& invariance = answers.get<Invariance>();
+  const LevelMap& times = invariance.collision_time;
+  values.entries["/safe"] = {.array = safe_array(times, *ground.order),
+                             .attributes = {{"cells", static_cast<std::uint64_t>(ground.safe.count())}}};
+  values.entries["/invariant"] = {
+      .array = invariant_array(times, *ground.order),
+      .attributes = {{"cells", static_cast<std::uint64_t>(invariance.invariant.count())}}};
+  values.entries["/collision_time"] = {
+      .array = collision_array(times, *ground.order, level_type(invariance.iterations - 1)),
+      .attributes = {{"iterations", invariance.iterations}}};
+  if (ground.spec.output.controller) {
+    const auto everything = std::make_shared<const ActionGrouping>(
+        *ground.engine, std::vector<InputClass>{all_inputs(ground.spec)}, team);
+    values.entries[paths::kController].array = action_array(answers, everything, 0);
+  }
+  if (!ground.listed) return;
+  values.entries[paths::kListed] = {
+      .array = {ElementType::uint8,
+                [&pairs = ground.listed->pairs](std::uint64_t begin, std::uint64_t count, void* out) {
+                  std::copy_n(pairs.bytes.begin() + static_cast<std::ptrdiff_t>(begin), count,
+                              static_cast<std::uint8_t*>(out));
+                }},
+      .attributes = {{"sha256", ground.listed->sha256}}};
+}
+
+ResultArray action_array(const Answers& answers, std::shared_ptr<const ActionGrouping> grouping,
+                         std::size_t c) {
+  return {ElementType::uint8, [controller = answers.get<Controller>(), grouping = std::move(grouping), c](
+                                  std::uint64_t begin, std::uint64_t count, void* out) {
+            fill_action_bits(controller, *grouping, c, begin, count, out);
+          }};
 }
 
 }  // namespace coordreq

@@ -1,4 +1,4 @@
-#include "analysis/result_arrays.hpp"
+#include "answers/field_arrays.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,13 +32,13 @@ std::vector<Integer> filled(const ResultArray& array, std::uint64_t begin, std::
   return out;
 }
 
-TEST(ResultArrays, SmallLevelsAreStoredInSixteenBits) {
+TEST(FieldArrays, SmallLevelsAreStoredInSixteenBits) {
   EXPECT_EQ(level_type(32766), ElementType::int16);
   EXPECT_EQ(level_type(32767), ElementType::int32);
   EXPECT_EQ(level_type(-1), ElementType::int16);
 }
 
-TEST(ResultArrays, CollisionTimesTellSAndKToo) {
+TEST(FieldArrays, CollisionTimesTellSAndKToo) {
   const LevelMap times = levels(3, {0, 1, kTop, 7, kTop, 0});
   const CellOrder order(grid({2, 3}));
   EXPECT_EQ(filled<std::int16_t>(collision_array(times, order, ElementType::int16), 1, 4),
@@ -50,7 +50,7 @@ TEST(ResultArrays, CollisionTimesTellSAndKToo) {
   EXPECT_EQ(filled<std::uint8_t>(invariant_array(times, order), 2, 3), (std::vector<std::uint8_t>{1, 0, 1}));
 }
 
-TEST(ResultArrays, DelaysAndTriggersOfEveryKindOfCell) {
+TEST(FieldArrays, DelaysAndTriggersOfEveryKindOfCell) {
   const LevelMap times = levels(6, {0, 2, kTop, kTop, kTop, kTop});
   DelayLayers layers{.layers_of = levels(6, {0, 0, 1, 2, 6, kTop}), .sizes = {4, 3, 2, 2, 2, 2, 1}};
   const CellOrder order(grid({6}));
@@ -65,15 +65,15 @@ TEST(ResultArrays, DelaysAndTriggersOfEveryKindOfCell) {
             (std::vector<std::int32_t>{3, 4}));
 }
 
-TEST(ResultArrays, LayersListTheirCellsInAscendingOrder) {
+TEST(FieldArrays, LayersListTheirCellsInAscendingOrder) {
   const DelayLayers layers{.layers_of = levels(7, {2, 0, 1, kTop, 2, 0, 1}), .sizes = {5, 3, 1}};
-  const ResultLayers lists = layer_lists(layers, CellOrder(grid({7})));
+  const LayerLists lists = layer_lists(layers, CellOrder(grid({7})));
   EXPECT_EQ(lists.start, (std::vector<std::uint64_t>{0, 2, 4, 5}));
   EXPECT_EQ(lists.cell.type, ElementType::uint32);
   EXPECT_EQ(filled<std::uint32_t>(lists.cell, 0, 5), (std::vector<std::uint32_t>{2, 6, 0, 4, 3}));
 }
 
-TEST(ResultArrays, CellsComeInTheOrderOfTheSpec) {
+TEST(FieldArrays, CellsComeInTheOrderOfTheSpec) {
   // The spec's (a, b, c) with 2, 3 and 2 points are the engine's (b, c, a).
   const UniformGrid engine = grid({2, 3, 2}).arranged({1, 2, 0});
   const CellOrder order(engine);

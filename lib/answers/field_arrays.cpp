@@ -1,10 +1,10 @@
-#include "analysis/result_arrays.hpp"
+#include "answers/field_arrays.hpp"
 
 #include <limits>
 #include <memory>
 
-#include "analysis/convert_stretch.hpp"
 #include "answers/layers/trigger_table.hpp"
+#include "engine/convert_stretch.hpp"
 
 namespace coordreq {
 namespace {
@@ -81,8 +81,8 @@ void for_each_in_layers(const DelayLayers& layers, const CellOrder& order, const
 }
 
 template <class Index>
-ResultLayers lists_of(const DelayLayers& layers, const CellOrder& order, ElementType type) {
-  ResultLayers result;
+LayerLists lists_of(const DelayLayers& layers, const CellOrder& order, ElementType type) {
+  LayerLists result;
   const std::size_t count = layers.sizes.size();
   result.start.assign(count + 1, 0);
   for (std::size_t k = 0; k < count; ++k) {
@@ -195,7 +195,7 @@ ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& 
           }};
 }
 
-ResultLayers layer_lists(const DelayLayers& layers, const CellOrder& order) {
+LayerLists layer_lists(const DelayLayers& layers, const CellOrder& order) {
   if (order.cells() <= std::numeric_limits<std::uint32_t>::max()) {
     return lists_of<std::uint32_t>(layers, order, ElementType::uint32);
   }

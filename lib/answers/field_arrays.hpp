@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "answers/convention/convention_freedom.hpp"
+#include "answers/field.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "engine/level_map.hpp"
 #include "model/cell_order.hpp"
-#include "results/result_content.hpp"
 
 // Turns what the analysis holds into the arrays of the results file. The functions returned refer to their
 // arguments, which must outlive the writing.
@@ -43,7 +43,12 @@ void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::ui
 /// float32 [agents, cells]; NaN outside K.
 [[nodiscard]] ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& order);
 
+/// The layers T(0), ..., T(F) of one partition as index lists; contract `/layers/PARTITION`.
+struct LayerLists {
+  std::vector<std::uint64_t> start;  ///< F + 2 entries
+  ResultArray cell;                  ///< start.back() entries, uint32 or uint64
+};
 /// T(0), ..., T(F) as ascending lists of linear indices. The lists belong to the result.
-[[nodiscard]] ResultLayers layer_lists(const DelayLayers& layers, const CellOrder& order);
+[[nodiscard]] LayerLists layer_lists(const DelayLayers& layers, const CellOrder& order);
 
 }  // namespace coordreq
