@@ -12,7 +12,6 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "base/thread_team.hpp"
-#include "spec/guarantee.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

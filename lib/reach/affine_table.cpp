@@ -33,14 +33,11 @@ class TableBuilder {
         table_(abstraction.tables[state]),
         tube_(abstraction.tubes.empty() ? nullptr : &abstraction.tubes[state]),
         post_{.grid = grid_, .moving = dependencies_.moving, .state = state},
-        state_(state) {
-    post_.shift = is_shift(spec, dependencies_, state);
-  }
+        state_(state) {}
 
   std::optional<bool> build(ThreadTeam& team) {
     table_ = full_layout(spec_, dependencies_, state_, grid_, inputs_);
     if (tube_ != nullptr) *tube_ = table_;
-
     return fill_all(team);
   }
 
@@ -52,6 +49,7 @@ class TableBuilder {
 
  private:
   std::optional<bool> fill_all(ThreadTeam& team) {
+    post_.shift = table_.shift;
     std::atomic<bool> affine = true;
     std::atomic<bool> exact = true;
     const Odometer choices(choice_counts());

@@ -61,7 +61,7 @@ void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValue
       .attributes = {{"iterations", invariance.iterations}}};
   if (ground.spec.output.controller) {
     const auto everything = std::make_shared<const ActionGrouping>(
-        *ground.engine, std::vector<InputClass>{all_inputs(ground.spec)}, team);
+        *ground.engine, std::vector<InputClass>{whole_class(ground.abstraction->inputs)}, team);
     values.entries[paths::kController].array = action_array(answers, everything, 0);
   }
   if (!ground.listed) return;

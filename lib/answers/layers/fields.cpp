@@ -175,8 +175,8 @@ void fill_layer_fields(const Answers& answers, ThreadTeam& team, FieldValues& va
     const PartitionSpec& partition = spec.coordination.partitions[p];
     if (spec.output.layers) fill_lists(answers, partition, partitions[p], values);
     if (!spec.output.actions) continue;
-    const auto grouping =
-        std::make_shared<const ActionGrouping>(*answers.ground.engine, input_classes(spec, partition), team);
+    const auto grouping = std::make_shared<const ActionGrouping>(
+        *answers.ground.engine, input_classes(spec, answers.ground.abstraction->inputs, partition), team);
     for (std::size_t c = 0; c < partition.classes.size(); ++c)
       values.entries[paths::actions(spec, partition, c)].array = action_array(answers, grouping, c);
   }
