@@ -17,7 +17,7 @@
 // holds goes over these declarations and knows no dataset by name.
 namespace coordreq {
 
-enum class ElementType : std::uint8_t { uint8, int16, int32, uint32, uint64, float32, float64 };
+enum class ElementType : std::uint8_t { uint8, int16, int32, uint32, int64, uint64, float32, float64 };
 
 [[nodiscard]] constexpr std::size_t element_size(ElementType type) {
   switch (type) {
@@ -29,6 +29,7 @@ enum class ElementType : std::uint8_t { uint8, int16, int32, uint32, uint64, flo
     case ElementType::uint32:
     case ElementType::float32:
       return 4;
+    case ElementType::int64:
     case ElementType::uint64:
     case ElementType::float64:
       break;

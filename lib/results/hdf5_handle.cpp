@@ -186,6 +186,8 @@ hid_t number_type(ElementType type) {
       return H5T_STD_I32LE;
     case ElementType::uint32:
       return H5T_STD_U32LE;
+    case ElementType::int64:
+      return H5T_STD_I64LE;
     case ElementType::uint64:
       return H5T_STD_U64LE;
     case ElementType::float32:

@@ -24,6 +24,8 @@ const char* name_of(ElementType type) {
       return "int32";
     case ElementType::uint32:
       return "uint32";
+    case ElementType::int64:
+      return "int64";
     case ElementType::uint64:
       return "uint64";
     case ElementType::float32:
@@ -54,6 +56,8 @@ std::vector<Value> widened(ElementType type, const std::vector<std::byte>& bytes
       return widened<std::int32_t, Value>(bytes);
     case ElementType::uint32:
       return widened<std::uint32_t, Value>(bytes);
+    case ElementType::int64:
+      return widened<std::int64_t, Value>(bytes);
     case ElementType::uint64:
       return widened<std::uint64_t, Value>(bytes);
     case ElementType::float32:

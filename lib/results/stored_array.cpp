@@ -114,8 +114,8 @@ void StoredArray::read_type() {
   constexpr std::uint64_t kStringBytes = 16;
   element_bytes_ = hdf5::holds_long_strings(stored) ? kStringBytes : H5Tget_size(stored.get());
   for (const ElementType type :
-       {ElementType::uint8, ElementType::int16, ElementType::int32, ElementType::uint32, ElementType::uint64,
-        ElementType::float32, ElementType::float64}) {
+       {ElementType::uint8, ElementType::int16, ElementType::int32, ElementType::uint32, ElementType::int64,
+        ElementType::uint64, ElementType::float32, ElementType::float64}) {
     if (H5Tequal(stored.get(), hdf5::number_type(type)) <= 0) continue;
     type_ = type;
     return;

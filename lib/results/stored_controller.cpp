@@ -82,7 +82,11 @@ class StoredController {
     if (shape.size() != 1 || shape.front() != expected.size()) {
       fail(fmt::format("found {} grid points, expected {}", fmt::join(shape, " x "), expected.size()), path);
     }
-    file_.expect_array(path, {ElementType::float64}, shape);
+    // Other programs write whole numbers where grid points are.
+    file_.expect_array(path,
+                       {ElementType::float64, ElementType::float32, ElementType::int64, ElementType::int32,
+                        ElementType::int16, ElementType::uint64, ElementType::uint32, ElementType::uint8},
+                       shape);
     const std::vector<double> found = file_.numbers(path);
     const std::optional<double> distance = spacing(expected);
     for (std::size_t k = 0; k < found.size(); ++k) {

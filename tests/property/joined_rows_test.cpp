@@ -148,7 +148,7 @@ TEST(JoinedRows, GiveTheSameLevels) {
     }
     for (std::size_t p = 0; p < one.layers.size(); ++p) {
       RC_ASSERT(joined.layers[p].sizes == one.layers[p].sizes);
-      if (joined.groupings[p].size() < 2) continue;
+      if (joined.actions[p].grouping.size() < 2) continue;
       expect_same_layers<std::uint16_t>(joined, p, team);
       expect_same_layers<std::uint32_t>(joined, p, team);
     }

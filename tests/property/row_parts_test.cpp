@@ -96,8 +96,7 @@ TEST(RowHull, HoldsThePostsOfTheRow) {
 }
 
 /// The joint input of one action a class, row-major over the inputs of each.
-std::int64_t joint_input(const ActionGrouping& grouping, const InputSpace& inputs,
-                         const std::vector<std::uint32_t>& actions) {
+std::int64_t joint_input(const ActionGrouping& grouping, const std::vector<std::uint32_t>& actions) {
   std::int64_t u = 0;
   for (std::size_t c = 0; c < grouping.size(); ++c) {
     u += grouping[c].parts()[actions[c]];
@@ -150,7 +149,7 @@ TEST(TupleWalk, GoesThroughAllJointGroupsOfARow) {
           RC_ASSERT(walk.chosen(c) == expected[c]);
           actions.push_back(groups.classes[c]->representative[expected[c]]);
         }
-        const std::int64_t u = joint_input(grouping, f.inputs, actions);
+        const std::int64_t u = joint_input(grouping, actions);
         const auto ids = walk.slice_ids();
         for (std::size_t t = 0; t < grid.size(); ++t) {
           for (const RowSegment& segment : random.engine.slices()[t].slices[ids[t]]) {
