@@ -81,7 +81,7 @@ int FlowExtremes::steps_for(const ArbMatrix& slopes, const Effort& effort) const
   Arb norm;
   arb_mat_bound_inf_norm(arb_radref(norm.get()), columns(slopes, states_.size(), 0, states_.size()).get());
   const double turns = norm.upper().approximately() * period_.approximately();
-  const double least = std::min(turns * std::max(2.0, effort.steps / 4.0), double{kMostSteps});
+  const double least = std::min(turns * std::max(1.0, effort.steps / 4.0), double{kMostSteps});
   return std::max(effort.steps, static_cast<int>(std::ceil(least)));
 }
 
