@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "analysis/simulate.hpp"
+#include "cell/simulate.hpp"
 
 namespace coordreq {
 

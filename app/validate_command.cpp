@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "analysis/analyze.hpp"
-#include "analysis/judge_requirements.hpp"
+#include "answers/requirements/judge_requirements.hpp"
 #include "app/commands.hpp"
 #include "app/json_text.hpp"
 #include "app/load_spec.hpp"

@@ -1,12 +1,11 @@
 #include "analysis/analyze.hpp"
 
+#include "analysis/analysis_stages.hpp"
 #include "analysis/checkpoint.hpp"
-#include "analysis/coalitions.hpp"
 #include "analysis/compose_results.hpp"
-#include "analysis/judge_requirements.hpp"
-#include "analysis/solution.hpp"
 #include "analysis/stage_reporter.hpp"
 #include "analysis/summarise.hpp"
+#include "answers/plan.hpp"
 #include "results/write_results.hpp"
 
 namespace coordreq {
@@ -25,22 +24,23 @@ void open_checkpoint(const ProblemSpec& spec, const AnalysisOptions& options, St
   checkpoint.emplace(*options.checkpoint, spec, team, listener);
 }
 
-SolutionWatch watch_of(StageReporter& reporter, Checkpoint* checkpoint) {
-  return {
-      .enter = [&reporter](const std::string& stage) { reporter.enter(stage); },
-      .part = [&reporter](const std::string& part) { reporter.enter_part(part); },
-      .step = [&reporter](const WaveStep& step, std::int64_t row_length) { reporter.step(step, row_length); },
-      .checkpoint = checkpoint};
+void find_answers(Answers& answers, StageReporter& reporter, Checkpoint* checkpoint, ThreadTeam& team) {
+  const StageWork work{.team = team,
+                       .part = [&reporter](const std::string& part) { reporter.enter_part(part); },
+                       .step = [&reporter](const WaveStep& step,
+                                           std::int64_t row_length) { reporter.step(step, row_length); }};
+  const PlanWatch watch{.enter = [&reporter](const std::string& stage) { reporter.enter(stage); },
+                        .store = [checkpoint](const std::string& stage) -> StageStore* {
+                          return checkpoint == nullptr ? nullptr : checkpoint->enter(stage);
+                        }};
+  run_stages(analysis_stages(answers.ground.spec), answers, work, watch);
 }
 
-void write(const std::string& path, const Solution& solution, const std::optional<CoalitionMap>& coalitions,
-           const AnalysisSummary& summary, StageReporter& reporter, ThreadTeam& team) {
+void write(const std::string& path, const Answers& answers, StageReporter& reporter, ThreadTeam& team) {
   reporter.enter("writing");
   reporter.enter_part("lists");
-  ResultComposer composer(solution, team);
+  ResultComposer composer(answers, team);
   ResultContent content = composer.content();
-  if (coalitions) add_coalitions(*coalitions, solution, content);
-  content.requirements = summary.requirements;
   reporter.watch_writing(content);
   reporter.set_temporary(true);
   write_results(path, content, team);
@@ -55,20 +55,10 @@ AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options,
   StageReporter reporter(options.progress, team);
   std::optional<Checkpoint> checkpoint;
   open_checkpoint(spec, options, reporter, team, checkpoint);
-  const SolutionWatch watch = watch_of(reporter, checkpoint ? &*checkpoint : nullptr);
-  if (!spec.requirements.empty()) {
-    reporter.enter("regions");
-    check_regions(spec, team);
-  }
-  const Solution solution(spec, team, watch);
-  const std::optional<CoalitionMap> coalitions = coalitions_of(solution, team, watch.enter);
-  AnalysisSummary summary = summarise(solution);
-  if (!spec.requirements.empty()) {
-    reporter.enter("requirements");
-    summary.requirements = judge_requirements(solution, team);
-  }
-  if (coalitions) summary.coalition = summary_of(*coalitions, spec);
-  if (!options.output.empty()) write(options.output, solution, coalitions, summary, reporter, team);
+  Answers answers(spec);
+  find_answers(answers, reporter, checkpoint ? &*checkpoint : nullptr, team);
+  AnalysisSummary summary = summarise(answers);
+  if (!options.output.empty()) write(options.output, answers, reporter, team);
   if (checkpoint) checkpoint->remove();
   summary.seconds = reporter.finish();
   summary.output = options.output;

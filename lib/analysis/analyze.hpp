@@ -9,8 +9,9 @@
 
 #include "analysis/checkpoint_options.hpp"
 #include "analysis/progress.hpp"
-#include "base/thread_team.hpp"
+#include "answers/invariance/answer.hpp"
 #include "answers/requirements/result_requirement.hpp"
+#include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -120,10 +121,6 @@ struct AnalysisSummary {
 ///   grid, dynamics that this version cannot abstract); LimitError; IoError
 [[nodiscard]] AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options,
                                       ThreadTeam& team);
-
-/// What a result of this spec guarantees: "samples", "samples-center" or "continuous" (contract, "What is
-/// guaranteed"). Centres say nothing of the way between the samples, so that they never make it "continuous".
-[[nodiscard]] std::string guarantee_of(const ProblemSpec& spec);
 
 /// What `validate` prints, known before the analysis runs.
 struct SpecReport {

@@ -61,9 +61,9 @@ std::string read_text(BlockFileReader& file) {
 }
 
 /// Rows next to one another.
-void write_rows(const RowBytes& rows, BlockFileWriter& file) {
-  if (rows.rows == 0 || rows.row_bytes == 0) return;
-  const auto row_bytes = static_cast<std::uint64_t>(rows.row_bytes);
+void write_rows(const NumberRows& rows, BlockFileWriter& file) {
+  if (rows.rows == 0 || rows.row_length == 0) return;
+  const auto row_bytes = static_cast<std::uint64_t>(rows.row_bytes());
   file.add(static_cast<std::uint64_t>(rows.rows) * row_bytes,
            [&rows, row_bytes](std::uint64_t begin, std::uint64_t count, std::byte* out) {
              while (count > 0) {
@@ -120,113 +120,73 @@ void Checkpoint::refuse(const std::string& reason) const {
   throw ResultsError("the checkpoint " + reason, options_.file);
 }
 
-std::optional<Checkpoint::Record> Checkpoint::next_record(const std::string& stage) {
-  if (!reader_) return std::nullopt;
-  Record record{.stage = read_text(*reader_), .is_finished = read_number(*reader_) != 0};
-  if (record.stage != stage) refuse(fmt::format("has the stage '{}', expected '{}'", record.stage, stage));
-  const std::uint64_t numbers = read_number(*reader_);
-  for (std::uint64_t i = 0; i < numbers; ++i) record.numbers.push_back(read_number(*reader_));
-  const std::uint64_t parts = read_number(*reader_);
-  for (std::uint64_t i = 0; i < parts; ++i) {
-    RowBytes& rows = record.rows.emplace_back();
-    rows.rows = static_cast<std::int64_t>(read_number(*reader_));
-    rows.row_bytes = static_cast<std::int64_t>(read_number(*reader_));
-    rows.element_bytes = static_cast<std::int64_t>(read_number(*reader_));
+class Checkpoint::Saving : public Archive {
+ public:
+  explicit Saving(BlockFileWriter& file) : file_(file) {}
+  [[nodiscard]] bool is_loading() const override { return false; }
+  void rows(const NumberRows& rows) override {
+    Packer head;
+    for (const std::int64_t number : {rows.rows, rows.row_bytes()})
+      head.add(static_cast<std::uint64_t>(number));
+    head.write_to(file_);
+    write_rows(rows, file_);
   }
-  return record;
+
+ private:
+  [[noreturn]] void refuse(std::string_view what) const override {
+    throw std::logic_error(std::string(what));
+  }
+
+  BlockFileWriter& file_;
+};
+
+class Checkpoint::Loading : public Archive {
+ public:
+  explicit Loading(const Checkpoint& checkpoint) : checkpoint_(checkpoint), file_(*checkpoint.reader_) {}
+  [[nodiscard]] bool is_loading() const override { return true; }
+  void rows(const NumberRows& rows) override {
+    const std::uint64_t count = read_number(file_);
+    const std::uint64_t row_bytes = read_number(file_);
+    expect(count == static_cast<std::uint64_t>(rows.rows) &&
+               row_bytes == static_cast<std::uint64_t>(rows.row_bytes()),
+           "a list has another length");
+    for (std::int64_t r = 0; r < rows.rows; ++r) file_.read(row_bytes, rows.row(r));
+  }
+
+ private:
+  [[noreturn]] void refuse(std::string_view what) const override {
+    checkpoint_.refuse(fmt::format("does not fit the spec: {} in the stage '{}'", what, checkpoint_.stage_));
+  }
+
+  const Checkpoint& checkpoint_;
+  BlockFileReader& file_;
+};
+
+StageStore* Checkpoint::enter(const std::string& stage) {
+  stage_ = stage;
+  return this;
 }
 
-void Checkpoint::read_rows(const RowBytes& stored, std::int64_t rows, std::int64_t row_bytes,
-                           const std::function<std::byte*(std::int64_t)>& row_at) {
-  if (stored.rows != rows || stored.row_bytes != row_bytes) {
-    refuse(fmt::format("has {} rows of {} bytes, expected {} of {}", stored.rows, stored.row_bytes, rows,
-                       row_bytes));
-  }
-  for (std::int64_t r = 0; r < rows; ++r) reader_->read(static_cast<std::uint64_t>(row_bytes), row_at(r));
-}
-
-/// What was under way is the last that the file has.
-void Checkpoint::end_record() {
+StageStore::Kept Checkpoint::take(const Serialise& load) {
+  if (!reader_) return Kept::nothing;
+  const std::string stage = read_text(*reader_);
+  if (stage != stage_) refuse(fmt::format("has the stage '{}', expected '{}'", stage, stage_));
+  const bool is_finished = read_number(*reader_) != 0;
+  Loading archive(*this);
+  load(archive);
   if (reader_->at_end()) reader_.reset();
+  return is_finished ? Kept::finished : Kept::unfinished;
 }
 
-bool Checkpoint::take_lists(
-    const std::string& stage,
-    const std::function<void(const std::vector<std::uint64_t>&, const ReadList&)>& load) {
-  const std::optional<Record> record = next_record(stage);
-  if (!record) return false;
-  load(record->numbers, [this](std::byte* out, std::uint64_t bytes) { reader_->read(bytes, out); });
-  end_record();
-  return true;
+void Checkpoint::finish(Serialise save) {
+  finished_.push_back({stage_, true, std::move(save)});
+  if (is_due()) this->save(nullptr);
 }
 
-template <class Level>
-LevelMap Checkpoint::read_levels(const RowBytes& stored, const RowEngine& engine) {
-  LevelRows<Level> levels = engine.make_levels<Level>(engine.posts());
-  const auto row_bytes =
-      static_cast<std::int64_t>(levels.row_length() * static_cast<std::int64_t>(sizeof(Level)));
-  read_rows(stored, levels.rows(), row_bytes, [&levels](std::int64_t r) {
-    void* row = levels.row(r);
-    return static_cast<std::byte*>(row);
-  });
-  for (std::int64_t r = 0; r < levels.rows(); ++r) levels.close(r);
-  return LevelMap(std::move(levels));
-}
-
-std::optional<SavedState<LevelMap>> Checkpoint::take_levels(const std::string& stage,
-                                                            const RowEngine& engine) {
-  const std::optional<Record> record = next_record(stage);
-  if (!record) return std::nullopt;
-  if (record->rows.size() != 1) refuse("has no levels for " + stage);
-  const RowBytes& stored = record->rows.front();
-  SavedState<LevelMap> saved{.is_finished = record->is_finished};
-  saved.state = stored.element_bytes == 1   ? read_levels<std::uint8_t>(stored, engine)
-                : stored.element_bytes == 2 ? read_levels<std::uint16_t>(stored, engine)
-                                            : read_levels<std::uint32_t>(stored, engine);
-  end_record();
-  return saved;
-}
-
-std::optional<SavedState<std::vector<CellSet>>> Checkpoint::take_sets(const std::string& stage,
-                                                                      const CellSet& like) {
-  const std::optional<Record> record = next_record(stage);
-  if (!record) return std::nullopt;
-  SavedState<std::vector<CellSet>> saved{.is_finished = record->is_finished};
-  for (const RowBytes& stored : record->rows) {
-    CellSet& set = saved.state.emplace_back(like.rows(), like.row_length());
-    read_rows(stored, set.rows(), bytes_of(set).row_bytes, [&set](std::int64_t r) {
-      void* row = set.row(r).data();
-      return static_cast<std::byte*>(row);
-    });
-  }
-  end_record();
-  return saved;
-}
-
-void Checkpoint::finish(const std::string& stage, SavedLists lists) {
-  add_finished({stage, true, std::move(lists.numbers), std::move(lists.lists)});
-}
-
-void Checkpoint::finish(const std::string& stage, const LevelMap& levels) {
-  const RowBytes rows = levels.visit([](const auto& own) { return bytes_of(own); });
-  add_finished({.stage = stage, .is_finished = true, .rows = {rows}});
-}
-
-void Checkpoint::finish(const std::string& stage, const std::vector<CellSet>& sets) {
-  Record record{.stage = stage, .is_finished = true};
-  for (const CellSet& set : sets) record.rows.push_back(bytes_of(set));
-  add_finished(std::move(record));
-}
-
-void Checkpoint::add_finished(Record record) {
-  finished_.push_back(std::move(record));
-  if (is_due()) save(nullptr);
-}
-
-void Checkpoint::step(const std::string& stage, std::span<const RowBytes> state) {
-  if (state.empty() || !is_due()) return;
-  const Record record{.stage = stage, .rows = {state.begin(), state.end()}};
-  save(&record);
+void Checkpoint::step(const Serialise& save) {
+  if (!is_due()) return;
+  const Record record{.stage = stage_, .save = save};
+  this->save(&record);
 }
 
 /// As long as there is more to take up, a new file would hold less than the old one.
@@ -264,15 +224,9 @@ void Checkpoint::write(const Record* under_way) {
     Packer text;
     text.add(record.stage);
     text.add(record.is_finished ? 1 : 0);
-    text.add(record.numbers.size());
-    for (const std::uint64_t number : record.numbers) text.add(number);
-    text.add(record.rows.size());
-    for (const RowBytes& rows : record.rows) {
-      for (const std::int64_t number : {rows.rows, rows.row_bytes, rows.element_bytes})
-        text.add(static_cast<std::uint64_t>(number));
-    }
     text.write_to(file);
-    for (const RowBytes& rows : record.rows) write_rows(rows, file);
+    Saving archive(file);
+    record.save(archive);
   };
   for (const Record& record : finished_) add(record);
   if (under_way != nullptr) add(*under_way);

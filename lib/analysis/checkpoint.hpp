@@ -4,28 +4,17 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "analysis/checkpoint_options.hpp"
-#include "analysis/saved_lists.hpp"
+#include "answers/stage.hpp"
+#include "base/archive.hpp"
 #include "base/thread_team.hpp"
-#include "engine/level_map.hpp"
-#include "engine/row_bytes.hpp"
-#include "engine/row_engine.hpp"
 #include "results/block_file.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
-
-/// Levels, or sets, with which a stage was broken off or finished.
-template <class State>
-struct SavedState {
-  State state;
-  bool is_finished = false;
-};
 
 /// The state of an analysis in a file, so that it can go on after it was killed: of each stage that is
 /// finished what it has found, and of a fixed point that is under way its levels or sets.
@@ -36,7 +25,7 @@ struct SavedState {
 /// 3. Stages come in the order in which they are worked out, which is the same in the file. So it is read
 ///    once, from front to back, straight to where the levels are needed: nothing is held twice.
 /// 4. Saving takes at most a tenth of the time, however long it takes. Where it fails, work goes on.
-class Checkpoint {
+class Checkpoint : public StageStore {
  public:
   struct Listener {
     /// Before and after there is a temporary file, and often in between; what it throws ends the work.
@@ -51,47 +40,26 @@ class Checkpoint {
   ///   else
   Checkpoint(CheckpointOptions options, const ProblemSpec& spec, ThreadTeam& team, Listener listener);
 
-  /// What the file has of a stage; none, or false, if it has nothing.
-  /// @param load makes use of the numbers and then reads all lists
-  /// @throws ResultsError if that is of another kind
-  [[nodiscard]] bool take_lists(
-      const std::string& stage,
-      const std::function<void(const std::vector<std::uint64_t>& numbers, const ReadList& read)>& load);
-  [[nodiscard]] std::optional<SavedState<LevelMap>> take_levels(const std::string& stage,
-                                                                const RowEngine& engine);
-  [[nodiscard]] std::optional<SavedState<std::vector<CellSet>>> take_sets(const std::string& stage,
-                                                                          const CellSet& like);
-
-  /// The stage is over. From now on the file is to hold its result, which must stay where it is in memory:
-  /// the lists of an object that is moved do.
-  void finish(const std::string& stage, SavedLists lists);
-  void finish(const std::string& stage, const LevelMap& levels);
-  void finish(const std::string& stage, const std::vector<CellSet>& sets);
-
-  /// The stage under way has come this far; saves it if it is time.
-  void step(const std::string& stage, std::span<const RowBytes> state);
+  /// From now on the stage under way is this one. @returns this object
+  StageStore* enter(const std::string& stage);
+  [[nodiscard]] Kept take(const Serialise& load) override;
+  void finish(Serialise save) override;
+  void step(const Serialise& save) override;
 
   /// The file is of no more use.
   void remove();
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// What the file says of one stage before its rows.
   struct Record {
     std::string stage;
     bool is_finished = false;
-    std::vector<std::uint64_t> numbers;
-    std::vector<RowBytes> rows;
+    Serialise save;
   };
+  class Loading;
+  class Saving;
 
   void open();
-  [[nodiscard]] std::optional<Record> next_record(const std::string& stage);
-  template <class Level>
-  [[nodiscard]] LevelMap read_levels(const RowBytes& stored, const RowEngine& engine);
-  void read_rows(const RowBytes& stored, std::int64_t rows, std::int64_t row_bytes,
-                 const std::function<std::byte*(std::int64_t)>& row_at);
-  void end_record();
-  void add_finished(Record record);
   [[nodiscard]] bool is_due() const;
   void save(const Record* under_way);
   void write(const Record* under_way);
@@ -109,6 +77,7 @@ class Checkpoint {
   ThreadTeam& team_;
   Listener listener_;
   std::unique_ptr<BlockFileReader> reader_;  ///< while there is something to take up
+  std::string stage_;                        ///< under way
   std::vector<Record> finished_;
   bool is_failing_ = false;                ///< the last one could not be saved
   Clock::time_point saved_;                ///< when that was last done, or begun

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "analysis/analyze.hpp"
-#include "analysis/network_problem.hpp"
+#include "answers/network/network_problem.hpp"
 #include "base/error.hpp"
 #include "engine/join_rows.hpp"
 #include "model/model.hpp"
@@ -235,11 +235,6 @@ std::uint64_t to_bytes(double bytes) {
 }
 
 }  // namespace
-
-std::string guarantee_of(const ProblemSpec& spec) {
-  if (spec.abstraction.safe == Membership::center) return "samples-center";
-  return spec.abstraction.between_samples ? "continuous" : "samples";
-}
 
 void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit) {
   const double bytes = estimate_memory(Model(spec, table_shapes(spec)));

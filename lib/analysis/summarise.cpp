@@ -2,6 +2,12 @@
 
 #include <algorithm>
 
+#include "answers/coalition/answer.hpp"
+#include "answers/convention/answer.hpp"
+#include "answers/invariance/answer.hpp"
+#include "answers/layers/answer.hpp"
+#include "answers/network/answer.hpp"
+#include "answers/requirements/answer.hpp"
 #include "spec/partition_names.hpp"
 
 namespace coordreq {
@@ -18,15 +24,14 @@ std::int64_t cells_bound_to_connect(const DelayLayers& layers, std::int64_t conn
   return layers.sizes.front() - layers.sizes[static_cast<std::size_t>(std::min(connection_delay, known - 1))];
 }
 
-PartitionSummary summary_of(const ProblemSpec& spec, const PartitionResult& partition) {
-  const DelayLayers& layers = partition.layers;
-  PartitionSummary result{.name = partition.spec->name,
+PartitionSummary summary_of(const ProblemSpec& spec, const PartitionSpec& partition,
+                            const DelayLayers& layers) {
+  PartitionSummary result{.name = partition.name,
                           .fixed_point_index = layers.fixed_point_index,
                           .fixed_point = layers.truncated ? 0 : layers.sizes.back(),
                           .layers = layers.sizes,
                           .truncated = layers.truncated};
-  for (const auto& agents : partition.spec->classes)
-    result.classes.push_back(class_name(spec.agents, agents));
+  for (const auto& agents : partition.classes) result.classes.push_back(class_name(spec.agents, agents));
   result.never_without_connection = cells_bound_to_connect(layers, spec.coordination.connection_delay);
   if (result.fixed_point == 0 && layers.sizes.front() > 0) {
     // Z_k shrinks strictly, so the last layer that is not empty holds the largest delay.
@@ -49,40 +54,63 @@ NetworkSummary summary_of(const NetworkSpec& spec, const NetworkSafety& safety) 
   return result;
 }
 
+CoalitionSummary summary_of(const CoalitionMap& map, const ProblemSpec& spec) {
+  const Rational steps(static_cast<long>(map.horizon));
+  CoalitionSummary summary{.horizon = map.horizon,
+                           .horizon_time = nearest_double(Rational(spec.dynamics.period * steps)),
+                           .without = map.without};
+  for (std::size_t i = 0; i < map.choices.size(); ++i) {
+    const CoalitionChoice& choice = map.choices[i];
+    summary.choices.push_back({.partition = spec.coordination.partitions[choice.partition].name,
+                               .cost = nearest_double(choice.cost),
+                               .cells = map.cells[i]});
+  }
+  for (std::size_t i = 0; i < map.pairs.size(); ++i)
+    summary.critical_pairs.emplace_back(pair_name(spec, map.pairs[i]), map.critical_cells[i]);
+  return summary;
+}
+
 }  // namespace
 
-AnalysisSummary summarise(const Solution& solution) {
-  const ProblemSpec& spec = solution.spec;
+AnalysisSummary summarise(const Answers& answers) {
+  const Ground& ground = answers.ground;
+  const ProblemSpec& spec = ground.spec;
   AnalysisSummary summary;
   summary.name = spec.name;
-  summary.states = solution.abstraction.grid.points();
-  summary.inputs = solution.abstraction.inputs.count();
-  if (solution.listed) {
-    summary.controller = {{*spec.controller.file, solution.listed->sha256, solution.listed->pairs.count()}};
-  }
-  summary.safe = solution.safe.count();
-  summary.invariant = solution.invariance.invariant.count();
-  summary.iterations = solution.invariance.iterations;
+  summary.states = ground.abstraction->grid.points();
+  summary.inputs = ground.abstraction->inputs.count();
+  if (ground.listed)
+    summary.controller = {{*spec.controller.file, ground.listed->sha256, ground.listed->pairs.count()}};
+  summary.safe = ground.safe.count();
+  const auto& invariance = answers.get<Invariance>();
+  summary.invariant = invariance.invariant.count();
+  summary.iterations = invariance.iterations;
   summary.guarantee = guarantee_of(spec);
   summary.period = nearest_double(spec.dynamics.period);
   summary.period_unit = spec.dynamics.unit;
   summary.connection_delay = spec.coordination.connection_delay;
-  summary.work.push_back(work_of("invariance", solution.invariance.counts));
-  for (const PartitionResult& partition : solution.partitions) {
-    summary.partitions.push_back(summary_of(spec, partition));
-    summary.work.push_back(work_of("layers " + partition.spec->name, partition.layers.counts));
+  summary.work.push_back(work_of("invariance", invariance.counts));
+  for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {
+    const PartitionSpec& partition = spec.coordination.partitions[p];
+    const DelayLayers& layers = answers.get<PartitionLayers>().partitions[p];
+    summary.partitions.push_back(summary_of(spec, partition, layers));
+    summary.work.push_back(work_of("layers " + partition.name, layers.counts));
   }
-  if (solution.network) {
-    summary.network = summary_of(*spec.network, *solution.network);
-    summary.work.push_back(work_of("network", solution.network->counts));
+  if (const auto* map = answers.find<CoalitionMap>()) summary.coalition = summary_of(*map, spec);
+  if (const auto* network = answers.find<NetworkSafety>()) {
+    summary.network = summary_of(*spec.network, *network);
+    summary.work.push_back(work_of("network", network->counts));
   }
-  for (std::size_t i = 0; solution.convention && i < spec.agents.size(); ++i) {
-    const ConventionFreedom::Agent& own = solution.convention->freedom.agents[i];
+  const auto* const convention = answers.find<ConventionAnswer>();
+  for (std::size_t i = 0; convention != nullptr && i < spec.agents.size(); ++i) {
+    const ConventionFreedom::Agent& own = convention->freedom.agents[i];
     summary.convention.push_back({.agent = spec.agents[i].name,
                                   .mean = own.mean,
                                   .full = own.full,
                                   .histogram = {own.histogram.begin(), own.histogram.end()}});
   }
+  if (const auto* verdicts = answers.find<RequirementVerdicts>())
+    summary.requirements = verdicts->requirements;
   return summary;
 }
 

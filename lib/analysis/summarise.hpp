@@ -1,11 +1,11 @@
 #pragma once
 
 #include "analysis/analyze.hpp"
-#include "analysis/solution.hpp"
+#include "answers/answers.hpp"
 
 namespace coordreq {
 
-/// The summary of a solution, but for what only the run as a whole knows: output, threads, seconds, memory.
-[[nodiscard]] AnalysisSummary summarise(const Solution& solution);
+/// The summary of an analysis, but for what only the run as a whole knows: output, threads, seconds, memory.
+[[nodiscard]] AnalysisSummary summarise(const Answers& answers);
 
 }  // namespace coordreq

@@ -191,7 +191,7 @@ class WaveRunner {
 
   void tell(WaveStep& step) const {
     if (!watch_.step) return;
-    const RowBytes state = bytes_of(levels_);
+    const NumberRows state = rows_of(levels_);
     step.state = {&state, 1};
     watch_.step(step);
   }

@@ -4,8 +4,8 @@
 #include <functional>
 #include <span>
 
+#include "engine/kept_rows.hpp"
 #include "engine/level_map.hpp"
-#include "engine/row_bytes.hpp"
 
 namespace coordreq {
 
@@ -19,7 +19,7 @@ struct WaveStep {
   /// cell will have another level up to i than it has now. -1: nothing is known.
   std::int64_t layer = -1;
   /// What the work can be taken up from later; empty where it is not at such a point.
-  std::span<const RowBytes> state;
+  std::span<const NumberRows> state;
 };
 
 /// Looks on while a fixed point is worked out, and says where to take up work that was broken off.

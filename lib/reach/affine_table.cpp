@@ -11,6 +11,7 @@
 #include "reach/cells_meeting.hpp"
 #include "reach/counter.hpp"
 #include "reach/shift.hpp"
+#include "reach/table_layout.hpp"
 #include "reach/tube_table.hpp"
 
 namespace coordreq {
@@ -36,14 +37,8 @@ class TableBuilder {
         state_(state) {}
 
   std::optional<bool> build(ThreadTeam& team) {
-    table_.states = dependencies_.moving;
-    table_.states.insert(table_.states.end(), dependencies_.parameters.begin(),
-                         dependencies_.parameters.end());
-    std::sort(table_.states.begin(), table_.states.end());
-    table_.inputs = dependencies_.inputs;
-    table_.shift = is_shift(spec_, dependencies_, state_);
+    table_ = full_layout(spec_, dependencies_, state_, grid_, inputs_);
     post_.shift = table_.shift;
-    table_.entries.resize(static_cast<std::size_t>(lay_out(table_, state_, grid_, inputs_)));
     if (tube_ != nullptr) *tube_ = table_;
 
     std::atomic<bool> affine = true;

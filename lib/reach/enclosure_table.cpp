@@ -14,6 +14,7 @@
 #include "reach/cells_meeting.hpp"
 #include "reach/shift.hpp"
 #include "reach/state_enclosure.hpp"
+#include "reach/table_layout.hpp"
 
 namespace coordreq {
 namespace {
@@ -37,13 +38,7 @@ class EnclosureTable {
         tube_(abstraction.tubes.empty() ? nullptr : &abstraction.tubes[state]),
         state_(state),
         differences_(differences) {
-    table_.states = dependencies.moving;
-    table_.states.insert(table_.states.end(), dependencies.parameters.begin(), dependencies.parameters.end());
-    std::sort(table_.states.begin(), table_.states.end());
-    table_.inputs = dependencies.inputs;
-    table_.shift = is_shift(spec, dependencies, state);
-    table_.entries.resize(
-        static_cast<std::size_t>(lay_out(table_, state, abstraction.grid, abstraction.inputs)));
+    table_ = full_layout(spec, dependencies, state, abstraction.grid, abstraction.inputs);
     if (tube_ != nullptr) *tube_ = table_;
   }
 

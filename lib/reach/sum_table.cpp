@@ -7,6 +7,7 @@
 #include "reach/box_choices.hpp"
 #include "reach/scaled_number.hpp"
 #include "reach/shift.hpp"
+#include "reach/table_layout.hpp"
 
 namespace coordreq {
 namespace {
@@ -37,18 +38,7 @@ class SumTable {
     // In discrete time Phi has one row, that of the state.
     const auto row = std::find(part.states.begin(), part.states.end(), static_cast<std::int32_t>(state));
     row_ = spec.dynamics.time == Time::discrete ? 0 : static_cast<std::size_t>(row - part.states.begin());
-    table_ = TransitionTable{.states = dependencies.moving, .inputs = dependencies.inputs};
-    table_.states.insert(table_.states.end(), dependencies.parameters.begin(), dependencies.parameters.end());
-    std::sort(table_.states.begin(), table_.states.end());
-    table_.shift = is_shift(spec, dependencies, state);
-    for (const std::int32_t j : summed_states(spec, dependencies, part, state)) {
-      table_.terms.push_back(TransitionTerm{.state = j});
-      lay_out_term(table_.terms.back(), abstraction);
-    }
-    const auto entries =
-        static_cast<std::size_t>(lay_out(table_, state, abstraction.grid, abstraction.inputs));
-    table_.base_lower.resize(entries);
-    table_.base_upper.resize(entries);
+    table_ = sum_layout(spec, dependencies, part, state, abstraction.grid, abstraction.inputs);
   }
 
   [[nodiscard]] const TransitionTable& table() const { return table_; }
@@ -104,24 +94,6 @@ class SumTable {
   }
 
  private:
-  /// The source runs fastest, so that a row along it lies together.
-  void lay_out_term(TransitionTerm& term, const Abstraction& abstraction) {
-    term.state_stride.assign(grid_.size(), 0);
-    term.input_stride.assign(abstraction.inputs.size(), 0);
-    term.state_stride[at(term.state)] = 1;
-    std::int64_t size = grid_[at(term.state)].count;
-    for (const std::int32_t i : part_.inputs) {
-      term.input_stride[at(i)] = size;
-      size *= abstraction.inputs[at(i)].count();
-    }
-    for (const std::int32_t i : part_.parameters) {
-      term.state_stride[at(i)] = size;
-      size *= grid_[at(i)].count;
-    }
-    term.lower.resize(static_cast<std::size_t>(size));
-    term.upper.resize(static_cast<std::size_t>(size));
-  }
-
   // Cell k is [k - 1/2, k + 1/2] in units of the step, without its upper end if half-open. With these added
   // the indices are the integer parts: closed, ceil(lower - 1/2) and floor(upper + 1/2); half-open,
   // floor(lower + 1/2), and the last one as if the upper end were attained, but for a shift, where it is not.

@@ -50,7 +50,7 @@ void check_controller_file(const ProblemSpec& spec) {
   }
 }
 
-ControllerFile read_controller_file(const ProblemSpec& spec) {
+ListedController read_controller_file(const ProblemSpec& spec) {
   const std::string path = controller_path(spec);
   const Kind kind = kind_of(path);
   return {

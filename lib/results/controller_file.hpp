@@ -2,16 +2,10 @@
 
 #include <string>
 
-#include "engine/packed_pairs.hpp"
+#include "answers/ground.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
-
-/// A controller that a user brings, `controller.file` of a spec.
-struct ControllerFile {
-  std::string sha256;  ///< of the file, 64 hexadecimal digits
-  PackedPairs pairs;   ///< that it lists
-};
 
 /// Where `controller.file` leads: a relative path starts in the folder of the spec.
 /// REQUIRES: the spec has one.
@@ -23,7 +17,7 @@ struct ControllerFile {
 /// @throws IoError if it cannot be read; ControllerError if it is neither, damaged, or on another grid,
 /// naming
 ///   the place in it, what was found and what was expected
-[[nodiscard]] ControllerFile read_controller_file(const ProblemSpec& spec);
+[[nodiscard]] ListedController read_controller_file(const ProblemSpec& spec);
 
 /// Checks its kind and its grids only.
 void check_controller_file(const ProblemSpec& spec);

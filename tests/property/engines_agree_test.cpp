@@ -5,6 +5,7 @@
 #include <random>
 #include <utility>
 
+#include "answers/invariance/safe_set.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 #include "support/random_problem.hpp"
@@ -19,15 +20,15 @@ void classify_projections(const FastAnalysis& fast) {
   bool layered_forms[3] = {};
   bool three_classes = false;
   bool two_inputs = false;
-  for (std::size_t p = 0; p < fast.projections.size(); ++p) {
-    const ActionGrouping& grouping = fast.groupings[p];
+  for (std::size_t p = 0; p < fast.actions.size(); ++p) {
+    const ActionGrouping& grouping = fast.actions[p].grouping;
     if (grouping.size() < 2) continue;
     three_classes = three_classes || grouping.size() >= 3;
     for (std::size_t c = 0; c < grouping.size(); ++c)
       two_inputs = two_inputs || grouping[c].inputs().size() >= 2;
     for (std::int64_t r = 0; r < fast.engine.rows(); ++r) {
       if (!any_set(fast.invariance.invariant.row(r))) continue;
-      const auto form = static_cast<std::size_t>(fast.projections[p].form(r));
+      const auto form = static_cast<std::size_t>(fast.actions[p].projections.form(r));
       forms[form] = true;
       layered_forms[form] = layered_forms[form] || fast.layers[p].sizes.size() > 1;
     }

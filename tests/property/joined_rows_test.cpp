@@ -107,7 +107,8 @@ std::int64_t cell_of(const UniformGrid& from, std::int64_t cell, const UniformGr
 template <class Level>
 void expect_same_layers(const FastAnalysis& joined, std::size_t p, ThreadTeam& team) {
   LevelRows<Level> levels = joined.engine.make_levels<Level>(joined.invariance.invariant, team);
-  IndependentActions<Level> op(joined.projections[p], joined.hull, joined.invariance.invariant, team.size());
+  IndependentActions<Level> op(joined.actions[p].projections, joined.hull, joined.invariance.invariant,
+                               team.size());
   run_wave(levels, joined.engine, joined.hull, static_cast<Level>(LevelRows<Level>::kTop - 1), {}, op, {},
            team);
   const LevelMap map(std::move(levels));

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "analysis/network_problem.hpp"
+#include "answers/network/network_problem.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 #include "support/plain_engine.hpp"

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include "analysis/network_problem.hpp"
+#include "answers/network/network_problem.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 #include "support/random_problem.hpp"
@@ -22,10 +22,10 @@ std::vector<std::int64_t> levels_of(const LevelMap& map) {
 }
 
 template <class Level>
-LevelMap read_levels(const RowEngine& engine, const RowBytes& bytes) {
+LevelMap read_levels(const RowEngine& engine, const NumberRows& bytes) {
   LevelRows<Level> levels = engine.make_levels<Level>(engine.posts());
   for (std::int64_t r = 0; r < levels.rows(); ++r) {
-    std::memcpy(levels.row(r), bytes.row(r), static_cast<std::size_t>(bytes.row_bytes));
+    std::memcpy(levels.row(r), bytes.row(r), static_cast<std::size_t>(bytes.row_bytes()));
     levels.close(r);
   }
   return LevelMap(std::move(levels));
@@ -33,9 +33,9 @@ LevelMap read_levels(const RowEngine& engine, const RowBytes& bytes) {
 
 /// A copy of the levels that a step shows.
 LevelMap copy_of(const RowEngine& engine, const WaveStep& step) {
-  const RowBytes& bytes = step.state.front();
-  if (bytes.element_bytes == 1) return read_levels<std::uint8_t>(engine, bytes);
-  if (bytes.element_bytes == 2) return read_levels<std::uint16_t>(engine, bytes);
+  const NumberRows& bytes = step.state.front();
+  if (bytes.number_bytes == 1) return read_levels<std::uint8_t>(engine, bytes);
+  if (bytes.number_bytes == 2) return read_levels<std::uint16_t>(engine, bytes);
   return read_levels<std::uint32_t>(engine, bytes);
 }
 
@@ -98,9 +98,9 @@ TEST(Resumed, LayersAreTheSameFromAnyStep) {
   EXPECT_TRUE(rc::check("the layers of every partition", [&] {
     const ProblemSpec spec = draw_spec(RandomAgents::few);
     const FastAnalysis fast(spec, team);
-    for (const Projections& projections : fast.projections) {
+    for (const PartitionActions& actions : fast.actions) {
       RC_ASSERT(resumes(fast.engine, [&](const WaveWatch& watch) {
-        return find_delay_layers(fast.engine, fast.hull, fast.invariance.invariant, projections, {},
+        return find_delay_layers(fast.engine, fast.hull, fast.invariance.invariant, actions.projections, {},
                                  spec.coordination.max_delay, watch, team)
             .layers_of;
       }));
@@ -138,10 +138,10 @@ std::string with_network(std::string problem, bool resynthesise) {
          (resynthesise ? "true" : "false") + "}}";
 }
 
-CellSet read_set(const RowBytes& bytes, const CellSet& like) {
+CellSet read_set(const NumberRows& bytes, const CellSet& like) {
   CellSet set(like.rows(), like.row_length());
   for (std::int64_t r = 0; r < set.rows(); ++r)
-    std::memcpy(set.row(r).data(), bytes.row(r), static_cast<std::size_t>(bytes.row_bytes));
+    std::memcpy(set.row(r).data(), bytes.row(r), static_cast<std::size_t>(bytes.row_bytes()));
   return set;
 }
 
@@ -157,7 +157,7 @@ TEST(Resumed, SetsOfANetworkAreTheSameFromAnyStep) {
       const NetworkWatch record{.step = [&](const WaveStep& step) {
         if (step.state.empty()) return;
         std::vector<CellSet>& sets = seen.emplace_back();
-        for (const RowBytes& bytes : step.state) sets.push_back(read_set(bytes, fast.invariance.invariant));
+        for (const NumberRows& bytes : step.state) sets.push_back(read_set(bytes, fast.invariance.invariant));
       }};
       const std::vector<CellSet> end = find_network_safety(problem, record, team).safe;
       RC_ASSERT(!seen.empty());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "answers/invariance/safe_set.hpp"
 #include "engine/box_reader.hpp"
 #include "engine/tuple_walk.hpp"
 #include "spec/read_spec.hpp"

@@ -49,7 +49,7 @@ inline void expect_agreement(const FastAnalysis& fast, const PlainAnalysis& plai
     RC_ASSERT(fast.layers[p].truncated == expected.truncated);
     RC_ASSERT(fast.delays(p) == expected.delay);
     for (std::size_t c = 0; c < expected.projection.size(); ++c) {
-      RC_ASSERT(unpacked(fast, fast.groupings[p], c) == expected.projection[c]);
+      RC_ASSERT(unpacked(fast, fast.actions[p].grouping, c) == expected.projection[c]);
     }
   }
   const InputClass all = whole_class(fast.abstraction.inputs);

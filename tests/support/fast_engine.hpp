@@ -1,40 +1,36 @@
 #pragma once
 
 #include <deque>
-#include <optional>
+#include <memory>
 #include <utility>
 
-#include "answers/invariance/invariance.hpp"
-#include "answers/invariance/safe_set.hpp"
-#include "answers/invariance/safe_tubes.hpp"
-#include "answers/layers/delay_layers.hpp"
-#include "answers/layers/projections.hpp"
+#include "answers/answers.hpp"
+#include "answers/invariance/answer.hpp"
+#include "answers/invariance/controller.hpp"
+#include "answers/layers/answer.hpp"
+#include "answers/plan.hpp"
 #include "reach/build_abstraction.hpp"
 
 namespace coordreq {
 
-/// All stages of the analysis that come before writing, with everything kept, for tests.
+/// The plan of the program on an abstraction of the states in the order of the spec, with what can be asked
+/// of it near at hand.
 struct FastAnalysis {
   FastAnalysis(const ProblemSpec& spec, ThreadTeam& team, const PackedPairs* listed = nullptr)
       : FastAnalysis(spec, build_abstraction(spec, team), team, listed) {}
   /// @param listed the pairs of a controller file; null: there is none
   FastAnalysis(const ProblemSpec& spec, Abstraction given, ThreadTeam& team,
                const PackedPairs* listed = nullptr)
-      : abstraction(std::move(given)),
-        safe(safe_set(spec, abstraction, team)),
-        allow(allow_table(spec, abstraction, team, listed)),
-        beyond(safe_beyond_limits(spec, abstraction, safe, team)),
-        engine(abstraction, allow ? &*allow : nullptr,
-               TubeSets{abstraction.tubes.empty() ? nullptr : &safe, beyond ? &*beyond : nullptr}),
-        hull(engine),
-        invariance(find_invariance(engine, hull, safe, spec.controller.synthesis, {}, team)),
-        controller{&engine, &invariance.invariant, &invariance.collision_time, spec.controller.synthesis} {
-    for (const PartitionSpec& partition : spec.coordination.partitions) {
-      groupings.emplace_back(engine, input_classes(spec, abstraction.inputs, partition), team);
-      projections.emplace_back(controller, groupings.back(), hull, team);
-      layers.push_back(find_delay_layers(engine, hull, invariance.invariant, projections.back(), {},
-                                         spec.coordination.max_delay, {}, team));
-    }
+      : answers(found(spec, std::move(given), team, listed)),
+        abstraction(*answers->ground.abstraction),
+        safe(answers->ground.safe),
+        beyond(answers->ground.beyond),
+        engine(*answers->ground.engine),
+        hull(*answers->ground.hull),
+        invariance(answers->get<Invariance>()),
+        controller(answers->get<Controller>()),
+        layers(answers->get<PartitionLayers>().partitions) {
+    for (std::size_t p = 0; p < layers.size(); ++p) actions.emplace_back(*answers, p, team);
   }
   /// [cells], INT32_MAX in K.
   [[nodiscard]] std::vector<std::int32_t> collision_times() const {
@@ -61,17 +57,28 @@ struct FastAnalysis {
   FastAnalysis(const FastAnalysis&) = delete;
   FastAnalysis& operator=(const FastAnalysis&) = delete;
 
-  Abstraction abstraction;
-  CellSet safe;
-  std::optional<PairTable> allow;
-  std::optional<CellSet> beyond;  ///< TubeSets::beyond
-  RowEngine engine;
-  RowHull hull;
-  Invariance invariance;
-  Controller controller;
-  std::deque<ActionGrouping> groupings;
-  std::deque<Projections> projections;
-  std::vector<DelayLayers> layers;
+  std::unique_ptr<Answers> answers;
+  const Abstraction& abstraction;
+  const CellSet& safe;
+  const std::optional<CellSet>& beyond;  ///< TubeSets::beyond
+  const RowEngine& engine;
+  const RowHull& hull;
+  const Invariance& invariance;
+  const Controller& controller;
+  const std::vector<DelayLayers>& layers;
+  std::deque<PartitionActions> actions;  ///< of each partition
+
+ private:
+  static std::unique_ptr<Answers> found(const ProblemSpec& spec, Abstraction given, ThreadTeam& team,
+                                        const PackedPairs* listed) {
+    auto result = std::make_unique<Answers>(spec);
+    Ground& ground = result->ground;
+    if (listed != nullptr) ground.listed = ListedController{.pairs = *listed};
+    ground.abstraction = std::move(given);
+    lay_ground(ground, team);
+    run_stages(answer_stages(spec), *result, {.team = team});
+    return result;
+  }
 };
 
 }  // namespace coordreq

@@ -124,17 +124,17 @@ Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const C
       .make16 = [&] { return make_operator<std::uint16_t>(grouping, hull, synthesis, workers); },
       .make32 = [&] { return make_operator<std::uint32_t>(grouping, hull, synthesis, workers); }};
   WaveCounts counts;
-  Invariance result = invariance_of(find_levels(engine, hull, problem, watch, team, counts), team);
+  Invariance result{.collision_time = find_levels(engine, hull, problem, watch, team, counts)};
   result.counts = counts;
+  follow_from_collision_times(result, team);
   return result;
 }
 
-Invariance invariance_of(LevelMap collision_time, ThreadTeam& team) {
-  Invariance result{.invariant = collision_time.top_cells(team), .collision_time = std::move(collision_time)};
+void follow_from_collision_times(Invariance& invariance, ThreadTeam& team) {
+  invariance.invariant = invariance.collision_time.top_cells(team);
   // Synchronously, one sweep loses the cells of each collision time, and one more finds nothing to lose.
-  const std::size_t levels = result.collision_time.histogram(team).finite.size();
-  result.iterations = static_cast<std::int64_t>(std::max<std::size_t>(levels, 1));
-  return result;
+  const std::size_t levels = invariance.collision_time.histogram(team).finite.size();
+  invariance.iterations = static_cast<std::int64_t>(std::max<std::size_t>(levels, 1));
 }
 
 }  // namespace coordreq

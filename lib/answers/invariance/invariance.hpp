@@ -25,7 +25,7 @@ struct Invariance {
 [[nodiscard]] Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
                                          Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team);
 
-/// All that follows from the collision times; `counts` are none.
-[[nodiscard]] Invariance invariance_of(LevelMap collision_time, ThreadTeam& team);
+/// Fills in all that follows from the collision times.
+void follow_from_collision_times(Invariance& invariance, ThreadTeam& team);
 
 }  // namespace coordreq

@@ -22,15 +22,6 @@ std::vector<std::int64_t> layer_sizes(const LevelMap::Histogram& cells) {
   return sizes;
 }
 
-/// All that follows from the levels.
-void summarise(std::optional<std::int64_t> max_delay, ThreadTeam& team, DelayLayers& result) {
-  result.sizes = layer_sizes(result.layers_of.histogram(team));
-  const auto steps = static_cast<std::int64_t>(result.sizes.size()) - 1;
-  // A fixed point is known as such only by one more step.
-  result.truncated = max_delay && steps >= *max_delay && result.sizes.back() != 0;
-  result.fixed_point_index = result.truncated ? -1 : static_cast<std::int32_t>(steps);
-}
-
 }  // namespace
 
 DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, const CellSet& invariant,
@@ -47,21 +38,25 @@ DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, cons
       .make16 = [&] { return make_operator<std::uint16_t>(projections, hull, invariant, workers); },
       .make32 = [&] { return make_operator<std::uint32_t>(projections, hull, invariant, workers); }};
   WaveCounts counts;
-  DelayLayers result =
-      layers_of_levels(find_levels(engine, hull, problem, watch, team, counts), max_delay, team);
+  DelayLayers result{.layers_of = find_levels(engine, hull, problem, watch, team, counts)};
   result.counts = counts;
+  follow_from_levels(max_delay, team, result);
   return result;
 }
 
 DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
                                std::optional<std::int64_t> max_delay, ThreadTeam& team) {
-  return layers_of_levels(LevelMap(engine.make_levels<std::uint8_t>(invariant, team)), max_delay, team);
+  DelayLayers result{.layers_of = LevelMap(engine.make_levels<std::uint8_t>(invariant, team))};
+  follow_from_levels(max_delay, team, result);
+  return result;
 }
 
-DelayLayers layers_of_levels(LevelMap layers_of, std::optional<std::int64_t> max_delay, ThreadTeam& team) {
-  DelayLayers result{.layers_of = std::move(layers_of)};
-  summarise(max_delay, team, result);
-  return result;
+void follow_from_levels(std::optional<std::int64_t> max_delay, ThreadTeam& team, DelayLayers& result) {
+  result.sizes = layer_sizes(result.layers_of.histogram(team));
+  const auto steps = static_cast<std::int64_t>(result.sizes.size()) - 1;
+  // A fixed point is known as such only by one more step.
+  result.truncated = max_delay && steps >= *max_delay && result.sizes.back() != 0;
+  result.fixed_point_index = result.truncated ? -1 : static_cast<std::int32_t>(steps);
 }
 
 }  // namespace coordreq

@@ -53,8 +53,7 @@ struct DelayLayers {
 [[nodiscard]] DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
                                              std::optional<std::int64_t> max_delay, ThreadTeam& team);
 
-/// All that follows from the levels; `counts` are none.
-[[nodiscard]] DelayLayers layers_of_levels(LevelMap layers_of, std::optional<std::int64_t> max_delay,
-                                           ThreadTeam& team);
+/// Fills in all that follows from the levels.
+void follow_from_levels(std::optional<std::int64_t> max_delay, ThreadTeam& team, DelayLayers& layers);
 
 }  // namespace coordreq

@@ -162,9 +162,9 @@ class Iteration {
   /// @param whole whether the sets are such that the work can be taken up from them
   void tell(bool whole) {
     if (!watch_.step) return;
-    std::vector<RowBytes> sets;
+    std::vector<NumberRows> sets;
     for (std::size_t mode = 0; whole && mode < modes_.size(); ++mode)
-      sets.push_back(bytes_of(targets_.set(mode)));
+      sets.push_back(rows_of(targets_.set(mode)));
     step_.state = sets;
     watch_.step(step_);
   }

@@ -1,10 +1,9 @@
-#include "analysis/coalitions.hpp"
-
 #include <algorithm>
 
+#include "analysis/compose_results.hpp"
 #include "analysis/convert_stretch.hpp"
 #include "analysis/result_arrays.hpp"
-#include "spec/partition_names.hpp"
+#include "answers/invariance/answer.hpp"
 
 namespace coordreq {
 namespace {
@@ -20,24 +19,24 @@ std::vector<Integer> codes(const CoalitionMap& map) {
 }
 
 template <class Integer>
-FillArray fill_coalition(const CoalitionMap& map, const Solution& solution) {
+FillArray fill_coalition(const CoalitionMap& map, const Answers& answers) {
   return
-      [&map, &solution, code_of = codes<Integer>(map)](std::uint64_t begin, std::uint64_t count, void* out) {
+      [&map, &answers, code_of = codes<Integer>(map)](std::uint64_t begin, std::uint64_t count, void* out) {
         auto* const values = static_cast<Integer*>(out);
         map.chosen.visit([&]<class Level>(const LevelRows<Level>& levels) {
-          convert_stretch(levels, solution.order, begin, count, values, [&](Level level) {
+          convert_stretch(levels, *answers.ground.order, begin, count, values, [&](Level level) {
             return level == LevelRows<Level>::kTop ? static_cast<Integer>(kNoneIsEnough)
                                                    : code_of[static_cast<std::size_t>(level)];
           });
         });
-        mark_unsafe(solution.invariance.collision_time, solution.order, begin, count, values);
+        mark_unsafe(answers.get<Invariance>().collision_time, *answers.ground.order, begin, count, values);
       };
 }
 
-ResultArray coalition_array(const CoalitionMap& map, const Solution& solution) {
+ResultArray coalition_array(const CoalitionMap& map, const Answers& answers) {
   const ElementType type = level_type(static_cast<std::int64_t>(map.choices.size()) - 1);
-  return {type, type == ElementType::int16 ? fill_coalition<std::int16_t>(map, solution)
-                                           : fill_coalition<std::int32_t>(map, solution)};
+  return {type, type == ElementType::int16 ? fill_coalition<std::int16_t>(map, answers)
+                                           : fill_coalition<std::int32_t>(map, answers)};
 }
 
 void fill_members(const CellSet& set, const CellOrder& order, std::int64_t begin, std::int64_t count,
@@ -51,15 +50,15 @@ void fill_members(const CellSet& set, const CellOrder& order, std::int64_t begin
 }
 
 /// [pair, cells]
-ResultArray critical_array(const CoalitionMap& map, const Solution& solution) {
-  return {ElementType::uint8, [&map, &solution](std::uint64_t begin, std::uint64_t count, void* out) {
-            const auto cells = static_cast<std::uint64_t>(solution.order.cells());
+ResultArray critical_array(const CoalitionMap& map, const Answers& answers) {
+  return {ElementType::uint8, [&map, &answers](std::uint64_t begin, std::uint64_t count, void* out) {
+            const auto cells = static_cast<std::uint64_t>(answers.ground.order->cells());
             auto* place = static_cast<std::uint8_t*>(out);
             while (count > 0) {
               const std::uint64_t first = begin % cells;
               const std::uint64_t here = std::min(count, cells - first);
-              fill_members(map.critical[begin / cells], solution.order, static_cast<std::int64_t>(first),
-                           static_cast<std::int64_t>(here), place);
+              fill_members(map.critical[begin / cells], *answers.ground.order,
+                           static_cast<std::int64_t>(first), static_cast<std::int64_t>(here), place);
               begin += here;
               count -= here;
               place += here;
@@ -74,39 +73,9 @@ std::vector<std::int64_t> cells_by_partition(const CoalitionMap& map) {
   return cells;
 }
 
-std::string pair_name(const ProblemSpec& spec, const AgentPair& pair) {
-  return class_name(spec.agents, {pair.first, pair.second});
-}
-
 }  // namespace
 
-std::optional<CoalitionMap> coalitions_of(const Solution& solution, ThreadTeam& team,
-                                          const EnterStage& enter) {
-  const ProblemSpec& spec = solution.spec;
-  if (!spec.coordination.horizon) return std::nullopt;
-  enter("coalitions");
-  std::vector<const DelayLayers*> layers;
-  for (const PartitionResult& partition : solution.partitions) layers.push_back(&partition.layers);
-  return find_coalitions(spec.coordination, spec.agents.size(), solution.invariance.invariant, layers, team);
-}
-
-CoalitionSummary summary_of(const CoalitionMap& map, const ProblemSpec& spec) {
-  const Rational steps(static_cast<long>(map.horizon));
-  CoalitionSummary summary{.horizon = map.horizon,
-                           .horizon_time = nearest_double(Rational(spec.dynamics.period * steps)),
-                           .without = map.without};
-  for (std::size_t i = 0; i < map.choices.size(); ++i) {
-    const CoalitionChoice& choice = map.choices[i];
-    summary.choices.push_back({.partition = spec.coordination.partitions[choice.partition].name,
-                               .cost = nearest_double(choice.cost),
-                               .cells = map.cells[i]});
-  }
-  for (std::size_t i = 0; i < map.pairs.size(); ++i)
-    summary.critical_pairs.emplace_back(pair_name(spec, map.pairs[i]), map.critical_cells[i]);
-  return summary;
-}
-
-void add_coalitions(const CoalitionMap& map, const Solution& solution, ResultContent& content) {
+void add_coalitions(const Answers& answers, const CoalitionMap& map, ResultContent& content) {
   content.maps.push_back({.name = "coalition",
                           .long_name =
                               "index into partition of the cheapest one that is safe without further "
@@ -116,16 +85,16 @@ void add_coalitions(const CoalitionMap& map, const Solution& solution, ResultCon
                                     {DelayLayers::kOutsideInvariant, "not_invariant"}},
                           .integers = {{"horizon", map.horizon}},
                           .cells = cells_by_partition(map),
-                          .values = coalition_array(map, solution)});
+                          .values = coalition_array(map, answers)});
   if (map.pairs.empty()) return;
   ResultNames& pairs = content.names.emplace_back(ResultNames{.name = "pair", .long_name = "pair of agents"});
-  for (const AgentPair& pair : map.pairs) pairs.names.push_back(pair_name(solution.spec, pair));
+  for (const AgentPair& pair : map.pairs) pairs.names.push_back(pair_name(answers.ground.spec, pair));
   content.maps.push_back({.name = "critical_pair",
                           .long_name = "the two are together in every partition of least cost that suffices",
                           .leading = "pair",
                           .flags = {{0, "not_critical"}, {1, "critical"}},
                           .cells = map.critical_cells,
-                          .values = critical_array(map, solution)});
+                          .values = critical_array(map, answers)});
 }
 
 }  // namespace coordreq

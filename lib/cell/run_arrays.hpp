@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/simulate.hpp"
+#include "cell/simulate.hpp"
 #include "results/run_content.hpp"
 
 namespace coordreq {

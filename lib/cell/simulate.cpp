@@ -1,13 +1,13 @@
-#include "analysis/simulate.hpp"
+#include "cell/simulate.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "analysis/run_arrays.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "base/error.hpp"
+#include "cell/run_arrays.hpp"
 #include "cell/state_text.hpp"
 #include "model/locate.hpp"
 #include "model/sample_reset.hpp"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "analysis/solution.hpp"
+#include "answers/answers.hpp"
 #include "answers/requirements/result_requirement.hpp"
 
 namespace coordreq {
@@ -13,6 +13,6 @@ void check_regions(const ProblemSpec& spec, ThreadTeam& team);
 /// The verdict on each requirement of the spec: it holds if all cells that may meet its region do what it
 /// asks and the region cannot reach beyond an unsafe side of the domain. With it the worst cell's way out of
 /// the safe set, if a cell fails.
-[[nodiscard]] std::vector<ResultRequirement> judge_requirements(const Solution& solution, ThreadTeam& team);
+[[nodiscard]] std::vector<ResultRequirement> judge_requirements(const Answers& answers, ThreadTeam& team);
 
 }  // namespace coordreq

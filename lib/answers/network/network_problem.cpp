@@ -1,10 +1,10 @@
-#include "analysis/network_problem.hpp"
+#include "answers/network/network_problem.hpp"
 
 #include <algorithm>
 #include <map>
 #include <string>
 
-#include "analysis/solution.hpp"
+#include "answers/layers/answer.hpp"
 
 namespace coordreq {
 

@@ -1,10 +1,12 @@
-#include "analysis/judge_requirements.hpp"
+#include "answers/requirements/judge_requirements.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "answers/invariance/answer.hpp"
+#include "answers/layers/answer.hpp"
 #include "answers/requirements/requirement.hpp"
 #include "base/error.hpp"
 
@@ -16,16 +18,21 @@ constexpr std::int32_t kForever = std::numeric_limits<std::int32_t>::max();
 /// Judges one requirement after the other.
 class Judge {
  public:
-  Judge(const Solution& solution, ThreadTeam& team)
-      : solution_(solution), team_(team), grid_(make_grid(solution.spec)) {
-    for (const std::size_t state : solution.model.order()) number_stride_.push_back(grid_.stride(state));
+  Judge(const Answers& answers, ThreadTeam& team)
+      : answers_(answers),
+        ground_(answers.ground),
+        controller_(answers.get<Controller>()),
+        team_(team),
+        grid_(make_grid(ground_.spec)) {
+    const UniformGrid& engine_grid = ground_.abstraction->grid;
+    for (std::size_t d = 0; d < engine_grid.size(); ++d)
+      number_stride_.push_back(grid_.stride(engine_grid.state(d)));
   }
 
   ResultRequirement judge(std::size_t r) {
-    const RequirementSpec& requirement = solution_.spec.requirements[r];
-    const PartitionResult* partition = nullptr;
-    if (!requirement.invariant)
-      partition = &solution_.partitions[static_cast<std::size_t>(*requirement.partition)];
+    const RequirementSpec& requirement = ground_.spec.requirements[r];
+    std::optional<std::size_t> partition;
+    if (!requirement.invariant) partition = static_cast<std::size_t>(*requirement.partition);
     const CellVerdict verdict = judge_all_cells(r, partition);
     ResultRequirement result{.name = requirement.name,
                              .cells = static_cast<std::uint64_t>(verdict.cells),
@@ -40,28 +47,30 @@ class Judge {
   }
 
  private:
-  [[nodiscard]] CellVerdict judge_all_cells(std::size_t r, const PartitionResult* partition) const {
-    const UniformGrid& grid = solution_.abstraction.grid;
-    const CellSet region = cells_of_region(solution_.spec.requirements[r].where, grid, team_);
-    const CellRequirement requirement{.collision_time = solution_.controller.collision_time,
-                                      .layers = partition == nullptr ? nullptr : &partition->layers,
-                                      .min_delay = solution_.spec.requirements[r].min_delay.value_or(0)};
+  /// Null: membership in K is asked for.
+  [[nodiscard]] const DelayLayers* layers_of(std::optional<std::size_t> partition) const {
+    return partition ? &answers_.get<PartitionLayers>().partitions[*partition] : nullptr;
+  }
+
+  [[nodiscard]] CellVerdict judge_all_cells(std::size_t r, std::optional<std::size_t> partition) const {
+    const UniformGrid& grid = ground_.abstraction->grid;
+    const CellSet region = cells_of_region(ground_.spec.requirements[r].where, grid, team_);
+    const CellRequirement requirement{.collision_time = controller_.collision_time,
+                                      .layers = layers_of(partition),
+                                      .min_delay = ground_.spec.requirements[r].min_delay.value_or(0)};
     return judge_cells(region, grid, requirement, number_stride_, team_);
   }
 
-  [[nodiscard]] ResultPath path_from(std::int64_t cell, const PartitionResult* partition) const {
-    EscapeSets sets{.controller = &solution_.controller, .number_stride = number_stride_};
-    if (solution_.spec.abstraction.between_samples) {
-      sets.tubes = {&solution_.safe, solution_.beyond ? &*solution_.beyond : nullptr};
-    }
+  [[nodiscard]] ResultPath path_from(std::int64_t cell, std::optional<std::size_t> partition) const {
+    EscapeSets sets{.controller = &controller_, .tubes = ground_.tubes(), .number_stride = number_stride_};
     std::optional<ActionGrouping> grouping;
-    if (partition != nullptr) {
-      grouping.emplace(solution_.engine,
-                       input_classes(solution_.spec, solution_.abstraction.inputs, *partition->spec), team_);
+    if (partition) {
+      const PartitionSpec& own = ground_.spec.coordination.partitions[*partition];
+      grouping.emplace(*ground_.engine, input_classes(ground_.spec, ground_.abstraction->inputs, own), team_);
       sets.grouping = &*grouping;
-      sets.layers_of = &partition->layers.layers_of;
+      sets.layers_of = &layers_of(partition)->layers_of;
     }
-    const UniformGrid& grid = solution_.abstraction.grid;
+    const UniformGrid& grid = ground_.abstraction->grid;
     const EscapePath found = find_escape(sets, cell);
     ResultPath path{.phase = found.phases, .end = found.end};
     for (const std::int64_t x : found.cells) add_sample(x, partition, path);
@@ -73,25 +82,27 @@ class Judge {
     return path;
   }
 
-  void add_sample(std::int64_t cell, const PartitionResult* partition, ResultPath& path) const {
+  void add_sample(std::int64_t cell, std::optional<std::size_t> partition, ResultPath& path) const {
     std::int64_t number = 0;
     for (std::size_t i = 0; i < number_stride_.size(); ++i)
-      number += solution_.abstraction.grid.index(cell, i) * number_stride_[i];
+      number += ground_.abstraction->grid.index(cell, i) * number_stride_[i];
     path.cell.push_back(static_cast<std::uint64_t>(number));
     for (std::size_t i = 0; i < grid_.size(); ++i)
       path.state.push_back(nearest_double(grid_[i].point(grid_.index(number, i))));
-    const std::int64_t time = solution_.controller.collision_time->at(cell);
+    const std::int64_t time = controller_.collision_time->at(cell);
     path.collision_time.push_back(time == LevelMap::kTop ? kForever : static_cast<std::int32_t>(time));
-    path.delay.push_back(delay_of(cell, time, partition == nullptr ? nullptr : &partition->layers));
+    path.delay.push_back(delay_of(cell, time, layers_of(partition)));
   }
 
   void add_step(std::int64_t u, ResultPath& path) const {
-    const InputSpace& inputs = solution_.abstraction.inputs;
+    const InputSpace& inputs = ground_.abstraction->inputs;
     for (std::size_t i = 0; i < inputs.size(); ++i)
       path.input.push_back(nearest_double(inputs[i].values[static_cast<std::size_t>(inputs.index(u, i))]));
   }
 
-  const Solution& solution_;
+  const Answers& answers_;
+  const Ground& ground_;
+  const Controller& controller_;
   ThreadTeam& team_;
   UniformGrid grid_;                         ///< the spec's
   std::vector<std::int64_t> number_stride_;  ///< [dimension of the engine]
@@ -108,10 +119,10 @@ void check_regions(const ProblemSpec& spec, ThreadTeam& team) {
   }
 }
 
-std::vector<ResultRequirement> judge_requirements(const Solution& solution, ThreadTeam& team) {
-  Judge judge(solution, team);
+std::vector<ResultRequirement> judge_requirements(const Answers& answers, ThreadTeam& team) {
+  Judge judge(answers, team);
   std::vector<ResultRequirement> result;
-  for (std::size_t r = 0; r < solution.spec.requirements.size(); ++r) result.push_back(judge.judge(r));
+  for (std::size_t r = 0; r < answers.ground.spec.requirements.size(); ++r) result.push_back(judge.judge(r));
   return result;
 }
 

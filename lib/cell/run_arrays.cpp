@@ -1,4 +1,4 @@
-#include "analysis/run_arrays.hpp"
+#include "cell/run_arrays.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <typeindex>
+#include <unordered_map>
+#include <utility>
+
+#include "answers/ground.hpp"
+
+namespace coordreq {
+
+/// All that has been found of one problem: the ground, and the values of answers, each of a type of its own.
+///
+/// Values stay where they are once they have been added, and may refer to one another.
+class Answers {
+ public:
+  /// REQUIRES: `spec` outlives this object.
+  explicit Answers(const ProblemSpec& spec) : ground(spec) {}
+  Answers(const Answers&) = delete;
+  Answers& operator=(const Answers&) = delete;
+
+  /// REQUIRES: there is no value of this type yet.
+  template <class Value>
+  Value& add(Value value) {
+    auto owned = std::make_shared<Value>(std::move(value));
+    Value& result = *owned;
+    values_.emplace(typeid(Value), std::move(owned));
+    return result;
+  }
+  /// Null if it has not been found, or was not asked for.
+  template <class Value>
+  [[nodiscard]] const Value* find() const {
+    const auto found = values_.find(typeid(Value));
+    return found == values_.end() ? nullptr : static_cast<const Value*>(found->second.get());
+  }
+  /// REQUIRES: it is there.
+  template <class Value>
+  [[nodiscard]] const Value& get() const {
+    return *find<Value>();
+  }
+  template <class Value>
+  [[nodiscard]] Value& get() {
+    return *static_cast<Value*>(values_.at(typeid(Value)).get());
+  }
+
+  Ground ground;
+
+ private:
+  std::unordered_map<std::type_index, std::shared_ptr<void>> values_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,55 @@
+#include "answers/coalition/answer.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "answers/invariance/answer.hpp"
+#include "answers/layers/answer.hpp"
+#include "spec/partition_names.hpp"
+
+namespace coordreq {
+namespace {
+
+void find_coalition_map(Answers& answers, const StageWork& work) {
+  const ProblemSpec& spec = answers.ground.spec;
+  std::vector<const DelayLayers*> layers;
+  for (const DelayLayers& own : answers.get<PartitionLayers>().partitions) layers.push_back(&own);
+  answers.add(find_coalitions(spec.coordination, spec.agents.size(), answers.get<Invariance>().invariant,
+                              layers, work.team));
+}
+
+Json coalition_json(const CoalitionMap& map, const ProblemSpec& spec) {
+  const Rational steps(static_cast<long>(map.horizon));
+  Json json;
+  json["horizon"] = map.horizon;
+  json["horizon_time"] = nearest_double(Rational(spec.dynamics.period * steps));
+  json["partitions"] = Json::array();
+  for (std::size_t i = 0; i < map.choices.size(); ++i) {
+    json["partitions"].push_back({{"name", spec.coordination.partitions[map.choices[i].partition].name},
+                                  {"cost", nearest_double(map.choices[i].cost)},
+                                  {"cells", map.cells[i]}});
+  }
+  json["no_partition_suffices"] = map.without;
+  json["critical_pairs"] = Json::array();
+  for (std::size_t i = 0; i < map.pairs.size(); ++i)
+    json["critical_pairs"].push_back(
+        {{"name", pair_name(spec, map.pairs[i])}, {"cells", map.critical_cells[i]}});
+  return json;
+}
+
+}  // namespace
+
+std::string pair_name(const ProblemSpec& spec, const AgentPair& pair) {
+  return class_name(spec.agents, {pair.first, pair.second});
+}
+
+std::vector<Stage> coalition_stages(const ProblemSpec& spec) {
+  if (!spec.coordination.horizon) return {};
+  return {{"coalitions", find_coalition_map}};
+}
+
+void summarise_coalition(const Answers& answers, Json& summary, Json& /*work*/) {
+  const auto* const map = answers.find<CoalitionMap>();
+  summary["coalition"] = map == nullptr ? Json() : coalition_json(*map, answers.ground.spec);
+}
+
+}  // namespace coordreq

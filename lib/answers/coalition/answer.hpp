@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "answers/answers.hpp"
+#include "answers/coalition/coalition_map.hpp"
+#include "answers/stage.hpp"
+#include "base/json.hpp"
+namespace coordreq {
+
+/// "first+second".
+[[nodiscard]] std::string pair_name(const ProblemSpec& spec, const AgentPair& pair);
+
+/// Adds CoalitionMap, if the spec has a horizon: "coalitions".
+[[nodiscard]] std::vector<Stage> coalition_stages(const ProblemSpec& spec);
+void summarise_coalition(const Answers& answers, Json& summary, Json& work);
+
+}  // namespace coordreq

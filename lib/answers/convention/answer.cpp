@@ -1,0 +1,67 @@
+#include "answers/convention/answer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "answers/invariance/answer.hpp"
+
+namespace coordreq {
+namespace {
+
+bool is_share(float freedom) {
+  return std::isnan(freedom) || (freedom > 0 && freedom <= 1);
+}
+
+/// REQUIRES: the agents are there.
+void serialise(Archive& archive, std::int64_t cells, ConventionFreedom& convention) {
+  for (ConventionFreedom::Agent& agent : convention.agents) {
+    auto& [freedom, mean, full, histogram] = agent;  // all that there is, so that nothing is forgotten
+    if (archive.is_loading()) freedom.resize(static_cast<std::size_t>(cells));
+    archive.list(freedom);
+    archive.number(mean);
+    archive.number(full);
+    for (std::int64_t& count : histogram) archive.number(count);
+    const auto is_count = [cells](std::int64_t count) { return 0 <= count && count <= cells; };
+    archive.expect(std::all_of(freedom.begin(), freedom.end(), is_share) && mean >= 0 && mean <= 1.0000001 &&
+                       is_count(full) && std::all_of(histogram.begin(), histogram.end(), is_count),
+                   "an agent keeps a part of its actions that is none");
+  }
+}
+
+void find_a_convention(Answers& answers, const StageWork& work) {
+  const Ground& ground = answers.ground;
+  ConventionAnswer& result = answers.add(ConventionAnswer{
+      ActionGrouping(*ground.engine, agent_classes(ground.spec, ground.abstraction->inputs), work.team), {}});
+  const auto exchange = [&answers](Archive& archive) {
+    serialise(archive, answers.ground.engine->grid().cells(), answers.get<ConventionAnswer>().freedom);
+  };
+  const auto load = [&](Archive& archive) {
+    result.freedom.agents.resize(ground.spec.agents.size());
+    exchange(archive);
+  };
+  const bool is_kept = work.store != nullptr && work.store->take(load) == StageStore::Kept::finished;
+  if (!is_kept)
+    result.freedom = find_convention(answers.get<Controller>(), *ground.hull, result.agents, work.team);
+  if (work.store != nullptr) work.store->finish(exchange);
+}
+
+}  // namespace
+
+std::vector<Stage> convention_stages(const ProblemSpec& spec) {
+  if (!spec.coordination.convention) return {};
+  return {{"convention", find_a_convention}};
+}
+
+void summarise_convention(const Answers& answers, Json& summary, Json& /*work*/) {
+  const auto* const convention = answers.find<ConventionAnswer>();
+  if (convention == nullptr) return;
+  const std::vector<AgentSpec>& agents = answers.ground.spec.agents;
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    const ConventionFreedom::Agent& own = convention->freedom.agents[i];
+    summary["convention"].push_back(Json{
+        {"agent", agents[i].name}, {"mean", own.mean}, {"full", own.full}, {"histogram", own.histogram}});
+  }
+}
+
+}  // namespace coordreq

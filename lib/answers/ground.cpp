@@ -1,0 +1,63 @@
+#include "answers/ground.hpp"
+
+#include <utility>
+
+#include "answers/answers.hpp"
+#include "answers/invariance/safe_set.hpp"
+#include "answers/invariance/safe_tubes.hpp"
+#include "engine/join_rows.hpp"
+#include "model/model.hpp"
+#include "reach/build_abstraction.hpp"
+#include "reach/serialise_abstraction.hpp"
+
+namespace coordreq {
+namespace {
+
+/// In the order of the model. Rows run along several dimensions where they can, and all that the spec asks
+/// for can be read off them.
+Abstraction in_order(const Model& model, Abstraction abstraction) {
+  abstraction = arranged(std::move(abstraction), model.order());
+  if (!model.is_read_by_runs()) abstraction.grid = join_rows(abstraction);
+  return abstraction;
+}
+
+/// What is kept of it is in the order of the spec.
+void find_abstraction(Ground& ground, const StageWork& work) {
+  const ProblemSpec& spec = ground.spec;
+  std::optional<Abstraction>& abstraction = ground.abstraction;
+  const auto load = [&](Archive& archive) {
+    abstraction = Abstraction{.grid = make_grid(spec), .inputs = make_input_space(spec)};
+    serialise(archive, spec, *abstraction);
+  };
+  const bool is_kept = work.store != nullptr && work.store->take(load) == StageStore::Kept::finished;
+  if (!is_kept) abstraction = build_abstraction(spec, work.team);
+  abstraction = in_order(Model(spec, table_shapes(spec)), std::move(*abstraction));
+  if (work.store == nullptr) return;
+  work.store->finish([&ground](Archive& archive) { serialise(archive, ground.spec, *ground.abstraction); });
+}
+
+}  // namespace
+
+TubeSets Ground::tubes() const {
+  if (abstraction->tubes.empty()) return {};
+  return {&safe, beyond ? &*beyond : nullptr};
+}
+
+std::vector<Stage> ground_stages() {
+  return {
+      {"abstraction",
+       [](Answers& answers, const StageWork& work) { find_abstraction(answers.ground, work); }},
+      {"safe set", [](Answers& answers, const StageWork& work) { lay_ground(answers.ground, work.team); }}};
+}
+
+void lay_ground(Ground& ground, ThreadTeam& team) {
+  const Abstraction& abstraction = *ground.abstraction;
+  ground.safe = safe_set(ground.spec, abstraction, team);
+  ground.allow = allow_table(ground.spec, abstraction, team, ground.listed ? &ground.listed->pairs : nullptr);
+  ground.beyond = safe_beyond_limits(ground.spec, abstraction, ground.safe, team);
+  ground.engine.emplace(abstraction, ground.allow ? &*ground.allow : nullptr, ground.tubes());
+  ground.hull.emplace(*ground.engine);
+  ground.order.emplace(abstraction.grid);
+}
+
+}  // namespace coordreq

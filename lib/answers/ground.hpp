@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "answers/stage.hpp"
+#include "engine/packed_pairs.hpp"
+#include "engine/pair_table.hpp"
+#include "engine/row_engine.hpp"
+#include "engine/row_hull.hpp"
+#include "engine/tube_sets.hpp"
+#include "model/cell_order.hpp"
+#include "reach/abstraction.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// A controller that the user brings: the pairs that it lists.
+struct ListedController {
+  std::string sha256;  ///< of its file
+  PackedPairs pairs;
+};
+
+/// What all answers to a problem stand on: its abstraction, S, and the engine that reads them.
+///
+/// 1. Rows, columns and dimensions are those of the grid of the abstraction, with the states in the order of
+/// the
+///    model; `order` maps cells of the spec's grid to them. Inputs and agents are the spec's.
+/// 2. Neither copied nor moved: its parts refer to one another. What stages make is there after them.
+struct Ground {
+  explicit Ground(const ProblemSpec& problem) : spec(problem) {}
+  Ground(const Ground&) = delete;
+  Ground& operator=(const Ground&) = delete;
+
+  const ProblemSpec& spec;
+  std::optional<ListedController> listed;  ///< of `controller.file`; then the order is that of the spec
+  std::optional<Abstraction> abstraction;  ///< after "abstraction", as all that follows after "safe set"
+  CellSet safe;
+  std::optional<PairTable> allow;
+  std::optional<CellSet> beyond;  ///< TubeSets::beyond
+  std::optional<RowEngine> engine;
+  std::optional<RowHull> hull;
+  std::optional<CellOrder> order;
+
+  /// What tubes must stay in, if there are any. REQUIRES: S is there.
+  [[nodiscard]] TubeSets tubes() const;
+};
+
+/// "abstraction" and "safe set".
+/// @throws SpecError for what only shows when the system is built
+[[nodiscard]] std::vector<Stage> ground_stages();
+
+/// S and the engine, on an abstraction that is there.
+void lay_ground(Ground& ground, ThreadTeam& team);
+
+}  // namespace coordreq

@@ -1,0 +1,46 @@
+#include "answers/invariance/answer.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "answers/kept_levels.hpp"
+#include "answers/work_json.hpp"
+
+namespace coordreq {
+namespace {
+
+void find_invariance_set(Answers& answers, const StageWork& work) {
+  const Ground& ground = answers.ground;
+  const Synthesis synthesis = ground.spec.controller.synthesis;
+  Invariance& result = answers.add(Invariance{});
+  // No cell is lost later than all others one after the other.
+  const LevelBounds bounds{&ground.safe, ground.engine->grid().points() + 1};
+  find_or_take_levels(work, *ground.engine, bounds, result.collision_time, [&](const WaveWatch& watch) {
+    Invariance found =
+        find_invariance(*ground.engine, *ground.hull, ground.safe, synthesis, watch, work.team);
+    result.counts = found.counts;
+    return std::move(found.collision_time);
+  });
+  follow_from_collision_times(result, work.team);
+  answers.add(Controller{&*ground.engine, &result.invariant, &result.collision_time, synthesis});
+}
+
+}  // namespace
+
+std::vector<Stage> invariance_stages(const ProblemSpec& /*spec*/) {
+  return {{"invariance", find_invariance_set}};
+}
+
+std::string guarantee_of(const ProblemSpec& spec) {
+  if (spec.abstraction.safe == Membership::center) return "samples-center";
+  return spec.abstraction.between_samples ? "continuous" : "samples";
+}
+
+void summarise_invariance(const Answers& answers, Json& summary, Json& work) {
+  const auto& invariance = answers.get<Invariance>();
+  summary["invariant"] = invariance.invariant.count();
+  summary["iterations"] = invariance.iterations;
+  summary["guarantee"] = guarantee_of(answers.ground.spec);
+  work["invariance"] = work_json(invariance.counts);
+}
+
+}  // namespace coordreq

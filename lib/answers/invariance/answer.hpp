@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "answers/answers.hpp"
+#include "answers/invariance/controller.hpp"
+#include "answers/invariance/invariance.hpp"
+#include "answers/stage.hpp"
+#include "base/json.hpp"
+namespace coordreq {
+
+/// Adds Invariance, with the Controller of its K: "invariance".
+[[nodiscard]] std::vector<Stage> invariance_stages(const ProblemSpec& spec);
+/// What a result of this spec guarantees: "samples", "samples-center" or "continuous" (contract, "What is
+/// guaranteed"). Centres say nothing of the way between the samples, so that they never make it "continuous".
+[[nodiscard]] std::string guarantee_of(const ProblemSpec& spec);
+void summarise_invariance(const Answers& answers, Json& summary, Json& work);
+
+}  // namespace coordreq

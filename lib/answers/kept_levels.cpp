@@ -1,0 +1,92 @@
+#include "answers/kept_levels.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "engine/kept_rows.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Whether every level is one that a cell can have. Gaps of rows do not count.
+template <class Level>
+bool are_possible(const LevelRows<Level>& levels, const LevelBounds& bounds) {
+  bool possible = true;
+  for (std::int64_t r = 0; r < levels.rows(); ++r) {
+    const Level* const row = levels.row(r);
+    levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+      for (std::int64_t i = lane; i < lane + count; ++i) {
+        const bool is_member = bounds.members->test(r * levels.row_length() + i);
+        possible = possible && (row[i] != 0) == is_member;
+        possible = possible && (row[i] == LevelRows<Level>::kTop || std::int64_t{row[i]} <= bounds.most);
+      }
+    });
+  }
+  return possible;
+}
+
+template <class Level>
+LevelMap load_levels(Archive& archive, const RowEngine& engine, const LevelBounds& bounds) {
+  LevelRows<Level> levels = engine.make_levels<Level>(engine.posts());
+  archive.rows(rows_of(levels));
+  archive.expect(are_possible(levels, bounds), "a cell has a level that it cannot have");
+  for (std::int64_t r = 0; r < levels.rows(); ++r) {
+    levels.clear_gaps(levels.row(r));
+    levels.close(r);
+  }
+  return LevelMap(std::move(levels));
+}
+
+/// As serialise() does.
+void save_levels(Archive& archive, std::span<const NumberRows> state) {
+  auto width = static_cast<std::uint8_t>(state.front().number_bytes);
+  archive.number(width);
+  archive.rows(state.front());
+}
+
+}  // namespace
+
+std::function<void(const WaveStep&)> step_of(const StageWork& work, const RowEngine& engine,
+                                             const SaveState& save) {
+  // Cells of a row, without its gaps.
+  return [&work, save, row_length = engine.grid().points() / engine.rows()](const WaveStep& step) {
+    if (work.step) work.step(step, row_length);
+    if (work.store == nullptr || step.state.empty()) return;
+    work.store->step([&](Archive& archive) { save(archive, step.state); });
+  };
+}
+
+void serialise(Archive& archive, const RowEngine& engine, const LevelBounds& bounds, LevelMap& levels) {
+  std::uint8_t width = levels.visit(
+      []<class Level>(const LevelRows<Level>&) { return static_cast<std::uint8_t>(sizeof(Level)); });
+  archive.number(width);
+  if (!archive.is_loading()) return levels.visit([&](const auto& own) { archive.rows(rows_of(own)); });
+  archive.expect(width == 1 || width == 2 || width == 4, "levels have another width");
+  levels = width == 1   ? load_levels<std::uint8_t>(archive, engine, bounds)
+           : width == 2 ? load_levels<std::uint16_t>(archive, engine, bounds)
+                        : load_levels<std::uint32_t>(archive, engine, bounds);
+}
+
+void serialise(Archive& archive, const CellSet& within, CellSet& set) {
+  archive.rows(rows_of(set));
+  bool is_part = true;
+  for (std::size_t w = 0; archive.is_loading() && w < set.words().size(); ++w)
+    is_part = is_part && (set.words()[w] & ~within.words()[w]) == 0;
+  archive.expect(is_part, "a set has cells that it cannot have");
+}
+
+void find_or_take_levels(const StageWork& work, const RowEngine& engine, const LevelBounds& bounds,
+                         LevelMap& place, const std::function<LevelMap(const WaveWatch&)>& find) {
+  const auto load = [&](Archive& archive) { serialise(archive, engine, bounds, place); };
+  const StageStore::Kept kept = work.store == nullptr ? StageStore::Kept::nothing : work.store->take(load);
+  if (kept != StageStore::Kept::finished) {
+    LevelMap start = std::move(place);
+    place = find({.step = step_of(work, engine, save_levels),
+                  .resumed = kept == StageStore::Kept::unfinished ? &start : nullptr});
+  }
+  if (work.store != nullptr)
+    work.store->finish(
+        [&engine, bounds, &place](Archive& archive) { serialise(archive, engine, bounds, place); });
+}
+
+}  // namespace coordreq

@@ -1,0 +1,110 @@
+#include "answers/layers/answer.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "answers/invariance/answer.hpp"
+#include "answers/kept_levels.hpp"
+#include "answers/layers/refinement.hpp"
+#include "answers/work_json.hpp"
+#include "spec/partition_names.hpp"
+
+namespace coordreq {
+namespace {
+
+/// REQUIRES: the layers of all coarser partitions are known.
+void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
+  const Ground& ground = answers.ground;
+  const CoordinationSpec& coordination = ground.spec.coordination;
+  std::vector<DelayLayers>& all = answers.get<PartitionLayers>().partitions;
+  const CellSet& invariant = answers.get<Invariance>().invariant;
+  if (coordination.partitions[p].classes.size() == 1) {
+    all[p] = coordinated_layers(*ground.engine, invariant, coordination.max_delay, work.team);
+    return;
+  }
+  const std::int64_t steps = ground.engine->grid().points();
+  const LevelBounds bounds{&invariant,
+                           coordination.max_delay ? std::min(*coordination.max_delay, steps) : steps};
+  find_or_take_levels(work, *ground.engine, bounds, all[p].layers_of, [&](const WaveWatch& watch) {
+    work.enter_part("projections");
+    const PartitionActions actions(answers, p, work.team);
+    work.enter_part("");
+    std::vector<const LevelMap*> coarser;
+    for (const std::size_t q : next_coarser(coordination.partitions, p)) coarser.push_back(&all[q].layers_of);
+    DelayLayers found = find_delay_layers(*ground.engine, *ground.hull, invariant, actions.projections,
+                                          coarser, coordination.max_delay, watch, work.team);
+    all[p].counts = found.counts;
+    return std::move(found.layers_of);
+  });
+  follow_from_levels(coordination.max_delay, work.team, all[p]);
+}
+
+/// |Z_0 \ Z_D|, where a layer that is not known counts as empty.
+std::int64_t cells_bound_to_connect(const DelayLayers& layers, std::int64_t connection_delay) {
+  const auto known = static_cast<std::int64_t>(layers.sizes.size());
+  if (connection_delay >= known && layers.truncated) return layers.sizes.front();
+  return layers.sizes.front() - layers.sizes[static_cast<std::size_t>(std::min(connection_delay, known - 1))];
+}
+
+/// Largest finite delay times period; null if some cell is unbounded or K is empty.
+Json longest_delay(const ProblemSpec& spec, const DelayLayers& layers) {
+  const std::int64_t fixed_point = layers.truncated ? 0 : layers.sizes.back();
+  if (fixed_point != 0 || layers.sizes.front() == 0) return {};
+  // Z_k shrinks strictly, so the last layer that is not empty holds the largest delay.
+  const std::size_t steps = layers.sizes.size() - (layers.truncated ? 1 : 2);
+  return nearest_double(spec.dynamics.period * Rational(static_cast<unsigned long>(steps)));
+}
+
+Json partition_json(const ProblemSpec& spec, const PartitionSpec& partition, const DelayLayers& layers) {
+  Json json;
+  json["name"] = partition.name;
+  json["classes"] = Json::array();
+  for (const auto& agents : partition.classes) json["classes"].push_back(class_name(spec.agents, agents));
+  json["F"] = layers.truncated ? Json() : Json(layers.fixed_point_index);
+  json["fixed_point"] = layers.truncated ? Json() : Json(layers.sizes.back());
+  json["layers"] = layers.sizes;
+  json["truncated"] = layers.truncated;
+  json["never_without_connection"] = cells_bound_to_connect(layers, spec.coordination.connection_delay);
+  json["max_delay_time"] = longest_delay(spec, layers);
+  return json;
+}
+
+}  // namespace
+
+PartitionActions::PartitionActions(const Answers& answers, std::size_t p, ThreadTeam& team)
+    : grouping(*answers.ground.engine,
+               input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
+                             answers.ground.spec.coordination.partitions[p]),
+               team),
+      projections(answers.get<Controller>(), grouping, *answers.ground.hull, team) {}
+
+std::vector<Stage> layers_stages(const ProblemSpec& spec) {
+  const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
+  std::vector<Stage> stages;
+  for (const std::size_t p : coarsest_first(partitions)) {
+    stages.push_back({"layers " + partitions[p].name, [p](Answers& answers, const StageWork& work) {
+                        const std::size_t count = answers.ground.spec.coordination.partitions.size();
+                        if (answers.find<PartitionLayers>() == nullptr)
+                          answers.add(PartitionLayers{std::vector<DelayLayers>(count)});
+                        find_layers_of(p, answers, work);
+                      }});
+  }
+  return stages;
+}
+
+void summarise_layers(const Answers& answers, Json& summary, Json& work) {
+  const ProblemSpec& spec = answers.ground.spec;
+  summary["period"] = nearest_double(spec.dynamics.period);
+  summary["period_unit"] = spec.dynamics.unit;
+  summary["connection_delay"] = spec.coordination.connection_delay;
+  summary["partitions"] = Json::array();
+  for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {
+    const PartitionSpec& partition = spec.coordination.partitions[p];
+    const DelayLayers& layers = answers.get<PartitionLayers>().partitions[p];
+    summary["partitions"].push_back(partition_json(spec, partition, layers));
+    work["layers " + partition.name] = work_json(layers.counts);
+  }
+}
+
+}  // namespace coordreq

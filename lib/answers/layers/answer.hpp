@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "answers/answers.hpp"
+#include "answers/layers/delay_layers.hpp"
+#include "answers/layers/projections.hpp"
+#include "answers/stage.hpp"
+#include "base/json.hpp"
+namespace coordreq {
+
+/// The layers of all partitions.
+struct PartitionLayers {
+  std::vector<DelayLayers> partitions;  ///< in the order of the spec
+};
+
+/// What the classes of a partition can do, each by itself. Kept only as long as its layers are looked for:
+/// with many partitions it would take more memory than all else.
+struct PartitionActions {
+  /// REQUIRES: K is known. @param p number of the partition
+  PartitionActions(const Answers& answers, std::size_t p, ThreadTeam& team);
+  PartitionActions(const PartitionActions&) = delete;
+  PartitionActions& operator=(const PartitionActions&) = delete;
+
+  ActionGrouping grouping;
+  Projections projections;
+};
+
+/// Adds PartitionLayers: "layers PARTITION" for each partition, coarser ones before finer ones.
+[[nodiscard]] std::vector<Stage> layers_stages(const ProblemSpec& spec);
+void summarise_layers(const Answers& answers, Json& summary, Json& work);
+
+}  // namespace coordreq

@@ -1,0 +1,77 @@
+#include "answers/network/answer.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "answers/invariance/answer.hpp"
+#include "answers/kept_levels.hpp"
+#include "answers/network/network_problem.hpp"
+#include "answers/work_json.hpp"
+
+namespace coordreq {
+namespace {
+
+/// The sets of all modes, each a part of K.
+void serialise(Archive& archive, const CellSet& invariant, std::vector<CellSet>& sets) {
+  for (CellSet& set : sets) serialise(archive, invariant, set);
+}
+
+void find_safe_sets(Answers& answers, const StageWork& work) {
+  const Ground& ground = answers.ground;
+  const CellSet& invariant = answers.get<Invariance>().invariant;
+  NetworkSafety& result = answers.add(NetworkSafety{});
+  std::vector<CellSet> sets;
+  const auto load = [&](Archive& archive) {
+    sets.assign(ground.spec.network->modes.size(), CellSet(invariant.rows(), invariant.row_length()));
+    serialise(archive, invariant, sets);
+  };
+  const StageStore::Kept kept = work.store == nullptr ? StageStore::Kept::nothing : work.store->take(load);
+  if (kept == StageStore::Kept::finished) {
+    result.safe = std::move(sets);
+  } else {
+    const SaveState save = [](Archive& archive, std::span<const NumberRows> state) {
+      for (const NumberRows& set : state) archive.rows(set);
+    };
+    const NetworkWatch watch{.step = step_of(work, *ground.engine, save),
+                             .resumed = kept == StageStore::Kept::unfinished ? &sets : nullptr};
+    const NetworkProblem problem = network_problem(ground.spec, answers.get<Controller>(), *ground.hull);
+    result = find_network_safety(problem, watch, work.team);
+  }
+  if (work.store == nullptr) return;
+  work.store->finish([&](Archive& archive) {
+    serialise(archive, answers.get<Invariance>().invariant, answers.get<NetworkSafety>().safe);
+  });
+}
+
+Json network_json(const NetworkSpec& spec, const NetworkSafety& safety) {
+  Json json;
+  json["kind"] = network_kind_name(spec.kind);
+  json["resynthesise"] = spec.resynthesise;
+  json["initial"] = spec.modes.front().name;
+  json["modes"] = Json::array();
+  CellSet every = safety.safe.front();
+  for (std::size_t mode = 0; mode < spec.modes.size(); ++mode) {
+    const CellSet& safe = safety.safe[mode];
+    json["modes"].push_back({{"name", spec.modes[mode].name},
+                             {"partition", spec.modes[mode].partition.name},
+                             {"cells", safe.count()}});
+    for (std::size_t w = 0; w < safe.words().size(); ++w) every.words()[w] &= safe.words()[w];
+  }
+  json["cells_in_every_mode"] = every.count();
+  return json;
+}
+
+}  // namespace
+
+std::vector<Stage> network_stages(const ProblemSpec& spec) {
+  if (!spec.network) return {};
+  return {{"network", find_safe_sets}};
+}
+
+void summarise_network(const Answers& answers, Json& summary, Json& work) {
+  const auto* const safety = answers.find<NetworkSafety>();
+  if (safety == nullptr) return;
+  summary["network"] = network_json(*answers.ground.spec.network, *safety);
+  work["network"] = work_json(safety->counts);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "answers/answers.hpp"
+#include "answers/network/network_safety.hpp"
+#include "answers/stage.hpp"
+#include "base/json.hpp"
+namespace coordreq {
+
+/// Adds NetworkSafety, if the spec has a network: "network".
+[[nodiscard]] std::vector<Stage> network_stages(const ProblemSpec& spec);
+void summarise_network(const Answers& answers, Json& summary, Json& work);
+
+}  // namespace coordreq

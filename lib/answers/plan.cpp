@@ -1,0 +1,44 @@
+#include "answers/plan.hpp"
+
+#include <utility>
+
+#include "answers/coalition/answer.hpp"
+#include "answers/convention/answer.hpp"
+#include "answers/invariance/answer.hpp"
+#include "answers/layers/answer.hpp"
+#include "answers/network/answer.hpp"
+#include "answers/requirements/answer.hpp"
+
+namespace coordreq {
+
+const std::vector<Answer>& all_answers() {
+  static const std::vector<Answer> plan = {
+      {.stages = invariance_stages, .summarise = summarise_invariance},
+      {.stages = layers_stages, .summarise = summarise_layers},
+      {.stages = coalition_stages, .summarise = summarise_coalition},
+      {.stages = network_stages, .summarise = summarise_network},
+      {.stages = convention_stages, .summarise = summarise_convention},
+      {.checks = requirements_checks, .stages = requirements_stages, .summarise = summarise_requirements},
+  };
+  return plan;
+}
+
+std::vector<Stage> answer_stages(const ProblemSpec& spec) {
+  std::vector<Stage> stages;
+  for (const Answer& answer : all_answers()) {
+    for (Stage& stage : answer.stages(spec)) stages.push_back(std::move(stage));
+  }
+  return stages;
+}
+
+void run_stages(const std::vector<Stage>& stages, Answers& answers, const StageWork& work,
+                const PlanWatch& watch) {
+  for (const Stage& stage : stages) {
+    if (watch.enter) watch.enter(stage.name);
+    StageWork own = work;
+    own.store = watch.store ? watch.store(stage.name) : nullptr;
+    stage.run(answers, own);
+  }
+}
+
+}  // namespace coordreq

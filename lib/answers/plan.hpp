@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "answers/answers.hpp"
+#include "answers/stage.hpp"
+#include "base/json.hpp"
+
+namespace coordreq {
+
+/// One thing that an analysis can answer, in a folder of its own: what it takes to find it and what to say of
+/// it. Whoever works on answers goes over all_answers() and knows none by name.
+struct Answer {
+  /// What can be refused before any work is done, for the spec alone; null: nothing.
+  std::vector<Stage> (*checks)(const ProblemSpec& spec) = nullptr;
+  /// In their order; none if the spec does not ask for it. They need the ground and the answers before.
+  std::vector<Stage> (*stages)(const ProblemSpec& spec) = nullptr;
+  /// Adds its keys to the JSON summary (contract, section 3), and what its fixed points took to `work`, by
+  /// stage. Called whether or not it was asked for.
+  void (*summarise)(const Answers& answers, Json& summary, Json& work) = nullptr;
+};
+
+/// In the order of need.
+[[nodiscard]] const std::vector<Answer>& all_answers();
+
+/// The stages of all answers that the spec asks for, in order. They need the ground.
+[[nodiscard]] std::vector<Stage> answer_stages(const ProblemSpec& spec);
+
+/// Where the work is told of and kept.
+struct PlanWatch {
+  /// A stage begins; may be empty.
+  std::function<void(const std::string& stage)> enter = {};
+  /// Where this stage is kept, or null; may be empty.
+  std::function<StageStore*(const std::string& stage)> store = {};
+};
+
+/// Works out one stage after the other. @param work its store is not looked at
+void run_stages(const std::vector<Stage>& stages, Answers& answers, const StageWork& work,
+                const PlanWatch& watch = {});
+
+}  // namespace coordreq

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace coordreq {
+
+enum class NumberKind : std::uint8_t { unsigned_integer, signed_integer, real };
+
+/// Rows of numbers where they stand in memory, without what lies between the rows.
+struct NumberRows {
+  std::byte* first = nullptr;  ///< of the first row
+  std::ptrdiff_t stride = 0;   ///< bytes from one row to the next
+  std::int64_t rows = 0;
+  std::int64_t row_length = 0;  ///< numbers
+  NumberKind kind = NumberKind::unsigned_integer;
+  std::int64_t number_bytes = 1;
+
+  [[nodiscard]] std::byte* row(std::int64_t r) const { return first + r * stride; }
+  [[nodiscard]] std::int64_t row_bytes() const { return row_length * number_bytes; }
+};
+
+template <class Number>
+[[nodiscard]] constexpr NumberKind kind_of_number() {
+  static_assert(std::is_arithmetic_v<Number>);
+  if constexpr (std::is_floating_point_v<Number>) return NumberKind::real;
+  return std::is_signed_v<Number> ? NumberKind::signed_integer : NumberKind::unsigned_integer;
+}
+
+/// Rows of `row_length` numbers, `stride` numbers apart. What is only saved is not changed, const or not.
+template <class Number>
+[[nodiscard]] NumberRows number_rows(const Number* first, std::int64_t stride, std::int64_t rows,
+                                     std::int64_t row_length) {
+  void* place = const_cast<Number*>(first);
+  return {static_cast<std::byte*>(place),
+          static_cast<std::ptrdiff_t>(stride) * static_cast<std::ptrdiff_t>(sizeof(Number)),
+          rows,
+          row_length,
+          kind_of_number<Number>(),
+          sizeof(Number)};
+}
+
+/// What a type has to keep, told once: its serialise() hands the same lists to an archive in the same order
+/// whether they are to be saved or loaded.
+///
+/// Nothing that is loaded is trusted. Lists have their sizes before they are loaded, from what is known
+/// without the archive, and an archive that holds another number of them, or numbers of another kind, is
+/// refused. What the numbers may be is up to serialise(), which says so by expect().
+class Archive {
+ public:
+  virtual ~Archive() = default;
+  [[nodiscard]] virtual bool is_loading() const = 0;
+
+  /// Saves the numbers, or loads them to where they stand.
+  virtual void rows(const NumberRows& rows) = 0;
+
+  template <class Number>
+  void number(Number& number) {
+    rows(number_rows(&number, 1, 1, 1));
+  }
+  template <class Number>
+  void list(std::vector<Number>& list) {
+    const auto count = static_cast<std::int64_t>(list.size());
+    if (count > 0) rows(number_rows(list.data(), count, 1, count));
+  }
+  /// @param what is wrong otherwise: "a level is too high"; only looked at when loading
+  void expect(bool holds, std::string_view what) {
+    if (is_loading() && !holds) refuse(what);
+  }
+
+ protected:
+  [[noreturn]] virtual void refuse(std::string_view what) const = 0;
+};
+
+}  // namespace coordreq

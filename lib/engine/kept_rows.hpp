@@ -1,0 +1,21 @@
+#pragma once
+
+#include "base/archive.hpp"
+#include "engine/cell_set.hpp"
+#include "engine/level_rows.hpp"
+
+// Levels and sets as an archive takes them.
+namespace coordreq {
+
+/// The cells of levels, without their margins.
+template <class Level>
+[[nodiscard]] NumberRows rows_of(const LevelRows<Level>& levels) {
+  return number_rows(levels.rows() == 0 ? nullptr : levels.row(0), levels.stride(), levels.rows(),
+                     levels.row_length());
+}
+
+[[nodiscard]] inline NumberRows rows_of(const CellSet& set) {
+  return number_rows(set.words().data(), set.words_per_row(), set.rows(), set.words_per_row());
+}
+
+}  // namespace coordreq

@@ -1,0 +1,80 @@
+#include "reach/serialise_abstraction.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "reach/affine_dynamics.hpp"
+#include "reach/affine_part.hpp"
+#include "reach/scaled_number.hpp"
+#include "reach/sum_table.hpp"
+#include "reach/table_layout.hpp"
+
+namespace coordreq {
+namespace {
+
+void serialise(Archive& archive, std::vector<IndexRange>& entries) {
+  static_assert(sizeof(IndexRange) == 2 * sizeof(std::int32_t));
+  const auto count = static_cast<std::int64_t>(entries.size());
+  if (count == 0) return;
+  archive.rows(number_rows(&entries.front().first, 2 * count, 1, 2 * count));
+  archive.expect(
+      std::all_of(entries.begin(), entries.end(), [](IndexRange entry) { return entry.first <= entry.last; }),
+      "a range of indices ends before it begins");
+}
+
+/// The ends of a part of a sum.
+void serialise(Archive& archive, std::vector<std::int64_t>& lower, std::vector<std::int64_t>& upper) {
+  constexpr auto kMost = static_cast<std::int64_t>(kLargestTerm * 0x1p32) + 2 * kHalfStep;
+  archive.list(lower);
+  archive.list(upper);
+  bool fits = true;
+  for (std::size_t i = 0; archive.is_loading() && i < lower.size(); ++i)
+    fits = fits && -kMost <= lower[i] && lower[i] <= upper[i] && upper[i] <= kMost;
+  archive.expect(fits, "a summand of a range is none");
+}
+
+/// The structure is known from the spec.
+void serialise(Archive& archive, TransitionTable& table) {
+  // All members have a name here, so that one that is added does not compile before it is dealt with.
+  auto& [states, inputs, shift, entries, terms, base_lower, base_upper, state_stride, input_stride] = table;
+  static_cast<void>(states), static_cast<void>(inputs), static_cast<void>(shift);
+  static_cast<void>(state_stride), static_cast<void>(input_stride);
+  serialise(archive, entries);
+  for (TransitionTerm& term : terms) {
+    auto& [of_state, term_state_stride, term_input_stride, lower, upper] = term;
+    static_cast<void>(of_state), static_cast<void>(term_state_stride), static_cast<void>(term_input_stride);
+    serialise(archive, lower, upper);
+  }
+  serialise(archive, base_lower, base_upper);
+}
+
+}  // namespace
+
+void serialise(Archive& archive, const ProblemSpec& spec, Abstraction& abstraction) {
+  auto& [grid, inputs, tables, tubes, exact] = abstraction;
+  const AffineDynamics dynamics(spec);
+  tables.resize(grid.size());
+  if (spec.abstraction.between_samples) tubes.resize(grid.size());
+  auto is_exact = static_cast<std::uint8_t>(exact ? 1 : 0);
+  archive.number(is_exact);
+  exact = is_exact != 0;
+  for (std::size_t state = 0; state < grid.size(); ++state) {
+    const std::size_t d = grid.dimension_of(state);
+    auto is_sum = static_cast<std::uint8_t>(tables[d].is_sum() ? 1 : 0);
+    archive.number(is_sum);
+    if (archive.is_loading()) {
+      const Dependencies& dependencies = dynamics.dependencies(d);
+      const AffinePart part = find_affine_part(spec, dependencies, d);
+      archive.expect(is_sum == 0 || !summed_states(spec, dependencies, part, d).empty(), "a table is a sum");
+      tables[d] = is_sum == 0 ? full_layout(spec, dependencies, d, grid, inputs)
+                              : sum_layout(spec, dependencies, part, d, grid, inputs);
+    }
+    serialise(archive, tables[d]);
+    if (tubes.empty()) continue;
+    if (archive.is_loading()) tubes[d] = full_layout(spec, dynamics.dependencies(d), d, grid, inputs);
+    serialise(archive, tubes[d]);
+  }
+}
+
+}  // namespace coordreq
