@@ -30,6 +30,8 @@ ResultArray array(ElementType type, Formula formula) {
       return {type, fill_with<std::int32_t>(std::move(formula))};
     case ElementType::uint32:
       return {type, fill_with<std::uint32_t>(std::move(formula))};
+    case ElementType::int64:
+      return {type, fill_with<std::int64_t>(std::move(formula))};
     case ElementType::uint64:
       return {type, fill_with<std::uint64_t>(std::move(formula))};
     case ElementType::float32:
