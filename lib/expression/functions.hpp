@@ -40,7 +40,7 @@ enum class SeriesRule : std::uint8_t {
   pick,           ///< a kink or a jump: one of +-p, q or a constant, as the surroundings decide
 };
 
-/// Where a tape of operations grows: see Series::factor.
+/// Where a tape of operations grows: see FunctionSeries::factor.
 class NodeWriter {
  public:
   using Index = std::uint32_t;
@@ -56,7 +56,7 @@ class NodeWriter {
 };
 
 /// The Taylor series of a function. The operands p and q of the rule are those of the function.
-struct Series {
+struct FunctionSeries {
   SeriesRule rule;
   /// The q of `chain` (the derivative of r = f(a) by a) or of `inverse_chain` (1 over it), written as nodes;
   /// null for the other rules.
@@ -86,7 +86,7 @@ struct NumberFunction {
   std::optional<Rational> (*exactly)(const Rational& a, const Rational& b);
   /// The constant where `exactly` has none: the correctly rounded double, or why there is no value.
   Constant (*rounded)(const Rational& a, const Rational& b);
-  Series series;
+  FunctionSeries series;
   /// What is undefined, in words with {0} and {1} for the operands: "square root of {0}"; "" if the operation
   /// is defined everywhere.
   const char* undefined;

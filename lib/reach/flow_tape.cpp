@@ -94,7 +94,7 @@ class TapeWriter final : private NodeWriter {
     const Node node = tape_.nodes[i];
     if (node.op == Operator::variable) return rule(i, Rule::variable, moving_.at(node.a), 0);
     if (node.op == Operator::if_else) return rule(i, Rule::pick, node.b, node.c);
-    const Series& series = number_function(node.op).series;
+    const FunctionSeries& series = number_function(node.op).series;
     const Index second = is_unary_function(node.op) ? 0 : node.b;
     rule(i, series.rule, node.a, series.factor == nullptr ? second : series.factor(*this, node.a, i));
   }
