@@ -40,7 +40,7 @@ TEST(ResultArrays, SmallLevelsAreStoredInSixteenBits) {
 
 TEST(ResultArrays, CollisionTimesTellSAndKToo) {
   const LevelMap times = levels(3, {0, 1, kTop, 7, kTop, 0});
-  const CellOrder order(grid({2, 3}), {0, 1});
+  const CellOrder order(grid({2, 3}));
   EXPECT_EQ(filled<std::int16_t>(collision_array(times, order, ElementType::int16), 1, 4),
             (std::vector<std::int16_t>{1, 32767, 7, 32767}));
   EXPECT_EQ(filled<std::int32_t>(collision_array(times, order, ElementType::int32), 0, 6),
@@ -53,7 +53,7 @@ TEST(ResultArrays, CollisionTimesTellSAndKToo) {
 TEST(ResultArrays, DelaysAndTriggersOfEveryKindOfCell) {
   const LevelMap times = levels(6, {0, 2, kTop, kTop, kTop, kTop});
   DelayLayers layers{.layers_of = levels(6, {0, 0, 1, 2, 6, kTop}), .sizes = {4, 3, 2, 2, 2, 2, 1}};
-  const CellOrder order(grid({6}), {0});
+  const CellOrder order(grid({6}));
   EXPECT_EQ(filled<std::int16_t>(delay_array(layers, times, order, ElementType::int16), 0, 6),
             (std::vector<std::int16_t>{-2, -1, 0, 1, 5, 32767}));
   EXPECT_EQ(filled<std::int16_t>(trigger_array(layers, times, 2, order, ElementType::int16), 0, 6),
@@ -67,7 +67,7 @@ TEST(ResultArrays, DelaysAndTriggersOfEveryKindOfCell) {
 
 TEST(ResultArrays, LayersListTheirCellsInAscendingOrder) {
   const DelayLayers layers{.layers_of = levels(7, {2, 0, 1, kTop, 2, 0, 1}), .sizes = {5, 3, 1}};
-  const ResultLayers lists = layer_lists(layers, CellOrder(grid({7}), {0}));
+  const ResultLayers lists = layer_lists(layers, CellOrder(grid({7})));
   EXPECT_EQ(lists.start, (std::vector<std::uint64_t>{0, 2, 4, 5}));
   EXPECT_EQ(lists.cell.type, ElementType::uint32);
   EXPECT_EQ(filled<std::uint32_t>(lists.cell, 0, 5), (std::vector<std::uint32_t>{2, 6, 0, 4, 3}));
@@ -75,8 +75,8 @@ TEST(ResultArrays, LayersListTheirCellsInAscendingOrder) {
 
 TEST(ResultArrays, CellsComeInTheOrderOfTheSpec) {
   // The spec's (a, b, c) with 2, 3 and 2 points are the engine's (b, c, a).
-  const UniformGrid engine = grid({3, 2, 2});
-  const CellOrder order(engine, {2, 0, 1});
+  const UniformGrid engine = grid({2, 3, 2}).arranged({1, 2, 0});
+  const CellOrder order(engine);
   std::vector<int> values;
   std::vector<std::int16_t> expected(12);
   for (int b = 0; b < 3; ++b) {
