@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/analyze_run.hpp"
@@ -15,20 +17,23 @@
 namespace coordreq {
 namespace {
 
-void analyze_into(FinishedRun& run, const CommandLine& line, ThreadTeam& team, const std::string& prefix) {
+void analyze_into(FinishedRun& run, const AnalyzeOptions& asked, ThreadTeam& team,
+                  const std::string& prefix) {
   reset_peak_memory();
   try {
-    run.summary = analyze_with_progress(*run.plan.spec, run.plan.output, line, team, prefix);
+    run.summary =
+        std::make_shared<Json>(analyze_with_progress(*run.plan.spec, run.plan.output, asked, team, prefix));
     run.exit_code = static_cast<int>(verdict(*run.summary));
   } catch (...) {
     run.failure = describe_current_exception();
   }
 }
 
-FinishedRun finish(PlannedRun plan, const CommandLine& line, ThreadTeam& team, const std::string& prefix) {
+FinishedRun finish(PlannedRun plan, const AnalyzeOptions& asked, ThreadTeam& team,
+                   const std::string& prefix) {
   FinishedRun run{.plan = std::move(plan)};
   run.failure = run.plan.failure;
-  if (run.plan.spec) analyze_into(run, line, team, prefix);
+  if (run.plan.spec) analyze_into(run, asked, team, prefix);
   if (run.failure) run.exit_code = run.failure->exit_code;
   if (is_interrupted() || run.exit_code == static_cast<int>(ExitCode::interrupted)) {
     throw Error(ExitCode::interrupted, "interrupted", run_label(run.plan));
@@ -53,28 +58,24 @@ void write_report(const std::string& path, const std::vector<FinishedRun>& runs)
 
 }  // namespace
 
-bool is_batch(const CommandLine& line) {
-  return line.paths.size() > 1 || !line.sweeps.empty();
-}
-
-ExitCode run_analyze_batch(const CommandLine& line) {
-  std::vector<PlannedRun> plan = plan_runs(line);
-  if (line.checkpoint)
+ExitCode run_analyze_batch(const AnalyzeOptions& asked) {
+  std::vector<PlannedRun> plan = plan_runs(asked);
+  if (asked.checkpoint)
     throw UsageError(fmt::format("expected one analysis, found {}", plan.size()), "--checkpoint");
-  if (line.junit) try_to_write(*line.junit);
-  const BatchTable table(plan, line);
-  const bool is_text = !line.json && !line.quiet;
+  if (asked.junit) try_to_write(*asked.junit);
+  const BatchTable table(plan, asked);
+  const bool is_text = !asked.json && !asked.quiet;
   if (is_text) write_output(table.heading());
-  ThreadTeam team(line.threads);
+  ThreadTeam team(asked.threads);
   std::vector<FinishedRun> runs;
   for (std::size_t i = 0; i < plan.size(); ++i) {
     const std::string prefix = fmt::format("{} of {}, ", i + 1, plan.size());
-    runs.push_back(finish(std::move(plan[i]), line, team, prefix));
+    runs.push_back(finish(std::move(plan[i]), asked, team, prefix));
     if (is_text) write_output(table.row(runs.back()));
   }
-  if (line.junit) write_report(*line.junit, runs);
-  if (is_text) write_output(closing_text(runs, line));
-  if (line.json) write_output(batch_json(runs));
+  if (asked.junit) write_report(*asked.junit, runs);
+  if (is_text) write_output(closing_text(runs, asked));
+  if (asked.json) write_output(batch_json(runs));
   return static_cast<ExitCode>(worst_exit_code(runs));
 }
 

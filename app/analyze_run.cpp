@@ -1,11 +1,11 @@
 #include "app/analyze_run.hpp"
 
 #include <algorithm>
-#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/analysis_json.hpp"
 #include "app/interrupt.hpp"
-#include "app/memory_limit.hpp"
 #include "app/progress_display.hpp"
 #include "results/write_results.hpp"
 
@@ -32,14 +32,14 @@ class InterruptPolicy {
 
 }  // namespace
 
-AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const std::string& output,
-                                      const CommandLine& line, ThreadTeam& team, const std::string& prefix) {
+Json analyze_with_progress(const ProblemSpec& spec, const std::string& output, const AnalyzeOptions& asked,
+                           ThreadTeam& team, const std::string& prefix) {
   InterruptPolicy interrupts;
-  ProgressDisplay shown(line.progress, line.quiet);
+  ProgressDisplay shown(asked.progress, asked.quiet);
   AnalysisOptions options;
   options.output = output;
-  options.max_memory = line.max_memory ? line.max_memory : available_memory();
-  options.checkpoint = line.checkpoint;
+  options.max_memory = asked.memory();
+  options.checkpoint = asked.checkpoint;
   options.progress = [&](const Progress& progress) {
     interrupts.obey(progress);
     Progress of_many = progress;
@@ -47,11 +47,11 @@ AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const std::string
     shown.update(of_many);
   };
   options.notice = [&](const std::string& text) {
-    if (!line.quiet) shown.notice(text);
+    if (!asked.quiet) shown.notice(text);
   };
-  AnalysisSummary summary = analyze(spec, options, team);
+  const AnalysisSummary summary = analyze(spec, options, team);
   shown.finish();
-  return summary;
+  return summary_json(summary, spec);
 }
 
 void check_interrupted(const std::string& place) {
@@ -65,15 +65,11 @@ void try_to_write(const std::string& path) {
   check_writable(path);
 }
 
-ExitCode verdict(const AnalysisSummary& summary) {
-  const bool hold = std::all_of(summary.requirements.begin(), summary.requirements.end(),
-                                [](const ResultRequirement& requirement) { return requirement.holds; });
+ExitCode verdict(const Json& summary) {
+  const Json& all = summary["requirements"];
+  const bool hold =
+      std::all_of(all.begin(), all.end(), [](const Json& own) { return own["holds"].get<bool>(); });
   return hold ? ExitCode::success : ExitCode::requirement_failed;
-}
-
-bool is_same_file(const std::string& a, const std::string& b) {
-  using std::filesystem::absolute, std::filesystem::weakly_canonical;
-  return weakly_canonical(absolute(a)) == weakly_canonical(absolute(b));
 }
 
 }  // namespace coordreq

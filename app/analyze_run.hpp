@@ -2,18 +2,20 @@
 
 #include <string>
 
-#include "analysis/analyze.hpp"
-#include "app/command_line.hpp"
+#include "app/analyze_options.hpp"
+#include "app/json_text.hpp"
+#include "base/thread_team.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
 /// One analysis, interruptible, with its progress on standard error.
-/// @param output path of the results file; empty: none
+/// @returns its summary. @param output path of the results file; empty: none
 /// @param prefix of the progress line: "2 of 5, "
 /// @throws as analyze(); Error if the program was interrupted
-[[nodiscard]] AnalysisSummary analyze_with_progress(const ProblemSpec& spec, const std::string& output,
-                                                    const CommandLine& line, ThreadTeam& team,
-                                                    const std::string& prefix);
+[[nodiscard]] Json analyze_with_progress(const ProblemSpec& spec, const std::string& output,
+                                         const AnalyzeOptions& asked, ThreadTeam& team,
+                                         const std::string& prefix);
 
 /// @throws Error if a signal waits. @param place what is complete nevertheless
 void check_interrupted(const std::string& place);
@@ -22,9 +24,6 @@ void check_interrupted(const std::string& place);
 void try_to_write(const std::string& path);
 
 /// Success, or requirement_failed.
-[[nodiscard]] ExitCode verdict(const AnalysisSummary& summary);
-
-/// Whether two paths are of one file, links and "..": resolved as far as there is something.
-[[nodiscard]] bool is_same_file(const std::string& a, const std::string& b);
+[[nodiscard]] ExitCode verdict(const Json& summary);
 
 }  // namespace coordreq

@@ -6,7 +6,6 @@
 #include <cctype>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <utility>
 
 #include "app/load_spec.hpp"
@@ -27,7 +26,7 @@ void read_into(PlannedRun& run, const SpecSource& source, std::vector<SpecSettin
 }
 
 /// The runs of one spec.
-void add_runs(const CommandLine& line, const std::string& path,
+void add_runs(const AnalyzeOptions& asked, const std::string& path,
               const std::vector<std::vector<SpecSetting>>& values, std::vector<PlannedRun>& runs) {
   std::optional<SpecSource> source;
   std::optional<Failure> failure;
@@ -38,7 +37,7 @@ void add_runs(const CommandLine& line, const std::string& path,
   }
   for (const std::vector<SpecSetting>& combination : values) {
     runs.push_back({.path = path, .values = combination, .failure = failure});
-    if (source) read_into(runs.back(), *source, line.settings);
+    if (source) read_into(runs.back(), *source, asked.settings);
   }
 }
 
@@ -63,27 +62,19 @@ std::string file_name(const PlannedRun& run) {
 void check_folder(const std::string& path) {
   std::error_code ignored;  // what cannot be examined is no folder that could be written to
   if (fs::is_directory(path, ignored)) return;
-  throw UsageError(
-      fmt::format("expected a folder that is there, for the results are several files, found '{}'", path),
-      "--output");
+  throw UsageError(fmt::format("expected a folder that is there, for the results are several files, found {}",
+                               echoed(path)),
+                   "--output");
 }
 
-/// Two runs, or a run and the JUnit report, may not write to one place.
-void check_different(const std::vector<PlannedRun>& runs, const CommandLine& line) {
-  std::map<fs::path, const PlannedRun*> writers;
-  const auto place = [](const std::string& path) { return fs::weakly_canonical(fs::absolute(path)); };
+/// @throws UsageError if a file would take the place of another
+void check_files(const std::vector<PlannedRun>& runs, const AnalyzeOptions& asked) {
+  FilesInUse files;
+  for (const PlannedRun& run : runs) add_read_files(run.path, run.spec ? &*run.spec : nullptr, files);
   for (const PlannedRun& run : runs) {
-    if (run.output.empty()) continue;
-    const auto [other, is_new] = writers.emplace(place(run.output), &run);
-    if (!is_new) {
-      throw UsageError(fmt::format("'{}' and '{}' would both write {}, expected different files",
-                                   run_label(*other->second), run_label(run), run.output));
-    }
+    if (!run.output.empty()) files.writes(run.output, "the results of " + run_label(run), "--output");
   }
-  if (line.junit && writers.count(place(*line.junit)) > 0) {
-    throw UsageError(fmt::format("expected another file than the results, found '{}'", *line.junit),
-                     "--junit");
-  }
+  if (asked.junit) files.writes(*asked.junit, "the JUnit report", "--junit");
 }
 
 std::string values_text(const PlannedRun& run) {
@@ -102,19 +93,19 @@ std::string run_name(const PlannedRun& run) {
   return (run.spec ? run.spec->name : run.path) + values_text(run);
 }
 
-std::vector<PlannedRun> plan_runs(const CommandLine& line) {
-  if (std::count(line.paths.begin(), line.paths.end(), "-") > 1) {
+std::vector<PlannedRun> plan_runs(const AnalyzeOptions& asked) {
+  if (std::count(asked.specs.begin(), asked.specs.end(), "-") > 1) {
     throw UsageError("standard input is named twice, expected one spec from it");
   }
-  const std::vector<std::vector<SpecSetting>> values = combinations(line.sweeps);
-  if (line.output) check_folder(*line.output);
+  const std::vector<std::vector<SpecSetting>> values = combinations(asked.sweeps);
+  if (asked.output) check_folder(*asked.output);
   std::vector<PlannedRun> runs;
-  for (const std::string& path : line.paths) add_runs(line, path, values, runs);
-  const bool writes = line.output || line.sweeps.empty();
+  for (const std::string& path : asked.specs) add_runs(asked, path, values, runs);
+  const bool writes = asked.output || asked.sweeps.empty();
   for (PlannedRun& run : runs) {
-    if (writes && run.spec) run.output = (fs::path(line.output.value_or("")) / file_name(run)).string();
+    if (writes && run.spec) run.output = (fs::path(asked.output.value_or("")) / file_name(run)).string();
   }
-  check_different(runs, line);
+  check_files(runs, asked);
   return runs;
 }
 

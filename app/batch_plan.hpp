@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command_line.hpp"
+#include "app/analyze_options.hpp"
 #include "app/report_error.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -27,8 +27,8 @@ struct PlannedRun {
 
 /// Every spec with every combination of swept values, read and checked. What is wrong with one spec is noted
 /// with its run.
-/// @throws UsageError if two runs would write the same file, or `--output` is no folder, before anything is
-///   analysed
-[[nodiscard]] std::vector<PlannedRun> plan_runs(const CommandLine& line);
+/// @throws UsageError if a run would write what another reads or writes, or `--output` is no folder, before
+///   anything is analysed
+[[nodiscard]] std::vector<PlannedRun> plan_runs(const AnalyzeOptions& asked);
 
 }  // namespace coordreq

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
-#include "app/analyze_report.hpp"
+#include "app/analysis_text.hpp"
 
 namespace coordreq {
 namespace {
@@ -18,39 +19,39 @@ std::string joined(const std::vector<std::string>& figures) {
 }
 
 template <class Figure>
-std::string of_partitions(const AnalysisSummary& summary, const Figure& figure) {
+std::string of_partitions(const Json& summary, const Figure& figure) {
   std::vector<std::string> figures;
-  for (const PartitionSummary& partition : summary.partitions) figures.push_back(figure(partition));
+  for (const Json& partition : summary["partitions"]) figures.push_back(figure(partition));
   return joined(figures);
 }
 
-std::string longest(const PartitionSummary& partition, const AnalysisSummary& summary) {
+std::string longest(const Json& partition, const Json& summary) {
   const std::string text = longest_delay_text(partition, summary);
   return text.empty() ? "-" : text;
 }
 
-std::string requirements_met(const AnalysisSummary& summary) {
-  if (summary.requirements.empty()) return "-";
-  const auto met = std::count_if(summary.requirements.begin(), summary.requirements.end(),
-                                 [](const ResultRequirement& own) { return own.holds; });
-  return fmt::format("{} of {}", met, summary.requirements.size());
+std::string requirements_met(const Json& summary) {
+  const Json& all = summary["requirements"];
+  if (all.empty()) return "-";
+  const auto met =
+      std::count_if(all.begin(), all.end(), [](const Json& own) { return own["holds"].get<bool>(); });
+  return fmt::format("{} of {}", met, all.size());
 }
 
 constexpr const char* kFigures[] = {"cells",  "safe", "invariant", "requirements met",    "seconds",
                                     "memory", "F",    "unbounded", "longest finite delay"};
 
-std::vector<std::string> figures(const AnalysisSummary& summary) {
-  double seconds = 0;
-  for (const auto& stage : summary.seconds) seconds += stage.second;
-  return {grouped(summary.states),
-          grouped(summary.safe),
-          grouped(summary.invariant),
+std::vector<std::string> figures(const Json& summary) {
+  const auto count = [&summary](const char* key) { return grouped(summary[key].get<std::int64_t>()); };
+  return {count("states"),
+          count("safe"),
+          count("invariant"),
           requirements_met(summary),
-          fmt::format("{:.2f}", seconds),
-          byte_size(summary.peak_memory_bytes),
+          fmt::format("{:.2f}", seconds_of(summary)),
+          byte_size(summary["peak_memory_bytes"].get<std::uint64_t>()),
           of_partitions(summary, fixed_point_text),
           of_partitions(summary, unbounded_text),
-          of_partitions(summary, [&](const PartitionSummary& own) { return longest(own, summary); })};
+          of_partitions(summary, [&](const Json& own) { return longest(own, summary); })};
 }
 
 /// Figures as wide as those of an analysis can be, or will hardly ever be.
@@ -82,10 +83,10 @@ std::vector<std::string> labels(const PlannedRun& run, bool has_path) {
   return result;
 }
 
-std::vector<std::string> column_names(const CommandLine& line, bool has_path) {
+std::vector<std::string> column_names(const AnalyzeOptions& asked, bool has_path) {
   std::vector<std::string> names;
   if (has_path) names.emplace_back("spec");
-  for (const Sweep& sweep : line.sweeps) names.push_back(printable(sweep.path));
+  for (const Sweep& sweep : asked.sweeps) names.push_back(printable(sweep.path));
   names.insert(names.end(), std::begin(kFigures), std::end(kFigures));
   return names;
 }
@@ -111,7 +112,7 @@ Json run_json(const FinishedRun& run) {
   for (const SpecSetting& value : run.plan.values) json["values"][value.path] = value_json(value.value);
   json["exit_code"] = run.exit_code;
   if (run.failure) json["error"] = run.failure->what;
-  if (run.summary) json["summary"] = summary_json(*run.summary, *run.plan.spec);
+  if (run.summary) json["summary"] = *run.summary;
   return json;
 }
 
@@ -123,9 +124,9 @@ int worst_exit_code(const std::vector<FinishedRun>& runs) {
   return worst;
 }
 
-BatchTable::BatchTable(const std::vector<PlannedRun>& runs, const CommandLine& line)
-    : has_path_(line.paths.size() > 1), table_(alignment(column_names(line, has_path_).size())) {
-  table_.add(column_names(line, has_path_));
+BatchTable::BatchTable(const std::vector<PlannedRun>& runs, const AnalyzeOptions& asked)
+    : has_path_(asked.specs.size() > 1), table_(alignment(column_names(asked, has_path_).size())) {
+  table_.add(column_names(asked, has_path_));
   for (const PlannedRun& run : runs) {
     std::vector<std::string> row = labels(run, has_path_);
     if (run.spec) {
@@ -149,13 +150,13 @@ std::string BatchTable::row(const FinishedRun& run) const {
   return table_.line(row);
 }
 
-std::string closing_text(const std::vector<FinishedRun>& runs, const CommandLine& line) {
+std::string closing_text(const std::vector<FinishedRun>& runs, const AnalyzeOptions& asked) {
   const auto written = std::count_if(runs.begin(), runs.end(), [](const FinishedRun& run) {
     return run.summary && !run.plan.output.empty();
   });
-  if (!line.output && !line.sweeps.empty()) return "\nno results files: --output names a folder for them\n";
+  if (!asked.output && !asked.sweeps.empty()) return "\nno results files: --output names a folder for them\n";
   return fmt::format("\nresults in {} file{} in {}\n", grouped(std::int64_t{written}),
-                     written == 1 ? "" : "s", line.output ? printable(*line.output) : "the current folder");
+                     written == 1 ? "" : "s", asked.output ? printable(*asked.output) : "the current folder");
 }
 
 std::string batch_json(const std::vector<FinishedRun>& runs) {

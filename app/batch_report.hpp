@@ -1,11 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "analysis/analyze.hpp"
 #include "app/batch_plan.hpp"
+#include "app/json_text.hpp"
 #include "app/text.hpp"
 
 namespace coordreq {
@@ -13,7 +14,7 @@ namespace coordreq {
 /// What has become of a run.
 struct FinishedRun {
   PlannedRun plan;
-  std::optional<AnalysisSummary> summary;  ///< none if it failed
+  std::shared_ptr<const Json> summary;  ///< none if it failed
   std::optional<Failure> failure;
   int exit_code = 0;
 };
@@ -25,7 +26,7 @@ struct FinishedRun {
 /// be, as far as that is known beforehand.
 class BatchTable {
  public:
-  BatchTable(const std::vector<PlannedRun>& runs, const CommandLine& line);
+  BatchTable(const std::vector<PlannedRun>& runs, const AnalyzeOptions& asked);
 
   [[nodiscard]] std::string heading() const { return table_.text(); }
   [[nodiscard]] std::string row(const FinishedRun& run) const;
@@ -36,7 +37,7 @@ class BatchTable {
 };
 
 /// Where the results are.
-[[nodiscard]] std::string closing_text(const std::vector<FinishedRun>& runs, const CommandLine& line);
+[[nodiscard]] std::string closing_text(const std::vector<FinishedRun>& runs, const AnalyzeOptions& asked);
 
 /// One document: every run with its summary, as `analyze --json` prints it, or its error.
 [[nodiscard]] std::string batch_json(const std::vector<FinishedRun>& runs);

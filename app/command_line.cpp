@@ -4,22 +4,55 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <string_view>
+#include <list>
 #include <utility>
-#include <vector>
 
-#include "app/command_options.hpp"
-#include "app/command_values.hpp"
+#include "app/program_help.hpp"
 #include "app/standard_streams.hpp"
+#include "app/text.hpp"
 #include "results/version.hpp"
 
 namespace coordreq {
 namespace {
 
+constexpr const char* kProgram = "coordreq";
+
+std::string exit_codes() {
+  std::string text = "Exit codes:";
+  for (const ExitCodeHelp& code : kExitCodes) text += fmt::format("\n  {:<3} {}", code.code, code.meaning);
+  return text;
+}
+
+struct Command {
+  Command(CLI::App& own, const CommandInfo& info)
+      : app(own), name(info.name), options(own), run(info.declare(options)) {}
+
+  CLI::App& app;
+  std::string name;
+  Options options;
+  Run run;
+};
+
+/// The parser with everything that may be typed.
+struct Parser {
+  Parser() {
+    app.add_flag("--version", version, "Print the version")->disable_flag_override();
+    app.require_subcommand(0, 1);
+    app.allow_extras();
+    app.footer(exit_codes());
+    for (const CommandInfo& info : kCommands)
+      commands.emplace_back(*app.add_subcommand(info.name, info.description)->allow_extras(), info);
+  }
+
+  CLI::App app{"When must agents that share a safety task communicate?", kProgram};
+  bool version = false;
+  std::list<Command> commands;
+};
+
 std::string command_names() {
-  std::vector<std::string_view> names;
-  for (const CommandInfo& info : all_commands()) names.emplace_back(info.name);
-  return fmt::format("{}", fmt::join(names, ", "));
+  std::string names;
+  for (const CommandInfo& info : kCommands) names += (names.empty() ? "" : ", ") + std::string(info.name);
+  return names;
 }
 
 std::string option_names(const CLI::App& app) {
@@ -34,76 +67,70 @@ bool looks_like_option(const std::string& argument) {
   return argument.size() > 1 && argument.front() == '-';
 }
 
-void check_global_arguments(const CLI::App& app) {
+[[noreturn]] void fail_without_command(const CLI::App& app) {
   const std::vector<std::string> extra = app.remaining();
   if (extra.empty()) throw UsageError(fmt::format("no command, expected one of {}", command_names()));
   if (looks_like_option(extra.front())) {
-    throw UsageError(fmt::format("unknown option '{}', expected a command ({}) or {}", extra.front(),
+    throw UsageError(fmt::format("unknown option {}, expected a command ({}) or {}", echoed(extra.front()),
                                  command_names(), option_names(app)));
   }
-  throw UsageError(fmt::format("unknown command '{}', expected one of {}", extra.front(), command_names()));
+  throw UsageError(
+      fmt::format("unknown command {}, expected one of {}", echoed(extra.front()), command_names()));
 }
 
 /// "compare A B"
-std::string usage(const CommandInfo& info) {
-  std::string text = info.name;
-  for (const ArgumentInfo& argument : info.arguments) text += std::string(" ") + argument.name;
-  return text + (info.many ? "..." : "");
+std::string usage(const Command& command) {
+  std::string text = command.name;
+  for (const Options::Argument& argument : command.options.argument_list())
+    text += " " + argument.name + (argument.all != nullptr ? "..." : "");
+  return text;
 }
 
 /// "takes one argument, SPEC"
-std::string taken(const CommandInfo& info) {
-  const std::vector<ArgumentInfo>& arguments = info.arguments;
+std::string taken(const Command& command) {
+  const std::list<Options::Argument>& arguments = command.options.argument_list();
   if (arguments.empty()) return "takes no argument";
-  if (arguments.size() == 1) return fmt::format("takes one argument, {}", arguments[0].name);
-  return fmt::format("takes two arguments, {} and {}", arguments[0].name, arguments[1].name);
+  if (arguments.size() == 1) return "takes one argument, " + arguments.front().name;
+  return fmt::format("takes two arguments, {} and {}", arguments.front().name, arguments.back().name);
 }
 
-[[noreturn]] void fail_for_missing(const ArgumentInfo& argument, const CommandInfo& info) {
-  const bool is_file = std::string_view(argument.takes).find('|') == std::string_view::npos;
-  const std::string expected = is_file ? "the name of a file" : fmt::format("one of {}", argument.takes);
-  throw UsageError(
-      fmt::format("no {}, expected {}: {} {}", argument.name, expected, kProgramName, usage(info)));
-}
-
-void check_arguments_are_there(const CommandInfo& info, const RawArguments& raw) {
-  const auto is_empty = [](const std::string& text) { return text.empty(); };
-  if (info.many) {
-    if (raw.paths.empty() || std::any_of(raw.paths.begin(), raw.paths.end(), is_empty))
-      fail_for_missing(info.arguments[0], info);
-    return;
-  }
-  for (std::size_t i = 0; i < info.arguments.size(); ++i) {
-    if (raw.places[i].empty()) fail_for_missing(info.arguments[i], info);
+void check_arguments_are_there(const Command& command) {
+  for (const Options::Argument& argument : command.options.argument_list()) {
+    const bool is_there = argument.one != nullptr ? !argument.one->empty()
+                                                  : !argument.all->empty() &&
+                                                        std::find(argument.all->begin(), argument.all->end(),
+                                                                  "") == argument.all->end();
+    if (is_there) continue;
+    const bool is_file = argument.takes.find('|') == std::string::npos;
+    throw UsageError(fmt::format("no {}, expected {}: {} {}", argument.name,
+                                 is_file ? "the name of a file" : "one of " + argument.takes, kProgram,
+                                 usage(command)));
   }
 }
 
-void check_command_arguments(const CLI::App& root, const CLI::App& command, const CommandInfo& info,
-                             const RawArguments& raw) {
-  const std::vector<std::string> before = root.remaining();
-  if (!before.empty()) {
-    throw UsageError(
-        fmt::format("'{}' stands before the command {}, expected it after", before.front(), info.name));
+void check_arguments(const CLI::App& root, const Command& command) {
+  if (const std::vector<std::string> before = root.remaining(); !before.empty()) {
+    throw UsageError(fmt::format("{} stands before the command {}, expected it after", echoed(before.front()),
+                                 command.name));
   }
-  const std::vector<std::string> extra = command.remaining();
+  const std::vector<std::string> extra = command.app.remaining();
   const auto unknown = std::find_if(extra.begin(), extra.end(), looks_like_option);
   if (unknown != extra.end()) {
-    throw UsageError(fmt::format("unknown option '{}' of {}, expected one of {}", *unknown, info.name,
-                                 option_names(command)));
+    throw UsageError(fmt::format("unknown option {} of {}, expected one of {}", echoed(*unknown),
+                                 command.name, option_names(command.app)));
   }
   if (!extra.empty()) {
-    throw UsageError(fmt::format("unexpected argument '{}', {} {}", extra.front(), info.name, taken(info)));
+    throw UsageError(
+        fmt::format("unexpected argument {}, {} {}", echoed(extra.front()), command.name, taken(command)));
   }
-  check_arguments_are_there(info, raw);
+  check_arguments_are_there(command);
 }
 
-CommandLine print_and_succeed(std::string text) {
-  CommandLine line;
-  line.command = [text = std::move(text)](const CommandLine&) {
+Run print(std::string text) {
+  return [text = std::move(text)] {
     write_output(text);
     return ExitCode::success;
   };
-  return line;
 }
 
 /// The parser's complaint as one of ours. Only options without their value, repeated options and flags with a
@@ -118,34 +145,31 @@ UsageError translated(const CLI::ParseError& error) {
   return UsageError(what);
 }
 
-std::string version_text() {
-  return fmt::format("coordreq {} ({})\n", program_version(), program_git_sha1());
-}
-
 }  // namespace
 
-CommandLine parse_command_line(int argc, const char* const* argv) {
-  CLI::App app(kProgramDescription, kProgramName);
-  RawArguments raw;
-  add_everything(app, raw);
+Run parse_command_line(int argc, const char* const* argv) {
+  Parser parser;
   try {
-    app.parse(argc, argv);
+    parser.app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    return print_and_succeed(app.help());
+    return print(parser.app.help());
   } catch (const CLI::RequiredError&) {
     // Noticed again below, where the message can name the command.
   } catch (const CLI::ParseError& error) {
     throw translated(error);
   }
-  if (raw.version) return print_and_succeed(version_text());
-  for (const CommandInfo& info : all_commands()) {
-    const CLI::App* command = app.get_subcommand(info.name);
-    if (!command->parsed()) continue;
-    check_command_arguments(app, *command, info, raw);
-    return checked_values(raw, info, *command);
+  if (parser.version) return print(fmt::format("coordreq {} ({})\n", program_version(), program_git_sha1()));
+  for (Command& command : parser.commands) {
+    if (!command.app.parsed()) continue;
+    check_arguments(parser.app, command);
+    command.options.read_values();
+    return command.run;
   }
-  check_global_arguments(app);
-  return {};
+  fail_without_command(parser.app);
+}
+
+ProgramHelp program_help() {
+  return read_help(Parser().app);
 }
 
 }  // namespace coordreq

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
+#include "app/analysis_json.hpp"
 #include "app/json_text.hpp"
-#include "app/requirement_report.hpp"
 #include "app/text.hpp"
 #include "cell/state_query.hpp"
 #include "numeric/rational.hpp"
@@ -24,11 +25,8 @@ struct Files {
 std::string sets_table(const ResultsComparison& comparison) {
   Table table({Align::left, Align::right, Align::right, Align::right, Align::right});
   table.add({"cells of the", "before", "after", "left", "joined"});
-  const auto add = [&table](const char* name, const SetComparison& set) {
-    table.add({name, grouped(set.before), grouped(set.after), grouped(set.left), grouped(set.joined)});
-  };
-  add("safe set", comparison.safe);
-  add("invariance set", comparison.invariant);
+  for (const SetComparison& set : comparison.sets)
+    table.add({set.words, grouped(set.before), grouped(set.after), grouped(set.left), grouped(set.joined)});
   return table.text();
 }
 
@@ -202,8 +200,7 @@ std::string comparison_json(const ResultsComparison& comparison, const ResultsRe
   json["after"] = file_json(after, comparison.only_after, comparison.requirements_only_after);
   json["cells"] = before.grid().cells();
   json["tolerance"] = options.tolerance;
-  json["safe"] = set_json(comparison.safe);
-  json["invariant"] = set_json(comparison.invariant);
+  for (const SetComparison& set : comparison.sets) json[set.name] = set_json(set);
   json["partitions"] = Json::array();
   for (const PartitionComparison& partition : comparison.partitions)
     json["partitions"].push_back(partition_json(partition, files));

@@ -2,8 +2,9 @@
 
 namespace coordreq {
 
-/// From now on SIGINT and SIGTERM end the program at once with exit code 130 and one line on standard error,
-/// except while an InterruptDelay lives. A signal that the caller had set to be ignored stays ignored.
+/// From now on SIGINT, SIGTERM, SIGHUP and SIGXCPU end the program at once with exit code 130 and one line on
+/// standard error, except while an InterruptDelay lives. A signal that the caller had set to be ignored stays
+/// ignored.
 void install_interrupt_handlers();
 
 /// Keeps a first signal waiting while there are temporary files that the program would leave behind; a second

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace coordreq {
@@ -10,8 +10,8 @@ using Json = nlohmann::ordered_json;
 
 /// The document indented by two, ending in a newline. File names may hold bytes that are not UTF-8: those
 /// become U+FFFD.
-[[nodiscard]] inline std::string json_text(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+[[nodiscard]] std::string json_text(const Json& json);
+/// The same on one line.
+[[nodiscard]] std::string json_line(const Json& json);
 
 }  // namespace coordreq

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <sstream>
+#include <system_error>
 
-#include "app/requirement_report.hpp"
+#include "app/analysis_text.hpp"
+#include "app/requirement_text.hpp"
 #include "app/text.hpp"
 #include "base/error.hpp"
 #include "results/whole_file.hpp"
@@ -14,18 +18,17 @@
 namespace coordreq {
 namespace {
 
-void set(pugi::xml_node node, const char* name, const std::string& value) {
-  node.append_attribute(name).set_value(value.c_str());
-}
-
-/// XML knows no control characters, whatever way they are written, and neither U+FFFE nor U+FFFF.
-std::string xml_text(const std::string& text) {
-  std::string result = printable(text);
+/// XML knows neither U+FFFE nor U+FFFF, whatever way they are written.
+std::string xml_text(std::string result) {
   for (const char* const unknown : {"\xef\xbf\xbe", "\xef\xbf\xbf"}) {
     for (std::size_t at = result.find(unknown); at != std::string::npos; at = result.find(unknown, at))
       result.replace(at, 3, "\xef\xbf\xbd");
   }
   return result;
+}
+
+void set(pugi::xml_node node, const char* name, const std::string& value) {
+  node.append_attribute(name).set_value(xml_text(value).c_str());
 }
 
 pugi::xml_node add_case(pugi::xml_node suite, const std::string& class_name, const std::string& name) {
@@ -36,16 +39,15 @@ pugi::xml_node add_case(pugi::xml_node suite, const std::string& class_name, con
   return test;
 }
 
-void add_requirement(pugi::xml_node suite, const std::string& class_name, const ResultRequirement& result,
-                     const RequirementSpec& requirement, const ProblemSpec& spec) {
-  pugi::xml_node test = add_case(suite, class_name, xml_text(result.name));
-  if (result.holds) return;
+void add_requirement(pugi::xml_node suite, const std::string& class_name, const Json& own,
+                     const ProblemSpec& spec) {
+  pugi::xml_node test = add_case(suite, class_name, printable(own["name"].get<std::string>()));
+  if (own["holds"]) return;
   pugi::xml_node failure = test.append_child("failure");
-  set(failure, "message", failure_line(result, spec));
-  set(failure, "type", requirement.invariant ? "invariant" : "min_delay");
-  const std::string text =
-      requirement_claim(requirement, spec) + "\n" + failure_text(result, requirement, spec);
-  failure.append_child(pugi::node_pcdata).set_value(text.c_str());
+  set(failure, "message", failure_line(own, spec));
+  set(failure, "type", own["kind"].get<std::string>());
+  const std::string text = claim_text(own, spec) + "\n" + failure_text(own, spec);
+  failure.append_child(pugi::node_pcdata).set_value(xml_text(text).c_str());
 }
 
 /// What suites say of themselves, and the sum of them.
@@ -65,10 +67,9 @@ struct Totals {
 
 Totals totals_of(const JunitSuite& suite) {
   if (suite.summary == nullptr) return {.tests = 1, .errors = 1};
-  const std::vector<ResultRequirement>& all = suite.summary->requirements;
-  Totals totals{.tests = all.size()};
-  for (const ResultRequirement& requirement : all) totals.failures += requirement.holds ? 0U : 1U;
-  for (const auto& stage : suite.summary->seconds) totals.seconds += stage.second;
+  const Json& all = (*suite.summary)["requirements"];
+  Totals totals{.tests = all.size(), .seconds = seconds_of(*suite.summary)};
+  for (const Json& own : all) totals.failures += own["holds"] ? 0U : 1U;
   return totals;
 }
 
@@ -82,14 +83,14 @@ void set_head(pugi::xml_node node, const std::string& name, const Totals& totals
 
 void add_suite(pugi::xml_node root, const JunitSuite& own) {
   pugi::xml_node suite = root.append_child("testsuite");
-  const std::string name = xml_text(own.name);
+  const std::string name = printable(own.name);
   set_head(suite, name, totals_of(own));
   if (own.summary == nullptr) {
-    set(add_case(suite, name, "analysis").append_child("error"), "message", xml_text(own.error));
+    set(add_case(suite, name, "analysis").append_child("error"), "message", printable(own.error));
     return;
   }
-  for (std::size_t r = 0; r < own.summary->requirements.size(); ++r)
-    add_requirement(suite, name, own.summary->requirements[r], own.spec->requirements[r], *own.spec);
+  for (const Json& requirement : (*own.summary)["requirements"])
+    add_requirement(suite, name, requirement, *own.spec);
 }
 
 }  // namespace
@@ -111,7 +112,11 @@ void write_junit(const std::string& path, const std::vector<JunitSuite>& suites)
   write_whole_file(path, "the JUnit report", [&](const std::string& temporary) {
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
     file << text << std::flush;
-    if (!file) throw IoError("cannot write the JUnit report", path);
+    if (!file) {
+      throw IoError(
+          "cannot write the JUnit report: " + std::generic_category().message(errno == 0 ? EIO : errno),
+          path);
+    }
   });
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/analyze.hpp"
+#include "app/json_text.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -11,9 +11,9 @@ namespace coordreq {
 /// One analysis.
 struct JunitSuite {
   std::string name;
-  const ProblemSpec* spec = nullptr;         ///< none if the analysis failed
-  const AnalysisSummary* summary = nullptr;  ///< likewise
-  std::string error;                         ///< why it failed
+  const ProblemSpec* spec = nullptr;  ///< none if the analysis failed
+  const Json* summary = nullptr;      ///< of the analysis; likewise
+  std::string error;                  ///< why it failed
 };
 
 /// The requirements as a JUnit report, which CI systems show: a test suite for each analysis, a test case for

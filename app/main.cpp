@@ -7,8 +7,10 @@ int main(int argc, char** argv) {
   try {
     coordreq::hold_standard_streams();
     coordreq::install_interrupt_handlers();
-    const coordreq::CommandLine line = coordreq::parse_command_line(argc, argv);
-    return static_cast<int>(line.run());
+    const coordreq::Run run = coordreq::parse_command_line(argc, argv);
+    return static_cast<int>(run());
+  } catch (const coordreq::ClosedPipe&) {
+    coordreq::end_by_closed_pipe();
   } catch (...) {
     return coordreq::report_current_exception();
   }

@@ -9,19 +9,15 @@
 namespace coordreq {
 namespace {
 
-/// Modes that a table shows.
-constexpr std::size_t kMostRows = 12;
-
 std::string count_of(std::int64_t number, const char* what) {
   return fmt::format("{} {}{}", grouped(number), what, number == 1 ? "" : "s");
 }
 
-/// What a table has left out; empty if nothing.
-std::string more_modes(std::size_t modes) {
-  return modes <= kMostRows ? "" : fmt::format("  ... and {} more modes\n", grouped(modes - kMostRows));
-}
-
 }  // namespace
+
+std::string more_modes(std::size_t modes) {
+  return modes <= kMostModes ? "" : fmt::format("  ... and {} more modes\n", grouped(modes - kMostModes));
+}
 
 std::string network_meaning(const NetworkSpec& network) {
   switch (network.kind) {
@@ -39,38 +35,10 @@ std::string network_meaning(const NetworkSpec& network) {
   return count_of(static_cast<std::int64_t>(network.modes.size()), "mode") + " with given transitions";
 }
 
-std::string network_text(const NetworkSummary& summary, const NetworkSpec& network, std::int64_t invariant) {
-  Table table({Table::Align::left, Table::Align::left, Table::Align::right});
-  table.add({"  mode", "connected", "safe cells"});
-  for (std::size_t mode = 0; mode < std::min(kMostRows, summary.modes.size()); ++mode) {
-    const NetworkSummary::Mode& own = summary.modes[mode];
-    table.add({"  " + own.name, own.partition, grouped(own.cells)});
-  }
-  const NetworkSummary::Mode& initial = summary.modes.front();
-  const char* const who = summary.resynthesise ? "agents that take care" : "the agents";
-  return fmt::format(
-      "\nnetwork {}: {}\n{}{}  Beginning in mode {}, {} stay safe from {} of {}; whatever the mode is, from "
-      "{}.\n",
-      summary.kind, network_meaning(network), table.text(), more_modes(summary.modes.size()), initial.name,
-      who, grouped(initial.cells), count_of(invariant, "cell"), grouped(summary.every_mode));
-}
-
-Json network_json(const NetworkSummary& summary) {
-  Json json;
-  json["kind"] = summary.kind;
-  json["resynthesise"] = summary.resynthesise;
-  json["initial"] = summary.modes.front().name;
-  json["modes"] = Json::array();
-  for (const NetworkSummary::Mode& mode : summary.modes)
-    json["modes"].push_back(Json{{"name", mode.name}, {"partition", mode.partition}, {"cells", mode.cells}});
-  json["cells_in_every_mode"] = summary.every_mode;
-  return json;
-}
-
 std::string modes_text(const std::vector<ResultInfo::Mode>& modes) {
   Table table({Table::Align::left, Table::Align::right});
   table.add({"mode of the network", "safe cells"});
-  for (std::size_t mode = 0; mode < std::min(kMostRows, modes.size()); ++mode)
+  for (std::size_t mode = 0; mode < std::min(kMostModes, modes.size()); ++mode)
     table.add({printable(modes[mode].name), grouped(modes[mode].safe_cells)});
   return table.text() + more_modes(modes.size());
 }
@@ -91,8 +59,8 @@ std::string safe_modes_text(const NetworkSpec& network, const std::vector<bool>&
                          ? fmt::format("all {} modes", grouped(count))
                          : fmt::format("{} of {} modes", grouped(count), grouped(safe.size()));
   if (count > 0 && count < safe.size()) {
-    names.resize(std::min(kMostRows, count));
-    text += fmt::format(": {}{}", fmt::join(names, ", "), count > kMostRows ? " ..." : "");
+    names.resize(std::min(kMostModes, count));
+    text += fmt::format(": {}{}", fmt::join(names, ", "), count > kMostModes ? " ..." : "");
   }
   return fmt::format("\nnetwork {}: {}\n  safe in  {}\n", network_kind_name(network.kind),
                      network_meaning(network), text);

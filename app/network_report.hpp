@@ -3,21 +3,19 @@
 #include <string>
 #include <vector>
 
-#include "analysis/analyze.hpp"
-#include "app/json_text.hpp"
 #include "results/read_results.hpp"
 #include "spec/problem_spec.hpp"
 
-// What is said of the network, for people and as JSON.
+// What is said of the network, for people.
 namespace coordreq {
 
 /// Which steps are lost: "at most 2 of any 5 steps are lost".
 [[nodiscard]] std::string network_meaning(const NetworkSpec& network);
 
-/// A section of the summary of `analyze`. @param invariant |K|
-[[nodiscard]] std::string network_text(const NetworkSummary& summary, const NetworkSpec& network,
-                                       std::int64_t invariant);
-[[nodiscard]] Json network_json(const NetworkSummary& summary);
+/// Modes that a table shows.
+inline constexpr std::size_t kMostModes = 12;
+/// What a table has left out; empty if nothing.
+[[nodiscard]] std::string more_modes(std::size_t modes);
 
 /// A section of `info`.
 [[nodiscard]] std::string modes_text(const std::vector<ResultInfo::Mode>& modes);

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "app/options.hpp"
+
 namespace coordreq {
 
 enum class ProgressMode : std::uint8_t {
@@ -16,5 +18,7 @@ struct ProgressOptions {
   ProgressMode mode = ProgressMode::automatic;
   double every_seconds = 10;  ///< between two lines of a log
 };
+
+void declare_progress(Options& options, ProgressOptions& progress);
 
 }  // namespace coordreq

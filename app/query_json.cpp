@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "answers/layers/trigger_table.hpp"
 #include "app/json_text.hpp"
 #include "app/network_report.hpp"
@@ -178,7 +180,7 @@ std::string answer_json(const StateAnswer& answer, const ResultsReader& results)
 }
 
 std::string answer_json_line(const StateAnswer& answer, const ResultsReader& results) {
-  return json_of(answer, results).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_line(json_of(answer, results));
 }
 
 }  // namespace coordreq

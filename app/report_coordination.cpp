@@ -4,7 +4,7 @@
 #include "app/network_report.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
-#include "app/requirement_story.hpp"
+#include "app/requirement_text.hpp"
 #include "app/text.hpp"
 
 namespace coordreq {

@@ -1,5 +1,6 @@
 #include "app/report_error.hpp"
 
+#include <algorithm>
 #include <new>
 #include <string>
 #include <string_view>
@@ -16,6 +17,42 @@ constexpr const char* kNoMemory =
 
 void print(std::string_view what) {
   write_diagnostics("coordreq: error: " + std::string(what) + "\n");
+}
+
+constexpr std::size_t kMostEchoed = 200, kKeptAtItsEnd = 20, kLongestLine = 1000;
+
+/// The stretches between marks: cut at the most where they repeat what a user has typed, which is what stands
+/// in quotes.
+std::string with_quotes_cut(std::string_view text) {
+  std::string result;
+  bool is_quoted = false;
+  while (true) {
+    const std::size_t end = text.find('\'');
+    const std::string_view part = text.substr(0, end);
+    result += is_quoted ? shortened(part, kMostEchoed, kKeptAtItsEnd) : std::string(part);
+    if (end == std::string_view::npos) return result;
+    result += '\'';
+    is_quoted = !is_quoted;
+    text.remove_prefix(end + 1);
+  }
+}
+
+/// WHAT (WHERE) as one line of a length that can be read, whatever a user has typed: no quoted text, no place
+/// and no word beyond 200 bytes, no line beyond 1,000.
+std::string error_text(std::string_view what) {
+  std::string line = printable(what);
+  if (const std::size_t place = line.rfind(" ("); place != std::string::npos && line.back() == ')') {
+    const std::string where = line.substr(place + 2, line.size() - place - 3);
+    line = line.substr(0, place + 2) + shortened(where, kMostEchoed, kKeptAtItsEnd) + ")";
+  }
+  line = with_quotes_cut(line);
+  std::string text;
+  for (std::size_t begin = 0; begin < line.size();) {
+    const std::size_t end = std::min(line.find(' ', begin), line.size() - 1) + 1;
+    text += shortened(std::string_view(line).substr(begin, end - begin), kMostEchoed + 4, kKeptAtItsEnd);
+    begin = end;
+  }
+  return shortened(text, kLongestLine, kKeptAtItsEnd);
 }
 
 int report() {
@@ -40,18 +77,18 @@ Failure describe_current_exception() {
   try {
     throw;
   } catch (const Error& error) {
-    return {printable(error.what()), static_cast<int>(error.exit_code())};
+    return {error_text(error.what()), static_cast<int>(error.exit_code())};
   } catch (const std::bad_alloc&) {
     return {kNoMemory, static_cast<int>(ExitCode::limit)};
   } catch (const std::exception& error) {
-    return {std::string("internal error, please report it: ") + printable(error.what()), kInternalError};
+    return {std::string("internal error, please report it: ") + error_text(error.what()), kInternalError};
   } catch (...) {
     return {"internal error, please report it: an exception of unknown type", kInternalError};
   }
 }
 
 void report_failure(const std::string& subject, const Failure& failure) {
-  print(printable(subject) + ": " + failure.what);
+  print(shortened(printable(subject), kMostEchoed, kKeptAtItsEnd) + ": " + failure.what);
 }
 
 int report_current_exception() noexcept {

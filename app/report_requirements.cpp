@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
+#include "app/analysis_json.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
-#include "app/requirement_report.hpp"
-#include "app/requirement_story.hpp"
+#include "app/requirement_text.hpp"
 #include "app/text.hpp"
 
 namespace coordreq {
@@ -17,32 +18,31 @@ std::string capital(std::string text) {
   return text;
 }
 
-std::string verdict(const ResultRequirement& result) {
-  if (result.holds)
-    return fmt::format("<span class=\"good\">met</span> by all {}", states_text(result.cells));
+std::string verdict(const Json& own) {
+  const auto cells = own["cells"].get<std::uint64_t>();
+  if (own["holds"]) return fmt::format("<span class=\"good\">met</span> by all {}", states_text(cells));
   const char* const failed = "<span class=\"bad\">failed</span>";
-  if (!result.path) return failed;
-  return fmt::format("{} in {} of {}", failed, grouped(result.failing), states_text(result.cells));
+  if (own["counterexample"]["state"].is_null()) return failed;
+  return fmt::format("{} in {} of {}", failed, grouped(own["failing"].get<std::uint64_t>()),
+                     states_text(cells));
 }
 
-std::string worst(const ResultRequirement& result, const RequirementSpec& asked, const ProblemSpec& spec) {
-  if (result.path)
-    return fmt::format("{}: {}", start_text(*result.path, spec), worst_text(result.least_delay, spec));
-  if (result.reached_side) return capital(outside_text(result, spec));
-  if (asked.invariant) return "";
-  return result.least_delay == ResultsReader::kNever ? "Never needs contact"
-                                                     : capital(worst_text(result.least_delay, spec));
+std::string worst(const Json& own, const ProblemSpec& spec) {
+  const Json& status = own["least_delay_status"];
+  const auto text = [&] { return worst_text(own["least_delay"], status, spec); };
+  if (!own["holds"].get<bool>() && !own["counterexample"]["state"].is_null())
+    return fmt::format("{}: {}", state_text(own["counterexample"]["state"]), text());
+  if (!own["reaches_outside"].is_null()) return capital(outside_text(own));
+  if (own["kind"] == "invariant") return "";
+  return status == "unbounded" ? "Never needs contact" : capital(text());
 }
 
-std::string summary_table(const ResultsReader& results) {
-  const ProblemSpec& spec = results.spec();
+std::string summary_table(const std::vector<Json>& all, const ProblemSpec& spec) {
   std::string rows;
-  for (std::size_t r = 0; r < results.requirements().size(); ++r) {
-    const ResultRequirement& result = results.requirements()[r];
-    const RequirementSpec& asked = spec.requirements[r];
-    rows +=
-        html_row({html_line(result.name), verdict(result), html_line(capital(requirement_claim(asked, spec))),
-                  html_code(asked.where.text), html_line(worst(result, asked, spec))});
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    rows += html_row({html_line(all[r]["name"].get<std::string>()), verdict(all[r]),
+                      html_line(capital(claim_text(all[r], spec))),
+                      html_code(spec.requirements[r].where.text), html_line(worst(all[r], spec))});
   }
   return html_table("", {"Requirement", "Verdict", "Asked", "Where", "Worst state"}, rows, "roomy");
 }
@@ -70,36 +70,36 @@ std::string steps_table(std::size_t way, const StoryTable& story) {
          "put off the end for as long as possible. Delay and collision time are in steps.</p></details>\n";
 }
 
-std::string failure(std::size_t& way, const ResultRequirement& result, const RequirementSpec& asked,
-                    const ProblemSpec& spec) {
-  std::string html = fmt::format("<h3>{}</h3>\n<p>{}.</p>\n", html_line(result.name),
-                                 html_line(capital(failure_line(result, spec))));
-  if (!result.path) return html;
+std::string failure(std::size_t& way, const Json& own, const ProblemSpec& spec) {
+  std::string html = fmt::format("<h3>{}</h3>\n<p>{}.</p>\n", html_line(own["name"].get<std::string>()),
+                                 html_line(capital(failure_line(own, spec))));
+  if (own["counterexample"]["state"].is_null()) return html;
   html += "<p>";
-  for (const std::string& sentence : story_sentences(*result.path, asked, spec))
-    html += html_line(sentence) + " ";
+  for (const std::string& sentence : story_sentences(own, spec)) html += html_line(sentence) + " ";
   html += "</p>\n<p>" + visit_button(way, 0, "Show in the picture", "") + "</p>\n";
-  return html + steps_table(way++, story_table(*result.path, asked, spec));
+  return html + steps_table(way++, story_table(own, spec));
 }
 
 }  // namespace
 
 std::string report_requirements(const ResultsReader& results) {
-  const auto& all = results.requirements();
-  if (all.empty()) return "";
   const ProblemSpec& spec = results.spec();
+  std::vector<Json> all;
+  for (std::size_t r = 0; r < results.requirements().size(); ++r)
+    all.push_back(requirement_json(results.requirements()[r], spec.requirements[r], spec));
+  if (all.empty()) return "";
   const auto failed = static_cast<std::uint64_t>(
-      std::count_if(all.begin(), all.end(), [](const auto& result) { return !result.holds; }));
+      std::count_if(all.begin(), all.end(), [](const Json& own) { return !own["holds"].get<bool>(); }));
   std::string html =
       "<section aria-labelledby=\"requirements-title\">\n<h2 id=\"requirements-title\">What is "
       "required</h2>\n";
   html += failed == 0 ? "<p>Every requirement is met.</p>\n"
                       : fmt::format("<p>{} of {} requirement{} fail{}.</p>\n", grouped(failed),
                                     grouped(all.size()), all.size() == 1 ? "" : "s", failed == 1 ? "s" : "");
-  html += summary_table(results);
+  html += summary_table(all, spec);
   std::size_t way = 0;
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    if (!all[r].holds) html += failure(way, all[r], spec.requirements[r], spec);
+  for (const Json& own : all) {
+    if (!own["holds"].get<bool>()) html += failure(way, own, spec);
   }
   return html + "</section>\n";
 }

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <ios>
 #include <string>
 #include <system_error>
 
@@ -30,6 +31,8 @@ int write_all(int descriptor, std::string_view text) noexcept {
   return 0;
 }
 
+bool pipe_signal_was_ignored = false;
+
 // A signal handler clears the line.
 std::atomic<std::size_t> line_length = 0;
 static_assert(std::atomic<std::size_t>::is_always_lock_free, "a signal handler must not take a lock");
@@ -49,12 +52,21 @@ void hold_standard_streams() {
     const int flags = descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY;
     if (::open("/dev/null", flags) != descriptor) throw IoError("cannot be opened", "/dev/null");
   }
-  static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
+  pipe_signal_was_ignored = std::signal(SIGPIPE, SIG_IGN) == SIG_IGN;
+  static_cast<void>(std::signal(SIGXFSZ, SIG_IGN));
+  std::ios::sync_with_stdio(false);
+}
+
+void end_by_closed_pipe() noexcept {
+  static_cast<void>(std::signal(SIGPIPE, SIG_DFL));
+  static_cast<void>(std::raise(SIGPIPE));
+  ::_exit(static_cast<int>(ExitCode::input_output));  // where the signal is blocked
 }
 
 void write_output(std::string_view text) {
   const int error = write_all(STDOUT_FILENO, text);
   if (error == 0) return;
+  if (error == EPIPE && !pipe_signal_was_ignored) throw ClosedPipe();
   throw IoError("cannot write the result: " + std::generic_category().message(error), "standard output");
 }
 

@@ -6,11 +6,18 @@
 namespace coordreq {
 
 /// Opens /dev/null in place of standard streams that the caller closed, so that no file of ours gets their
-/// numbers (and no message ends up inside it), and makes writing to a closed pipe an error instead of a
-/// signal.
+/// numbers (and no message ends up inside it), makes writing to a closed pipe and beyond a limit of file
+/// sizes errors instead of signals, and reading of standard input that fails an error instead of its end.
 void hold_standard_streams();
 
-/// Writes all of `text` to standard output. @throws IoError if that fails (disk full, closed, broken pipe)
+/// Nobody reads standard output any more. Thrown so that temporary files are removed on the way out.
+struct ClosedPipe {};
+
+/// Ends the program as the signal would have done that a closed pipe sends.
+[[noreturn]] void end_by_closed_pipe() noexcept;
+
+/// Writes all of `text` to standard output. @throws IoError if that fails (disk full, closed); ClosedPipe,
+/// or an IoError too where the caller has set that signal to be ignored
 void write_output(std::string_view text);
 
 /// Writes `text` to standard error as far as possible; there is nobody to tell about a failure.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "app/option_values.hpp"
+#include "app/text.hpp"
 #include "base/error.hpp"
 
 namespace coordreq {
@@ -34,20 +36,19 @@ std::vector<std::string> split_at_outer_commas(std::string_view text) {
 
 }  // namespace
 
-SpecSetting parse_setting(const std::string& text) {
+SpecSetting parse_setting(const std::string& text, const std::string& option) {
   const std::size_t equals = text.find('=');
   if (equals != 0 && equals != std::string::npos) return {text.substr(0, equals), text.substr(equals + 1)};
-  throw UsageError(fmt::format("expected PATH=VALUE, as constants.R=0.7, found '{}'", text), "--set");
+  fail_value("PATH=VALUE, as constants.R=0.7", text, option);
 }
 
-Sweep parse_sweep(const std::string& text) {
+Sweep parse_sweep(const std::string& text, const std::string& option) {
   const std::size_t equals = text.find('=');
   if (equals != 0 && equals != std::string::npos) {
     Sweep sweep{text.substr(0, equals), split_at_outer_commas(std::string_view(text).substr(equals + 1))};
     if (std::find(sweep.values.begin(), sweep.values.end(), "") == sweep.values.end()) return sweep;
   }
-  throw UsageError(fmt::format("expected PATH=VALUE,VALUE, as states.0.step=0.02,0.01, found '{}'", text),
-                   "--sweep");
+  fail_value("PATH=VALUE,VALUE, as states.0.step=0.02,0.01", text, option);
 }
 
 std::vector<std::vector<SpecSetting>> combinations(const std::vector<Sweep>& sweeps) {
@@ -57,7 +58,7 @@ std::vector<std::vector<SpecSetting>> combinations(const std::vector<Sweep>& swe
     const auto is_this = [&sweep](const Sweep& other) { return other.path == sweep.path; };
     if (std::find_if(sweeps.begin(), sweeps.end(), is_this) - sweeps.begin() <
         static_cast<std::ptrdiff_t>(i)) {
-      throw UsageError(fmt::format("'{}' is swept twice", sweep.path), "--sweep");
+      throw UsageError(echoed(sweep.path) + " is swept twice", "--sweep");
     }
     if (result.size() > kMostCombinations / sweep.values.size()) {
       throw UsageError(fmt::format("expected at most {} combinations, found more", kMostCombinations),

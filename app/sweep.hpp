@@ -15,10 +15,10 @@ struct Sweep {
 
 /// "states.0.step=0.02,0.01". Commas in brackets, parentheses and quotes belong to a value.
 /// @throws UsageError
-[[nodiscard]] Sweep parse_sweep(const std::string& text);
+[[nodiscard]] Sweep parse_sweep(const std::string& text, const std::string& option);
 
 /// "constants.R=0.7". @throws UsageError
-[[nodiscard]] SpecSetting parse_setting(const std::string& text);
+[[nodiscard]] SpecSetting parse_setting(const std::string& text, const std::string& option);
 
 /// Every combination of one value a sweep, in their order, that of the last sweep varying fastest; one empty
 /// combination if there are none.

@@ -61,6 +61,23 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string shortened(std::string_view text, std::size_t most, std::size_t at_end) {
+  if (text.size() <= most) return std::string(text);
+  const auto is_inside = [text](std::size_t i) {
+    return (static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80U;
+  };
+  std::size_t begin = most - at_end - 3;
+  while (begin > 0 && is_inside(begin)) --begin;
+  std::size_t end = text.size() - at_end;
+  while (end < text.size() && is_inside(end)) ++end;
+  return std::string(text.substr(0, begin)) + "..." + std::string(text.substr(end));
+}
+
+std::string echoed(std::string_view text) {
+  constexpr std::size_t kMost = 200, kAtEnd = 20;
+  return "'" + shortened(printable(text), kMost, kAtEnd) + "'";
+}
+
 std::string column_heading(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} [{}]", name, printable(unit));
 }

@@ -12,6 +12,13 @@ namespace coordreq {
 /// `text` on one line: control characters and what is not UTF-8 are spelt out (\n, \x1b), all else stays.
 [[nodiscard]] std::string printable(std::string_view text);
 
+/// The text, of which so many bytes at most stay: "begin...end", so many of them at the end. Characters stay
+/// whole. REQUIRES: most > at_end + 3
+[[nodiscard]] std::string shortened(std::string_view text, std::size_t most, std::size_t at_end);
+
+/// The text in quotes as error lines repeat it: printable, of at most 200 bytes.
+[[nodiscard]] std::string echoed(std::string_view text);
+
 /// "v1 [m/s]", or "n" without a unit.
 [[nodiscard]] std::string column_heading(const std::string& name, const std::string& unit);
 /// 1234567 -> "1,234,567".

@@ -2,9 +2,9 @@
 
 #include "analysis/analysis_stages.hpp"
 #include "analysis/checkpoint.hpp"
-#include "analysis/compose_results.hpp"
 #include "analysis/stage_reporter.hpp"
 #include "analysis/summarise.hpp"
+#include "answers/field_table.hpp"
 #include "answers/plan.hpp"
 #include "results/write_results.hpp"
 
@@ -39,11 +39,10 @@ void find_answers(Answers& answers, StageReporter& reporter, Checkpoint* checkpo
 void write(const std::string& path, const Answers& answers, StageReporter& reporter, ThreadTeam& team) {
   reporter.enter("writing");
   reporter.enter_part("lists");
-  ResultComposer composer(answers, team);
-  ResultContent content = composer.content();
-  reporter.watch_writing(content);
+  FieldValues values = found_values(answers, team);
+  reporter.watch_writing(answers.ground.spec, values);
   reporter.set_temporary(true);
-  write_results(path, content, team);
+  write_results(path, answers.ground.spec, values, team);
 }
 
 }  // namespace

@@ -1,52 +1,21 @@
 #include "analysis/stage_reporter.hpp"
 
+#include <map>
 #include <utility>
 
-#include "results/chunk_layout.hpp"
+#include "answers/field_table.hpp"
 
 namespace coordreq {
 namespace {
 
 constexpr std::chrono::milliseconds kPause{50};
 
-/// Makes the arrays of a result count the bytes that are filled.
-class FillCounter {
- public:
-  explicit FillCounter(std::atomic<std::uint64_t>& written) : written_(written) {}
-
-  void watch(ResultArray& array, std::uint64_t elements) {
-    watch(array.fill, elements, element_size(array.type));
-  }
-  void watch(ResultBits& bits, std::uint64_t cells) { watch(bits.fill, cells * ((bits.actions + 7) / 8), 1); }
-
-  [[nodiscard]] std::uint64_t total() const { return total_; }
-
- private:
-  void watch(FillArray& fill, std::uint64_t elements, std::uint64_t size) {
-    total_ += elements * size;
-    fill = [own = std::move(fill), size, &written = written_](std::uint64_t begin, std::uint64_t count,
-                                                              void* out) {
-      own(begin, count, out);
-      written.fetch_add(count * size, std::memory_order_relaxed);
-    };
-  }
-
-  std::atomic<std::uint64_t>& written_;
-  std::uint64_t total_ = 0;
-};
-
-std::uint64_t cells_of(const ResultContent& content) {
-  std::uint64_t cells = 1;
-  for (const ResultAxis& axis : content.axes) cells *= axis.is_state ? axis.points.size() : 1;
-  return cells;
-}
-
-std::uint64_t length_of(const std::string& leading, const ResultContent& content) {
-  if (leading == "partition") return content.partitions.size();
-  for (const ResultNames& names : content.names) {
-    if (names.name == leading) return names.names.size();
-  }
-  return 1;
+/// `fill`, with the bytes that it fills counted.
+FillArray counting(FillArray fill, std::uint64_t size, std::atomic<std::uint64_t>& written) {
+  return [own = std::move(fill), size, &written](std::uint64_t begin, std::uint64_t count, void* out) {
+    own(begin, count, out);
+    written.fetch_add(count * size, std::memory_order_relaxed);
+  };
 }
 
 }  // namespace
@@ -100,24 +69,21 @@ void StageReporter::on_loop(std::int64_t done, std::int64_t count) {
   tell_if_due();
 }
 
-void StageReporter::watch_writing(ResultContent& content) {
-  FillCounter counter(written_);
-  const std::uint64_t cells = cells_of(content);
-  for (ResultArray* array : {&content.safe, &content.invariant, &content.collision_time})
-    counter.watch(*array, cells);
-  for (ResultPartition& partition : content.partitions) {
-    counter.watch(partition.delay, cells);
-    if (!content.triggers_are_delays) counter.watch(partition.trigger, cells);
-    if (partition.layers) counter.watch(partition.layers->cell, partition.layers->start.back());
-    for (ResultBits& actions : partition.actions) counter.watch(actions, cells);
+void StageReporter::watch_writing(const ProblemSpec& spec, FieldValues& values) {
+  std::map<std::string, std::uint64_t> lengths = values.lengths;
+  std::uint64_t bytes = 0;
+  for (const Field& field : result_fields(spec)) {
+    if (field.scale && field.scale->least == field.scale->most) lengths[field.path] = field.scale->least;
+    const auto entry = values.entries.find(field.path);
+    const auto shape = shape_of(field, lengths);
+    if (field.scale || !shape || entry == values.entries.end() || !entry->second.equals.empty()) continue;
+    std::uint64_t size = element_size(entry->second.array.type);
+    entry->second.array.fill = counting(std::move(entry->second.array.fill), size, written_);
+    for (const std::uint64_t length : *shape) size *= length;
+    bytes += size;
   }
-  for (std::optional<ResultBits>* bits : {&content.controller, &content.listed}) {
-    if (*bits) counter.watch(**bits, cells);
-  }
-  for (ResultBits& bits : content.convention) counter.watch(bits, cells);
-  for (ResultMap& map : content.maps) counter.watch(map.values, cells * length_of(map.leading, content));
   enter_part("");
-  to_write_ = counter.total();
+  to_write_ = bytes;
 }
 
 const std::vector<std::pair<std::string, double>>& StageReporter::finish() {

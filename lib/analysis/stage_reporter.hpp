@@ -7,10 +7,11 @@
 #include <string>
 
 #include "analysis/progress.hpp"
+#include "answers/field.hpp"
 #include "base/thread_team.hpp"
 #include "base/timer.hpp"
 #include "engine/wave_watch.hpp"
-#include "results/result_content.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
@@ -30,9 +31,9 @@ class StageReporter {
   void step(const WaveStep& step, std::int64_t row_length);
   /// Until told otherwise there may be a temporary file.
   void set_temporary(bool has_temporary);
-  /// From now on the pass is to fill the arrays of `content`, as far as they are cells; their functions are
-  /// replaced by ones that count. REQUIRES: this outlives the content.
-  void watch_writing(ResultContent& content);
+  /// From now on the pass is to fill the arrays of these values; their functions are replaced by ones that
+  /// count. REQUIRES: this outlives the values.
+  void watch_writing(const ProblemSpec& spec, FieldValues& values);
 
   /// Ends the last stage. @returns the stages and their seconds
   const std::vector<std::pair<std::string, double>>& finish();

@@ -17,7 +17,7 @@
 // holds goes over these declarations and knows no dataset by name.
 namespace coordreq {
 
-enum class ElementType : std::uint8_t { uint8, int16, int32, uint32, uint64, float32, float64 };
+enum class ElementType : std::uint8_t { uint8, int16, int32, uint32, int64, uint64, float32, float64 };
 
 [[nodiscard]] constexpr std::size_t element_size(ElementType type) {
   switch (type) {
@@ -29,6 +29,7 @@ enum class ElementType : std::uint8_t { uint8, int16, int32, uint32, uint64, flo
     case ElementType::uint32:
     case ElementType::float32:
       return 4;
+    case ElementType::int64:
     case ElementType::uint64:
     case ElementType::float64:
       break;
@@ -95,12 +96,17 @@ enum class FieldSection : std::uint8_t {
   requirements
 };
 
-/// What tables over cells (CSV, VTK) call a field, and with the value for each of a leading axis by which
-/// names: "delay" over /partition becomes "delay:alone". Fields without a name are no column.
-struct FieldColumn {
-  std::string name;
-  /// A value that is worse than every number of steps, and better than what is lower; none if 0.
+/// How commands show a field over cells; where the name is empty they do not.
+struct FieldShown {
+  /// As a column of tables over cells (CSV, VTK): "delay", and "delay:alone" where it is over /partition.
+  std::string column = {};
+  /// In a table a value that is worse than every number of steps, but better than what is lower; 0: none.
   std::int32_t below_zero = 0;
+  /// As a row of the comparison of two files: "safe set". For fields of 0 and 1 without a leading axis.
+  std::string compared = {};
+  /// As a map on the page of a report: "Time to arrival". For steps without a leading axis; fields that the
+  /// page draws in a way of their own need none.
+  std::string map = {};
 };
 
 struct Field {
@@ -111,7 +117,7 @@ struct Field {
   std::optional<FieldScale> scale = {};
   std::int64_t least = 0, most = kLargestValue;  ///< values of a field of integers
   std::vector<FieldAttribute> attributes = {};   ///< in the order in which they are written
-  FieldColumn column = {};
+  FieldShown shown = {};
 };
 using Fields = std::vector<Field>;
 
@@ -137,5 +143,9 @@ template <class Value>
             std::copy(first, first + count, static_cast<Value*>(out));
           }};
 }
+
+/// Arrays of `length` elements each, of one type, one after the other.
+/// @throws std::invalid_argument if their types are not the same
+[[nodiscard]] ResultArray stacked_array(std::uint64_t length, std::vector<ResultArray> parts);
 
 }  // namespace coordreq

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <stdexcept>
 
 namespace coordreq {
 namespace {
@@ -122,6 +123,25 @@ std::int64_t joint_actions(const ProblemSpec& spec, const std::vector<std::int32
   for (const std::int32_t i : inputs)
     actions *= static_cast<std::int64_t>(spec.inputs[static_cast<std::size_t>(i)].values.size());
   return actions;
+}
+
+ResultArray stacked_array(std::uint64_t length, std::vector<ResultArray> parts) {
+  const ElementType type = parts.empty() ? ElementType::int16 : parts.front().type;
+  for (const ResultArray& part : parts) {
+    if (part.type != type) throw std::invalid_argument("arrays of one field with different element types");
+  }
+  return {type,
+          [length, parts = std::move(parts), type](std::uint64_t begin, std::uint64_t count, void* out) {
+            auto* place = static_cast<std::byte*>(out);
+            while (count > 0) {
+              const std::uint64_t first = begin % length;
+              const std::uint64_t here = std::min(count, length - first);
+              parts[begin / length].fill(first, here, place);
+              begin += here;
+              count -= here;
+              place += here * element_size(type);
+            }
+          }};
 }
 
 }  // namespace coordreq

@@ -2,34 +2,28 @@
 
 #include <algorithm>
 
-#include "answers/coalition/fields.hpp"
 #include "answers/common/fields.hpp"
-#include "answers/convention/fields.hpp"
-#include "answers/invariance/fields.hpp"
-#include "answers/layers/fields.hpp"
-#include "answers/network/fields.hpp"
-#include "answers/requirements/fields.hpp"
+#include "answers/plan.hpp"
 
 namespace coordreq {
-namespace {
-
-using Declare = Fields (*)(const ProblemSpec&);
-
-/// An answer has one line here.
-constexpr Declare kAnswers[] = {common_fields,  invariance_fields, layer_fields,      convention_fields,
-                                network_fields, coalition_fields,  requirement_fields};
-
-}  // namespace
-
 Fields result_fields(const ProblemSpec& spec) {
-  Fields table;
-  for (const Declare declare : kAnswers) {
-    Fields fields = declare(spec);
+  Fields table = common_fields(spec);
+  // In a section those of later answers come first: files have always been written so.
+  const std::vector<Answer>& answers = all_answers();
+  for (auto answer = answers.rbegin(); answer != answers.rend(); ++answer) {
+    Fields fields = answer->fields(spec);
     std::move(fields.begin(), fields.end(), std::back_inserter(table));
   }
   std::stable_sort(table.begin(), table.end(),
                    [](const Field& a, const Field& b) { return a.section < b.section; });
   return table;
+}
+
+FieldValues found_values(const Answers& answers, ThreadTeam& team) {
+  FieldValues values;
+  fill_common_fields(answers, team, values);
+  for (const Answer& answer : all_answers()) answer.fill(answers, team, values);
+  return values;
 }
 
 std::optional<std::vector<std::uint64_t>> shape_of(const Field& field,

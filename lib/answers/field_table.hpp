@@ -1,9 +1,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "answers/answers.hpp"
 #include "answers/field.hpp"
+#include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -11,6 +15,9 @@ namespace coordreq {
 /// Every dataset that a results file of this spec can have, axes before what is over them, in the order of
 /// the file.
 [[nodiscard]] Fields result_fields(const ProblemSpec& spec);
+
+/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+[[nodiscard]] FieldValues found_values(const Answers& answers, ThreadTeam& team);
 
 /// The lengths of the axes of a field: of `scales`, lengths by path. Nothing if one of them is not there.
 [[nodiscard]] std::optional<std::vector<std::uint64_t>> shape_of(

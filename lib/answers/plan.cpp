@@ -3,22 +3,47 @@
 #include <utility>
 
 #include "answers/coalition/answer.hpp"
+#include "answers/coalition/fields.hpp"
 #include "answers/convention/answer.hpp"
+#include "answers/convention/fields.hpp"
 #include "answers/invariance/answer.hpp"
+#include "answers/invariance/fields.hpp"
 #include "answers/layers/answer.hpp"
+#include "answers/layers/fields.hpp"
 #include "answers/network/answer.hpp"
+#include "answers/network/fields.hpp"
 #include "answers/requirements/answer.hpp"
+#include "answers/requirements/fields.hpp"
 
 namespace coordreq {
 
 const std::vector<Answer>& all_answers() {
   static const std::vector<Answer> plan = {
-      {.stages = invariance_stages, .summarise = summarise_invariance},
-      {.stages = layers_stages, .summarise = summarise_layers},
-      {.stages = coalition_stages, .summarise = summarise_coalition},
-      {.stages = network_stages, .summarise = summarise_network},
-      {.stages = convention_stages, .summarise = summarise_convention},
-      {.checks = requirements_checks, .stages = requirements_stages, .summarise = summarise_requirements},
+      {.stages = invariance_stages,
+       .fields = invariance_fields,
+       .fill = fill_invariance_fields,
+       .summarise = summarise_invariance},
+      {.stages = layers_stages,
+       .fields = layer_fields,
+       .fill = fill_layer_fields,
+       .summarise = summarise_layers},
+      {.stages = coalition_stages,
+       .fields = coalition_fields,
+       .fill = fill_coalition_fields,
+       .summarise = summarise_coalition},
+      {.stages = network_stages,
+       .fields = network_fields,
+       .fill = fill_network_fields,
+       .summarise = summarise_network},
+      {.stages = convention_stages,
+       .fields = convention_fields,
+       .fill = fill_convention_fields,
+       .summarise = summarise_convention},
+      {.checks = requirements_checks,
+       .stages = requirements_stages,
+       .fields = requirement_fields,
+       .fill = fill_requirement_fields,
+       .summarise = summarise_requirements},
   };
   return plan;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "answers/answers.hpp"
+#include "answers/field.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
 
@@ -17,6 +18,10 @@ struct Answer {
   std::vector<Stage> (*checks)(const ProblemSpec& spec) = nullptr;
   /// In their order; none if the spec does not ask for it. They need the ground and the answers before.
   std::vector<Stage> (*stages)(const ProblemSpec& spec) = nullptr;
+  /// Its datasets in the results file of a spec; none if the spec does not ask for it.
+  Fields (*fields)(const ProblemSpec& spec) = nullptr;
+  /// What was found for them.
+  void (*fill)(const Answers& answers, ThreadTeam& team, FieldValues& values) = nullptr;
   /// Adds its keys to the JSON summary (contract, section 3), and what its fixed points took to `work`, by
   /// stage. Called whether or not it was asked for.
   void (*summarise)(const Answers& answers, Json& summary, Json& work) = nullptr;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "answers/layers/delay_layers.hpp"
-#include "reach/counter.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
@@ -43,24 +43,43 @@ double known(double score) {
 ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDynamics& dynamics)
     : problem_(problem),
       policy_(policy),
-      inputs_(*problem.spec, *problem.abstraction,
-              {.invariant = [delay = problem.delay](std::int64_t cell) { return delay[at(cell)] >= 0; },
-               .safe = [delay = problem.delay](
-                           std::int64_t cell) { return delay[at(cell)] != DelayLayers::kOutsideSafe; },
-               .safe_beyond = problem.safe_beyond,
-               .listed = problem.listed}),
-      classes_(action_classes(*problem.spec, *problem.partition, problem.abstraction->inputs)),
+      invariant_(problem.abstraction->grid,
+                 [delay = problem.delay](std::int64_t cell) { return delay[at(cell)] >= 0; }),
+      safe_(problem.abstraction->grid,
+            [delay = problem.delay](std::int64_t cell) {
+              return delay[at(cell)] != DelayLayers::kOutsideSafe;
+            }),
+      safe_beyond_(problem.abstraction->grid,
+                   [beyond = problem.safe_beyond](std::int64_t cell) { return beyond->test(cell); }),
+      posts_(*problem.abstraction),
+      inputs_(*problem.spec, posts_, sets()),
+      classes_(input_classes(*problem.spec, problem.abstraction->inputs, *problem.partition)),
       margin_(problem.spec->safe),
       nominal_(*problem.spec, *problem.abstraction, dynamics),
       no_error_(problem.spec->states.size()),
       slots_(problem.spec->slot_count()),
       doubles_(problem.spec->slot_count()) {
+  for (InputClass& own : classes_) {
+    own.tabulate();
+    class_parts_.push_back(own.parts());
+  }
   for (const AgentSpec& agent : problem.spec->agents) {
     prefer_.emplace_back();
     if (agent.prefer) prefer_.back().emplace(*agent.prefer);
   }
   for (const DisturbanceSpec& w : problem.spec->disturbances) middle_.emplace_back((w.lower + w.upper) / 2);
   find_nominal();
+}
+
+AdmissibleInputs::Sets ActionChooser::sets() {
+  AdmissibleInputs::Sets sets{.invariant = &invariant_, .safe = &safe_, .safe_beyond = {}, .listed = {}};
+  if (problem_.safe_beyond != nullptr) sets.safe_beyond = [this] { return &safe_beyond_; };
+  if (problem_.listed != nullptr) {
+    sets.listed = [listed = problem_.listed](std::int64_t cell, std::int64_t u) {
+      return listed->test(cell, u);
+    };
+  }
+  return sets;
 }
 
 void ActionChooser::find_nominal() {
@@ -84,7 +103,7 @@ std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<c
   if (coordinated) projections_.push_back(*admissible_);
   for (std::size_t c = 0; !coordinated && c < classes_.size(); ++c) {
     Numbers& parts = projections_.emplace_back();
-    for (const std::int64_t a : classes_[c].project(*admissible_)) parts.push_back(classes_[c].part(a));
+    for (const std::int64_t a : classes_[c].project(*admissible_)) parts.push_back(class_parts_[c][at(a)]);
   }
   if (policy_ == Policy::random) return choose_randomly(random);
   return policy_ == Policy::adversarial ? choose_worst(next) : choose_preferred(measured);
@@ -100,12 +119,12 @@ template <class Visit>
 void ActionChooser::for_each_choice(const Visit& visit) const {
   std::vector<std::int64_t> counts;
   for (const Numbers& parts : projections_) counts.push_back(static_cast<std::int64_t>(parts.size()));
-  Counter choice(counts);
+  Odometer choice(counts);
   do {
     std::int64_t u = 0;
     for (std::size_t c = 0; c < projections_.size(); ++c) u += projections_[c][at(choice.indices()[c])];
     visit(u);
-  } while (choice.next());
+  } while (choice.advance());
 }
 
 std::int64_t ActionChooser::delay_after(NextStates& next, std::int64_t u) const {
@@ -154,10 +173,7 @@ std::int64_t ActionChooser::choose_preferred(std::span<const Rational> measured)
   for (std::size_t c = 0; c < classes_.size(); ++c) {
     std::int64_t others = 0;
     for (std::size_t i = 0; i < nominal_parts_.size(); ++i) {
-      const auto& own = classes_[c].inputs();
-      if (!std::binary_search(own.begin(), own.end(), static_cast<std::int32_t>(i))) {
-        others += nominal_parts_[i];
-      }
+      if (!classes_[c].contains(static_cast<std::int32_t>(i))) others += nominal_parts_[i];
     }
     Numbers candidates = projections_[c];
     for (std::int64_t& candidate : candidates) candidate += others;

@@ -9,6 +9,9 @@
 #include "cell/margin.hpp"
 #include "cell/next_states.hpp"
 #include "cell/random_stream.hpp"
+#include "engine/cell_set.hpp"
+#include "engine/packed_pairs.hpp"
+#include "model/input_class.hpp"
 
 namespace coordreq {
 
@@ -58,8 +61,14 @@ class ActionChooser {
   [[nodiscard]] std::optional<std::int64_t> choose(std::int64_t cell, std::span<const Rational> measured,
                                                    bool coordinated, NextStates& next, RandomStream& random);
 
+  ActionChooser(const ActionChooser&) = delete;
+  ActionChooser& operator=(const ActionChooser&) = delete;
+  ~ActionChooser() = default;
+
  private:
   using Numbers = std::vector<std::int64_t>;
+
+  [[nodiscard]] AdmissibleInputs::Sets sets();
 
   [[nodiscard]] std::int64_t choose_randomly(RandomStream& random) const;
   [[nodiscard]] std::int64_t choose_worst(NextStates& next);
@@ -77,8 +86,13 @@ class ActionChooser {
 
   LoopProblem problem_;
   Policy policy_;
+  MembersByCell invariant_;
+  MembersByCell safe_;
+  MembersByCell safe_beyond_;
+  CellPosts posts_;
   AdmissibleInputs inputs_;
-  std::vector<ActionClass> classes_;
+  std::vector<InputClass> classes_;
+  std::vector<std::vector<std::int64_t>> class_parts_;  ///< [class][action]: InputClass::parts()
   Margin margin_;
   std::vector<std::optional<PointValue>> prefer_;  ///< by agent
   NextStates nominal_;

@@ -7,35 +7,36 @@
 #include <utility>
 #include <vector>
 
-#include "engine/cell_set.hpp"
-#include "engine/packed_pairs.hpp"
-#include "expression/evaluate.hpp"
-#include "reach/abstraction.hpp"
+#include "cell/cell_members.hpp"
+#include "cell/cell_posts.hpp"
+#include "expression/condition.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
-/// The controller C and its projections at single cells, computed when asked for: the analysis never stores
-/// C, and a run visits few cells. Straight from the definitions (contract, "Controller").
+/// The controller C at single cells, computed when asked for: the analysis never stores C, and a run or a
+/// question visits few cells. Straight from the definitions (contract, "Controller").
 ///
 /// States and inputs fall into components that have nothing to do with one another (as the directions of a
 /// robot). Inputs of a component that move it alike are tried once: the gridworld's 14,641 joint inputs
 /// become at most 625 boxes. Scratch inside: one object a thread.
 class AdmissibleInputs {
  public:
-  using IsMember = std::function<bool(std::int64_t cell)>;
   struct Sets {
-    IsMember invariant;
-    IsMember safe;                         ///< called only if the abstraction has tubes
-    const CellSet* safe_beyond = nullptr;  ///< TubeSets::beyond
-    const PackedPairs* listed = nullptr;   ///< what `controller.file` lists; null: it has none
+    CellMembers* invariant = nullptr;
+    CellMembers* safe = nullptr;  ///< needed only if there are tubes
+    /// TubeSets::beyond, called only where it matters; none: it is S.
+    std::function<CellMembers*()> safe_beyond;
+    /// Whether `controller.file` lists a pair of a cell and a joint input; none: there is no such file.
+    std::function<bool(std::int64_t cell, std::int64_t u)> listed;
   };
 
-  /// REQUIRES: `spec`, `abstraction`, which is the spec's, and all sets outlive this object.
-  AdmissibleInputs(const ProblemSpec& spec, const Abstraction& abstraction, Sets sets);
+  /// REQUIRES: `spec`, `posts`, which are the spec's, and all sets outlive this object.
+  AdmissibleInputs(const ProblemSpec& spec, CellPosts& posts, Sets sets);
 
   /// C(x) as joint inputs, ascending. `maximal`: {u allowed : empty != f(x,u) subset of K}; `given`: all that
-  /// are allowed. REQUIRES: x is in K. Cost: a look at every cell of every different post, and |C(x)|.
+  /// are allowed. REQUIRES: x is in K. Cost: that of asking the sets for every different post, and |C(x)|.
+  /// @throws SpecError if `allow` cannot be decided
   [[nodiscard]] const std::vector<std::int64_t>& of(std::int64_t x);
 
  private:
@@ -57,54 +58,27 @@ class AdmissibleInputs {
 
   void find_components();
   void find_moves(Component& component, std::int64_t x);
-  [[nodiscard]] std::optional<Move> move(const Component& component, std::int64_t x, std::int64_t u) const;
+  [[nodiscard]] std::optional<Move> move(const Component& component, std::int64_t u) const;
   [[nodiscard]] bool is_allowed(std::int64_t x, std::int64_t u);
+  void cover(Box Move::*part, CellMembers& set) const;
+  void prepare_sets();
   [[nodiscard]] bool is_safe(const std::vector<std::int64_t>& choice) const;
   [[nodiscard]] bool stays_in(const std::vector<std::int64_t>& choice, Box Move::*part,
-                              const IsMember& set) const;
+                              const CellMembers& set) const;
   void collect(const std::vector<std::int64_t>& choice);
   void sort();
 
   const ProblemSpec* spec_;
-  const Abstraction* abstraction_;
+  CellPosts* posts_;
   Sets sets_;
-  IsMember safe_beyond_;
+  CellMembers* safe_beyond_ = nullptr;  ///< of the cell at work: what tubes that pass a limit must stay in
   std::vector<Component> components_;
-  std::unique_ptr<Evaluator<RationalInterval>> allow_;  ///< none if everything is allowed
+  std::unique_ptr<ConditionDecider> allow_;  ///< none if everything is allowed
   bool allow_has_inputs_ = false;
+  std::vector<Interval> fast_point_;
   std::vector<RationalInterval> point_;
   std::vector<std::int64_t> admissible_;
   std::vector<bool> marks_;
 };
-
-/// The actions of one class: the joint values of its inputs, numbered row-major, the last input fastest.
-class ActionClass {
- public:
-  /// @param inputs indices of the class's inputs, ascending
-  ActionClass(const InputSpace& space, std::vector<std::int32_t> inputs);
-
-  [[nodiscard]] const std::vector<std::int32_t>& inputs() const { return inputs_; }
-  [[nodiscard]] std::int64_t count() const { return count_; }
-  /// The part of joint input u that belongs to this class.
-  [[nodiscard]] std::int64_t action(std::int64_t u) const {
-    return actions_.empty() ? compute_action(u) : actions_[static_cast<std::size_t>(u)];
-  }
-  /// What action `a` adds to the number of a joint input.
-  [[nodiscard]] std::int64_t part(std::int64_t a) const;
-  /// The projection of a set of joint inputs onto the class, ascending.
-  [[nodiscard]] std::vector<std::int64_t> project(const std::vector<std::int64_t>& joint_inputs) const;
-
- private:
-  [[nodiscard]] std::int64_t compute_action(std::int64_t u) const;
-
-  const InputSpace* space_;
-  std::vector<std::int32_t> inputs_;
-  std::int64_t count_ = 1;
-  std::vector<std::int32_t> actions_;  ///< by joint input, where those are few enough for a table
-};
-
-/// The classes of a partition, in its order. REQUIRES: `space` outlives the result.
-[[nodiscard]] std::vector<ActionClass> action_classes(const ProblemSpec& spec, const PartitionSpec& partition,
-                                                      const InputSpace& space);
 
 }  // namespace coordreq

@@ -4,7 +4,7 @@
 
 #include "answers/convention/convention.hpp"
 #include "base/error.hpp"
-#include "reach/counter.hpp"
+#include "model/input_class.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {
@@ -18,13 +18,6 @@ std::vector<bool> unpacked(const std::vector<std::uint8_t>& bytes, std::int64_t 
   std::vector<bool> bits(at(count));
   for (std::size_t a = 0; a < bits.size(); ++a) bits[a] = (bytes[a / 8] >> (a % 8) & 1U) != 0;
   return bits;
-}
-
-/// Number of the joint action that joint input u gives to a class: row-major over its inputs.
-std::int64_t action_of(const InputSpace& space, std::int64_t u, const std::vector<std::int32_t>& inputs) {
-  std::int64_t action = 0;
-  for (const std::int32_t i : inputs) action = action * space[at(i)].count() + space.index(u, at(i));
-  return action;
 }
 
 }  // namespace
@@ -42,9 +35,27 @@ std::vector<std::int32_t> inputs_of_class(const ProblemSpec& spec, const std::ve
 CellController::CellController(const ResultsReader& results, ThreadTeam& team)
     : results_(results),
       posts_(results, team),
-      invariant_(results.grid(), [&results](const CellBlock& block) { return results.invariant(block); }) {
-  if (results.spec().abstraction.between_samples) tubes_.emplace(results, posts_, team);
-  if (results.spec().controller.allow) allow_.emplace(*results.spec().controller.allow);
+      invariant_(results.grid(), [&results](const CellBlock& block) { return results.invariant(block); }),
+      safe_(results.grid(), [&results](const CellBlock& block) { return results.safe(block); }),
+      admissible_(results.spec(), posts_, sets(team)) {}
+
+AdmissibleInputs::Sets CellController::sets(ThreadTeam& team) {
+  AdmissibleInputs::Sets sets{.invariant = &invariant_, .safe = &safe_, .safe_beyond = {}, .listed = {}};
+  if (posts_.has_tubes()) {
+    safe_beyond_.emplace(results_, posts_, team);
+    sets.safe_beyond = [this] { return safe_beyond_->members(); };
+  }
+  if (results_.spec().controller.file)
+    sets.listed = [this](std::int64_t cell, std::int64_t u) { return is_listed(cell, u); };
+  return sets;
+}
+
+bool CellController::is_listed(std::int64_t cell, std::int64_t u) {
+  if (cell != listed_cell_) {
+    listed_ = unpacked(results_.listed_bits(one_cell(results_.grid(), cell)), results_.inputs().count());
+    listed_cell_ = cell;
+  }
+  return listed_[at(u)];
 }
 
 void CellController::prepare_all() {
@@ -54,7 +65,7 @@ void CellController::prepare_all() {
   if (results_.has_controller() || stored || results_.spec().controller.synthesis == Synthesis::given) return;
   posts_.prepare_all();
   invariant_.cover_all();
-  if (tubes_) tubes_->prepare_all();
+  if (posts_.has_tubes()) safe_.cover_all();
 }
 
 const std::vector<bool>& CellController::joint_inputs(std::int64_t cell) {
@@ -62,10 +73,11 @@ const std::vector<bool>& CellController::joint_inputs(std::int64_t cell) {
   const CellBlock block = one_cell(results_.grid(), cell);
   if (results_.has_controller()) {
     joint_inputs_ = unpacked(results_.controller_bits(block), results_.inputs().count());
-  } else if (results_.invariant(block).front() == 0) {
-    joint_inputs_.assign(at(results_.inputs().count()), false);
   } else {
-    joint_inputs_ = compute(cell);
+    joint_inputs_.assign(at(results_.inputs().count()), false);
+    if (results_.invariant(block).front() != 0) {
+      for (const std::int64_t u : admissible_.of(cell)) joint_inputs_[at(u)] = true;
+    }
   }
   cell_ = cell;
   return joint_inputs_;
@@ -82,77 +94,23 @@ std::vector<std::vector<bool>> CellController::actions(std::size_t partition, st
       continue;
     }
     const std::vector<bool>& admissible = joint_inputs(cell);
-    const std::vector<std::int32_t> inputs = inputs_of_class(results_.spec(), spec.classes[c]);
+    const InputClass one(results_.inputs(), inputs_of_class(results_.spec(), spec.classes[c]));
     std::vector<bool>& projection = result.emplace_back(at(stored.actions[c]), false);
     for (std::int64_t u = 0; u < results_.inputs().count(); ++u) {
-      if (admissible[at(u)]) projection[at(action_of(results_.inputs(), u, inputs))] = true;
+      if (admissible[at(u)]) projection[at(one.action(u))] = true;
     }
   }
   return result;
 }
 
 std::vector<std::vector<bool>> CellController::convention(std::int64_t cell) {
-  const std::vector<AgentSpec>& agents = results_.spec().agents;
-  std::vector<AgentActions> actions;
-  for (const AgentSpec& agent : agents) actions.push_back(agent_actions(results_.inputs(), agent.inputs));
-  if (!results_.has_convention()) return convention_at(joint_inputs(cell), actions);
+  const std::vector<InputClass> agents = agent_classes(results_.spec(), results_.inputs());
+  if (!results_.has_convention()) return convention_at(joint_inputs(cell), agents);
   std::vector<std::vector<bool>> result;
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const CellBlock block = one_cell(results_.grid(), cell);
-    result.push_back(unpacked(results_.convention_bits(i, block), actions[i].count));
+    result.push_back(unpacked(results_.convention_bits(i, block), agents[i].actions()));
   }
-  return result;
-}
-
-std::vector<bool> CellController::compute(std::int64_t cell) {
-  std::vector<bool> candidates = allowed(cell);
-  if (results_.spec().controller.synthesis == Synthesis::given) return candidates;
-  posts_.move_to(cell);
-  if (tubes_) candidates = tubes_->keep_safe(std::move(candidates));
-  return keep_inside(invariant_, std::move(candidates),
-                     [this](std::size_t i, std::int64_t u) { return posts_.resolved(i, u); });
-}
-
-bool CellController::is_allowed(std::vector<Interval>& box, std::vector<RationalInterval>& exact_box) {
-  const Truth truth =
-      allow_->decide(box, [&exact_box]() -> std::span<const RationalInterval> { return exact_box; });
-  if (truth != Truth::undecided) return truth == Truth::yes;
-  throw ResultsError("'allow' cannot be decided at a cell", results_.path());
-}
-
-std::vector<bool> CellController::allowed(std::int64_t cell) {
-  const UniformGrid& grid = results_.grid();
-  const InputSpace& inputs = results_.inputs();
-  std::vector<bool> result(at(inputs.count()), true);
-  if (results_.spec().controller.file)
-    result = unpacked(results_.listed_bits(one_cell(grid, cell)), inputs.count());
-  if (!allow_) return result;
-  std::vector<Interval> box(results_.spec().slot_count());
-  std::vector<RationalInterval> exact_box(box.size());
-  const auto set = [&](std::size_t slot, const Rational& value) {
-    box[slot] = {.lower = lower_double(value), .upper = upper_double(value)};
-    exact_box[slot] = {.lower = value, .upper = value};
-  };
-  for (std::size_t i = 0; i < grid.size(); ++i) set(i, grid[i].point(grid.index(cell, i)));
-  // Once for each choice of the inputs that it depends on; the others do not matter.
-  std::vector<std::int32_t> used;
-  std::vector<std::int64_t> counts;
-  for (const std::uint32_t slot : results_.spec().controller.allow->variables()) {
-    if (slot < grid.size()) continue;
-    used.push_back(static_cast<std::int32_t>(slot - grid.size()));
-    counts.push_back(inputs[at(used.back())].count());
-  }
-  std::vector<bool> decided;
-  Counter choice(counts);
-  do {
-    for (std::size_t j = 0; j < used.size(); ++j) {
-      const std::size_t i = at(used[j]);
-      set(grid.size() + i, inputs[i].values[at(choice.indices()[j])]);
-    }
-    decided.push_back(is_allowed(box, exact_box));
-  } while (choice.next());
-  for (std::int64_t u = 0; u < inputs.count(); ++u)
-    result[at(u)] = result[at(u)] && decided[at(action_of(inputs, u, used))];
   return result;
 }
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
+#include "cell/admissible_inputs.hpp"
 #include "cell/cell_posts.hpp"
+#include "cell/safe_beyond_file.hpp"
 #include "cell/set_window.hpp"
-#include "cell/tube_safety.hpp"
-#include "model/condition.hpp"
 #include "results/results_reader.hpp"
 
 namespace coordreq {
@@ -22,6 +22,9 @@ class CellController {
  public:
   /// REQUIRES: `results` and `team` outlive this object.
   CellController(const ResultsReader& results, ThreadTeam& team);
+  CellController(const CellController&) = delete;
+  CellController& operator=(const CellController&) = delete;
+  ~CellController() = default;
 
   /// Makes ready for all cells, not just a few: reads K and computes the abstraction, if they will be needed.
   void prepare_all();
@@ -34,17 +37,19 @@ class CellController {
   [[nodiscard]] std::vector<std::vector<bool>> convention(std::int64_t cell);
 
  private:
-  [[nodiscard]] std::vector<bool> compute(std::int64_t cell);
-  [[nodiscard]] std::vector<bool> allowed(std::int64_t cell);
-  [[nodiscard]] bool is_allowed(std::vector<Interval>& box, std::vector<RationalInterval>& exact_box);
+  [[nodiscard]] AdmissibleInputs::Sets sets(ThreadTeam& team);
+  [[nodiscard]] bool is_listed(std::int64_t cell, std::int64_t u);
 
   const ResultsReader& results_;
   CellPosts posts_;
   SetWindow invariant_;
-  std::optional<TubeSafety> tubes_;        ///< none unless safety is asked for between the samples
-  std::optional<ConditionDecider> allow_;  ///< none if everything is allowed
-  std::int64_t cell_ = -1;                 ///< the one that `joint_inputs_` is of
+  SetWindow safe_;
+  std::optional<SafeBeyondFile> safe_beyond_;
+  AdmissibleInputs admissible_;
+  std::int64_t cell_ = -1;  ///< the one that `joint_inputs_` is of
   std::vector<bool> joint_inputs_;
+  std::int64_t listed_cell_ = -1;
+  std::vector<bool> listed_;  ///< what `controller.file` lists there
 };
 
 /// The inputs of a class of agents, ascending.

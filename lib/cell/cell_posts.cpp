@@ -26,24 +26,34 @@ double most_entries(const ProblemSpec& spec) {
 }  // namespace
 
 CellPosts::CellPosts(const ResultsReader& results, ThreadTeam& team)
-    : results_(results), team_(team), dynamics_(results.spec()), most_entries_(most_entries(results.spec())) {
-  const bool wants_tubes = results.spec().abstraction.between_samples;
-  if (results.has_abstraction() && !wants_tubes) whole_ = results.abstraction();
-}
-
-void CellPosts::prepare_all() {
-  if (!whole_) whole_ = build_abstraction(results_.spec(), team_);
+    : grid_(&results.grid()),
+      file_(std::make_unique<File>(
+          File{results, team, AffineDynamics(results.spec()), most_entries(results.spec()), {}, {}, 0, {}})) {
+  if (!results.has_abstraction() || has_tubes()) return;
+  file_->whole = results.abstraction();
+  whole_ = &*file_->whole;
 }
 
 const Abstraction& CellPosts::whole() {
-  prepare_all();
+  if (whole_ == nullptr) {
+    file_->whole = build_abstraction(file_->results.spec(), file_->team);
+    whole_ = &*file_->whole;
+  }
   return *whole_;
+}
+
+const std::vector<std::int32_t>& CellPosts::inputs_of(std::size_t i) const {
+  return file_ ? file_->dynamics.dependencies(i).inputs : whole_->tables[i].inputs;
+}
+
+bool CellPosts::has_tubes() const {
+  return file_ ? file_->results.spec().abstraction.between_samples : !whole_->tubes.empty();
 }
 
 void CellPosts::move_to(std::int64_t cell) {
   if (cell == cell_) return;
-  if (!whole_ && entries_built_ >= most_entries_) prepare_all();
-  if (!whole_) build_parts(cell);
+  if (whole_ == nullptr && file_->entries_built >= file_->most_entries) prepare_all();
+  if (whole_ == nullptr) build_parts(cell);
   cell_ = cell;
 }
 
@@ -53,45 +63,46 @@ void CellPosts::move_to(std::int64_t cell) {
 /// them, and must be decided as in the analysis. A state that stops stays whole, because its limits are the
 /// first and the last point of its dimension.
 Abstraction CellPosts::part_of(std::size_t state, std::int64_t cell) const {
-  std::vector<GridDimension> dimensions = results_.grid().dimensions();
+  std::vector<GridDimension> dimensions = grid_->dimensions();
   for (std::size_t j = 0; j < dimensions.size(); ++j) {
-    const bool stops = dimensions[j].below == Outside::stop || dimensions[j].above == Outside::stop;
-    if (j == state || stops || !contains(dynamics_.dependencies(state).moving, j)) continue;
-    dimensions[j].first = dimensions[j].point(results_.grid().index(cell, j));
+    const bool stops = traits(dimensions[j].below).stops || traits(dimensions[j].above).stops;
+    if (j == state || stops || !contains(file_->dynamics.dependencies(state).moving, j)) continue;
+    dimensions[j].first = dimensions[j].point(grid_->index(cell, j));
     dimensions[j].count = 1;
   }
-  Abstraction part{.grid = UniformGrid(std::move(dimensions)), .inputs = results_.inputs()};
+  Abstraction part{.grid = UniformGrid(std::move(dimensions)), .inputs = file_->results.inputs()};
   part.tables.resize(part.grid.size());
-  if (results_.spec().abstraction.between_samples) part.tubes.resize(part.grid.size());
+  if (has_tubes()) part.tubes.resize(part.grid.size());
   return part;
 }
 
 void CellPosts::build_parts(std::int64_t cell) {
-  parts_.clear();
-  place_.clear();
-  for (std::size_t i = 0; i < results_.grid().size(); ++i) {
-    Abstraction& part = parts_.emplace_back(part_of(i, cell));
-    const bool is_affine = build_affine_table(results_.spec(), dynamics_, part, i, team_).has_value();
-    if (!is_affine) build_enclosure_tables(results_.spec(), dynamics_.dependencies(i), part, {i}, team_);
+  const ProblemSpec& spec = file_->results.spec();
+  file_->parts.clear();
+  file_->place.clear();
+  for (std::size_t i = 0; i < grid_->size(); ++i) {
+    Abstraction& part = file_->parts.emplace_back(part_of(i, cell));
+    const bool is_affine = build_affine_table(spec, file_->dynamics, part, i, file_->team).has_value();
+    if (!is_affine) build_enclosure_tables(spec, file_->dynamics, part, {i}, file_->team);
     std::int64_t place = 0;
     for (std::size_t j = 0; j < part.grid.size(); ++j) {
-      if (part.grid[j].count > 1) place += results_.grid().index(cell, j) * part.grid.stride(j);
+      if (part.grid[j].count > 1) place += grid_->index(cell, j) * part.grid.stride(j);
     }
-    place_.push_back(place);
-    entries_built_ += static_cast<double>(part.tables[i].entries.size());
+    file_->place.push_back(place);
+    file_->entries_built += static_cast<double>(part.tables[i].entries.size());
   }
 }
 
 ResolvedRange CellPosts::resolved(std::size_t i, std::int64_t u) const {
-  return whole_ ? whole_->resolved(i, cell_, u) : parts_[i].resolved(i, place_[i], u);
+  return whole_ ? whole_->resolved(i, cell_, u) : file_->parts[i].resolved(i, file_->place[i], u);
 }
 
 ResolvedRange CellPosts::resolved_tube(std::size_t i, std::int64_t u) const {
-  return whole_ ? whole_->resolved_tube(i, cell_, u) : parts_[i].resolved_tube(i, place_[i], u);
+  return whole_ ? whole_->resolved_tube(i, cell_, u) : file_->parts[i].resolved_tube(i, file_->place[i], u);
 }
 
 IndexRange CellPosts::raw_tube(std::size_t i, std::int64_t u) const {
-  return whole_ ? whole_->raw_tube(i, cell_, u) : parts_[i].raw_tube(i, place_[i], u);
+  return whole_ ? whole_->raw_tube(i, cell_, u) : file_->parts[i].raw_tube(i, file_->place[i], u);
 }
 
 }  // namespace coordreq

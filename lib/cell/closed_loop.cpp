@@ -119,8 +119,8 @@ ClosedLoop::State ClosedLoop::first_state(std::vector<Rational> measured, const 
     const GridDimension& dimension = problem_.abstraction->grid[i];
     Rational value = measured[i] - nature.error[i];
     if (dimension.periodic()) value = reset_at_sample(dimension, value);
-    if (dimension.below == Outside::stop) value = std::max(value, dimension.first);
-    if (dimension.above == Outside::stop) value = std::min(value, dimension.point(dimension.count - 1));
+    if (traits(dimension.below).stops) value = std::max(value, dimension.first);
+    if (traits(dimension.above).stops) value = std::min(value, dimension.point(dimension.count - 1));
     state.exact.push_back(value);
   }
   const Location location = locate(problem_.abstraction->grid, measured);

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "expression/formula.hpp"
 #include "expression/point_value.hpp"
-#include "model/formula.hpp"
 
 namespace coordreq {
 

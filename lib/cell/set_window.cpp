@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "model/odometer.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -49,12 +51,12 @@ void SetWindow::add_up() {
   stride_.assign(dimensions, 1);
   for (std::size_t i = dimensions - 1; i-- > 0;) stride_[i] = stride_[i + 1] * (block_.count[i + 1] + 1);
   sums_.assign(static_cast<std::size_t>(stride_[0] * (block_.count[0] + 1)), 0);
-  std::vector<std::int64_t> index(dimensions, 0);
+  Odometer index(block_.count);
   for (const std::uint8_t member : members) {
     std::int64_t place = 0;
     for (std::size_t i = 0; i < dimensions; ++i) place += (index[i] + 1) * stride_[i];
     sums_[static_cast<std::size_t>(place)] = member;
-    for (std::size_t i = dimensions; i-- > 0 && ++index[i] == block_.count[i];) index[i] = 0;
+    index.advance();
   }
   for (std::size_t i = 0; i < dimensions; ++i) {
     const auto step = static_cast<std::size_t>(stride_[i]);
@@ -83,42 +85,6 @@ bool SetWindow::contains(std::span<const IndexRange> box) const {
   };
   const std::int64_t cells = std::accumulate(box.begin(), box.end(), std::int64_t{1}, length);
   return members(box, 0, 0) == cells;
-}
-
-std::vector<bool> keep_inside(SetWindow& set, std::vector<bool> candidates, const RangeUnder& range) {
-  const std::size_t dimensions = set.grid().size();
-  std::vector<IndexRange> boxes;    // [candidate that has a box][dimension]
-  std::vector<std::size_t> owners;  // the candidate of each
-  std::vector<IndexRange> hull;
-  for (std::size_t u = 0; u < candidates.size(); ++u) {
-    if (!candidates[u]) continue;
-    bool blocked = false;
-    bool gone = false;
-    const std::size_t begin = boxes.size();
-    for (std::size_t i = 0; i < dimensions; ++i) {
-      const ResolvedRange resolved = range(i, static_cast<std::int64_t>(u));
-      blocked = blocked || resolved.blocked;
-      gone = gone || resolved.all_left();
-      boxes.push_back(resolved.inside);
-    }
-    if (blocked) candidates[u] = false;
-    if (blocked || gone) {
-      boxes.resize(begin);
-      continue;
-    }
-    owners.push_back(u);
-    const std::span<const IndexRange> box(boxes.data() + begin, dimensions);
-    if (hull.empty()) hull.assign(box.begin(), box.end());
-    for (std::size_t i = 0; i < dimensions; ++i) {
-      hull[i] = {std::min(hull[i].first, box[i].first), std::max(hull[i].last, box[i].last)};
-    }
-  }
-  if (!owners.empty()) set.cover(hull);
-  for (std::size_t j = 0; j < owners.size(); ++j) {
-    candidates[owners[j]] =
-        set.contains(std::span<const IndexRange>(boxes.data() + j * dimensions, dimensions));
-  }
-  return candidates;
 }
 
 }  // namespace coordreq

@@ -6,15 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "cell/cell_members.hpp"
 #include "model/cell_block.hpp"
-#include "model/outside.hpp"
 #include "model/uniform_grid.hpp"
 
 namespace coordreq {
 
 /// The part of a set of cells that a question needs, read when it is needed; answers whether boxes lie in it,
 /// each in a time that does not depend on its size, from prefix sums.
-class SetWindow {
+class SetWindow : public CellMembers {
  public:
   /// Membership of the cells of a block: 0 or 1.
   using Read = std::function<std::vector<std::uint8_t>(const CellBlock&)>;
@@ -22,16 +22,11 @@ class SetWindow {
   /// REQUIRES: `grid` outlives this object.
   SetWindow(const UniformGrid& grid, Read read) : grid_(grid), read_(std::move(read)) {}
 
-  /// Reads the box unless it is there already. Ranges as ResolvedRange::inside has them: an index beyond the
-  /// last one of a periodic dimension wraps.
-  void cover(std::span<const IndexRange> box);
+  /// Reads the box unless it is there already.
+  void cover(std::span<const IndexRange> box) override;
   /// Reads all of it.
   void cover_all();
-  /// Whether all cells of the box are in the set. REQUIRES: a box that cover() was called for, or part of
-  /// one.
-  [[nodiscard]] bool contains(std::span<const IndexRange> box) const;
-
-  [[nodiscard]] const UniformGrid& grid() const { return grid_; }
+  [[nodiscard]] bool contains(std::span<const IndexRange> box) const override;
 
  private:
   void add_up();
@@ -46,13 +41,5 @@ class SetWindow {
   /// dimension.
   std::vector<std::int32_t> sums_;
 };
-
-/// One range of cells a dimension under each joint input: (dimension, input).
-using RangeUnder = std::function<ResolvedRange(std::size_t, std::int64_t)>;
-
-/// Those of the candidate joint inputs whose box of ranges is not blocked and lies in the set, but for what
-/// left safely.
-[[nodiscard]] std::vector<bool> keep_inside(SetWindow& set, std::vector<bool> candidates,
-                                            const RangeUnder& range);
 
 }  // namespace coordreq

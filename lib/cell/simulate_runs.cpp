@@ -40,8 +40,8 @@ class InvariantCells {
 };
 
 bool is_beyond_stop(const GridDimension& dimension, const Rational& value) {
-  return (dimension.below == Outside::stop && value < dimension.first) ||
-         (dimension.above == Outside::stop && value > dimension.point(dimension.count - 1));
+  return (traits(dimension.below).stops && value < dimension.first) ||
+         (traits(dimension.above).stops && value > dimension.point(dimension.count - 1));
 }
 
 std::vector<Rational> draw_start(const UniformGrid& grid, const InvariantCells& cells, RandomStream& random) {

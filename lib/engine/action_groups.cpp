@@ -16,24 +16,6 @@ constexpr std::int64_t kMaxShared = std::int64_t{1} << 24;
 /// With more groups than this, comparing each with each costs more than it saves.
 constexpr std::size_t kMaxCompared = 128;
 
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
-
-/// The offset in a table of every joint action of some inputs, row-major over `inputs`.
-std::vector<std::int64_t> offsets(const InputSpace& space, const std::vector<std::int32_t>& inputs,
-                                  const std::vector<std::int64_t>& stride) {
-  std::vector<std::int64_t> result = {0};
-  for (const std::int32_t i : inputs) {
-    std::vector<std::int64_t> next;
-    for (const std::int64_t offset : result) {
-      for (std::int64_t k = 0; k < space[at(i)].count(); ++k) next.push_back(offset + k * stride[at(i)]);
-    }
-    result = std::move(next);
-  }
-  return result;
-}
-
 std::vector<std::int32_t> intersection(const std::vector<std::int32_t>& a,
                                        const std::vector<std::int32_t>& b) {
   std::vector<std::int32_t> result;
@@ -47,41 +29,22 @@ std::vector<std::int32_t> difference(const std::vector<std::int32_t>& a, const s
   return result;
 }
 
-bool range_within(IndexRange a, IndexRange b, const GridDimension& target) {
-  const auto inside = [&](std::int64_t shift) {
-    return b.first <= a.first + shift && a.last + shift <= b.last;
-  };
-  if (inside(0)) return true;
-  return target.periodic() && (inside(target.count) || std::int64_t{b.last} - b.first + 1 == target.count);
-}
-
-/// True if for every cell of the row the range of `a` asks no more of the target than that of `b`.
-bool slice_within(const std::vector<RowSegment>& a, const std::vector<RowSegment>& b,
-                  const GridDimension& target) {
-  using Kind = RowSegment::Kind;
-  if (a.size() != 1 || b.size() != 1) return a == b;
-  if (a[0].kind == Kind::gone || b[0].kind == Kind::blocked) return true;
-  return a[0].kind == b[0].kind && range_within(a[0].range, b[0].range, target);
-}
-
 }  // namespace
 
-ActionGrouping::ActionGrouping(const RowEngine& engine, std::vector<InputClass> classes, ThreadTeam& team)
+ActionGrouping::ActionGrouping(const RowEngine& engine, const std::vector<InputClass>& classes,
+                               ThreadTeam& team)
     : engine_(&engine), sources_(action_sources(engine)) {
-  for (InputClass& inputs : classes) {
-    std::sort(inputs.begin(), inputs.end());
-    classes_.push_back(make_class(std::move(inputs)));
+  for (const InputClass& inputs : classes) {
+    classes_.push_back(make_class(inputs));
     share_groups(classes_.back(), team);
   }
 }
 
-ActionGrouping::ClassData ActionGrouping::make_class(InputClass inputs) const {
-  const InputSpace& space = engine_->abstraction().inputs;
-  ClassData data{.inputs = std::move(inputs)};
-  for (const std::int32_t i : data.inputs) data.actions *= space[at(i)].count();
+ActionGrouping::ClassData ActionGrouping::make_class(const InputClass& inputs) const {
+  ClassData data{.inputs = inputs};
   for (std::size_t t = 0; t < sources_.size(); ++t) {
-    data.contribution.push_back(offsets(space, data.inputs, sources_[t].input_stride));
-    if (!intersection(sources_[t].inputs, data.inputs).empty()) data.views.push_back(make_view(t, data));
+    data.contribution.push_back(inputs.offsets(sources_[t].input_stride));
+    if (!intersection(sources_[t].inputs, inputs.inputs()).empty()) data.views.push_back(make_view(t, data));
   }
   return data;
 }
@@ -89,39 +52,32 @@ ActionGrouping::ClassData ActionGrouping::make_class(InputClass inputs) const {
 ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassData& data) const {
   const InputSpace& space = engine_->abstraction().inputs;
   const ActionSource& source = sources_[table];
-  const std::vector<std::int32_t> own = intersection(source.inputs, data.inputs);
-  const std::vector<std::int32_t> others = difference(source.inputs, data.inputs);
-  View view{.table = table};
-  for (const std::int32_t i : own) view.width *= space[at(i)].count();
+  const InputClass own(space, intersection(source.inputs, data.inputs.inputs()));
+  const InputClass others(space, difference(source.inputs, data.inputs.inputs()));
+  View view{.table = table, .width = own.actions()};
 
-  // Number of each action's combination of the inputs in use, row-major over `own`.
-  std::vector<std::int64_t> own_stride(space.size(), 0);
-  std::int64_t stride = 1;
-  for (auto it = own.rbegin(); it != own.rend(); ++it) {
-    own_stride[at(*it)] = stride;
-    stride *= space[at(*it)].count();
-  }
-  view.is_summed = source.is_summed;
-  if (others.empty()) {
+  view.all_distinct = source.all_distinct();
+  if (others.inputs().empty()) {
     // The table's own layout is row-major over `own` too.
-    for (const std::int64_t c : offsets(space, data.inputs, source.input_stride)) {
+    for (const std::int64_t c : data.inputs.offsets(source.input_stride)) {
       view.combination.push_back(static_cast<std::int32_t>(c));
     }
     return view;
   }
-  for (const std::int64_t c : offsets(space, data.inputs, own_stride)) {
+  // Number of each action's combination of the inputs in use.
+  for (const std::int64_t c : data.inputs.offsets(own.strides())) {
     view.combination.push_back(static_cast<std::int32_t>(c));
   }
-  if (view.is_summed) return view;
-  const std::vector<std::int64_t> own_offsets = offsets(space, own, source.input_stride);
-  const std::vector<std::int64_t> other_offsets = offsets(space, others, source.input_stride);
-  const auto total = static_cast<std::int64_t>(source.ids().size());
+  if (view.all_distinct) return view;
+  const std::vector<std::int64_t> own_offsets = own.offsets(source.input_stride);
+  const std::vector<std::int64_t> other_offsets = others.offsets(source.input_stride);
+  const auto total = static_cast<std::int64_t>(source.ids->size());
   std::map<std::vector<std::uint32_t>, std::uint32_t> numbers;
   for (std::int64_t base = 0; base < total; base += source.input_combinations) {
     for (const std::int64_t offset : own_offsets) {
       std::vector<std::uint32_t> column;
       for (const std::int64_t other : other_offsets) {
-        column.push_back(source.ids()[static_cast<std::size_t>(base + offset + other)]);
+        column.push_back((*source.ids)[static_cast<std::size_t>(base + offset + other)]);
       }
       const auto next = static_cast<std::uint32_t>(numbers.size());
       view.partial.push_back(numbers.try_emplace(std::move(column), next).first->second);
@@ -131,16 +87,16 @@ ActionGrouping::View ActionGrouping::make_view(std::size_t table, const ClassDat
 }
 
 const std::uint32_t* ActionGrouping::view_ids(const View& view, const RowPlace& place) const {
-  if (view.is_summed) return nullptr;
+  if (view.all_distinct) return nullptr;
   const ActionSource& source = sources_[view.table];
   const std::int64_t base = source.base(place);
-  if (view.partial.empty()) return source.ids().data() + base;
+  if (view.partial.empty()) return source.ids->data() + base;
   return view.partial.data() + base / source.input_combinations * view.width;
 }
 
 ActionGroups ActionGrouping::find_groups(const ClassData& data, const RowPlace& place) const {
   ActionGroups groups;
-  groups.group_of.assign(static_cast<std::size_t>(data.actions), 0);
+  groups.group_of.assign(static_cast<std::size_t>(data.inputs.actions()), 0);
   std::unordered_map<std::uint64_t, std::uint32_t> numbers;
   for (const View& view : data.views) {
     const std::uint32_t* ids = view_ids(view, place);
@@ -172,23 +128,20 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
   groups.within.assign(size * size, 1);
   for (const View& view : data.views) {
     const std::uint32_t* ids = view_ids(view, place);
-    const bool is_slices = view.table < engine_->slices().size() && view.partial.empty();
+    // Not easily told where columns or rows of `allow` are numbered.
+    const RowSlices* slices = view.partial.empty() ? sources_[view.table].slices : nullptr;
+    const GridDimension& target = engine_->grid()[view.table % engine_->tables()];
+    const auto number = [&](std::size_t g) {
+      const std::int32_t combination = view.combination[groups.representative[g]];
+      return ids == nullptr ? static_cast<std::uint32_t>(combination) : ids[combination];
+    };
     for (std::size_t g = 0; g < size; ++g) {
       for (std::size_t h = 0; h < size; ++h) {
         std::uint8_t& within = groups.within[g * size + h];
         if (within == 0) continue;
-        const std::int32_t own = view.combination[groups.representative[g]];
-        const std::int32_t other = view.combination[groups.representative[h]];
-        const std::uint32_t a = ids == nullptr ? static_cast<std::uint32_t>(own) : ids[own];
-        const std::uint32_t b = ids == nullptr ? static_cast<std::uint32_t>(other) : ids[other];
-        if (a == b) continue;
-        if (!is_slices || ids == nullptr) {
-          within = 0;
-          continue;
-        }
-        const auto& slices = engine_->slices()[view.table].slices;
-        const GridDimension& target = engine_->abstraction().grid[view.table % engine_->tables()];
-        within = slice_within(slices[a], slices[b], target) ? 1 : 0;
+        const std::uint32_t a = number(g);
+        const std::uint32_t b = number(h);
+        within = a == b || (slices != nullptr && slices->is_within(a, b, target)) ? 1 : 0;
       }
     }
   }
@@ -215,15 +168,15 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
   std::int64_t choices = 1;
   for (std::size_t i = grid.size() - 1; i-- > 0;) {
     const bool used = std::any_of(data.views.begin(), data.views.end(), [&](const View& view) {
-      return !view.is_summed && sources_[view.table].state_stride[i] != 0;
+      return !view.all_distinct && sources_[view.table].state_stride[i] != 0;
     });
     if (!used) continue;
     data.state_stride[i] = choices;
     choices *= grid[i].count;
   }
   const auto compared =
-      static_cast<std::int64_t>(std::min(static_cast<std::size_t>(data.actions), kMaxCompared));
-  if (choices > kMaxShared / (data.actions + compared * compared / 4)) return;
+      static_cast<std::int64_t>(std::min(static_cast<std::size_t>(data.inputs.actions()), kMaxCompared));
+  if (choices > kMaxShared / (data.inputs.actions() + compared * compared / 4)) return;
   std::vector<ActionGroups> found(static_cast<std::size_t>(choices));
   team.for_each(choices, 16, [&](ThreadTeam::Range range, int) {
     for (std::int64_t choice = range.begin; choice < range.end; ++choice) {

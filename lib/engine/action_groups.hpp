@@ -7,11 +7,9 @@
 #include "base/thread_team.hpp"
 #include "engine/action_sources.hpp"
 #include "engine/row_engine.hpp"
+#include "model/input_class.hpp"
 
 namespace coordreq {
-
-/// Inputs that are chosen together; its joint actions are numbered row-major, the last input fastest.
-using InputClass = std::vector<std::int32_t>;
 
 /// The actions of one class in one row, sorted into groups that cannot be told apart there: same post, tube
 /// and `allow` whatever the other classes do. Groups are numbered by their first actions.
@@ -53,12 +51,10 @@ struct RowGroups {
 class ActionGrouping {
  public:
   /// REQUIRES: the classes are a partition of all inputs; `engine` outlives this object.
-  ActionGrouping(const RowEngine& engine, std::vector<InputClass> classes, ThreadTeam& team);
+  ActionGrouping(const RowEngine& engine, const std::vector<InputClass>& classes, ThreadTeam& team);
 
   [[nodiscard]] std::size_t size() const { return classes_.size(); }
-  [[nodiscard]] const InputClass& inputs(std::size_t c) const { return classes_[c].inputs; }
-  /// Number of joint actions of class c.
-  [[nodiscard]] std::int64_t actions(std::size_t c) const { return classes_[c].actions; }
+  [[nodiscard]] const InputClass& operator[](std::size_t c) const { return classes_[c].inputs; }
 
   void group(const RowPlace& place, RowGroups& groups) const;
 
@@ -76,7 +72,7 @@ class ActionGrouping {
   struct View {
     std::size_t table = 0;
     /// Every combination is told apart, in every row.
-    bool is_summed = false;
+    bool all_distinct = false;
     /// Numbers of equal columns, [row choice * width + combination]; empty: the table uses no other class's
     /// inputs and its ids serve directly.
     std::vector<std::uint32_t> partial;
@@ -85,7 +81,6 @@ class ActionGrouping {
   };
   struct ClassData {
     InputClass inputs;
-    std::int64_t actions = 1;
     std::vector<View> views;
     std::vector<std::vector<std::int64_t>>
         contribution;  ///< [table][action]: offset of the action in the table
@@ -95,7 +90,7 @@ class ActionGrouping {
     std::vector<ActionGroups> distinct;
   };
 
-  [[nodiscard]] ClassData make_class(InputClass inputs) const;
+  [[nodiscard]] ClassData make_class(const InputClass& inputs) const;
   [[nodiscard]] View make_view(std::size_t table, const ClassData& data) const;
   void share_groups(ClassData& data, ThreadTeam& team) const;
   [[nodiscard]] ActionGroups find_groups(const ClassData& data, const RowPlace& place) const;

@@ -6,8 +6,8 @@ std::vector<ActionSource> action_sources(const RowEngine& engine) {
   std::vector<ActionSource> sources;
   for (const RowSlices& slices : engine.slices()) {
     ActionSource& source = sources.emplace_back();
-    source.ids_of = &slices.ids;
-    source.is_summed = slices.sums.has_value();
+    source.slices = &slices;
+    source.ids = slices.all_distinct() ? nullptr : &slices.ids;
     source.state_stride = slices.state_stride;
     source.input_stride = slices.input_stride;
     source.inputs = slices.inputs;
@@ -16,7 +16,7 @@ std::vector<ActionSource> action_sources(const RowEngine& engine) {
   const PairTable* allow = engine.allow();
   if (allow == nullptr) return sources;
   ActionSource& source = sources.emplace_back();
-  source.ids_of = &allow->ids();
+  source.ids = &allow->ids();
   source.state_stride = allow->state_stride();
   source.input_stride = allow->input_stride();
   source.inputs = allow->inputs();

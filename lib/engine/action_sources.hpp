@@ -10,17 +10,17 @@ namespace coordreq {
 /// What tells actions apart in a row, seen alike: a table of slices, or the rows of `allow`.
 /// Entry = sum of state index * state_stride + input index * input_stride; equal numbers mean equal contents.
 struct ActionSource {
-  const std::vector<std::uint32_t>* ids_of = nullptr;  ///< the engine's
-  bool is_summed = false;                              ///< every entry is its own number, there are no ids
+  const RowSlices* slices = nullptr;                ///< null: `ids` are those of `allow`
+  const std::vector<std::uint32_t>* ids = nullptr;  ///< [entry]; null: every entry is its own number
   std::vector<std::int64_t> state_stride;
   std::vector<std::int64_t> input_stride;
   std::vector<std::int32_t> inputs;  ///< in use, ascending
   std::int64_t input_combinations = 1;
 
-  /// REQUIRES: not is_summed.
-  [[nodiscard]] const std::vector<std::uint32_t>& ids() const { return *ids_of; }
+  /// Entries differ from one another in all rows.
+  [[nodiscard]] bool all_distinct() const { return ids == nullptr; }
   [[nodiscard]] std::uint32_t id(std::int64_t entry) const {
-    return is_summed ? static_cast<std::uint32_t>(entry) : ids()[static_cast<std::size_t>(entry)];
+    return all_distinct() ? static_cast<std::uint32_t>(entry) : (*ids)[static_cast<std::size_t>(entry)];
   }
   /// Where the entries of a row of the grid begin.
   [[nodiscard]] std::int64_t base(const RowPlace& place) const { return place.offset(state_stride); }

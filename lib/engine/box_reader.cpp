@@ -61,7 +61,7 @@ const Level* BoxReader<Level>::minimum(std::span<const std::uint32_t> ids) {
 }
 
 template <class Level>
-const Level* BoxReader<Level>::minimum(const RowHull::Box& box, std::int64_t begin, std::int64_t end) {
+const Level* BoxReader<Level>::minimum(const RowBox& box, std::int64_t begin, std::int64_t end) {
   ranges_ = box.ranges;
   windows_ = box.windows;
   read_windows(false, begin, end, result_.data());
@@ -215,12 +215,13 @@ void BoxReader<Level>::collect_rows(bool gone) {
     return;
   }
   if (outer_ == 0) {
-    for_each_row(engine_, 0, ranges_, counter_, [&](std::int64_t row) { rows_.push_back(levels_.row(row)); });
+    for_each_row(engine_.grid(), 0, ranges_, counter_,
+                 [&](std::int64_t row) { rows_.push_back(levels_.row(row)); });
     return;
   }
   Shared& taken = shared();
   const std::span<const IndexRange> inner(ranges_.data() + outer_, ranges_.size() - outer_);
-  for_each_row(engine_, outer_, inner, counter_,
+  for_each_row(engine_.grid(), outer_, inner, counter_,
                [&](std::int64_t row) { rows_.push_back(shared_row(taken, row)); });
 }
 
@@ -254,7 +255,7 @@ const Level* BoxReader<Level>::shared_row(Shared& shared, std::int64_t inner) {
   const Level*& known = shared.rows[static_cast<std::size_t>(inner)];
   if (known != nullptr) return known;
   sources_.clear();
-  for_each_row(engine_, 0, shared.ranges, shared_counter_,
+  for_each_row(engine_.grid(), 0, shared.ranges, shared_counter_,
                [&](std::int64_t first) { sources_.push_back(levels_.row(first + inner)); });
   if (sources_.size() == 1) return known = sources_[0];
   // Whole blocks are written, so a row has its last block to itself; and read from any lane on, so that

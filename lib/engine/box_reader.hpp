@@ -5,17 +5,15 @@
 #include <vector>
 
 #include "engine/level_rows.hpp"
+#include "engine/row_box.hpp"
 #include "engine/row_engine.hpp"
-#include "engine/row_hull.hpp"
+#include "engine/row_reader.hpp"
 
 namespace coordreq {
 
-/// Least levels over boxes of cells, for a whole row at once: for each cell of the row the minimum over the
-/// box that slices say. 0 where they are blocked, the greatest level where all has left for good.
-///
-/// One object a thread. The levels may change between one enter() and the next, not in between.
+/// Reads rows that are cut into segments: the minimum over a box of rows, and over windows along them.
 template <class Level>
-class BoxReader {
+class BoxReader final : public RowReader<Level> {
  public:
   static constexpr Level kTop = LevelRows<Level>::kTop;
 
@@ -24,14 +22,10 @@ class BoxReader {
   BoxReader(const RowEngine& engine, const RowFamily& family, std::size_t outer,
             const LevelRows<Level>& levels);
 
-  /// Begins with the rows of another unit: forgets the minima that rows of a unit share.
-  void enter();
-
-  /// Least levels of the boxes given by the numbers of their slices, one a table. The row may be read up to
-  /// the next call; whole blocks, as LevelKernels ask.
-  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids);
+  void enter() override;
+  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) override;
   /// Least levels of the box around all posts of a row, for its lanes [begin, end). REQUIRES box.covers.
-  [[nodiscard]] const Level* minimum(const RowHull::Box& box, std::int64_t begin, std::int64_t end);
+  [[nodiscard]] const Level* minimum(const RowBox& box, std::int64_t begin, std::int64_t end);
 
   [[nodiscard]] const LevelKernels<Level>& kernels() const { return *kernels_; }
   /// A row of this many levels holds the lanes of a row and the rest of its last block.

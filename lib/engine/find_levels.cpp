@@ -4,8 +4,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "engine/set_levels.hpp"
-
 namespace coordreq {
 namespace {
 
@@ -73,7 +71,7 @@ class LevelFinder {
       : engine_(engine), hull_(hull), problem_(problem), watch_(watch), team_(team), counts_(counts) {}
 
   LevelMap from_start() {
-    auto levels = top_levels<std::uint8_t>(engine_, *problem_.start, team_);
+    auto levels = engine_.make_levels<std::uint8_t>(*problem_.start, team_);
     for (const LevelMap* bound : problem_.bounds) lower_to(*bound, levels, team_);
     const std::vector<std::uint8_t> nothing;
     return from(std::move(levels), problem_.settled == nullptr ? nothing : *problem_.settled);

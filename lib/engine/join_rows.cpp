@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "engine/level_rows.hpp"
-#include "engine/row_window.hpp"
+#include "engine/row_shape.hpp"
 
 namespace coordreq {
 namespace {

@@ -6,68 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "engine/cell_set.hpp"
 #include "engine/level_kernels.hpp"
-#include "engine/row_operations.hpp"
-#include "model/outside.hpp"
+#include "engine/row_shape.hpp"
 
 namespace coordreq {
-
-/// How many cells of the lattice beyond each end of a row can be asked for.
-struct RowMargins {
-  std::int64_t before = 0;
-  std::int64_t after = 0;
-};
-
-/// One of the dimensions that rows run along.
-struct RowDimension {
-  std::int64_t count = 0;   ///< indices
-  std::int64_t stride = 1;  ///< lanes from one index to the next
-  RowMargins margins;       ///< in indices; together at most the gap that the dimension has in the rows
-  RowEnds ends;
-};
-
-/// How a row is laid out: cells and gaps in *lanes*, from the slowest dimension to the fastest, whose stride
-/// is 1.
-struct RowShape {
-  std::vector<RowDimension> dimensions;
-
-  /// Lanes of a row, those of the gaps included.
-  [[nodiscard]] std::int64_t length() const { return dimensions.front().count * dimensions.front().stride; }
-  /// Lanes before and after a row that posts of its cells can meet.
-  [[nodiscard]] RowMargins margins() const {
-    RowMargins lanes;
-    for (const RowDimension& dimension : dimensions) {
-      lanes.before += dimension.margins.before * dimension.stride;
-      lanes.after += dimension.margins.after * dimension.stride;
-    }
-    return lanes;
-  }
-  /// Calls `visit(lane, count)` for every run of cells along the fastest dimension.
-  template <class Visit>
-  void for_each_run(const Visit& visit, std::size_t k = 0, std::int64_t lane = 0) const {
-    const RowDimension& dimension = dimensions[k];
-    if (k + 1 == dimensions.size()) return visit(lane, dimension.count);
-    for (std::int64_t i = 0; i < dimension.count; ++i)
-      for_each_run(visit, k + 1, lane + i * dimension.stride);
-  }
-};
-
-/// Sets the bits of the cells of a row from which `window`, offsets in dimension k of the row, reaches beyond
-/// an unsafe end. Bits of gaps may be set too.
-inline void mark_leaving(const RowShape& shape, std::size_t k, IndexRange window, MutableRow bits) {
-  const RowDimension& dimension = shape.dimensions[k];
-  const std::int64_t n = dimension.count;
-  const auto mark = [&](std::int64_t first, std::int64_t last) {
-    if (first >= last) return;
-    // Blocks of n indices follow one another at the distance that the next slower dimension has.
-    const std::int64_t block = k == 0 ? shape.length() : shape.dimensions[k - 1].stride;
-    for (std::int64_t lane = 0; lane < shape.length(); lane += block)
-      set_bits(bits, lane + first * dimension.stride, lane + last * dimension.stride);
-  };
-  if (dimension.ends.below == Outside::unsafe)
-    mark(0, std::clamp<std::int64_t>(-std::int64_t{window.first}, 0, n));
-  if (dimension.ends.above == Outside::unsafe) mark(n - std::clamp<std::int64_t>(window.last, 0, n), n);
-}
 
 /// One level a cell, in rows, each continued beyond its ends, and those of the runs in it, by what a post
 /// meets there.
@@ -109,6 +52,18 @@ class LevelRows {
     return levels_.data() + r * stride_ + margins_.before;
   }
 
+  /// Makes the cells of a set in the rows [begin, end) the greatest level, others 0, margins included.
+  void assign(const CellSet& set, std::int64_t begin, std::int64_t end) {
+    const LevelKernels<Level>& kernels = level_kernels<Level>(best_instruction_set());
+    // By way of a buffer: the kernel writes whole blocks, beyond the row.
+    std::vector<Level> lanes(static_cast<std::size_t>(length_) + kLevelBlock / sizeof(Level));
+    for (std::int64_t r = begin; r < end; ++r) {
+      kernels.spread(set.row(r).data(), lanes.data(), static_cast<std::size_t>(length_));
+      std::copy_n(lanes.begin(), length_, row(r));
+      close(r);
+    }
+  }
+
   /// Brings the margins and gaps of a row up to date with its cells.
   void close(std::int64_t r) { close_row(row(r)); }
   /// The same for a row of this layout that stands elsewhere.
@@ -146,22 +101,22 @@ class LevelRows {
       after += (other.count - 1 + other.margins.after) * other.stride;
     }
     Level* const part = cells + index * dimension.stride;
-    const Outside rule = index < 0 ? dimension.ends.below : dimension.ends.above;
-    if (rule == Outside::unsafe || rule == Outside::safe) {
-      std::fill(part - before, part + after, rule == Outside::safe ? kTop : Level{0});
+    const OutsideTraits& rule = traits(index < 0 ? dimension.ends.below : dimension.ends.above);
+    if (rule.is_open()) {
+      std::fill(part - before, part + after, rule.arrives ? kTop : Level{0});
       // What leaves safely here may leave through an unsafe side there.
-      if (rule == Outside::safe) close_part(part, k + 1);
+      if (rule.arrives) close_part(part, k + 1);
       return;
     }
     const std::int64_t n = dimension.count;
-    const std::int64_t source = rule == Outside::periodic ? (index % n + n) % n : (index < 0 ? 0 : n - 1);
+    const std::int64_t source = rule.wraps ? (index % n + n) % n : (index < 0 ? 0 : n - 1);
     const Level* const other = cells + source * dimension.stride;
     std::copy(other - before, other + after, part - before);
   }
 
   static void close_run(Level* cells, const RowDimension& run) {
     const std::int64_t n = run.count;
-    if (run.ends.below == Outside::periodic) {
+    if (traits(run.ends.below).wraps) {
       for (std::int64_t k = 1; k <= run.margins.before; ++k) cells[-k] = cells[(n - k % n) % n];
       for (std::int64_t k = 0; k < run.margins.after; ++k) cells[n + k] = cells[k % n];
       return;
@@ -171,8 +126,8 @@ class LevelRows {
   }
 
   [[nodiscard]] static Level beyond(Outside rule, Level boundary) {
-    if (rule == Outside::unsafe) return 0;
-    return rule == Outside::safe ? kTop : boundary;
+    if (traits(rule).blocks) return 0;
+    return traits(rule).arrives ? kTop : boundary;
   }
 
   std::int64_t rows_ = 0;

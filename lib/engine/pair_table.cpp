@@ -50,7 +50,7 @@ PairTable::PairTable(const ConditionTable& allow)
       state_stride_(allow.state_stride()),
       input_stride_(allow.input_stride()),
       rows_(words_for(*grid_)) {
-  for (std::int64_t r = 0; r < allow.bits().rows(); ++r) ids_.push_back(rows_.number(allow.bits().row(r)));
+  for (std::int64_t r = 0; r < allow.table().rows(); ++r) ids_.push_back(rows_.number(allow.table().row(r)));
 }
 
 PairTable::PairTable(const UniformGrid& grid, const InputSpace& inputs, const PackedPairs& listed,

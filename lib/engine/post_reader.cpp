@@ -4,14 +4,14 @@ namespace coordreq {
 
 template <class Level>
 PostReader<Level>::PostReader(const RowEngine& engine, const LevelRows<Level>& levels)
-    : engine_(engine), posts_(engine, engine.posts(), engine.outer(), levels) {
-  if (engine.is_summed()) sums_.emplace(engine, levels);
+    : engine_(engine), boxes_(engine, engine.posts(), engine.outer(), levels), posts_(&boxes_) {
+  if (!engine.posts().is_cut()) posts_ = &sums_.emplace(engine, levels);
   for (const RowEngine::Demand& demand : engine.demands())
     tubes_.emplace_back(engine, demand.family, 0, *demand.inside);
   if (tubes_.empty()) return;
   one_.resize(engine.row_words());
-  lanes_.resize(posts_.lanes());
-  result_.resize(posts_.lanes());
+  lanes_.resize(boxes_.lanes());
+  result_.resize(boxes_.lanes());
 }
 
 template <class Level>
@@ -26,7 +26,7 @@ const Level* PostReader<Level>::with_tubes(std::span<const std::uint32_t> ids, c
     first += engine_.tables();
   }
   kernels().spread(safe_.data(), lanes_.data(), n);
-  result_.assign(posts_.lanes(), 0);
+  result_.assign(boxes_.lanes(), 0);
   kernels().raise_where(levels, lanes_.data(), result_.data(), n);
   return result_.data();
 }

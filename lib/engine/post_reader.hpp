@@ -22,9 +22,12 @@ class PostReader {
   /// REQUIRES: `engine` and `levels` (from engine.make_levels(engine.posts())) outlive this object.
   PostReader(const RowEngine& engine, const LevelRows<Level>& levels);
 
+  PostReader(const PostReader&) = delete;
+  PostReader& operator=(const PostReader&) = delete;
+
   /// Begins with the rows of another unit.
   void enter() {
-    posts_.enter();
+    boxes_.enter();
     if (sums_) sums_->enter();
   }
 
@@ -32,28 +35,29 @@ class PostReader {
   /// whole blocks, as LevelKernels ask.
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) {
     const auto own = ids.first(engine_.tables());
-    const Level* levels = sums_ ? sums_->minimum(own) : posts_.minimum(own);
+    const Level* levels = posts_->minimum(own);
     return tubes_.empty() ? levels : with_tubes(ids, levels);
   }
   /// Least levels of the box around all posts of a row. REQUIRES box.covers.
-  [[nodiscard]] const Level* minimum(const RowHull::Box& box) {
-    return posts_.minimum(box, 0, engine_.row_length());
+  [[nodiscard]] const Level* minimum(const RowBox& box) {
+    return boxes_.minimum(box, 0, engine_.row_length());
   }
   /// The same for the lanes [begin, end) of the row alone.
-  [[nodiscard]] const Level* minimum(const RowHull::Box& box, std::int64_t begin, std::int64_t end) {
-    return posts_.minimum(box, begin, end);
+  [[nodiscard]] const Level* minimum(const RowBox& box, std::int64_t begin, std::int64_t end) {
+    return boxes_.minimum(box, begin, end);
   }
 
-  [[nodiscard]] const LevelKernels<Level>& kernels() const { return posts_.kernels(); }
+  [[nodiscard]] const LevelKernels<Level>& kernels() const { return boxes_.kernels(); }
   /// A row of this many levels holds the lanes of a row and the rest of its last block.
-  [[nodiscard]] std::size_t lanes() const { return posts_.lanes(); }
+  [[nodiscard]] std::size_t lanes() const { return boxes_.lanes(); }
 
  private:
   [[nodiscard]] const Level* with_tubes(std::span<const std::uint32_t> ids, const Level* levels);
 
   const RowEngine& engine_;
-  BoxReader<Level> posts_;
-  std::optional<SumReader<Level>> sums_;  ///< reads the posts if the engine is summed
+  BoxReader<Level> boxes_;  ///< around all posts of a row, at least
+  std::optional<SumReader<Level>> sums_;
+  RowReader<Level>* posts_;  ///< one of these two
   std::vector<BoxReader<std::uint8_t>> tubes_;
   std::vector<Word> safe_;
   std::vector<Word> one_;

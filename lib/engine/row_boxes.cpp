@@ -12,9 +12,8 @@ RowBoxes::RowBoxes(const ActionGrouping& grouping)
     std::size_t owners = 0;
     for (std::size_t c = 0; c < grouping.size(); ++c) {
       const std::vector<std::int32_t>& used = grouping.sources()[t].inputs;
-      const bool is_owner = std::any_of(used.begin(), used.end(), [&](std::int32_t i) {
-        return std::binary_search(grouping.inputs(c).begin(), grouping.inputs(c).end(), i);
-      });
+      const bool is_owner =
+          std::any_of(used.begin(), used.end(), [&](std::int32_t i) { return grouping[c].contains(i); });
       if (!is_owner) continue;
       owner = c;
       ++owners;
@@ -22,7 +21,7 @@ RowBoxes::RowBoxes(const ActionGrouping& grouping)
     is_product_ = is_product_ && owners <= 1;
     moved_[owner].push_back(t);
   }
-  is_product_ = is_product_ && engine.demands().empty() && !engine.is_summed();
+  is_product_ = is_product_ && engine.demands().empty() && engine.posts().is_cut();
   base_.resize(engine.tables());
 }
 
@@ -57,14 +56,14 @@ bool RowBoxes::add(std::size_t c, std::uint32_t action) {
   return true;
 }
 
-void RowBoxes::put(std::size_t c, std::span<const IndexRange> ranges, RowHull::Box& box) const {
+void RowBoxes::put(std::size_t c, std::span<const IndexRange> ranges, RowBox& box) const {
   for (std::size_t k = 0; k < moved_[c].size(); ++k) {
     const std::size_t t = moved_[c][k];
     box[t] = ranges[k];
   }
 }
 
-void RowBoxes::put(std::size_t c, std::span<const Word> ranges, RowHull::Box& box) const {
+void RowBoxes::put(std::size_t c, std::span<const Word> ranges, RowBox& box) const {
   for (std::size_t k = 0; k < moved_[c].size(); ++k) {
     const std::size_t t = moved_[c][k];
     box[t] = unpack_range(ranges[k]);

@@ -49,8 +49,8 @@ class RowBoxes {
   [[nodiscard]] bool has_gone() const { return has_gone_; }
 
   /// Writes the part of class c into a box of all dimensions; `ranges` packed by pack_range().
-  void put(std::size_t c, std::span<const Word> ranges, RowHull::Box& box) const;
-  void put(std::size_t c, std::span<const IndexRange> ranges, RowHull::Box& box) const;
+  void put(std::size_t c, std::span<const Word> ranges, RowBox& box) const;
+  void put(std::size_t c, std::span<const IndexRange> ranges, RowBox& box) const;
 
  private:
   bool add(std::size_t c, std::uint32_t action);

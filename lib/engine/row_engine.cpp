@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/row_window.hpp"
-#include "engine/set_levels.hpp"
-
 namespace coordreq {
 namespace {
 
@@ -50,9 +47,6 @@ TableProfile profile(const RowSlices& slices) {
 RowEngine::RowEngine(const Abstraction& abstraction, const PairTable* allow, const TubeSets& tubes)
     : abstraction_(&abstraction), allow_(allow) {
   std::vector<GridDimension> dimensions = abstraction.grid.dimensions();
-  for (std::size_t i = 0; i < dimensions.size(); ++i) {
-    row_stride_.push_back(abstraction.grid.stride(i) / abstraction.grid.row_length());
-  }
   add_family(abstraction.tables, dimensions);
   choose_outer();
   if (tubes.inside == nullptr) return;
@@ -60,8 +54,8 @@ RowEngine::RowEngine(const Abstraction& abstraction, const PairTable* allow, con
   if (tubes.beyond == nullptr) return;
   // The same tubes again, now blocked where they pass a limit: what is left need not be safe beyond it.
   for (GridDimension& dimension : dimensions) {
-    if (dimension.below == Outside::saturate) dimension.below = Outside::unsafe;
-    if (dimension.above == Outside::saturate) dimension.above = Outside::unsafe;
+    if (traits(dimension.below).resets) dimension.below = Outside::unsafe;
+    if (traits(dimension.above).resets) dimension.above = Outside::unsafe;
   }
   add_demand(*tubes.inside, dimensions);
 }
@@ -69,7 +63,7 @@ RowEngine::RowEngine(const Abstraction& abstraction, const PairTable* allow, con
 void RowEngine::add_demand(const CellSet& inside, const std::vector<GridDimension>& targets) {
   add_family(abstraction_->tubes, targets);
   inside_.push_back(make_levels<std::uint8_t>(family(inside_.size() + 1)));
-  set_levels(inside, 0, rows(), inside_.back());
+  inside_.back().assign(inside, 0, rows());
 }
 
 /// The inner dimensions' tables as sums, if all of them are, and if what is left out moves all cells of a
@@ -157,9 +151,9 @@ bool RowEngine::is_closed(std::size_t outer) const {
 
 /// Least rows read for one row: the rows for the shared minima, then those of them.
 void RowEngine::choose_outer() {
-  if (is_summed()) {
-    while (!slices_[outer_].sums) ++outer_;
-    unit_rows_ = row_stride_[outer_ - 1];
+  if (!posts().is_cut()) {
+    while (slices_[outer_].is_cut()) ++outer_;
+    unit_rows_ = grid().row_stride(outer_ - 1);
     return;
   }
   const std::size_t last = across();
@@ -184,7 +178,7 @@ void RowEngine::choose_outer() {
   for (std::size_t outer = 1; outer <= last; ++outer) {
     if (is_closed(outer) && cost(outer) < cost(outer_)) outer_ = outer;
   }
-  unit_rows_ = outer_ == 0 ? rows() : row_stride_[outer_ - 1];
+  unit_rows_ = outer_ == 0 ? rows() : grid().row_stride(outer_ - 1);
 }
 
 }  // namespace coordreq

@@ -4,9 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "base/thread_team.hpp"
 #include "engine/level_rows.hpp"
 #include "engine/pair_table.hpp"
-#include "engine/row_place.hpp"
+#include "engine/row_box.hpp"
 #include "engine/row_slices.hpp"
 #include "engine/tube_sets.hpp"
 #include "reach/abstraction.hpp"
@@ -19,6 +20,10 @@ struct RowFamily {
   /// way.
   std::span<const RowSlices> slices;
   RowShape shape;  ///< margins as far as offsets go
+
+  /// All slices are cut into segments. Else those of the dimensions from outer() on are added up, and those
+  /// before it move all cells of a unit alike.
+  [[nodiscard]] bool is_cut() const { return slices.back().is_cut(); }
 };
 
 /// The abstraction laid out for whole rows of cells, and how work on it is cut up.
@@ -54,12 +59,10 @@ class RowEngine {
     return static_cast<std::size_t>((row_length() + CellSet::kWordBits - 1) / CellSet::kWordBits);
   }
   /// Number of tables of slices of posts: one a state.
-  [[nodiscard]] std::size_t tables() const { return row_stride_.size(); }
+  [[nodiscard]] std::size_t tables() const { return grid().size(); }
   /// Number of dimensions across rows, and along them.
   [[nodiscard]] std::size_t across() const { return grid().across(); }
   [[nodiscard]] std::size_t along() const { return tables() - across(); }
-  /// Rows from one index of a dimension across rows to the next.
-  [[nodiscard]] std::int64_t row_stride(std::size_t dimension) const { return row_stride_[dimension]; }
 
   /// True if the first dimensions move by themselves: none of their tables depends on the state of one that
   /// follows.
@@ -69,14 +72,18 @@ class RowEngine {
   /// Rows of a unit, which have neighbouring numbers. All rows if outer() is 0.
   [[nodiscard]] std::int64_t unit_rows() const { return unit_rows_; }
 
-  /// The dimensions from outer() on are sums (RowSlices::sums), those before it move all cells of a unit
-  /// alike: posts are read by a SumReader.
-  [[nodiscard]] bool is_summed() const { return posts().slices.back().sums.has_value(); }
-
   /// Levels of all rows, 0, with the margins that a family asks for.
   template <class Level>
   [[nodiscard]] LevelRows<Level> make_levels(const RowFamily& family) const {
     return {rows(), family.shape};
+  }
+  /// The greatest level for the cells of a set, 0 for all others, laid out for the posts.
+  template <class Level>
+  [[nodiscard]] LevelRows<Level> make_levels(const CellSet& set, ThreadTeam& team) const {
+    auto levels = make_levels<Level>(posts());
+    team.for_each(levels.rows(), 256,
+                  [&](ThreadTeam::Range range, int) { levels.assign(set, range.begin, range.end); });
+    return levels;
   }
 
  private:
@@ -92,7 +99,6 @@ class RowEngine {
   std::vector<RowSlices> slices_;
   std::vector<LevelRows<std::uint8_t>> inside_;  ///< one for each family of tubes
   std::vector<RowShape> shapes_;                 ///< one a family: posts; tubes; tubes that pass no limit
-  std::vector<std::int64_t> row_stride_;
   std::size_t outer_ = 0;
   std::int64_t unit_rows_ = 1;
 };

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
 #include <vector>
 
+#include "engine/row_box.hpp"
 #include "engine/row_engine.hpp"
 
 namespace coordreq {
@@ -18,43 +17,14 @@ class RowHull {
   explicit RowHull(const RowEngine& engine);
 
   /// What the posts of one row have in common.
-  struct Box {
-    /// In the dimensions across rows, as in ResolvedRange; first > last: no post has a cell there.
-    std::vector<IndexRange> ranges;
-    /// Offsets in the dimensions along the row.
-    std::vector<IndexRange> windows;
-    /// Every post is one box of cells inside the domain or its margins, and all are inside this one: what
-    /// holds on the box holds on all posts. Else the box only names the rows that can matter.
-    bool covers = true;
+  void box(const RowPlace& place, RowBox& box) const;
 
-    void resize(const RowEngine& engine) {
-      ranges.resize(engine.across());
-      windows.resize(engine.along());
-    }
-    /// The range or window of a dimension.
-    [[nodiscard]] IndexRange& operator[](std::size_t dimension) {
-      return dimension < ranges.size() ? ranges[dimension] : windows[dimension - ranges.size()];
-    }
-  };
-  void box(const RowPlace& place, Box& box) const;
+  [[nodiscard]] std::uint64_t bytes() const;
 
  private:
-  struct Entry {
-    IndexRange range;
-    bool covers = true;
-  };
-  /// What some of the posts have in common in the dimension of one table: those at base + offset, for all
-  /// offsets.
-  /// @param reader of the table if it is summed, else null
-  [[nodiscard]] Entry entry(std::size_t table, std::int64_t base, std::span<const std::int64_t> offsets,
-                            SumRows::Reader* reader) const;
-  [[nodiscard]] Entry entry_of_slices(std::size_t table, std::int64_t base,
-                                      std::span<const std::int64_t> offsets) const;
-  [[nodiscard]] Entry entry_of_sums(std::size_t table, std::int64_t base,
-                                    std::span<const std::int64_t> offsets, SumRows::Reader& reader) const;
-
   const RowEngine* engine_;
-  std::vector<std::vector<Entry>> entries_;  ///< [table][row choice]
+  bool is_bound_ = true;                       ///< no tube can block a post, whatever its box is inside of
+  std::vector<std::vector<SliceHull>> hulls_;  ///< [dimension][choice of the states that its table uses]
 };
 
 }  // namespace coordreq

@@ -22,14 +22,6 @@ void add_bits(ConstRow source, std::int64_t offset, MutableRow target);
 /// True if every bit of `a` is set in `b`. REQUIRES: equally many words.
 [[nodiscard]] bool is_subset(ConstRow a, ConstRow b);
 
-/// How a row goes on beyond its ends: what a post that leaves there meets.
-struct RowEnds {
-  /// unsafe: nothing of any set; safe: a member of every set; saturate and stop: the first cell goes on;
-  /// periodic (both ends): the row itself.
-  Outside below = Outside::unsafe;
-  Outside above = Outside::unsafe;  ///< likewise, with the last cell
-};
-
 /// Calls `visit(position)` for every set bit.
 template <class Visit>
 void for_each_bit(ConstRow row, const Visit& visit) {

@@ -3,7 +3,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "reach/counter.hpp"
+#include "model/odometer.hpp"
 #include "reach/table_rows.hpp"
 
 namespace coordreq {
@@ -35,8 +35,8 @@ class RowCutter {
       const bool whole_ring = first.range == IndexRange{0, length_ - 1};
       return whole_ring ? first : RowSegment{0, length_, Kind::shifted, first.range};
     }
-    const bool all_blocked = (offset.first <= -length_ && target_.below == Outside::unsafe) ||
-                             (offset.last >= length_ && target_.above == Outside::unsafe);
+    const bool all_blocked = (offset.first <= -length_ && traits(target_.below).blocks) ||
+                             (offset.last >= length_ && traits(target_.above).blocks);
     if (all_blocked) return {0, length_, Kind::blocked, {}};
     const bool all_leave = offset.first >= length_ || offset.last <= -length_;
     return length_ == 1 || all_leave ? first : RowSegment{0, length_, Kind::shifted, offset};
@@ -103,8 +103,8 @@ class RowChoices {
 
   [[nodiscard]] std::int64_t size() const { return counter_.size(); }
 
-  bool next() {
-    const bool more = counter_.next();
+  bool advance() {
+    const bool more = counter_.advance();
     std::size_t v = 0;
     for (const std::int32_t i : table_.states) {
       if (static_cast<std::size_t>(i) < across_)
@@ -135,7 +135,7 @@ class RowChoices {
 
   const TransitionTable& table_;
   std::size_t across_;
-  Counter counter_;
+  Odometer counter_;
   std::vector<std::int64_t> states_;
   std::vector<std::int64_t> inputs_;
 };
@@ -232,7 +232,7 @@ RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& t
         numbers.number(rows.is_shift() ? std::vector{cutter.cut_shift(row[0])} : cutter.cut(row)));
     before.swap(row);
     row.resize(before.size());
-  } while (choice.next());
+  } while (choice.advance());
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/row_shape.hpp"
 #include "engine/sum_rows.hpp"
 #include "reach/abstraction.hpp"
 
@@ -51,7 +52,30 @@ struct RowSlices {
   [[nodiscard]] std::int64_t size() const {
     return sums ? sums->size() : static_cast<std::int64_t>(ids.size());
   }
+  /// The slice at a position; equal numbers mean equal slices.
+  [[nodiscard]] std::uint32_t number(std::int64_t position) const {
+    return sums ? static_cast<std::uint32_t>(position) : ids[static_cast<std::size_t>(position)];
+  }
+  /// No two positions have a slice in common.
+  [[nodiscard]] bool all_distinct() const { return sums.has_value(); }
+  /// Slices are lists of segments.
+  [[nodiscard]] bool is_cut() const { return !sums.has_value(); }
+  /// True if for every cell of the row slice `a` asks no more of the target than slice `b`. May be false
+  /// where that is not easily seen.
+  [[nodiscard]] bool is_within(std::uint32_t a, std::uint32_t b, const GridDimension& target) const;
+  /// Bytes of all lists.
+  [[nodiscard]] std::uint64_t bytes() const;
 };
+
+/// What the slices at some positions of a table have in common in its dimension.
+struct SliceHull {
+  IndexRange range{0, -1};  ///< resolved, or a window along the row; {0, -1}: they meet no cell
+  bool covers = false;      ///< every slice is one segment inside `range`
+};
+/// For each base, a multiple of input_combinations: the hull of the slices from there to the next one.
+/// @param along the dimension along rows that the table is of; null: it is across them
+[[nodiscard]] std::vector<SliceHull> slice_hulls(const RowSlices& slices, const GridDimension& target,
+                                                 const RowDimension* along);
 
 /// @param table the one of `state` in abstraction.tables or abstraction.tubes
 /// @param target the dimension of `state`, maybe with other rules for leaving the domain

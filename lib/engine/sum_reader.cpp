@@ -85,11 +85,11 @@ void SumReader<Level>::find_margins() {
       const std::int32_t inside = std::clamp(index[i], 0, sides_[i].count - 1);
       nearest += inside * sides_[i].stride;
       if (inside == index[i]) continue;
-      const Outside rule = index[i] < 0 ? dimension.below : dimension.above;
+      const OutsideTraits& rule = traits(index[i] < 0 ? dimension.below : dimension.above);
       outside = true;
       row_start = false;
-      unsafe = unsafe || rule == Outside::unsafe;
-      safe = safe || rule == Outside::safe;
+      unsafe = unsafe || rule.blocks;
+      safe = safe || rule.arrives;
     }
     if (row_start) places_of_rows_.push_back(cell);
     // What leaves through an unsafe side is blocked, wherever else it leaves; else it may have left for good.
@@ -180,7 +180,7 @@ void SumReader<Level>::fill_block(Slot& slot, bool gone) {
       continue;
     }
     sources_.clear();
-    for_each_row(engine_, 0, slot.ranges, counter_, [&](std::int64_t first) {
+    for_each_row(engine_.grid(), 0, slot.ranges, counter_, [&](std::int64_t first) {
       sources_.push_back(levels_.row(first + static_cast<std::int64_t>(inner)));
     });
     kernels_->minimum(sources_.data(), sources_.size(), target, n);

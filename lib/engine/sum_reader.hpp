@@ -6,33 +6,30 @@
 
 #include "engine/level_rows.hpp"
 #include "engine/row_engine.hpp"
+#include "engine/row_reader.hpp"
 #include "engine/sum_kernels.hpp"
 
 namespace coordreq {
 
-/// What BoxReader does, where the last states are coupled: each cell of a row goes to a box of its own, given
-/// by sums (SumRows). Then nothing is one window for a whole row, and levels are fetched cell by cell.
+/// Reads rows that are added up, where the last states are coupled: each cell of a row goes to a box of its
+/// own, given by sums (SumRows). Then nothing is one window for a whole row, and levels are fetched cell by
+/// cell.
 ///
 /// For each choice of boxes in the leading dimensions, in which all cells of a unit move alike, the unit's
 /// levels are one *block* of the inner dimensions, continued beyond the domain by what a post meets there.
 /// Boxes in it are of few sizes; the block is eroded by each size once, and then one fetch a cell gives the
 /// minimum of its box.
-///
-/// One object a thread. The levels may change between one enter() and the next, not in between.
 template <class Level>
-class SumReader {
+class SumReader final : public RowReader<Level> {
  public:
   static constexpr Level kTop = LevelRows<Level>::kTop;
 
-  /// REQUIRES: engine.is_summed(); `engine` and `levels` (from engine.make_levels(engine.posts())) outlive
-  /// this object.
+  /// REQUIRES: the posts of the engine are not cut; `engine` and `levels` (from
+  /// engine.make_levels(engine.posts())) outlive this object.
   SumReader(const RowEngine& engine, const LevelRows<Level>& levels);
 
-  /// Begins with the rows of another unit.
-  void enter() { ++epoch_; }
-
-  /// As BoxReader::minimum().
-  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids);
+  void enter() override { ++epoch_; }
+  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) override;
 
  private:
   /// A cell of a block outside the domain, and what it holds: the level of another cell, or a constant.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "reach/counter.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
@@ -100,7 +100,7 @@ class SumRows::Builder {
       run_inputs_.push_back(at(j));
       counts.push_back(inputs_[at(j)].count());
     }
-    runs_ = Counter(counts);
+    runs_ = Odometer(counts);
     run_state_stride_.assign(grid_.size(), 0);
     run_input_stride_.assign(inputs_.size(), 0);
     std::int64_t stride = 1;
@@ -116,7 +116,7 @@ class SumRows::Builder {
     do {
       // Beyond the row its last cell again: blocks are read as a whole.
       for (std::int64_t c = 0; c < rows_.run_stride_; ++c) add_up_cell(std::min(c, rows_.length_ - 1));
-    } while (runs_.next());
+    } while (runs_.advance());
   }
 
   void add_up_cell(std::int64_t cell) {
@@ -144,13 +144,13 @@ class SumRows::Builder {
     }
     std::vector<std::int64_t> counts;
     for (const std::int32_t j : table_.inputs) counts.push_back(inputs_[at(j)].count());
-    Counter inputs(counts);
+    Odometer inputs(counts);
     do {
       std::int64_t offset = 0;
       for (std::size_t v = 0; v < counts.size(); ++v)
         offset += inputs.indices()[v] * of_input[at(table_.inputs[v])];
       result.input.push_back(offset);
-    } while (inputs.next());
+    } while (inputs.advance());
     return result;
   }
 
@@ -161,7 +161,7 @@ class SumRows::Builder {
   std::vector<Source> along_, apart_;
   std::vector<std::size_t> run_states_, run_inputs_;
   std::vector<std::int64_t> run_state_stride_, run_input_stride_;
-  Counter runs_{{}};
+  Odometer runs_{{}};
   SumRows rows_;
 };
 

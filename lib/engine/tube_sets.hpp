@@ -13,10 +13,10 @@ struct TubeSets {
   const CellSet* beyond = nullptr;  ///< a part of `inside`; null: the same
 };
 
-/// True if the tube of `state` with this raw range passes a limit where the state saturates.
+/// True if the tube of `state` with this raw range passes a limit that the sample puts it back on.
 [[nodiscard]] inline bool passes_a_limit(IndexRange raw, const GridDimension& state) {
-  return (state.below == Outside::saturate && raw.first < 0) ||
-         (state.above == Outside::saturate && raw.last >= state.count);
+  return (traits(state.below).resets && raw.first < 0) ||
+         (traits(state.above).resets && raw.last >= state.count);
 }
 
 }  // namespace coordreq

@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-#include "engine/row_box.hpp"
+#include "engine/wave_news.hpp"
 
 namespace coordreq {
 namespace {
@@ -27,18 +27,15 @@ class WaveRunner {
              ThreadTeam& team)
       : levels_(levels),
         engine_(engine),
-        hull_(hull),
         limit_(limit),
         settled_(settled),
         op_(op),
         watch_(watch),
-        team_(team) {
-    unit_rows_ = std::min(engine.unit_rows(), engine.outer() == 0 ? kBlockRows : engine.unit_rows());
+        team_(team),
+        unit_rows_(std::min(engine.unit_rows(), engine.outer() == 0 ? kBlockRows : engine.unit_rows())),
+        news_(engine, hull, unit_rows_) {
     units_ = (engine.rows() + unit_rows_ - 1) / unit_rows_;
     batch_units_ = std::max<std::int64_t>(1, kBatchRows / unit_rows_);
-    changed_.assign(static_cast<std::size_t>(engine.rows()), 0);
-    unit_changed_.assign(static_cast<std::size_t>(units_), 0);
-    unit_seen_.assign(static_cast<std::size_t>(units_), kBeforeAll);
     for (int w = 0; w < team.size(); ++w) workers_.emplace_back(engine, levels);
     find_alive();
   }
@@ -52,7 +49,7 @@ class WaveRunner {
     for (std::int64_t k = 0; k < units_; ++k) {
       const std::int64_t unit = backwards ? units_ - 1 - k : k;
       step.rows_left -= unit_alive_[static_cast<std::size_t>(unit)];
-      if (is_pending(unit)) batch.push_back(unit);
+      if (unit_alive_[static_cast<std::size_t>(unit)] > 0 && news_.is_pending(unit)) batch.push_back(unit);
       if (batch.empty() || (static_cast<std::int64_t>(batch.size()) < batch_units_ && k + 1 < units_))
         continue;
       step.visited += run(batch);
@@ -71,10 +68,6 @@ class WaveRunner {
 
  private:
   static constexpr Level kTop = LevelRows<Level>::kTop;
-  /// As what a unit has been looked at in: in no batch, or in one whose changes, and all after, are news to
-  /// it.
-  static constexpr std::uint32_t kNever = 0;
-  static constexpr std::uint32_t kBeforeAll = 1;
 
   struct Change {
     std::int64_t row;
@@ -95,9 +88,7 @@ class WaveRunner {
     std::vector<Level> result;
     std::vector<Level> storage;
     std::vector<Change> changes;
-    std::vector<std::uint32_t> merged;
-    std::vector<std::int64_t> counter;
-    RowHull::Box box;
+    WaveNews::Scratch news;
     std::int64_t visited = 0;
     Level lowest = kTop;      ///< to which a cell has sunk
     std::uint32_t batch = 0;  ///< and unit: what the reader has entered
@@ -123,29 +114,13 @@ class WaveRunner {
       if (!alive) continue;
       const auto unit = static_cast<std::size_t>(r / unit_rows_);
       ++unit_alive_[unit];
-      if (!is_settled(r)) unit_seen_[unit] = kNever;
+      if (!is_settled(r)) news_.set_unseen(r / unit_rows_);
       ++alive_rows_;
     }
   }
 
-  /// True if a unit that posts of this one can meet has changed since this one was last looked at.
-  [[nodiscard]] bool is_pending(std::int64_t unit) {
-    const auto u = static_cast<std::size_t>(unit);
-    if (unit_alive_[u] == 0) return false;
-    if (unit_seen_[u] == kNever || engine_.outer() == 0)
-      return unit_seen_[u] == kNever || last_change_ >= unit_seen_[u];
-    const RowPlace place(engine_.grid(), unit * unit_rows_);
-    hull_.box(place, box_);
-    const std::span<const IndexRange> outer(box_.ranges.data(), engine_.outer());
-    bool pending = false;
-    for_each_row(engine_, 0, outer, counter_, [&](std::int64_t row) {
-      pending = pending || unit_changed_[static_cast<std::size_t>(row / unit_rows_)] >= unit_seen_[u];
-    });
-    return pending;
-  }
-
   std::int64_t run(const std::vector<std::int64_t>& batch) {
-    ++batch_;
+    batch_ = news_.begin_batch();
     for (Worker& worker : workers_) {
       worker.changes.clear();
       worker.storage.clear();
@@ -156,16 +131,13 @@ class WaveRunner {
     team_.for_each(static_cast<std::int64_t>(pieces_.size()), 1, [&](ThreadTeam::Range range, int w) {
       for (std::int64_t i = range.begin; i < range.end; ++i) visit(pieces_[static_cast<std::size_t>(i)], w);
     });
-    for (const std::int64_t unit : batch) unit_seen_[static_cast<std::size_t>(unit)] = batch_;
+    for (const std::int64_t unit : batch) news_.mark_seen(unit);
     commit_all();
     std::int64_t visited = 0;
     for (const Worker& worker : workers_) {
       visited += worker.visited;
       lowest_ = std::min(lowest_, worker.lowest);
-      for (const Change& change : worker.changes) {
-        unit_changed_[static_cast<std::size_t>(change.row / unit_rows_)] = batch_;
-        last_change_ = batch_;
-      }
+      for (const Change& change : worker.changes) news_.mark_unit_of(change.row);
     }
     return visited;
   }
@@ -187,41 +159,14 @@ class WaveRunner {
       worker.batch = batch_;
       worker.unit = piece.unit;
     }
-    const std::uint32_t seen = unit_seen_[static_cast<std::size_t>(piece.unit)];
-    const bool is_first = seen == kNever;
-    if (!is_first || !settled_.empty()) merge_changes(piece.unit * unit_rows_, worker);
+    const bool is_first = news_.is_unseen(piece.unit);
+    if (!is_first || !settled_.empty()) news_.enter(piece.unit, worker.news);
     RowPlace place(engine_.grid(), piece.begin);
     for (; place.row < piece.end; place.advance(engine_.grid())) {
       if (alive_[static_cast<std::size_t>(place.row)] == 0) continue;
       const bool is_new = is_first && !is_settled(place.row);
-      if (is_new || meets_change(place, std::max(seen, kBeforeAll), worker)) visit_row(place, worker, w);
+      if (is_new || news_.meets_change(place, piece.unit, worker.news)) visit_row(place, worker, w);
     }
-  }
-
-  /// For the rows of a unit: when last a row changed that they can meet in the shared dimensions.
-  void merge_changes(std::int64_t first_row, Worker& worker) {
-    if (engine_.outer() == 0) return;
-    hull_.box(RowPlace(engine_.grid(), first_row), worker.box);
-    worker.merged.assign(static_cast<std::size_t>(unit_rows_), 0);
-    const std::span<const IndexRange> outer(worker.box.ranges.data(), engine_.outer());
-    for_each_row(engine_, 0, outer, worker.counter, [&](std::int64_t row) {
-      const std::uint32_t* changed = changed_.data() + row;
-      for (std::size_t i = 0; i < worker.merged.size(); ++i) {
-        worker.merged[i] = std::max(worker.merged[i], changed[i]);
-      }
-    });
-  }
-
-  [[nodiscard]] bool meets_change(const RowPlace& place, std::uint32_t seen, Worker& worker) {
-    hull_.box(place, worker.box);
-    const std::size_t outer = engine_.outer();
-    const std::span<const IndexRange> inner(worker.box.ranges.data() + outer,
-                                            worker.box.ranges.size() - outer);
-    const std::uint32_t* changed = outer == 0 ? changed_.data() : worker.merged.data();
-    bool meets = false;
-    for_each_row(engine_, outer, inner, worker.counter,
-                 [&](std::int64_t row) { meets = meets || changed[row] >= seen; });
-    return meets;
   }
 
   void visit_row(const RowPlace& place, Worker& worker, int w) {
@@ -267,35 +212,29 @@ class WaveRunner {
     for (const Change& change : worker.changes) {
       std::copy_n(worker.storage.data() + change.position, levels_.row_length(), levels_.row(change.row));
       levels_.close(change.row);
-      changed_[static_cast<std::size_t>(change.row)] = batch_;
+      news_.mark_row(change.row);
     }
   }
 
   LevelRows<Level>& levels_;
   const RowEngine& engine_;
-  const RowHull& hull_;
   Level limit_;
   const std::vector<std::uint8_t>& settled_;
   RowOperator<Level>& op_;
   const WaveWatch& watch_;
   ThreadTeam& team_;
-  std::int64_t unit_rows_ = 1;
+  std::int64_t unit_rows_;
+  WaveNews news_;
   std::int64_t units_ = 0;
   std::int64_t batch_units_ = 1;
   std::int64_t alive_rows_ = 0;
-  std::int64_t layer_ = -1;                  ///< levels up to it are final
-  Level lowest_ = kTop;                      ///< to which a cell has sunk in this sweep
-  std::uint32_t batch_ = 0;                  ///< number of the last batch
-  std::uint32_t last_change_ = 0;            ///< the last batch with a change
-  std::vector<std::uint32_t> changed_;       ///< [row] the batch that changed it last
-  std::vector<std::uint32_t> unit_changed_;  ///< [unit] likewise
-  std::vector<std::uint32_t> unit_seen_;     ///< [unit] the batch that looked at it last
+  std::int64_t layer_ = -1;  ///< levels up to it are final
+  Level lowest_ = kTop;      ///< to which a cell has sunk in this sweep
+  std::uint32_t batch_ = 0;  ///< number of the last batch
   std::vector<std::uint8_t> alive_;
   std::vector<std::int64_t> unit_alive_;  ///< [unit] rows that are alive
   std::deque<Worker> workers_;
   std::vector<Piece> pieces_;
-  RowHull::Box box_;
-  std::vector<std::int64_t> counter_;
 };
 
 }  // namespace

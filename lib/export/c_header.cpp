@@ -199,8 +199,8 @@ class HeaderWriter {
       points.push_back(dimension.count);
       discrete.push_back(one.discrete ? 1 : 0);
       wraps.push_back(one.wraps ? 1 : 0);
-      safe_below.push_back(dimension.below == Outside::safe ? 1 : 0);
-      safe_above.push_back(dimension.above == Outside::safe ? 1 : 0);
+      safe_below.push_back(traits(dimension.below).arrives ? 1 : 0);
+      safe_above.push_back(traits(dimension.above).arrives ? 1 : 0);
       bounds.insert(bounds.end(), one.bounds.begin(), one.bounds.end());
     }
     integers("uint32_t", "points", points);

@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::int64_t kPartCells = 1 << 20;
 
-bool clamps(Outside rule) {
-  return rule == Outside::saturate || rule == Outside::stop;
-}
-
 /// Gives equal values equal numbers, in the order in which they come.
 template <class Value>
 class Numbering {
@@ -70,16 +66,18 @@ DimensionBounds dimension_bounds(const GridDimension& dimension) {
     result.bounds.push_back(upper_double(dimension.point(k) - dimension.radius()));
   }
   if (result.wraps) {
-    // [lower, upper) begins in the middle of cell 0 and ends where that cell begins again.
-    result.bounds.front() = upper_double(dimension.lower);
+    // [lower, upper) begins in the middle of cell 0 and ends where that cell begins again. The double nearest
+    // to `lower` may lie below it, on the other side of the seam: that is cell 0 too.
+    result.bounds.front() = nearest_double(dimension.lower);
     result.bounds.push_back(upper_double(dimension.upper));
     return result;
   }
   // What is measured beyond a limit by no more than the error reads as the boundary cell: see locate().
   const Rational lowest = dimension.first - dimension.measurement_error;
   const Rational highest = dimension.point(dimension.count - 1) + dimension.measurement_error;
-  if (clamps(dimension.below)) result.bounds.front() = std::min(result.bounds.front(), upper_double(lowest));
-  if (clamps(dimension.above)) {
+  if (traits(dimension.below).clamps)
+    result.bounds.front() = std::min(result.bounds.front(), upper_double(lowest));
+  if (traits(dimension.above).clamps) {
     const double beyond = std::nextafter(lower_double(highest), std::numeric_limits<double>::infinity());
     result.bounds.back() = std::max(result.bounds.back(), beyond);
   }

@@ -33,7 +33,8 @@ struct DimensionBounds {
   bool discrete = false;
   bool wraps = false;  ///< the piece after the last cell belongs to cell 0
 };
-/// Exact: each bound is the least double that is not below the face. A discrete value is its nearest double.
+/// Exact: each bound is the least double that is not below the face. A discrete value, and `lower` of a
+/// periodic dimension, is its nearest double.
 [[nodiscard]] DimensionBounds dimension_bounds(const GridDimension& dimension);
 
 }  // namespace coordreq

@@ -66,7 +66,7 @@ static inline int32_t $P_index(uint32_t i, double x) {{
 }}
 
 /* The cell of a measured state, $M_OUTSIDE or $M_LEFT_SAFELY. A periodic state must be given in its period
-   [lower, upper). */
+   [lower, upper); the double nearest to `lower` counts as in it. */
 static inline int32_t $P_cell(const double state[$M_STATES]) {{
   int32_t cell = 0;
   int left = 0;
@@ -97,23 +97,32 @@ static inline uint32_t $P_entry_of(int32_t cell) {{
   return $P_entry[low];
 }}
 
-/* Steps until the agents must start to connect, or one of the numbers above. 0 <= cell < $M_CELLS. */
+/* Steps until the agents must start to connect, or one of the numbers above. Of $M_LEFT_SAFELY it is
+   $M_NEVER; of $M_OUTSIDE, and of any other number that is no cell, it is 0: connect now. */
 static inline int32_t $P_countdown(int32_t cell) {{
+  if (cell == $M_LEFT_SAFELY) return $M_NEVER;
+  if (cell < 0 || cell >= $M_CELLS) return 0;
   return $P_entry_countdown[$P_entry_of(cell)];
 }}
 
-/* Whether class c may take its joint action a, 0 <= a < $P_action_count(c). 0 <= cell < $M_CELLS. */
+/* Number of joint actions of class c; 0 if there is no such class. */
+static inline uint32_t $P_action_count(uint32_t c) {{
+  return c < $M_CLASSES ? $P_set_actions[c] : 0;
+}}
+
+/* Whether class c may take its joint action a. In $M_LEFT_SAFELY every action is; in $M_OUTSIDE, and in any
+   other number that is no cell, none is. */
 static inline int $P_allowed(int32_t cell, uint32_t c, uint32_t a) {{
-  const uint32_t set = $P_entry_set[$P_entry_of(cell) * $M_CLASSES + c];
+  uint32_t set;
+  if (a >= $P_action_count(c)) return 0;
+  if (cell == $M_LEFT_SAFELY) return 1;
+  if (cell < 0 || cell >= $M_CELLS) return 0;
+  set = $P_entry_set[$P_entry_of(cell) * $M_CLASSES + c];
   return $P_set_bits[$P_set_first[c] + set * $P_set_width[c] + a / 8] >> (a % 8) & 1;
 }}
 
-/* Number of joint actions of class c. */
-static inline uint32_t $P_action_count(uint32_t c) {{
-  return $P_set_actions[c];
-}}
-
-/* The value of the j-th input of class c in its joint action a: row-major, the last input fastest. */
+/* The value of the j-th input of class c in its joint action a < $P_action_count(c): row-major, the last
+   input fastest. */
 static inline double $P_input(uint32_t c, uint32_t a, uint32_t j) {{
   uint32_t i = $P_class_first[c + 1] - 1;
   for (; i > $P_class_first[c] + j; --i) a /= $P_value_count[i];

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "export/cell_table.hpp"
-#include "results/image_content.hpp"
+#include "export/image_content.hpp"
 #include "results/results_reader.hpp"
 
 namespace coordreq {

@@ -1,50 +1,47 @@
 #include "export/cell_table.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
-#include "answers/layers/trigger_table.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
 
 constexpr std::int64_t kPartCells = 1 << 20;
 
-double plain_rank(std::int32_t value) {
-  return value;
-}
-
-/// A connection that must stand already is worse than any countdown and better than being lost.
-double trigger_rank(std::int32_t value) {
-  return value == TriggerTable::kMustBeConnected ? -0.5 : value;
-}
-
-std::vector<std::int32_t> widened(const std::vector<std::uint8_t>& values) {
-  return {values.begin(), values.end()};
-}
-
-/// The next index tuple of a block, the last dimension fastest; counts from 0.
-void step(std::vector<std::int64_t>& index, const std::vector<std::int64_t>& count) {
-  for (std::size_t i = index.size(); i-- > 0 && ++index[i] == count[i];) index[i] = 0;
+/// Cells of which all columns are read at a time: they take half of the memory that reading may take.
+std::int64_t part_cells(std::optional<std::uint64_t> max_memory, std::size_t columns) {
+  if (!max_memory) return kPartCells;
+  const std::uint64_t cells = *max_memory / 2 / (sizeof(std::int32_t) * columns);
+  return static_cast<std::int64_t>(std::clamp<std::uint64_t>(cells, 1, kPartCells));
 }
 
 }  // namespace
 
+double CellColumn::rank(std::int32_t value) const {
+  return field->shown.below_zero != 0 && value == field->shown.below_zero ? -0.5 : value;
+}
+
 std::vector<CellColumn> cell_columns(const ResultsReader& results, std::optional<std::size_t> partition) {
   std::vector<CellColumn> columns;
-  columns.push_back(
-      {"safe", [&results](const CellBlock& b) { return widened(results.safe(b)); }, plain_rank});
-  columns.push_back(
-      {"invariant", [&results](const CellBlock& b) { return widened(results.invariant(b)); }, plain_rank});
-  columns.push_back(
-      {"collision_time", [&results](const CellBlock& b) { return results.collision_time(b); }, plain_rank});
-  for (std::size_t p = 0; p < results.partitions().size(); ++p) {
-    if (partition && *partition != p) continue;
-    const std::string& name = results.partitions()[p].name;
-    columns.push_back(
-        {"delay:" + name, [&results, p](const CellBlock& b) { return results.delay(p, b); }, plain_rank});
-    columns.push_back({"countdown:" + name,
-                       [&results, p](const CellBlock& b) { return results.trigger(p, b); }, trigger_rank});
+  std::map<std::string, std::vector<const Field*>> over;  // by leading axis
+  for (const Field& field : results.fields()) {
+    if (field.shown.column.empty()) continue;
+    if (results.leading_length(field) == 0) {
+      columns.push_back({field.shown.column, &field, std::nullopt});
+    } else {
+      over[field.axes.front()].push_back(&field);
+    }
+  }
+  for (const auto& [axis, fields] : over) {
+    const std::vector<std::string>& names = results.leading_names(*fields.front());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (axis == "/partition" && partition && *partition != i) continue;
+      for (const Field* const field : fields)
+        columns.push_back({field->shown.column + ":" + names[i], field, i});
+    }
   }
   return columns;
 }
@@ -53,7 +50,8 @@ CellTable::CellTable(const ResultsReader& results, TableSelection selection)
     : results_(results),
       selection_(std::move(selection)),
       columns_(cell_columns(results, selection_.partition)),
-      block_(all_cells(results.grid())) {
+      block_(all_cells(results.grid())),
+      part_cells_(part_cells(results.max_memory(), columns_.size())) {
   for (const TableSelection::Slice& slice : selection_.slices) {
     block_.first[slice.dimension] = slice.index;
     block_.count[slice.dimension] = 1;
@@ -68,7 +66,7 @@ CellTable::CellTable(const ResultsReader& results, TableSelection selection)
 /// Cuts along the first dimensions, so that parts follow one another in row-major order.
 void CellTable::for_each_part(CellBlock block, std::size_t dimension,
                               const std::function<void(const CellBlock&)>& visit) const {
-  if (block.cells() <= kPartCells || dimension == block.count.size()) {
+  if (block.cells() <= part_cells_ || dimension == block.count.size()) {
     visit(block);
     return;
   }
@@ -83,15 +81,16 @@ void CellTable::for_each_part(CellBlock block, std::size_t dimension,
 
 CellTable::Values CellTable::read(const CellBlock& part) const {
   Values values;
-  for (const CellColumn& column : columns_) values.push_back(column.read(part));
+  for (const CellColumn& column : columns_)
+    values.push_back(results_.values(*column.field, column.leading, part));
   return values;
 }
 
 void CellTable::visit_rows(const CellBlock& block, const Values& values, const Row& row) const {
-  std::vector<std::int64_t> index(block.count.size(), 0);
+  Odometer index(block.count);
   std::vector<std::int64_t> shown(kept_.size());
   std::vector<std::int32_t> cells(columns_.size());
-  for (std::int64_t x = 0; x < block.cells(); ++x, step(index, block.count)) {
+  for (std::int64_t x = 0; x < block.cells(); ++x, index.advance()) {
     for (std::size_t i = 0; i < kept_.size(); ++i) shown[i] = block.first[kept_[i]] + index[kept_[i]];
     for (std::size_t c = 0; c < cells.size(); ++c) cells[c] = values[c][static_cast<std::size_t>(x)];
     row(shown, cells);
@@ -100,8 +99,9 @@ void CellTable::visit_rows(const CellBlock& block, const Values& values, const R
 
 void CellTable::merge(std::size_t column, std::int32_t value, bool largest, std::int32_t& into,
                       bool first) const {
-  const auto rank = columns_[column].rank;
-  if (first || (largest ? rank(value) > rank(into) : rank(value) < rank(into))) into = value;
+  const CellColumn& compared = columns_[column];
+  const double found = compared.rank(value), known = compared.rank(into);
+  if (first || (largest ? found > known : found < known)) into = value;
 }
 
 /// The table after all projections; `block` becomes what it is over, with length 1 where it was projected.
@@ -121,10 +121,10 @@ CellTable::Values CellTable::projected(CellBlock& block) const {
     Values merged(columns_.size(), std::vector<std::int32_t>(static_cast<std::size_t>(target.cells())));
     std::vector<bool> begun(static_cast<std::size_t>(target.cells()), false);
     const auto add = [&](const CellBlock& part, const Values& found) {
-      std::vector<std::int64_t> index(part.count.size(), 0);
-      for (std::int64_t x = 0; x < part.cells(); ++x, step(index, part.count)) {
+      Odometer index(part.count);
+      for (std::int64_t x = 0; x < part.cells(); ++x, index.advance()) {
         std::int64_t place = 0;
-        for (std::size_t i = 0; i < index.size(); ++i) {
+        for (std::size_t i = 0; i < part.count.size(); ++i) {
           const std::int64_t k = part.first[i] + index[i] - block.first[i];
           place = place * target.count[i] + (target.count[i] == 1 ? 0 : k);
         }

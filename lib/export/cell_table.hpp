@@ -26,12 +26,14 @@ struct TableSelection {
   std::optional<std::size_t> partition;  ///< none: all
 };
 
-/// A column of numbers over cells: safe, invariant, collision time, delay, countdown.
+/// A column of numbers over cells: of each field that is shown as one, and for each partition where it is
+/// over these.
 struct CellColumn {
   std::string name;
-  std::function<std::vector<std::int32_t>(const CellBlock&)> read;
+  const Field* field = nullptr;
+  std::optional<std::size_t> leading;  ///< place along the axis before those of the cells
   /// Rank of a value where numbers are compared: codes of what is no number of steps have their place.
-  double (*rank)(std::int32_t value) = nullptr;
+  [[nodiscard]] double rank(std::int32_t value) const;
 };
 [[nodiscard]] std::vector<CellColumn> cell_columns(const ResultsReader& results,
                                                    std::optional<std::size_t> partition);
@@ -39,9 +41,9 @@ struct CellColumn {
 /// The columns over what a selection leaves of the cells, in the row-major order of the dimensions that
 /// remain.
 ///
-/// Parts of about a million cells are read at a time. Without projections each is handed on at once; with
-/// projections memory is 4 bytes for each column and each cell that is left after the first projections of
-/// one kind.
+/// Parts of about a million cells, fewer if memory is limited, are read at a time. Without projections each
+/// is handed on at once; with projections memory is 4 bytes for each column and each cell that is left after
+/// the first projections of one kind.
 class CellTable {
  public:
   /// REQUIRES: `results` outlives this object; every dimension at most once in the selection.
@@ -71,6 +73,7 @@ class CellTable {
   std::vector<CellColumn> columns_;
   std::vector<std::size_t> kept_;
   CellBlock block_;  ///< after slices
+  std::int64_t part_cells_;
 };
 
 }  // namespace coordreq

@@ -67,6 +67,23 @@ ReportMap freedom_map(const ResultsReader& results, std::size_t agent) {
   return {{{"kind", "freedom"}, {"agent", results.spec().agents[agent].name}}, read, {}};
 }
 
+/// A field that has no way of its own to be drawn: the page learns what its values mean from its flags.
+ReportMap plain_map(const ResultsReader& results, const Field& field) {
+  Json meanings = Json::array();
+  for (const FieldAttribute& attribute : field.attributes) {
+    const auto* const flags = std::get_if<std::vector<FieldFlag>>(&attribute.value);
+    if (flags == nullptr) continue;
+    for (const FieldFlag& flag : *flags) {
+      std::string word = flag.word;
+      std::replace(word.begin(), word.end(), '_', ' ');
+      meanings.push_back({flag.value == kLargestValue ? Json("infinite") : Json(flag.value), word});
+    }
+  }
+  return {{{"kind", field.path.substr(1)}, {"title", field.shown.map}, {"meanings", meanings}},
+          [&results, &field](const CellBlock& block) { return results.values(field, std::nullopt, block); },
+          {}};
+}
+
 /// The partitions that occur, the most wanted first, with what they cost.
 Json choices_json(const ResultsReader& results, const std::set<std::int32_t>& found) {
   Json choices = Json::array();
@@ -95,6 +112,9 @@ std::vector<ReportMap> list_maps(const ResultsReader& results, const std::vector
   if (results.spec().coordination.convention) {
     for (std::size_t i = 0; i < std::min(results.spec().agents.size(), limits.agents); ++i)
       maps.push_back(freedom_map(results, i));
+  }
+  for (const Field& field : results.fields()) {
+    if (!field.shown.map.empty()) maps.push_back(plain_map(results, field));
   }
   return maps;
 }

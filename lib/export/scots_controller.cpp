@@ -7,25 +7,21 @@
 
 #include "base/error.hpp"
 #include "cell/cell_controller.hpp"
-#include "model/reversed_numbers.hpp"
+#include "results/scots_format.hpp"
 
 namespace coordreq {
 namespace {
 
-struct Axis {
-  std::string name;
-  Rational first;
-  Rational step;
-  std::int64_t count = 0;
-};
+using scots::Axis;
 
 Axis axis_of_state(const GridDimension& dimension) {
-  return {dimension.name, dimension.first, dimension.step, dimension.count};
+  return {dimension.name, dimension.first, dimension.point(dimension.count - 1), dimension.step,
+          dimension.count};
 }
 
 Axis axis_of_input(const InputSpec& input, const ResultsReader& results) {
   const std::vector<Rational>& values = input.values;
-  Axis axis{input.name, values.front(), 1, static_cast<std::int64_t>(values.size())};
+  Axis axis{input.name, values.front(), values.back(), 1, static_cast<std::int64_t>(values.size())};
   if (input.grid) {
     axis.step = input.grid->step;
   } else if (values.size() > 1) {
@@ -53,27 +49,16 @@ void check_multiples(const Axis& axis, const ResultsReader& results) {
       results.path());
 }
 
-std::string vector_text(const char* name, const std::vector<Rational>& values) {
-  std::string text = fmt::format("#VECTOR:{}\n#BEGIN:{}\n", name, values.size());
-  for (const Rational& value : values) text += fmt::format("{:.17g}\n", nearest_double(value));
-  return text + "#END\n";
+std::string vector_text(std::string_view name, const std::vector<Axis>& axes, Rational Axis::*member) {
+  std::string text = fmt::format("{}\n{}{}\n", name, scots::kBegin, axes.size());
+  for (const Axis& axis : axes) text += fmt::format("{:.17g}\n", nearest_double(axis.*member));
+  return text + fmt::format("{}\n", scots::kEnd);
 }
 
-std::string grid_text(const std::vector<Axis>& axes) {
-  std::vector<Rational> step, first, last;
-  for (const Axis& axis : axes) {
-    step.push_back(axis.step);
-    first.push_back(axis.first);
-    last.push_back(axis.first + axis.step * Rational(static_cast<long>(axis.count - 1)));
-  }
-  return fmt::format("#TYPE:UNIFORMGRID\n#MEMBER:DIM\n{}\n", axes.size()) + vector_text("ETA", step) +
-         vector_text("LOWER_LEFT", first) + vector_text("UPPER_RIGHT", last);
-}
-
-ReversedNumbers numbers(const std::vector<Axis>& axes) {
-  std::vector<std::int64_t> counts;
-  for (const Axis& axis : axes) counts.push_back(axis.count);
-  return ReversedNumbers(counts);
+std::string grid_text(std::string_view head, const std::vector<Axis>& axes) {
+  return fmt::format("{}\n{}\n{}\n{}\n", head, scots::kGrid, scots::kDimensions, axes.size()) +
+         vector_text(scots::kSteps, axes, &Axis::step) + vector_text(scots::kFirsts, axes, &Axis::first) +
+         vector_text(scots::kLasts, axes, &Axis::last);
 }
 
 }  // namespace
@@ -86,15 +71,14 @@ void export_scots(const ResultsReader& results, ThreadTeam& team, const TextSink
   for (const std::vector<Axis>* axes : {&states, &inputs}) {
     for (const Axis& axis : *axes) check_multiples(axis, results);
   }
-  sink("#SCOTS:v0.2\n#TYPE:STATICCONTROLLER\n#SCOTS:STATE_SPACE\n" + grid_text(states) +
-       "#SCOTS:INPUT_SPACE\n" + grid_text(inputs));
-  sink(fmt::format(
-      "#TYPE:WINNINGDOMAIN\n#SCOTS:i (state) j_0 ... j_n (valid inputs)\n#MATRIX:DATA\n#BEGIN:{} {}\n",
-      results.grid().cells(), results.inputs().count()));
+  for (const std::string_view line : scots::kHead) sink(fmt::format("{}\n", line));
+  sink(grid_text(scots::kStates, states) + grid_text(scots::kInputs, inputs));
+  sink(fmt::format("{}\n{}\n{}\n{}{} {}\n", scots::kDomain, scots::kColumns, scots::kMatrix, scots::kBegin,
+                   results.grid().cells(), results.inputs().count()));
   CellController controller(results, team);
   controller.prepare_all();
-  const ReversedNumbers state_numbers = numbers(states);
-  const ReversedNumbers input_numbers = numbers(inputs);
+  const ReversedNumbers state_numbers = scots::numbers(states);
+  const ReversedNumbers input_numbers = scots::numbers(inputs);
   // Both ascend as SCOTS counts.
   std::vector<std::size_t> input_positions;
   for (std::int64_t number = 0; number < results.inputs().count(); ++number) {
@@ -112,7 +96,7 @@ void export_scots(const ResultsReader& results, ThreadTeam& team, const TextSink
     }
     sink(line + "\n");
   }
-  sink("#END\n");
+  sink(fmt::format("{}\n", scots::kEnd));
 }
 
 }  // namespace coordreq

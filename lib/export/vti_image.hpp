@@ -1,7 +1,7 @@
 #pragma once
 
+#include "export/image_content.hpp"
 #include "export/text_sink.hpp"
-#include "results/image_content.hpp"
 
 namespace coordreq {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "expression/functions.hpp"
 #include "expression/operators.hpp"
 #include "numeric/interval.hpp"
 #include "numeric/rational_interval.hpp"
@@ -11,24 +12,38 @@ namespace coordreq {
 /// Plain double arithmetic, for simulation and pictures; no guarantee. NaN where undefined, also for a
 /// division by 0; a comparison with NaN is undecided.
 [[nodiscard]] double from_rational(const double* tag, const Rational& q);
-[[nodiscard]] double apply(Operator op, const double& a);
-[[nodiscard]] double apply(Operator op, const double& a, const double& b);
+[[nodiscard]] inline double apply(Operator op, const double& a) {
+  return number_function(op).at_point(a, a);
+}
+[[nodiscard]] inline double apply(Operator op, const double& a, const double& b) {
+  return number_function(op).at_point(a, b);
+}
 [[nodiscard]] Truth compare(Operator op, const double& a, const double& b);
 [[nodiscard]] double select(Truth condition, const double& a, const double& b);
 
 /// Outward-rounded double intervals.
 [[nodiscard]] Interval from_rational(const Interval* tag, const Rational& q);
-[[nodiscard]] Interval apply(Operator op, const Interval& a);
+[[nodiscard]] inline Interval apply(Operator op, const Interval& a) {
+  return number_function(op).over_interval(a, a);
+}
 [[nodiscard]] Interval apply(Operator op, const Interval& a, const Interval& b);
 [[nodiscard]] Truth compare(Operator op, const Interval& a, const Interval& b);
 [[nodiscard]] Interval select(Truth condition, const Interval& a, const Interval& b);
 
 /// Exact rational intervals; irrational functions are enclosed outward.
 [[nodiscard]] RationalInterval from_rational(const RationalInterval* tag, const Rational& q);
-[[nodiscard]] RationalInterval apply(Operator op, const RationalInterval& a);
-[[nodiscard]] RationalInterval apply(Operator op, const RationalInterval& a, const RationalInterval& b);
+[[nodiscard]] inline RationalInterval apply(Operator op, const RationalInterval& a) {
+  return number_function(op).over_rationals(a, a);
+}
+[[nodiscard]] inline RationalInterval apply(Operator op, const RationalInterval& a,
+                                            const RationalInterval& b) {
+  return number_function(op).over_rationals(a, b);
+}
 [[nodiscard]] Truth compare(Operator op, const RationalInterval& a, const RationalInterval& b);
 [[nodiscard]] RationalInterval select(Truth condition, const RationalInterval& a, const RationalInterval& b);
+
+/// Exact numbers.
+[[nodiscard]] Truth compare(Operator op, const Rational& a, const Rational& b);
 
 /// How two closed sets lie to one another.
 struct Order {
@@ -57,9 +72,6 @@ struct Order {
   }
 }
 
-/// The operations that are not worth inlining.
-[[nodiscard]] Interval apply_rare(Operator op, const Interval& a, const Interval& b);
-
 // Conditions are evaluated on millions of cells, so that the arithmetic is inline.
 inline Interval apply(Operator op, const Interval& a, const Interval& b) {
   switch (op) {
@@ -72,7 +84,7 @@ inline Interval apply(Operator op, const Interval& a, const Interval& b) {
     case Operator::power:
       return b.lower == 2.0 && b.upper == 2.0 && b.total ? sqr(a) : pow(a, b);
     default:
-      return apply_rare(op, a, b);
+      return number_function(op).over_interval(a, b);
   }
 }
 

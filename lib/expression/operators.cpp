@@ -1,22 +1,41 @@
 #include "expression/operators.hpp"
 
-#include <array>
-#include <cstddef>
+#include "expression/functions.hpp"
 
 namespace coordreq {
-namespace {
-
-// In the order of the enumeration.
-constexpr std::array<std::string_view, 36> kSpellings{
-    "number", "name", "+",    "-",    "*",    "/",    "^",    "min", "max", "-",    "sin",  "cos",
-    "tan",    "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt", "abs",  "sign",
-    "if",     "<",    "<=",   ">",    ">=",   "==",   "!=",   "and", "or",  "not",  "true", "false"};
-static_assert(kSpellings.size() == static_cast<std::size_t>(Operator::literal_false) + 1);
-
-}  // namespace
 
 std::string_view spelling(Operator op) {
-  return kSpellings[static_cast<std::size_t>(op)];
+  if (is_number_function(op)) return number_function(op).spelling;
+  switch (op) {
+    case Operator::constant:
+      return "number";
+    case Operator::variable:
+      return "name";
+    case Operator::if_else:
+      return "if";
+    case Operator::less:
+      return "<";
+    case Operator::less_equal:
+      return "<=";
+    case Operator::greater:
+      return ">";
+    case Operator::greater_equal:
+      return ">=";
+    case Operator::equal:
+      return "==";
+    case Operator::not_equal:
+      return "!=";
+    case Operator::logical_and:
+      return "and";
+    case Operator::logical_or:
+      return "or";
+    case Operator::logical_not:
+      return "not";
+    case Operator::literal_true:
+      return "true";
+    default:
+      return "false";
+  }
 }
 
 }  // namespace coordreq

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 namespace coordreq {
 
-/// Everything a node of an expression can be. Names follow the grammar of the spec.
+/// Everything a node of an expression can be. What there is to know of the operations on numbers stands in
+/// one table: see number_function().
 enum class Operator : std::uint8_t {
   // numbers without operands
   constant,
@@ -59,6 +61,17 @@ enum class Operator : std::uint8_t {
 }
 [[nodiscard]] constexpr bool is_unary_function(Operator op) {
   return op >= Operator::negate && op <= Operator::sign;
+}
+/// An operation that makes a number of one or two numbers.
+[[nodiscard]] constexpr bool is_number_function(Operator op) {
+  return op >= Operator::add && op <= Operator::sign;
+}
+
+/// How many of a, b and c of a node are other nodes.
+[[nodiscard]] constexpr std::size_t operand_count(Operator op) {
+  if (op <= Operator::variable || op >= Operator::literal_true) return 0;
+  if (is_unary_function(op) || op == Operator::logical_not) return 1;
+  return op == Operator::if_else ? 3 : 2;
 }
 
 /// The spelling in a spec, for messages: "sin", "+", "and".

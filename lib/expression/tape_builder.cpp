@@ -1,6 +1,7 @@
 #include "expression/tape_builder.hpp"
 
-#include "expression/exact_apply.hpp"
+#include "expression/domains.hpp"
+#include "expression/functions.hpp"
 #include "numeric/rational_functions.hpp"
 
 namespace coordreq {
@@ -11,14 +12,6 @@ constexpr std::size_t kMostFoldedBits = 16'384;
 
 std::size_t mix(std::size_t seed, std::size_t value) {
   return (seed ^ (value + (seed >> 32U))) * 0x9E3779B97F4A7C15ULL;
-}
-
-/// How many of a, b and c are indices of other nodes.
-int operand_count(Operator op) {
-  if (op == Operator::constant || op == Operator::variable) return 0;
-  if (op == Operator::literal_true || op == Operator::literal_false) return 0;
-  if (op == Operator::logical_not || is_unary_function(op)) return 1;
-  return op == Operator::if_else ? 3 : 2;
 }
 
 }  // namespace
@@ -46,21 +39,20 @@ TapeBuilder::Index TapeBuilder::apply(Operator op, Index a, Index b, Index c) {
   return insert(node);
 }
 
+TapeBuilder::Index TapeBuilder::copy(const Program& program, const Program::Node& node,
+                                     const std::vector<Index>& here) {
+  if (node.op == Operator::constant) return constant(program.constants[node.a]);
+  if (node.op == Operator::variable) return variable(node.a);
+  const std::size_t operands = operand_count(node.op);
+  return apply(node.op, operands > 0 ? here[node.a] : 0, operands > 1 ? here[node.b] : 0,
+               operands > 2 ? here[node.c] : 0);
+}
+
 TapeBuilder::Index TapeBuilder::merge(const Program& program) {
   std::vector<Index> here;
   here.reserve(program.nodes.size());
   index_of_node_.reserve(nodes_.size() + program.nodes.size(), nodes_);
-  for (const Program::Node& node : program.nodes) {
-    const int operands = operand_count(node.op);
-    if (node.op == Operator::constant) {
-      here.push_back(constant(program.constants[node.a]));
-    } else if (node.op == Operator::variable) {
-      here.push_back(variable(node.a));
-    } else {
-      here.push_back(apply(node.op, operands > 0 ? here[node.a] : 0, operands > 1 ? here[node.b] : 0,
-                           operands > 2 ? here[node.c] : 0));
-    }
-  }
+  for (const Program::Node& node : program.nodes) here.push_back(copy(program, node, here));
   return here.back();
 }
 
@@ -70,7 +62,7 @@ Program TapeBuilder::extract(Index result) const {
   for (std::size_t i = result + std::size_t{1}; i-- > 0;) {
     if (!needed[i]) continue;
     const Program::Node& node = nodes_[i];
-    const int operands = operand_count(node.op);
+    const std::size_t operands = operand_count(node.op);
     if (operands > 0) needed[node.a] = true;
     if (operands > 1) needed[node.b] = true;
     if (operands > 2) needed[node.c] = true;
@@ -80,7 +72,7 @@ Program TapeBuilder::extract(Index result) const {
   for (std::size_t i = 0; i < needed.size(); ++i) {
     if (!needed[i]) continue;
     Program::Node node = nodes_[i];
-    const int operands = operand_count(node.op);
+    const std::size_t operands = operand_count(node.op);
     if (operands > 0) node.a = there[node.a];
     if (operands > 1) node.b = there[node.b];
     if (operands > 2) node.c = there[node.c];
@@ -126,7 +118,7 @@ std::optional<TapeBuilder::Index> TapeBuilder::fold_number(const Program::Node& 
   const Rational* const a = constant_at(node.a);
   const Rational* const b = is_unary ? a : constant_at(node.b);
   if (a == nullptr || b == nullptr || bit_size(*a) + bit_size(*b) > kMostFoldedBits) return std::nullopt;
-  const std::optional<Rational> value = is_unary ? exact_apply(node.op, *a) : exact_apply(node.op, *a, *b);
+  const std::optional<Rational> value = number_function(node.op).exactly(*a, *b);
   if (!value || bit_size(*value) > kMostFoldedBits) return std::nullopt;
   return constant(*value);
 }
@@ -137,7 +129,7 @@ std::optional<TapeBuilder::Index> TapeBuilder::fold_condition(const Program::Nod
     const Rational* const a = constant_at(node.a);
     const Rational* const b = constant_at(node.b);
     if (a == nullptr || b == nullptr) return std::nullopt;
-    return insert_truth(exact_compare(node.op, *a, *b));
+    return insert_truth(compare(node.op, *a, *b) == Truth::yes);
   }
   const std::optional<bool> a = truth_at(node.a);
   if (node.op == Operator::logical_not) return a ? std::optional<Index>(insert_truth(!*a)) : std::nullopt;

@@ -19,6 +19,8 @@ class TapeBuilder {
   [[nodiscard]] Index constant(const Rational& value);
   [[nodiscard]] Index variable(std::uint32_t slot);
   [[nodiscard]] Index apply(Operator op, Index a = 0, Index b = 0, Index c = 0);
+  /// A node of `program`, on this tape. @param here where the nodes before it are on this tape
+  [[nodiscard]] Index copy(const Program& program, const Program::Node& node, const std::vector<Index>& here);
   /// The result of `program`, its nodes copied in.
   [[nodiscard]] Index merge(const Program& program);
 

@@ -2,36 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
+#include "expression/functions.hpp"
 #include "expression/place.hpp"
 
 namespace coordreq {
 namespace {
-
-constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
-
-constexpr std::array kFunctions{
-    Function{"sin", Operator::sine, 1, 1},
-    Function{"cos", Operator::cosine, 1, 1},
-    Function{"tan", Operator::tangent, 1, 1},
-    Function{"asin", Operator::arcsine, 1, 1},
-    Function{"acos", Operator::arccosine, 1, 1},
-    Function{"atan", Operator::arctangent, 1, 1},
-    Function{"sinh", Operator::hyperbolic_sine, 1, 1},
-    Function{"cosh", Operator::hyperbolic_cosine, 1, 1},
-    Function{"tanh", Operator::hyperbolic_tangent, 1, 1},
-    Function{"exp", Operator::exponential, 1, 1},
-    Function{"log", Operator::logarithm, 1, 1},
-    Function{"sqrt", Operator::square_root, 1, 1},
-    Function{"abs", Operator::absolute, 1, 1},
-    Function{"sign", Operator::sign, 1, 1},
-    Function{"min", Operator::minimum, 2, kAnyNumber},
-    Function{"max", Operator::maximum, 2, kAnyNumber},
-    Function{"pow", Operator::power, 2, 2},
-    Function{"if", Operator::if_else, 3, 3},
-};
 
 // Longer symbols first, so that `<=` is not read as `<`.
 constexpr std::array kSymbols{
@@ -133,9 +110,12 @@ std::string shown(const Token& token) {
 }
 
 std::optional<Function> find_function(std::string_view name) {
-  const auto* const found =
-      std::find_if(kFunctions.begin(), kFunctions.end(), [&](const Function& f) { return f.name == name; });
-  return found == kFunctions.end() ? std::nullopt : std::optional<Function>(*found);
+  if (name == spelling(Operator::if_else)) return Function{name, Operator::if_else, 3, 3};
+  for (const NumberFunction& function : number_functions()) {
+    if (!function.call.empty() && function.call == name)
+      return Function{function.call, function.op, function.fewest, function.most};
+  }
+  return std::nullopt;
 }
 
 }  // namespace coordreq

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "expression/evaluate.hpp"
+#include "expression/functions.hpp"
 
 namespace coordreq {
 namespace {
@@ -15,38 +16,27 @@ std::string range_text(const Interval& a) {
 }
 
 std::string reason_at(const Program::Node& node, const Evaluator<Interval>& values) {
+  const NumberFunction& function = number_function(node.op);
   const std::string a = range_text(values.at(node.a));
-  switch (node.op) {
-    case Operator::divide:
-      return "division by " + range_text(values.at(node.b));
-    case Operator::power:
-      return fmt::format("{} to the power of {}", a, range_text(values.at(node.b)));
-    case Operator::square_root:
-      return "square root of " + a;
-    case Operator::logarithm:
-      return "logarithm of " + a;
-    default:
-      return fmt::format("{} of {}", spelling(node.op), a);
-  }
+  if (is_unary_function(node.op)) return fmt::format(fmt::runtime(function.undefined), a);
+  return fmt::format(fmt::runtime(function.undefined), a, range_text(values.at(node.b)));
 }
 
 /// Operands that can be the reason why the result of a node is undefined, last first.
 std::vector<std::uint32_t> operands(const Program::Node& node, const Evaluator<Interval>& values) {
-  switch (node.op) {
-    case Operator::constant:
-    case Operator::variable:
-    case Operator::literal_true:
-    case Operator::literal_false:
-      return {};
-    case Operator::if_else:
-      if (values.truth_at(node.a) == Truth::yes) return {node.b, node.a};
-      if (values.truth_at(node.a) == Truth::no) return {node.c, node.a};
-      return {node.c, node.b, node.a};
-    default:
-      break;
+  if (node.op == Operator::if_else) {
+    if (values.truth_at(node.a) == Truth::yes) return {node.b, node.a};
+    if (values.truth_at(node.a) == Truth::no) return {node.c, node.a};
+    return {node.c, node.b, node.a};
   }
-  if (is_unary_function(node.op) || node.op == Operator::logical_not) return {node.a};
-  return {node.b, node.a};
+  switch (operand_count(node.op)) {
+    case 0:
+      return {};
+    case 1:
+      return {node.a};
+    default:
+      return {node.b, node.a};
+  }
 }
 
 }  // namespace

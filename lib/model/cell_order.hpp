@@ -18,7 +18,7 @@ class CellOrder {
       const std::size_t p = grid.dimension_of(state);
       counts_.push_back(grid[p].count);
       const bool is_along = p >= grid.across();
-      row_step_.push_back(is_along ? 0 : grid.stride(p) / grid.row_length());
+      row_step_.push_back(is_along ? 0 : grid.row_stride(p));
       column_step_.push_back(is_along ? grid.stride(p) : 0);
     }
   }

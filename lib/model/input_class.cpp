@@ -12,12 +12,13 @@ constexpr std::int64_t kMostTabulated = std::int64_t{1} << 20U;
 }  // namespace
 
 InputClass::InputClass(const InputSpace& space, std::vector<std::int32_t> inputs)
-    : inputs_(std::move(inputs)), joint_inputs_(space.count()) {
+    : inputs_(std::move(inputs)), space_size_(space.size()), joint_inputs_(space.count()) {
   std::sort(inputs_.begin(), inputs_.end());
-  for (const std::int32_t i : inputs_) {
-    const auto input = static_cast<std::size_t>(i);
-    own_.push_back({space[input].count(), space.stride(input)});
-    actions_ *= own_.back().count;
+  own_.resize(inputs_.size());
+  for (std::size_t j = own_.size(); j-- > 0;) {
+    const auto input = static_cast<std::size_t>(inputs_[j]);
+    own_[j] = {.count = space[input].count(), .stride = space.stride(input), .own_stride = actions_};
+    actions_ *= own_[j].count;
   }
 }
 
@@ -45,8 +46,15 @@ std::vector<std::int64_t> InputClass::offsets(const std::vector<std::int64_t>& s
   return result;
 }
 
+std::vector<std::int64_t> InputClass::strides() const {
+  std::vector<std::int64_t> stride(space_size_, 0);
+  for (std::size_t j = 0; j < own_.size(); ++j)
+    stride[static_cast<std::size_t>(inputs_[j])] = own_[j].own_stride;
+  return stride;
+}
+
 std::vector<std::int64_t> InputClass::parts() const {
-  std::vector<std::int64_t> stride(inputs_.empty() ? 0 : static_cast<std::size_t>(inputs_.back()) + 1, 0);
+  std::vector<std::int64_t> stride(space_size_, 0);
   for (std::size_t j = 0; j < own_.size(); ++j) stride[static_cast<std::size_t>(inputs_[j])] = own_[j].stride;
   return offsets(stride);
 }
@@ -67,17 +75,20 @@ void InputClass::tabulate() {
     table_.push_back(static_cast<std::int32_t>(compute_action(u)));
 }
 
+InputClass class_of(const ProblemSpec& spec, const InputSpace& space,
+                    const std::vector<std::int32_t>& agents) {
+  std::vector<std::int32_t> inputs;
+  for (const std::int32_t agent : agents) {
+    const auto& own = spec.agents[static_cast<std::size_t>(agent)].inputs;
+    inputs.insert(inputs.end(), own.begin(), own.end());
+  }
+  return {space, std::move(inputs)};
+}
+
 std::vector<InputClass> input_classes(const ProblemSpec& spec, const InputSpace& space,
                                       const PartitionSpec& partition) {
   std::vector<InputClass> classes;
-  for (const auto& agents : partition.classes) {
-    std::vector<std::int32_t> inputs;
-    for (const std::int32_t agent : agents) {
-      const auto& own = spec.agents[static_cast<std::size_t>(agent)].inputs;
-      inputs.insert(inputs.end(), own.begin(), own.end());
-    }
-    classes.emplace_back(space, std::move(inputs));
-  }
+  for (const auto& agents : partition.classes) classes.push_back(class_of(spec, space, agents));
   return classes;
 }
 

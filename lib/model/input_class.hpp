@@ -28,6 +28,8 @@ class InputClass {
   }
   /// [action] what it adds to a position in a table with these strides by input of the space.
   [[nodiscard]] std::vector<std::int64_t> offsets(const std::vector<std::int64_t>& stride) const;
+  /// [input of the space] its stride in the number of an action; 0 for those of other classes.
+  [[nodiscard]] std::vector<std::int64_t> strides() const;
   /// [action] what it adds to the number of a joint input.
   [[nodiscard]] std::vector<std::int64_t> parts() const;
   /// The projection of a set of joint inputs onto the class, ascending.
@@ -39,18 +41,23 @@ class InputClass {
  private:
   struct Input {
     std::int64_t count = 0;
-    std::int64_t stride = 1;  ///< in the number of a joint input
+    std::int64_t stride = 1;      ///< in the number of a joint input
+    std::int64_t own_stride = 1;  ///< in the number of an action
   };
 
   [[nodiscard]] std::int64_t compute_action(std::int64_t u) const;
 
   std::vector<std::int32_t> inputs_;
   std::vector<Input> own_;  ///< [position in inputs_]
+  std::size_t space_size_ = 0;
   std::int64_t joint_inputs_ = 1;
   std::int64_t actions_ = 1;
   std::vector<std::int32_t> table_;
 };
 
+/// The inputs of some agents.
+[[nodiscard]] InputClass class_of(const ProblemSpec& spec, const InputSpace& space,
+                                  const std::vector<std::int32_t>& agents);
 /// The classes of a partition, in its order: the inputs of all agents of each.
 [[nodiscard]] std::vector<InputClass> input_classes(const ProblemSpec& spec, const InputSpace& space,
                                                     const PartitionSpec& partition);

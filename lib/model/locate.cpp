@@ -1,11 +1,9 @@
 #include "model/locate.hpp"
 
+#include "model/outside.hpp"
+
 namespace coordreq {
 namespace {
-
-bool clamps(Outside rule) {
-  return rule == Outside::saturate || rule == Outside::stop;
-}
 
 mpz_class floor_of(const Rational& q) {
   mpz_class result;
@@ -31,8 +29,8 @@ std::int64_t index_of(const GridDimension& dimension, const Rational& value) {
   const std::int64_t k = floor_to_int(place);
   const std::int64_t top = dimension.count - 1;
   const Rational& error = dimension.measurement_error;
-  if (k < 0 && clamps(dimension.below) && value >= dimension.first - error) return 0;
-  if (k > top && clamps(dimension.above) && value <= dimension.point(top) + error) return top;
+  if (k < 0 && traits(dimension.below).clamps && value >= dimension.first - error) return 0;
+  if (k > top && traits(dimension.above).clamps && value <= dimension.point(top) + error) return top;
   return k;
 }
 
@@ -42,18 +40,16 @@ Location::Kind kind_of(const GridDimension& dimension, const Rational& value, st
     return off_grid ? Location::Kind::off_grid : Location::Kind::cell;
   }
   const Outside rule = k < 0 ? dimension.below : dimension.above;
-  return rule == Outside::safe ? Location::Kind::left_safely : Location::Kind::beyond;
+  return traits(rule).arrives ? Location::Kind::left_safely : Location::Kind::beyond;
 }
 
 }  // namespace
 
 Location locate(const UniformGrid& grid, std::span<const Rational> state) {
   Location location;
-  std::int64_t cell = 0;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const std::int64_t k = index_of(grid[i], state[i]);
     location.index.push_back(k);
-    cell += k * grid.stride(i);
     const Location::Kind kind = kind_of(grid[i], state[i], k);
     // What is worst counts, and of that the first.
     if (kind <= location.kind) continue;
@@ -61,7 +57,9 @@ Location locate(const UniformGrid& grid, std::span<const Rational> state) {
     location.dimension = i;
     location.above = k >= grid[i].count;
   }
-  if (location.kind == Location::Kind::cell) location.cell = cell;
+  if (location.kind != Location::Kind::cell) return location;  // indices may be as large as numbers can be
+  location.cell = 0;
+  for (std::size_t i = 0; i < grid.size(); ++i) location.cell += location.index[i] * grid.stride(i);
   return location;
 }
 

@@ -8,10 +8,6 @@ namespace {
 
 using Limits = std::numeric_limits<std::int32_t>;
 
-bool clamps(Outside rule) {
-  return rule == Outside::saturate || rule == Outside::stop;
-}
-
 }  // namespace
 
 std::int32_t saturate_index(std::int64_t index) {
@@ -36,17 +32,17 @@ IndexRange wrap_range(IndexRange raw, std::int64_t count) {
 }
 
 ResolvedRange resolve(IndexRange raw, std::int64_t count, Outside below, Outside above) {
-  if (below == Outside::periodic) return {.blocked = false, .inside = wrap_range(raw, count)};
+  if (traits(below).wraps) return {.blocked = false, .inside = wrap_range(raw, count)};
   const auto top = static_cast<std::int32_t>(count - 1);
   const bool leaves_below = raw.first < 0;
   const bool leaves_above = raw.last > top;
   ResolvedRange result;
-  result.blocked = (leaves_below && below == Outside::unsafe) || (leaves_above && above == Outside::unsafe);
-  if (clamps(below)) {
+  result.blocked = (leaves_below && traits(below).blocks) || (leaves_above && traits(above).blocks);
+  if (traits(below).clamps) {
     raw.first = std::max(raw.first, 0);
     raw.last = std::max(raw.last, 0);
   }
-  if (clamps(above)) {
+  if (traits(above).clamps) {
     raw.first = std::min(raw.first, top);
     raw.last = std::min(raw.last, top);
   }

@@ -1,11 +1,40 @@
 #pragma once
 
+#include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
+
+/// What a rule for leaving the domain through one side does (contract, "Leaving the domain"). Code asks for
+/// one of these, not for rules by name, so that a new rule is one more row of the table below.
+struct OutsideTraits {
+  bool blocks = false;   ///< a post that leaves is empty
+  bool arrives = false;  ///< what leaves is the absorbing cell T, in every set
+  bool clamps = false;   ///< what is beyond reads as the boundary cell
+  bool wraps = false;    ///< what leaves comes in again on the other side
+  bool resets = false;   ///< the flow may pass the limit, and the sample puts the state back on it
+  bool stops = false;    ///< the flow itself never passes the limit
+
+  /// At a sample the true state may be beyond the side.
+  [[nodiscard]] constexpr bool is_open() const { return blocks || arrives; }
+};
+
+/// In the order of Outside.
+inline constexpr std::array<OutsideTraits, 5> kOutsideTraits{{
+    {.blocks = true},                  // unsafe
+    {.arrives = true},                 // safe
+    {.clamps = true, .resets = true},  // saturate
+    {.clamps = true, .stops = true},   // stop
+    {.wraps = true},                   // periodic
+}};
+
+[[nodiscard]] constexpr const OutsideTraits& traits(Outside rule) {
+  return kOutsideTraits[static_cast<std::size_t>(rule)];
+}
 
 /// Grid indices first, ..., last of the cells that a post meets in one dimension, on the lattice that goes on
 /// beyond the domain, so that they may be negative or too large ("raw"). Saturated to 32 bits. In a periodic

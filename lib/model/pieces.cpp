@@ -16,8 +16,8 @@ Piece line_piece(const GridDimension& dimension, std::int64_t k, const Rational&
   Piece piece{dimension.point(k) - reach, dimension.point(k) + reach};
   if (k == 0) piece.lower -= dimension.stretch_below;
   if (k == dimension.count - 1) piece.upper += dimension.stretch_above;
-  if (dimension.below == Outside::stop) piece.lower = std::max(piece.lower, dimension.first);
-  if (dimension.above == Outside::stop) {
+  if (traits(dimension.below).stops) piece.lower = std::max(piece.lower, dimension.first);
+  if (traits(dimension.above).stops) {
     piece.upper = std::min(piece.upper, dimension.point(dimension.count - 1));
   }
   return piece;
@@ -55,6 +55,19 @@ IndexRange merge_ranges(IndexRange a, IndexRange b, const GridDimension& target)
   const std::int64_t before = from_a <= from_b ? 0 : (arc_a.first - arc_b.first + count) % count;
   const std::int64_t first = a.first - before;
   return {saturate_index(first), saturate_index(first + std::min(from_a, from_b))};
+}
+
+IndexRange raw_range(const GridDimension& dimension, std::int64_t first, std::int64_t last) {
+  constexpr std::int64_t kFar = std::int64_t{1} << 30;
+  constexpr std::int64_t kUnknown = std::int64_t{1} << 62;
+  const bool known = first > -kUnknown && last < kUnknown;
+  const bool far = first < -kFar || last > kFar;
+  if (dimension.periodic() && known && far) {
+    const std::int64_t turns = first / dimension.count * dimension.count;
+    first -= turns;
+    last -= turns;
+  }
+  return {saturate_index(first), saturate_index(last)};
 }
 
 }  // namespace coordreq

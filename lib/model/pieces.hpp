@@ -30,4 +30,8 @@ struct Piece {
 /// count, beginning like `a` or before, or {0, count - 1}. REQUIRES: first <= last of both.
 [[nodiscard]] IndexRange merge_ranges(IndexRange a, IndexRange b, const GridDimension& target);
 
+/// Raw indices first, ..., last of a dimension in 32 bits: saturated, but on a ring near ones where these are
+/// far.
+[[nodiscard]] IndexRange raw_range(const GridDimension& dimension, std::int64_t first, std::int64_t last);
+
 }  // namespace coordreq

@@ -1,5 +1,7 @@
 #include "model/sample_reset.hpp"
 
+#include "model/outside.hpp"
+
 namespace coordreq {
 
 Rational reset_at_sample(const GridDimension& dimension, const Rational& value) {
@@ -10,9 +12,9 @@ Rational reset_at_sample(const GridDimension& dimension, const Rational& value) 
     mpz_fdiv_q(whole.get_mpz_t(), turns.get_num_mpz_t(), turns.get_den_mpz_t());
     return value - period * whole;
   }
-  if (dimension.below == Outside::saturate && value < dimension.first) return dimension.first;
+  if (traits(dimension.below).resets && value < dimension.first) return dimension.first;
   const Rational last = dimension.point(dimension.count - 1);
-  return dimension.above == Outside::saturate && value > last ? last : value;
+  return traits(dimension.above).resets && value > last ? last : value;
 }
 
 }  // namespace coordreq

@@ -3,16 +3,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/dependencies.hpp"
+
 namespace coordreq {
 
 /// What the next value of one state depends on, and in which form and size its table will be kept; known
 /// without the entries. Indices are those of the spec's lists, ascending.
-struct TableShape {
-  std::vector<std::int32_t> states;  ///< the own one included, if it depends on it
-  std::vector<std::int32_t> inputs;
-  std::vector<std::int32_t> disturbances;
+struct TableShape : Dependencies {
+  std::vector<std::int32_t> states;  ///< moving and parameters, the own one included, if it depends on it
+  std::vector<std::int32_t> terms;   ///< states in which it is affine, with a term each; of a sum only
   bool shift = false;  ///< only as an offset to the present value, kept once for all present ones
-  bool sum = false;    ///< a term for each state in which it is affine; if that fails it is in full after all
+  bool sum = false;    ///< there are terms; if that fails it is in full after all
   double entries = 1;  ///< that are stored; may be beyond what an integer holds
   double bytes = 0;
 };

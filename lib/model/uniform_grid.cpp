@@ -29,6 +29,8 @@ UniformGrid::UniformGrid(std::vector<GridDimension> dimensions, std::vector<std:
     cells_ *= dimensions_[i].count + (i > across_ ? gaps[i - across_ - 1] : 0);
     if (i == across_) row_length_ = cells_;
   }
+  for (std::size_t i = 0; i < across_ && i < strides_.size(); ++i)
+    row_strides_.push_back(strides_[i] / row_length_);
 }
 
 UniformGrid UniformGrid::arranged(const std::vector<std::size_t>& order) const {

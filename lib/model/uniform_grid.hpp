@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "model/outside.hpp"
 #include "numeric/rational.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -27,7 +28,7 @@ struct GridDimension {
   Rational stretch_above = 0;
 
   /// The dimension wraps round: first = lower, count * step = upper - lower.
-  [[nodiscard]] bool periodic() const { return below == Outside::periodic; }
+  [[nodiscard]] bool periodic() const { return traits(below).wraps; }
   [[nodiscard]] Rational point(std::int64_t k) const { return first + step * Rational(static_cast<long>(k)); }
   /// Half the width of a cell: step / 2, or 0 for a discrete dimension.
   [[nodiscard]] Rational radius() const { return discrete ? Rational(0) : Rational(step / 2); }
@@ -72,6 +73,8 @@ class UniformGrid {
   /// Linear distance between neighbours in dimension i.
   [[nodiscard]] std::int64_t stride(std::size_t i) const { return strides_[i]; }
 
+  /// Rows from one index to the next of a dimension across rows.
+  [[nodiscard]] std::int64_t row_stride(std::size_t i) const { return row_strides_[i]; }
   /// Number of leading dimensions, across which rows are counted; rows run along the others.
   [[nodiscard]] std::size_t across() const { return across_; }
   /// Linear indices of a row, and number of rows: cells() = rows() * row_length().
@@ -90,6 +93,7 @@ class UniformGrid {
   std::vector<GridDimension> dimensions_;
   std::vector<std::size_t> states_;
   std::vector<std::int64_t> strides_;
+  std::vector<std::int64_t> row_strides_;
   std::int64_t cells_ = 1;
   std::int64_t row_length_ = 1;
   std::size_t across_ = 0;

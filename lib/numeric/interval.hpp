@@ -26,7 +26,17 @@ struct Interval {
   double upper = 0.0;
   bool total = true;
 
+  constexpr Interval() = default;
+  constexpr Interval(double from, double to, bool is_total = true)
+      : lower(from), upper(to), total(is_total) {}
+  /// {value}.
+  explicit constexpr Interval(double value) : Interval(value, value) {}
+
   [[nodiscard]] bool is_point() const { return lower == upper; }
+  [[nodiscard]] bool is_zero() const { return lower == 0.0 && upper == 0.0; }
+  [[nodiscard]] bool is_finite() const { return lower >= -outward::kLargest && upper <= outward::kLargest; }
+  /// The largest |x|.
+  [[nodiscard]] double magnitude() const { return std::max(std::fabs(lower), std::fabs(upper)); }
   [[nodiscard]] bool contains(double value) const { return lower <= value && value <= upper; }
 };
 
@@ -37,6 +47,10 @@ struct Interval {
 
 /// The narrowest interval of doubles that contains q; a point if q is a double.
 [[nodiscard]] Interval enclose(const Rational& q);
+/// The narrowest one that contains [lower, upper].
+[[nodiscard]] inline Interval enclose(const Rational& lower, const Rational& upper) {
+  return {lower_double(lower), upper_double(upper)};
+}
 
 /// The smallest interval that contains both.
 [[nodiscard]] inline Interval hull(const Interval& a, const Interval& b) {

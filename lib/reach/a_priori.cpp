@@ -30,10 +30,33 @@ Interval inflated(const Interval& start, const Interval& grown, double inflation
           grown.upper + inflation * std::max(grown.upper - start.upper, 0.0) + more};
 }
 
+/// Whether the slope of a function may be unbounded where it is defined.
+bool is_steep(const FlowTape& tape, const FlowTape::Node& node) {
+  const FlowTape::Node& by = tape.nodes[node.b];
+  switch (node.op) {
+    case Operator::power:
+      return by.op != Operator::constant || !is_integer(tape.constants[by.a]);
+    case Operator::square_root:
+    case Operator::arcsine:
+    case Operator::arccosine:
+    case Operator::sign:
+    case Operator::if_else:
+      return true;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 VectorField::VectorField(const FlowSystem& system, const FlowTape& tape)
-    : system_(&system), tape_(&tape), values_(tape), slots_(system.slot_count), walls_(tape.outputs.size()) {}
+    : system_(&system),
+      tape_(&tape),
+      values_(tape),
+      slots_(system.slot_count),
+      walls_(tape.outputs.size()),
+      steep_(std::any_of(tape.nodes.begin(), tape.nodes.end(),
+                         [&](const FlowTape::Node& node) { return is_steep(tape, node); })) {}
 
 void VectorField::begin(std::span<const Interval> slots) {
   std::copy(slots.begin(), slots.end(), slots_.begin());
@@ -161,9 +184,21 @@ bool VectorField::is_wall(std::size_t i, bool upper, std::span<Interval> box) {
   return f.total && (upper ? f.upper <= 0.0 : f.lower >= 0.0);
 }
 
-/// Whether the walls are walls for the final box too.
-bool VectorField::walls_hold(std::span<Interval> box) {
+/// Whether the walls are walls for the final box too. Where f may be so steep that solutions leave a side
+/// without reason, two walls could be passed at once, at a corner: then each must hold for states beyond
+/// those that come after it.
+bool VectorField::walls_hold(std::span<const Interval> start, std::span<Interval> box) {
+  if (steep_) {
+    for (std::size_t i = 0; i < box.size(); ++i) {
+      if (walls_[i].lower) box[i].lower -= margin(box[i]);
+      if (walls_[i].upper) box[i].upper += margin(box[i]);
+    }
+  }
   for (std::size_t i = 0; i < box.size(); ++i) {
+    if (steep_) {
+      if (walls_[i].lower) box[i].lower = start[i].lower;
+      if (walls_[i].upper) box[i].upper = start[i].upper;
+    }
     const Interval whole = box[i];
     bool hold = true;
     if (walls_[i].lower) {
@@ -188,7 +223,7 @@ std::optional<FlowFailure> VectorField::enclose_solutions(std::span<const Interv
   std::fill(walls_.begin(), walls_.end(), Walls{});
   guess(start, time, derivative, box);
   if (find_walls(start, derivative, box)) {
-    if (!iterate(start, time, box, derivative) && walls_hold(box)) return evaluate(box, derivative);
+    if (!iterate(start, time, box, derivative) && walls_hold(start, box)) return evaluate(box, derivative);
     std::fill(walls_.begin(), walls_.end(), Walls{});
     if (const auto failure = evaluate(start, derivative)) return failure;
     guess(start, time, derivative, box);

@@ -71,7 +71,7 @@ class VectorField {
   bool find_walls(std::span<const Interval> start, std::span<const Interval> derivative,
                   std::span<Interval> box);
   bool is_wall(std::size_t i, bool upper, std::span<Interval> box);
-  bool walls_hold(std::span<Interval> box);
+  bool walls_hold(std::span<const Interval> start, std::span<Interval> box);
   std::optional<FlowFailure> iterate(std::span<const Interval> start, const Interval& time,
                                      std::span<Interval> box, std::span<Interval> derivative);
   [[nodiscard]] Interval image(std::size_t i, std::span<const Interval> start, const Interval& time,
@@ -85,6 +85,7 @@ class VectorField {
   TapeValues<Interval> values_;
   std::vector<Interval> slots_;
   std::vector<Walls> walls_;
+  bool steep_;             ///< solutions may not be unique
   std::size_t worst_ = 0;  ///< the equation that last grew out of its box
 };
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "reach/counter.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
@@ -116,12 +116,12 @@ TransitionTable written_out(const Abstraction& abstraction, std::size_t state) {
     of_input[static_cast<std::size_t>(j)] = counts.size();
     counts.push_back(abstraction.inputs[static_cast<std::size_t>(j)].count());
   }
-  Counter choice(counts);
+  Odometer choice(counts);
   do {
     result.entries.push_back(table.range(
         state, [&](std::size_t s) { return choice.indices()[of_state[s]]; },
         [&](std::size_t s) { return choice.indices()[of_input[s]]; }));
-  } while (choice.next());
+  } while (choice.advance());
   return result;
 }
 

@@ -1,23 +1,13 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "model/dependencies.hpp"
 #include "numeric/rational.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
-
-/// What the next value of one state depends on; indices into the spec's lists, ascending.
-struct Dependencies {
-  std::vector<std::int32_t> moving;      ///< states in which the sampled map is affine
-  std::vector<std::int32_t> parameters;  ///< discrete states whose values are put in one by one
-  std::vector<std::int32_t> inputs;
-  std::vector<std::int32_t> disturbances;
-  [[nodiscard]] bool operator==(const Dependencies&) const = default;
-};
 
 /// The sampled map of one state for fixed parameters and inputs:
 /// x_i(tau) in sum_j coefficient[j] * x_{moving[j]}(0) + [lower, upper].
@@ -27,6 +17,9 @@ struct SampledRow {
   Rational upper;
   bool exact = true;  ///< [lower, upper] is the exact hull, both ends attained; else it is rounded outward
 };
+
+/// Whether `stop` limits are part of the dynamics, or cannot be reached.
+enum class Limits : std::uint8_t { obeyed, ignored };
 
 /// Systems whose sampled map is affine in the continuous states with rational coefficients for every fixed
 /// input and value of the discrete states (contract, "Cells"): discrete-time maps of that form, and
@@ -40,52 +33,32 @@ class AffineDynamics {
 
   [[nodiscard]] const Dependencies& dependencies(std::size_t state) const { return dependencies_[state]; }
 
+  /// Whether a state that it depends on may be stopped.
+  [[nodiscard]] bool has_limit(std::size_t state) const;
+
   /// @param slots exact values of all parameters and inputs of `state` at their slots; others are ignored
   /// @returns nothing if the system is not of the class above for these values, or if a state of it has a
-  ///   `stop` limit or, in continuous time, is periodic and used in an equation
+  ///   `stop` limit that is obeyed or, in continuous time, is periodic and used in an equation
   /// @throws SpecError if the equation is not defined there; the message names the state and the values
-  [[nodiscard]] std::optional<SampledRow> row(std::size_t state, const std::vector<Rational>& slots) const;
+  [[nodiscard]] std::optional<SampledRow> row(std::size_t state, const std::vector<Rational>& slots,
+                                              Limits limits = Limits::obeyed) const;
 
   /// Where the state is at any time in [0, tau] under continuous time: x_i(t) is in the convex hull of the
   /// rows' values, for every initial state. The first row is x_i(0), and for integrators (x' = c + w) the
   /// hull is exact.
   /// @param slots as in row() @returns nothing where row() returns nothing
   [[nodiscard]] std::optional<std::vector<SampledRow>> tube_rows(std::size_t state,
-                                                                 const std::vector<Rational>& slots) const;
+                                                                 const std::vector<Rational>& slots,
+                                                                 Limits limits = Limits::obeyed) const;
 
  private:
-  /// An equation for fixed parameters: sum_j state[j] * x_{moving[j]} + sum_l disturbance[l] * w_l + [lower,
-  /// upper].
-  struct AffineForm {
-    std::vector<Rational> state;
-    std::vector<Rational> disturbance;
-    Rational lower;
-    Rational upper;
-  };
-
-  /// x' = A x + B w + c with nilpotent A, seen from one state.
-  struct NilpotentFlow {
-    std::vector<AffineForm> forms;            ///< the equations of the moving states
-    std::vector<std::vector<Rational>> rows;  ///< r_k = e_i A^k, up to the last that is not zero
-    /// [disturbance][k] = r_k B / k!: what a pulse of w has done to x_i after s is sum_k kernel[k] s^k.
-    std::vector<std::vector<Rational>> kernels;
-  };
-
-  [[nodiscard]] bool jumps_at_a_seam(const AffineForm& form, const Dependencies& dependencies) const;
-  /// @returns nothing if it is not of that form, has a `stop` limit or a periodic state that an equation
-  /// uses. REQUIRES: `state` is a moving one.
-  [[nodiscard]] std::optional<NilpotentFlow> nilpotent_flow(std::size_t state,
-                                                            const std::vector<Rational>& slots) const;
   /// A discrete state that stays what it is; nothing for one that moves.
   [[nodiscard]] std::optional<SampledRow> constant_row(std::size_t state,
                                                        const std::vector<Rational>& slots) const;
-  [[nodiscard]] std::optional<AffineForm> affine_form(std::size_t equation, const Dependencies& dependencies,
-                                                      const std::vector<Rational>& slots) const;
   [[nodiscard]] std::optional<SampledRow> map_row(std::size_t state,
                                                   const std::vector<Rational>& slots) const;
   [[nodiscard]] std::optional<SampledRow> flow_row(std::size_t state,
                                                    const std::vector<Rational>& slots) const;
-  [[nodiscard]] std::string place(const Dependencies& dependencies, const std::vector<Rational>& slots) const;
 
   const ProblemSpec* spec_;
   std::vector<Dependencies> dependencies_;

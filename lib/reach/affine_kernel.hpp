@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "reach/jacobian.hpp"
@@ -16,33 +15,29 @@ namespace coordreq {
 /// it is the same for all boxes of initial states. Scratch memory for one thread.
 class AffineKernel {
  public:
-  AffineKernel(std::size_t states, std::size_t disturbances);
+  explicit AffineKernel(std::size_t states);
 
   /// An upper bound for state i and disturbance l.
   /// @param jacobian the matrices, evaluated over any box
   [[nodiscard]] double integral(const Jacobian& jacobian, const Interval& tau, std::size_t i, std::size_t l);
 
  private:
-  static constexpr std::size_t kTerms = 24;
+  static constexpr Eigen::Index kTerms = 24;
 
   void forget_unless_same(const Jacobian& jacobian);
-  void set_system(const Jacobian& jacobian, std::size_t l);
+  void find_derivatives(Eigen::Index l);
   void expand();
   double remainder(double duration);
   bool add_piece(double duration, bool smallest, double& sum);
 
-  std::size_t n_;
-  std::size_t m_;
   TransitionMatrix transition_;
-  std::vector<Interval> system_;      ///< A
-  std::vector<Interval> derivative_;  ///< A^k b / k!, k <= kTerms
-  std::vector<Interval> taylor_;      ///< coefficients of the kernel where the next piece starts
-  std::vector<Interval> row_;         ///< row i of exp(A s) there
-  std::vector<Interval> next_row_;
+  IntervalMatrix system_;       ///< A, as known
+  IntervalMatrix disturbance_;  ///< all columns b
+  RealMatrix known_;            ///< the integrals; negative: not known
+  IntervalMatrix derivative_;   ///< columns A^k b / k!, k <= kTerms
+  IntervalRow row_;             ///< row i of exp(A s) where the next piece starts
+  IntervalRow taylor_;          ///< coefficients of the kernel there
   std::vector<bool> none_damped_;
-  std::vector<Interval> known_state_;
-  std::vector<Interval> known_disturbance_;
-  std::vector<double> known_;  ///< negative: not known
 };
 
 }  // namespace coordreq

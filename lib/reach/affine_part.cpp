@@ -184,7 +184,7 @@ AffinePart find_affine_part(const ProblemSpec& spec, const Dependencies& depende
 }
 
 AffineCoefficients::AffineCoefficients(const ProblemSpec& spec, const AffinePart& part, std::size_t state)
-    : spec_(&spec), part_(part), size_(part.states.size()) {
+    : spec_(&spec), part_(part) {
   if (spec.dynamics.time == Time::discrete) {
     equations_.push_back(state);
   } else {
@@ -197,8 +197,7 @@ AffineCoefficients::AffineCoefficients(const ProblemSpec& spec, const AffinePart
     const DisturbanceSpec& w = spec.disturbances[l];
     slots_[spec.disturbance_slot(l)] = Dual::constant({lower_double(w.lower), upper_double(w.upper)});
   }
-  matrix_.resize(equations_.size() * size_);
-  phi_.resize(matrix_.size());
+  matrix_.resize(static_cast<Eigen::Index>(equations_.size()), static_cast<Eigen::Index>(part.states.size()));
 }
 
 bool AffineCoefficients::enclose() {
@@ -214,16 +213,16 @@ bool AffineCoefficients::enclose() {
 bool AffineCoefficients::derive(std::size_t equation, std::size_t row) {
   const auto slot = [&](std::size_t j) { return spec_->state_slot(at(part_.states[j])); };
   Evaluator<Dual> evaluator(spec_->dynamics.equations[equation]);
-  for (std::size_t first = 0; first < size_; first += Dual::kDirections) {
-    const std::size_t count = std::min(Dual::kDirections, size_ - first);
+  for (std::size_t first = 0; first < part_.states.size(); first += Dual::kDirections) {
+    const std::size_t count = std::min(Dual::kDirections, part_.states.size() - first);
     for (std::size_t d = 0; d < count; ++d) {
       slots_[slot(first + d)] = Dual::variable(slots_[slot(first + d)].value, d);
     }
     const Dual& value = evaluator.number(slots_);
     for (std::size_t d = 0; d < count; ++d) {
-      Interval& m = matrix_[row * size_ + first + d];
-      m = d < value.directions ? value.gradient[d] : Interval{0.0, 0.0};
-      if (m.lower < -outward::kLargest || m.upper > outward::kLargest) return false;
+      const Interval entry = d < value.directions ? value.gradient[d] : Interval{0.0, 0.0};
+      if (!entry.is_finite()) return false;
+      matrix_(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(first + d)) = entry;
       slots_[slot(first + d)] = Dual::constant(slots_[slot(first + d)].value);
     }
   }
@@ -233,31 +232,17 @@ bool AffineCoefficients::derive(std::size_t equation, std::size_t row) {
 /// Over a part of the period short enough for the series, then squared.
 bool AffineCoefficients::exponentiate() {
   Interval period{lower_double(spec_->dynamics.period), upper_double(spec_->dynamics.period)};
-  double largest = 0.0;
-  for (const Interval& m : matrix_) largest = std::max({largest, -m.lower, m.upper});
+  const double largest = magnitudes(matrix_).maxCoeff();
   int halvings = 0;
-  while (largest * static_cast<double>(size_) * period.upper > kLongest) {
+  while (largest * static_cast<double>(matrix_.rows()) * period.upper > kLongest) {
     if (++halvings > kMostHalvings) return false;
-    period = period * Interval{0.5, 0.5};
+    period = period * Interval(0.5);
   }
-  TransitionMatrix transition(size_, TransitionMatrix::kManyTerms);
-  if (!transition.enclose(matrix_, period, std::vector<bool>(size_, false))) return false;
-  std::copy(transition.end().begin(), transition.end().end(), phi_.begin());
-  for (; halvings > 0; --halvings) square();
-  return std::all_of(phi_.begin(), phi_.end(), [](const Interval& entry) {
-    return entry.lower >= -outward::kLargest && entry.upper <= outward::kLargest;
-  });
-}
-
-void AffineCoefficients::square() {
-  const std::vector<Interval> root = phi_;
-  for (std::size_t i = 0; i < size_; ++i) {
-    for (std::size_t j = 0; j < size_; ++j) {
-      Interval sum{0.0, 0.0};
-      for (std::size_t l = 0; l < size_; ++l) sum = sum + root[i * size_ + l] * root[l * size_ + j];
-      phi_[i * size_ + j] = sum;
-    }
-  }
+  TransitionMatrix transition(part_.states.size(), TransitionMatrix::kManyTerms);
+  if (!transition.enclose(matrix_, period, std::vector<bool>(part_.states.size(), false))) return false;
+  phi_ = transition.end();
+  for (; halvings > 0; --halvings) phi_ = product(phi_, phi_).eval();
+  return is_finite(phi_);
 }
 
 }  // namespace coordreq

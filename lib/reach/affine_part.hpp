@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "numeric/interval.hpp"
+#include "expression/dual.hpp"
+#include "numeric/matrix.hpp"
 #include "reach/affine_dynamics.hpp"
-#include "reach/dual.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -42,20 +42,20 @@ class AffineCoefficients {
   bool enclose();
 
   /// Phi_ij; j is a position in part.states, `i` one too, in discrete time 0 for the state itself.
-  [[nodiscard]] const Interval& phi(std::size_t i, std::size_t j) const { return phi_[i * size_ + j]; }
+  [[nodiscard]] const Interval& phi(std::size_t i, std::size_t j) const {
+    return phi_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
 
  private:
   bool derive(std::size_t equation, std::size_t row);
   bool exponentiate();
-  void square();
 
   const ProblemSpec* spec_;
   AffinePart part_;
   std::vector<std::size_t> equations_;  ///< one a row of Phi
-  std::size_t size_;
   std::vector<Dual> slots_;
-  std::vector<Interval> matrix_;
-  std::vector<Interval> phi_;
+  IntervalMatrix matrix_;
+  IntervalMatrix phi_;
 };
 
 }  // namespace coordreq

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
+#include "model/odometer.hpp"
 #include "model/pieces.hpp"
 #include "reach/abstraction.hpp"
 #include "reach/affine_dynamics.hpp"
-#include "reach/counter.hpp"
 #include "reach/index_form.hpp"
 
 namespace coordreq {
@@ -17,6 +18,8 @@ struct AffinePost {
   const std::vector<std::int32_t>& moving;  ///< states that the row has coefficients of
   std::size_t state;                        ///< whose value the row is
   bool shift = false;                       ///< the table is one of a shift
+  /// Says which cells are filled, by the indices of the moving states; all if it is empty.
+  std::function<bool(const std::vector<std::int64_t>&)> applies;
 
   /// Lower or upper end of the values from a cell, widened by the measurement errors of the states it starts
   /// from, plus `more`: in units of the grid step, the first grid point being 0, as a form of the cell's
@@ -49,14 +52,14 @@ struct AffinePost {
       parts.push_back(pieces_of(static_cast<std::size_t>(moving[j]), cell[j]));
       counts.push_back(static_cast<std::int64_t>(parts.back().size()));
     }
-    Counter choice(counts);
+    Odometer choice(counts);
     std::vector<Piece> chosen(cell.size());
     do {
       for (std::size_t j = 0; j < cell.size(); ++j) {
         chosen[j] = parts[j][static_cast<std::size_t>(choice.indices()[j])];
       }
       visit(chosen);
-    } while (choice.next());
+    } while (choice.advance());
   }
 
   /// Fills the entries of all cells from position `base` on; `entry` is called with the indices of the moving
@@ -65,14 +68,15 @@ struct AffinePost {
   void fill(TransitionTable& table, std::int64_t base, const Entry& entry) const {
     std::vector<std::int64_t> counts;
     for (const std::int32_t j : moving) counts.push_back(filled_count(static_cast<std::size_t>(j)));
-    Counter cell(counts);
+    Odometer cell(counts);
     do {
+      if (applies && !applies(cell.indices())) continue;
       std::int64_t position = base;
       for (std::size_t j = 0; j < counts.size(); ++j) {
         position += cell.indices()[j] * table.state_stride[static_cast<std::size_t>(moving[j])];
       }
       table.entries[static_cast<std::size_t>(position)] = entry(cell.indices());
-    } while (cell.next());
+    } while (cell.advance());
   }
 };
 

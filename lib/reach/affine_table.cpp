@@ -6,11 +6,10 @@
 #include <atomic>
 
 #include "base/error.hpp"
+#include "model/odometer.hpp"
 #include "model/pieces.hpp"
 #include "reach/affine_post.hpp"
 #include "reach/cells_meeting.hpp"
-#include "reach/counter.hpp"
-#include "reach/shift.hpp"
 #include "reach/table_layout.hpp"
 #include "reach/tube_table.hpp"
 
@@ -33,21 +32,31 @@ class TableBuilder {
         dependencies_(dynamics.dependencies(state)),
         table_(abstraction.tables[state]),
         tube_(abstraction.tubes.empty() ? nullptr : &abstraction.tubes[state]),
-        post_{grid_, dependencies_.moving, state},
+        post_{.grid = grid_, .moving = dependencies_.moving, .state = state},
         state_(state) {}
 
   std::optional<bool> build(ThreadTeam& team) {
     table_ = full_layout(spec_, dependencies_, state_, grid_, inputs_);
-    post_.shift = table_.shift;
     if (tube_ != nullptr) *tube_ = table_;
+    return fill_all(team);
+  }
 
+  /// Only what no limit is felt by; the tables are there.
+  void build_off_limits(ThreadTeam& team) {
+    limits_ = Limits::ignored;
+    fill_all(team);
+  }
+
+ private:
+  std::optional<bool> fill_all(ThreadTeam& team) {
+    post_.shift = table_.shift;
     std::atomic<bool> affine = true;
     std::atomic<bool> exact = true;
-    const Counter choices(choice_counts());
+    const Odometer choices(choice_counts());
     team.for_each(choices.size(), 1, [&](ThreadTeam::Range range, int) {
-      Counter choice = choices;
+      Odometer choice = choices;
       choice.seek(range.begin);
-      for (std::int64_t i = range.begin; i < range.end && affine; ++i, choice.next()) {
+      for (std::int64_t i = range.begin; i < range.end && affine; ++i, choice.advance()) {
         const std::optional<bool> filled = fill(choice.indices());
         if (!filled) affine = false;
         if (filled && !*filled) exact = false;
@@ -57,7 +66,6 @@ class TableBuilder {
     return exact.load();
   }
 
- private:
   [[nodiscard]] std::vector<std::int64_t> choice_counts() const {
     std::vector<std::int64_t> counts;
     for (const std::int32_t i : dependencies_.parameters) counts.push_back(post_.filled_count(at(i)));
@@ -79,18 +87,64 @@ class TableBuilder {
       slots[spec_.input_slot(at(i))] = inputs_[at(i)].values[static_cast<std::size_t>(k)];
       base += k * table_.input_stride[at(i)];
     }
-    const std::optional<SampledRow> row = dynamics_.row(state_, slots);
-    if (!row) return std::nullopt;
+    const std::optional<SampledRow> row = dynamics_.row(state_, slots, limits_);
+    if (!row) return limits_ == Limits::ignored ? std::optional(false) : std::nullopt;
+    AffinePost post = post_;
+    if (limits_ == Limits::ignored) post.applies = is_off_limits(slots);
     if (grid_[state_].discrete) {
-      fill_points(*row, slots, base);
+      fill_points(post, *row, slots, base);
     } else if (crosses_a_seam(*row)) {
-      fill_pieces(*row, base);
+      fill_pieces(post, *row, base);
     } else {
-      fill_cells(*row, base);
+      fill_cells(post, *row, base);
     }
-    if (tube_ != nullptr) fill_affine_tube(post_, dynamics_.tube_rows(state_, slots).value(), base, *tube_);
+    if (tube_ == nullptr) return row->exact;
+    fill_affine_tube(post, dynamics_.tube_rows(state_, slots, limits_).value(), base, *tube_);
     return row->exact;
   }
+
+  /// Whether all states stay between their limits, and do not touch them, for whole cells and at all times.
+  [[nodiscard]] std::function<bool(const std::vector<std::int64_t>&)> is_off_limits(
+      const std::vector<Rational>& slots) const {
+    std::vector<LimitedState> limited;
+    for (const std::int32_t j : dependencies_.moving) {
+      const GridDimension& dimension = grid_[at(j)];
+      if (dimension.below != Outside::stop && dimension.above != Outside::stop) continue;
+      const Dependencies& own = dynamics_.dependencies(at(j));
+      const AffinePost post{.grid = grid_, .moving = own.moving, .state = at(j)};
+      LimitedState& one = limited.emplace_back();
+      for (const std::int32_t k : own.moving) {
+        const auto place = std::find(dependencies_.moving.begin(), dependencies_.moving.end(), k);
+        one.places.push_back(static_cast<std::size_t>(place - dependencies_.moving.begin()));
+      }
+      one.last = dimension.count - 1;
+      const auto rows = dynamics_.tube_rows(at(j), slots, Limits::ignored);
+      if (!rows) return [](const auto&) { return false; };
+      for (const SampledRow& row : *rows) {
+        one.lower.push_back(post.end_form(row, false, 0));
+        one.upper.push_back(post.end_form(row, true, 0));
+      }
+    }
+    return [limited](const std::vector<std::int64_t>& cell) {
+      return std::all_of(limited.begin(), limited.end(),
+                         [&](const LimitedState& one) { return one.stays(cell); });
+    };
+  }
+
+  /// Where a state with limits is during a period, in steps from its first grid point.
+  struct LimitedState {
+    std::vector<std::size_t> places;  ///< of what it depends on, among the moving states
+    std::vector<IndexForm> lower;
+    std::vector<IndexForm> upper;
+    std::int64_t last = 0;
+
+    [[nodiscard]] bool stays(const std::vector<std::int64_t>& cell) const {
+      std::vector<std::int64_t> own;
+      for (const std::size_t place : places) own.push_back(cell[place]);
+      return std::all_of(lower.begin(), lower.end(), [&](const IndexForm& f) { return f.ceil(own) > 0; }) &&
+             std::all_of(upper.begin(), upper.end(), [&](const IndexForm& f) { return f.floor(own) < last; });
+    }
+  };
 
   /// Lower or upper end of the post, measurement error included, plus `shift`.
   [[nodiscard]] IndexForm end_form(const SampledRow& row, bool upper, const Rational& shift) const {
@@ -117,13 +171,13 @@ class TableBuilder {
     return false;
   }
 
-  void fill_pieces(const SampledRow& row, std::int64_t base) {
+  void fill_pieces(const AffinePost& post, const SampledRow& row, std::int64_t base) {
     const GridDimension& target = grid_[state_];
     const bool attained = upper_end_attained(row);
-    post_.fill(table_, base, [&](const std::vector<std::int64_t>& cell) {
+    post.fill(table_, base, [&](const std::vector<std::int64_t>& cell) {
       std::optional<IndexRange> range;
-      post_.for_each_choice_of_pieces(cell, [&](const std::vector<Piece>& pieces) {
-        const Piece values = post_.from_pieces(row, pieces);
+      post.for_each_choice_of_pieces(cell, [&](const std::vector<Piece>& pieces) {
+        const Piece values = post.from_pieces(row, pieces);
         const IndexRange next =
             cells_meeting(target, spec_.abstraction.cells, values.lower - target.measurement_error,
                           values.upper + target.measurement_error, attained);
@@ -134,29 +188,30 @@ class TableBuilder {
   }
 
   /// Cell k is [k - 1/2, k + 1/2] in units of the step, without its upper end if half-open.
-  void fill_cells(const SampledRow& row, std::int64_t base) {
+  void fill_cells(const AffinePost& post, const SampledRow& row, std::int64_t base) {
     const Rational half(1, 2);
     const bool closed = spec_.abstraction.cells == Cells::closed;
     const bool attained = closed || upper_end_attained(row);
     const IndexForm lower = end_form(row, false, closed ? Rational(-half) : half);
     const IndexForm upper = end_form(row, true, half);
-    post_.fill(table_, base, [&](const std::vector<std::int64_t>& cell) {
+    post.fill(table_, base, [&](const std::vector<std::int64_t>& cell) {
       const std::int64_t first = closed ? lower.ceil(cell) : lower.floor(cell);
       const std::int64_t last = attained ? upper.floor(cell) : upper.ceil(cell) - 1;
-      return IndexRange{saturate_index(first), saturate_index(last)};
+      return raw_range(grid_[state_], first, last);
     });
   }
 
-  void fill_points(const SampledRow& row, const std::vector<Rational>& slots, std::int64_t base) {
+  void fill_points(const AffinePost& post, const SampledRow& row, const std::vector<Rational>& slots,
+                   std::int64_t base) {
     bool spread = row.lower != row.upper;
     for (std::size_t j = 0; j < row.coefficient.size(); ++j) {
       if (row.coefficient[j] != 0 && !grid_[at(dependencies_.moving[j])].discrete) spread = true;
     }
     const IndexForm form = end_form(row, false, 0);
-    post_.fill(table_, base, [&](const std::vector<std::int64_t>& cell) {
+    post.fill(table_, base, [&](const std::vector<std::int64_t>& cell) {
       if (spread || !form.integral(cell)) throw off_grid(row, slots, cell, spread);
-      const std::int32_t index = saturate_index(form.floor(cell));
-      return IndexRange{index, index};
+      const std::int64_t index = form.floor(cell);
+      return raw_range(grid_[state_], index, index);
     });
   }
 
@@ -194,6 +249,7 @@ class TableBuilder {
   TransitionTable* tube_;  ///< null if not asked for
   AffinePost post_;
   std::size_t state_;
+  Limits limits_ = Limits::obeyed;
 };
 
 }  // namespace
@@ -201,6 +257,11 @@ class TableBuilder {
 std::optional<bool> build_affine_table(const ProblemSpec& spec, const AffineDynamics& dynamics,
                                        Abstraction& abstraction, std::size_t state, ThreadTeam& team) {
   return TableBuilder(spec, dynamics, abstraction, state).build(team);
+}
+
+void fill_cells_off_limits(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
+                           std::size_t state, ThreadTeam& team) {
+  if (dynamics.has_limit(state)) TableBuilder(spec, dynamics, abstraction, state).build_off_limits(team);
 }
 
 }  // namespace coordreq

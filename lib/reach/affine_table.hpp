@@ -10,13 +10,18 @@ namespace coordreq {
 
 /// Fills the table of one state of an exactly solvable system: each post is the exact hull (or rounded
 /// outward where constants are irrational).
-/// @returns whether every post is exact; nothing if the dynamics are not affine for some choice of parameters
-/// and
-///   inputs (the table is then unspecified)
+/// @returns whether every post is exact; nothing if the dynamics are not affine for some choice of
+///   parameters and inputs (the table is then unspecified)
 /// @throws SpecError if a discrete state can leave its grid (naming state and input) or an equation is
-/// undefined
+///   undefined
 [[nodiscard]] std::optional<bool> build_affine_table(const ProblemSpec& spec, const AffineDynamics& dynamics,
                                                      Abstraction& abstraction, std::size_t state,
                                                      ThreadTeam& team);
+
+/// Puts exact posts, and tubes, into a table made otherwise: those of cells from which, with one input, no
+/// state can come to a limit that would stop it. Nothing where the system would not be exactly solvable
+/// without its limits, or has none.
+void fill_cells_off_limits(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
+                           std::size_t state, ThreadTeam& team);
 
 }  // namespace coordreq

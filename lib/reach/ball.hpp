@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "expression/dual.hpp"
 #include "numeric/interval.hpp"
-#include "reach/dual.hpp"
 
 namespace coordreq {
 

@@ -13,7 +13,7 @@ void BoxChoices::add_state(const GridDimension& dimension, std::uint32_t slot, s
   for (std::int64_t k = 0; k < count; ++k) {
     variable.points.push_back(dimension.point(k));
     std::vector<Interval>& boxes = variable.pieces.emplace_back();
-    for (const Piece& piece : pieces(dimension, k)) boxes.push_back(box_of(piece.lower, piece.upper));
+    for (const Piece& piece : pieces(dimension, k)) boxes.push_back(enclose(piece.lower, piece.upper));
   }
 }
 
@@ -23,16 +23,16 @@ void BoxChoices::add_input(const InputSpace::Dimension& input, std::uint32_t slo
   variable.name = input.name;
   for (const Rational& value : input.values) {
     variable.points.push_back(value);
-    variable.pieces.push_back({box_of(value, value)});
+    variable.pieces.push_back({enclose(value)});
   }
 }
 
-Counter BoxChoices::counter() const {
+Odometer BoxChoices::odometer() const {
   std::vector<std::int64_t> counts;
   for (const Variable& variable : variables_) {
     counts.push_back(static_cast<std::int64_t>(variable.pieces.size()));
   }
-  return Counter(counts);
+  return Odometer(counts);
 }
 
 std::string BoxChoices::place(const std::vector<std::int64_t>& choice) const {

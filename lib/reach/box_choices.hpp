@@ -5,15 +5,11 @@
 #include <vector>
 
 #include "model/input_space.hpp"
+#include "model/odometer.hpp"
 #include "model/uniform_grid.hpp"
-#include "reach/counter.hpp"
 #include "reach/state_enclosure.hpp"
 
 namespace coordreq {
-
-[[nodiscard]] inline Interval box_of(const Rational& lower, const Rational& upper) {
-  return {.lower = lower_double(lower), .upper = upper_double(upper)};
-}
 
 /// All choices of one index for each of some states and inputs, with the boxes of values that they mean; a
 /// cell on the seam of a periodic state has two.
@@ -24,7 +20,7 @@ class BoxChoices {
   void add_input(const InputSpace::Dimension& input, std::uint32_t slot);
 
   /// Counts through the indices, in the order in which they were added.
-  [[nodiscard]] Counter counter() const;
+  [[nodiscard]] Odometer odometer() const;
 
   /// Puts the boxes into `enclosure` and calls `visit(piece)`, once for every choice of pieces; `piece`
   /// numbers that of each variable as in pieces().
@@ -35,13 +31,13 @@ class BoxChoices {
     for (std::size_t v = 0; v < choice.size(); ++v) {
       counts.push_back(static_cast<std::int64_t>(boxes(choice, v).size()));
     }
-    Counter piece(counts);
+    Odometer piece(counts);
     do {
       for (std::size_t v = 0; v < choice.size(); ++v) {
         enclosure.set(variables_[v].slot, boxes(choice, v)[static_cast<std::size_t>(piece.indices()[v])]);
       }
       visit(piece.indices());
-    } while (piece.next());
+    } while (piece.advance());
   }
 
   /// " near x = 1, u = 0.5", for messages; empty without variables.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/pieces.hpp"
+
 namespace coordreq {
 
 IndexRange cells_meeting(const GridDimension& dimension, Cells cells, const Rational& lower,
@@ -13,7 +15,7 @@ IndexRange cells_meeting(const GridDimension& dimension, Cells cells, const Rati
   const bool closed = cells == Cells::closed;
   const std::int64_t first = closed ? ceil_to_int(low - half) : floor_to_int(low + half);
   const std::int64_t last = closed || upper_attained ? floor_to_int(high) : ceil_to_int(high) - 1;
-  return {saturate_index(first), saturate_index(last)};
+  return raw_range(dimension, first, last);
 }
 
 IndexRange cells_meeting(const GridDimension& dimension, Cells cells, const Interval& enclosure) {
@@ -32,12 +34,12 @@ IndexRange cells_covering(const GridDimension& dimension, const Rational& lower,
   const std::int64_t first = floor_to_int((lower + reach - dimension.first) / dimension.step);
   const std::int64_t last = ceil_to_int((upper - reach - dimension.first) / dimension.step);
   // Where cells overlap, each of several may cover all.
-  return {saturate_index(first), saturate_index(std::max(first, last))};
+  return raw_range(dimension, first, std::max(first, last));
 }
 
 IndexRange cells_covering_shifted(const GridDimension& dimension, const Interval& shift) {
-  return {saturate_index(floor_to_int(exact(shift.lower) / dimension.step)),
-          saturate_index(ceil_to_int(exact(shift.upper) / dimension.step))};
+  return raw_range(dimension, floor_to_int(exact(shift.lower) / dimension.step),
+                   ceil_to_int(exact(shift.upper) / dimension.step));
 }
 
 }  // namespace coordreq

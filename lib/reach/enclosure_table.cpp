@@ -10,9 +10,9 @@
 #include "base/error.hpp"
 #include "expression/place.hpp"
 #include "model/pieces.hpp"
+#include "reach/affine_table.hpp"
 #include "reach/box_choices.hpp"
 #include "reach/cells_meeting.hpp"
-#include "reach/shift.hpp"
 #include "reach/state_enclosure.hpp"
 #include "reach/table_layout.hpp"
 
@@ -110,6 +110,13 @@ class EnclosureTable {
                                   choices_.place(choice), reason.empty() ? "" : ": ", reason),
                       pointer);
     }
+    if (result.status == StateEnclosure::Status::too_stiff) {
+      throw SpecError(
+          fmt::format("the equation of '{}', {}, is too stiff{}: it decays at a rate of {:.3g}, "
+                      "expected one that can be followed for a period of {}",
+                      name, equation, choices_.place(choice), result.rate, to_text(spec_.dynamics.period)),
+          pointer);
+    }
     throw SpecError(fmt::format("the solution of '{}', with the equation {}, may escape to infinity within "
                                 "one period{}, or change too fast to be followed that long",
                                 name, equation, choices_.place(choice)),
@@ -128,8 +135,8 @@ class EnclosureTable {
                       to_text(target_.step)),
           where());
     }
-    const std::int32_t k = saturate_index(floor_to_int(index));
-    return {k, k};
+    const std::int64_t k = floor_to_int(index);
+    return raw_range(target_, k, k);
   }
 
   [[nodiscard]] std::string equation_text(std::size_t state) const {
@@ -151,9 +158,9 @@ class EnclosureTable {
 
 }  // namespace
 
-void build_enclosure_tables(const ProblemSpec& spec, const Dependencies& dependencies,
-                            Abstraction& abstraction, const std::vector<std::size_t>& states,
-                            ThreadTeam& team) {
+void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
+                            const std::vector<std::size_t>& states, ThreadTeam& team) {
+  const Dependencies& dependencies = dynamics.dependencies(states.front());
   const StateEnclosure enclosure(spec, dependencies, states.front());
   BoxChoices choices;
   std::vector<EnclosureTable> tables;
@@ -178,12 +185,12 @@ void build_enclosure_tables(const ProblemSpec& spec, const Dependencies& depende
   }
 
   std::vector<StateEnclosure> enclosures(static_cast<std::size_t>(team.size()), enclosure);
-  const Counter all = choices.counter();
+  const Odometer all = choices.odometer();
   team.for_each(all.size(), 64, [&](ThreadTeam::Range range, int worker) {
     StateEnclosure& mine = enclosures[static_cast<std::size_t>(worker)];
-    Counter choice = all;
+    Odometer choice = all;
     choice.seek(range.begin);
-    for (std::int64_t i = range.begin; i < range.end; ++i, choice.next()) {
+    for (std::int64_t i = range.begin; i < range.end; ++i, choice.advance()) {
       std::int64_t entry = 0;
       for (std::size_t v = 0; v < strides.size(); ++v) entry += choice.indices()[v] * strides[v];
       bool first = true;
@@ -196,6 +203,7 @@ void build_enclosure_tables(const ProblemSpec& spec, const Dependencies& depende
       });
     }
   });
+  for (const std::size_t state : states) fill_cells_off_limits(spec, dynamics, abstraction, state, team);
 }
 
 }  // namespace coordreq

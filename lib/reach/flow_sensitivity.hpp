@@ -1,10 +1,8 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "reach/jacobian.hpp"
 #include "reach/sensitivity.hpp"
+#include "reach/turning_product.hpp"
 
 namespace coordreq {
 
@@ -13,7 +11,7 @@ namespace coordreq {
 ///
 ///     x(t) - z(t)  in  initial (x(0) - z(0)) + integral of K(s) (w(s) - v(s)) ds + [-jump, jump]
 ///
-/// with K(s) in `kernel` for all s, and `weight` at least the integral of |K(s)|. Row-major, n x n and n x m.
+/// with K(s) in `kernel` for all s, and `weight` at least the integral of |K(s)|. Matrices n x n and n x m.
 class FlowSensitivity {
  public:
   FlowSensitivity(std::size_t states, std::size_t disturbances);
@@ -26,32 +24,27 @@ class FlowSensitivity {
   void lose();
 
   [[nodiscard]] bool is_bounded() const { return bounded_; }
-  [[nodiscard]] const Interval& initial(std::size_t i, std::size_t j) const { return initial_[i * n_ + j]; }
-  [[nodiscard]] const Interval& kernel(std::size_t i, std::size_t l) const { return kernel_[i * m_ + l]; }
-  [[nodiscard]] double weight(std::size_t i, std::size_t l) const { return weight_[i * m_ + l]; }
+  [[nodiscard]] const Interval& initial(std::size_t i, std::size_t j) const {
+    return initial_(index(i), index(j));
+  }
+  [[nodiscard]] const Interval& kernel(std::size_t i, std::size_t l) const {
+    return kernel_(index(i), index(l));
+  }
+  [[nodiscard]] double weight(std::size_t i, std::size_t l) const { return weight_(index(i), index(l)); }
   /// Puts a better bound there. REQUIRES: it is one.
-  void set_weight(std::size_t i, std::size_t l, double bound) { weight_[i * m_ + l] = bound; }
-  [[nodiscard]] double jump(std::size_t i) const { return jump_[i]; }
+  void set_weight(std::size_t i, std::size_t l, double bound) { weight_(index(i), index(l)) = bound; }
+  [[nodiscard]] double jump(std::size_t i) const { return jump_(index(i)); }
 
  private:
-  void append_initial(const TransitionMatrix& transition);
-  void append_kernel(const TransitionMatrix& transition, const Jacobian& jacobian);
-  void append_sizes(const TransitionMatrix& transition, const Jacobian& jacobian);
+  static Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
-  std::size_t n_;
-  std::size_t m_;
   bool bounded_ = true;
   bool first_ = true;
-  std::vector<Interval> initial_;
-  std::vector<Interval> kernel_;
-  std::vector<double> weight_;
-  std::vector<double> jump_;
-  std::vector<Interval> next_;
-  std::vector<double> next_size_;
+  IntervalMatrix initial_;
+  TurningProduct turning_;  ///< the same
+  IntervalMatrix kernel_;
+  RealMatrix weight_;
+  RealVector jump_;
 };
-
-/// A x for a row of a matrix and a column, in intervals; entries that are 0 cost nothing.
-[[nodiscard]] Interval scalar_product(std::span<const Interval> row, std::span<const Interval> matrix,
-                                      std::size_t column, std::size_t columns);
 
 }  // namespace coordreq

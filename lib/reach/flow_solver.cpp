@@ -9,8 +9,11 @@ namespace {
 /// The period is divided into at most so many parts; if one of them has no enclosure, nothing helps.
 constexpr std::uint32_t kParts = 1U << 20U;
 constexpr std::size_t kMostTries = 20000;
-/// No box of initial states may take more of them, nor much longer than a second.
-constexpr std::size_t kMostSteps = 30000;
+/// After some tries, steps that would be so many times as many as are allowed in all are not worth more.
+constexpr std::size_t kHopeTries = 24;
+constexpr std::size_t kHope = 8;
+/// Decay by more powers of e than this within a period is called stiff.
+constexpr double kStiff = 1000.0;
 /// Longer steps are tried again after so many that went well.
 constexpr int kPatience = 3;
 /// Steps this small are taken although the sensitivity stays unbounded.
@@ -43,7 +46,8 @@ ValidatedFlow::Solver::Solver(FlowSystem system, const Interval& period)
       sensitivity_(n_, m_),
       taylor_(tape_),
       nominal_(tape_, field_),
-      affine_kernel_(n_, m_),
+      affine_kernel_(n_),
+      faces_(system_),
       wanted_(2 * n_, std::vector<End>(n_ + m_)),
       solution_of_(2 * n_),
       initial_(n_),
@@ -55,16 +59,11 @@ ValidatedFlow::Solver::Solver(FlowSystem system, const Interval& period)
       deviation_(n_),
       damped_(n_),
       none_held_(n_),
-      tolerance_(n_) {
+      tolerance_(n_),
+      allowed_excess_(n_) {
   result_.end.resize(n_);
   result_.tube.resize(n_);
   result_.drift.resize(n_);
-}
-
-const FlowEnclosure& ValidatedFlow::Solver::flow(std::span<const Interval> slots) {
-  begin(slots);
-  if (run_steps()) result_.end = now_;
-  return result_;
 }
 
 void ValidatedFlow::Solver::begin(std::span<const Interval> slots) {
@@ -77,12 +76,18 @@ void ValidatedFlow::Solver::begin(std::span<const Interval> slots) {
   now_ = initial_;
   solution_count_ = 0;
   ever_stopped_ = false;
+  restarted_ = false;
+  attained_.clear();
+  gave_up_ = false;
+  fastest_decay_ = fastest_growth_ = 0.0;
   result_.status = FlowEnclosure::Status::ok;
   result_.tube = initial_;
   std::fill(result_.drift.begin(), result_.drift.end(), Interval{});
 }
 
-bool ValidatedFlow::Solver::run_steps() {
+/// @param patient goes on although steps are so short that there are not enough of them
+/// @returns whether that led to the end of the period
+bool ValidatedFlow::Solver::run_steps(std::size_t most_steps, bool patient) {
   std::uint32_t left = kParts;
   std::uint32_t parts = kParts;
   int successes = 0;
@@ -96,7 +101,9 @@ bool ValidatedFlow::Solver::run_steps() {
       left -= parts;
       finish_step(left == 0);
       if (++successes % kPatience == 0) parts *= 2;
-      if (tries_ >= kMostSteps && left > 0) {
+      const bool hopeless = !patient && tries_ > kHopeTries && left / parts > kHope * most_steps;
+      gave_up_ = left > 0 && (tries_ >= most_steps || hopeless);
+      if (gave_up_) {
         fail(FlowFailure{false, fastest()});
         return false;
       }
@@ -108,6 +115,7 @@ bool ValidatedFlow::Solver::run_steps() {
       return false;
     }
   }
+  result_.end = now_;
   return true;
 }
 
@@ -121,6 +129,12 @@ std::size_t ValidatedFlow::Solver::fastest() const {
 void ValidatedFlow::Solver::fail(const FlowFailure& failure) {
   result_.status = failure.undefined ? FlowEnclosure::Status::undefined : FlowEnclosure::Status::blows_up;
   result_.culprit = failure.equation;
+  const bool stiff = fastest_decay_ > fastest_growth_ && fastest_decay_ * period_.upper > kStiff;
+  if (!failure.undefined && stiff) {
+    result_.status = FlowEnclosure::Status::too_stiff;
+    result_.culprit = stiffest_;
+  }
+  result_.rate = fastest_decay_;
   if (failure.undefined) result_.undefined_at.assign(field_.slots().begin(), field_.slots().end());
   result_.end = now_;
 }
@@ -129,7 +143,6 @@ FlowStep& ValidatedFlow::Solver::next_step() {
   if (step_count_ == steps_.size()) {
     steps_.emplace_back();
     steps_.back().choices.resize(tape_.nodes.size());
-    steps_.back().transition.resize(n_ * n_);
   }
   return steps_[step_count_];
 }
@@ -185,12 +198,18 @@ void ValidatedFlow::Solver::find_damping(const Interval& duration) {
 bool ValidatedFlow::Solver::append_sensitivity(const Interval& duration, bool divisible) {
   jacobian_.evaluate(box_);
   for (std::size_t i = 0; i < n_; ++i) {
-    const double strongest = jacobian_.state()[i * n_ + i].lower * duration.upper;
+    const auto own = static_cast<Eigen::Index>(i);
+    const double strongest = jacobian_.state()(own, own).lower * duration.upper;
     if (strongest < -kStrongDecay) damped_[i] = true;
+    if (-jacobian_.state()(own, own).lower > fastest_decay_) {
+      fastest_decay_ = -jacobian_.state()(own, own).lower;
+      stiffest_ = i;
+    }
+    fastest_growth_ = std::max(fastest_growth_, jacobian_.state()(own, own).upper);
   }
   if (transition_.enclose(jacobian_.state(), duration, damped_)) {
     sensitivity_.append(transition_, jacobian_);
-    std::copy(transition_.end().begin(), transition_.end().end(), next_step().transition.begin());
+    next_step().transition = transition_.end();
     return true;
   }
   const bool small = duration.upper * kParts <= period_.upper * kSmallWithoutBound;
@@ -222,6 +241,7 @@ void ValidatedFlow::Solver::finish_step(bool last) {
 
 /// Forgets how the box came about and goes on from it.
 void ValidatedFlow::Solver::restart() {
+  restarted_ = true;
   initial_ = now_;
   sensitivity_.reset();
   step_count_ = 0;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "reach/affine_kernel.hpp"
+#include "reach/face_flow.hpp"
 #include "reach/flow_sensitivity.hpp"
 #include "reach/nominal_flow.hpp"
 #include "reach/validated_flow.hpp"
@@ -16,7 +17,7 @@ struct FlowStep {
   bool smooth = false;  ///< the remainder holds for every solution from the initial box
   TaylorRemainder remainder;
   Choices choices;
-  std::vector<Interval> transition;  ///< of the difference of two solutions, row-major
+  IntervalMatrix transition;  ///< of the difference of two solutions
 };
 
 /// A solution that is followed from a corner of the boxes of initial states and of disturbances, or from the
@@ -43,7 +44,7 @@ class ValidatedFlow::Solver {
 
   // Steps (flow_solver.cpp).
   void begin(std::span<const Interval> slots);
-  bool run_steps();
+  bool run_steps(std::size_t most_steps, bool patient);
   std::optional<FlowFailure> try_step(const Interval& duration, bool divisible);
   std::optional<FlowFailure> try_step_on_seam(const Interval& duration);
   void set_tolerance();
@@ -54,6 +55,15 @@ class ValidatedFlow::Solver {
   [[nodiscard]] std::size_t fastest() const;
   void fail(const FlowFailure& failure);
   FlowStep& next_step();
+
+  // More work for a tighter result (refine_flow.cpp).
+  void enclose(std::span<const Interval> slots, int halvings);
+  [[nodiscard]] double allowed_excess(std::size_t i) const;
+  [[nodiscard]] bool is_tight() const;
+  [[nodiscard]] bool is_smooth() const;
+  void enclose_halves(std::span<const Interval> slots, int halvings);
+  [[nodiscard]] std::size_t most_uncertain() const;
+  bool bound_by_faces(std::span<const Interval> slots, bool found);
 
   // Solutions that are followed (follow_extremes.cpp).
   void set_start(FollowedSolution& solution) const;
@@ -67,6 +77,7 @@ class ValidatedFlow::Solver {
   void follow_extremes(bool last);
   void integrate_affine_kernels();
   [[nodiscard]] double deviation(std::size_t i, bool upper, const std::vector<End>& ends) const;
+  void note_attained(const FollowedSolution& solution);
   void use_extreme(std::size_t i, bool upper, const FollowedSolution& solution, const std::vector<End>& ends);
 
   FlowSystem system_;
@@ -81,6 +92,8 @@ class ValidatedFlow::Solver {
   TaylorStep taylor_;
   NominalFlow nominal_;
   AffineKernel affine_kernel_;
+  FaceFlow faces_;
+  FlowEnclosure by_faces_;
 
   std::vector<FlowStep> steps_;
   std::size_t step_count_ = 0;  ///< since the start, or since the last restart
@@ -96,10 +109,17 @@ class ValidatedFlow::Solver {
   std::vector<Interval> box_;          ///< during the step
   std::vector<Interval> derivative_;
   std::vector<Interval> next_;
-  std::vector<Interval> deviation_;
+  IntervalVector deviation_;
   std::vector<bool> damped_;
   std::vector<bool> none_held_;
   std::vector<double> tolerance_;
+  std::vector<Interval> attained_;  ///< hull of solutions that were followed to the end; empty: none
+  std::vector<double> allowed_excess_;
+  bool restarted_ = false;  ///< they were not followed from the start
+  double fastest_decay_ = 0.0;
+  double fastest_growth_ = 0.0;
+  std::size_t stiffest_ = 0;
+  bool gave_up_ = false;
   bool all_free_ = true;       ///< no state may run into a limit in this step
   bool ever_stopped_ = false;  ///< in an earlier one it might
   FlowEnclosure result_;

@@ -15,7 +15,7 @@ using Rule = FlowTape::Rule;
 constexpr int kLargestProduct = 64;
 
 /// Puts nodes on a tape, equal ones once.
-class TapeWriter {
+class TapeWriter final : private NodeWriter {
  public:
   TapeWriter(FlowTape& tape, std::span<const Index> states, std::span<const Index> disturbances)
       : tape_(tape) {
@@ -48,11 +48,12 @@ class TapeWriter {
     return put(Operator::constant, known->second);
   }
 
+  Index put_operation(Operator op, Index a, Index b) override { return put(op, a, b); }
+  Index put_number(int value) override { return constant(Rational(value)); }
+
   Index put(Operator op, Index a = 0, Index b = 0, Index c = 0) {
-    const bool leaf = op == Operator::constant || op == Operator::variable;
-    const bool unary = leaf || is_unary_function(op) || op == Operator::logical_not;
-    if (unary) b = c = 0;
-    if (op != Operator::if_else) c = 0;
+    if (operand_count(op) < 2) b = 0;
+    if (operand_count(op) < 3) c = 0;
     const auto key = std::make_tuple(op, a, b, c);
     if (const auto known = index_of_.find(key); known != index_of_.end()) return known->second;
     const bool moving_power = op == Operator::power && !(is_fixed(a) && is_fixed(b));
@@ -91,69 +92,11 @@ class TapeWriter {
 
   void set_rule(Index i) {
     const Node node = tape_.nodes[i];
-    switch (node.op) {
-      case Operator::variable:
-        return rule(i, Rule::variable, moving_.at(node.a), 0);
-      case Operator::add:
-        return rule(i, Rule::sum, node.a, node.b);
-      case Operator::subtract:
-        return rule(i, Rule::difference, node.a, node.b);
-      case Operator::multiply:
-        return rule(i, Rule::product, node.a, node.b);
-      case Operator::divide:
-        return rule(i, Rule::quotient, node.a, node.b);
-      case Operator::negate:
-        return rule(i, Rule::negation, node.a, 0);
-      case Operator::square_root:
-        return rule(i, Rule::root, node.a, 0);
-      case Operator::minimum:
-      case Operator::maximum:
-      case Operator::absolute:
-      case Operator::sign:
-        return rule(i, Rule::pick, node.a, node.b);
-      case Operator::if_else:
-        return rule(i, Rule::pick, node.b, node.c);
-      case Operator::power:
-        return rule(i, Rule::power, node.a, node.b);
-      default:
-        return set_function_rule(i, node.op, node.a);
-    }
-  }
-
-  /// Functions by their differential equations, r' = q a' or q r' = a'.
-  void set_function_rule(Index i, Operator op, Index a) {
-    const auto one = [&] { return constant(Rational(1)); };
-    const auto squared = [&](Index x) { return put(Operator::multiply, x, x); };
-    switch (op) {
-      case Operator::exponential:
-        return rule(i, Rule::chain, a, i);
-      case Operator::sine:
-        return rule(i, Rule::chain, a, put(Operator::cosine, a));
-      case Operator::cosine:
-        return rule(i, Rule::chain, a, put(Operator::negate, put(Operator::sine, a)));
-      case Operator::hyperbolic_sine:
-        return rule(i, Rule::chain, a, put(Operator::hyperbolic_cosine, a));
-      case Operator::hyperbolic_cosine:
-        return rule(i, Rule::chain, a, put(Operator::hyperbolic_sine, a));
-      case Operator::tangent:
-        return rule(i, Rule::chain, a, put(Operator::add, one(), squared(i)));
-      case Operator::hyperbolic_tangent:
-        return rule(i, Rule::chain, a, put(Operator::subtract, one(), squared(i)));
-      case Operator::logarithm:
-        return rule(i, Rule::inverse_chain, a, a);
-      case Operator::arctangent:
-        return rule(i, Rule::inverse_chain, a, put(Operator::add, one(), squared(a)));
-      case Operator::arcsine:
-        return rule(i, Rule::inverse_chain, a, cosine_of_arcsine(a));
-      default:
-        return rule(i, Rule::inverse_chain, a, put(Operator::negate, cosine_of_arcsine(a)));
-    }
-  }
-
-  /// sqrt(1 - a^2).
-  Index cosine_of_arcsine(Index a) {
-    const Index square = put(Operator::multiply, a, a);
-    return put(Operator::square_root, put(Operator::subtract, constant(Rational(1)), square));
+    if (node.op == Operator::variable) return rule(i, Rule::variable, moving_.at(node.a), 0);
+    if (node.op == Operator::if_else) return rule(i, Rule::pick, node.b, node.c);
+    const Series& series = number_function(node.op).series;
+    const Index second = is_unary_function(node.op) ? 0 : node.b;
+    rule(i, series.rule, node.a, series.factor == nullptr ? second : series.factor(*this, node.a, i));
   }
 
   /// Integer powers as products, so that a base that contains 0 does no harm; moving exponents by exp, log.
@@ -213,13 +156,16 @@ class TapeWriter {
 };
 
 std::vector<Index> value_operands(const Node& node) {
-  if (node.op == Operator::constant || node.op == Operator::variable || node.op == Operator::literal_true ||
-      node.op == Operator::literal_false) {
-    return {};
+  switch (operand_count(node.op)) {
+    case 0:
+      return {};
+    case 1:
+      return {node.a};
+    case 2:
+      return {node.a, node.b};
+    default:
+      return {node.a, node.b, node.c};
   }
-  if (is_unary_function(node.op) || node.op == Operator::logical_not) return {node.a};
-  if (node.op == Operator::if_else) return {node.a, node.b, node.c};
-  return {node.a, node.b};
 }
 
 std::vector<Index> series_operands(const Node& node) {
@@ -231,8 +177,7 @@ std::vector<Index> series_operands(const Node& node) {
     case Rule::root:
       return {node.p};
     case Rule::pick:
-      return node.op == Operator::absolute || node.op == Operator::sign ? std::vector<Index>{node.p}
-                                                                        : std::vector<Index>{node.p, node.q};
+      return is_unary_function(node.op) ? std::vector<Index>{node.p} : std::vector<Index>{node.p, node.q};
     default:
       return {node.p, node.q};
   }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "expression/functions.hpp"
 #include "expression/program.hpp"
 
 namespace coordreq {
@@ -15,21 +16,9 @@ namespace coordreq {
 /// `chain` and `inverse_chain` may stand behind, as only their lower orders are needed. Immutable, so safe
 /// to share between threads.
 struct FlowTape {
-  /// How coefficient k of r follows; a' is the derivative in time.
-  enum class Rule : std::uint8_t {
-    fixed,          ///< no moving variable below: r_k = 0 for k > 0
-    variable,       ///< state p, or a disturbance (p = kNone), which is constant
-    sum,            ///< r = p + q
-    difference,     ///< r = p - q
-    negation,       ///< r = -p
-    product,        ///< r = p q
-    quotient,       ///< r = p / q
-    chain,          ///< r' = q p', as sin with q = cos
-    inverse_chain,  ///< q r' = p', as log with q = p
-    root,           ///< r^2 = p
-    power,          ///< r = p^q for a fixed q
-    pick,           ///< abs, sign, min, max, if: one of +-p, q or a constant, as the surroundings decide
-  };
+  /// How coefficient k of a node follows; `variable`: of state p, or of a disturbance (p = kNone), which is
+  /// constant.
+  using Rule = SeriesRule;
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   struct Node {

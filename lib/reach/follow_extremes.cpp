@@ -102,16 +102,14 @@ void ValidatedFlow::Solver::advance_smoothly(const FlowStep& step, std::vector<I
   bool wide = false;
   for (std::size_t i = 0; i < n_; ++i) {
     const Interval middle = point(midpoint(state[i]));
-    deviation_[i] = state[i] - middle;
+    Interval& deviation = deviation_(static_cast<Eigen::Index>(i));
+    deviation = state[i] - middle;
     state[i] = middle;
-    wide = wide || !is_zero(deviation_[i]);
+    wide = wide || !deviation.is_zero();
   }
   taylor_.advance(field_, step.duration, step.choices, none_held_, step.remainder, state);
   if (!wide) return;
-  for (std::size_t i = 0; i < n_; ++i) {
-    const auto row = std::span<const Interval>(step.transition).subspan(i * n_, n_);
-    state[i] = state[i] + scalar_product(row, deviation_, 0, 1);
-  }
+  Eigen::Map<IntervalVector>(state.data(), deviation_.size()) += product(step.transition, deviation_);
 }
 
 /// Brings the solution up to the present step. @returns whether it could be enclosed
@@ -205,10 +203,17 @@ void ValidatedFlow::Solver::follow_extremes(bool last) {
   for (std::size_t s = 0; s < solution_count_; ++s) {
     if (std::find(solution_of_.begin(), solution_of_.end(), s) == solution_of_.end()) continue;
     if (!follow(solutions_[s])) continue;
+    if (last) note_attained(solutions_[s]);
     for (std::size_t e = 0; e < 2 * n_; ++e) {
       if (solution_of_[e] == s) use_extreme(e / 2, e % 2 == 1, solutions_[s], wanted_[e]);
     }
   }
+}
+
+void ValidatedFlow::Solver::note_attained(const FollowedSolution& solution) {
+  const std::vector<Interval>& value = solution.state.value;
+  if (attained_.empty()) attained_ = value;
+  for (std::size_t i = 0; i < n_; ++i) attained_[i] = hull(attained_[i], value[i]);
 }
 
 /// Moves one end of `next_` to what the solution that was followed says.

@@ -9,11 +9,11 @@ Jacobian::Jacobian(const FlowSystem& system, const FlowTape& tape)
       tape_(&tape),
       directions_(system.state_slots),
       values_(tape),
-      slots_(system.slot_count),
-      state_(system.state_slots.size() * system.state_slots.size()),
-      disturbance_(system.state_slots.size() * system.disturbance_slots.size()),
-      jump_(system.state_slots.size()) {
+      slots_(system.slot_count) {
   directions_.insert(directions_.end(), system.disturbance_slots.begin(), system.disturbance_slots.end());
+  const auto states = static_cast<Eigen::Index>(system.state_slots.size());
+  gradient_.resize(states, static_cast<Eigen::Index>(directions_.size()));
+  jump_.resize(states);
 }
 
 void Jacobian::begin(std::span<const Interval> slots) {
@@ -36,23 +36,18 @@ void Jacobian::evaluate(std::span<const Interval> box) {
       slot = Dual::constant(slot.value);
     }
   }
+  state_ = gradient_.leftCols(gradient_.rows());
+  disturbance_ = gradient_.rightCols(gradient_.cols() - gradient_.rows());
 }
 
 /// Takes directions first, ..., first + count - 1 from the values.
 void Jacobian::collect(std::size_t first, std::size_t count) {
-  const std::size_t n = system_->state_slots.size();
-  const std::size_t m = system_->disturbance_slots.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Dual& value = values_[tape_->outputs[i]];
-    jump_[i] = value.jump.upper;
+  for (Eigen::Index i = 0; i < gradient_.rows(); ++i) {
+    const Dual& value = values_[tape_->outputs[static_cast<std::size_t>(i)]];
+    jump_(i) = value.jump.upper;
     for (std::size_t j = 0; j < count; ++j) {
-      const Interval entry = j < value.directions ? value.gradient[j] : Interval{0.0, 0.0};
-      const std::size_t direction = first + j;
-      if (direction < n) {
-        state_[i * n + direction] = entry;
-      } else {
-        disturbance_[i * m + direction - n] = entry;
-      }
+      gradient_(i, static_cast<Eigen::Index>(first + j)) =
+          j < value.directions ? value.gradient[j] : Interval{0.0, 0.0};
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "numeric/matrix.hpp"
 #include "reach/a_priori.hpp"
 
 namespace coordreq {
@@ -12,7 +13,7 @@ namespace coordreq {
 ///     f(x, w) - g(y, v)  in  state (x - y) + disturbance (w - v) + jump,
 ///
 /// where g is f with its open discontinuities pinned to the middle of their range (see Dual).
-/// Row-major matrices n x n and n x m. Scratch memory for one thread.
+/// Matrices n x n and n x m. Scratch memory for one thread.
 class Jacobian {
  public:
   /// REQUIRES: system and tape outlive it.
@@ -22,10 +23,10 @@ class Jacobian {
   void begin(std::span<const Interval> slots);
   void evaluate(std::span<const Interval> box);
 
-  [[nodiscard]] std::span<const Interval> state() const { return state_; }
-  [[nodiscard]] std::span<const Interval> disturbance() const { return disturbance_; }
+  [[nodiscard]] const IntervalMatrix& state() const { return state_; }
+  [[nodiscard]] const IntervalMatrix& disturbance() const { return disturbance_; }
   /// Half the width; the jump is symmetric about 0.
-  [[nodiscard]] std::span<const double> jump() const { return jump_; }
+  [[nodiscard]] const RealVector& jump() const { return jump_; }
 
  private:
   void collect(std::size_t first, std::size_t count);
@@ -35,9 +36,10 @@ class Jacobian {
   std::vector<std::uint32_t> directions_;  ///< slots: states, then disturbances
   TapeValues<Dual> values_;
   std::vector<Dual> slots_;
-  std::vector<Interval> state_;
-  std::vector<Interval> disturbance_;
-  std::vector<double> jump_;
+  IntervalMatrix gradient_;  ///< by all directions
+  IntervalMatrix state_;
+  IntervalMatrix disturbance_;
+  RealVector jump_;
 };
 
 }  // namespace coordreq

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "expression/dual.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/program.hpp"
-#include "reach/dual.hpp"
 
 namespace coordreq {
 

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "numeric/rational_functions.hpp"
+#include "reach/point_flow.hpp"
 
 namespace coordreq {
 
@@ -16,6 +17,10 @@ PointDynamics::PointDynamics(const ProblemSpec& spec)
       affine_(*pinned_),
       flows_(spec.states.size()),
       positions_(spec.states.size()) {}
+
+PointDynamics::~PointDynamics() = default;
+PointDynamics::PointDynamics(PointDynamics&&) noexcept = default;
+PointDynamics& PointDynamics::operator=(PointDynamics&&) noexcept = default;
 
 std::optional<Rational> PointDynamics::next(std::size_t i, const std::vector<Rational>& slots) {
   std::optional<Rational> value = exact_next(i, slots);

@@ -7,9 +7,10 @@
 
 #include "expression/evaluate.hpp"
 #include "reach/affine_dynamics.hpp"
-#include "reach/point_flow.hpp"
 
 namespace coordreq {
+
+class PointFlow;
 
 /// The sampled system followed from a point, for simulation. Disturbances are constant within a period.
 ///
@@ -23,6 +24,9 @@ class PointDynamics {
 
   /// REQUIRES: `spec` outlives this object.
   explicit PointDynamics(const ProblemSpec& spec);
+  ~PointDynamics();
+  PointDynamics(PointDynamics&&) noexcept;
+  PointDynamics& operator=(PointDynamics&&) noexcept;
 
   /// Inputs, states and disturbances that next() of a state looks at.
   [[nodiscard]] const Dependencies& dependencies(std::size_t state) const {

@@ -8,131 +8,195 @@ namespace coordreq {
 namespace {
 
 constexpr double kTolerance = 1e-12;
-constexpr double kEventStep = 0x1p-40;  // of the period
+/// Shares of the period: sub-steps are no shorter, after kPatience of them no shorter than the second.
 constexpr double kSmallestStep = 0x1p-36;
 constexpr double kSlidingStep = 0x1p-10;
-constexpr int kPatience = 5000;
+constexpr int kPatience = 200'000;
+/// An interpolant is looked at in so many places.
+constexpr int kLooks = 8;
+/// Of a sub-step.
+constexpr double kEventShare = 0x1p-50;
+/// After so many events that come within this share of the period, none is looked for earlier.
+constexpr int kShortEvents = 50;
+constexpr double kDwell = 0x1p-12;
 
-constexpr std::size_t kStages = 7;
-// Table 2 of Dormand and Prince; the last row of kWeights is also the solution of order 5.
-constexpr double kWeights[kStages][kStages - 1] = {
-    {},
-    {1.0 / 5},
-    {3.0 / 40, 9.0 / 40},
-    {44.0 / 45, -56.0 / 15, 32.0 / 9},
-    {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-    {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-    {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
-// Order 5 less order 4.
-constexpr double kError[kStages] = {71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
-                                    -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What the error estimate says of the next sub-step, relative to this one.
+double growth(double error, double largest) {
+  return error > 0.0 ? std::clamp(0.9 * std::pow(error, -0.2), 0.2, largest) : largest;
+}
 
 }  // namespace
 
 PointFlow::PointFlow(const ProblemSpec& spec, std::span<const std::int32_t> moving)
     : period_(nearest_double(spec.dynamics.period)),
-      held_(moving.size()),
-      stages_(kStages, Values(moving.size())),
-      stage_point_(moving.size()) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
+      pair_(moving.size()),
+      x_(static_cast<Eigen::Index>(moving.size())),
+      point_(x_.size()),
+      turned_(moving.size()),
+      held_(moving.size()) {
+  std::vector<bool> used(spec.slot_count(), false);
+  for (const std::int32_t j : moving) {
+    const Program& equation = spec.dynamics.equations[static_cast<std::size_t>(j)];
+    for (const std::uint32_t slot : equation.variables()) used[slot] = true;
+    equations_.emplace_back(equation);
+    has_events_ = has_events_ || equations_.back().has_switches();
+  }
   for (const std::int32_t j : moving) {
     const auto i = static_cast<std::size_t>(j);
-    const StateSpec& state = spec.states[i];
-    const Rational last =
-        state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
     slots_of_states_.push_back(spec.state_slot(i));
-    equations_.emplace_back(spec.dynamics.equations[i]);
-    limits_.push_back({state.below == Outside::stop ? nearest_double(state.grid.first) : -kNone,
-                       state.above == Outside::stop ? nearest_double(last) : kNone});
-    scale_.push_back(nearest_double(state.grid.step));
+    ranges_.push_back(range_of(spec.states[i], used[spec.state_slot(i)]));
+    scale_.push_back(nearest_double(spec.states[i].grid.step));
+    has_events_ = has_events_ || ranges_.back().lower > -kInfinity || ranges_.back().upper < kInfinity;
   }
 }
 
-/// f_i without regard to limits.
-double PointFlow::raw_derivative(std::size_t i, const Values& x) {
-  for (std::size_t j = 0; j < x.size(); ++j) {
-    slots_[slots_of_states_[j]] = std::clamp(x[j], limits_[j].lower, limits_[j].upper);
+PointFlow::Range PointFlow::range_of(const StateSpec& state, bool is_used) {
+  if (state.above == Outside::periodic) {
+    if (!is_used) return {-kInfinity, kInfinity, false};
+    return {nearest_double(state.lower), nearest_double(state.upper), true};
   }
-  return equations_[i].number(slots_);
+  const Rational last =
+      state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
+  return {state.below == Outside::stop ? nearest_double(state.grid.first) : -kInfinity,
+          state.above == Outside::stop ? nearest_double(last) : kInfinity, false};
 }
 
+void PointFlow::put(const Values& x) {
+  for (std::size_t i = 0; i < slots_of_states_.size(); ++i) {
+    slots_[slots_of_states_[i]] = x(static_cast<Eigen::Index>(i));
+  }
+}
+
+/// Beyond an event f is what it would be without, unless that is undefined.
 void PointFlow::derivative(const Values& x, Values& result) {
-  for (std::size_t i = 0; i < x.size(); ++i) result[i] = held_[i] != 0 ? 0.0 : raw_derivative(i, x);
-}
-
-/// Which states are at a limit with f pointing out of it.
-void PointFlow::find_held(const Values& x) {
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    held_[i] = 0;
-    if (x[i] == limits_[i].upper && raw_derivative(i, x) > 0) held_[i] = 1;
-    if (x[i] == limits_[i].lower && raw_derivative(i, x) < 0) held_[i] = -1;
+  put(x);
+  for (std::size_t i = 0; i < equations_.size(); ++i) {
+    result(static_cast<Eigen::Index>(i)) = held_[i] != 0 ? 0.0 : equations_[i].kept(slots_);
+  }
+  if (!has_events_ || result.allFinite()) return;
+  for (std::size_t i = 0; i < equations_.size(); ++i) {
+    double& value = slots_[slots_of_states_[i]];
+    value = std::clamp(value, ranges_[i].lower, ranges_[i].upper);
+  }
+  for (std::size_t i = 0; i < equations_.size(); ++i) {
+    if (held_[i] == 0) result(static_cast<Eigen::Index>(i)) = equations_[i].actual(slots_);
   }
 }
 
-/// One step of length h. @returns its estimated error in units of what is tolerated
-double PointFlow::step(const Values& x, double h, Values& next) {
-  for (std::size_t s = 0; s < kStages; ++s) {
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      double sum = 0;
-      for (std::size_t r = 0; r < s; ++r) sum += kWeights[s][r] * stages_[r][i];
-      stage_point_[i] = x[i] + h * sum;
+/// Goes on to the other side of all events that have been reached.
+void PointFlow::settle() {
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    const Range& range = ranges_[i];
+    double& value = x_(static_cast<Eigen::Index>(i));
+    if (value >= range.lower && value <= range.upper) continue;
+    if (range.wraps) {
+      const double length = range.upper - range.lower;
+      const double turns = std::floor((value - range.lower) / length) * length;
+      turned_[i] += turns;
+      value -= turns;
     }
-    derivative(stage_point_, stages_[s]);
+    value = std::clamp(value, range.lower, range.upper);
   }
-  next = stage_point_;
-  double worst = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    double error = 0;
-    for (std::size_t s = 0; s < kStages; ++s) error += kError[s] * stages_[s][i];
-    const double ratio = std::fabs(h * error) / (kTolerance * std::max(std::fabs(x[i]), scale_[i]));
-    if (!std::isfinite(next[i]) || !std::isfinite(ratio)) return std::numeric_limits<double>::infinity();
+  put(x_);
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    const double rate = equations_[i].settle(slots_);
+    const double value = x_(static_cast<Eigen::Index>(i));
+    held_[i] = 0;
+    if (ranges_[i].wraps) continue;
+    if (value == ranges_[i].upper && rate > 0.0) held_[i] = 1;
+    if (value == ranges_[i].lower && rate < 0.0) held_[i] = -1;
+  }
+}
+
+/// The estimated error of the sub-step in units of what is tolerated.
+double PointFlow::relative_error() const {
+  const Values error = pair_.error();
+  double worst = 0.0;
+  for (Eigen::Index i = 0; i < error.size(); ++i) {
+    const double scale = std::max(std::fabs(x_(i)), scale_[static_cast<std::size_t>(i)]);
+    const double ratio = std::fabs(error(i)) / (kTolerance * scale);
+    if (!std::isfinite(pair_.end()(i)) || !std::isfinite(ratio)) return kInfinity;
     worst = std::max(worst, ratio);
   }
   return worst;
 }
 
-/// Whether a limit was passed in the step to `next`, or a state should have left its limit by then.
-bool PointFlow::misses_event(const Values& next) {
-  for (std::size_t i = 0; i < next.size(); ++i) {
-    if (next[i] > limits_[i].upper || next[i] < limits_[i].lower) return true;
-    if (held_[i] != 0 && raw_derivative(i, next) * held_[i] < 0) return true;
+/// Whether by this share of the sub-step a limit or a seam was passed, a switch should have changed sides, or
+/// a state should have left its limit.
+bool PointFlow::is_event(double share) {
+  pair_.interpolate(share, point_);
+  put(point_);
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    const double value = point_(static_cast<Eigen::Index>(i));
+    if (value < ranges_[i].lower || value > ranges_[i].upper) return true;
+    const double rate = equations_[i].kept(slots_);
+    if (equations_[i].left_its_sides() || rate * held_[i] < 0.0) return true;
   }
   return false;
 }
 
+/// The share of the sub-step of length h in which nothing happens, or a little more; 1 if that is all of it.
+double PointFlow::share_until_event(double h) {
+  if (!has_events_) return 1.0;
+  const double least = short_events_ < kShortEvents ? 0.0 : std::min(1.0, kDwell * period_ / h);
+  if (least > 0.0 && is_event(least)) return least;
+  double before = least;
+  for (int look = 1; look <= kLooks; ++look) {
+    double after = least + (1.0 - least) * look / kLooks;
+    if (!is_event(after)) {
+      before = after;
+      continue;
+    }
+    while (after - before > kEventShare) {
+      const double middle = (before + after) / 2;
+      (is_event(middle) ? after : before) = middle;
+    }
+    return after;
+  }
+  return 1.0;
+}
+
+/// Tries a sub-step of length h, and sets the length to try next. @returns false if there is no next state
+bool PointFlow::advance(double& left, double& h) {
+  const double smallest = period_ * (++steps_ < kPatience ? kSmallestStep : kSlidingStep);
+  h = std::min(h, left);
+  pair_.step([this](const Values& x, Values& result) { derivative(x, result); }, x_, h);
+  const double error = relative_error();
+  if (error > 1.0 && h > smallest) {
+    h = std::max(h * growth(error, 1.0), smallest);
+    return true;
+  }
+  if (!std::isfinite(error)) return false;
+  const double share = share_until_event(h);
+  if (share * h < kDwell * period_) ++short_events_;
+  left -= share * h;
+  if (share < 1.0) {
+    pair_.interpolate(share, x_);
+  } else {
+    x_ = pair_.end();
+  }
+  if (has_events_) settle();
+  h = std::max(h * growth(error, 5.0), smallest);
+  return true;
+}
+
 std::optional<std::vector<double>> PointFlow::after_period(std::span<const double> slots) {
   slots_.assign(slots.begin(), slots.end());
-  Values x;
-  for (const std::uint32_t slot : slots_of_states_) x.push_back(slots[slot]);
-  Values next;
-  double time = 0;
-  double h = period_;
-  for (int steps = 0; time < period_; ++steps) {
-    const double smallest = period_ * (steps < kPatience ? kSmallestStep : kSlidingStep);
-    const double event = period_ * (steps < kPatience ? kEventStep : kSlidingStep);
-    const bool last = h >= period_ - time;
-    if (last) h = period_ - time;
-    find_held(x);
-    const double error = step(x, h, next);
-    if (error > 1 && h > smallest) {
-      const double shrink = std::isfinite(error) ? std::max(0.2, 0.9 * std::pow(error, -0.2)) : 0.2;
-      h = std::max(h * shrink, smallest);
-      continue;
-    }
-    if (!std::isfinite(error)) return std::nullopt;
-    if (misses_event(next) && h > event) {
-      h /= 2;
-      continue;
-    }
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      x[i] = std::clamp(next[i], limits_[i].lower, limits_[i].upper);
-    }
-    if (last) return x;
-    time += h;
-    const double grow = error > 0 ? std::clamp(0.9 * std::pow(error, -0.2), 0.2, 5.0) : 5.0;
-    h = std::max(h * grow, smallest);
+  for (std::size_t i = 0; i < slots_of_states_.size(); ++i) {
+    x_(static_cast<Eigen::Index>(i)) = slots[slots_of_states_[i]];
   }
-  return x;
+  std::fill(turned_.begin(), turned_.end(), 0.0);
+  steps_ = short_events_ = 0;
+  settle();
+  double left = period_;
+  for (double h = period_; left > 0.0;) {
+    if (!advance(left, h)) return std::nullopt;
+  }
+  std::vector<double> end(turned_);
+  for (std::size_t i = 0; i < end.size(); ++i) end[i] += x_(static_cast<Eigen::Index>(i));
+  return end;
 }
 
 }  // namespace coordreq

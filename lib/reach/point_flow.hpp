@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "expression/domains.hpp"
-#include "expression/evaluate.hpp"
+#include "reach/dormand_prince.hpp"
+#include "reach/switched_equation.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -14,11 +14,15 @@ namespace coordreq {
 /// One solution of the differential equations of some states in double arithmetic, for simulation: accurate,
 /// with no guarantee, and independent of the validated integration that the abstraction uses.
 ///
-/// The Runge-Kutta pair of orders 5 and 4 of Dormand and Prince (1980), doi 10.1016/0771-050X(80)90013-3,
-/// each sub-step's estimated error held below 1e-12 of the larger of the state and its grid step. The
-/// instants at which a state reaches or leaves a `stop` limit are found by halving sub-steps, to 2^-40 of the
-/// period. Where f jumps, sub-steps end at 2^-36 of the period, and after 5000 of them at 2^-10, so that no
-/// sliding motion takes for ever. Scratch inside: one object a thread.
+/// Each sub-step's estimated error is held below 1e-12 of the larger of the state and its grid step. Events
+/// end a sub-step: a state that reaches or leaves a `stop` limit or passes its seam, a switch of an equation
+/// (SwitchedEquation). Between events everything is smooth, so they are found on the interpolant of a
+/// sub-step, to 2^-50 of it. Two events that undo one another within an eighth of a sub-step are not seen.
+///
+/// A solution that slides along a place where f jumps passes it to and fro: after 50 events in short
+/// succession the next ones are only looked for 2^-12 of the period later.
+///
+/// Scratch memory for one thread.
 class PointFlow {
  public:
   /// @param moving states that are integrated, closed under the equations
@@ -26,30 +30,44 @@ class PointFlow {
   PointFlow(const ProblemSpec& spec, std::span<const std::int32_t> moving);
 
   /// Values of the moving states, in their order, after one period from `slots`, in which everything else
-  /// stays constant. @returns nothing if the solution is undefined on the way or not finite
+  /// stays constant. Periodic states are not wrapped: what they have turned counts.
+  /// @returns nothing if the solution is undefined on the way or not finite
   [[nodiscard]] std::optional<std::vector<double>> after_period(std::span<const double> slots);
 
  private:
-  using Values = std::vector<double>;
-  struct Limit {
-    double lower, upper;  ///< infinite where there is none
+  using Values = DormandPrince::Values;
+
+  /// Where a state stays within, its `stop` limits or one period; infinite where there is no end.
+  struct Range {
+    double lower;
+    double upper;
+    bool wraps;
   };
 
-  void find_held(const Values& x);
+  [[nodiscard]] static Range range_of(const StateSpec& state, bool is_used);
+  bool advance(double& left, double& h);
+  void settle();
   void derivative(const Values& x, Values& result);
-  [[nodiscard]] double raw_derivative(std::size_t i, const Values& x);
-  [[nodiscard]] double step(const Values& x, double h, Values& next);
-  [[nodiscard]] bool misses_event(const Values& next);
+  void put(const Values& x);
+  [[nodiscard]] double relative_error() const;
+  [[nodiscard]] double share_until_event(double h);
+  [[nodiscard]] bool is_event(double share);
 
   double period_;
   std::vector<std::uint32_t> slots_of_states_;
-  std::vector<Evaluator<double>> equations_;
-  std::vector<Limit> limits_;
+  std::vector<SwitchedEquation> equations_;
+  std::vector<Range> ranges_;
   std::vector<double> scale_;  ///< grid steps
+  bool has_events_ = false;
+
+  DormandPrince pair_;
   std::vector<double> slots_;
-  std::vector<int> held_;  ///< -1 or 1: held at its lower or upper limit
-  std::vector<Values> stages_;
-  Values stage_point_;
+  Values x_;
+  Values point_;
+  std::vector<double> turned_;  ///< what the seam has taken off a state
+  std::vector<int> held_;       ///< -1 or 1: held at its lower or upper limit
+  int steps_ = 0;
+  int short_events_ = 0;
 };
 
 }  // namespace coordreq

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "expression/functions.hpp"
 #include "expression/tape_builder.hpp"
 #include "reach/slope.hpp"
 
@@ -29,20 +30,6 @@ const Rational& pi_from_below() {
 const Rational& pi_from_above() {
   static const Rational value = pi_from_below() + 1 / Rational(mpz_class("1" + std::string(30, '0')));
   return value;
-}
-
-std::size_t operand_count(Operator op) {
-  switch (op) {
-    case Operator::constant:
-    case Operator::variable:
-    case Operator::literal_true:
-    case Operator::literal_false:
-      return 0;
-    case Operator::if_else:
-      return 3;
-    default:
-      return is_unary_function(op) || op == Operator::logical_not ? 1 : 2;
-  }
 }
 
 class Winder {
@@ -100,14 +87,14 @@ class Winder {
     return kInTurns;
   }
 
-  /// Nothing unless the node is sin, cos or tan, and a period is whole turns of it, nearly.
+  /// Nothing unless the node is periodic, as sin is, and a period is whole turns of it, nearly.
   [[nodiscard]] std::optional<Rational> mismatch_of(const Program::Node& node) const {
-    const bool is_tangent = node.op == Operator::tangent;
-    if (!is_tangent && node.op != Operator::sine && node.op != Operator::cosine) return std::nullopt;
+    const int half_turns =
+        is_number_function(node.op) ? number_function(node.op).half_turns : NumberFunction::kNever;
+    if (half_turns == NumberFunction::kNever) return std::nullopt;
     const Slope& slope = slopes_[node.a];
     if (!slope || *slope == 0) return std::nullopt;
     const Rational angle = abs(*slope) * period_;
-    const int half_turns = is_tangent ? 1 : 2;
     const Rational turns(floor_to_int(angle / (half_turns * pi_from_below()) + Rational(1, 2)));
     if (turns == 0) return std::nullopt;
     const Rational from_below = abs(angle - turns * half_turns * pi_from_below());

@@ -34,18 +34,6 @@ unsigned times(unsigned a, unsigned b) {
   return a == b ? kPositive : kNegative;
 }
 
-double magnitude(const Interval& a) {
-  return std::max(std::fabs(a.lower), std::fabs(a.upper));
-}
-
-bool is_zero(const Interval& a) {
-  return a.lower == 0.0 && a.upper == 0.0;
-}
-
-bool is_bounded(const Interval& a) {
-  return a.lower >= -outward::kLargest && a.upper <= outward::kLargest;
-}
-
 Interval with_zero(const Interval& a) {
   return {std::min(a.lower, 0.0), std::max(a.upper, 0.0)};
 }
@@ -57,20 +45,20 @@ double number(std::size_t value) {
 }  // namespace
 
 TransitionMatrix::TransitionMatrix(std::size_t dimension, std::size_t interval_terms)
-    : n_(dimension),
+    : n_(static_cast<Eigen::Index>(dimension)),
       interval_terms_(interval_terms),
-      shifted_(dimension * dimension),
-      term_(dimension * dimension),
-      product_(dimension * dimension),
-      magnitude_(dimension * dimension),
-      size_(dimension * dimension),
-      next_size_(dimension * dimension),
-      signs_(dimension * dimension),
-      end_(dimension * dimension),
-      range_(dimension * dimension),
-      integral_(dimension * dimension) {}
+      shifted_(n_, n_),
+      term_(n_, n_),
+      scaled_(n_, n_),
+      magnitude_(n_, n_),
+      size_(n_, n_),
+      next_size_(n_, n_),
+      signs_(n_, n_),
+      end_(n_, n_),
+      range_(n_, n_),
+      integral_(n_, n_) {}
 
-bool TransitionMatrix::enclose(std::span<const Interval> jacobian, const Interval& duration,
+bool TransitionMatrix::enclose(const IntervalMatrix& jacobian, const Interval& duration,
                                const std::vector<bool>& damped) {
   if (!shift(jacobian, duration.upper, damped)) return false;
   find_signs();
@@ -81,64 +69,59 @@ bool TransitionMatrix::enclose(std::span<const Interval> jacobian, const Interva
     add_term(k, duration, damped);
   }
   if (!add_tail(k, duration.upper)) return false;
-  apply_signs();
+  apply_signs(end_);
+  apply_signs(range_);
   apply_shift(duration);
-  return std::all_of(end_.begin(), end_.end(), is_bounded);
+  return is_finite(end_);
 }
 
-bool TransitionMatrix::shift(std::span<const Interval> jacobian, double duration,
+bool TransitionMatrix::shift(const IntervalMatrix& jacobian, double duration,
                              const std::vector<bool>& damped) {
+  shifted_ = jacobian;
   double alpha = -kInfinity;
-  for (std::size_t i = 0; i < n_ * n_; ++i) {
-    shifted_[i] = jacobian[i];
-    if (i % (n_ + 1) != 0) continue;
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    Interval& diagonal = shifted_(i, i);
     // Damping makes up for a diagonal entry that is taken too large, and a moderate one keeps alpha small.
-    if (damped[i / n_]) {
-      const double diagonal = std::max(jacobian[i].upper, -kStrongestDecay / duration);
-      shifted_[i] = {diagonal, diagonal};
+    if (damped[static_cast<std::size_t>(i)]) {
+      diagonal = Interval(std::max(diagonal.upper, -kStrongestDecay / duration));
     }
-    alpha = std::max(alpha, -shifted_[i].lower);
+    alpha = std::max(alpha, -diagonal.lower);
   }
-  if (!std::all_of(shifted_.begin(), shifted_.end(), is_bounded)) return false;
-  alpha_ = {alpha, alpha};
-  for (std::size_t i = 0; i < n_ * n_; ++i) {
-    if (i % (n_ + 1) == 0) shifted_[i] = max(shifted_[i] + alpha_, kZero);
-    magnitude_[i] = magnitude(shifted_[i]);
-  }
+  if (!is_finite(shifted_)) return false;
+  alpha_ = Interval(alpha);
+  for (Interval& diagonal : shifted_.diagonal()) diagonal = max(diagonal + alpha_, kZero);
+  magnitude_ = magnitudes(shifted_);
   return true;
 }
 
 /// Signs of the products along all walks from i to j (Kleene's algorithm). Damping changes no sign.
 void TransitionMatrix::find_signs() {
-  for (std::size_t i = 0; i < n_ * n_; ++i) {
-    signs_[i] = (shifted_[i].upper > 0.0 ? kPositive : 0U) | (shifted_[i].lower < 0.0 ? kNegative : 0U);
-  }
-  for (std::size_t k = 0; k < n_; ++k) {
-    const unsigned loops = signs_[k * n_ + k] | kPositive;
-    for (std::size_t i = 0; i < n_; ++i) {
-      const unsigned to = times(signs_[i * n_ + k], (loops & kNegative) != 0U ? kBoth : kPositive);
-      for (std::size_t j = 0; j < n_; ++j) signs_[i * n_ + j] |= times(to, signs_[k * n_ + j]);
+  signs_ = shifted_.unaryExpr(
+      [](const Interval& a) { return (a.upper > 0.0 ? kPositive : 0U) | (a.lower < 0.0 ? kNegative : 0U); });
+  for (Eigen::Index k = 0; k < n_; ++k) {
+    const unsigned loops = (signs_(k, k) & kNegative) != 0U ? kBoth : kPositive;
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      const unsigned to = times(signs_(i, k), loops);
+      for (Eigen::Index j = 0; j < n_; ++j) signs_(i, j) |= times(to, signs_(k, j));
     }
   }
-  for (std::size_t i = 0; i < n_; ++i) signs_[i * n_ + i] |= kPositive;
+  for (unsigned& sign : signs_.diagonal()) sign |= kPositive;
 }
 
-void TransitionMatrix::apply_signs() {
-  for (std::size_t i = 0; i < n_ * n_; ++i) {
-    for (Interval* entry : {&end_[i], &range_[i]}) {
-      if ((signs_[i] & kNegative) == 0U) *entry = max(*entry, kZero);
-      if ((signs_[i] & kPositive) == 0U) *entry = min(*entry, kZero);
-    }
+void TransitionMatrix::apply_signs(IntervalMatrix& matrix) const {
+  for (Eigen::Index e = 0; e < matrix.size(); ++e) {
+    Interval& entry = matrix.data()[e];
+    if ((signs_.data()[e] & kNegative) == 0U) entry = max(entry, kZero);
+    if ((signs_.data()[e] & kPositive) == 0U) entry = min(entry, kZero);
   }
 }
 
 void TransitionMatrix::start(const std::vector<bool>& damped) {
-  std::fill(term_.begin(), term_.end(), kZero);
-  std::fill(size_.begin(), size_.end(), 0.0);
-  for (std::size_t i = 0; i < n_; ++i) {
-    term_[i * n_ + i] = damped[i] ? kUnit : kOne;
-    size_[i * n_ + i] = 1.0;
+  term_.setIdentity();
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    if (damped[static_cast<std::size_t>(i)]) term_(i, i) = kUnit;
   }
+  size_.setIdentity();
   end_ = term_;
   range_ = term_;
   integral_ = size_;
@@ -146,61 +129,40 @@ void TransitionMatrix::start(const std::vector<bool>& damped) {
 
 /// term := term (A + alpha I) D h / k.
 void TransitionMatrix::add_term(std::size_t k, const Interval& duration, const std::vector<bool>& damped) {
-  const Interval factor = k == 1 ? duration : duration / Interval{number(k), number(k)};
-  std::fill(product_.begin(), product_.end(), kZero);
-  for (std::size_t i = 0; i < n_; ++i) {
-    for (std::size_t l = 0; l < n_; ++l) {
-      if (is_zero(term_[i * n_ + l])) continue;
-      const Interval scaled = term_[i * n_ + l] * factor;
-      for (std::size_t j = 0; j < n_; ++j) {
-        const Interval& entry = shifted_[l * n_ + j];
-        if (!is_zero(entry)) product_[i * n_ + j] = product_[i * n_ + j] + scaled * entry;
-      }
-    }
+  scaled_ = term_ * (k == 1 ? duration : duration / Interval(number(k)));
+  term_.noalias() = product(scaled_, shifted_);
+  for (Eigen::Index j = 0; j < n_; ++j) {
+    if (damped[static_cast<std::size_t>(j)]) term_.col(j) = term_.col(j).unaryExpr(&with_zero);
   }
-  term_.swap(product_);
-  for (std::size_t i = 0; i < n_ * n_; ++i) {
-    if (is_zero(term_[i])) continue;
-    if (damped[i % n_]) term_[i] = with_zero(term_[i]);
-    end_[i] = end_[i] + term_[i];
-    range_[i] = range_[i] + with_zero(term_[i]);
-  }
+  end_ += term_;
+  range_ += term_.unaryExpr(&with_zero);
 }
 
 /// size := size |A + alpha I| h / k, and its part of the integral.
 /// @returns whether no entry is more than half of what it was
 bool TransitionMatrix::next_magnitude(std::size_t k, double duration) {
+  // Sums of non-negative numbers: one factor covers all roundings, one summand what underflows.
+  const double slack = 1.0 + 0x1p-50 * static_cast<double>(n_ + 4);
   const double factor = divide_up(duration, number(k));
-  // Sums of non-negative numbers: one factor covers all roundings.
-  const double slack = 1.0 + 0x1p-50 * number(n_ + 4);
-  bool halved = true;
-  for (std::size_t i = 0; i < n_; ++i) {
-    for (std::size_t j = 0; j < n_; ++j) {
-      double sum = 0.0;
-      bool any = false;
-      for (std::size_t l = 0; l < n_; ++l) {
-        const double left = size_[i * n_ + l];
-        const double right = magnitude_[l * n_ + j];
-        any = any || (left > 0.0 && right > 0.0);
-        sum += left * right;
-      }
-      next_size_[i * n_ + j] = any ? sum * factor * slack + kTiny : 0.0;
-      halved = halved && next_size_[i * n_ + j] <= 0.5 * size_[i * n_ + j];
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    for (Eigen::Index j = 0; j < n_; ++j) {
+      const auto left = size_.row(i).transpose().array();
+      const auto right = magnitude_.col(j).array();
+      const bool any = (left > 0.0 && right > 0.0).any();
+      next_size_(i, j) = any ? (left * right).sum() * factor * slack + kTiny : 0.0;
     }
   }
+  const bool halved = (next_size_.array() <= 0.5 * size_.array()).all();
   size_.swap(next_size_);
-  for (std::size_t i = 0; i < n_ * n_; ++i) {
-    if (size_[i] > 0.0) integral_[i] = add_up(integral_[i], divide_up(size_[i], number(k + 1)));
-  }
+  integral_ = integral_.binaryExpr(size_, [&](double sum, double size) {
+    return size > 0.0 ? add_up(sum, divide_up(size, number(k + 1))) : sum;
+  });
   return halved;
 }
 
 /// Whether the last term is below the rounding errors of the sum.
 bool TransitionMatrix::is_negligible() const {
-  for (std::size_t i = 0; i < n_ * n_; ++i) {
-    if (size_[i] > kNegligible * integral_[i]) return false;
-  }
-  return true;
+  return (size_.array() <= kNegligible * integral_.array()).all();
 }
 
 /// Adds all terms beyond the interval terms: once a term is at most half of the one before in every entry, so
@@ -208,21 +170,20 @@ bool TransitionMatrix::is_negligible() const {
 /// going in turns, as in a rotation, which that test could not stand.
 bool TransitionMatrix::add_tail(std::size_t k, double duration) {
   const double more = divide_up(kMoreDiagonal, duration);
-  for (std::size_t i = 0; i < n_; ++i) magnitude_[i * (n_ + 1)] = add_up(magnitude_[i * (n_ + 1)], more);
-  for (; k <= kMostTerms; ++k) {
-    const bool halved = next_magnitude(k, duration);
-    for (std::size_t i = 0; i < n_ * n_; ++i) {
-      if (size_[i] == 0.0) continue;
-      const double rest = halved ? multiply_up(2.0, size_[i]) : size_[i];
-      const Interval tail{-rest, rest};
-      end_[i] = end_[i] + tail;
-      range_[i] = range_[i] + tail;
-      if (halved) integral_[i] = add_up(integral_[i], size_[i]);
-    }
-    if (halved) return true;
-    if (!std::all_of(size_.begin(), size_.end(), [](double x) { return x <= outward::kLargest; })) break;
+  for (double& diagonal : magnitude_.diagonal()) diagonal = add_up(diagonal, more);
+  for (bool halved = false; !halved; ++k) {
+    if (k > kMostTerms) return false;
+    halved = next_magnitude(k, duration);
+    const auto tail = size_.unaryExpr([halved](double size) {
+      const double rest = halved ? multiply_up(2.0, size) : size;
+      return Interval(-rest, rest);
+    });
+    end_ += tail;
+    range_ += tail;
+    if (!(size_.array() <= outward::kLargest).all()) return false;
+    if (halved) integral_ = integral_.binaryExpr(size_, &add_up);
   }
-  return false;
+  return true;
 }
 
 /// Multiplies by exp(-alpha s). Its integral against s^k is at most the product of both averages and h where
@@ -236,11 +197,9 @@ void TransitionMatrix::apply_shift(const Interval& duration) {
     average = std::min(average, exact_average.upper);
   }
   const double weight = multiply_up(average, duration.upper);
-  for (std::size_t i = 0; i < n_ * n_; ++i) {
-    if (!is_zero(end_[i])) end_[i] = end_[i] * decay;
-    if (!is_zero(range_[i])) range_[i] = range_[i] * on_the_way;
-    if (integral_[i] > 0.0) integral_[i] = multiply_up(integral_[i], weight);
-  }
+  end_ *= decay;
+  range_ *= on_the_way;
+  integral_ = integral_.unaryExpr([&](double sum) { return multiply_up(sum, weight); });
 }
 
 }  // namespace coordreq

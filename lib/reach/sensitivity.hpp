@@ -1,11 +1,8 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
 #include <vector>
 
-#include "numeric/interval.hpp"
+#include "numeric/matrix.hpp"
 
 namespace coordreq {
 
@@ -19,7 +16,7 @@ namespace coordreq {
 /// damped state is passed: what a `stop` does to the difference of two solutions, and what is left of a
 /// diagonal entry that is unbounded below.
 ///
-/// Matrices are row-major, n x n. Over-approximates. Scratch memory for one thread.
+/// Matrices are n x n. Over-approximates. Scratch memory for one thread.
 class TransitionMatrix {
  public:
   /// @param interval_terms how many terms of the series are multiplied out as intervals; beyond them only
@@ -31,19 +28,19 @@ class TransitionMatrix {
 
   /// @param jacobian the interval matrix; damped diagonal entries count with their upper ends only
   /// @returns false if no bound was found: entries are infinite, or the duration is too long
-  bool enclose(std::span<const Interval> jacobian, const Interval& duration, const std::vector<bool>& damped);
+  bool enclose(const IntervalMatrix& jacobian, const Interval& duration, const std::vector<bool>& damped);
 
   /// Phi(h, 0).
-  [[nodiscard]] std::span<const Interval> end() const { return end_; }
+  [[nodiscard]] const IntervalMatrix& end() const { return end_; }
   /// Phi(h, s) for all 0 <= s <= h.
-  [[nodiscard]] std::span<const Interval> range() const { return range_; }
+  [[nodiscard]] const IntervalMatrix& range() const { return range_; }
   /// At least the integral of |Phi(h, s)| over 0 <= s <= h, entry by entry.
-  [[nodiscard]] std::span<const double> integral() const { return integral_; }
+  [[nodiscard]] const RealMatrix& integral() const { return integral_; }
 
  private:
-  bool shift(std::span<const Interval> jacobian, double duration, const std::vector<bool>& damped);
+  bool shift(const IntervalMatrix& jacobian, double duration, const std::vector<bool>& damped);
   void find_signs();
-  void apply_signs();
+  void apply_signs(IntervalMatrix& matrix) const;
   void start(const std::vector<bool>& damped);
   void add_term(std::size_t k, const Interval& duration, const std::vector<bool>& damped);
   [[nodiscard]] bool is_negligible() const;
@@ -51,19 +48,19 @@ class TransitionMatrix {
   bool next_magnitude(std::size_t k, double duration);
   void apply_shift(const Interval& duration);
 
-  std::size_t n_;
+  Eigen::Index n_;
   std::size_t interval_terms_;
   Interval alpha_;
-  std::vector<Interval> shifted_;  ///< A + alpha I
-  std::vector<Interval> term_;     ///< the k-th power of it times h^k / k!
-  std::vector<Interval> product_;
-  std::vector<double> magnitude_;  ///< bounds of |A + alpha I|, and of the k-th term
-  std::vector<double> size_;
-  std::vector<double> next_size_;
-  std::vector<unsigned> signs_;  ///< which signs an entry of a power of A + alpha I can have
-  std::vector<Interval> end_;
-  std::vector<Interval> range_;
-  std::vector<double> integral_;
+  IntervalMatrix shifted_;  ///< A + alpha I
+  IntervalMatrix term_;     ///< the k-th power of it times h^k / k!
+  IntervalMatrix scaled_;
+  RealMatrix magnitude_;  ///< bounds of |A + alpha I|, and of the k-th term
+  RealMatrix size_;
+  RealMatrix next_size_;
+  MatrixOf<unsigned> signs_;  ///< which signs an entry of a power of A + alpha I can have
+  IntervalMatrix end_;
+  IntervalMatrix range_;
+  RealMatrix integral_;
 };
 
 }  // namespace coordreq

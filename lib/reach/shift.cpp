@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "expression/dual.hpp"
 #include "expression/evaluate.hpp"
-#include "reach/dual.hpp"
 #include "reach/slope.hpp"
 
 namespace coordreq {
@@ -13,10 +13,6 @@ namespace {
 
 std::size_t at(std::int32_t i) {
   return static_cast<std::size_t>(i);
-}
-
-Interval box_of(const Rational& lower, const Rational& upper) {
-  return {.lower = lower_double(lower), .upper = upper_double(upper)};
 }
 
 bool contains(const std::vector<std::int32_t>& list, std::size_t state) {
@@ -40,7 +36,7 @@ bool derivative_is_one(const ProblemSpec& spec, std::size_t state) {
   }
   for (std::size_t l = 0; l < spec.disturbances.size(); ++l) {
     const DisturbanceSpec& w = spec.disturbances[l];
-    slots[spec.disturbance_slot(l)] = Dual::constant(box_of(w.lower, w.upper));
+    slots[spec.disturbance_slot(l)] = Dual::constant(enclose(w.lower, w.upper));
   }
   Evaluator<Dual> evaluator(spec.dynamics.equations[state]);
   const Dual& value = evaluator.number(slots);
@@ -65,12 +61,12 @@ Interval range_of(const StateSpec& state) {
   const Rational last =
       state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
   const Rational lower = std::min(Rational(state.grid.first - reach), state.lower);
-  return box_of(lower, std::max(Rational(last + reach), state.upper));
+  return enclose(lower, std::max(Rational(last + reach), state.upper));
 }
 
 Interval range_of(const InputSpec& input) {
   const auto [low, high] = std::minmax_element(input.values.begin(), input.values.end());
-  return box_of(*low, *high);
+  return enclose(*low, *high);
 }
 
 bool has_measured_limit(const StateSpec& state) {

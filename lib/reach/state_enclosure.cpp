@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "expression/dual.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/undefined_reason.hpp"
-#include "reach/dual.hpp"
 #include "reach/shift.hpp"
 
 namespace coordreq {
@@ -15,17 +15,13 @@ std::size_t at(std::int32_t i) {
   return static_cast<std::size_t>(i);
 }
 
-Interval box_of(const Rational& lower, const Rational& upper) {
-  return {.lower = lower_double(lower), .upper = upper_double(upper)};
-}
-
 FlowSystem::Limit limit_of(const StateSpec& state) {
   const Rational last =
       state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
   return {.below = state.below == Outside::stop,
           .above = state.above == Outside::stop,
-          .lower = box_of(state.grid.first, state.grid.first),
-          .upper = box_of(last, last)};
+          .lower = enclose(state.grid.first),
+          .upper = enclose(last)};
 }
 
 /// The state stays within its limits; what rounding adds beyond them is dropped.
@@ -33,6 +29,13 @@ Interval within_limits(const StateSpec& state, Interval value) {
   if (state.below == Outside::stop) value.lower = std::max(value.lower, limit_of(state).lower.lower);
   if (state.above == Outside::stop) value.upper = std::min(value.upper, limit_of(state).upper.upper);
   return value;
+}
+
+/// Whether it may have left the domain through an unsafe side.
+bool has_left(const StateSpec& state, const Interval& tube) {
+  const Interval domain = range_of(state);
+  return (state.below == Outside::unsafe && tube.lower < domain.lower) ||
+         (state.above == Outside::unsafe && tube.upper > domain.upper);
 }
 
 std::optional<Ring> ring_of(const StateSpec& state) {
@@ -50,7 +53,7 @@ StateEnclosure::StateEnclosure(const ProblemSpec& spec, const Dependencies& depe
       slots_(spec.slot_count()) {
   for (const std::int32_t l : dependencies.disturbances) {
     const DisturbanceSpec& w = spec.disturbances[at(l)];
-    slots_[spec.disturbance_slot(at(l))] = box_of(w.lower, w.upper);
+    slots_[spec.disturbance_slot(at(l))] = coordreq::enclose(w.lower, w.upper);
   }
   if (spec.dynamics.time == Time::discrete) {
     prepare_map();
@@ -68,7 +71,7 @@ void StateEnclosure::prepare_map() {
   if (spec_->states[state_].discrete) shifts_ = false;
   if (shifts_) {
     origin_ = midpoint(range_of(spec_->states[state_]));
-    slots_[spec_->state_slot(state_)] = {.lower = origin_, .upper = origin_};
+    slots_[spec_->state_slot(state_)] = Interval(origin_);
   }
 }
 
@@ -108,7 +111,7 @@ StateEnclosure::Result StateEnclosure::result(std::size_t state) const {
 StateEnclosure::Result StateEnclosure::result_of_map() const {
   if (!map_value_.total) return {.status = Status::undefined, .culprit = state_};
   if (!shifts_) return {.value = map_value_};
-  return {.value = map_value_ - Interval{.lower = origin_, .upper = origin_}};
+  return {.value = map_value_ - Interval(origin_)};
 }
 
 StateEnclosure::Result StateEnclosure::result_of_flow(std::size_t state) const {
@@ -122,13 +125,13 @@ StateEnclosure::Result StateEnclosure::result_of_flow(std::size_t state) const {
             .drift = found_->drift[position]};
   }
   Result result{
-      .status = found_->status == FlowEnclosure::Status::blows_up ? Status::blows_up : Status::undefined,
-      .culprit = at(dependencies_.moving[found_->culprit])};
-  if (!shifts_ && position < found_->tube.size()) {
-    const Interval domain = range_of(own);
-    const Interval& tube = found_->tube[position];
-    result.left_unsafely = (own.below == Outside::unsafe && tube.lower < domain.lower) ||
-                           (own.above == Outside::unsafe && tube.upper > domain.upper);
+      .status = found_->status, .culprit = at(dependencies_.moving[found_->culprit]), .rate = found_->rate};
+  // Without an enclosure a post is everything, which blocks the pair where this state has an unsafe side.
+  const bool can_block = own.below == Outside::unsafe || own.above == Outside::unsafe;
+  for (std::size_t k = 0; can_block && k < found_->tube.size(); ++k) {
+    if (shifts_ && k == position) continue;  // its box is not known
+    const StateSpec& other = spec_->states[at(dependencies_.moving[k])];
+    result.left_unsafely = result.left_unsafely || has_left(other, found_->tube[k]);
   }
   return result;
 }

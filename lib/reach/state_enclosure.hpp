@@ -18,12 +18,14 @@ namespace coordreq {
 /// Over-approximates. Not thread-safe: use a copy a thread.
 class StateEnclosure {
  public:
-  enum class Status : std::uint8_t { ok, blows_up, undefined };
+  using Status = FlowEnclosure::Status;
   struct Result {
     Status status = Status::ok;
     std::size_t culprit = 0;  ///< state whose equation is at fault, unless ok
-    bool left_unsafely =
-        false;       ///< unless ok: by then this state may have left through an unsafe side of its own
+    double rate = 0.0;        ///< if too stiff, see FlowEnclosure::rate
+    /// Unless ok: by then this state may have left through an unsafe side; or another one may, and this one
+    /// has an unsafe side too.
+    bool left_unsafely = false;
     Interval value;  ///< of the next state; of the difference to the present one if shifts()
     Interval tube;   ///< in continuous time: the same at all times in [0, tau]
     Interval drift;  ///< in continuous time: the difference to the present one, see FlowEnclosure::drift

@@ -26,19 +26,19 @@ bool contains(const std::vector<std::int32_t>& list, std::int32_t value) {
 /// The table of one state of a group.
 class SumTable {
  public:
-  SumTable(const ProblemSpec& spec, const Dependencies& dependencies, const AffinePart& part,
-           Abstraction& abstraction, std::size_t state)
+  SumTable(const ProblemSpec& spec, const TableShape& shape, const AffinePart& part, Abstraction& abstraction,
+           std::size_t state)
       : grid_(abstraction.grid),
         part_(part),
         target_(grid_[state]),
         table_(abstraction.tables[state]),
         state_(state),
-        step_(box_of(target_.step, target_.step)),
+        step_(enclose(target_.step)),
         closed_(spec.abstraction.cells == Cells::closed) {
     // In discrete time Phi has one row, that of the state.
     const auto row = std::find(part.states.begin(), part.states.end(), static_cast<std::int32_t>(state));
     row_ = spec.dynamics.time == Time::discrete ? 0 : static_cast<std::size_t>(row - part.states.begin());
-    table_ = sum_layout(spec, dependencies, part, state, abstraction.grid, abstraction.inputs);
+    table_ = sum_layout(spec, shape, part, state, abstraction.grid, abstraction.inputs);
   }
 
   [[nodiscard]] const TransitionTable& table() const { return table_; }
@@ -47,8 +47,8 @@ class SumTable {
   /// @param difference whether `value` is that of the next value less the present one
   /// @returns false if it is too large
   bool add_base(std::size_t entry, bool first, const Interval& value, bool difference) {
-    const Interval origin = difference ? Interval{0.0, 0.0} : box_of(target_.first, target_.first);
-    const Interval error = box_of(target_.measurement_error, target_.measurement_error) / step_;
+    const Interval origin = difference ? Interval{0.0, 0.0} : enclose(target_.first);
+    const Interval error = enclose(target_.measurement_error) / step_;
     Interval ends = (value - origin) / step_ + Interval{-error.upper, error.upper};
     if (table_.shift) {
       // What the sum leaves out is the state itself, within its cell; the half step is added as an integer.
@@ -56,8 +56,8 @@ class SumTable {
       ends = ends + Interval{-error.upper, error.upper};
     }
     const std::int64_t half = table_.shift && !target_.discrete ? kHalfStep : 0;
-    const auto lower = fixed_down(ends.lower);
-    const auto upper = fixed_up(ends.upper);
+    const auto lower = scaled_below(ends.lower);
+    const auto upper = scaled_above(ends.upper);
     if (!lower || !upper) return false;
     const std::int64_t low = *lower - half + first_index_bias();
     const std::int64_t high = *upper + half + last_index_bias();
@@ -81,9 +81,9 @@ class SumTable {
       const GridDimension& source = grid_[at(term.state)];
       const Rational reach = source.radius() + source.measurement_error;
       for (std::int64_t k = 0; k < source.count; ++k) {
-        const Interval cell = box_of(source.point(k) - reach, source.point(k) + reach);
-        const auto lower = fixed_down((phi * cell).lower);
-        const auto upper = fixed_up((phi * cell).upper);
+        const Interval cell = enclose(source.point(k) - reach, source.point(k) + reach);
+        const auto lower = scaled_below((phi * cell).lower);
+        const auto upper = scaled_above((phi * cell).upper);
         if (!lower || !upper) return false;
         const auto place = static_cast<std::size_t>(position + k);
         term.lower[place] = *lower;
@@ -114,11 +114,14 @@ class SumTable {
 
 class SumTables {
  public:
-  SumTables(const ProblemSpec& spec, const Dependencies& dependencies, const AffinePart& part,
+  SumTables(const ProblemSpec& spec, const std::vector<TableShape>& shapes, const AffinePart& part,
             Abstraction& abstraction, const std::vector<std::size_t>& states)
-      : spec_(spec), part_(part), abstraction_(abstraction), enclosure_(spec, dependencies, states.front()) {
+      : spec_(spec),
+        part_(part),
+        abstraction_(abstraction),
+        enclosure_(spec, shapes[states.front()], states.front()) {
     for (const std::size_t state : states) {
-      tables_.emplace_back(spec, dependencies, part, abstraction, state);
+      tables_.emplace_back(spec, shapes[state], part, abstraction, state);
     }
     const TransitionTable& layout = tables_.front().table();
     for (const std::int32_t j : layout.states) {
@@ -143,13 +146,13 @@ class SumTables {
     std::vector<std::int64_t> counts;
     for (const std::int32_t j : part_.parameters) counts.push_back(abstraction_.grid[at(j)].count);
     for (const std::int32_t j : part_.inputs) counts.push_back(abstraction_.inputs[at(j)].count());
-    const Counter all(counts);
+    const Odometer all(counts);
     std::atomic<bool> found = true;
     team.for_each(all.size(), 8, [&](ThreadTeam::Range range, int) {
       AffineCoefficients coefficients(spec_, part_, tables_.front().state());
-      Counter choice = all;
+      Odometer choice = all;
       choice.seek(range.begin);
-      for (std::int64_t i = range.begin; i < range.end && found; ++i, choice.next()) {
+      for (std::int64_t i = range.begin; i < range.end && found; ++i, choice.advance()) {
         if (!fill_terms(coefficients, choice.indices())) found = false;
       }
     });
@@ -160,11 +163,11 @@ class SumTables {
     std::size_t v = 0;
     for (const std::int32_t j : part_.parameters) {
       const Rational value = abstraction_.grid[at(j)].point(choice[v++]);
-      coefficients.set(spec_.state_slot(at(j)), box_of(value, value));
+      coefficients.set(spec_.state_slot(at(j)), enclose(value));
     }
     for (const std::int32_t j : part_.inputs) {
       const Rational& value = abstraction_.inputs[at(j)].values[static_cast<std::size_t>(choice[v++])];
-      coefficients.set(spec_.input_slot(at(j)), box_of(value, value));
+      coefficients.set(spec_.input_slot(at(j)), enclose(value));
     }
     if (!coefficients.enclose()) return false;
     return std::all_of(tables_.begin(), tables_.end(),
@@ -173,12 +176,12 @@ class SumTables {
 
   bool fill_bases(ThreadTeam& team) {
     std::vector<StateEnclosure> enclosures(static_cast<std::size_t>(team.size()), enclosure_);
-    const Counter all = rest_.counter();
+    const Odometer all = rest_.odometer();
     std::atomic<bool> found = true;
     team.for_each(all.size(), 64, [&](ThreadTeam::Range range, int worker) {
-      Counter choice = all;
+      Odometer choice = all;
       choice.seek(range.begin);
-      for (std::int64_t i = range.begin; i < range.end && found; ++i, choice.next()) {
+      for (std::int64_t i = range.begin; i < range.end && found; ++i, choice.advance()) {
         if (!fill_base(choice.indices(), enclosures[static_cast<std::size_t>(worker)])) found = false;
       }
     });
@@ -233,9 +236,10 @@ std::vector<std::int32_t> summed_states(const ProblemSpec& spec, const Dependenc
   return result;
 }
 
-bool build_sum_tables(const ProblemSpec& spec, const Dependencies& dependencies, const AffinePart& part,
+bool build_sum_tables(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
                       Abstraction& abstraction, const std::vector<std::size_t>& states, ThreadTeam& team) {
-  return SumTables(spec, dependencies, part, abstraction, states).build(team);
+  const AffinePart part = find_affine_part(spec, shapes[states.front()], states.front());
+  return SumTables(spec, shapes, part, abstraction, states).build(team);
 }
 
 }  // namespace coordreq

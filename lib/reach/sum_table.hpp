@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
+#include "model/table_shape.hpp"
 #include "reach/abstraction.hpp"
 #include "reach/affine_part.hpp"
 
@@ -20,12 +21,12 @@ namespace coordreq {
 /// only, the sum of the ranges is the range of the sum, up to rounding: no wider than cell by cell.
 ///
 /// Over-approximates.
-/// @param states in continuous time all that have `dependencies` and terms, as they share one flow; in
-///   discrete time one
+/// @param states sums: in continuous time all with the same dependencies, as they share one flow; in discrete
+///   time one
 /// @returns false if some enclosure was not found or a number is too large; the tables are then unspecified,
 ///   and cell by cell it may go better, or there is an error to report
-[[nodiscard]] bool build_sum_tables(const ProblemSpec& spec, const Dependencies& dependencies,
-                                    const AffinePart& part, Abstraction& abstraction,
-                                    const std::vector<std::size_t>& states, ThreadTeam& team);
+[[nodiscard]] bool build_sum_tables(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
+                                    Abstraction& abstraction, const std::vector<std::size_t>& states,
+                                    ThreadTeam& team);
 
 }  // namespace coordreq

@@ -1,7 +1,5 @@
 #include "reach/table_layout.hpp"
 
-#include <algorithm>
-
 #include "reach/shift.hpp"
 #include "reach/sum_table.hpp"
 
@@ -9,11 +7,9 @@ namespace coordreq {
 namespace {
 
 TransitionTable bare_table(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state) {
-  TransitionTable table{.states = dependencies.moving, .inputs = dependencies.inputs};
-  table.states.insert(table.states.end(), dependencies.parameters.begin(), dependencies.parameters.end());
-  std::sort(table.states.begin(), table.states.end());
-  table.shift = is_shift(spec, dependencies, state);
-  return table;
+  return {.states = dependencies.all_states(),
+          .inputs = dependencies.inputs,
+          .shift = is_shift(spec, dependencies, state)};
 }
 
 /// The source runs fastest, so that a row along it lies together.

@@ -17,6 +17,56 @@ std::size_t row_position(const Strides& strides, std::size_t along, std::span<co
   return static_cast<std::size_t>(sum);
 }
 
+/// A row of a sum: the parts that vary along it, each a run of numbers with a stride, and the sum of the
+/// others.
+class RowSum {
+ public:
+  void add(const std::int64_t* lower, const std::int64_t* upper, std::int64_t stride) {
+    if (stride == 0) {
+      add(*lower, *upper);
+    } else {
+      runs_[count_++] = {lower, upper, stride};
+    }
+  }
+  void add(std::int64_t lower, std::int64_t upper) {
+    lower_ += lower;
+    upper_ += upper;
+  }
+
+  /// @param step what a cell adds to the one before
+  void write(std::int64_t step, std::span<IndexRange> out) const {
+    if (count_ == 1 && runs_[0].stride == 1 && step == 0) {
+      for (std::size_t c = 0; c < out.size(); ++c) {
+        out[c] = TransitionTable::sum_range(lower_ + runs_[0].lower[c], upper_ + runs_[0].upper[c]);
+      }
+      return;
+    }
+    for (std::size_t c = 0; c < out.size(); ++c) {
+      const auto cell = static_cast<std::int64_t>(c);
+      std::int64_t low = lower_ + cell * step;
+      std::int64_t high = upper_ + cell * step;
+      for (std::size_t r = 0; r < count_; ++r) {
+        low += runs_[r].lower[cell * runs_[r].stride];
+        high += runs_[r].upper[cell * runs_[r].stride];
+      }
+      out[c] = TransitionTable::sum_range(low, high);
+    }
+  }
+
+ private:
+  struct Run {
+    const std::int64_t* lower;
+    const std::int64_t* upper;
+    std::int64_t stride;
+  };
+
+  static constexpr std::size_t kMostRuns = 16;
+  Run runs_[kMostRuns];
+  std::size_t count_ = 0;
+  std::int64_t lower_ = 0;
+  std::int64_t upper_ = 0;
+};
+
 }  // namespace
 
 TableRows::TableRows(const TransitionTable& table, std::size_t state, std::size_t along)
@@ -46,50 +96,16 @@ void TableRows::read(std::span<const std::int64_t> states, std::span<const std::
 
 void TableRows::read_sum(std::span<const std::int64_t> states, std::span<const std::int64_t> inputs,
                          std::size_t base, std::int64_t offset, std::span<IndexRange> out) const {
-  // The parts that vary along the row, each a run of numbers with a stride; the sum of the others.
-  struct Run {
-    const std::int64_t* lower;
-    const std::int64_t* upper;
-    std::int64_t stride;
-  };
-  constexpr std::size_t kMostRuns = 16;
-  Run runs[kMostRuns];
-  std::size_t count = 0;
-  std::int64_t lower = 0;
-  std::int64_t upper = 0;
-  const auto add = [&](const std::int64_t* low, const std::int64_t* high, std::int64_t stride) {
-    if (stride == 0) {
-      lower += *low;
-      upper += *high;
-    } else {
-      runs[count++] = {low, high, stride};
-    }
-  };
-  add(table_->base_lower.data() + base, table_->base_upper.data() + base, stride_);
+  RowSum sum;
+  sum.add(table_->base_lower.data() + base, table_->base_upper.data() + base, stride_);
   for (const TransitionTerm& term : table_->terms) {
     const std::size_t place = row_position(term, along_, states, inputs);
-    add(term.lower.data() + place, term.upper.data() + place, term.state_stride[along_]);
+    sum.add(term.lower.data() + place, term.upper.data() + place, term.state_stride[along_]);
   }
+  const std::int64_t moved = offset << TransitionTable::kFractionBits;
+  sum.add(moved, moved);
   // A shift along the row adds a whole step a cell.
-  lower += offset << TransitionTable::kFractionBits;
-  upper += offset << TransitionTable::kFractionBits;
-  const std::int64_t step = shifts_along_ ? std::int64_t{1} << TransitionTable::kFractionBits : 0;
-  if (count == 1 && runs[0].stride == 1 && step == 0) {
-    for (std::size_t c = 0; c < out.size(); ++c) {
-      out[c] = TransitionTable::sum_range(lower + runs[0].lower[c], upper + runs[0].upper[c]);
-    }
-    return;
-  }
-  for (std::size_t c = 0; c < out.size(); ++c) {
-    std::int64_t low = lower + static_cast<std::int64_t>(c) * step;
-    std::int64_t high = upper + static_cast<std::int64_t>(c) * step;
-    for (std::size_t r = 0; r < count; ++r) {
-      const std::int64_t at = static_cast<std::int64_t>(c) * runs[r].stride;
-      low += runs[r].lower[at];
-      high += runs[r].upper[at];
-    }
-    out[c] = TransitionTable::sum_range(low, high);
-  }
+  sum.write(shifts_along_ ? std::int64_t{1} << TransitionTable::kFractionBits : 0, out);
 }
 
 }  // namespace coordreq

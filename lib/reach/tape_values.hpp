@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "expression/domains.hpp"
-#include "reach/dual.hpp"
+#include "expression/dual.hpp"
 #include "reach/flow_tape.hpp"
 
 namespace coordreq {

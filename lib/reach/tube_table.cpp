@@ -61,7 +61,7 @@ void fill_affine_tube(const AffinePost& post, const std::vector<SampledRow>& row
       first = std::min(first, lower[m].floor(cell));
       last = std::max(last, upper[m].ceil(cell));
     }
-    return IndexRange{saturate_index(first), saturate_index(last)};
+    return raw_range(target, first, last);
   });
 }
 

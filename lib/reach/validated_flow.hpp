@@ -14,10 +14,12 @@ struct FlowEnclosure {
   enum class Status : std::uint8_t {
     ok,
     blows_up,   ///< no enclosure was found: solutions may escape in finite time, or change too fast
+    too_stiff,  ///< the same, and a state decays too fast to be followed so long
     undefined,  ///< the right-hand side is not defined at a state that may be reached
   };
   Status status = Status::ok;
   std::size_t culprit = 0;     ///< index of the equation at fault, unless ok
+  double rate = 0.0;           ///< if too stiff: the fastest decay, one over time
   std::vector<Interval> end;   ///< states reachable at tau; unless ok: at the time up to which all is known
   std::vector<Interval> tube;  ///< states reachable in [0, tau], or up to that time
   /// x(t) - x(0) during that time, 0 included; an end is 0 exactly where f never points that way. For the
@@ -38,6 +40,8 @@ struct FlowEnclosure {
 ///    of it. Solutions from those corners are enclosed (Taylor steps with Lagrange's remainder); for the
 ///    variables without a proven sign they start in the middle, and the mean value theorem adds the rest.
 ///    Hence the exact hull up to rounding for affine and for monotone systems.
+/// 4. Where that leaves much more than the solutions followed have reached, or finds nothing, bounds of each
+///    state by its derivative on the faces of the box (face_flow.hpp); the result is in both.
 ///
 /// Over-approximates always. Not thread-safe, as it holds its scratch memory: use a copy a thread.
 class ValidatedFlow {

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "answers/field.hpp"
 #include "base/thread_team.hpp"
 #include "results/chunk_codec.hpp"
 #include "results/chunk_layout.hpp"
 #include "results/hdf5_handle.hpp"
 #include "results/output_driver.hpp"
-#include "results/result_content.hpp"
 
 namespace coordreq {
 

@@ -48,12 +48,11 @@ void for_each_part(const ResultsReader& before, const ResultsReader& after, cons
   }
 }
 
-using Members = std::vector<std::uint8_t> (ResultsReader::*)(const CellBlock&) const;
-
-SetComparison compare_sets(const ResultsReader& before, const ResultsReader& after, Members members) {
-  SetComparison result;
-  const auto read = [members](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool) {
-    return file.stretch(begin, end, [&](const CellBlock& block) { return (file.*members)(block); });
+SetComparison compare_sets(const ResultsReader& before, const ResultsReader& after, const Field& field) {
+  SetComparison result{.name = field.path.substr(1), .words = field.shown.compared};
+  const auto read = [&field](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool) {
+    return file.stretch(begin, end,
+                        [&](const CellBlock& block) { return file.members(field, std::nullopt, block); });
   };
   for_each_part(before, after, read, [&result](std::int64_t, const auto& old, const auto& now) {
     for (std::size_t i = 0; i < old.size(); ++i) {
@@ -152,7 +151,8 @@ void compare_requirements(const ResultsReader& before, const ResultsReader& afte
 }  // namespace
 
 bool ResultsComparison::is_worse() const {
-  return invariant.left > 0 ||
+  return std::any_of(sets.begin(), sets.end(),
+                     [](const SetComparison& set) { return set.name == "invariant" && set.left > 0; }) ||
          std::any_of(partitions.begin(), partitions.end(),
                      [](const PartitionComparison& partition) { return partition.lost > 0; }) ||
          std::any_of(verdicts.begin(), verdicts.end(),
@@ -168,8 +168,10 @@ ResultsComparison compare_results(const ResultsReader& before, const ResultsRead
     throw ResultsError("no partition of " + before.path() + " is in it", after.path());
   }
   if (options.progress) options.progress("sets");
-  result.safe = compare_sets(before, after, &ResultsReader::safe);
-  result.invariant = compare_sets(before, after, &ResultsReader::invariant);
+  for (const Field& field : after.fields()) {
+    if (!field.shown.compared.empty() && before.has(field.path))
+      result.sets.push_back(compare_sets(before, after, field));
+  }
   for (PartitionComparison& partition : result.partitions) compare_delays(before, after, options, partition);
   compare_requirements(before, after, result);
   return result;

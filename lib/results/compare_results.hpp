@@ -12,8 +12,10 @@
 // What a later result of the same grid has lost and gained against an earlier one.
 namespace coordreq {
 
-/// A set of cells in both files.
+/// A set of cells in both files, as the field says that it is called there and in words.
 struct SetComparison {
+  std::string name;         ///< "safe"
+  std::string words;        ///< "safe set"
   std::int64_t before = 0;  ///< cells
   std::int64_t after = 0;
   std::int64_t left = 0;    ///< that are only in the earlier one
@@ -51,8 +53,7 @@ struct VerdictChange {
 };
 
 struct ResultsComparison {
-  SetComparison safe;
-  SetComparison invariant;
+  std::vector<SetComparison> sets;  ///< those that both files have and that fields are compared by
   std::vector<PartitionComparison> partitions;
   std::vector<std::size_t> only_before;  ///< partitions that the later file does not have
   std::vector<std::size_t> only_after;   ///< partitions that the earlier file does not have

@@ -18,8 +18,13 @@ namespace {
 enum class Kind { hdf5, scots };
 
 Kind kind_of(const std::string& path) {
-  if (std::error_code ignored; std::filesystem::is_directory(path, ignored))
+  std::error_code ignored;  // what cannot be examined fails to open below
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(status))
     throw IoError("is a folder, expected a file with a controller", path);
+  // It is read more than once, and a pipe could keep the program for ever.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw IoError("is a device, a pipe or a socket, expected a file with a controller", path);
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) {

@@ -1,8 +1,12 @@
 #include "results/hdf5_handle.hpp"
 
+#include <sys/resource.h>
+
 #include <bit>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <utility>
 
 #include "results/output_driver.hpp"
@@ -14,6 +18,17 @@ static_assert(std::endian::native == std::endian::little,
               "chunks are packed as they lie in memory, and the file is little-endian");
 
 constexpr unsigned kOrder = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
+
+/// Without a limit the system gives what is asked for, unless a damaged file asks for too much.
+bool may_lack_memory() {
+  rlimit limit{};
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+herr_t look_for_memory(unsigned /*depth*/, const H5E_error2_t* error, void* result) {
+  if (error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC) *static_cast<bool*>(result) = true;
+  return 0;
+}
 
 /// The innermost error is the one that the system call met; its text holds "errno = N".
 herr_t read_system_error(unsigned /*depth*/, const H5E_error2_t* error, void* result) {
@@ -27,6 +42,10 @@ herr_t read_system_error(unsigned /*depth*/, const H5E_error2_t* error, void* re
 [[noreturn]] void fail(std::string_view what) {
   int system_error = 0;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, read_system_error, &system_error);
+  bool lacks_memory = false;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, look_for_memory, &lacks_memory);
+  if (system_error == ENOMEM || (system_error == 0 && lacks_memory && may_lack_memory()))
+    throw std::bad_alloc();
   std::string text = "cannot " + std::string(what);
   if (system_error != 0) text += std::string(": ") + std::strerror(system_error);
   throw Failure(text, system_error);
@@ -48,6 +67,12 @@ Handle access_properties() {
 void track_order_not_times(const Handle& list) {
   check(H5Pset_obj_track_times(list.get(), 0), "turn object times off");
   check(H5Pset_attr_creation_order(list.get(), kOrder), "track the order of attributes");
+}
+
+void write_attribute(const Handle& object, const std::string& name, hid_t type, const Handle& space,
+                     const void* data) {
+  Handle attribute = create_attribute(object, name, type, space);
+  check(H5Awrite(attribute.get(), type, data), "write the attribute " + name);
 }
 
 }  // namespace
@@ -161,6 +186,8 @@ hid_t number_type(ElementType type) {
       return H5T_STD_I32LE;
     case ElementType::uint32:
       return H5T_STD_U32LE;
+    case ElementType::int64:
+      return H5T_STD_I64LE;
     case ElementType::uint64:
       return H5T_STD_U64LE;
     case ElementType::float32:
@@ -191,6 +218,41 @@ std::vector<hsize_t> shape_of(const Handle& space) {
   std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
   check(H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr), "read a shape");
   return shape;
+}
+
+void set_attribute(const Handle& object, const std::string& name, const std::string& text) {
+  const char* data = text.c_str();
+  write_attribute(object, name, string_type().get(), create_space({}), &data);
+}
+
+void set_attribute(const Handle& object, const std::string& name, double value) {
+  write_attribute(object, name, H5T_IEEE_F64LE, create_space({}), &value);
+}
+
+void set_attribute(const Handle& object, const std::string& name, std::int32_t value) {
+  write_attribute(object, name, H5T_STD_I32LE, create_space({}), &value);
+}
+
+void set_attribute(const Handle& object, const std::string& name, std::int64_t value) {
+  write_attribute(object, name, H5T_STD_I64LE, create_space({}), &value);
+}
+
+void set_attribute(const Handle& object, const std::string& name, std::uint64_t value) {
+  write_attribute(object, name, H5T_STD_U64LE, create_space({}), &value);
+}
+
+void set_attribute(const Handle& object, const std::string& name, ElementType type,
+                   const std::vector<std::int64_t>& values) {
+  std::vector<std::int64_t> converted = values;
+  check(
+      H5Tconvert(H5T_STD_I64LE, number_type(type), converted.size(), converted.data(), nullptr, H5P_DEFAULT),
+      "convert the attribute " + name);
+  write_attribute(object, name, number_type(type), create_space({values.size()}), converted.data());
+}
+
+void set_ascii_attribute(const Handle& object, const std::string& name, const std::string& text) {
+  const Handle type = fixed_string_type(text.size() + 1);
+  write_attribute(object, name, type.get(), create_space({}), text.c_str());
 }
 
 }  // namespace coordreq::hdf5

@@ -126,4 +126,19 @@ class LibraryStrings {
 /// Lengths of all dimensions of a dataset or an attribute's space.
 [[nodiscard]] std::vector<hsize_t> shape_of(const Handle& space);
 
+// Attributes of files, groups and datasets, typed as netCDF-4 has them. `name` must not be there yet.
+
+/// A variable-length UTF-8 string.
+void set_attribute(const Handle& object, const std::string& name, const std::string& text);
+void set_attribute(const Handle& object, const std::string& name, double value);
+void set_attribute(const Handle& object, const std::string& name, std::int32_t value);
+void set_attribute(const Handle& object, const std::string& name, std::int64_t value);
+void set_attribute(const Handle& object, const std::string& name, std::uint64_t value);
+/// An array of `type`, which holds every value. REQUIRES: an integer type.
+void set_attribute(const Handle& object, const std::string& name, ElementType type,
+                   const std::vector<std::int64_t>& values);
+
+/// A fixed-length ASCII string, as the dimension scale specification wants its own attributes.
+void set_ascii_attribute(const Handle& object, const std::string& name, const std::string& text);
+
 }  // namespace coordreq::hdf5

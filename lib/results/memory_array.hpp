@@ -3,7 +3,7 @@
 #include <cstring>
 #include <vector>
 
-#include "results/result_content.hpp"
+#include "answers/field.hpp"
 
 namespace coordreq {
 

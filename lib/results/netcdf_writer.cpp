@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "results/hdf5_attributes.hpp"
+#include "results/hdf5_handle.hpp"
 
 namespace coordreq {
 namespace {

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "answers/field.hpp"
 #include "base/thread_team.hpp"
 #include "results/array_writer.hpp"
 #include "results/hdf5_handle.hpp"
 #include "results/output_driver.hpp"
-#include "results/result_content.hpp"
 
 namespace coordreq {
 

@@ -50,10 +50,11 @@ void check_folder(const fs::path& folder) {
 }
 
 /// Permission bits of the file that would be replaced, if there is one.
+/// @param target where the links of `path` end
 std::optional<mode_t> check_target(const std::string& target, const std::string& path,
                                    const std::string& what) {
   struct stat info {};
-  if (stat(target.c_str(), &info) != 0) {
+  if (stat(path.c_str(), &info) != 0) {
     if (errno == ENOENT) return std::nullopt;
     throw IoError(because("cannot write " + what, errno), path);
   }
@@ -62,6 +63,11 @@ std::optional<mode_t> check_target(const std::string& target, const std::string&
     throw IoError("cannot write " + what + ": this is a device, a pipe or a socket, not a regular file",
                   path);
   }
+  // Links of /proc, as /dev/stdout, lead to open files whatever they say: one that has been deleted has no
+  // name.
+  struct stat named {};
+  if (stat(target.c_str(), &named) != 0 || named.st_dev != info.st_dev || named.st_ino != info.st_ino)
+    throw IoError("cannot write " + what + ": this file has no name any more", path);
   if (access(target.c_str(), W_OK) != 0) {
     throw IoError(because("cannot replace " + what, errno), path);
   }

@@ -23,9 +23,8 @@ struct ResultInfo {
     std::vector<std::uint64_t> layer_sizes;
   };
   struct Coalition {
-    std::int64_t horizon = 0;  ///< steps
-    std::vector<std::int64_t>
-        cells;  ///< [partition] that are given it; empty if there are very many partitions
+    std::int64_t horizon = 0;         ///< steps
+    std::vector<std::int64_t> cells;  ///< [partition] that are given it; empty if there are very many
     std::vector<std::pair<std::string, std::int64_t>> critical_pairs;  ///< and the cells where they are
   };
   std::string path, name, coordreq_version, git_sha1, spec_sha256, guarantee, period_unit;
@@ -45,9 +44,10 @@ struct ResultInfo {
   std::vector<std::string> datasets;  ///< paths, sorted; without bare dimensions, which hold no data
 };
 
-/// What `coordreq info` shows.
+/// What `coordreq info` shows. @param max_memory as of ResultsReader
 /// @throws IoError if the file is not there or cannot be read; ResultsError if it is not a results file of a
 ///   version this program reads, or a part that every file has is missing or has the wrong shape
-[[nodiscard]] ResultInfo read_info(const std::string& path);
+[[nodiscard]] ResultInfo read_info(const std::string& path,
+                                   std::optional<std::uint64_t> max_memory = std::nullopt);
 
 }  // namespace coordreq

@@ -16,36 +16,30 @@
 namespace coordreq {
 namespace {
 
-/// More elements than this are not a short array but a damaged file.
-constexpr std::uint64_t kMostElements = std::uint64_t{1} << 28U;
 /// Groups in a results file are nested three deep; a file whose groups hold one another must not hang us.
 constexpr int kDeepestGroup = 8;
 
-/// The system's own word on why a file cannot be read is better than HDF5's.
-void check_readable(const std::string& path) {
+/// The system's own word on why a file cannot be read is better than HDF5's. @returns the length
+std::uint64_t check_readable(const std::string& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) throw IoError(std::string("cannot read the results: ") + std::strerror(errno), path);
   struct stat info {};
   const bool known = fstat(file, &info) == 0;
   close(file);
   if (known && S_ISDIR(info.st_mode)) throw IoError("cannot read the results: this is a folder", path);
-  if (known && !S_ISREG(info.st_mode)) {
+  if (!known || !S_ISREG(info.st_mode)) {
     throw IoError("cannot read the results: this is a device, a pipe or a socket, not a regular file", path);
   }
+  return static_cast<std::uint64_t>(info.st_size);
 }
 
 hdf5::Handle open_results(const std::string& path) {
-  check_readable(path);
   try {
     return hdf5::open_file(path);
   } catch (const hdf5::Failure& failure) {
     if (failure.system_error() != 0) throw IoError(failure.what(), path);
     throw ResultsError("not a coordreq results file: it is not HDF5, or cut short", path);
   }
-}
-
-hdf5::Handle space_of(const hdf5::Handle& dataset) {
-  return {H5Dget_space(dataset.get()), H5Sclose, "read a shape"};
 }
 
 hdf5::Handle space_of_attribute(const hdf5::Handle& attribute) {
@@ -55,20 +49,6 @@ hdf5::Handle space_of_attribute(const hdf5::Handle& attribute) {
 std::uint64_t element_count(const hdf5::Handle& space) {
   return static_cast<std::uint64_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.get())));
 }
-
-/// Frees the strings that the library has made.
-struct LibraryStrings {
-  const hdf5::Handle& type;
-  const hdf5::Handle& space;
-  std::vector<char*> texts;
-
-  ~LibraryStrings() { H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, texts.data()); }
-  [[nodiscard]] std::vector<std::string> copy() const {
-    std::vector<std::string> result;
-    for (const char* text : texts) result.emplace_back(text == nullptr ? "" : text);
-    return result;
-  }
-};
 
 /// Lists of references to objects, which the library has made.
 class LibraryLists {
@@ -96,15 +76,10 @@ class LibraryLists {
   std::vector<hvl_t> lists_;
 };
 
-std::string in_brackets(const std::vector<std::uint64_t>& shape) {
-  std::string text = "[";
-  for (const std::uint64_t length : shape) text += (text.size() > 1 ? ", " : "") + std::to_string(length);
-  return text + "]";
-}
-
 }  // namespace
 
-ResultsFile::ResultsFile(const std::string& path) : path_(path), file_(open_results(path)) {
+ResultsFile::ResultsFile(const std::string& path, std::size_t cache_bytes)
+    : path_(path), bytes_(check_readable(path)), file_(open_results(path)), cache_(cache_bytes) {
   check_format();
 }
 
@@ -131,18 +106,27 @@ std::string ResultsFile::place(const std::string& object) const {
   return path_ + ":" + object;
 }
 
+bool ResultsFile::exists(const std::string& path) const {
+  // The library wants every group on the way to be there, and follows whatever link there is.
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    const std::string part = path.substr(0, end);
+    if (part == "/") return true;
+    if (H5Lexists(file_.get(), part.c_str(), H5P_DEFAULT) <= 0) return false;
+    H5L_info_t info{};
+    hdf5::check(H5Lget_info(file_.get(), part.c_str(), &info, H5P_DEFAULT), "look at " + part);
+    if (info.type != H5L_TYPE_HARD)
+      throw ResultsError("a link to an object elsewhere, which results do not have", place(part));
+    if (end == std::string::npos) return true;
+  }
+}
+
 hdf5::Handle ResultsFile::open(const std::string& path) const {
+  if (!exists(path)) throw ResultsError("missing or damaged", place(path));
   try {
     return hdf5::open_object(file_, path);
   } catch (const hdf5::Failure&) {
     throw ResultsError("missing or damaged", place(path));
   }
-}
-
-hdf5::Handle ResultsFile::open_dataset(const std::string& path) const {
-  hdf5::Handle object = open(path);
-  if (H5Iget_type(object.get()) != H5I_DATASET) throw ResultsError("not a dataset", place(path));
-  return object;
 }
 
 hdf5::Handle ResultsFile::open_attribute(const std::string& path, const std::string& attribute) const {
@@ -181,28 +165,14 @@ std::int64_t ResultsFile::integer(const std::string& path, const std::string& at
   return value;
 }
 
-std::vector<std::int64_t> ResultsFile::integers(const std::string& path, const std::string& attribute,
-                                                std::uint64_t count) const {
+std::uint64_t ResultsFile::natural(const std::string& path, const std::string& attribute) const {
+  return naturals(path, attribute, 1).front();
+}
+
+std::vector<std::uint64_t> ResultsFile::naturals(const std::string& path, const std::string& attribute,
+                                                 std::uint64_t count) const {
   std::vector<std::int64_t> values(count);
   read_attribute(path, attribute, H5T_NATIVE_INT64, {H5T_INTEGER}, count, values.data());
-  return values;
-}
-
-std::uint64_t ResultsFile::natural(const std::string& path, const std::string& attribute) const {
-  const std::int64_t value = integer(path, attribute);
-  if (value < 0) throw ResultsError("the attribute " + attribute + " is negative", place(path));
-  return static_cast<std::uint64_t>(value);
-}
-
-std::vector<std::uint64_t> ResultsFile::naturals(const std::string& path,
-                                                 const std::string& attribute) const {
-  const hdf5::Handle handle = open_attribute(path, attribute);
-  const hdf5::Handle type(H5Aget_type(handle.get()), H5Tclose, "read a type");
-  if (H5Tget_class(type.get()) != H5T_INTEGER) {
-    throw ResultsError("the attribute " + attribute + " is not a list of numbers", place(path));
-  }
-  std::vector<std::int64_t> values(static_cast<std::size_t>(element_count(space_of_attribute(handle))));
-  hdf5::check(H5Aread(handle.get(), H5T_NATIVE_INT64, values.data()), "read the attribute " + attribute);
   if (std::any_of(values.begin(), values.end(), [](std::int64_t value) { return value < 0; }))
     throw ResultsError("the attribute " + attribute + " is negative", place(path));
   return {values.begin(), values.end()};
@@ -212,58 +182,12 @@ std::string ResultsFile::text(const std::string& path, const std::string& attrib
   const hdf5::Handle handle = open_attribute(path, attribute);
   const hdf5::Handle space = space_of_attribute(handle);
   const hdf5::Handle type(H5Aget_type(handle.get()), H5Tclose, "read a type");
-  if (!holds_long_strings(type) || element_count(space) != 1) {
+  if (!hdf5::holds_long_strings(type) || element_count(space) != 1) {
     throw ResultsError("the attribute " + attribute + " is not a variable-length string", place(path));
   }
-  LibraryStrings strings{type, space, {nullptr}};
-  hdf5::check(H5Aread(handle.get(), type.get(), strings.texts.data()), "read the attribute " + attribute);
+  hdf5::LibraryStrings strings(type, space, 1);
+  hdf5::check(H5Aread(handle.get(), type.get(), strings.data()), "read the attribute " + attribute);
   return strings.copy().front();
-}
-
-std::vector<std::uint64_t> ResultsFile::shape(const std::string& dataset) const {
-  const std::vector<hsize_t> shape = hdf5::shape_of(space_of(open_dataset(dataset)));
-  return {shape.begin(), shape.end()};
-}
-
-void ResultsFile::expect_shape(const std::string& dataset, const std::vector<std::uint64_t>& expected) const {
-  const std::vector<std::uint64_t> found = shape(dataset);
-  if (found == expected) return;
-  throw ResultsError("wrong shape: found " + in_brackets(found) + ", expected " + in_brackets(expected),
-                     place(dataset));
-}
-
-template <typename Value>
-std::vector<Value> ResultsFile::elements(const std::string& dataset, hid_t type) const {
-  const hdf5::Handle handle = open_dataset(dataset);
-  const std::uint64_t count = element_count(space_of(handle));
-  if (count > kMostElements) throw ResultsError("too long", place(dataset));
-  std::vector<Value> values(count);
-  if (H5Dread(handle.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
-    throw ResultsError("cannot read the numbers: not numbers, or damaged", place(dataset));
-  }
-  return values;
-}
-
-std::vector<double> ResultsFile::numbers(const std::string& dataset) const {
-  return elements<double>(dataset, H5T_NATIVE_DOUBLE);
-}
-
-std::vector<std::int64_t> ResultsFile::integers(const std::string& dataset) const {
-  return elements<std::int64_t>(dataset, H5T_NATIVE_INT64);
-}
-
-std::vector<std::string> ResultsFile::texts(const std::string& dataset) const {
-  const hdf5::Handle handle = open_dataset(dataset);
-  const hdf5::Handle space = space_of(handle);
-  const hdf5::Handle type(H5Dget_type(handle.get()), H5Tclose, "read a type");
-  if (!holds_long_strings(type)) throw ResultsError("not variable-length strings", place(dataset));
-  const std::uint64_t count = element_count(space);
-  if (count > kMostElements) throw ResultsError("too long", place(dataset));
-  LibraryStrings strings{type, space, std::vector<char*>(count)};
-  if (H5Dread(handle.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, strings.texts.data()) < 0) {
-    throw ResultsError("cannot read the strings: damaged", place(dataset));
-  }
-  return strings.copy();
 }
 
 std::vector<std::string> ResultsFile::axis_paths(const std::string& dataset) const {
@@ -317,12 +241,13 @@ void ResultsFile::collect_datasets(const std::string& group, int depth,
   if (depth > kDeepestGroup) throw ResultsError("groups nested too deep", place(group));
   for (const std::string& name : members(group.empty() ? "/" : group)) {
     const std::string path = group + "/" + name;
-    const H5I_type_t kind = H5Iget_type(open(path).get());
+    const hdf5::Handle object = open(path);
+    const H5I_type_t kind = H5Iget_type(object.get());
     if (kind == H5I_GROUP) collect_datasets(path, depth + 1, found);
     if (kind != H5I_DATASET) continue;
     std::array<char, 64> scale_name{};
-    const bool is_scale = H5DSis_scale(open(path).get()) > 0;
-    if (is_scale) H5DSget_scale_name(open(path).get(), scale_name.data(), scale_name.size());
+    const bool is_scale = H5DSis_scale(object.get()) > 0;
+    if (is_scale) H5DSget_scale_name(object.get(), scale_name.data(), scale_name.size());
     if (std::strncmp(scale_name.data(), "This is a netCDF dimension", 26) != 0) found.push_back(path);
   }
 }

@@ -5,19 +5,24 @@
 #include <string>
 #include <vector>
 
+#include "answers/field.hpp"
 #include "results/hdf5_handle.hpp"
-#include "results/result_content.hpp"
+#include "results/stored_array.hpp"
 
 namespace coordreq {
 
 /// A results file opened for reading. Whatever it does not find as the contract says is a ResultsError that
 /// names the file and the object in it; damage that HDF5 notices becomes an hdf5::Failure.
+///
+/// Nobody vouches for the file: links that lead elsewhere are not followed, and arrays are those of
+/// StoredArray.
 class ResultsFile {
  public:
+  /// @param cache_bytes of unpacked chunks
   /// @throws IoError if the file is not there or cannot be read; ResultsError if it is not a results file of
-  /// a version
-  ///   that this program reads
-  explicit ResultsFile(const std::string& path);
+  /// a
+  ///   version that this program reads
+  explicit ResultsFile(const std::string& path, std::size_t cache_bytes = std::size_t{32} << 20U);
 
   /// Attributes of the object at `path`; "/" for the file's own.
   [[nodiscard]] std::string text(const std::string& path, const std::string& attribute) const;
@@ -25,31 +30,36 @@ class ResultsFile {
   [[nodiscard]] std::int64_t integer(const std::string& path, const std::string& attribute) const;
   /// The same, which must not be negative.
   [[nodiscard]] std::uint64_t natural(const std::string& path, const std::string& attribute) const;
-  /// A list of them.
-  [[nodiscard]] std::vector<std::uint64_t> naturals(const std::string& path,
-                                                    const std::string& attribute) const;
-  /// A list of so many integers. REQUIRES: count >= 1.
-  [[nodiscard]] std::vector<std::int64_t> integers(const std::string& path, const std::string& attribute,
-                                                   std::uint64_t count) const;
+  /// A list of so many of them. REQUIRES: count >= 1.
+  [[nodiscard]] std::vector<std::uint64_t> naturals(const std::string& path, const std::string& attribute,
+                                                    std::uint64_t count) const;
   [[nodiscard]] bool has(const std::string& path, const std::string& attribute) const;
 
   [[nodiscard]] std::vector<std::uint64_t> shape(const std::string& dataset) const;
   /// @throws ResultsError if the dataset has another shape than `expected`
   void expect_shape(const std::string& dataset, const std::vector<std::uint64_t>& expected) const;
+  /// @throws ResultsError if it has another shape, none of the types, or not all of its elements. No types:
+  ///   strings
+  void expect_array(const std::string& dataset, const std::vector<ElementType>& types,
+                    const std::vector<std::uint64_t>& shape) const;
+  /// @throws ResultsError if it is none of ours
+  [[nodiscard]] ElementType element_type(const std::string& dataset) const;
 
-  /// All elements of a short array.
+  /// All elements of a short array. REQUIRES: expect_array() has passed.
   [[nodiscard]] std::vector<double> numbers(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& dataset) const;
+  /// A stretch of a list of floating point numbers.
+  [[nodiscard]] std::vector<double> numbers(const std::string& dataset, std::uint64_t begin,
+                                            std::uint64_t count) const;
 
   /// The elements offset[i], ..., offset[i] + count[i] - 1 of every dimension, row-major, into `out`; only
   /// the chunks that hold them are read. @throws ResultsError if they are stored as another type than `type`,
-  /// or damaged. REQUIRES: they lie inside shape(); `out` has room for them.
+  /// or damaged. REQUIRES: expect_array() has passed, they lie inside the shape; `out` has room for them.
   void read_block(const std::string& dataset, ElementType type, const std::vector<std::uint64_t>& offset,
                   const std::vector<std::uint64_t>& count, void* out) const;
-  /// @throws ResultsError if it is none of ours
-  [[nodiscard]] ElementType element_type(const std::string& dataset) const;
-  /// Whether there is an object at `path`, that is: whether what is stored on request was asked for.
+  /// Whether there is an object at `path`. @throws ResultsError where a link does not lead to an object of
+  /// the file itself
   [[nodiscard]] bool exists(const std::string& path) const;
 
   /// Paths of the dimension scales of a dataset, one an axis.
@@ -61,30 +71,28 @@ class ResultsFile {
   /// Paths of all datasets but those that only give an axis its length; sorted.
   [[nodiscard]] std::vector<std::string> datasets() const;
 
+  /// Any object of the file. @throws ResultsError
+  [[nodiscard]] hdf5::Handle open(const std::string& path) const;
+
   /// Where an error is: the file and an object in it.
   [[nodiscard]] std::string place(const std::string& object) const;
 
  private:
-  [[nodiscard]] hdf5::Handle open(const std::string& path) const;
-  [[nodiscard]] hdf5::Handle open_dataset(const std::string& path) const;
   [[nodiscard]] hdf5::Handle open_attribute(const std::string& path, const std::string& attribute) const;
   void check_format() const;
   void read_attribute(const std::string& path, const std::string& attribute, hid_t type,
                       std::initializer_list<H5T_class_t> classes, std::uint64_t count, void* out) const;
   template <typename Value>
-  [[nodiscard]] std::vector<Value> elements(const std::string& dataset, hid_t type) const;
+  [[nodiscard]] std::vector<Value> elements(const std::string& dataset) const;
   void collect_datasets(const std::string& group, int depth, std::vector<std::string>& found) const;
-
-  /// A dataset that parts are read of. It stays open, so that the chunk that was unpacked last stays there.
-  struct OpenDataset {
-    hdf5::Handle dataset;
-    ElementType type;
-  };
-  [[nodiscard]] const OpenDataset& open_for_parts(const std::string& path) const;
+  /// It stays open, for asking what it is takes longer than reading a cell.
+  [[nodiscard]] const StoredArray& array(const std::string& path) const;
 
   std::string path_;
+  std::uint64_t bytes_ = 0;  // its length
   hdf5::Handle file_;
-  mutable std::map<std::string, OpenDataset> open_;  // by path; closed before the file
+  mutable ChunkCache cache_;
+  mutable std::map<std::string, StoredArray> arrays_;  // by path; closed before the file
 };
 
 }  // namespace coordreq

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,57 +11,11 @@
 #include "model/input_space.hpp"
 #include "model/uniform_grid.hpp"
 #include "reach/abstraction.hpp"
-#include "results/result_content.hpp"
-#include "spec/problem_spec.hpp"
+#include "results/results_parts.hpp"
 
 namespace coordreq {
 
-/// What a results file says of itself, as stored; contract section 4.
-struct StoredAttributes {
-  std::string title, conventions, coordreq_version, git_sha1, spec_sha256, guarantee, period_unit;
-  double period = 0;
-  std::uint64_t safe_cells = 0, invariant_cells = 0;  ///< attributes `cells`
-  std::int64_t iterations = 0;
-  std::int64_t connection_delay = 0;
-  std::string controller_sha256;                  ///< of `controller.file`; empty if the spec has none
-  std::vector<std::int64_t> coalition_cells;      ///< [partition] attribute of /coalition; may be missing
-  std::vector<std::int64_t> critical_pair_cells;  ///< [pair] attribute of /critical_pair; may be missing
-  std::vector<std::uint64_t> network_cells;       ///< by mode; none without a network
-};
-
-/// What is stored of a partition besides arrays over cells.
-struct StoredPartition {
-  std::string name;
-  std::vector<std::string> classes;         ///< names of the classes, in the order of the spec
-  std::vector<std::int64_t> actions;        ///< joint actions of each class
-  std::int32_t fixed_point_index = -1;      ///< F; -1 if truncated
-  std::vector<std::uint64_t> layer_sizes;   ///< |Z_0|, ..., |Z_F|; as far as stored if truncated
-  std::vector<std::uint64_t> padded_sizes;  ///< the whole row of /layer_size
-  [[nodiscard]] bool truncated() const { return fixed_point_index < 0; }
-};
-
-/// /layers/PARTITION: T(k) is cell[start[k]], ..., cell[start[k + 1] - 1].
-struct StoredLayers {
-  std::vector<std::uint64_t> start;
-  std::vector<std::uint64_t> cell;
-};
-
 class ResultsFile;
-
-/// Everything in a results file but the arrays over cells.
-struct ResultsParts {
-  ProblemSpec spec;
-  StoredAttributes attributes;
-  std::vector<StoredPartition> partitions;  ///< as many as the spec has, in its order
-  std::vector<ResultRequirement> requirements;
-  std::vector<TransitionTable> tables;  ///< without entries; none unless stored
-  std::vector<std::string> pairs;       ///< of agents, for which critical cells are stored
-};
-
-/// Reads them, and checks that the arrays are there, have their shapes and types, and that grid points,
-/// partitions and digest fit the spec. Tried in a child process first (see try_in_child()).
-/// @throws as ResultsReader::ResultsReader()
-[[nodiscard]] ResultsParts read_parts(const std::string& path);
 
 /// A results file opened for reading, together with its spec.
 ///
@@ -79,14 +34,17 @@ class ResultsReader {
   /// Infinite delays, triggers and collision times, whatever type they are stored as.
   static constexpr std::int32_t kNever = INT32_MAX;
 
+  /// @param max_memory bytes that reading may take; arrays are read in parts, of which a few are kept
   /// @throws IoError if the file is not there or cannot be read; ResultsError if it is no results file of a
-  ///   version that this program reads, or is damaged, or its spec is none
-  explicit ResultsReader(const std::string& path);
+  ///   version that this program reads, or is damaged, or its spec is none; LimitError
+  explicit ResultsReader(const std::string& path, std::optional<std::uint64_t> max_memory = std::nullopt);
   ~ResultsReader();
   ResultsReader(const ResultsReader&) = delete;
   ResultsReader& operator=(const ResultsReader&) = delete;
 
   [[nodiscard]] const std::string& path() const { return path_; }
+  /// Bytes that reading may take, if that is limited.
+  [[nodiscard]] std::optional<std::uint64_t> max_memory() const { return max_memory_; }
   /// The embedded spec, read by read_spec().
   [[nodiscard]] const ProblemSpec& spec() const { return parts_.spec; }
   [[nodiscard]] const UniformGrid& grid() const { return grid_; }
@@ -97,6 +55,25 @@ class ResultsReader {
 
   /// As many as the spec has, in its order.
   [[nodiscard]] const std::vector<ResultRequirement>& requirements() const { return parts_.requirements; }
+
+  /// What the file holds.
+  [[nodiscard]] const Fields& fields() const { return parts_.fields; }
+  [[nodiscard]] bool has(const std::string& path) const { return field_of_path_.contains(path); }
+  /// REQUIRES: the file has it.
+  [[nodiscard]] const Field& field(const std::string& path) const;
+  /// Entries along the axis before those of the cells; 0: there is none.
+  [[nodiscard]] std::size_t leading_length(const Field& field) const;
+  /// What each entry along that axis is called. REQUIRES: there is one.
+  [[nodiscard]] const std::vector<std::string>& leading_names(const Field& field) const;
+  /// Integers of a field over cells, kNever where the type's largest value means that there is no end.
+  /// @param leading place along an axis before those of the cells, if there is one
+  [[nodiscard]] std::vector<std::int32_t> values(const Field& field, std::optional<std::size_t> leading,
+                                                 const CellBlock& block) const;
+  /// The same of a field of 0 and 1.
+  [[nodiscard]] std::vector<std::uint8_t> members(const Field& field, std::optional<std::size_t> leading,
+                                                  const CellBlock& block) const;
+  /// Paths of all datasets, sorted; without bare dimensions, which hold no data.
+  [[nodiscard]] std::vector<std::string> datasets() const;
 
   /// Membership in S and K: 0 or 1.
   [[nodiscard]] std::vector<std::uint8_t> safe(const CellBlock& block) const;
@@ -167,22 +144,17 @@ class ResultsReader {
   [[nodiscard]] std::vector<Value> elements(const std::string& dataset, ElementType type,
                                             const std::vector<std::uint64_t>& offset,
                                             const std::vector<std::uint64_t>& count) const;
-  /// @param leading place along an axis before those of the cells, if there is one
-  [[nodiscard]] std::vector<std::uint8_t> members(const std::string& dataset,
-                                                  std::optional<std::size_t> leading,
-                                                  const CellBlock& block) const;
-  [[nodiscard]] std::vector<std::int32_t> steps(const std::string& dataset,
-                                                std::optional<std::size_t> leading, std::int32_t lowest,
-                                                const CellBlock& block) const;
   [[nodiscard]] std::vector<std::uint8_t> bits(const std::string& dataset, std::int64_t actions,
                                                const CellBlock& block) const;
   [[nodiscard]] std::vector<std::uint64_t> whole(const std::string& dataset) const;
 
   std::string path_;
+  std::optional<std::uint64_t> max_memory_;
+  std::unique_ptr<ResultsFile> file_;  // HDF5 stays inside this module
   ResultsParts parts_;
+  std::map<std::string, std::size_t> field_of_path_;
   UniformGrid grid_;
   InputSpace inputs_;
-  std::unique_ptr<ResultsFile> file_;  // HDF5 stays inside this module
 };
 
 }  // namespace coordreq

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "results/result_content.hpp"
+#include "answers/field.hpp"
 
 namespace coordreq {
 

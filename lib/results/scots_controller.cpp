@@ -3,31 +3,160 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
 #include <numeric>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "base/error.hpp"
-#include "model/reversed_numbers.hpp"
 #include "results/same_grid.hpp"
-#include "results/scots_text.hpp"
+#include "results/scots_format.hpp"
+#include "spec/wording.hpp"
 
 namespace coordreq {
 namespace {
 
-/// One dimension of a grid as the spec has it.
-struct Axis {
-  std::string name;
-  Rational first;
-  Rational last;
-  Rational step;
-  std::int64_t count = 0;
+constexpr std::string_view kBlanks = " \t\r";
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+/// "ETA" of "#VECTOR:ETA".
+std::string_view plain(std::string_view name) {
+  return name.substr(name.find(':') + 1);
+}
+
+/// The lines of a SCOTS file, one after the other. Blank lines and blanks at the ends of lines do not count.
+class ScotsText {
+ public:
+  /// @throws IoError
+  explicit ScotsText(const std::string& path);
+
+  /// The next line; a text that ends is an error that names what was `wanted`.
+  std::string_view next(std::string_view wanted);
+  /// Reads a line that must be `expected`.
+  void expect(std::string_view expected);
+  /// `name` and its value.
+  std::int64_t member(std::string_view name);
+  /// `name`, "#BEGIN:n", n numbers, "#END". @throws ControllerError unless n is `count`
+  struct Entry {
+    double value = 0;
+    std::int64_t line = 0;
+  };
+  std::vector<Entry> vector(std::string_view name, std::size_t count);
+  /// The numbers after "#BEGIN:".
+  std::vector<std::int64_t> begin();
+
+  /// Natural numbers, blanks between; @throws ControllerError
+  [[nodiscard]] std::vector<std::int64_t> naturals(std::string_view text) const;
+  [[nodiscard]] std::string place() const { return place(line_number_); }
+  [[nodiscard]] std::string place(std::int64_t line) const;
+
+ private:
+  std::string path_;
+  std::ifstream file_;
+  std::string line_;
+  std::int64_t line_number_ = 0;
+};
+
+ScotsText::ScotsText(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+  if (!file_) throw IoError("cannot read the controller: " + std::generic_category().message(errno), path);
+}
+
+std::string ScotsText::place(std::int64_t line) const {
+  return fmt::format("{}, line {}", path_, line);
+}
+
+std::string_view ScotsText::next(std::string_view wanted) {
+  while (std::getline(file_, line_)) {
+    ++line_number_;
+    const std::string_view text = without_blanks(line_);
+    if (!text.empty()) return text;
+  }
+  if (file_.bad()) throw IoError("cannot read the controller", path_);
+  throw ControllerError(fmt::format("the file ends, expected {}", wanted), place());
+}
+
+void ScotsText::expect(std::string_view expected) {
+  const std::string_view found = next(expected);
+  if (found != expected) {
+    throw ControllerError(fmt::format("found {}, expected {}", quote_text(found), quote_text(expected)),
+                          place());
+  }
+}
+
+std::int64_t ScotsText::member(std::string_view name) {
+  expect(name);
+  const std::vector<std::int64_t> value = naturals(next("a number"));
+  if (value.size() != 1)
+    throw ControllerError(fmt::format("expected one number, found {}", value.size()), place());
+  return value.front();
+}
+
+std::vector<std::int64_t> ScotsText::begin() {
+  const std::string_view text = next("'#BEGIN:'");
+  if (text.substr(0, scots::kBegin.size()) != scots::kBegin)
+    throw ControllerError(fmt::format("found {}, expected '#BEGIN:'", quote_text(text)), place());
+  return naturals(text.substr(scots::kBegin.size()));
+}
+
+std::vector<ScotsText::Entry> ScotsText::vector(std::string_view name, std::size_t count) {
+  expect(name);
+  const std::vector<std::int64_t> size = begin();
+  if (size.size() != 1 || size.front() != static_cast<std::int64_t>(count))
+    throw ControllerError(
+        fmt::format("found {} of {}, expected {}", fmt::join(size, " "), plain(name), count), place());
+  std::vector<Entry> entries;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string_view text = next("a number");
+    Entry entry{.line = line_number_};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), entry.value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(entry.value))
+      throw ControllerError(fmt::format("found {}, expected a number", quote_text(text)), place());
+    entries.push_back(entry);
+  }
+  expect(scots::kEnd);
+  return entries;
+}
+
+std::vector<std::int64_t> ScotsText::naturals(std::string_view text) const {
+  std::vector<std::int64_t> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at != end) {
+    if (kBlanks.find(*at) != std::string_view::npos) {
+      ++at;
+      continue;
+    }
+    std::int64_t number = 0;
+    const auto [rest, error] = std::from_chars(at, end, number);
+    const bool is_word = rest == end || kBlanks.find(*rest) != std::string_view::npos;
+    if (error != std::errc() || !is_word || number < 0)
+      throw ControllerError(fmt::format("found {}, expected natural numbers", quote_text(text)), place());
+    numbers.push_back(number);
+    at = rest;
+  }
+  return numbers;
+}
+
+/// As the spec has it.
+struct Axis : scots::Axis {
   /// [number along the grid] index in the spec; values may be listed in any order.
   std::vector<std::int64_t> index;
 };
 
 Axis axis_of(const StateSpec& state) {
   const Rational length = state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
-  Axis axis{state.name, state.grid.first, state.grid.first + length, state.grid.step, state.grid.count, {}};
+  Axis axis{
+      {state.name, state.grid.first, Rational(state.grid.first + length), state.grid.step, state.grid.count},
+      {}};
   axis.index.resize(static_cast<std::size_t>(axis.count));
   std::iota(axis.index.begin(), axis.index.end(), 0);
   return axis;
@@ -35,7 +164,7 @@ Axis axis_of(const StateSpec& state) {
 
 Axis axis_of(const InputSpec& input, const std::string& path) {
   const std::vector<Rational>& values = input.values;
-  Axis axis{input.name, 0, 0, 0, static_cast<std::int64_t>(values.size()), {}};
+  Axis axis{{input.name, 0, 0, 0, static_cast<std::int64_t>(values.size())}, {}};
   axis.index.resize(values.size());
   std::iota(axis.index.begin(), axis.index.end(), 0);
   const auto value = [&](std::size_t k) -> const Rational& {
@@ -66,14 +195,13 @@ class Reader {
   }
 
   void read_head() {
-    text_.expect("#SCOTS:v0.2");
-    text_.expect("#TYPE:STATICCONTROLLER");
-    check_grid("STATE_SPACE", states_);
-    check_grid("INPUT_SPACE", inputs_);
-    text_.expect("#TYPE:WINNINGDOMAIN");
+    for (const std::string_view line : scots::kHead) text_.expect(line);
+    check_grid(scots::kStates, states_);
+    check_grid(scots::kInputs, inputs_);
+    text_.expect(scots::kDomain);
     std::string_view line = text_.next("'#MATRIX:DATA'");
-    if (line.substr(0, 7) == "#SCOTS:") line = text_.next("'#MATRIX:DATA'");  // a comment
-    if (line != "#MATRIX:DATA")
+    if (line.starts_with(scots::kComment)) line = text_.next("'#MATRIX:DATA'");  // a comment
+    if (line != scots::kMatrix)
       throw ControllerError(fmt::format("found '{}', expected '#MATRIX:DATA'", line), text_.place());
     const std::vector<std::int64_t> size = text_.begin();
     if (size != std::vector{size_of(states_), size_of(inputs_)}) {
@@ -88,9 +216,10 @@ class Reader {
     const auto cells = static_cast<std::size_t>(size_of(states_));
     pairs.bytes.assign(cells * static_cast<std::size_t>(pairs.bytes_per_cell()), 0);
     std::vector<bool> seen(cells, false);
-    const ReversedNumbers cell_of = numbers(states_);
+    const ReversedNumbers cell_of = scots::numbers(states_);
     const std::vector<std::int64_t> input_of = joint_inputs();
-    for (std::string_view line = text_.next("#END"); line != "#END"; line = text_.next("#END")) {
+    for (std::string_view line = text_.next(scots::kEnd); line != scots::kEnd;
+         line = text_.next(scots::kEnd)) {
       const std::vector<std::int64_t> row = text_.naturals(line);
       check_row(row, seen);
       const std::int64_t cell = cell_of.position_of(row.front());
@@ -105,13 +234,6 @@ class Reader {
     std::int64_t size = 1;
     for (const Axis& axis : axes) size *= axis.count;
     return size;
-  }
-
-  static ReversedNumbers numbers(const std::vector<Axis>& axes) {
-    std::vector<std::int64_t> counts;
-    counts.reserve(axes.size());
-    for (const Axis& axis : axes) counts.push_back(axis.count);
-    return ReversedNumbers(counts);
   }
 
   /// [number in the file] the joint input of the spec.
@@ -131,22 +253,23 @@ class Reader {
     return result;
   }
 
-  void check_grid(const std::string& section, const std::vector<Axis>& axes) {
-    text_.expect("#SCOTS:" + section);
-    text_.expect("#TYPE:UNIFORMGRID");
-    const std::int64_t dimensions = text_.member("DIM");
+  void check_grid(std::string_view head, const std::vector<Axis>& axes) {
+    text_.expect(head);
+    text_.expect(scots::kGrid);
+    const std::int64_t dimensions = text_.member(scots::kDimensions);
+    const std::string_view section = plain(head);
     if (dimensions != static_cast<std::int64_t>(axes.size())) {
       throw ControllerError(
           fmt::format("{}: found {} dimensions, expected {}", section, dimensions, axes.size()),
           text_.place());
     }
-    check_entries(section, "ETA", axes, &Axis::step);
-    check_entries(section, "LOWER_LEFT", axes, &Axis::first);
-    check_entries(section, "UPPER_RIGHT", axes, &Axis::last);
+    check_entries(section, scots::kSteps, axes, &Axis::step);
+    check_entries(section, scots::kFirsts, axes, &Axis::first);
+    check_entries(section, scots::kLasts, axes, &Axis::last);
   }
 
-  void check_entries(const std::string& section, const std::string& name, const std::vector<Axis>& axes,
-                     Rational Axis::*expected) {
+  void check_entries(std::string_view section, std::string_view name, const std::vector<Axis>& axes,
+                     Rational scots::Axis::*expected) {
     const std::vector<ScotsText::Entry> found = text_.vector(name, axes.size());
     for (std::size_t i = 0; i < axes.size(); ++i) {
       // A single value has no step; SCOTS writes one all the same.
@@ -154,9 +277,9 @@ class Reader {
       const double wanted = nearest_double(axes[i].*expected);
       const double step = nearest_double(axes[i].step);
       if (same_point(found[i].value, wanted, step == 0 ? std::nullopt : std::optional(step))) continue;
-      throw ControllerError(
-          fmt::format("{}: {} of {} is {}, expected {}", section, name, axes[i].name, found[i].value, wanted),
-          text_.place(found[i].line));
+      throw ControllerError(fmt::format("{}: {} of {} is {}, expected {}", section, plain(name), axes[i].name,
+                                        found[i].value, wanted),
+                            text_.place(found[i].line));
     }
   }
 

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "answers/invariance/fields.hpp"
 #include "base/error.hpp"
 #include "results/child_trial.hpp"
 #include "results/reading.hpp"
 #include "results/results_file.hpp"
-#include "results/results_paths.hpp"
 #include "results/same_grid.hpp"
 
 namespace coordreq {
@@ -82,6 +82,11 @@ class StoredController {
     if (shape.size() != 1 || shape.front() != expected.size()) {
       fail(fmt::format("found {} grid points, expected {}", fmt::join(shape, " x "), expected.size()), path);
     }
+    // Other programs write whole numbers where grid points are.
+    file_.expect_array(path,
+                       {ElementType::float64, ElementType::float32, ElementType::int64, ElementType::int32,
+                        ElementType::int16, ElementType::uint64, ElementType::uint32, ElementType::uint8},
+                       shape);
     const std::vector<double> found = file_.numbers(path);
     const std::optional<double> distance = spacing(expected);
     for (std::size_t k = 0; k < found.size(); ++k) {
@@ -97,9 +102,7 @@ class StoredController {
     for (const StateSpec& state : spec_.states)
       shape_.push_back(static_cast<std::uint64_t>(state.grid.count));
     shape_.push_back(static_cast<std::uint64_t>(PackedPairs::bytes_for(inputs_)));
-    file_.expect_shape(paths::kController, shape_);
-    if (file_.element_type(paths::kController) != ElementType::uint8)
-      fail("elements of another type than uint8", paths::kController);
+    file_.expect_array(paths::kController, {ElementType::uint8}, shape_);
     const std::int64_t actions = file_.integer(paths::kController, "actions");
     if (actions != inputs_)
       fail(fmt::format("the attribute actions is {}, expected {}", actions, inputs_), paths::kController);

@@ -2,6 +2,7 @@
 
 #include <hdf5_hl.h>
 
+#include <algorithm>
 #include <array>
 
 #include "base/error.hpp"
@@ -14,6 +15,9 @@ namespace {
 
 /// No attribute of ours has more: it is a number for each mode of a network at the most.
 constexpr hssize_t kMostElements = 4096;
+
+/// How netCDF-4 calls an axis without coordinates.
+constexpr const char* kLengthOnly = "This is a netCDF dimension";
 
 std::string name_of(const hdf5::Handle& attribute) {
   std::array<char, 256> name{};
@@ -57,6 +61,12 @@ void read_scale(const hdf5::Handle& dataset, StoredObject& object) {
   if (H5DSget_scale_name(dataset.get(), name.data(), name.size()) > 0) object.scale_name = name.data();
 }
 
+bool has_only_zeros(const ResultsFile& file, const hdf5::Handle& dataset, const std::string& path) {
+  if (H5Dget_storage_size(dataset.get()) == 0) return true;  // as it is written
+  const std::vector<double> values = file.numbers(path);
+  return std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0; });
+}
+
 StoredObject read_object(const ResultsFile& file, const hdf5::Handle& handle, const std::string& path) {
   StoredObject object{.path = path};
   H5O_info_t info{};
@@ -69,17 +79,16 @@ StoredObject read_object(const ResultsFile& file, const hdf5::Handle& handle, co
   }
   if (info.type != H5O_TYPE_DATASET) return object;
   read_scale(handle, object);
+  if (object.scale_name.rfind(kLengthOnly, 0) == 0) object.is_blank = has_only_zeros(file, handle, path);
   if (!object.is_scale && !file.shape(path).empty()) object.axes = file.axis_paths(path);
   return object;
 }
 
 std::vector<StoredObject> read_all(const std::string& path, const std::vector<std::string>& paths) {
   const ResultsFile file(path);
-  const hdf5::Handle handle = hdf5::open_file(path);
   std::vector<StoredObject> objects;
   for (const std::string& object : paths) {
-    if (!file.exists(object)) throw ResultsError("missing or damaged", file.place(object));
-    objects.push_back(read_object(file, hdf5::open_object(handle, object), object));
+    objects.push_back(read_object(file, file.open(object), object));
   }
   return objects;
 }

@@ -18,6 +18,7 @@ struct StoredObject {
       axes;                ///< paths of the dimension scales, one an axis; none if it is a scale itself
   bool is_scale = false;   ///< gives others their axis
   std::string scale_name;  ///< what a scale calls itself
+  bool is_blank = true;    ///< a scale that is no more than a length has no element but 0
 };
 
 /// Reads the objects at these paths, in a child process first (see try_in_child()).

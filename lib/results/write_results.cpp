@@ -1,33 +1,159 @@
 #include "results/write_results.hpp"
 
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "answers/field_table.hpp"
+#include "results/file_header.hpp"
+#include "results/hdf5_handle.hpp"
 #include "results/netcdf_writer.hpp"
 #include "results/output_file.hpp"
-#include "results/requirement_sections.hpp"
-#include "results/result_sections.hpp"
+#include "results/version.hpp"
 #include "results/whole_file.hpp"
 
 namespace coordreq {
 namespace {
 
-void write_content(const std::string& path, const ResultContent& content, ThreadTeam& team) {
-  NetcdfWriter file(path, team);
-  write_header(file, content);
-  write_axes(file, content);
-  write_sets(file, content);
-  write_delays(file, content);
-  write_layers(file, content);
-  write_actions(file, content);
-  write_abstraction(file, content);
-  write_maps(file, content);
-  write_requirements(file, content);
-  file.finish();
+std::int64_t largest_value(ElementType type) {
+  switch (type) {
+    case ElementType::uint8:
+      return std::numeric_limits<std::uint8_t>::max();
+    case ElementType::int16:
+      return std::numeric_limits<std::int16_t>::max();
+    default:
+      return std::numeric_limits<std::int32_t>::max();
+  }
 }
+
+/// Writes one attribute, or two for flags.
+class AttributeWriter {
+ public:
+  /// @param type of the elements of the object
+  AttributeWriter(const hdf5::Handle& object, ElementType type) : object_(object), type_(type) {}
+
+  void write(const std::string& name, const AttributeValue& value) {
+    std::visit([&](const auto& one) { set(name, one); }, value);
+  }
+
+ private:
+  template <class Value>
+  void set(const std::string& name, const Value& value) {
+    hdf5::set_attribute(object_, name, value);
+  }
+  void set(const std::string& name, const std::vector<std::uint64_t>& values) {
+    hdf5::set_attribute(object_, name, ElementType::uint64, {values.begin(), values.end()});
+  }
+  void set(const std::string& /*name*/, const std::vector<FieldFlag>& flags) {
+    std::vector<std::int64_t> values;
+    std::string words;
+    for (const FieldFlag& flag : flags) {
+      values.push_back(flag.value == kLargestValue ? largest_value(type_) : flag.value);
+      words += (words.empty() ? "" : " ") + flag.word;
+    }
+    hdf5::set_attribute(object_, "flag_values", type_, values);
+    hdf5::set_attribute(object_, "flag_meanings", words);
+  }
+
+  const hdf5::Handle& object_;
+  ElementType type_;
+};
+
+/// 0, 1, ...
+ResultArray numbers() {
+  return {ElementType::int32, [](std::uint64_t begin, std::uint64_t count, void* out) {
+            auto* const first = static_cast<std::int32_t*>(out);
+            std::iota(first, first + count, static_cast<std::int32_t>(begin));
+          }};
+}
+
+ResultArray points(const GridPoints& grid) {
+  return {ElementType::float64, [&grid](std::uint64_t begin, std::uint64_t count, void* out) {
+            auto* const values = static_cast<double*>(out);
+            for (std::uint64_t i = 0; i < count; ++i) values[i] = grid.at(begin + i);
+          }};
+}
+
+class ResultsWriter {
+ public:
+  ResultsWriter(const std::string& path, const FieldValues& values, ThreadTeam& team)
+      : file_(path, team), values_(values) {}
+
+  void write(const ProblemSpec& spec) {
+    write_header(spec);
+    for (const Field& field : result_fields(spec)) field.scale ? write_scale(field) : write_array(field);
+    file_.finish();
+  }
+
+ private:
+  void write_header(const ProblemSpec& spec) {
+    const hdf5::Handle root = hdf5::open_object(file_.file(), "/");
+    hdf5::set_attribute(root, "filetype", std::string(kResultsFiletype));
+    hdf5::set_attribute(root, "version", ElementType::int32,
+                        {kResultsVersion.begin(), kResultsVersion.end()});
+    for (const FieldAttribute& attribute : header_attributes(spec))
+      AttributeWriter(root, ElementType::int32).write(attribute.name, attribute.value);
+    const hdf5::Handle text = file_.add_text("/spec", spec.text);
+    hdf5::set_attribute(text, "long_name", std::string("problem spec as analysed"));
+  }
+
+  void write_scale(const Field& field) {
+    const FieldScale& scale = *field.scale;
+    const auto found = values_.lengths.find(field.path);
+    if (found == values_.lengths.end() && scale.is_optional) return;
+    if (found == values_.lengths.end() && scale.least != scale.most)
+      throw std::invalid_argument("no length of " + field.path);
+    const std::uint64_t length = found == values_.lengths.end() ? scale.least : found->second;
+    lengths_[field.path] = length;
+    if (std::holds_alternative<NoCoordinates>(scale.coordinates))
+      return file_.add_dimension(field.path, length);
+    const hdf5::Handle dataset = add_coordinates(field.path, length, scale);
+    write_attributes(field, dataset, field.types.empty() ? ElementType::int32 : field.types.front(), nullptr);
+  }
+
+  hdf5::Handle add_coordinates(const std::string& path, std::uint64_t length, const FieldScale& scale) {
+    if (const auto* names = std::get_if<std::vector<std::string>>(&scale.coordinates))
+      return file_.add_coordinates(path, *names);
+    const auto* const grid = std::get_if<GridPoints>(&scale.coordinates);
+    return file_.add_coordinates(path, length, grid != nullptr ? points(*grid) : numbers());
+  }
+
+  void write_array(const Field& field) {
+    if (!shape_of(field, lengths_)) return;
+    const auto found = values_.entries.find(field.path);
+    if (found == values_.entries.end()) throw std::invalid_argument("no values of " + field.path);
+    const FieldValues::Entry& entry = found->second;
+    const ElementType type = entry.array.type;
+    if (std::find(field.types.begin(), field.types.end(), type) == field.types.end())
+      throw std::invalid_argument("values of another type than " + field.path + " has");
+    const hdf5::Handle dataset = entry.equals.empty()
+                                     ? file_.add_array(field.path, field.axes, entry.array)
+                                     : file_.add_copy(field.path, field.axes, entry.array,
+                                                      hdf5::open_object(file_.file(), entry.equals));
+    write_attributes(field, dataset, type, &entry);
+  }
+
+  /// @param entry with what is found; none for scales
+  static void write_attributes(const Field& field, const hdf5::Handle& dataset, ElementType type,
+                               const FieldValues::Entry* entry) {
+    AttributeWriter writer(dataset, type);
+    for (const FieldAttribute& attribute : field.attributes) {
+      const bool is_found = attribute.is_found && entry != nullptr;
+      writer.write(attribute.name, is_found ? entry->attributes.at(attribute.name) : attribute.value);
+    }
+  }
+
+  NetcdfWriter file_;
+  const FieldValues& values_;
+  std::map<std::string, std::uint64_t> lengths_;
+};
 
 }  // namespace
 
-void write_results(const std::string& path, const ResultContent& content, ThreadTeam& team) {
+void write_results(const std::string& path, const ProblemSpec& spec, const FieldValues& values,
+                   ThreadTeam& team) {
   write_whole_file(path, "the results",
-                   [&](const std::string& temporary) { write_content(temporary, content, team); });
+                   [&](const std::string& temporary) { ResultsWriter(temporary, values, team).write(spec); });
 }
 
 void check_writable(const std::string& path) {

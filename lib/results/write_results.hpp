@@ -2,8 +2,9 @@
 
 #include <string>
 
+#include "answers/field.hpp"
 #include "base/thread_team.hpp"
-#include "results/result_content.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
@@ -11,12 +12,13 @@ namespace coordreq {
 /// `path`, synced and renamed; an existing file is replaced only on success. The bytes depend neither on the
 /// number of threads nor on the run. Chunks are compressed in parallel and written directly.
 ///
-/// Where `path` is a symbolic link, the file that it points to is replaced and the link stays.
-/// REQUIRES: the delays and triggers of all partitions have one element type, names are as the contract has
-/// them. Memory: about 7 MiB a thread.
-/// @throws IoError naming the path if the folder is missing or not writable, the disk is full, or `path` is a
+/// Where `path` is a symbolic link, the file that it points to is replaced and the link stays. Written is
+/// what result_fields() declares for the spec. Memory: about 7 MiB a thread.
+/// @throws std::invalid_argument if a field has no values, or ones of a type that it does not have;
+///   IoError naming the path if the folder is missing or not writable, the disk is full, or `path` is a
 ///   folder, a device or a pipe; what a FillArray throws, with nothing left behind
-void write_results(const std::string& path, const ResultContent& content, ThreadTeam& team);
+void write_results(const std::string& path, const ProblemSpec& spec, const FieldValues& values,
+                   ThreadTeam& team);
 
 /// @throws IoError as write_results() would for reasons that are known before the work starts, so that a long
 ///   analysis does not fail at its end. Leaves nothing behind.

@@ -3,13 +3,13 @@
 #include <limits>
 #include <numeric>
 
-#include "results/hdf5_attributes.hpp"
+#include "results/hdf5_handle.hpp"
 #include "results/memory_array.hpp"
 #include "results/netcdf_writer.hpp"
 #include "results/sha256.hpp"
-#include "spec/unit_text.hpp"
 #include "results/version.hpp"
 #include "results/whole_file.hpp"
+#include "spec/unit_text.hpp"
 
 namespace coordreq {
 namespace {

@@ -41,6 +41,15 @@ void check_value_count(std::int64_t count, const std::string& pointer) {
   refuse_above(static_cast<long>(count), static_cast<long>(kMostValues), "values of one input", pointer);
 }
 
+void check_value_bits(const GridSpec& values, const std::string& pointer) {
+  const auto bits = [](const Rational& q) {
+    return mpz_sizeinbase(q.get_num_mpz_t(), 2) + mpz_sizeinbase(q.get_den_mpz_t(), 2);
+  };
+  const std::size_t most = bits(values.first) + bits(values.step);
+  refuse_above(mpz_class(static_cast<long>(values.count)) * most, power_of_two(28),
+               fmt::format("bits of {} values of one input", values.count), pointer);
+}
+
 void check_cell_count(const std::vector<StateSpec>& states) {
   refuse_above(states.size(), kMostStates, "states", "/states");
   mpz_class cells = 1;

@@ -17,6 +17,9 @@ void check_point_count(const mpz_class& count, const std::string& pointer);
 /// @throws LimitError if one input has more than 2^20 values; they are kept as a list of exact numbers
 void check_value_count(std::int64_t count, const std::string& pointer);
 
+/// @throws LimitError if all values of an input together have more than 2^28 bits
+void check_value_bits(const GridSpec& values, const std::string& pointer);
+
 /// @throws LimitError if there are more than 31 states (an HDF5 dataset has at most 32 axes) or more than
 /// 2^62 cells
 void check_cell_count(const std::vector<StateSpec>& states);

@@ -4,18 +4,6 @@
 #include <utility>
 
 namespace coordreq {
-namespace {
-
-/// How many of a, b and c are other nodes.
-int operand_count(Operator op) {
-  if (op == Operator::constant || op == Operator::variable) return 0;
-  if (op == Operator::literal_true || op == Operator::literal_false) return 0;
-  if (is_unary_function(op) || op == Operator::logical_not) return 1;
-  return op == Operator::if_else ? 3 : 2;
-}
-
-}  // namespace
-
 void Definitions::add(const std::string& name, Program program) {
   index_of_[name] = programs_.size();
   programs_.push_back(std::move(program));
@@ -69,18 +57,12 @@ TapeBuilder::Index Definitions::copy(const Program& program, const std::vector<I
   std::vector<Index> here;
   here.reserve(program.nodes.size());
   for (const Program::Node& node : program.nodes) {
-    const int operands = operand_count(node.op);
-    if (node.op == Operator::constant) {
-      here.push_back(tape.constant(program.constants[node.a]));
-    } else if (is_definition(node)) {
+    if (is_definition(node)) {
       here.push_back(values[definition_at(node)]);
-    } else if (node.op == Operator::variable) {
-      here.push_back(tape.variable(node.a));
     } else if (stands_for_condition(program, node)) {
       here.push_back(here[node.a]);
     } else {
-      here.push_back(tape.apply(node.op, operands > 0 ? here[node.a] : 0, operands > 1 ? here[node.b] : 0,
-                                operands > 2 ? here[node.c] : 0));
+      here.push_back(tape.copy(program, node, here));
     }
   }
   return here.back();

@@ -94,6 +94,15 @@ std::string_view without_byte_order_mark(std::string_view text) {
   return text.substr(0, kMark.size()) == kMark ? text.substr(kMark.size()) : text;
 }
 
+bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = utf8_length(text, i);
+    if (length == 0) return false;
+    i += length;
+  }
+  return true;
+}
+
 void check_encoding(const JsonText& json) {
   if (std::all_of(json.text.begin(), json.text.end(), is_space)) {
     throw SpecError("the file is empty, expected a spec", json.source);

@@ -29,6 +29,8 @@ struct JsonText {
 /// `text` without a UTF-8 byte order mark.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
 
+[[nodiscard]] bool is_utf8(std::string_view text);
+
 /// @throws SpecError if the text is blank, is not UTF-8, or contains a NUL byte.
 void check_encoding(const JsonText& json);
 

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "spec/json_document.hpp"
-#include "spec/schema_check.hpp"
+#include "spec/schema_violation.hpp"
 #include "spec/scope.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/wording.hpp"
@@ -23,6 +23,12 @@ void check_format(const Node& root) {
   const Node format = root["coordreq"];
   if (!format.value().is_number() || format.token() == "1") return;
   throw SpecError("this program reads spec format 1, found " + format.token(), format.pointer());
+}
+
+/// Validates with the schema that is printed. @throws SpecError that names place, found and expected
+void check_schema(const JsonDocument& document) {
+  const auto violation = find_violation(nlohmann::json::parse(spec_schema()), document.value());
+  if (violation) throw SpecError(violation->what, shown_pointer(violation->pointer));
 }
 
 bool is_letter(char c) {

@@ -23,7 +23,9 @@ struct SpecSource {
 
 /// The whole file; "-" reads `standard_input`. Relative paths in a spec start in its folder, those in one
 /// from standard input in the current folder.
-/// @throws IoError if it is not there, is a folder or cannot be read.
+/// A pipe is read to its end if somebody begins to
+/// write to it within five seconds.
+/// @throws IoError if it is not there, is a folder or a device, or cannot be read.
 [[nodiscard]] SpecSource read_spec_source(const std::string& path, std::istream& standard_input);
 
 /// read_spec() of its text. @throws SpecError as above.

@@ -1,7 +1,12 @@
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <istream>
 #include <system_error>
 #include <utility>
@@ -12,22 +17,82 @@
 namespace coordreq {
 namespace {
 
+constexpr std::size_t kMostBytes = std::size_t{1} << 26U;
+constexpr std::chrono::seconds kWaitForWriter{5};
+constexpr int kPauseMilliseconds = 10;
+
+void append(const char* bytes, std::size_t count, const std::string& name, std::string& text) {
+  if (text.size() + count > kMostBytes) throw LimitError("longer than 64 MiB, expected a spec", name);
+  text.append(bytes, count);
+}
+
 std::string read_all(std::istream& stream, const std::string& name) {
   std::string text;
   std::array<char, 65'536> block{};
   do {
     // read() turns a failing system call into badbit; an iterator over the buffer would let it throw.
     stream.read(block.data(), block.size());
-    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+    append(block.data(), static_cast<std::size_t>(stream.gcount()), name, text);
   } while (stream);
   if (stream.bad()) throw IoError("cannot be read", name);
   return text;
 }
 
-/// Why a file could not be opened, in the system's words.
-std::string reason(int error) {
-  return error == 0 ? "cannot be read" : "cannot be read: " + std::generic_category().message(error);
+[[noreturn]] void fail(int error, const std::string& path) {
+  throw IoError("cannot be read: " + std::generic_category().message(error), path);
 }
+
+/// An open file that can be read without waiting for ever: of a pipe, a program at its other end must have
+/// opened it within a few seconds; from then on it is read to its end.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path)
+      : path_(path), file_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+    if (file_ < 0) fail(errno, path_);
+  }
+  ~OpenFile() { ::close(file_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  [[nodiscard]] std::string text() {
+    std::string text;
+    std::array<char, 65'536> block{};
+    const auto begin = Clock::now();
+    while (true) {
+      const ssize_t count = ::read(file_, block.data(), block.size());
+      if (count > 0) {
+        append(block.data(), static_cast<std::size_t>(count), path_, text);
+      } else if (count < 0 && errno == EAGAIN) {
+        has_writer_ = true;
+        wait_for_bytes();
+      } else if (count < 0 && errno != EINTR) {
+        fail(errno, path_);
+      } else if (count == 0 && (!text.empty() || has_writer_ || !is_pipe())) {
+        return text;
+      } else if (count == 0) {
+        if (Clock::now() - begin > kWaitForWriter)
+          throw IoError("is a pipe that nobody writes to, expected a spec", path_);
+        static_cast<void>(::poll(nullptr, 0, kPauseMilliseconds));
+      }
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void wait_for_bytes() const {
+    pollfd waited{.fd = file_, .events = POLLIN, .revents = 0};
+    static_cast<void>(::poll(&waited, 1, -1));
+  }
+  [[nodiscard]] bool is_pipe() const {
+    struct stat status {};
+    return ::fstat(file_, &status) == 0 && S_ISFIFO(status.st_mode);
+  }
+
+  const std::string& path_;
+  int file_;
+  bool has_writer_ = false;
+};
 
 }  // namespace
 
@@ -37,10 +102,9 @@ SpecSource read_spec_source(const std::string& path, std::istream& standard_inpu
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (status.type() == std::filesystem::file_type::not_found) throw IoError("no such file", path);
   if (std::filesystem::is_directory(status)) throw IoError("is a folder, expected a spec file", path);
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw IoError(reason(errno), path);
-  return {read_all(file, path), path, std::filesystem::path(path).parent_path().string()};
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
+    throw IoError("is a device, expected a spec file", path);
+  return {OpenFile(path).text(), path, std::filesystem::path(path).parent_path().string()};
 }
 
 ProblemSpec read_spec(SpecSource source) {

@@ -101,6 +101,7 @@ InputSpec read_input(const Scope& scope, const Node& object) {
   } else {
     input.grid = read_grid(scope, object, false).grid;
     check_value_count(input.grid->count, object.pointer());
+    check_value_bits(*input.grid, object.pointer());
   }
   return input;
 }

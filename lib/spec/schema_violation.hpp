@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -13,10 +13,11 @@ struct SchemaViolation {
 };
 
 /// The first violation that a walk down `schema` and `document` meets: in an object unknown keys, missing
-/// keys, keys that exclude each other, then its members in turn.
+/// keys, keys that exclude each other, then its members in turn. Nothing if the document is valid.
 ///
-/// Understands the keywords that schema.json uses; titles say what was expected. Validators name the keyword
-/// that failed and, for alternatives, everything about every branch; this names the one thing to mend.
+/// Understands the keywords of draft 7 that schema.json uses, and no others; titles say what was expected.
+/// Validators of libraries name the keyword that failed and, for alternatives, everything about every branch;
+/// this names the one thing to mend. That both agree on what is valid is tested.
 [[nodiscard]] std::optional<SchemaViolation> find_violation(const nlohmann::json& schema,
                                                             const nlohmann::json& document);
 

@@ -11,13 +11,14 @@ namespace {
 
 using Node = JsonDocument::Node;
 
-/// Long enough for every decimal that parse_decimal() takes; shorter than what a tower of powers would fill.
-constexpr std::size_t kMostBits = 65'536;
+/// Twice what the least double has, and all digits that anyone types; everything that is computed exactly
+/// takes time and memory in proportion.
+constexpr std::size_t kMostBits = 4096;
 
 void check_size(const Rational& value, const std::string& pointer) {
   const std::size_t bits =
       mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
-  if (bits > kMostBits) throw SpecError("number of more than 65536 bits", pointer);
+  if (bits > kMostBits) throw SpecError(fmt::format("number of more than {} bits", kMostBits), pointer);
 }
 
 /// Named expressions of one JSON object and who mentions whom.

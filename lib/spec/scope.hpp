@@ -26,7 +26,7 @@ class Scope {
   explicit Scope(const JsonDocument::Node& root);
 
   /// The exact value of a number or of a string with a constant expression.
-  /// @throws SpecError if it has none that is finite as a double, or one of more than 65536 bits
+  /// @throws SpecError if it has none that is finite as a double, or one of more than 4096 bits
   [[nodiscard]] Rational number(const JsonDocument::Node& node) const;
 
   /// The linked expression in a string.

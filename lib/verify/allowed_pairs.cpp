@@ -1,7 +1,7 @@
 #include "verify/allowed_pairs.hpp"
 
 #include "base/error.hpp"
-#include "verify/odometer.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 

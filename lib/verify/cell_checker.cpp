@@ -65,8 +65,9 @@ CellChecker::CellChecker(const CellCheck& check, CellTallies& tallies, SafeMemor
   for (const PartitionSpec& partition : spec_.coordination.partitions) {
     Partition& own = partitions_.emplace_back();
     for (const auto& agents : partition.classes) {
-      own.classes.push_back(class_actions(spec_, *check.inputs, agents));
-      own.projection.emplace_back(static_cast<std::size_t>(own.classes.back().count));
+      own.classes.push_back(class_of(spec_, *check.inputs, agents));
+      own.classes.back().tabulate();
+      own.projection.emplace_back(static_cast<std::size_t>(own.classes.back().actions()));
     }
   }
 }
@@ -236,10 +237,11 @@ void CellChecker::check_partition(std::size_t p) {
 void CellChecker::project(Partition& partition) const {
   for (std::size_t c = 0; c < partition.classes.size(); ++c) {
     std::vector<std::uint8_t>& projection = partition.projection[c];
-    const std::vector<std::int32_t>& action = partition.classes[c].of_input;
+    const InputClass& own = partition.classes[c];
     std::fill(projection.begin(), projection.end(), 0);
     for (std::size_t u = 0; u < admitted_.size(); ++u) {
-      if (admitted_[u] != 0) projection[static_cast<std::size_t>(action[u])] = 1;
+      if (admitted_[u] != 0)
+        projection[static_cast<std::size_t>(own.action(static_cast<std::int64_t>(u)))] = 1;
     }
   }
 }
@@ -271,7 +273,7 @@ void CellChecker::check_actions(std::size_t p) {
 
 bool CellChecker::is_choice(const Partition& partition, std::int64_t u) const {
   for (std::size_t c = 0; c < partition.classes.size(); ++c) {
-    const std::int32_t action = partition.classes[c].of_input[static_cast<std::size_t>(u)];
+    const std::int64_t action = partition.classes[c].action(u);
     if (partition.projection[c][static_cast<std::size_t>(action)] == 0) return false;
   }
   return true;

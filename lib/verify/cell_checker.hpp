@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "model/input_class.hpp"
 #include "verify/allowed_pairs.hpp"
 #include "verify/check_cells.hpp"
 #include "verify/check_convention.hpp"
-#include "verify/class_actions.hpp"
 #include "verify/safe_judge.hpp"
 
 namespace coordreq {
@@ -41,7 +41,7 @@ class CellChecker {
 
  private:
   struct Partition {
-    std::vector<ClassActions> classes;
+    std::vector<InputClass> classes;
     std::vector<std::vector<std::uint8_t>> projection;  ///< [class][action], of this cell
   };
 

@@ -2,18 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "verify/cell_place.hpp"
 #include "verify/posts.hpp"
 
 namespace coordreq {
-namespace {
-
-bool agrees(const GridDimension& dimension, const PostTable& own, IndexRange mine, IndexRange claimed) {
-  if (claimed.first > claimed.last || !holds(dimension, claimed, mine)) return false;
-  return !own.exact || holds(dimension, mine, claimed);
-}
-
-}  // namespace
-
 bool holds(const GridDimension& dimension, IndexRange outer, IndexRange inner) {
   if (!dimension.periodic()) return outer.first <= inner.first && inner.last <= outer.last;
   const IndexRange a = after_leaving(outer, dimension).inside;
@@ -23,22 +15,26 @@ bool holds(const GridDimension& dimension, IndexRange outer, IndexRange inner) {
   return lead + (b.last - b.first) <= a.last - a.first;
 }
 
-Finding check_abstraction(const GridDimension& dimension, const PostTable& own, const PostTable& claimed,
+Finding check_abstraction(const UniformGrid& grid, const InputSpace& inputs, std::size_t state,
+                          const PostTable& own, const PostTable& claimed, const std::vector<bool>& asked,
                           const std::string& what) {
+  const GridDimension& dimension = grid[state];
   Tally tally(what + " " + dimension.name);
-  tally.set_note(own.exact ? "exact" : "enclosures");
+  tally.set_note("exact");
   if (own.states != claimed.states || own.inputs != claimed.inputs) {
     tally.add_wrong(-1, [] { return std::string("depends on other states or inputs than the spec says"); });
     return tally.finding();
   }
-  tally.add_checked(static_cast<std::int64_t>(own.entries.size()));
   for (std::size_t e = 0; e < own.entries.size(); ++e) {
+    if (!asked.empty() && !asked[e]) continue;
+    tally.add_checked(1);
     const IndexRange mine = own.entries[e];
     const IndexRange found = claimed.entries[e];
-    if (agrees(dimension, own, mine, found)) continue;
+    if (found.first <= found.last && holds(dimension, found, mine) && holds(dimension, mine, found)) continue;
     tally.add_wrong(static_cast<std::int64_t>(e), [&] {
-      return fmt::format("entry {}: {}..{}, expected {}{}..{}", e, found.first, found.last,
-                         own.exact ? "" : "at least ", mine.first, mine.last);
+      return fmt::format("{}: {} {}, expected {}",
+                         entry_text(grid, inputs, own, static_cast<std::int64_t>(e)), dimension.name,
+                         range_text(dimension, found), range_text(dimension, mine));
     });
   }
   return tally.finding();

@@ -16,11 +16,11 @@ ConventionChecker::ConventionChecker(const ProblemSpec& spec, const InputSpace& 
                                      ConventionTallies& tallies)
     : spec_(spec), claims_(claims), tallies_(tallies) {
   for (std::size_t a = 0; a < spec.agents.size(); ++a) {
-    const ClassActions& own =
-        agents_.emplace_back(class_actions(spec, inputs, {static_cast<std::int32_t>(a)}));
-    auto& joint = joint_.emplace_back(static_cast<std::size_t>(own.count));
-    for (std::size_t u = 0; u < own.of_input.size(); ++u)
-      joint[static_cast<std::size_t>(own.of_input[u])].push_back(static_cast<std::int32_t>(u));
+    InputClass& own = agents_.emplace_back(class_of(spec, inputs, {static_cast<std::int32_t>(a)}));
+    own.tabulate();
+    auto& joint = joint_.emplace_back(static_cast<std::size_t>(own.actions()));
+    for (std::int64_t u = 0; u < inputs.count(); ++u)
+      joint[static_cast<std::size_t>(own.action(u))].push_back(static_cast<std::int32_t>(u));
   }
 }
 
@@ -31,7 +31,7 @@ bool ConventionChecker::can_add(std::size_t agent, std::size_t action,
   return std::all_of(joint.begin(), joint.end(), [&](std::int32_t u) {
     if (admitted[static_cast<std::size_t>(u)] != 0) return true;
     for (std::size_t j = 0; j < agents_.size(); ++j) {
-      const auto other = static_cast<std::size_t>(agents_[j].of_input[static_cast<std::size_t>(u)]);
+      const auto other = static_cast<std::size_t>(agents_[j].action(u));
       if (j != agent && sets_[j][other] == 0) return true;  // not in the product
     }
     return false;
@@ -40,12 +40,12 @@ bool ConventionChecker::can_add(std::size_t agent, std::size_t action,
 
 void ConventionChecker::find(const std::vector<std::uint8_t>& admitted) {
   sets_.clear();
-  for (const ClassActions& agent : agents_) sets_.emplace_back(static_cast<std::size_t>(agent.count), 0);
+  for (const InputClass& agent : agents_) sets_.emplace_back(static_cast<std::size_t>(agent.actions()), 0);
   const auto lowest = std::find(admitted.begin(), admitted.end(), 1);
   if (lowest == admitted.end()) return;
   const auto seed = static_cast<std::size_t>(lowest - admitted.begin());
   for (std::size_t i = 0; i < agents_.size(); ++i)
-    sets_[i][static_cast<std::size_t>(agents_[i].of_input[seed])] = 1;
+    sets_[i][static_cast<std::size_t>(agents_[i].action(static_cast<std::int64_t>(seed)))] = 1;
   for (std::size_t i = 0; i < agents_.size(); ++i) {
     for (std::size_t a = 0; a < sets_[i].size(); ++a) {
       if (sets_[i][a] == 0 && can_add(i, a, admitted)) sets_[i][a] = 1;
@@ -60,7 +60,7 @@ bool ConventionChecker::is_product_in(const Sets& sets, const std::vector<std::u
   for (std::size_t u = 0; u < admitted.size(); ++u) {
     bool chosen = admitted[u] == 0;
     for (std::size_t i = 0; chosen && i < agents_.size(); ++i)
-      chosen = sets[i][static_cast<std::size_t>(agents_[i].of_input[u])] != 0;
+      chosen = sets[i][static_cast<std::size_t>(agents_[i].action(static_cast<std::int64_t>(u)))] != 0;
     if (chosen) return false;
   }
   return true;
@@ -74,7 +74,7 @@ ConventionChecker::Sets ConventionChecker::claimed_sets(std::int64_t cell) const
     // Bits beyond the last action have to be 0; one that is not makes the sets differ.
     std::vector<std::uint8_t>& set = sets.emplace_back(bytes * 8);
     for (std::size_t a = 0; a < set.size(); ++a) set[a] = own[a / 8] >> (a % 8) & 1U;
-    const auto count = static_cast<std::size_t>(agents_[i].count);
+    const auto count = static_cast<std::size_t>(agents_[i].actions());
     if (std::find(set.begin() + static_cast<std::ptrdiff_t>(count), set.end(), 1) == set.end())
       set.resize(count);
   }

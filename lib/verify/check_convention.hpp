@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "model/input_class.hpp"
 #include "verify/claims.hpp"
-#include "verify/class_actions.hpp"
 #include "verify/tally.hpp"
 
 namespace coordreq {
@@ -56,7 +56,7 @@ class ConventionChecker {
   const ProblemSpec& spec_;
   const Claims& claims_;
   ConventionTallies& tallies_;
-  std::vector<ClassActions> agents_;
+  std::vector<InputClass> agents_;
   /// [agent][action]: the joint inputs with it.
   std::vector<std::vector<std::vector<std::int32_t>>> joint_;
   Sets sets_;  ///< of the cell at work

@@ -6,9 +6,9 @@
 #include <memory>
 #include <optional>
 
+#include "model/input_class.hpp"
 #include "verify/allowed_pairs.hpp"
 #include "verify/cell_place.hpp"
-#include "verify/class_actions.hpp"
 
 namespace coordreq {
 namespace {
@@ -52,7 +52,7 @@ class NetworkChecker {
     for (const auto& partition : network.partitions) {
       auto& classes = classes_.emplace_back();
       for (const auto& agents : partition)
-        classes.push_back(class_actions(*check.spec, *check.inputs, agents));
+        classes.emplace_back(class_of(*check.spec, *check.inputs, agents)).tabulate();
     }
   }
 
@@ -123,12 +123,12 @@ class NetworkChecker {
   [[nodiscard]] std::vector<std::int64_t> independent(const std::vector<std::uint8_t>& joint,
                                                       std::size_t partition) const {
     std::vector<std::uint8_t> is_choice(inputs_, 1);
-    for (const ClassActions& own : classes_[partition]) {
-      std::vector<std::uint8_t> projection(static_cast<std::size_t>(own.count), 0);
+    for (const InputClass& own : classes_[partition]) {
+      std::vector<std::uint8_t> projection(static_cast<std::size_t>(own.actions()), 0);
       for (std::size_t u = 0; u < inputs_; ++u)
-        projection[static_cast<std::size_t>(own.of_input[u])] |= joint[u];
+        projection[static_cast<std::size_t>(own.action(static_cast<std::int64_t>(u)))] |= joint[u];
       for (std::size_t u = 0; u < inputs_; ++u)
-        is_choice[u] &= projection[static_cast<std::size_t>(own.of_input[u])];
+        is_choice[u] &= projection[static_cast<std::size_t>(own.action(static_cast<std::int64_t>(u)))];
     }
     std::vector<std::int64_t> result;
     for (std::size_t u = 0; u < inputs_; ++u) {
@@ -166,7 +166,7 @@ class NetworkChecker {
   std::optional<CellTubes> tubes_;
   AllowedPairs allowed_;
   std::size_t inputs_;
-  std::vector<std::vector<ClassActions>> classes_;  ///< [partition]
+  std::vector<std::vector<InputClass>> classes_;    ///< [partition]
   std::vector<std::vector<std::int64_t>> choices_;  ///< [partition] IND_C of this cell
   std::vector<std::int32_t> memory_;                ///< of posts_
   std::int64_t cell_ = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "model/pieces.hpp"
+#include "verify/cell_place.hpp"
 #include "verify/check_abstraction.hpp"
 
 namespace coordreq {
@@ -16,6 +17,13 @@ IndexRange cells_covered(const GridDimension& dimension, const Rational& lower, 
   return {saturate_index(first), saturate_index(std::max(first, last))};
 }
 
+TubeTally::TubeTally(const PostQuestion& question)
+    : question_(question),
+      dimension_((*question.grid)[question.state]),
+      claimed_(*question.claimed),
+      asked_(entries_of(*question.grid, *question.inputs, claimed_, *question.cells)),
+      tally_("tubes " + dimension_.name) {}
+
 bool TubeTally::is_unbounded(std::int64_t entry) const {
   const IndexRange claimed = claimed_.entries[static_cast<std::size_t>(entry)];
   return claimed.first == INT32_MIN && claimed.last == INT32_MAX;
@@ -23,8 +31,9 @@ bool TubeTally::is_unbounded(std::int64_t entry) const {
 
 bool TubeTally::is_enough(std::int64_t entry, std::int64_t by, const std::vector<OwnTube>& own) const {
   const IndexRange claimed = claimed_.entries[static_cast<std::size_t>(entry)];
-  return std::all_of(own.begin(), own.end(),
-                     [&](const OwnTube& tube) { return holds(dimension_, claimed, moved(tube.outer, by)); });
+  return !own.empty() && std::all_of(own.begin(), own.end(), [&](const OwnTube& tube) {
+    return holds(dimension_, claimed, moved(tube.outer, by));
+  });
 }
 
 bool TubeTally::is_exact(IndexRange claimed, std::int64_t by, const std::vector<OwnTube>& own) const {
@@ -47,13 +56,21 @@ void TubeTally::add(std::int64_t entry, std::int64_t by, const std::vector<OwnTu
   for (const OwnTube& tube : own) {
     const IndexRange needed = moved(tube.inner, by);
     if (holds(dimension_, claimed, needed)) continue;
-    tally_.add_wrong(entry, [&] {
-      return fmt::format("entry {}: {}..{}, expected at least {}..{}", entry, claimed.first, claimed.last,
-                         needed.first, needed.last);
-    });
+    tally_.add_wrong(entry, [&] { return text_of(entry, needed); });
     return;
   }
-  tally_.add_unproven();
+  tally_.add_unproven(entry, [&] {
+    return own.empty()
+               ? entry_text(*question_.grid, *question_.inputs, claimed_, entry) + ": no bound was found"
+               : text_of(entry, moved(own.front().outer, by));
+  });
+}
+
+std::string TubeTally::text_of(std::int64_t entry, IndexRange needed) const {
+  const IndexRange claimed = claimed_.entries[static_cast<std::size_t>(entry)];
+  return fmt::format("{}: {} {}, expected at least {}",
+                     entry_text(*question_.grid, *question_.inputs, claimed_, entry), dimension_.name,
+                     range_text(dimension_, claimed), range_text(dimension_, needed));
 }
 
 TubeFinding TubeTally::finding(bool may_be_exact) {

@@ -8,6 +8,7 @@
 #include "base/thread_team.hpp"
 #include "model/input_space.hpp"
 #include "spec/problem_spec.hpp"
+#include "verify/outward_posts.hpp"
 #include "verify/post_table.hpp"
 #include "verify/tally.hpp"
 
@@ -31,18 +32,21 @@ struct TubeFinding {
 };
 
 /// Compares tubes of the analysis with the verifier's own: one that leaves out a cell that is needed is
-/// wrong; one that does not hold all that is enough for the verifier is left open. Safe to use from several
-/// threads.
+/// wrong; one that does not hold all that is enough for the verifier is not confirmed. Safe to use from
+/// several threads.
 class TubeTally {
  public:
-  /// REQUIRES: `dimension` and `claimed` outlive this object.
-  TubeTally(const GridDimension& dimension, const PostTable& claimed)
-      : dimension_(dimension), claimed_(claimed), tally_("tubes " + dimension.name) {}
+  /// REQUIRES: what `question` points to outlives this object.
+  explicit TubeTally(const PostQuestion& question);
 
+  /// Whether the entry is asked about.
+  [[nodiscard]] bool is_asked(std::int64_t entry) const {
+    return asked_.empty() || asked_[static_cast<std::size_t>(entry)];
+  }
   /// True if the entry holds all that is enough.
   [[nodiscard]] bool is_enough(std::int64_t entry, std::int64_t by, const std::vector<OwnTube>& own) const;
   /// @param by how far up the own tubes have to be moved
-  /// @param own one for each piece of the cell
+  /// @param own one for each piece of the cell; empty: there are no bounds
   void add(std::int64_t entry, std::int64_t by, const std::vector<OwnTube>& own);
   /// The entry says that nothing is known, which blocks the pair: no tube need be computed.
   void add_unbounded() { tally_.add_checked(1); }
@@ -52,9 +56,12 @@ class TubeTally {
 
  private:
   [[nodiscard]] bool is_exact(IndexRange claimed, std::int64_t by, const std::vector<OwnTube>& own) const;
+  [[nodiscard]] std::string text_of(std::int64_t entry, IndexRange needed) const;
 
+  const PostQuestion& question_;
   const GridDimension& dimension_;
   const PostTable& claimed_;
+  std::vector<bool> asked_;  ///< [entry]; empty: all
   Tally tally_;
   std::atomic<bool> exact_{true};
 };
@@ -62,15 +69,12 @@ class TubeTally {
 /// Checks the tubes of a state whose flow is a polynomial in time, from corners of the cells: their extremes
 /// in time in rational arithmetic.
 /// @returns nothing if the flow is not of this kind for some inputs or parameters
-[[nodiscard]] std::optional<TubeFinding> check_corner_tubes(const ProblemSpec& spec, const UniformGrid& grid,
-                                                            const InputSpace& inputs, std::size_t state,
-                                                            const PostTable& claimed, ThreadTeam& team);
+[[nodiscard]] std::optional<TubeFinding> check_corner_tubes(const PostQuestion& question, ThreadTeam& team);
 
-/// Checks the tubes of any other state by bounds of its derivative over parts of the period and of its value
-/// in between (TubeBounds); the parts get finer until the tube of the analysis holds what they enclose.
-/// @returns nothing if there are no such bounds
-[[nodiscard]] std::optional<TubeFinding> check_outward_tubes(const ProblemSpec& spec, const UniformGrid& grid,
-                                                             const InputSpace& inputs, std::size_t state,
-                                                             const PostTable& claimed, ThreadTeam& team);
+/// Checks the tubes of any other state by bounds of its derivative during steps of the period and of its
+/// value in between (range_during_period()); the steps get finer until the tube of the analysis holds what
+/// they enclose.
+/// @returns nothing where limits stop a state, or a flow jumps
+[[nodiscard]] std::optional<TubeFinding> check_outward_tubes(const PostQuestion& question, ThreadTeam& team);
 
 }  // namespace coordreq

@@ -38,15 +38,23 @@ std::vector<std::uint8_t> beyond_limits(const ProblemSpec& spec, const Abstracti
 }  // namespace
 
 CheckedTubes check_tubes(const ProblemSpec& spec, const Abstraction& analysis,
-                         const std::vector<std::uint8_t>& safe, ThreadTeam& team) {
+                         const std::vector<std::uint8_t>& safe, const std::vector<std::int64_t>& cells,
+                         const Budget& budget, ThreadTeam& team) {
   CheckedTubes result{.tables = tables_of(spec, analysis),
                       .beyond = beyond_limits(spec, analysis, safe, team)};
   const UniformGrid& grid = analysis.grid;
   const InputSpace& inputs = analysis.inputs;
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const PostTable& claimed = result.tables[i];
-    std::optional<TubeFinding> found = check_corner_tubes(spec, grid, inputs, i, claimed, team);
-    if (!found) found = check_outward_tubes(spec, grid, inputs, i, claimed, team);
+    const PostQuestion question{.spec = &spec,
+                                .grid = &grid,
+                                .inputs = &inputs,
+                                .state = i,
+                                .claimed = &result.tables[i],
+                                .cells = &cells,
+                                .budget = &budget,
+                                .check = "tubes " + grid[i].name};
+    std::optional<TubeFinding> found = check_corner_tubes(question, team);
+    if (!found) found = check_outward_tubes(question, team);
     result.exact = result.exact && found && found->exact;
     if (found) {
       result.findings.push_back(std::move(found->finding));

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/packed_pairs.hpp"
 #include "answers/requirements/result_requirement.hpp"
+#include "engine/packed_pairs.hpp"
 #include "verify/post_table.hpp"
 
 namespace coordreq {

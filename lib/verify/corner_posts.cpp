@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "model/pieces.hpp"
-#include "verify/odometer.hpp"
+#include "model/odometer.hpp"
 #include "verify/parameter_choices.hpp"
 #include "verify/post_table.hpp"
 
@@ -24,14 +24,16 @@ struct Contribution {
 
 class CornerPosts {
  public:
-  CornerPosts(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, std::size_t state)
+  CornerPosts(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, std::size_t state,
+              const std::vector<std::int64_t>& cells)
       : spec_(spec),
         grid_(grid),
         inputs_(inputs),
         state_(state),
         target_(grid[state]),
         influences_(influences_on(spec, state)),
-        table_(empty_table(grid, inputs, influences_)) {}
+        table_(empty_table(grid, inputs, influences_)),
+        asked_(entries_of(grid, inputs, table_, cells)) {}
 
   std::optional<PostTable> run(ThreadTeam& team) {
     const ParameterChoices choices(spec_, grid_, inputs_, influences_, table_);
@@ -51,7 +53,8 @@ class CornerPosts {
     });
     if (!affine) return std::nullopt;
     table_.exact = exact;
-    add_measurements_at_limits(target_, spec_.abstraction.cells, table_);
+    for (IndexRange& range : table_.entries)
+      range = with_measurements_at_limits(target_, spec_.abstraction.cells, range);
     return std::move(table_);
   }
 
@@ -71,7 +74,8 @@ class CornerPosts {
     do {
       std::int64_t position = base;
       for (std::size_t j = 0; j < parts.size(); ++j) position += cell[j] * parts[j].stride;
-      table_.entries[static_cast<std::size_t>(position)] = post(map, parts, cell, attained);
+      const auto place = static_cast<std::size_t>(position);
+      if (asked_.empty() || asked_[place]) table_.entries[place] = post(map, parts, cell, attained);
     } while (cell.advance());
   }
 
@@ -155,8 +159,8 @@ class CornerPosts {
       throw SpecError(fmt::format("the discrete state '{}' can leave its grid", target_.name),
                       "/dynamics/equations/" + target_.name);
     }
-    const std::int32_t k = saturate_index(floor_to_int(index));
-    return {k, k};
+    const std::int64_t k = floor_to_int(index);
+    return raw_range(target_, k, k);
   }
 
   const ProblemSpec& spec_;
@@ -166,13 +170,15 @@ class CornerPosts {
   const GridDimension& target_;
   Influences influences_;
   PostTable table_;
+  std::vector<bool> asked_;  ///< [entry]; empty: all
 };
 
 }  // namespace
 
 std::optional<PostTable> corner_posts(const ProblemSpec& spec, const UniformGrid& grid,
-                                      const InputSpace& inputs, std::size_t state, ThreadTeam& team) {
-  return CornerPosts(spec, grid, inputs, state).run(team);
+                                      const InputSpace& inputs, std::size_t state,
+                                      const std::vector<std::int64_t>& cells, ThreadTeam& team) {
+  return CornerPosts(spec, grid, inputs, state, cells).run(team);
 }
 
 }  // namespace coordreq

@@ -4,42 +4,18 @@
 
 #include "model/pieces.hpp"
 #include "verify/check_tube.hpp"
-#include "verify/odometer.hpp"
+#include "model/odometer.hpp"
 #include "verify/parameter_choices.hpp"
 #include "verify/sampled_map.hpp"
-#include "verify/time_extremes.hpp"
 
 namespace coordreq {
 namespace {
 
-void add(Polynomial& sum, const Polynomial& p) {
-  if (sum.size() < p.size()) sum.resize(p.size());
-  for (std::size_t k = 0; k < p.size(); ++k) sum[k] += p[k];
-}
-
-Polynomial times(Polynomial p, const Rational& factor) {
-  for (Rational& term : p) term *= factor;
-  return p;
-}
-
-Polynomial negative(Polynomial p) {
-  return times(std::move(p), -1);
-}
-
-/// Whether the coefficient is that of a state that stays itself, but for what others add.
-bool is_one(const Polynomial& p) {
-  return p.front() == 1 && std::all_of(p.begin() + 1, p.end(), [](const Rational& q) { return q == 0; });
-}
-
-bool is_zero(const Polynomial& p) {
-  return std::all_of(p.begin(), p.end(), [](const Rational& q) { return q == 0; });
-}
-
 /// What one moving state adds, from both ends of each piece of its cells: in units of the target's step.
 struct TimedPart {
   struct Ends {
-    Polynomial lower;
-    Polynomial upper;
+    TimePolynomial lower;
+    TimePolynomial upper;
   };
   int sign = 0;  ///< of the coefficient all the time; 0: both ends can be the extreme
   std::int64_t stride = 0;
@@ -67,9 +43,13 @@ class CornerTubes {
     do {
       std::int64_t position = base;
       for (std::size_t j = 0; j < parts_.size(); ++j) position += cell[j] * parts_[j].stride;
-      const std::vector<OwnTube> own = tubes(map, cell);
-      for (std::int64_t k = 0; k < (follows_ ? target_.count : 1); ++k)
-        tally_.add(position + k * claimed_.state_stride[state_], k, own);
+      std::vector<OwnTube> own;
+      for (std::int64_t k = 0; k < (follows_ ? target_.count : 1); ++k) {
+        const std::int64_t entry = position + k * claimed_.state_stride[state_];
+        if (!tally_.is_asked(entry)) continue;
+        if (own.empty()) own = tubes(map, cell);
+        tally_.add(entry, k, own);
+      }
     } while (cell.advance());
   }
 
@@ -80,7 +60,7 @@ class CornerTubes {
     parts_.clear();
     for (std::size_t j = 0; j < influences_.moving.size(); ++j) {
       const std::size_t source = influences_.moving[j];
-      const bool follows = source == state_ && is_one(map.coefficient[j]);
+      const bool follows = source == state_ && map.coefficient[j].is_one();
       follows_ = follows_ || follows;
       parts_.push_back(
           part_of(source, map.coefficient[j], cut && !follows, follows ? 1 : grid_[source].count));
@@ -91,24 +71,23 @@ class CornerTubes {
   [[nodiscard]] bool crosses_a_seam(const TimedMap& map) const {
     for (std::size_t j = 0; j < influences_.moving.size(); ++j) {
       const std::size_t source = influences_.moving[j];
-      const Polynomial& factor = map.coefficient[j];
-      if (grid_[source].periodic() && !(source == state_ ? is_one(factor) : is_zero(factor))) return true;
+      const TimePolynomial& factor = map.coefficient[j];
+      if (grid_[source].periodic() && !(source == state_ ? factor.is_one() : factor.is_zero())) return true;
     }
     return false;
   }
 
-  [[nodiscard]] TimedPart part_of(std::size_t source, const Polynomial& factor, bool cut,
+  [[nodiscard]] TimedPart part_of(std::size_t source, const TimePolynomial& factor, bool cut,
                                   std::int64_t cells) const {
     const GridDimension& dimension = grid_[source];
     TimedPart part{.sign = sign_on(factor, tau_), .stride = claimed_.state_stride[source]};
     const Rational reach = dimension.radius() + dimension.measurement_error;
-    const Polynomial in_steps = times(factor, 1 / target_.step);
+    const TimePolynomial in_steps = factor * (1 / target_.step);
     for (std::int64_t k = 0; k < cells; ++k) {
       std::vector<Piece> places = {{dimension.point(k) - reach, dimension.point(k) + reach}};
       if (cut) places = pieces(dimension, k);
       auto& ends = part.cells.emplace_back();
-      for (const Piece& place : places)
-        ends.push_back({times(in_steps, place.lower), times(in_steps, place.upper)});
+      for (const Piece& place : places) ends.push_back({in_steps * place.lower, in_steps * place.upper});
     }
     return part;
   }
@@ -145,19 +124,19 @@ class CornerTubes {
                                                 const std::vector<const TimedPart::Ends*>& box,
                                                 bool upper) const {
     std::vector<std::size_t> open;
-    Polynomial fixed = {cell_reach(upper)};
+    TimePolynomial fixed = {cell_reach(upper)};
     for (std::size_t j = 0; j < box.size(); ++j) {
       if (parts_[j].sign == 0) {
         open.push_back(j);
       } else {
-        add(fixed, (parts_[j].sign > 0) == upper ? box[j]->upper : box[j]->lower);
+        fixed += (parts_[j].sign > 0) == upper ? box[j]->upper : box[j]->lower;
       }
     }
     std::optional<FloorOfLeast> least;
     for (std::uint64_t corner = 0; corner < std::uint64_t{1} << open.size(); ++corner) {
-      Polynomial value = fixed;
+      TimePolynomial value = fixed;
       for (std::size_t c = 0; c < open.size(); ++c)
-        add(value, (corner >> c & 1U) != 0 ? box[open[c]]->upper : box[open[c]]->lower);
+        value += (corner >> c & 1U) != 0 ? box[open[c]]->upper : box[open[c]]->lower;
       const FloorOfLeast next = least_of(map, value, upper);
       if (!least) least = next;
       *least = {std::min(least->outer, next.outer), std::min(least->inner, next.inner)};
@@ -171,19 +150,20 @@ class CornerTubes {
     return ((upper ? Rational(-reach) : reach) - target_.first) / target_.step;
   }
 
-  [[nodiscard]] FloorOfLeast least_of(const TimedMap& map, const Polynomial& value, bool upper) const {
+  [[nodiscard]] FloorOfLeast least_of(const TimedMap& map, const TimePolynomial& value, bool upper) const {
     FloorOfLeast least = least_with(value, upper ? map.upper : map.lower, upper);
     if (map.exact) return least;
-    least.inner = floor_to_int(upper ? Rational(-value.front()) : value.front());  // it begins there
-    for (const Polynomial& rest : map.attained)
+    least.inner = floor_to_int(upper ? Rational(-value[0]) : value[0]);  // it begins there
+    for (const TimePolynomial& rest : map.attained)
       least.inner = std::min(least.inner, least_with(value, rest, upper).inner);
     return least;
   }
 
-  [[nodiscard]] FloorOfLeast least_with(const Polynomial& value, const Polynomial& rest, bool upper) const {
-    Polynomial sum = value;
-    add(sum, times(rest, 1 / target_.step));
-    return floor_of_least(upper ? negative(std::move(sum)) : sum, tau_);
+  [[nodiscard]] FloorOfLeast least_with(const TimePolynomial& value, const TimePolynomial& rest,
+                                        bool upper) const {
+    TimePolynomial sum = value;
+    sum += rest * (1 / target_.step);
+    return floor_of_least(upper ? sum * -1 : sum, tau_);
   }
 
   const UniformGrid& grid_;
@@ -199,18 +179,19 @@ class CornerTubes {
 
 }  // namespace
 
-std::optional<TubeFinding> check_corner_tubes(const ProblemSpec& spec, const UniformGrid& grid,
-                                              const InputSpace& inputs, std::size_t state,
-                                              const PostTable& claimed, ThreadTeam& team) {
-  const Influences influences = influences_on(spec, state);
-  const ParameterChoices choices(spec, grid, inputs, influences, claimed);
-  TubeTally tally(grid[state], claimed);
+std::optional<TubeFinding> check_corner_tubes(const PostQuestion& question, ThreadTeam& team) {
+  const ProblemSpec& spec = *question.spec;
+  const UniformGrid& grid = *question.grid;
+  const PostTable& claimed = *question.claimed;
+  const Influences influences = influences_on(spec, question.state);
+  const ParameterChoices choices(spec, grid, *question.inputs, influences, claimed);
+  TubeTally tally(question);
   std::atomic<bool> solved = true;
   team.for_each(choices.size(), 1, [&](ThreadTeam::Range range, int) {
-    CornerTubes tubes(spec, grid, influences, state, claimed, tally);
+    CornerTubes tubes(spec, grid, influences, question.state, claimed, tally);
     Odometer choice(choices.counts(), range.begin);
     for (std::int64_t i = range.begin; i < range.end && solved; ++i, choice.advance()) {
-      const std::optional<TimedMap> map = timed_map(spec, influences, state, choices.slots(choice));
+      const std::optional<TimedMap> map = timed_map(spec, influences, question.state, choices.slots(choice));
       if (map) {
         tubes.check(*map, choices.position(choice));
       } else {

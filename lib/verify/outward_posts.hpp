@@ -1,19 +1,33 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "base/thread_team.hpp"
+#include "verify/budget.hpp"
 #include "verify/post_table.hpp"
+#include "verify/tally.hpp"
 
 namespace coordreq {
 
-/// The table of a state by enclosures in outward rounded doubles: of a map by MapBounds, of a flow by
-/// FlowBounds. What follows its own present value is enclosed once for all its cells. Where that is not
-/// inside the claimed table it is tried again with smaller boxes.
-/// @param claimed of the same shape
-/// @returns nothing where these do not do: limits that stop a state, jumps in a flow, no enclosure found
-[[nodiscard]] std::optional<PostTable> outward_posts(const ProblemSpec& spec, const UniformGrid& grid,
-                                                     const InputSpace& inputs, std::size_t state,
-                                                     const PostTable& claimed, ThreadTeam& team);
+/// Which claims about a state's next values are to be proven, and how.
+struct PostQuestion {
+  const ProblemSpec* spec = nullptr;
+  const UniformGrid* grid = nullptr;
+  const InputSpace* inputs = nullptr;
+  std::size_t state = 0;
+  const PostTable* claimed = nullptr;
+  const std::vector<std::int64_t>* cells = nullptr;  ///< only entries of these, ascending; all if empty
+  const Budget* budget = nullptr;
+  std::string check;  ///< name of the finding
+};
+
+/// Proves the entries of a state's table by enclosures in ball arithmetic: a little work for all, then more
+/// and more for those that do not fit, until the budget ends. What follows its own present value is proven
+/// once for all its cells. An entry is wrong only if a value that does come next is not in it.
+/// @returns nothing where these do not do: limits that stop a state, jumps in a flow, another table's shape
+[[nodiscard]] std::optional<Finding> check_outward_posts(const PostQuestion& question, ThreadTeam& team);
 
 }  // namespace coordreq

@@ -1,92 +1,84 @@
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <memory>
 #include <utility>
 
 #include "model/pieces.hpp"
 #include "verify/check_tube.hpp"
+#include "verify/flow_range.hpp"
 #include "verify/piece_choices.hpp"
-#include "verify/tube_bounds.hpp"
 
 namespace coordreq {
 namespace {
 
-struct Effort {
-  int parts;
-  int halvings;
-};
-constexpr Effort kEfforts[] = {{1, 0}, {2, 1}, {4, 1}, {8, 3}, {16, 3}, {64, 6}};
+constexpr Effort kEfforts[] = {{1, 1e-4}, {2, 1e-4}, {4, 1e-5}, {8, 1e-5}, {16, 1e-6}, {64, 1e-6}};
 
 class OutwardTubes {
  public:
-  OutwardTubes(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, std::size_t state,
-               const PostTable& claimed)
-      : spec_(spec),
-        state_(state),
-        target_(grid[state]),
-        claimed_(claimed),
-        influences_(influences_on(spec, state)),
-        alike_(flows_alike(spec, influences_, state)),
-        choices_(spec, grid, inputs, claimed, alike_ ? std::optional(state) : std::nullopt),
-        slots_(spec.slot_count()),
-        tally_(target_, claimed) {
+  explicit OutwardTubes(const PostQuestion& question)
+      : spec_(*question.spec),
+        budget_(*question.budget),
+        state_(question.state),
+        target_((*question.grid)[state_]),
+        claimed_(*question.claimed),
+        influences_(influences_on(spec_, state_)),
+        alike_(flows_alike(spec_, influences_, state_)),
+        choices_(spec_, *question.grid, *question.inputs, claimed_,
+                 alike_ ? std::optional(state_) : std::nullopt),
+        asked_(choices_.made_by(*question.cells)),
+        slots_(spec_.slot_count()),
+        tally_(question) {
     for (const std::size_t l : influences_.disturbances)
-      slots_[spec.disturbance_slot(l)] = box_of(spec.disturbances[l].lower, spec.disturbances[l].upper);
+      slots_[spec_.disturbance_slot(l)] = span_of(spec_.disturbances[l].lower, spec_.disturbances[l].upper);
     if (alike_) {
       const Rational reach = target_.radius() + target_.measurement_error;
       places_ = {{{target_.first - reach, target_.first + reach}}};
-      slots_[spec.state_slot(state)] = {0.0, 0.0};
+      slots_[spec_.state_slot(state_)] = span_of(0, 0);
       return;
     }
-    own_ = choices_.variable(spec.state_slot(state));
+    own_ = choices_.variable(spec_.state_slot(state_));
     for (std::int64_t k = 0; k < target_.count; ++k) places_.push_back(pieces(target_, k));
   }
 
   std::optional<TubeFinding> run(ThreadTeam& team) {
     if (has_stops(spec_, influences_) || jumps_on_the_way(spec_, influences_)) return std::nullopt;
-    std::atomic<bool> enclosed = true;
-    std::vector<std::unique_ptr<TubeBounds>> bounds(static_cast<std::size_t>(team.size()));
-    team.for_each(choices_.size(), 64, [&](ThreadTeam::Range range, int worker) {
-      auto& own = bounds[static_cast<std::size_t>(worker)];
-      if (!own) own = std::make_unique<TubeBounds>(spec_, influences_, state_);
-      Odometer choice(choices_.counts(), range.begin);
-      for (std::int64_t i = range.begin; i < range.end && enclosed; ++i, choice.advance()) {
-        if (!check(choice, *own)) enclosed = false;
-      }
+    std::vector<std::unique_ptr<FlowExtremes>> flows(static_cast<std::size_t>(team.size()));
+    team.for_each(static_cast<std::int64_t>(asked_.size()), 16, [&](ThreadTeam::Range range, int worker) {
+      auto& flow = flows[static_cast<std::size_t>(worker)];
+      if (!flow) flow = std::make_unique<FlowExtremes>(spec_, influences_, state_, target_.step.get_d());
+      for (std::int64_t i = range.begin; i < range.end; ++i)
+        check(Odometer(choices_.counts(), asked_[static_cast<std::size_t>(i)]), *flow);
     });
-    if (!enclosed) return std::nullopt;
     return tally_.finding(false);
   }
 
  private:
-  bool check(const Odometer& choice, TubeBounds& bounds) {
+  void check(const Odometer& choice, FlowExtremes& flow) {
     const std::int64_t position = choices_.position(choice);
     const std::int64_t entries = alike_ ? target_.count : 1;
-    if (tally_.is_unbounded(position)) {
-      for (std::int64_t k = 0; k < entries; ++k) tally_.add_unbounded();
-      return true;
-    }
-    std::optional<std::vector<OwnTube>> own;
+    const bool unbounded = tally_.is_unbounded(position);
+    std::vector<OwnTube> own;
     for (const Effort& effort : kEfforts) {
-      std::optional<std::vector<OwnTube>> next = tubes(choice, bounds, effort);
-      if (next) own = std::move(next);
-      if (own && tally_.is_enough(position, 0, *own)) break;
+      if (unbounded || budget_.is_over() || tally_.is_enough(position, 0, own)) break;
+      std::optional<std::vector<OwnTube>> next = tubes(choice, flow, effort);
+      if (next) own = std::move(*next);
     }
-    if (!own) return false;
-    for (std::int64_t k = 0; k < entries; ++k)
-      tally_.add(position + k * claimed_.state_stride[state_], k, *own);
-    return true;
+    for (std::int64_t k = 0; k < entries; ++k) {
+      const std::int64_t entry = position + k * claimed_.state_stride[state_];
+      if (!tally_.is_asked(entry)) continue;
+      if (unbounded) tally_.add_unbounded();
+      if (!unbounded) tally_.add(entry, k, own);
+    }
   }
 
-  [[nodiscard]] std::optional<std::vector<OwnTube>> tubes(const Odometer& choice, TubeBounds& bounds,
+  [[nodiscard]] std::optional<std::vector<OwnTube>> tubes(const Odometer& choice, FlowExtremes& flow,
                                                           const Effort& effort) const {
-    std::vector<Interval> slots = slots_;
+    SpanBox slots = slots_;
     std::vector<OwnTube> result;
     const bool enclosed = choices_.for_each_piece(choice, slots, [&](const Odometer& piece) {
-      const std::optional<FlowTube> tube = bounds.over(slots, effort.parts, effort.halvings);
-      if (tube) result.push_back(tube_from(*tube, place_of(choice, piece)));
-      return tube.has_value();
+      const std::optional<FlowRange> range = range_during_period(flow, slots, effort);
+      if (range) result.push_back(tube_from(*range, place_of(choice, piece)));
+      return range.has_value();
     });
     if (!enclosed) return std::nullopt;
     return result;
@@ -97,37 +89,34 @@ class OutwardTubes {
     return places_[static_cast<std::size_t>(choice[own_])][static_cast<std::size_t>(piece[own_])];
   }
 
-  /// The initial place is known exactly, in doubles only nearly: what does not leave it on one side has its
-  /// end there.
-  [[nodiscard]] OwnTube tube_from(const FlowTube& tube, const Piece& place) const {
-    Rational lower = place.lower + exact(tube.beyond.lower);
-    Rational upper = place.upper + exact(tube.beyond.upper);
-    // Values are those of the state itself, or of the difference to its beginning.
+  /// Values are those of the state itself, or of the difference to its beginning. What does not leave the
+  /// initial place on one side has its end there, exactly.
+  [[nodiscard]] OwnTube tube_from(const FlowRange& range, const Piece& place) const {
     const Rational base_lower = alike_ ? place.lower : Rational(0);
     const Rational base_upper = alike_ ? place.upper : Rational(0);
-    lower = std::max(lower, Rational(base_lower + exact(tube.values.lower)));
-    upper = std::min(upper, Rational(base_upper + exact(tube.values.upper)));
+    Rational lower = place.lower;
+    Rational upper = place.upper;
+    if (!range.stays_above_start)
+      lower = std::min(lower, Rational(base_lower + range.lower.lower_rational()));
+    if (!range.stays_below_start)
+      upper = std::max(upper, Rational(base_upper + range.upper.upper_rational()));
     Rational low = place.lower;
     Rational high = place.upper;
-    // A little less, for boxes in doubles hold a little more than the cells.
-    if (std::isfinite(tube.low))
-      low = std::min(low, Rational(base_lower + exact(tube.low + margin(tube.low))));
-    if (std::isfinite(tube.high))
-      high = std::max(high, Rational(base_upper + exact(tube.high - margin(tube.high))));
-    return {cells_covered(target_, std::min(lower, place.lower), std::max(upper, place.upper)),
-            cells_covered(target_, low, high)};
+    if (range.low) low = std::min(low, Rational(base_lower + range.low->upper_rational()));
+    if (range.high) high = std::max(high, Rational(base_upper + range.high->lower_rational()));
+    return {cells_covered(target_, lower, upper), cells_covered(target_, low, high)};
   }
 
-  [[nodiscard]] static double margin(double value) { return 1e-9 * (1.0 + std::fabs(value)); }
-
   const ProblemSpec& spec_;
+  const Budget& budget_;
   std::size_t state_;
   const GridDimension& target_;
   const PostTable& claimed_;
   Influences influences_;
   bool alike_;  ///< see flows_alike(): cells of the state itself are moved alike
   PieceChoices choices_;
-  std::vector<Interval> slots_;
+  std::vector<std::int64_t> asked_;  ///< numbers of choices
+  SpanBox slots_;
   TubeTally tally_;
   std::size_t own_ = 0;                     ///< among the variables of choices_
   std::vector<std::vector<Piece>> places_;  ///< [own index][piece]
@@ -135,10 +124,8 @@ class OutwardTubes {
 
 }  // namespace
 
-std::optional<TubeFinding> check_outward_tubes(const ProblemSpec& spec, const UniformGrid& grid,
-                                               const InputSpace& inputs, std::size_t state,
-                                               const PostTable& claimed, ThreadTeam& team) {
-  return OutwardTubes(spec, grid, inputs, state, claimed).run(team);
+std::optional<TubeFinding> check_outward_tubes(const PostQuestion& question, ThreadTeam& team) {
+  return OutwardTubes(question).run(team);
 }
 
 }  // namespace coordreq

@@ -6,7 +6,7 @@
 #include "model/input_space.hpp"
 #include "model/uniform_grid.hpp"
 #include "spec/problem_spec.hpp"
-#include "verify/odometer.hpp"
+#include "model/odometer.hpp"
 #include "verify/post_table.hpp"
 
 namespace coordreq {

@@ -24,7 +24,7 @@ PathChecker::PathChecker(const CellCheck& check, std::optional<std::size_t> part
   if (check.tubes != nullptr) tubes_.emplace(*check.tubes);
   if (!partition) return;
   for (const auto& agents : check.spec->coordination.partitions[*partition].classes)
-    classes_.push_back(class_actions(*check.spec, *check.inputs, agents));
+    classes_.emplace_back(class_of(*check.spec, *check.inputs, agents)).tabulate();
 }
 
 void PathChecker::wrong(std::size_t number, const std::string& what) {
@@ -180,7 +180,7 @@ bool PathChecker::is_choice(std::int64_t u) {
     const bool stays = posts_.least(v, delay, kOutsideInvariant, kForever, memory_) >= 0 && is_way_safe(v);
     if (!given && !stays) continue;
     for (std::size_t c = 0; c < classes_.size(); ++c)
-      found[c] = found[c] || classes_[c].of_input[at(v)] == classes_[c].of_input[at(u)];
+      found[c] = found[c] || classes_[c].action(v) == classes_[c].action(u);
   }
   return std::all_of(found.begin(), found.end(), [](bool b) { return b; });
 }

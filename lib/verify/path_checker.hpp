@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "answers/requirements/result_requirement.hpp"
+#include "model/input_class.hpp"
 #include "verify/allowed_pairs.hpp"
 #include "verify/check_cells.hpp"
-#include "verify/class_actions.hpp"
 
 namespace coordreq {
 
@@ -51,7 +51,7 @@ class PathChecker {
 
   const CellCheck& check_;
   std::optional<std::size_t> partition_;
-  std::vector<ClassActions> classes_;
+  std::vector<InputClass> classes_;
   AllowedPairs allowed_;
   PostMinima posts_;
   std::optional<CellTubes> tubes_;

@@ -1,6 +1,8 @@
 #include "verify/piece_choices.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <set>
 #include <utility>
 
 #include "model/pieces.hpp"
@@ -8,18 +10,18 @@
 namespace coordreq {
 namespace {
 
-std::vector<std::vector<Interval>> boxes_in(const GridDimension& dimension) {
-  std::vector<std::vector<Interval>> result;
+std::vector<std::vector<ArbSpan>> boxes_in(const GridDimension& dimension) {
+  std::vector<std::vector<ArbSpan>> result;
   for (std::int64_t k = 0; k < dimension.count; ++k) {
     auto& boxes = result.emplace_back();
-    for (const Piece& piece : pieces(dimension, k)) boxes.push_back(box_of(piece.lower, piece.upper));
+    for (const Piece& piece : pieces(dimension, k)) boxes.push_back(span_of(piece.lower, piece.upper));
   }
   return result;
 }
 
-std::vector<std::vector<Interval>> boxes_in(const InputSpace::Dimension& input) {
-  std::vector<std::vector<Interval>> result;
-  for (const Rational& value : input.values) result.push_back({box_of(value, value)});
+std::vector<std::vector<ArbSpan>> boxes_in(const InputSpace::Dimension& input) {
+  std::vector<std::vector<ArbSpan>> result;
+  for (const Rational& value : input.values) result.push_back({span_of(value, value)});
   return result;
 }
 
@@ -79,18 +81,43 @@ bool flows_alike(const ProblemSpec& spec, const Influences& influences, std::siz
 }
 
 PieceChoices::PieceChoices(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
-                           const PostTable& table, std::optional<std::size_t> left_out) {
+                           const PostTable& table, std::optional<std::size_t> left_out)
+    : grid_(grid) {
   for (const std::size_t j : table.states) {
-    if (left_out != j) add(spec.state_slot(j), table.state_stride[j], boxes_in(grid[j]));
+    if (left_out == j) continue;
+    states_.push_back(j);
+    add(spec.state_slot(j), table.state_stride[j], boxes_in(grid[j]));
   }
   for (const std::size_t j : table.inputs)
     add(spec.input_slot(j), table.input_stride[j], boxes_in(inputs[j]));
 }
 
-void PieceChoices::add(std::uint32_t slot, std::int64_t stride, std::vector<std::vector<Interval>> boxes) {
+void PieceChoices::add(std::uint32_t slot, std::int64_t stride, std::vector<std::vector<ArbSpan>> boxes) {
   counts_.push_back(static_cast<std::int64_t>(boxes.size()));
   size_ *= counts_.back();
   variables_.push_back({slot, stride, std::move(boxes)});
+}
+
+std::vector<std::int64_t> PieceChoices::made_by(const std::vector<std::int64_t>& cells) const {
+  std::vector<std::int64_t> result;
+  if (cells.empty()) {
+    result.resize(static_cast<std::size_t>(size_));
+    std::iota(result.begin(), result.end(), 0);
+    return result;
+  }
+  std::int64_t inputs = 1;
+  for (std::size_t v = states_.size(); v < counts_.size(); ++v) inputs *= counts_[v];
+  std::set<std::int64_t> numbers;
+  for (const std::int64_t cell : cells) {
+    std::int64_t number = 0;
+    for (std::size_t v = 0; v < states_.size(); ++v)
+      number = number * counts_[v] + grid_.index(cell, states_[v]);
+    numbers.insert(number);
+  }
+  for (const std::int64_t number : numbers) {
+    for (std::int64_t u = 0; u < inputs; ++u) result.push_back(number * inputs + u);
+  }
+  return result;
 }
 
 std::int64_t PieceChoices::position(const Odometer& choice) const {

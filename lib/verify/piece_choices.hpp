@@ -4,15 +4,15 @@
 #include <optional>
 #include <vector>
 
-#include "numeric/interval.hpp"
 #include "spec/problem_spec.hpp"
-#include "verify/odometer.hpp"
+#include "verify/next_value.hpp"
+#include "model/odometer.hpp"
 #include "verify/post_table.hpp"
 
 namespace coordreq {
 
-[[nodiscard]] inline Interval box_of(const Rational& lower, const Rational& upper) {
-  return {lower_double(lower), upper_double(upper)};
+[[nodiscard]] inline ArbSpan span_of(const Rational& lower, const Rational& upper) {
+  return {Arb(lower), Arb(upper)};
 }
 
 /// True if, in continuous time, an equation of the moving states uses a periodic one as a number, outside of
@@ -25,8 +25,7 @@ namespace coordreq {
 /// In continuous time: x(t) - x(0) of the state does not depend on x(0), for no equation mentions the state.
 [[nodiscard]] bool flows_alike(const ProblemSpec& spec, const Influences& influences, std::size_t state);
 
-/// All choices of one index for each state and input that a table ranges over, with their boxes in doubles.
-/// Immutable.
+/// All choices of one index for each state and input that a table ranges over, with their boxes. Immutable.
 class PieceChoices {
  public:
   /// @param left_out a state that is not chosen: its entries follow from those of index 0
@@ -35,6 +34,9 @@ class PieceChoices {
 
   [[nodiscard]] const std::vector<std::int64_t>& counts() const { return counts_; }
   [[nodiscard]] std::int64_t size() const { return size_; }
+  /// Row-major numbers of the choices that some of the cells make, with all inputs, ascending; all if `cells`
+  /// is empty.
+  [[nodiscard]] std::vector<std::int64_t> made_by(const std::vector<std::int64_t>& cells) const;
   /// Position of a choice in the table.
   [[nodiscard]] std::int64_t position(const Odometer& choice) const;
   /// Among the variables. REQUIRES: `slot` is one of them.
@@ -43,7 +45,7 @@ class PieceChoices {
   /// Calls `visit(piece)` for every choice of one box a variable, which it has put into `slots`, until it
   /// returns false: mostly one box, two on a seam.
   template <class Visit>
-  bool for_each_piece(const Odometer& choice, std::vector<Interval>& slots, const Visit& visit) const {
+  bool for_each_piece(const Odometer& choice, SpanBox& slots, const Visit& visit) const {
     std::vector<std::int64_t> pieces;
     for (std::size_t v = 0; v < variables_.size(); ++v)
       pieces.push_back(static_cast<std::int64_t>(boxes_of(choice, v).size()));
@@ -60,14 +62,16 @@ class PieceChoices {
   struct Variable {
     std::uint32_t slot = 0;
     std::int64_t stride = 0;
-    std::vector<std::vector<Interval>> boxes;  ///< [index][piece]
+    std::vector<std::vector<ArbSpan>> boxes;  ///< [index][piece]
   };
 
-  void add(std::uint32_t slot, std::int64_t stride, std::vector<std::vector<Interval>> boxes);
-  [[nodiscard]] const std::vector<Interval>& boxes_of(const Odometer& choice, std::size_t v) const {
+  void add(std::uint32_t slot, std::int64_t stride, std::vector<std::vector<ArbSpan>> boxes);
+  [[nodiscard]] const std::vector<ArbSpan>& boxes_of(const Odometer& choice, std::size_t v) const {
     return variables_[v].boxes[static_cast<std::size_t>(choice[v])];
   }
 
+  const UniformGrid& grid_;
+  std::vector<std::size_t> states_;  ///< of the first variables
   std::vector<Variable> variables_;
   std::vector<std::int64_t> counts_;
   std::int64_t size_ = 1;

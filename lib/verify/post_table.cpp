@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "model/odometer.hpp"
+#include "model/pieces.hpp"
+
 namespace coordreq {
 
 PostTable empty_table(const UniformGrid& grid, const InputSpace& inputs, const Influences& influences) {
@@ -23,6 +26,26 @@ PostTable empty_table(const UniformGrid& grid, const InputSpace& inputs, const I
   return table;
 }
 
+std::vector<bool> entries_of(const UniformGrid& grid, const InputSpace& inputs, const PostTable& table,
+                             const std::vector<std::int64_t>& cells) {
+  if (cells.empty()) return {};
+  std::vector<std::int64_t> counts;
+  for (const std::size_t j : table.inputs) counts.push_back(inputs[j].count());
+  std::vector<bool> asked(table.entries.size());
+  for (const std::int64_t cell : cells) {
+    std::int64_t first = 0;
+    for (const std::size_t j : table.states) first += grid.index(cell, j) * table.state_stride[j];
+    Odometer choice(counts);
+    do {
+      std::int64_t entry = first;
+      for (std::size_t j = 0; j < counts.size(); ++j)
+        entry += choice[j] * table.input_stride[table.inputs[j]];
+      asked[static_cast<std::size_t>(entry)] = true;
+    } while (choice.advance());
+  }
+  return asked;
+}
+
 IndexRange cells_met(const GridDimension& dimension, Cells cells, const Rational& lower,
                      const Rational& upper, bool upper_attained) {
   const Rational half = Rational(1) / 2;
@@ -32,22 +55,19 @@ IndexRange cells_met(const GridDimension& dimension, Cells cells, const Rational
   const bool closed = cells == Cells::closed;
   const std::int64_t first = closed ? ceil_to_int(low) : floor_to_int(low) + 1;
   const std::int64_t last = closed || upper_attained ? floor_to_int(high) : ceil_to_int(high) - 1;
-  return {saturate_index(first), saturate_index(last)};
+  return raw_range(dimension, first, last);
 }
 
-void add_measurements_at_limits(const GridDimension& dimension, Cells cells, PostTable& table) {
+IndexRange with_measurements_at_limits(const GridDimension& dimension, Cells cells, IndexRange range) {
   const Rational& error = dimension.measurement_error;
-  if (error == 0) return;
+  if (error == 0) return range;
   const Rational low = dimension.first;
   const Rational high = dimension.point(dimension.count - 1);
-  for (IndexRange& range : table.entries) {
-    if (dimension.below == Outside::saturate) {
-      range.last = std::max(range.last, cells_met(dimension, cells, low, low + error, true).last);
-    }
-    if (dimension.above == Outside::saturate) {
-      range.first = std::min(range.first, cells_met(dimension, cells, high - error, high, true).first);
-    }
-  }
+  if (dimension.below == Outside::saturate)
+    range.last = std::max(range.last, cells_met(dimension, cells, low, low + error, true).last);
+  if (dimension.above == Outside::saturate)
+    range.first = std::min(range.first, cells_met(dimension, cells, high - error, high, true).first);
+  return range;
 }
 
 }  // namespace coordreq

@@ -7,7 +7,7 @@
 #include "expression/evaluate.hpp"
 #include "model/pieces.hpp"
 #include "verify/corner_truth.hpp"
-#include "verify/odometer.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "answers/requirements/result_requirement.hpp"
 #include "base/thread_team.hpp"
 #include "expression/program.hpp"
 #include "model/uniform_grid.hpp"
-#include "answers/requirements/result_requirement.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "model/pieces.hpp"
-#include "verify/odometer.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "numeric/rational.hpp"
 #include "spec/problem_spec.hpp"
-#include "verify/time_extremes.hpp"
+#include "verify/time_polynomial.hpp"
 
 namespace coordreq {
 
@@ -29,9 +29,9 @@ struct SampledMap {
   bool exact = true;  ///< every r is taken by some disturbance; else the range is an enclosure
 };
 
-/// Solves one state for fixed inputs and parameters in rational arithmetic. In continuous time by the matrix
-/// exponential as the finite sum of A^k tau^k / k!, A nilpotent; a disturbance of range m +- r adds
-/// m integral(g) +- r integral(|g|), g(s) its entry of exp(A s) B.
+/// Solves one state for fixed inputs and parameters in rational arithmetic (FLINT's). In continuous time by
+/// the matrix exponential as the finite sum of A^k tau^k / k!, A nilpotent; a disturbance of range m +- r
+/// adds m integral(g) +- r integral(|g|), g(s) its entry of exp(A s) B.
 /// @param slots values of parameters and inputs at their slots
 /// @returns nothing if the equations are not of this kind for these values, or a limit stops a state
 [[nodiscard]] std::optional<SampledMap> sampled_map(const ProblemSpec& spec, const Influences& influences,
@@ -40,11 +40,11 @@ struct SampledMap {
 /// The same state during the period, as a function of the moving states x at its beginning: at time t in
 /// [0, tau] within { sum_j coefficient[j](t) x_j + r : lower(t) <= r <= upper(t) }.
 struct TimedMap {
-  std::vector<Polynomial> coefficient;  ///< one for each of Influences::moving
-  Polynomial lower;
-  Polynomial upper;
+  std::vector<TimePolynomial> coefficient;  ///< one for each of Influences::moving
+  TimePolynomial lower;
+  TimePolynomial upper;
   /// Values r(t) that constant disturbances bring about; none where r is not known exactly.
-  std::vector<Polynomial> attained;
+  std::vector<TimePolynomial> attained;
   bool exact = true;  ///< `lower` and `upper` are attained
 };
 

@@ -40,7 +40,12 @@ class Verifier {
         options_(options),
         team_(team),
         grid_(make_grid(spec)),
-        inputs_(make_input_space(spec)) {}
+        inputs_(make_input_space(spec)),
+        budget_(options.budget_seconds) {
+    if (options.sample && *options.sample < grid_.cells())
+      sample_ = drawn_cells(grid_.cells(), *options.sample);
+    if (!sample_.empty()) cells_of_posts_ = with_paths(sample_);
+  }
 
   Verification run() {
     result_.name = spec_.name;
@@ -59,33 +64,59 @@ class Verifier {
     if (options_.progress) options_.progress(progress);
   }
 
+  /// A sample and the cells that counterexamples lead through: their posts are asked for as well.
+  [[nodiscard]] std::vector<std::int64_t> with_paths(const std::vector<std::int64_t>& cells) const {
+    std::set<std::int64_t> all(cells.begin(), cells.end());
+    for (const ResultRequirement& requirement : claims_.requirements) {
+      if (!requirement.path) continue;
+      for (const std::uint64_t cell : requirement.path->cell) {
+        if (cell < static_cast<std::uint64_t>(grid_.cells())) all.insert(static_cast<std::int64_t>(cell));
+      }
+    }
+    return {all.begin(), all.end()};
+  }
+
   void find_posts() {
     for (std::size_t i = 0; i < grid_.size(); ++i) {
       const bool stored = !claims_.abstraction.empty();
-      std::optional<PostTable> own = corner_posts(spec_, grid_, inputs_, i, team_);
+      std::optional<PostTable> own = corner_posts(spec_, grid_, inputs_, i, cells_of_posts_, team_);
       if (own && own->exact) {
-        if (stored)
-          result_.findings.push_back(
-              check_abstraction(grid_[i], *own, claims_.abstraction[i], "abstraction"));
+        if (stored) {
+          result_.findings.push_back(check_abstraction(grid_, inputs_, i, *own, claims_.abstraction[i],
+                                                       entries_of(grid_, inputs_, *own, cells_of_posts_),
+                                                       "abstraction"));
+        }
         tables_.push_back(std::move(*own));
         continue;
       }
       result_.basis = stored ? PostBasis::stored : PostBasis::computed;
-      PostTable claimed = stored ? claims_.abstraction[i] : table_of_analysis(i);
-      if (!own) own = outward_posts(spec_, grid_, inputs_, i, claimed, team_);
-      if (!own) {
-        borrow(grid_[i].name);
-        own = table_of_analysis(i);
-      }
-      result_.findings.push_back(
-          check_abstraction(grid_[i], *own, claimed, stored ? "abstraction" : "reachable sets"));
-      tables_.push_back(std::move(claimed));
+      tables_.push_back(stored ? claims_.abstraction[i] : table_of_analysis(i));
+      prove(i, std::string(stored ? "abstraction " : "reachable sets ") + grid_[i].name);
+    }
+  }
+
+  void prove(std::size_t state, const std::string& check) {
+    const PostQuestion question{.spec = &spec_,
+                                .grid = &grid_,
+                                .inputs = &inputs_,
+                                .state = state,
+                                .claimed = &tables_.back(),
+                                .cells = &cells_of_posts_,
+                                .budget = &budget_,
+                                .check = check};
+    std::optional<Finding> finding = check_outward_posts(question, team_);
+    if (finding) {
+      result_.enclosed += finding->checked;
+      result_.confirmed += finding->checked - finding->unproven - finding->wrong;
+      result_.findings.push_back(std::move(*finding));
+    } else {
+      borrow(grid_[state].name);
     }
   }
 
   void find_tubes() {
     report({.stage = "tubes"});
-    CheckedTubes checked = check_tubes(spec_, analysis(), claims_.safe, team_);
+    CheckedTubes checked = check_tubes(spec_, analysis(), claims_.safe, sample_, budget_, team_);
     result_.tubes = checked.exact ? PostBasis::exact : PostBasis::computed;
     for (const std::string& state : checked.borrowed) borrow(state);
     append(result_.findings, std::move(checked.findings));
@@ -121,11 +152,8 @@ class Verifier {
                     .posts = &posts,
                     .tubes = tubes_ ? &*tubes_ : nullptr,
                     .posts_are = certain ? PostsAre::those_of_the_result : PostsAre::perhaps_others};
-    result_.cells_checked = grid_.cells();
-    if (options_.sample && *options_.sample < grid_.cells()) {
-      check.cells = drawn_cells(grid_.cells(), *options_.sample);
-      result_.cells_checked = *options_.sample;
-    }
+    check.cells = sample_;
+    result_.cells_checked = sample_.empty() ? grid_.cells() : static_cast<std::int64_t>(sample_.size());
     check.progress = [this](std::int64_t done, std::int64_t all) {
       report({.stage = "cells", .done = done, .all = all});
     };
@@ -141,6 +169,9 @@ class Verifier {
   ThreadTeam& team_;
   UniformGrid grid_;
   InputSpace inputs_;
+  Budget budget_;
+  std::vector<std::int64_t> sample_;          ///< cells to be checked; all if empty
+  std::vector<std::int64_t> cells_of_posts_;  ///< and those whose posts are; all if empty
   std::vector<PostTable> tables_;
   std::vector<PostTable> tube_tables_;
   std::optional<Tubes> tubes_;
@@ -150,9 +181,11 @@ class Verifier {
 
 }  // namespace
 
-bool Verification::holds() const {
-  return std::all_of(findings.begin(), findings.end(),
-                     [](const Finding& finding) { return finding.wrong == 0; });
+Verdict Verification::verdict() const {
+  const auto any = [this](const auto& is) { return std::any_of(findings.begin(), findings.end(), is); };
+  if (any([](const Finding& finding) { return finding.wrong > 0; })) return Verdict::wrong;
+  return any([](const Finding& finding) { return finding.unproven > 0; }) ? Verdict::not_confirmed
+                                                                          : Verdict::holds;
 }
 
 Verification verify_claims(const ProblemSpec& spec, const Claims& claims, const VerifyOptions& options,

@@ -21,7 +21,10 @@ struct VerifyProgress {
 };
 
 struct VerifyOptions {
-  std::optional<std::int64_t> sample;                   ///< check so many cells, evenly drawn; all if none
+  std::optional<std::int64_t> sample;      ///< check so many cells, evenly drawn; all if none
+  double budget_seconds = kDefaultBudget;  ///< for reachable sets that are hard to confirm
+
+  static constexpr double kDefaultBudget = 60;
   std::function<void(const VerifyProgress&)> progress;  ///< may be empty
 };
 
@@ -31,6 +34,12 @@ enum class PostBasis : std::uint8_t {
   stored,    ///< the abstraction in the file, which holds the verifier's own enclosures
   computed,  ///< the abstraction that the analysis makes of the spec, which holds the verifier's own
              ///< enclosures
+};
+
+enum class Verdict : std::uint8_t {
+  holds,          ///< everything that was checked
+  wrong,          ///< some definition is violated, or some state leaves where it is said to be
+  not_confirmed,  ///< nothing is wrong, but something could not be proven
 };
 
 struct Verification {
@@ -44,9 +53,13 @@ struct Verification {
   /// States whose reachable sets, or ways between the samples, are only those of the analysis, computed anew:
   /// the verifier's own integrator does not do for them.
   std::vector<std::string> borrowed;
+  std::int64_t enclosed = 0;   ///< reachable sets that are not exact and were looked at
+  std::int64_t confirmed = 0;  ///< how many of them the verifier's own enclosures confirm
   std::vector<Finding> findings;
 
-  [[nodiscard]] bool holds() const;
+  [[nodiscard]] Verdict verdict() const;
+  /// Nothing is wrong.
+  [[nodiscard]] bool holds() const { return verdict() != Verdict::wrong; }
 };
 
 /// Checks the claims of a results file against its spec by another route than the analysis took (see

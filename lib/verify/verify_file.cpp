@@ -89,22 +89,6 @@ Claims read_all(const ResultsReader& results) {
   return claims;
 }
 
-StoredExtras extras_of(const ResultsReader& results) {
-  StoredExtras extras{.controller = results.has_controller(),
-                      .abstraction = results.has_abstraction(),
-                      .convention = results.has_convention()};
-  for (std::size_t p = 0; p < results.partitions().size(); ++p) {
-    extras.actions.push_back(results.has_actions(p));
-    extras.layers.push_back(results.has_layers(p));
-  }
-  for (const ResultRequirement& requirement : results.requirements()) {
-    StoredExtras::Path& path = extras.paths.emplace_back();
-    path.samples = requirement.path.has_value();
-    path.steps = path.samples && requirement.path->steps() > 0;
-  }
-  return extras;
-}
-
 /// Bytes of one bit an action.
 std::int64_t agent_bytes(const InputSpace& inputs, const AgentSpec& agent) {
   std::int64_t actions = 1;
@@ -146,9 +130,9 @@ void check_memory(const ResultsReader& results, std::optional<std::uint64_t> max
 }  // namespace
 
 ClaimedFile read_claims(const std::string& path, std::optional<std::uint64_t> max_memory) {
-  const ResultsReader results(path);
+  const ResultsReader results(path, max_memory);
   check_memory(results, max_memory);
-  const std::vector<StoredObject> expected = expected_objects(results.spec(), extras_of(results));
+  const std::vector<StoredObject> expected = expected_objects(results.spec(), results.fields());
   std::vector<std::string> paths;
   for (const StoredObject& object : expected) paths.push_back(object.path);
   Finding attributes = check_objects(expected, read_objects(path, paths));

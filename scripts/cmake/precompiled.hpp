@@ -1,5 +1,5 @@
-// Headers that many sources include and that take long to parse. Sources include what they use all the same: this
-// changes how long a build takes, never what is built.
+// Headers that many sources include and that take long to parse. Sources include what they use all the same:
+// this changes how long a build takes, never what is built.
 #pragma once
 
 #include <fmt/format.h>

@@ -37,7 +37,7 @@ void sweep(benchmark::State& state) {
   const RowEngine engine(built, nullptr, {});
   const RowHull hull(engine);
   const Invariance invariance = find_invariance(engine, hull, safe, Synthesis::maximal, {}, team);
-  const ActionGrouping grouping(engine, {{0}, {1}}, team);
+  const ActionGrouping grouping(engine, single_classes(built.inputs), team);
   const Controller controller{&engine, &invariance.invariant, &invariance.collision_time, Synthesis::maximal};
   for (auto _ : state) benchmark::DoNotOptimize(Projections(controller, grouping, hull, team));
   state.counters["pairs/s"] =

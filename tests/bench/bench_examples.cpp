@@ -77,8 +77,8 @@ class NaiveSweep {
     for (std::int64_t a = box[0].first; a <= box[0].last; ++a) {
       for (std::int64_t b = box[1].first; b <= box[1].last; ++b) {
         for (std::int64_t c = box[2].first; c <= box[2].last; ++c) {
-          const std::int64_t number =
-              a * engine_.row_stride(0) + b * engine_.row_stride(1) + c * engine_.row_stride(2);
+          const std::int64_t number = a * engine_.grid().row_stride(0) + b * engine_.grid().row_stride(1) +
+                                      c * engine_.grid().row_stride(2);
           all &= *reinterpret_cast<const Bits*>(set_.row(number).data());
         }
       }

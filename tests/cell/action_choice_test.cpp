@@ -108,8 +108,9 @@ TEST(ActionChooser, WithoutAnActionThereIsNoChoice) {
 
 TEST(AdmissibleInputs, AreThoseOfTheDefinition) {
   const LoopFixture loop(ladder(), kDelays);
-  AdmissibleInputs inputs(loop.spec(), loop.abstraction(),
-                          {.invariant = [](std::int64_t cell) { return cell <= 8; }});
+  MembersByCell invariant(loop.abstraction().grid, [](std::int64_t cell) { return cell <= 8; });
+  CellPosts posts(loop.abstraction());
+  AdmissibleInputs inputs(loop.spec(), posts, {.invariant = &invariant});
   EXPECT_EQ(inputs.of(8), (std::vector<std::int64_t>{0, 1, 2}));
   EXPECT_EQ(inputs.of(0), (std::vector<std::int64_t>{0, 1, 2, 3}));
 }
@@ -119,19 +120,11 @@ TEST(AdmissibleInputs, ObeyAllow) {
                                                                    {"name": "b", "inputs": ["v"]})",
                                    R"(, "controller": {"allow": "x >= 3 and u + v == 0"})"),
                          kDelays);
-  AdmissibleInputs inputs(loop.spec(), loop.abstraction(), {.invariant = [](std::int64_t) { return true; }});
+  MembersByCell everything(loop.abstraction().grid, [](std::int64_t) { return true; });
+  CellPosts posts(loop.abstraction());
+  AdmissibleInputs inputs(loop.spec(), posts, {.invariant = &everything});
   EXPECT_EQ(inputs.of(5), (std::vector<std::int64_t>{1, 2}));
   EXPECT_TRUE(inputs.of(2).empty());
-}
-
-TEST(ActionClass, NumbersActionsRowMajorAndProjects) {
-  const InputSpace space({{"a", {0, 1}}, {"b", {0, 1, 2}}, {"c", {0, 1}}});
-  const ActionClass ends(space, {0, 2});
-  EXPECT_EQ(ends.count(), 4);
-  const std::int64_t u = 1 * 6 + 2 * 2 + 1;  // (1, 2, 1)
-  EXPECT_EQ(ends.action(u), 3);
-  EXPECT_EQ(ends.part(3), 1 * 6 + 1);
-  EXPECT_EQ(ends.project({0, 2, 4, u}), (std::vector<std::int64_t>{0, 3}));
 }
 
 }  // namespace

@@ -321,7 +321,7 @@ class Cases(Case):
         ):
             self.assert_fails(5, message, "analyze", "spec.json", "--checkpoint", path)
         self.assert_fails(
-            2, "expected a file of its own, found './out.h5' (--checkpoint)",
+            2, "expected another file than the results, found './out.h5' (--checkpoint)",
             "analyze", "spec.json", "-o", "out.h5", "--checkpoint", "./out.h5",
         )  # fmt: skip
 

@@ -335,7 +335,7 @@ class Cases(Case):
         self.assertEqual(result.returncode, 3)
         result = changed(lambda file: file["coalition"].__setitem__((0, 0, 0), 5))
         self.assertEqual(result.returncode, 3)
-        self.assertIn(b"found 5, expected a partition", result.stderr)
+        self.assertIn(b"found 5, expected at most 4", result.stderr)
 
     def test_validate_counts_the_maps(self):
         def estimate(**coordination):

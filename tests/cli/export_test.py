@@ -46,7 +46,17 @@ int main(void) {
     }
     cell = $cell(x);
     printf("%d", (int)cell);
-    if (cell >= 0) {
+    if (cell < 0) {
+      uint32_t actions = 0, allowed = 0;
+      for (c = 0; c <= @CLASSES; ++c) {
+        for (a = 0; a < $action_count(c); ++a) {
+          ++actions;
+          allowed += $allowed(cell, c, a) != 0;
+        }
+        allowed += $allowed(cell, c, a) != 0;
+      }
+      printf(",%d,%s", (int)$countdown(cell), allowed == 0 ? "none" : allowed == actions ? "all" : "some");
+    } else {
       printf(",%d", (int)$countdown(cell));
       for (c = 0; c < @CLASSES; ++c) {
         printf(",");
@@ -59,6 +69,10 @@ int main(void) {
   }
 }
 """
+
+# Cell, countdown and actions that the program prints of what is no cell.
+C_OUTSIDE = "-1,0,none"
+C_LEFT_SAFELY = f"-2,{2**31 - 1},all"
 
 
 class Cases(Case):
@@ -268,7 +282,11 @@ class Cases(Case):
         self.run_quietly("export", "out.h5", "--format", "c-header", "-o", "exported.h", *arguments)
         program = C_PROGRAM.replace("$", prefix + "_").replace("@", prefix.upper() + "_")
         self.write("main.c", program)
-        flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic"]
+        self.build_c()
+
+    def build_c(self):
+        flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-fsanitize=undefined,address"]
+        flags += ["-fno-sanitize-recover=all"]
         subprocess.run(["gcc", *flags, "main.c", "-o", "main"], cwd=self.folder, check=True)
 
     def ask_c(self, states):
@@ -287,7 +305,7 @@ class Cases(Case):
         for line in self.run_quietly("query", "out.h5", stdin=lines.encode()).splitlines():
             answer = json.loads(line)
             if not answer["inside"]:
-                answers.append("-2" if answer["safe"] else "-1")
+                answers.append(C_LEFT_SAFELY if answer["safe"] else C_OUTSIDE)
                 continue
             (partition,) = answer["partitions"]
             codes = {"not_safe": -2, "not_invariant": -1, "connection_must_stand_already": -3, "never": 2**31 - 1}
@@ -327,8 +345,8 @@ class Cases(Case):
     def test_c_header_agrees_with_query_on_every_cell_of_a_mixed_system(self):
         self.analyzed(MIXED)
         found = self.compare(prefix="coordreq_mixed_1_0")
-        self.assertIn("-1", found)
-        self.assertIn("-2", found)
+        self.assertIn(C_OUTSIDE, found)
+        self.assertIn(C_LEFT_SAFELY, found)
         countdowns = {line.split(",")[1] for line in found if "," in line}
         self.assertGreaterEqual(len(countdowns), 3)
 
@@ -358,7 +376,39 @@ class Cases(Case):
     def test_nothing_is_known_of_what_is_no_number(self):
         self.analyzed()
         self.compile("coordreq_small")
-        self.assertEqual(self.ask_c([(math.nan, 1.0), (1.0, math.inf), (1.0, -math.inf)]), ["-1"] * 3)
+        self.assertEqual(self.ask_c([(math.nan, 1.0), (1.0, math.inf), (1.0, -math.inf)]), [C_OUTSIDE] * 3)
+
+    def test_the_double_nearest_to_the_seam_is_in_its_cell(self):
+        # -0.2 and 0.7 as doubles lie below -1/5 and 7/10, 0.1 above 1/10.
+        for lower, upper in ((-0.2, 0.7), (0.1, 1.0), (0.7, 1.6)):
+            state = {"name": "h", "lower": lower, "upper": upper, "count": 9, "outside": "periodic"}
+            dynamics = dict(SPEC["dynamics"], equations={"h": "h + 0.1*u", "y": "y + v"})
+            self.analyzed(spec_with(states=[state, SPEC["states"][1]], dynamics=dynamics, safe="y <= 2"))
+            self.compile("coordreq_small")
+            states = [(lower, 1.0), (math.nextafter(upper, 0), 1.0), (math.nextafter(lower, -1), 1.0)]
+            found = self.ask_c(states)
+            self.assertEqual(found[:2], self.ask_query(["h", "y"], states[:2]))
+            self.assertNotIn(C_OUTSIDE, found[:2])
+            self.assertEqual(found[2], C_OUTSIDE)
+
+    def test_numbers_that_are_no_cell_can_be_asked_for(self):
+        self.analyzed()
+        self.compile("coordreq_small")
+        checks = """
+#include "exported.h"
+int main(void) {
+  const int32_t none[] = {$OUTSIDE, -3, INT32_MIN, $CELLS, INT32_MAX};
+  uint32_t i;
+  for (i = 0; i < 5; ++i) {
+    if (@countdown(none[i]) != 0 || @allowed(none[i], 0, 0)) return 1;
+  }
+  if (@countdown($LEFT_SAFELY) != $NEVER || !@allowed($LEFT_SAFELY, 0, 0)) return 2;
+  return @action_count($CLASSES) != 0 || @allowed(0, $CLASSES, 0) || @allowed(0, 0, UINT32_MAX);
+}
+"""
+        self.write("main.c", checks.replace("@", "coordreq_small_").replace("$", "COORDREQ_SMALL_"))
+        self.build_c()
+        self.assertEqual(subprocess.run([self.folder / "main"], check=False).returncode, 0)
 
     # all formats
 

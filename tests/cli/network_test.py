@@ -231,7 +231,7 @@ network weakly_hard: at most 1 of any 3 steps lost
         result = self.run_program("query", "results.h5", "--at", "x=0,y=0")
         self.assertEqual(
             (result.returncode, result.stderr),
-            (3, b"coordreq: error: the modes are not those of the spec (results.h5:/mode)\n"),
+            (3, b"coordreq: error: the names are not those of the spec (results.h5:/mode)\n"),
         )
 
 

@@ -52,6 +52,14 @@ class Cases(Case):
     def test_text(self):
         self.assert_prints(TEXT, "query", self.analyzed(), "--at", "y=1,x=3/5")
 
+    def test_states_as_far_away_as_numbers_go(self):
+        self.analyzed()
+        for state in ("x=1e300,y=0", "x=0,y=-1e300", "x=9.3e18,y=9.3e18", "x=-9.3e18,y=1"):
+            with self.subTest(state=state):
+                answer = self.at(state)
+                self.assertEqual((answer["inside"], answer["cell"]), (False, None))
+                self.assertEqual(answer["outside"]["reason"], "beyond")
+
     def test_text_of_few_actions(self):
         self.analyzed()
         text = self.query("out.h5", "--at", "x=0,y=3")

@@ -323,6 +323,13 @@ datasets
             found = file["counterexample/requirement"].asstr()[0]
             self.assertEqual(found, "a < b & \"c\" ]]> 'd' \x01\n\U0001f697 \ufffe")
 
+    def test_junit_of_units_that_xml_minds(self):
+        spec = spec_with(requirements=[dict(HOLDS, min_delay=100)])
+        spec["dynamics"]["unit"] = "\uffff\ufffe"
+        self.assertEqual(self.run_spec(spec, "--junit", "report.xml", "--quiet").returncode, 1)
+        (case,) = ElementTree.parse(self.folder / "report.xml").getroot().iter("testcase")
+        self.assertIn("\ufffd\ufffd", case[0].text)
+
     def test_junit_without_requirements(self):
         self.write("spec.json", spec_with())
         self.analyze("spec.json", "--junit", "report.xml")

@@ -136,12 +136,12 @@ class Cases(Case):
         self.write("sub/other.json", GOOD)
         self.assert_fails(
             2,
-            "'good.json' and 'sub/other.json' would both write good.h5, expected different files",
+            "expected another file than the results of good.json, found 'good.h5' (--output)",
             *("analyze", "good.json", "sub/other.json"),
         )
         self.assert_fails(
             2,
-            "expected another file than the results, found './bad.h5' (--junit)",
+            "expected another file than the results of bad.json, found './bad.h5' (--junit)",
             *("analyze", "good.json", "bad.json", "--junit", "./bad.h5"),
         )
 

@@ -32,6 +32,24 @@ DRIFT = {
 }
 
 
+def rough(h, p, edges, **more):
+    """A system whose derivatives jump or bend within a period."""
+    ring = {"lower": 0, "upper": 1, "count": 8, "outside": "periodic"}
+    line = {"lower": -1, "upper": 1, "step": 0.125, "outside": edges}
+    return {
+        "coordreq": 1,
+        "name": "rough",
+        "states": [{"name": "h", **(ring if edges == "periodic" else line)},
+                   {"name": "p", "lower": -2, "upper": 3, "step": 0.25, "outside": "saturate"}],
+        "inputs": [{"name": "u", "values": [-0.5, 0, 1]}],
+        "disturbances": [{"name": "w", "lower": -0.1, "upper": 0.2}],
+        "agents": [{"name": "a", "inputs": ["u"]}],
+        "dynamics": {"time": "continuous", "period": 0.5, "equations": {"h": h, "p": p}},
+        "safe": "p <= 2.5",
+        **more,
+    }
+
+
 class Cases(Case):
     def simulate(self, *arguments, code=0):
         result = self.run_program("simulate", *arguments)
@@ -129,6 +147,32 @@ $""",
             files.append((self.folder / "runs.h5").read_bytes())
         self.assertEqual(files[0], files[1])
         self.assertEqual(files[0], files[2])
+
+    def test_a_seam_is_passed_within_a_period(self):
+        # h is 1 after 5/19; then p goes on from 0.197 with h from 0.
+        self.results(rough("1.9", "h", "periodic"))
+        self.simulate("r.h5", "--from", "h=0.5,p=0", "--steps", "1", "-o", "runs.h5")
+        with h5py.File(self.folder / "runs.h5") as file:
+            before, after = 5 / 19, 0.5 - 5 / 19
+            self.assertAlmostEqual(file["state"][0, 1, 0], 0.45, 12)
+            self.assertAlmostEqual(
+                file["state"][0, 1, 1], 0.5 * before + 0.95 * before**2 + 0.95 * after**2, 12
+            )
+
+    def test_rough_runs_do_not_contradict_the_analysis(self):
+        for h, p, edges in (
+            ("1.9 + w", "h - 0.4", "periodic"),
+            ("-3.7 + u", "sin(6*h) - h*h", "periodic"),
+            ("2*h - 0.5 + u", "if(h < 0.3, 1, -1) + w", "periodic"),
+            ("u - 0.5*sign(h) + w", "h", "saturate"),
+            ("u + w - h*abs(h)", "max(h, w) - 0.2", "stop"),
+            ("if(p > 0, u, -h)", "min(p, h) - 0.1*sign(p - 0.4)", "stop"),
+        ):
+            with self.subTest(h=h, p=p):
+                self.results(rough(h, p, edges))
+                for policy in ("random", "adversarial"):
+                    options = ("--start", "random", "--steps", "30", "--runs", "20", "--policy", policy)
+                    self.simulate("r.h5", *options, "--disturbance", "extremes")
 
     def check_runs(self, spec, policy, steps=12, runs=9, output=EVERYTHING):
         """Every step of runs of SPEC's dynamics, against the results file and Definition 3."""

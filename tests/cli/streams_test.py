@@ -137,15 +137,6 @@ class Cases(Case):
             errors, b"coordreq: error: cannot write the result: No space left on device (standard output)\n"
         )
 
-    def test_closed_pipe(self):
-        reader, writer = os.pipe()
-        os.close(reader)
-        process = self.start("schema", stdout=writer, stderr=subprocess.PIPE)
-        os.close(writer)
-        errors = process.communicate()[1]
-        self.assertEqual(process.returncode, 5)
-        self.assertEqual(errors, b"coordreq: error: cannot write the result: Broken pipe (standard output)\n")
-
     def test_closed_standard_output(self):
         result = subprocess.run(
             ["sh", "-c", 'exec "$0" analyze "$1" >&-', PROGRAM, CIRCLE],

@@ -129,8 +129,8 @@ class Cases(Case):
         (self.folder / "out").mkdir()
         self.assert_fails(
             2,
-            "'spec.json constants.R=9/2' and 'spec.json constants.R=9*2' would both write "
-            "out/small_constants.R=9_2.h5, expected different files",
+            "expected another file than the results of spec.json constants.R=9/2, "
+            "found 'out/small_constants.R=9_2.h5' (--output)",
             *("analyze", "spec.json", "--sweep", "constants.R=9/2,9*2", "-o", "out"),
         )
 

@@ -76,14 +76,15 @@ class Cases(Case):
         summary = json.loads(result.stdout)
         self.assertEqual(
             list(summary),
-            ["file", "name", "holds", "cells", "cells_checked", "reachable_sets", "between_samples", "not_independent",
-             "checks",
-             "threads", "seconds"],
+            ["file", "name", "holds", "verdict", "cells", "cells_checked", "reachable_sets", "between_samples",
+             "not_independent", "confirmed", "checks", "threads", "seconds"],
         )  # fmt: skip
         self.assertEqual((summary["name"], summary["holds"], summary["reachable_sets"]), ("small", True, "exact"))
+        self.assertEqual((summary["verdict"], summary["confirmed"]), ("holds", {"reachable_sets": 0, "of": 0}))
         self.assertEqual(
             summary["checks"][3],
-            {"check": "S", "status": "holds", "checked": 25, "wrong": 0, "not_checked": 0, "examples": []},
+            {"check": "S", "status": "holds", "checked": 25, "wrong": 0, "not_confirmed": 0, "examples": [],
+             "doubts": []},
         )
 
     def test_quiet(self):
@@ -360,6 +361,83 @@ class Cases(Case):
         result = self.verify("results.h5")
         self.assertEqual(result.returncode, 1)
         self.assertIn(b"in S, but it is not safe", result.stdout)
+
+
+    def test_deleted_parts_that_the_spec_asks_for_are_refused(self):
+        original = self.results(spec_with(output=EVERYTHING))
+        copy = self.folder / "less.h5"
+        for name in ("abstraction", "controller", "layers", "actions"):
+            shutil.copy(original, copy)
+            with h5py.File(copy, "r+") as file:
+                del file[name]
+            with self.subTest(deleted=name):
+                self.assert_found(copy, name)
+
+    def test_an_axis_without_coordinates_that_holds_something_is_found(self):
+        path = self.results(spec_with(output=EVERYTHING))
+        copy = self.folder / "nan.h5"
+        with h5py.File(path) as file:
+            lengths = []
+            file.visititems(lambda name, item: lengths.append(name)
+                            if item.attrs.get("NAME", b"").startswith(b"This is a netCDF dimension") else None)  # fmt: skip
+        self.assertTrue(lengths)
+        for name in lengths:
+            shutil.copy(path, copy)
+            with h5py.File(copy, "r+") as file:
+                file[name][...] = np.nan
+            with self.subTest(axis=name):
+                self.assert_found(copy, name)
+
+    def friction(self, **changes):
+        """Nonlinear, with a disturbance: its reachable sets are no exact hulls."""
+        return dict({
+            "coordreq": 1,
+            "name": "friction",
+            "states": [{"name": "v", "lower": -3, "upper": 3, "step": 0.25}],
+            "inputs": [{"name": "a", "values": [-1, -0.5, 0, 0.5, 1]}],
+            "disturbances": [{"name": "w", "lower": -0.2, "upper": 0.2}],
+            "agents": [{"name": "one", "inputs": ["a"]}],
+            "dynamics": {"time": "continuous", "period": 0.25, "equations": {"v": "a - 0.25*v*abs(v) + w"}},
+            "safe": "abs(v) <= 2.6",
+            "output": {"abstraction": True},
+        }, **changes)  # fmt: skip
+
+    def test_a_reachable_state_that_is_left_out_is_named(self):
+        path = self.results(self.friction())
+        with h5py.File(path, "r+") as file:
+            file["abstraction/v/last"][4, 4] -= 1
+        result = self.verify("results.h5", "--json")
+        self.assertEqual(result.returncode, 1)
+        finding = next(check for check in json.loads(result.stdout)["checks"] if check["check"] == "abstraction v")
+        self.assertEqual((finding["status"], finding["wrong"]), ("wrong", 1))
+        self.assertRegex(finding["examples"][0], r"^v = -2, a = 1: v .*, but from v = -?[0-9.]+, w = 0\.2 v gets to ")
+
+    def test_what_is_not_confirmed_is_a_warning_and_with_strict_a_failure(self):
+        self.results(self.friction())
+        result = self.verify("results.h5", "--budget", "0")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stderr.decode(), r"^coordreq: warning: not confirmed: .* in 'abstraction v' \(results.h5\)\n$")
+        self.assertIn(b"v = -3, a = -1: v ", result.stdout)
+        self.assertIn(b"the budget ended", result.stdout)
+        self.assertIn(b"holds, apart from what is not confirmed", result.stdout)
+        self.assertEqual(self.verify("results.h5", "--budget", "0", "--strict", "--quiet").returncode, 1)
+        self.assertEqual(self.verify("results.h5", "--strict", "--quiet").returncode, 0)
+        text = self.verify("results.h5").stdout.decode()
+        self.assertIn("\nconfirmed: 125 of 125 reachable sets that are not exact\n", text)
+
+    def test_budgets_that_are_none(self):
+        self.results(SPEC)
+        for wrong in ("-1", "much", "1e999"):
+            self.assert_fails(2, f"expected a number of seconds from 0 to 1e9, found '{wrong}' (--budget)", "verify",
+                              "results.h5", "--budget", wrong)  # fmt: skip
+
+    def test_a_sample_costs_as_much_as_it_looks_at(self):
+        self.results(config("aircraft_coarse.json"))
+        result = self.verify("results.h5", "--sample", "3", "--json")
+        summary = json.loads(result.stdout)
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(summary["confirmed"]["of"], 3 * 2 * 9)  # cells, states that are not exact, joint inputs
+        self.assertEqual(summary["confirmed"]["reachable_sets"], summary["confirmed"]["of"])
 
 
 if __name__ == "__main__":

@@ -1,6 +1,5 @@
 """Images that `export --format vtk` writes, opened with VTK."""
 
-import itertools
 import json
 import math
 import unittest
@@ -9,7 +8,6 @@ import h5py
 import numpy as np
 from program import CONFIGS, SPEC, Case, spec_with, without_comments
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOHDF import vtkHDFReader
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 
 CROSSING = json.loads(without_comments((CONFIGS / "intersection_coarse.json").read_text()))
@@ -143,67 +141,33 @@ class Cases(Case):
         self.assertEqual(self.field(image, "axes"), ['x [<"&]', "y [m]", ""])
         self.assertIn("delay:a+b", self.arrays(image, (5, 5, 1)))
 
-    # .vtkhdf
-
-    def hdf_image(self, cells, *arguments):
-        """VTK 9.1 reads as many values at cells as it reads points, so it is told to read that many points."""
-        reader = vtkHDFReader()
-        path = self.exported("image.vtkhdf", *arguments)
-        self.assertEqual(reader.CanReadFile(path), 1)
-        reader.SetFileName(path)
-        reader.UpdateInformation()
-        extent = reader.GetOutputInformation(0).Get(reader.GetExecutive().WHOLE_EXTENT())
-        self.assertEqual(extent, tuple(itertools.chain(*((0, n) for n in cells))))
-        reader.UpdateExtent(list(itertools.chain(*((0, n - 1) for n in cells))))
-        return reader.GetOutput()
-
-    def test_vtkhdf_holds_the_same(self):
-        v2 = self.crossing()
-        other = self.image("--slice", "v2=2")
-        cells = [n - 1 for n in other.GetDimensions()]
-        image = self.hdf_image(cells, "--slice", "v2=2")
-        self.assertEqual((image.GetOrigin(), image.GetSpacing()), (other.GetOrigin(), other.GetSpacing()))
-        expected = {name: values[:, :, v2, :] for name, values in self.expected().items()}
-        found = self.arrays(image, cells)
-        self.assert_holds({name: found[name] for name in expected}, expected)
-        with h5py.File(self.folder / "image.vtkhdf") as file:
-            attributes = dict(file["VTKHDF"].attrs)
-            self.assertEqual(attributes["Type"], b"ImageData")
-            self.assertEqual([attributes[f"{axis}_axis"] for axis in "xyz"], ["p1 [m]", "v1 [m/s]", "p2 [m]"])
-            self.assertEqual((attributes["title"], attributes["cut"]), ("intersection_coarse", "v2 = 2 m/s"))
-            self.assertEqual(list(file["VTKHDF/CellData"]), list(expected))
-
-    # both
-
     def test_equal_results_give_equal_images(self):
         self.crossing()
-        for name in ("image.vti", "image.vtkhdf"):
-            contents = set()
-            for threads in ("1", "2"):
-                self.exported(name, "--slice", "v1=1", "--threads", threads)
-                contents.add((self.folder / name).read_bytes())
-            self.assertEqual(len(contents), 1, name)
-        self.assertEqual(self.files(), ["image.vti", "image.vtkhdf", "out.h5", "spec.json"])
+        contents = set()
+        for threads in ("1", "2"):
+            self.exported("image.vti", "--slice", "v1=1", "--threads", threads)
+            contents.add((self.folder / "image.vti").read_bytes())
+        self.assertEqual(len(contents), 1)
+        self.assertEqual(self.files(), ["image.vti", "out.h5", "spec.json"])
 
     def test_what_is_wrong(self):
         self.crossing()
         export = ("export", "out.h5", "--format", "vtk")
         states = "'p1', 'v1', 'v2' or 'p2'"
-        extension = "expected a name that ends in .vti or .vtkhdf, found"
+        extension = "expected a name that ends in .vti, found"
         axes = f"an image has 3 axes, expected --slice or --project for 1 of {states}"
         partition = "no partition 'all', expected 'first|second' or 'both' (--partition)"
         for arguments, message in (
             ((), f"{extension} none (-o)"),
             (("-o", "a.vtk"), f"{extension} 'a.vtk' (-o)"),
             (("-o", "a.vti"), axes),
-            (("-o", "a.vtkhdf"), axes),
-            (("-o", "a.vtkhdf", "--slice", "q=1"), f"'q' is no state, expected {states} (--slice)"),
+            (("-o", "a.vtkhdf"), f"{extension} 'a.vtkhdf' (-o)"),
+            (("-o", "a.vti", "--slice", "q=1"), f"'q' is no state, expected {states} (--slice)"),
             (("-o", "a.vti", "--partition", "all"), partition),
         ):
             self.assert_fails(2, message, *export, *arguments)
-        for name in ("a.vti", "a.vtkhdf"):
-            message = "the folder does not exist (none)"
-            self.assert_fails(5, message, *export, "--slice", "v1=1", "-o", f"none/{name}")
+        message = "the folder does not exist (none)"
+        self.assert_fails(5, message, *export, "--slice", "v1=1", "-o", "none/a.vti")
 
 
 if __name__ == "__main__":

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "engine/row_window.hpp"
-#include "reach/counter.hpp"
+#include "engine/row_shape.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
@@ -149,7 +149,7 @@ struct Levels {
   void for_each(const std::vector<IndexRange>& box, const Visit& visit) const {
     std::vector<std::int64_t> counts;
     for (const IndexRange& range : box) counts.push_back(range.last - range.first + 1);
-    Counter counter(counts);
+    Odometer counter(counts);
     do {
       std::int64_t row = 0;
       for (std::size_t i = 0; i < box.size(); ++i) {
@@ -157,10 +157,10 @@ struct Levels {
         row = row * problem.dimensions[i].count + k;
       }
       visit(row);
-    } while (counter.next());
+    } while (counter.advance());
   }
 
-  [[nodiscard]] Level least(const RowHull::Box& box, std::int64_t c) const {
+  [[nodiscard]] Level least(const RowBox& box, std::int64_t c) const {
     Level result = kTop;
     for_each(box.ranges, [&](std::int64_t row) {
       for (std::int64_t k = c + box.windows[0].first; k <= c + box.windows[0].last; ++k)
@@ -170,7 +170,7 @@ struct Levels {
   }
 
   [[nodiscard]] Level least(const std::vector<std::uint32_t>& ids, std::int64_t c) const {
-    RowHull::Box box;
+    RowBox box;
     bool gone = false;
     RowSegment last;
     for (std::size_t t = 0; t < ids.size(); ++t) {
@@ -236,8 +236,8 @@ TYPED_TEST(BoxReaderTest, BoxesAreReadAsCellByCell) {
     for (int i = draw(0, 2); i > 0; --i) dimensions.push_back(random_dimension(4));
     dimensions.push_back(random_dimension(draw(0, 3) == 0 ? 80 : 9));
     Problem problem(dimensions, 1);
-    std::vector<RowHull::Box> boxes(5);
-    for (RowHull::Box& box : boxes) {
+    std::vector<RowBox> boxes(5);
+    for (RowBox& box : boxes) {
       for (std::size_t i = 0; i + 1 < dimensions.size(); ++i)
         box.ranges.push_back(random_range(dimensions[i]));
       box.windows = {problem.random_window()};
@@ -247,7 +247,7 @@ TYPED_TEST(BoxReaderTest, BoxesAreReadAsCellByCell) {
     levels.fill(rows);
     const auto outer = static_cast<std::size_t>(draw(0, static_cast<int>(dimensions.size()) - 1));
     BoxReader<TypeParam> reader(problem.engine, problem.family, outer, rows);
-    for (const RowHull::Box& box : boxes) {
+    for (const RowBox& box : boxes) {
       const TypeParam* row = reader.minimum(box, 0, problem.engine.row_length());
       for (std::int64_t c = 0; c < problem.engine.row_length(); ++c)
         RC_ASSERT(row[c] == levels.least(box, c));
@@ -270,11 +270,11 @@ TYPED_TEST(BoxReaderTest, SharedMinimaGiveWay) {
   EXPECT_TRUE(rc::check("least levels with few slots", [&] {
     const std::int64_t second = problem.dimensions[1].count;
     BoxReader<TypeParam> reader(problem.engine, problem.family, 1, rows);
-    std::vector<RowHull::Box> boxes(5);
-    for (RowHull::Box& box : boxes)
+    std::vector<RowBox> boxes(5);
+    for (RowBox& box : boxes)
       box = {{random_range(problem.dimensions[0]), random_range(problem.dimensions[1])}, {{0, 0}}, true};
     for (int k = 0; k < 20; ++k) {
-      const RowHull::Box& box = boxes[static_cast<std::size_t>(draw(0, 4))];
+      const RowBox& box = boxes[static_cast<std::size_t>(draw(0, 4))];
       const TypeParam* row = reader.minimum(box, 0, problem.engine.row_length());
       for (std::int64_t c = 0; c < 80; c += 13) {
         TypeParam least = LevelRows<TypeParam>::kTop;
@@ -313,7 +313,7 @@ TEST(BoxReader, TheLastSharedRowIsReadToTheEndOfABlock) {
     levels.close(r);
   }
   BoxReader<std::uint8_t> reader(engine, engine.posts(), engine.outer(), levels);
-  const std::uint8_t* row = reader.minimum(RowHull::Box{{{0, 1}, {2, 2}}, {{0, 1}}, true}, 0, 62);
+  const std::uint8_t* row = reader.minimum(RowBox{{{0, 1}, {2, 2}}, {{0, 1}}, true}, 0, 62);
   for (std::int64_t c = 0; c < 62; ++c) EXPECT_EQ(row[c], 200 - std::min<std::int64_t>(c + 1, 61) - 5);
 }
 

@@ -6,7 +6,7 @@ namespace coordreq {
 namespace {
 
 /// The box of the only row of a ring of 10 cells, each input turning it by one of the offsets.
-RowHull::Box box_on_a_ring(const std::vector<IndexRange>& turns) {
+RowBox box_on_a_ring(const std::vector<IndexRange>& turns) {
   const GridDimension ring{.name = "x",
                            .first = 0,
                            .step = 1,
@@ -25,13 +25,13 @@ RowHull::Box box_on_a_ring(const std::vector<IndexRange>& turns) {
   lay_out(table, 0, abstraction.grid, abstraction.inputs);
   table.entries = turns;
   const RowEngine engine(abstraction, nullptr, {});
-  RowHull::Box box;
+  RowBox box;
   RowHull(engine).box(RowPlace(abstraction.grid, 0), box);
   return box;
 }
 
 TEST(RowHull, OnARingItIsTheShortestArc) {
-  const RowHull::Box box = box_on_a_ring({{9, 9}, {1, 2}});
+  const RowBox box = box_on_a_ring({{9, 9}, {1, 2}});
   EXPECT_TRUE(box.covers);
   EXPECT_EQ(box.windows, (std::vector<IndexRange>{{-1, 2}}));
 }

@@ -18,10 +18,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   test::answers([&] {
     switch (data[0] % 4) {
       case 0:
-        (void)read_spec(with_setting(spec_text, "small", parse_setting(text)), "small");
+        (void)read_spec(with_setting(spec_text, "small", parse_setting(text, "--set")), "small");
         break;
       case 1:
-        for (const std::vector<SpecSetting>& settings : combinations({parse_sweep(text)})) {
+        for (const std::vector<SpecSetting>& settings : combinations({parse_sweep(text, "--sweep")})) {
           std::string spec = spec_text;
           for (const SpecSetting& setting : settings) spec = with_setting(spec, "small", setting);
         }

@@ -1,5 +1,5 @@
-// Results files: opened and read as `query` and `export` do. Damaged files can crash the HDF5 library, which is why a
-// child process tries first; each execution is a fork.
+// Results files: opened and read as `query` and `export` do. Damaged files can crash the HDF5 library, which
+// is why a child process tries first; each execution is a fork.
 #include <algorithm>
 
 #include "fuzz/target.hpp"

@@ -14,7 +14,9 @@ InputFile::InputFile(const std::uint8_t* data, std::size_t size)
   if (!file.flush()) std::abort();
 }
 
-InputFile::~InputFile() { unlink(path_.c_str()); }
+InputFile::~InputFile() {
+  unlink(path_.c_str());
+}
 
 std::string_view small_spec() {
   return R"({ "coordreq": 1, "name": "small",

@@ -9,8 +9,8 @@
 
 namespace coordreq::test {
 
-/// Does what a command does with foreign input. An Error is an answer; whatever else is thrown, and every report of
-/// a sanitiser, is a finding.
+/// Does what a command does with foreign input. An Error is an answer; whatever else is thrown, and every
+/// report of a sanitiser, is a finding.
 template <class Work>
 void answers(const Work& work) {
   try {

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "condition_helpers.hpp"
 #include "model/condition_table.hpp"
 #include "model/pieces.hpp"
-#include "random_condition.hpp"
+#include "support/condition_helpers.hpp"
+#include "support/random_condition.hpp"
 
 namespace coordreq {
 namespace {
@@ -85,7 +85,7 @@ TEST(ConditionTable, ComparisonsSettleTheSameCasesAsTheWhole) {
         const std::int64_t x = grid.index(cell, 0);
         const std::int64_t y = grid.index(cell, 1);
         const auto parts = boxes(grid, inputs[0].values[static_cast<std::size_t>(u)], x, y, sampling);
-        const std::span<const CellSet::Word> row = table.row(x, u);
+        const std::span<const TruthTable::Word> row = table.row(x, u);
         const bool set = (row[0] >> y & 1U) != 0;
         const Truth alone = decide_alone(condition, parts);
         RC_ASSERT(set || alone != Truth::yes);
@@ -99,7 +99,7 @@ TEST(ConditionTable, ComparisonsSettleTheSameCasesAsTheWhole) {
     // Only what is open after both is asked for.
     for (const auto& indices : open) {
       const std::size_t u = table.inputs().empty() ? 0 : static_cast<std::size_t>(indices[2]);
-      const bool in_use = !table.states().empty();
+      const bool in_use = table.state_stride()[0] != 0;
       const auto parts = boxes(grid, inputs[0].values[u], in_use ? indices[0] : 0, indices[1], sampling);
       RC_ASSERT(decide_alone(condition, parts) == Truth::undecided);
     }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "condition_helpers.hpp"
+#include "support/condition_helpers.hpp"
 
 namespace coordreq {
 namespace {
@@ -32,7 +32,7 @@ std::string table(const char* text, const GridDimension& dimension, Sampling sam
   };
   const ConditionTable conditions(program, grid, inputs, sampling, undecided, team);
   for (std::int64_t k = 0; k < dimension.count; ++k) {
-    if (conditions.bits().test(k)) result[static_cast<std::size_t>(k)] = '1';
+    if ((conditions.row(0, 0)[0] >> k & 1U) != 0) result[static_cast<std::size_t>(k)] = '1';
   }
   return result;
 }
@@ -58,6 +58,25 @@ TEST(ConditionTable, CellsAreWidenedByTheMeasurementError) {
   heading.measurement_error = Rational(1, 2);
   // Cell 3 reaches the seam, whose point is seen as 1.
   EXPECT_EQ(table("x >= 1.5", heading, Sampling::closed_cells), "??1?");
+}
+
+TEST(ConditionTable, NumbersVariablesAsTheSpecWhateverTheOrderOfTheGrid) {
+  GridDimension x{.name = "x", .first = 0, .step = 1, .count = 3};
+  GridDimension y{.name = "y", .first = 0, .step = 1, .count = 4};
+  const UniformGrid grid({x, y});
+  const UniformGrid turned = grid.arranged({1, 0});
+  const InputSpace inputs({});
+  const Program condition = test::condition("x > y");
+  const auto undecided = [](const std::vector<std::int64_t>&) { return false; };
+  ThreadTeam team(1);
+  const ConditionTable natural(condition, grid, inputs, Sampling::centres, undecided, team);
+  const ConditionTable other(condition, turned, inputs, Sampling::centres, undecided, team);
+  for (std::int64_t i = 0; i < 3; ++i) {
+    for (std::int64_t j = 0; j < 4; ++j) {
+      EXPECT_EQ(natural.row(i, 0)[0] >> j & 1U, i > j ? 1U : 0U);
+      EXPECT_EQ(other.row(j, 0)[0] >> i & 1U, i > j ? 1U : 0U);
+    }
+  }
 }
 
 }  // namespace

@@ -89,5 +89,20 @@ TEST(Moved, WhatWasSaturatedStaysSo) {
   EXPECT_EQ(wrap_range(moved({kHigh, kHigh}, 3), 7), (IndexRange{0, 6}));
 }
 
+TEST(OutsideTraits, SayWhatEveryRuleDoes) {
+  EXPECT_TRUE(traits(Outside::unsafe).blocks);
+  EXPECT_TRUE(traits(Outside::safe).arrives);
+  EXPECT_TRUE(traits(Outside::saturate).clamps && traits(Outside::saturate).resets);
+  EXPECT_TRUE(traits(Outside::stop).clamps && traits(Outside::stop).stops);
+  EXPECT_TRUE(traits(Outside::periodic).wraps);
+}
+
+TEST(OutsideTraits, HaveOneFateForWhatLeaves) {
+  for (const OutsideTraits& rule : kOutsideTraits) {
+    EXPECT_EQ(rule.blocks + rule.arrives + rule.clamps + rule.wraps, 1);
+    EXPECT_EQ(rule.resets || rule.stops, rule.clamps);
+  }
+}
+
 }  // namespace
 }  // namespace coordreq

@@ -23,7 +23,9 @@ TEST(UniformGrid, LastDimensionIsFastest) {
 }
 
 TEST(UniformGrid, RowsOfSeveralDimensionsHaveGaps) {
-  const UniformGrid grid({dimension("a", 0, 1, 2), dimension("b", 0, 1, 3), dimension("c", 0, 1, 5)}, {4});
+  const UniformGrid runs({dimension("a", 0, 1, 2), dimension("b", 0, 1, 3), dimension("c", 0, 1, 5)});
+  const UniformGrid grid = runs.in_rows({4});
+  EXPECT_EQ(grid.in_rows({}).cells(), runs.cells());
   EXPECT_EQ(grid.across(), 1U);
   EXPECT_EQ(grid.points(), 30);
   EXPECT_EQ(grid.row_length(), 27);
@@ -33,6 +35,17 @@ TEST(UniformGrid, RowsOfSeveralDimensionsHaveGaps) {
   EXPECT_EQ(grid.index(27 + 2 * 9 + 4, 0), 1);
   EXPECT_EQ(grid.index(27 + 2 * 9 + 4, 1), 2);
   EXPECT_EQ(grid.index(27 + 2 * 9 + 4, 2), 4);
+}
+
+TEST(UniformGrid, DimensionsKnowTheirStates) {
+  const UniformGrid grid({dimension("a", 0, 1, 2), dimension("b", 0, 1, 3), dimension("c", 0, 1, 5)});
+  EXPECT_EQ(grid.state(2), 2U);
+  const UniformGrid turned = grid.arranged({2, 0, 1}).in_rows({});
+  EXPECT_EQ(turned[0].name, "c");
+  EXPECT_EQ(turned.state(0), 2U);
+  EXPECT_EQ(turned.dimension_of(0), 1U);
+  EXPECT_EQ(turned.row_stride(0), 2);
+  EXPECT_EQ(turned.arranged({1, 2, 0}).state(0), 0U);
 }
 
 TEST(UniformGrid, PointsAreExact) {

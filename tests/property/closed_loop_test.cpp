@@ -101,14 +101,15 @@ void expect_plain_inputs(RandomTime kind) {
     const Analysed analysed(team, kind);
     RC_CLASSIFY(!analysed.is_empty(), "K not empty");
     const PlainAnalysis& plain = analysed.plain;
-    const auto is_invariant = [&plain](std::int64_t x) {
-      return plain.invariant[static_cast<std::size_t>(x)];
-    };
-    const auto is_safe = [&analysed](std::int64_t x) { return analysed.safe.test(x); };
-    AdmissibleInputs inputs(analysed.spec, analysed.abstraction,
-                            {.invariant = is_invariant,
-                             .safe = is_safe,
-                             .safe_beyond = analysed.beyond ? &*analysed.beyond : nullptr});
+    const UniformGrid& grid = analysed.abstraction.grid;
+    MembersByCell invariant(
+        grid, [&plain](std::int64_t x) { return plain.invariant[static_cast<std::size_t>(x)]; });
+    MembersByCell safe(grid, [&analysed](std::int64_t x) { return analysed.safe.test(x); });
+    MembersByCell beyond(grid, [&analysed](std::int64_t x) { return analysed.beyond->test(x); });
+    CellPosts posts(analysed.abstraction);
+    AdmissibleInputs::Sets sets{.invariant = &invariant, .safe = &safe};
+    if (analysed.beyond) sets.safe_beyond = [&beyond] { return &beyond; };
+    AdmissibleInputs inputs(analysed.spec, posts, sets);
     for (std::size_t x = 0; x < plain.invariant.size(); ++x) {
       if (!plain.invariant[x]) continue;
       const std::vector<std::int64_t>& found = inputs.of(static_cast<std::int64_t>(x));
@@ -117,10 +118,10 @@ void expect_plain_inputs(RandomTime kind) {
       RC_ASSERT(set == plain.controller[x]);
       RC_ASSERT(std::is_sorted(found.begin(), found.end()));
       for (std::size_t p = 0; p < plain.partitions.size(); ++p) {
-        const auto classes = action_classes(analysed.spec, analysed.spec.coordination.partitions[p],
-                                            analysed.abstraction.inputs);
+        const auto classes = input_classes(analysed.spec, analysed.abstraction.inputs,
+                                           analysed.spec.coordination.partitions[p]);
         for (std::size_t c = 0; c < classes.size(); ++c) {
-          std::vector<bool> actions(static_cast<std::size_t>(classes[c].count()), false);
+          std::vector<bool> actions(static_cast<std::size_t>(classes[c].actions()), false);
           for (const std::int64_t a : classes[c].project(found)) actions[static_cast<std::size_t>(a)] = true;
           RC_ASSERT(actions == plain.partitions[p].projection[c][x]);
         }

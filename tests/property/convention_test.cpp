@@ -20,23 +20,24 @@ std::size_t at(std::int64_t i) {
 }
 
 /// Whether every joint input of the product is admissible.
-bool is_inside(const Sets& sets, const std::vector<bool>& admissible,
-               const std::vector<AgentActions>& agents) {
+bool is_inside(const Sets& sets, const std::vector<bool>& admissible, const std::vector<InputClass>& agents) {
   for (std::size_t u = 0; u < admissible.size(); ++u) {
     bool chosen = true;
-    for (std::size_t i = 0; i < agents.size(); ++i) chosen = chosen && sets[i][at(agents[i].of_input[u])];
+    for (std::size_t i = 0; i < agents.size(); ++i)
+      chosen = chosen && sets[i][at(agents[i].action(static_cast<std::int64_t>(u)))];
     if (chosen && !admissible[u]) return false;
   }
   return true;
 }
 
 /// Word by word as the definition has it.
-Sets by_definition(const std::vector<bool>& admissible, const std::vector<AgentActions>& agents) {
+Sets by_definition(const std::vector<bool>& admissible, const std::vector<InputClass>& agents) {
   Sets sets;
-  for (const AgentActions& agent : agents) sets.emplace_back(at(agent.count), false);
+  for (const InputClass& agent : agents) sets.emplace_back(at(agent.actions()), false);
   for (std::size_t u = 0; u < admissible.size(); ++u) {
     if (!admissible[u]) continue;
-    for (std::size_t i = 0; i < agents.size(); ++i) sets[i][at(agents[i].of_input[u])] = true;
+    for (std::size_t i = 0; i < agents.size(); ++i)
+      sets[i][at(agents[i].action(static_cast<std::int64_t>(u)))] = true;
     break;
   }
   if (std::find(admissible.begin(), admissible.end(), true) == admissible.end()) return sets;
@@ -50,14 +51,8 @@ Sets by_definition(const std::vector<bool>& admissible, const std::vector<AgentA
   return sets;
 }
 
-std::vector<AgentActions> agents_of(const ProblemSpec& spec, const InputSpace& space) {
-  std::vector<AgentActions> agents;
-  for (const AgentSpec& agent : spec.agents) agents.push_back(agent_actions(space, agent.inputs));
-  return agents;
-}
-
 /// No action can be added: the product is as large as can be.
-bool is_maximal(Sets sets, const std::vector<bool>& admissible, const std::vector<AgentActions>& agents) {
+bool is_maximal(Sets sets, const std::vector<bool>& admissible, const std::vector<InputClass>& agents) {
   for (std::vector<bool>& own : sets) {
     for (std::size_t a = 0; a < own.size(); ++a) {
       if (own[a]) continue;
@@ -72,17 +67,15 @@ bool is_maximal(Sets sets, const std::vector<bool>& admissible, const std::vecto
 /// The rows of the fast path against the definition, cell by cell.
 void expect_convention(const ProblemSpec& spec, const FastAnalysis& fast, const PlainAnalysis& plain,
                        ThreadTeam& team) {
-  const std::vector<AgentActions> agents = agents_of(spec, fast.abstraction.inputs);
-  std::vector<InputClass> classes;
-  for (const AgentSpec& agent : spec.agents) classes.push_back(agent.inputs);
-  const ActionGrouping grouping(fast.engine, classes, team);
+  const std::vector<InputClass> agents = agent_classes(spec, fast.abstraction.inputs);
+  const ActionGrouping grouping(fast.engine, agents, team);
   const ConventionFreedom found = find_convention(fast.controller, fast.hull, grouping, team);
   std::vector<double> sums(agents.size(), 0);
   std::vector<std::int64_t> full(agents.size(), 0);
   std::int64_t cells = 0;
   std::vector<std::vector<std::uint8_t>> packed;
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    packed.emplace_back(plain.controller.size() * at((agents[i].count + 7) / 8));
+    packed.emplace_back(plain.controller.size() * at((agents[i].actions() + 7) / 8));
     fill_convention_bits(fast.controller, fast.hull, grouping, i, 0, packed[i].size(), packed[i].data());
   }
   for (std::size_t x = 0; x < plain.controller.size(); ++x) {
@@ -95,10 +88,10 @@ void expect_convention(const ProblemSpec& spec, const FastAnalysis& fast, const 
       ++cells;
     }
     for (std::size_t i = 0; i < agents.size(); ++i) {
-      const std::size_t bytes = at((agents[i].count + 7) / 8);
-      std::vector<bool> projection(at(agents[i].count), false);
+      const std::size_t bytes = at((agents[i].actions() + 7) / 8);
+      std::vector<bool> projection(at(agents[i].actions()), false);
       for (std::size_t u = 0; u < admissible.size(); ++u) {
-        if (admissible[u]) projection[at(agents[i].of_input[u])] = true;
+        if (admissible[u]) projection[at(agents[i].action(static_cast<std::int64_t>(u)))] = true;
       }
       for (std::size_t a = 0; a < sets[i].size(); ++a)
         RC_ASSERT(((packed[i][x * bytes + a / 8] >> (a % 8) & 1U) != 0) == sets[i][a]);
@@ -200,7 +193,7 @@ TEST(Convention, KeepsTheSystemInTheInvarianceSet) {
     const ProblemSpec spec = read_spec(draw_problem(), "random");
     const FastAnalysis fast(spec, team);
     const PlainAnalysis plain = plainly(spec, fast);
-    const std::vector<AgentActions> agents = agents_of(spec, fast.abstraction.inputs);
+    const std::vector<InputClass> agents = agent_classes(spec, fast.abstraction.inputs);
     for (std::size_t x = 0; x < plain.controller.size(); ++x) {
       if (!plain.invariant[x]) continue;
       const Sets sets = convention_at(plain.controller[x], agents);
@@ -208,7 +201,8 @@ TEST(Convention, KeepsTheSystemInTheInvarianceSet) {
         RC_ASSERT(std::find(own.begin(), own.end(), true) != own.end());
       for (std::size_t u = 0; u < plain.controller[x].size(); ++u) {
         bool chosen = true;
-        for (std::size_t i = 0; i < agents.size(); ++i) chosen = chosen && sets[i][at(agents[i].of_input[u])];
+        for (std::size_t i = 0; i < agents.size(); ++i)
+          chosen = chosen && sets[i][at(agents[i].action(static_cast<std::int64_t>(u)))];
         RC_ASSERT(!chosen || leads_into(fast.abstraction, static_cast<std::int64_t>(x),
                                         static_cast<std::int64_t>(u), plain.invariant));
       }

@@ -9,7 +9,6 @@
 
 #include "answers/layers/independent_actions.hpp"
 #include "engine/join_rows.hpp"
-#include "engine/set_levels.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 
@@ -107,7 +106,7 @@ std::int64_t cell_of(const UniformGrid& from, std::int64_t cell, const UniformGr
 /// The layers again with levels of another width.
 template <class Level>
 void expect_same_layers(const FastAnalysis& joined, std::size_t p, ThreadTeam& team) {
-  LevelRows<Level> levels = top_levels<Level>(joined.engine, joined.invariance.invariant, team);
+  LevelRows<Level> levels = joined.engine.make_levels<Level>(joined.invariance.invariant, team);
   IndependentActions<Level> op(joined.actions[p].projections, joined.hull, joined.invariance.invariant,
                                team.size());
   run_wave(levels, joined.engine, joined.hull, static_cast<Level>(LevelRows<Level>::kTop - 1), {}, op, {},
@@ -149,7 +148,7 @@ TEST(JoinedRows, GiveTheSameLevels) {
     }
     for (std::size_t p = 0; p < one.layers.size(); ++p) {
       RC_ASSERT(joined.layers[p].sizes == one.layers[p].sizes);
-      if (joined.groupings[p].size() < 2) continue;
+      if (joined.actions[p].grouping.size() < 2) continue;
       expect_same_layers<std::uint16_t>(joined, p, team);
       expect_same_layers<std::uint32_t>(joined, p, team);
     }

@@ -6,8 +6,8 @@
 
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
+#include "model/odometer.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/counter.hpp"
 #include "spec/read_spec.hpp"
 #include "support/random_problem.hpp"
 
@@ -32,7 +32,7 @@ Hull hull_from_corners(const ProblemSpec& spec, const Abstraction& a, std::size_
   for (std::size_t i = 0; i < a.inputs.size(); ++i) {
     slots[spec.input_slot(i)] = point(a.inputs[i].values[static_cast<std::size_t>(a.inputs.index(u, i))]);
   }
-  Counter corner(std::vector<std::int64_t>(a.grid.size() + spec.disturbances.size(), 2));
+  Odometer corner(std::vector<std::int64_t>(a.grid.size() + spec.disturbances.size(), 2));
   Hull hull;
   bool begun = false;
   do {
@@ -58,7 +58,7 @@ Hull hull_from_corners(const ProblemSpec& spec, const Abstraction& a, std::size_
       hull.upper_attained = hull.upper_attained || attained;
     }
     begun = true;
-  } while (corner.next());
+  } while (corner.advance());
   return hull;
 }
 

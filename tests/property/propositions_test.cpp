@@ -10,7 +10,6 @@
 #include "reach/build_abstraction.hpp"
 #include "support/analysed_file.hpp"
 #include "support/random_problem.hpp"
-#include "verify/class_actions.hpp"
 
 namespace coordreq {
 namespace {
@@ -75,9 +74,9 @@ class World {
   [[nodiscard]] bool independent(std::int64_t x, std::int64_t u, std::size_t p) const {
     const auto& classes = coordination().partitions[p].classes;
     for (std::size_t c = 0; c < classes.size(); ++c) {
-      const ClassActions actions = class_actions(file_.spec, abstraction_.inputs, classes[c]);
-      const std::int32_t action = actions.of_input[static_cast<std::size_t>(u)];
-      if (!bit(claims().partitions[p].actions[c], x, action, actions.count)) return false;
+      const InputClass actions = class_of(file_.spec, abstraction_.inputs, classes[c]);
+      const std::int64_t action = actions.action(u);
+      if (!bit(claims().partitions[p].actions[c], x, action, actions.actions())) return false;
     }
     return true;
   }

@@ -10,9 +10,9 @@
 #include "analysis/analyze.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "answers/invariance/safe_tubes.hpp"
+#include "model/odometer.hpp"
 #include "model/pieces.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/counter.hpp"
 #include "results/scratch_folder.hpp"
 #include "spec/read_spec.hpp"
 #include "support/analysed_file.hpp"
@@ -81,7 +81,7 @@ struct PlainRegion {
         counts.push_back(static_cast<std::int64_t>(parts[i][at(grid.index(x, i))].size()));
       sampled.push_back(false);
       natural.push_back(false);
-      Counter choice(counts);
+      Odometer choice(counts);
       do {
         for (std::size_t v = 0; v < variables_.size(); ++v) {
           const Piece& piece =
@@ -89,7 +89,7 @@ struct PlainRegion {
           box_[variables_[v]] = {.lower = piece.lower, .upper = piece.upper};
         }
         look_at_box();
-      } while (choice.next());
+      } while (choice.advance());
     }
   }
 
@@ -103,7 +103,7 @@ struct PlainRegion {
 
   /// Corners and middles.
   bool holds_at_a_point() {
-    Counter choice(std::vector<std::int64_t>(variables_.size(), 3));
+    Odometer choice(std::vector<std::int64_t>(variables_.size(), 3));
     std::vector<RationalInterval> point = box_;
     do {
       for (std::size_t v = 0; v < variables_.size(); ++v) {
@@ -113,7 +113,7 @@ struct PlainRegion {
         point[variables_[v]] = {.lower = value, .upper = value};
       }
       if (condition_.condition(point) == Truth::yes) return true;
-    } while (choice.next());
+    } while (choice.advance());
     return false;
   }
 

@@ -73,7 +73,7 @@ TEST(RowHull, HoldsThePostsOfTheRow) {
     BoxReader<std::uint8_t> reader(random.engine, random.engine.posts(), random.engine.outer(), levels);
     bool covers = false;
     for (RowPlace place(grid, 0); place.row < grid.rows(); place.advance(grid)) {
-      RowHull::Box box;
+      RowBox box;
       hull.box(place, box);
       covers = covers || box.covers;
       reader.enter();
@@ -96,16 +96,10 @@ TEST(RowHull, HoldsThePostsOfTheRow) {
 }
 
 /// The joint input of one action a class, row-major over the inputs of each.
-std::int64_t joint_input(const ActionGrouping& grouping, const InputSpace& inputs,
-                         const std::vector<std::uint32_t>& actions) {
+std::int64_t joint_input(const ActionGrouping& grouping, const std::vector<std::uint32_t>& actions) {
   std::int64_t u = 0;
   for (std::size_t c = 0; c < grouping.size(); ++c) {
-    std::int64_t rest = actions[c];
-    for (std::size_t k = grouping.inputs(c).size(); k-- > 0;) {
-      const auto i = static_cast<std::size_t>(grouping.inputs(c)[k]);
-      u += rest % inputs[i].count() * inputs.stride(i);
-      rest /= inputs[i].count();
-    }
+    u += grouping[c].parts()[actions[c]];
   }
   return u;
 }
@@ -130,12 +124,15 @@ TEST(TupleWalk, GoesThroughAllJointGroupsOfARow) {
     const RandomEngine random;
     const Abstraction& f = random.abstraction;
     const UniformGrid& grid = f.grid;
-    std::vector<InputClass> classes(static_cast<std::size_t>(draw(1, static_cast<int>(f.inputs.size()))));
+    std::vector<std::vector<std::int32_t>> members(
+        static_cast<std::size_t>(draw(1, static_cast<int>(f.inputs.size()))));
     for (std::size_t i = 0; i < f.inputs.size(); ++i) {
       const std::size_t c =
-          i < classes.size() ? i : static_cast<std::size_t>(draw(0, static_cast<int>(classes.size()) - 1));
-      classes[c].push_back(static_cast<std::int32_t>(i));
+          i < members.size() ? i : static_cast<std::size_t>(draw(0, static_cast<int>(members.size()) - 1));
+      members[c].push_back(static_cast<std::int32_t>(i));
     }
+    std::vector<InputClass> classes;
+    for (const auto& inputs : members) classes.emplace_back(f.inputs, inputs);
     ThreadTeam team(1);
     const ActionGrouping grouping(random.engine, classes, team);
     RowGroups groups;
@@ -152,7 +149,7 @@ TEST(TupleWalk, GoesThroughAllJointGroupsOfARow) {
           RC_ASSERT(walk.chosen(c) == expected[c]);
           actions.push_back(groups.classes[c]->representative[expected[c]]);
         }
-        const std::int64_t u = joint_input(grouping, f.inputs, actions);
+        const std::int64_t u = joint_input(grouping, actions);
         const auto ids = walk.slice_ids();
         for (std::size_t t = 0; t < grid.size(); ++t) {
           for (const RowSegment& segment : random.engine.slices()[t].slices[ids[t]]) {

@@ -74,6 +74,15 @@ TEST(APrioriBox, GoesBeyondASideThatIsPassedForSomeDisturbance) {
   EXPECT_EQ(found.box[0].upper, 2.0);
 }
 
+TEST(APrioriBox, GoesBeyondACornerThatIsLeftWithoutReason) {
+  // On each side alone nothing points out; but x = y = 1 + t^2 / 4 leaves both.
+  FlowCase system({"sqrt(max(y - 1, 0)) + min(0, 1 - x)", "sqrt(max(x - 1, 0)) + min(0, 1 - y)"});
+  system.slots[0] = system.slots[1] = {0.0, 1.0};
+  const Found found = enclose(system, 0.1);
+  ASSERT_FALSE(found.failure);
+  EXPECT_GE(found.box[0].upper, 1.002);
+}
+
 TEST(APrioriBox, SaysWhichEquationIsUndefined) {
   FlowCase system({"1", "sqrt(x - 5)"});
   const Found found = enclose(system, 0.5);

@@ -1,4 +1,4 @@
-#include "reach/dual.hpp"
+#include "expression/dual.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

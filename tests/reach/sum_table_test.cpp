@@ -54,7 +54,7 @@ Abstraction cell_by_cell(const ProblemSpec& spec, Abstraction abstraction) {
   ThreadTeam team(2);
   for (const std::size_t i : sums(abstraction)) {
     abstraction.tables[i] = {};
-    build_enclosure_tables(spec, dynamics.dependencies(i), abstraction, {i}, team);
+    build_enclosure_tables(spec, dynamics, abstraction, {i}, team);
   }
   return abstraction;
 }

@@ -188,7 +188,7 @@ TEST(Tube, IsTheSameFromASharedFlow) {
     Abstraction alone = together;
     alone.tables[i] = {};
     alone.tubes[i] = {};
-    build_enclosure_tables(spec, dynamics.dependencies(i), alone, {i}, team);
+    build_enclosure_tables(spec, dynamics, alone, {i}, team);
     EXPECT_EQ(alone.tables[i].entries, together.tables[i].entries);
     EXPECT_EQ(alone.tubes[i].entries, together.tubes[i].entries);
   }

@@ -77,5 +77,30 @@ TEST(ChunkCodec, WhatItPackedBeforeLeavesNoTrace) {
   EXPECT_EQ(packed, expected);
 }
 
+TEST(ChunkCodec, WhatWasPackedIsUnpacked) {
+  std::vector<std::byte> raw(4096), packed, found;
+  for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = static_cast<std::byte>(i * i % 251);
+  for (const std::size_t element_size : {1U, 2U, 4U, 8U}) {
+    ChunkCodec().pack(raw, element_size, packed);
+    ASSERT_TRUE(unpack_chunk(packed, raw.size(), true, element_size, found));
+    EXPECT_EQ(found, raw) << element_size;
+    std::vector<std::byte> shuffled(raw.size());
+    shuffle_bytes(raw, element_size, shuffled);
+    ASSERT_TRUE(unpack_chunk(shuffled, raw.size(), false, element_size, found));
+    EXPECT_EQ(found, raw) << element_size;
+  }
+}
+
+TEST(ChunkCodec, NothingElseThanAChunkOfThisLengthIsUnpacked) {
+  std::vector<std::byte> packed, found;
+  ChunkCodec().pack(std::vector<std::byte>(4096), 1, packed);
+  EXPECT_TRUE(unpack_chunk(packed, 4096, true, 1, found));
+  EXPECT_FALSE(unpack_chunk(packed, 4095, true, 1, found));
+  EXPECT_FALSE(unpack_chunk(packed, 4097, true, 1, found));
+  EXPECT_FALSE(unpack_chunk(packed, 4096, false, 1, found));
+  packed[packed.size() / 2] ^= std::byte{0xff};
+  EXPECT_FALSE(unpack_chunk(packed, 4096, true, 1, found));
+}
+
 }  // namespace
 }  // namespace coordreq

@@ -68,8 +68,8 @@ TEST_F(CompareResults, AFileIsNotWorseThanItself) {
   ASSERT_EQ(comparison.partitions.size(), 1U);
   EXPECT_EQ(comparison.partitions[0].lost, 0);
   EXPECT_EQ(comparison.partitions[0].gained, 0);
-  EXPECT_EQ(comparison.safe.before, 22);
-  EXPECT_EQ(comparison.invariant.joined, 0);
+  EXPECT_EQ(comparison.sets.at(0).before, 22);
+  EXPECT_EQ(comparison.sets.at(1).joined, 0);
 }
 
 TEST_F(CompareResults, UnboundedIsMoreThanAnyNumberAndNothingLessThanNone) {
@@ -203,8 +203,8 @@ TEST_F(CompareResults, AddsUpWhatTheArraysSay) {
     const auto tolerance = *rc::gen::inRange<std::int64_t>(0, 3);
     const ResultsComparison comparison = compare_results(before, after, {.tolerance = tolerance, .worst = 3});
     RC_ASSERT(comparison.partitions.size() == before.partitions().size());
-    RC_ASSERT(comparison.safe.before == static_cast<std::int64_t>(before.attributes().safe_cells));
-    RC_ASSERT(comparison.invariant.after == static_cast<std::int64_t>(after.attributes().invariant_cells));
+    RC_ASSERT(comparison.sets.at(0).before == static_cast<std::int64_t>(before.attributes().safe_cells));
+    RC_ASSERT(comparison.sets.at(1).after == static_cast<std::int64_t>(after.attributes().invariant_cells));
     for (const PartitionComparison& partition : comparison.partitions)
       expect_sums(before, after, partition, tolerance);
   }));

@@ -6,7 +6,6 @@
 
 #include "base/error.hpp"
 #include "base/thread_team.hpp"
-#include "results/hdf5_attributes.hpp"
 #include "results/hdf5_handle.hpp"
 #include "results/sample_content.hpp"
 #include "results/scratch_folder.hpp"
@@ -25,7 +24,8 @@ class ReadInfo : public testing::Test {
  protected:
   void write_sample(const sample::Options& options = {}) {
     ThreadTeam team(2);
-    write_results(path_, sample::make_content(options), team);
+    const sample::Sample content = sample::make_sample(options);
+    write_results(path_, content.spec, content.values, team);
   }
 
   /// Changes the file behind the back of the program.
@@ -63,7 +63,6 @@ void remove_attribute(const Handle& file, const std::string& path, const std::st
 TEST_F(ReadInfo, TellsWhatWasWritten) {
   write_sample();
   const ResultInfo info = read_info(path_);
-  const ResultContent content = sample::make_content();
   EXPECT_EQ(info.path, path_);
   EXPECT_EQ(info.name, "sample");
   EXPECT_EQ(info.coordreq_version, program_version());
@@ -73,8 +72,8 @@ TEST_F(ReadInfo, TellsWhatWasWritten) {
   EXPECT_EQ(info.period, 0.25);
   EXPECT_EQ(info.period_unit, "s");
   EXPECT_EQ(info.cells, 61U * 51U * 40U);
-  EXPECT_EQ(info.safe_cells, content.safe_cells);
-  EXPECT_EQ(info.invariant_cells, content.invariant_cells);
+  EXPECT_EQ(info.safe_cells, sample::count_cells({}, sample::is_safe));
+  EXPECT_EQ(info.invariant_cells, sample::count_cells({}, sample::is_invariant));
   EXPECT_EQ(info.connection_delay, 2);
 }
 
@@ -82,7 +81,7 @@ TEST_F(ReadInfo, StatesAndInputsAreInTheOrderOfTheSpec) {
   write_sample();
   const ResultInfo info = read_info(path_);
   ASSERT_EQ(info.states.size(), 3U);
-  ASSERT_EQ(info.inputs.size(), 2U);
+  ASSERT_EQ(info.inputs.size(), 3U);
   EXPECT_EQ(info.states[0].name, "x1");
   EXPECT_EQ(info.states[1].unit, "s");
   EXPECT_EQ(info.states[2].name, "heading");
@@ -97,13 +96,13 @@ TEST_F(ReadInfo, StatesAndInputsAreInTheOrderOfTheSpec) {
 TEST_F(ReadInfo, LayersEndAtTheFixedPoint) {
   write_sample();
   const ResultInfo info = read_info(path_);
-  const std::vector<ResultPartition> written = sample::make_content().partitions;
   ASSERT_EQ(info.partitions.size(), 2U);
-  for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(info.partitions[i].name, written[i].name);
-    EXPECT_EQ(info.partitions[i].fixed_point_index, written[i].fixed_point_index);
-    EXPECT_EQ(info.partitions[i].layer_sizes, written[i].layer_sizes);
-  }
+  EXPECT_EQ(info.partitions[0].name, "alone");
+  EXPECT_EQ(info.partitions[0].fixed_point_index, 2);
+  EXPECT_EQ(info.partitions[0].layer_sizes, (std::vector<std::uint64_t>{62220, 31110, 15555}));
+  EXPECT_EQ(info.partitions[1].name, "a|b+c");
+  EXPECT_EQ(info.partitions[1].fixed_point_index, 3);
+  EXPECT_EQ(info.partitions[1].layer_sizes, (std::vector<std::uint64_t>{62220, 31110, 15555, 7777}));
 }
 
 TEST_F(ReadInfo, TruncatedPartitionsHaveNoFixedPoint) {
@@ -117,10 +116,15 @@ TEST_F(ReadInfo, TruncatedPartitionsHaveNoFixedPoint) {
 
 TEST_F(ReadInfo, DatasetsAreListedButNotBareDimensions) {
   write_sample();
-  EXPECT_EQ(read_info(path_).datasets, (std::vector<std::string>{"/abstraction/x1/first",
+  EXPECT_EQ(read_info(path_).datasets, (std::vector<std::string>{"/abstraction/heading/first",
+                                                                 "/abstraction/heading/last",
+                                                                 "/abstraction/x1/first",
                                                                  "/abstraction/x1/last",
                                                                  "/abstraction/x2/first",
                                                                  "/abstraction/x2/last",
+                                                                 "/actions/alone/a",
+                                                                 "/actions/alone/b",
+                                                                 "/actions/alone/c",
                                                                  "/actions/a|b+c/a",
                                                                  "/actions/a|b+c/b+c",
                                                                  "/collision_time",
@@ -141,6 +145,7 @@ TEST_F(ReadInfo, DatasetsAreListedButNotBareDimensions) {
                                                                  "/trigger",
                                                                  "/u1",
                                                                  "/u2",
+                                                                 "/u3",
                                                                  "/x1",
                                                                  "/x2"}));
 }
@@ -205,7 +210,7 @@ TEST_F(ReadInfo, EveryMissingPartIsNamed) {
 TEST_F(ReadInfo, AnAxisWithoutItsGridPointsIsNamed) {
   write_sample();
   damage([](const Handle& file) { remove(file, "/x2"); });
-  EXPECT_EQ(defect(), "axis 1 has no dimension scale (FILE:/safe)");
+  EXPECT_EQ(defect(), "missing or damaged (FILE:/x2)");
 }
 
 TEST_F(ReadInfo, EveryMissingAttributeIsNamed) {

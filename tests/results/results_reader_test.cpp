@@ -5,11 +5,11 @@
 #include <functional>
 #include <random>
 
+#include "answers/field_table.hpp"
 #include "base/error.hpp"
 #include "base/thread_team.hpp"
-#include "results/hdf5_attributes.hpp"
 #include "results/hdf5_handle.hpp"
-#include "results/readable_content.hpp"
+#include "results/sample_content.hpp"
 #include "results/scratch_folder.hpp"
 #include "results/write_results.hpp"
 
@@ -22,9 +22,10 @@ using sample::write_bytes;
 
 class Reader : public testing::Test {
  protected:
-  void write(const ResultContent& content = sample::readable_content()) {
+  void write(const sample::Options& options = {.points = sample::kFewPoints}) {
     ThreadTeam team(1);
-    write_results(path_, content, team);
+    const sample::Sample content = sample::make_sample(options);
+    write_results(path_, content.spec, content.values, team);
   }
 
   /// Changes the file behind the back of the program.
@@ -62,20 +63,20 @@ class Reader : public testing::Test {
 TEST_F(Reader, TellsTheSpecAndTheAttributes) {
   write();
   const ResultsReader results(path_);
-  const ResultContent content = sample::readable_content();
+  const sample::Options options{.points = sample::kFewPoints};
   EXPECT_EQ(results.path(), path_);
-  EXPECT_EQ(results.spec().text, content.spec_text);
+  EXPECT_EQ(results.spec().text, sample::spec_text(options));
   EXPECT_EQ(results.grid().cells(), 120);
   EXPECT_EQ(results.grid()[1].name, "x2");
-  EXPECT_EQ(results.inputs().count(), 30);
+  EXPECT_EQ(results.inputs().count(), 75);
   const StoredAttributes& attributes = results.attributes();
   EXPECT_EQ(attributes.title, "sample");
   EXPECT_EQ(attributes.conventions, "CF-1.10");
   EXPECT_EQ(attributes.guarantee, "samples");
   EXPECT_EQ(attributes.period, 0.25);
   EXPECT_EQ(attributes.period_unit, "s");
-  EXPECT_EQ(attributes.safe_cells, content.safe_cells);
-  EXPECT_EQ(attributes.invariant_cells, content.invariant_cells);
+  EXPECT_EQ(attributes.safe_cells, sample::count_cells(options, sample::is_safe));
+  EXPECT_EQ(attributes.invariant_cells, sample::count_cells(options, sample::is_invariant));
   EXPECT_EQ(attributes.iterations, 12);
   EXPECT_EQ(attributes.connection_delay, 2);
   EXPECT_EQ(attributes.spec_sha256.size(), 64U);
@@ -88,20 +89,20 @@ TEST_F(Reader, TellsThePartitions) {
   const StoredPartition& alone = results.partitions()[0];
   EXPECT_EQ(alone.name, "alone");
   EXPECT_EQ(alone.classes, (std::vector<std::string>{"a", "b", "c"}));
-  EXPECT_EQ(alone.actions, (std::vector<std::int64_t>{5, 3, 2}));
+  EXPECT_EQ(alone.actions, (std::vector<std::int64_t>{5, 3, 5}));
   EXPECT_EQ(alone.fixed_point_index, 2);
   EXPECT_EQ(alone.layer_sizes, (std::vector<std::uint64_t>{60, 30, 15}));
   EXPECT_EQ(alone.padded_sizes, (std::vector<std::uint64_t>{60, 30, 15, 15}));
   const StoredPartition& pair = results.partitions()[1];
   EXPECT_EQ(pair.name, "a|b+c");
   EXPECT_EQ(pair.classes, (std::vector<std::string>{"a", "b+c"}));
-  EXPECT_EQ(pair.actions, (std::vector<std::int64_t>{5, 6}));
+  EXPECT_EQ(pair.actions, (std::vector<std::int64_t>{5, 15}));
   EXPECT_EQ(pair.layer_sizes.size(), 4U);
   EXPECT_FALSE(pair.truncated());
 }
 
 TEST_F(Reader, ATruncatedPartitionHasAllItsLayers) {
-  write(sample::readable_content({.points = {6, 5, 4}, .truncated = true, .with_extras = false}));
+  write({.points = {6, 5, 4}, .truncated = true, .with_extras = false});
   const ResultsReader results(path_);
   EXPECT_TRUE(results.partitions()[1].truncated());
   EXPECT_EQ(results.partitions()[1].layer_sizes.size(), 4U);
@@ -142,7 +143,7 @@ TEST_F(Reader, BlocksHoldWhatWasWritten) {
     // The large one is stored in many chunks.
     for (const std::vector<std::uint64_t>& points :
          {std::vector<std::uint64_t>{6, 5, 4}, std::vector<std::uint64_t>{33, 51, 40}}) {
-      write(sample::readable_content({.points = points, .steps = steps, .with_extras = false}));
+      write({.points = points, .steps = steps, .with_extras = false});
       const ResultsReader results(path_);
       expect_block(results, all_cells(results.grid()), steps);
       expect_block(results, one_cell(results.grid(), 0), steps);
@@ -169,14 +170,14 @@ TEST_F(Reader, AStretchIsTheCellsInTheirOrder) {
 TEST_F(Reader, WhatIsStoredOnRequest) {
   write();
   const ResultsReader results(path_);
-  EXPECT_FALSE(results.has_actions(0));
+  ASSERT_TRUE(results.has_actions(0));
   ASSERT_TRUE(results.has_actions(1) && results.has_controller() && results.has_layers(0));
   const CellBlock cell = one_cell(results.grid(), 77);
   EXPECT_EQ(results.action_bits(1, 0, cell), std::vector<std::uint8_t>{sample::action_byte(77)});
-  EXPECT_EQ(results.action_bits(1, 1, all_cells(results.grid())).size(), 120U);
-  EXPECT_EQ(results.controller_bits(cell),
-            (std::vector<std::uint8_t>{sample::action_byte(308), sample::action_byte(309),
-                                       sample::action_byte(310), sample::action_byte(311)}));
+  EXPECT_EQ(results.action_bits(1, 1, all_cells(results.grid())).size(), 240U);
+  std::vector<std::uint8_t> expected;
+  for (std::uint64_t i = 770; i < 780; ++i) expected.push_back(sample::action_byte(i));
+  EXPECT_EQ(results.controller_bits(cell), expected);
   const StoredLayers layers = results.layers(0);
   EXPECT_EQ(layers.start, (std::vector<std::uint64_t>{0, 59, 59, 60}));
   ASSERT_EQ(layers.cell.size(), 60U);
@@ -192,14 +193,14 @@ TEST_F(Reader, TheAbstraction) {
   EXPECT_EQ(abstraction.tables[2].inputs, (std::vector<std::int32_t>{1, 2}));
   // Cell (3, 1, 2) and inputs (4, 2, 1).
   const std::int64_t x = 3 * 20 + 1 * 4 + 2;
-  const std::int64_t u = 4 * 6 + 2 * 2 + 1;
+  const std::int64_t u = 4 * 15 + 2 * 5 + 1;
   EXPECT_EQ(abstraction.raw(0, x, u), (IndexRange{3 * 5 + 4 - 3, 3 * 5 + 4 + 3}));
   EXPECT_EQ(abstraction.raw(1, x, u), (IndexRange{7, 9}));
-  EXPECT_EQ(abstraction.raw(2, x, u), (IndexRange{2 * 6 + 5 - 9, 2 * 6 + 5}));
+  EXPECT_EQ(abstraction.raw(2, x, u), (IndexRange{2 * 15 + 11 - 9, 2 * 15 + 11}));
 }
 
 TEST_F(Reader, NothingMoreThanWasAskedFor) {
-  write(sample::readable_content({.points = {6, 5, 4}, .with_extras = false}));
+  write({.points = {6, 5, 4}, .with_extras = false});
   const ResultsReader results(path_);
   EXPECT_FALSE(results.has_actions(1) || results.has_controller() || results.has_layers(1) ||
                results.has_abstraction());
@@ -216,32 +217,65 @@ TEST_F(Reader, OtherFilesAreNotResults) {
 }
 
 TEST_F(Reader, ASpecThatIsNotTheOneAnalysedIsRefused) {
-  ResultContent content = sample::readable_content();
-  write(content);
+  write();
   damage([](const Handle& file) {
     H5Adelete_by_name(file.get(), "/", "spec_sha256", H5P_DEFAULT);
     hdf5::set_attribute(hdf5::open_object(file, "/"), "spec_sha256", std::string("0123"));
   });
   EXPECT_NE(defect().find(", the attribute spec_sha256 says 0123 (FILE:/spec)"), std::string::npos)
       << defect();
-  content.spec_text = "{}";
-  write(content);
+  sample::Sample content = sample::make_sample({.points = sample::kFewPoints});
+  content.spec.text = "{}";
+  ThreadTeam team(1);
+  write_results(path_, content.spec, content.values, team);
   EXPECT_NE(defect().find("the spec is not valid: "), std::string::npos) << defect();
 }
 
 TEST_F(Reader, AFileThatDoesNotFitItsSpecIsRefused) {
-  ResultContent content = sample::readable_content();
-  content.axes[0].points[2] += 1e-9;
-  write(content);
+  write();
+  std::vector<double> points = {-1, -0.875, -0.75 + 1e-9, -0.625, -0.5, -0.375};
+  overwrite("/x1", H5T_NATIVE_DOUBLE, points.data());
   EXPECT_EQ(defect(), "grid point 2 is not that of the spec (FILE:/x1)");
-  content = sample::readable_content();
-  content.partitions[1].name = "b+c|a";
-  write(content);
-  EXPECT_EQ(defect(), "the partitions are not those of the spec (FILE:/partition)");
-  content = sample::readable_content();
-  content.partitions[1].actions[1].actions = 5;
-  write(content);
-  EXPECT_EQ(defect(), "the attribute actions is 5, expected 6 (FILE:/actions/a|b+c/b+c)");
+  sample::Sample content = sample::make_sample({.points = sample::kFewPoints, .with_extras = false});
+  content.spec.coordination.partitions[1].name = "b+c|a";
+  ThreadTeam team(1);
+  write_results(path_, content.spec, content.values, team);
+  EXPECT_EQ(defect(), "the names are not those of the spec (FILE:/partition)");
+  write();
+  damage([](const Handle& file) {
+    const Handle bits = hdf5::open_object(file, "/actions/a|b+c/b+c");
+    hdf5::check(H5Adelete(bits.get(), "actions"), "delete");
+    hdf5::set_attribute(bits, "actions", std::uint64_t{5});
+  });
+  EXPECT_EQ(defect(), "the attribute actions is 5, expected 15 (FILE:/actions/a|b+c/b+c)");
+}
+
+TEST_F(Reader, EveryFieldThatTheSpecAsksForMustBeThere) {
+  const sample::Sample content = sample::make_sample({.points = sample::kFewPoints, .with_everything = true});
+  for (const Field& field : result_fields(content.spec)) {
+    if (field.scale && (field.scale->is_optional || field.path.ends_with("state_name"))) continue;
+    write({.points = sample::kFewPoints, .with_everything = true});
+    if (!ResultsReader(path_).has(field.path)) continue;  // over an axis that is not there
+    damage([&](const Handle& file) {
+      hdf5::check(H5Ldelete(file.get(), field.path.c_str(), H5P_DEFAULT), "delete");
+    });
+    EXPECT_EQ(defect(), "missing or damaged (FILE:" + field.path + ")");
+  }
+}
+
+TEST_F(Reader, EverythingThatWasWrittenIsRead) {
+  write({.points = sample::kFewPoints, .with_everything = true});
+  const ResultsReader results(path_);
+  EXPECT_EQ(results.attributes().controller_sha256, "0123");
+  EXPECT_EQ(results.attributes().coalition_cells, (std::vector<std::int64_t>{1, 2}));
+  EXPECT_EQ(results.attributes().critical_pair_cells, (std::vector<std::int64_t>{1, 2, 3}));
+  EXPECT_EQ(results.attributes().network_cells.size(), results.spec().network->modes.size());
+  ASSERT_EQ(results.requirements().size(), 2U);
+  EXPECT_FALSE(results.requirements()[0].holds);
+  ASSERT_TRUE(results.requirements()[0].path);
+  EXPECT_EQ(results.requirements()[0].path->samples(), 3U);
+  EXPECT_EQ(results.requirements()[0].path->steps(), 2U);
+  EXPECT_FALSE(results.requirements()[1].path);
 }
 
 TEST_F(Reader, ValuesThatMeanNothingAreRefused) {
@@ -292,7 +326,7 @@ void read_all(const ResultsReader& results) {
 }
 
 TEST_F(Reader, FlippedBitsAreErrorsOrGoUnnoticedButCrashNothing) {
-  write(sample::readable_content({.points = {6, 30, 40}}));
+  write({.points = {6, 30, 40}});
   const std::string whole = bytes_of(path_);
   std::mt19937_64 random(20180410);  // NOLINT: the same flips each time
   int errors = 0;

@@ -1,9 +1,11 @@
 #include "results/sample_content.hpp"
 
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <numeric>
+
+#include "answers/field_table.hpp"
+#include "spec/read_spec.hpp"
 
 namespace coordreq::sample {
 namespace {
@@ -24,52 +26,99 @@ ResultArray array(ElementType type, Formula formula) {
       return {type, fill_with<std::uint8_t>(std::move(formula))};
     case ElementType::int16:
       return {type, fill_with<std::int16_t>(std::move(formula))};
+    case ElementType::int32:
+      return {type, fill_with<std::int32_t>(std::move(formula))};
     case ElementType::uint32:
       return {type, fill_with<std::uint32_t>(std::move(formula))};
-    default:
-      return {type, fill_with<std::int32_t>(std::move(formula))};
+    case ElementType::int64:
+      return {type, fill_with<std::int64_t>(std::move(formula))};
+    case ElementType::uint64:
+      return {type, fill_with<std::uint64_t>(std::move(formula))};
+    case ElementType::float32:
+      return {type, fill_with<float>(std::move(formula))};
+    case ElementType::float64:
+      break;
   }
+  return {type, fill_with<double>(std::move(formula))};
 }
 
-std::vector<double> grid(double first, double step, std::uint64_t count) {
-  std::vector<double> points(count);
-  for (std::uint64_t i = 0; i < count; ++i) points[i] = first + step * static_cast<double>(i);
-  return points;
+constexpr std::uint64_t kLayers = 4;
+
+/// |Z_k| of the first partition stands still after two steps, that of the second after three.
+std::int64_t layer_size(std::uint64_t i, std::uint64_t cells) {
+  const std::uint64_t last = i < kLayers ? 2 : 3;
+  return static_cast<std::int64_t>(cells >> (1 + std::min(i % kLayers, last)));
 }
 
-ResultBits bits(std::string name, std::vector<std::string> inputs, std::uint64_t actions) {
-  return {std::move(name), std::move(inputs), actions,
-          fill_with<std::uint8_t>([](std::uint64_t i) { return std::int64_t{action_byte(i)}; })};
+/// All cells of the list are in the first layer but one, which is in the last.
+std::int64_t layer_start(std::uint64_t i, std::uint64_t last, std::uint64_t cells) {
+  return static_cast<std::int64_t>(i == 0 ? 0 : i == last ? cells / 2 : cells / 2 - 1);
 }
 
-ResultPartition partition(std::uint64_t number, const Options& options) {
-  ResultPartition result;
+std::int64_t transition(const std::string& path, std::uint64_t i) {
+  const auto number = static_cast<std::int64_t>(i);
+  const bool first = path.ends_with("first");
+  if (path.find("/x1/") != std::string::npos) return first ? number - 3 : number + 3;
+  if (path.find("/x2/") != std::string::npos) return first ? 7 : 9;
+  return first ? number - 9 : number;
+}
+
+/// What stands at place i of a field.
+std::int64_t element(const Field& field, const Options& options, std::uint64_t i) {
+  const std::string& path = field.path;
   const std::uint64_t cells = cell_count(options);
-  const ElementType steps = options.steps;
-  result.truncated = options.truncated;
-  result.layer_sizes = {cells / 2, cells / 4, cells / 8};
-  if (number == 1) result.layer_sizes.push_back(cells / 16);
-  const auto last = static_cast<std::int32_t>(result.layer_sizes.size()) - 1;
-  result.fixed_point_index = options.truncated ? -1 : last;
-  result.unbounded = options.truncated ? 0 : result.layer_sizes.back();
-  result.delay = array(steps, [=](std::uint64_t i) { return delay(number, i, steps); });
-  result.trigger = array(steps, [=](std::uint64_t i) { return trigger(number, i, steps); });
-  if (options.with_extras) {
-    result.layers =
-        ResultLayers{{0, cells / 8, cells / 4, cells / 2, cells / 2},
-                     array(ElementType::uint32, [](std::uint64_t i) { return 2 * std::int64_t(i); })};
+  if (path == "/safe") return is_safe(i) ? 1 : 0;
+  if (path == "/invariant") return is_invariant(i) ? 1 : 0;
+  if (path == "/collision_time") return collision_time(i, options.steps);
+  if (path == "/delay") return delay(i / cells, i % cells, options.steps);
+  if (path == "/trigger") return trigger(i / cells, i % cells, options.steps);
+  if (path == "/layer_size") return layer_size(i, cells);
+  if (path == "/fixed_point_index") return options.truncated ? -1 : static_cast<std::int64_t>(i + 2);
+  if (path.ends_with("/start")) {
+    const std::uint64_t last = options.truncated || path.find("alone") == std::string::npos ? 4 : 3;
+    return layer_start(i, last, cells);
   }
-  return result;
+  if (path.starts_with("/layers/")) return static_cast<std::int64_t>(2 * i);
+  if (field.section == FieldSection::abstraction) return transition(path, i);
+  // The first requirement fails, with a counterexample; the second one holds.
+  if (path == "/counterexample/holds") return static_cast<std::int64_t>(i);
+  if (path == "/counterexample/end") return i == 0 ? 1 : 0;
+  if (path == "/counterexample/left_side") return 0;
+  if (path.ends_with(":byte") || field.types.front() == ElementType::uint8)
+    return field.most == 1 ? static_cast<std::int64_t>(i % 2) : action_byte(i);
+  return static_cast<std::int64_t>(i % 3);
 }
 
-std::vector<ResultTable> tables(const Options& options) {
-  ResultTable moving{"x1", {"x1", "u1"}, {}, {}};
-  for (std::uint64_t i = 0; i < options.points[0] * 5; ++i) {
-    moving.first.push_back(static_cast<std::int32_t>(i) - 3);
-    moving.last.push_back(static_cast<std::int32_t>(i) + 3);
+void add_lengths(const Options& options, FieldValues& values) {
+  values.lengths = {{"/layer", kLayers}};
+  for (const char* name : {"alone", "a|b+c"}) {
+    const std::string group = std::string("/layers/") + name;
+    values.lengths[group + "/bound"] = options.truncated || name[1] == '|' ? 5 : 4;
+    values.lengths[group + "/position"] = cell_count(options) / 2;
   }
-  return {moving, {"x2", {}, {7}, {9}}};
+  if (!options.with_everything) return;
+  values.lengths["/counterexample/0/sample"] = 3;
+  values.lengths["/counterexample/0/step"] = 2;
 }
+
+void add_found(const Field& field, const Options& options, FieldValues::Entry& entry) {
+  for (const FieldAttribute& attribute : field.attributes) {
+    if (!attribute.is_found) continue;
+    AttributeValue& value = entry.attributes[attribute.name] = attribute.value;
+    if (auto* list = std::get_if<std::vector<std::uint64_t>>(&value))
+      std::iota(list->begin(), list->end(), 1U);
+    if (attribute.name == "iterations") value = std::int64_t{12};
+    if (attribute.name == "sha256") value = std::string("0123");
+    if (field.path == "/safe") value = count_cells(options, is_safe);
+    if (field.path == "/invariant") value = count_cells(options, is_invariant);
+  }
+}
+
+constexpr char kEverything[] = R"json(,
+  "controller": { "file": "other.h5" },
+  "network": { "delay": 1 },
+  "requirements": [ { "name": "fails", "where": "x1 <= 0", "partition": "alone", "min_delay": 3 },
+                    { "name": "holds", "where": "x1 <= 0", "invariant": true } ])json";
 
 }  // namespace
 
@@ -111,40 +160,59 @@ std::uint64_t cell_count(const Options& options) {
   return std::accumulate(options.points.begin(), options.points.end(), std::uint64_t{1}, std::multiplies<>());
 }
 
-ResultContent make_content(const Options& options) {
-  const ElementType steps = options.steps;
-  ResultContent content;
-  content.name = "sample";
-  content.spec_text = kSpecText;
-  content.guarantee = "samples";
-  content.period = 0.25;
-  content.period_unit = "seconds";
-  content.connection_delay = kConnectionDelay;
-  content.axes = {{"x1", "m", grid(-1, 0.125, options.points[0]), 0.125, true},
-                  {"x2", "seconds", grid(0, 0.5, options.points[1]), 0.5, true},
-                  {"heading", "", grid(0, 1, options.points[2]), 1.0, true},
-                  {"u1", "m/second", grid(-2, 1, 5), 1.0, false},
-                  {"u2", "rad", {-1, 0, 3}, std::nullopt, false}};
-  for (std::uint64_t i = 0; i < cell_count(options); ++i) {
-    content.safe_cells += is_safe(i) ? 1U : 0U;
-    content.invariant_cells += is_invariant(i) ? 1U : 0U;
-  }
-  content.safe = array(ElementType::uint8, [](std::uint64_t i) { return is_safe(i) ? 1 : 0; });
-  content.invariant = array(ElementType::uint8, [](std::uint64_t i) { return is_invariant(i) ? 1 : 0; });
-  content.collision_time = array(steps, [=](std::uint64_t i) { return collision_time(i, steps); });
-  content.iterations = 12;
+std::uint64_t count_cells(const Options& options, bool (*is_member)(std::uint64_t cell)) {
+  std::uint64_t count = 0;
+  for (std::uint64_t cell = 0; cell < cell_count(options); ++cell) count += is_member(cell) ? 1U : 0U;
+  return count;
+}
 
-  content.partitions = {partition(0, options), partition(1, options)};
-  content.partitions[0].name = "alone";
-  content.partitions[0].classes = {"a", "b", "c"};
-  content.partitions[1].name = "a|b+c";
-  content.partitions[1].classes = {"a", "b+c"};
-  if (options.with_extras) {
-    content.partitions[1].actions = {bits("a", {"u1"}, 5), bits("b+c", {"u1", "u2"}, 15)};
-    content.controller = bits("all", {"u1", "u2"}, 20);
-    content.abstraction = tables(options);
+std::string spec_text(const Options& options) {
+  const auto upper = [&options](std::size_t i, double first, double step) {
+    return std::to_string(first + step * static_cast<double>(options.points[i] - 1));
+  };
+  const std::string output = options.with_extras ? "true" : "false";
+  return R"json({
+  "coordreq": 1,
+  "name": "sample",
+  "description": "sample )json"
+         "\xC3\xA9"
+         R"json(",
+  "states": [
+    { "name": "x1", "lower": -1, "upper": )json" +
+         upper(0, -1, 0.125) + R"json(, "step": 0.125, "unit": "m" },
+    { "name": "x2", "lower": 0, "upper": )json" +
+         upper(1, 0, 0.5) + R"json(, "step": 0.5, "unit": "seconds" },
+    { "name": "heading", "lower": 0, "upper": )json" +
+         upper(2, 0, 1) + R"json(, "step": 1 } ],
+  "inputs": [
+    { "name": "u1", "lower": -2, "upper": 2, "step": 1, "unit": "m/second" },
+    { "name": "u2", "values": [-1, 0, 3], "unit": "rad" },
+    { "name": "u3", "values": [0, 1, 2, 3, 4] } ],
+  "agents": [ { "name": "a", "inputs": ["u1"] }, { "name": "b", "inputs": ["u2"] },
+              { "name": "c", "inputs": ["u3"] } ],
+  "dynamics": { "time": "discrete", "period": 0.25, "unit": "seconds",
+                "equations": { "x1": "x1 + u1", "x2": "4", "heading": "heading + u2 + u3" } },
+  "safe": "x1 <= 1",
+  "coordination": { "connection_delay": 2,)json" +
+         (options.with_everything ? R"json( "horizon": 2, "convention": true,)json" : "") + R"json(
+                    "partitions": [ { "name": "alone", "classes": [] }, { "classes": [["b", "c"]] } ] },
+  "output": { "controller": )json" +
+         output + ", \"actions\": " + output + ", \"layers\": " + output + ", \"abstraction\": " + output +
+         " }" + (options.with_everything ? kEverything : "") + "\n}\n";
+}
+
+Sample make_sample(const Options& options) {
+  Sample sample{.spec = read_spec(spec_text(options), "sample"), .values = {}};
+  add_lengths(options, sample.values);
+  for (const Field& field : result_fields(sample.spec)) {
+    if (field.scale) continue;
+    FieldValues::Entry& entry = sample.values.entries[field.path];
+    const bool is_steps = field.types.size() == 2 && field.types.front() == ElementType::int16;
+    entry.array = array(is_steps ? options.steps : field.types.front(),
+                        [field, options](std::uint64_t i) { return element(field, options, i); });
+    add_found(field, options, entry);
   }
-  return content;
+  return sample;
 }
 
 }  // namespace coordreq::sample

@@ -18,12 +18,13 @@ using hdf5::Handle;
 using Names = std::vector<std::string>;
 using sample::bytes_of;
 using sample::Options;
+using sample::Sample;
 using sample::ScratchFolder;
 using Shape = std::vector<hsize_t>;
 
-void write(const std::string& path, const ResultContent& content, int threads = 2) {
+void write(const std::string& path, const Sample& content, int threads = 2) {
   ThreadTeam team(threads);
-  write_results(path, content, team);
+  write_results(path, content.spec, content.values, team);
 }
 
 Handle open_file(const std::string& path) {
@@ -101,7 +102,7 @@ void walk(const Handle& file, Visit visit) {
 class WrittenSample : public testing::Test {
  protected:
   void write_sample(const Options& options) {
-    write(folder_ / "sample.h5", sample::make_content(options));
+    write(folder_ / "sample.h5", sample::make_sample(options));
     file_ = std::make_unique<Handle>(open_file(folder_ / "sample.h5"));
   }
   [[nodiscard]] const Handle& file() const { return *file_; }
@@ -169,7 +170,7 @@ TEST_F(WrittenSample, LayersAreThere) {
                                        cells / 2, cells / 4, cells / 8, cells / 16}));
   EXPECT_EQ(elements(file(), "/fixed_point_index"), (std::vector<std::int64_t>{2, 3}));
   EXPECT_EQ(elements(file(), "/layers/alone/start"),
-            (std::vector<std::int64_t>{0, cells / 8, cells / 4, cells / 2, cells / 2}));
+            (std::vector<std::int64_t>{0, cells / 2 - 1, cells / 2 - 1, cells / 2}));
   expect_elements(file(), "/layers/a|b+c/cell", static_cast<std::size_t>(cells) / 2,
                   [](std::size_t i) { return 2 * i; });
   EXPECT_TRUE(has_type(file(), "/layers/alone/cell", H5T_STD_U32LE));
@@ -189,7 +190,7 @@ TEST_F(WrittenSample, ActionsAreThere) {
   const std::size_t cells = sample::cell_count(options);
   expect_elements(file(), "/actions/a|b+c/a", cells, sample::action_byte);
   expect_elements(file(), "/actions/a|b+c/b+c", 2 * cells, sample::action_byte);
-  expect_elements(file(), "/controller", 3 * cells, sample::action_byte);
+  expect_elements(file(), "/controller", 10 * cells, sample::action_byte);
   EXPECT_EQ(integers(file(), "/actions/a|b+c/b+c", "actions"), std::vector<std::int64_t>{15});
 }
 
@@ -272,8 +273,8 @@ TEST_F(WrittenSample, EveryAxisOfEveryDatasetHasADimensionScale) {
       EXPECT_TRUE(scale.attached) << axis;
     }
   });
-  EXPECT_EQ(scales, 5 + 2 + 4 + 3);  // states and inputs, partition and layer, lists, bytes
-  EXPECT_EQ(datasets, 1 + 7 + 4 + 3 + 4);
+  EXPECT_EQ(scales, 6 + 2 + 4 + 6);  // states and inputs, partition and layer, lists, bytes
+  EXPECT_EQ(datasets, 1 + 7 + 4 + 6 + 6);
 }
 
 TEST_F(WrittenSample, NoObjectIsDated) {
@@ -301,7 +302,7 @@ TEST_F(WrittenSample, LargeArraysAreChunkedAndCompressedAndSmallOnesAreNot) {
 
 TEST(WriteResults, BytesDoNotDependOnThreadsOrRun) {
   const ScratchFolder folder;
-  const ResultContent content = sample::make_content();
+  const Sample content = sample::make_sample();
   write(folder / "1.h5", content, 1);
   const std::string expected = bytes_of(folder / "1.h5");
   ASSERT_GT(expected.size(), 100000U);
@@ -314,11 +315,11 @@ TEST(WriteResults, BytesDoNotDependOnThreadsOrRun) {
 TEST(WriteResults, TriggersThatEqualDelaysAreReadAsIfWrittenForThemselves) {
   for (const std::uint64_t points :
        {std::uint64_t{61}, std::uint64_t{3}}) {  // in chunks, and too small for any
-    ResultContent content = sample::make_content({.points = {points, 5, 40}});
-    for (ResultPartition& partition : content.partitions) partition.trigger = partition.delay;
+    Sample content = sample::make_sample({.points = {points, 5, 40}});
+    content.values.entries["/trigger"] = content.values.entries["/delay"];
     const ScratchFolder folder;
     write(folder / "twice.h5", content);
-    content.triggers_are_delays = true;
+    content.values.entries["/trigger"].equals = "/delay";
     write(folder / "once.h5", content);
     const Handle once = open_file(folder / "once.h5");
     EXPECT_EQ(elements(once, "/trigger"), elements(once, "/delay"));
@@ -329,7 +330,7 @@ TEST(WriteResults, TriggersThatEqualDelaysAreReadAsIfWrittenForThemselves) {
 TEST(WriteResults, ReplacesOnSuccess) {
   const ScratchFolder folder;
   sample::write_bytes(folder / "a.h5", "old");
-  write(folder / "a.h5", sample::make_content());
+  write(folder / "a.h5", sample::make_sample());
   EXPECT_GT(H5Fis_hdf5((folder / "a.h5").c_str()), 0);
   EXPECT_EQ(folder.names(), Names{"a.h5"});
 }
@@ -337,8 +338,8 @@ TEST(WriteResults, ReplacesOnSuccess) {
 TEST(WriteResults, AnExceptionFromAnArrayLeavesTheOldFileAndNothingElse) {
   const ScratchFolder folder;
   sample::write_bytes(folder / "a.h5", "old");
-  ResultContent content = sample::make_content();
-  content.partitions[1].trigger.fill = [](std::uint64_t, std::uint64_t, void*) {
+  Sample content = sample::make_sample();
+  content.values.entries["/trigger"].array.fill = [](std::uint64_t, std::uint64_t, void*) {
     throw std::runtime_error("interrupted");
   };
   EXPECT_THROW(write(folder / "a.h5", content), std::runtime_error);
@@ -346,26 +347,33 @@ TEST(WriteResults, AnExceptionFromAnArrayLeavesTheOldFileAndNothingElse) {
   EXPECT_EQ(folder.names(), Names{"a.h5"});
 }
 
-TEST(WriteResults, PartitionsOfDifferentTypesAreAProgrammingError) {
+TEST(WriteResults, ValuesThatAFieldCannotHaveAreAProgrammingError) {
   const ScratchFolder folder;
-  ResultContent content = sample::make_content();
-  content.partitions[1].delay.type = ElementType::int32;
+  Sample content = sample::make_sample();
+  content.values.entries["/delay"].array.type = ElementType::float32;
+  EXPECT_THROW(write(folder / "a.h5", content), std::invalid_argument);
+  content = sample::make_sample();
+  content.values.entries.erase("/invariant");
+  EXPECT_THROW(write(folder / "a.h5", content), std::invalid_argument);
+  content = sample::make_sample();
+  content.values.lengths.erase("/layer");
   EXPECT_THROW(write(folder / "a.h5", content), std::invalid_argument);
   EXPECT_EQ(folder.names(), Names{});
 }
 
 TEST(WriteResults, AMissingFolderIsNamed) {
   const ScratchFolder folder;
-  EXPECT_THROW(write(folder / "none/a.h5", sample::make_content()), IoError);
+  EXPECT_THROW(write(folder / "none/a.h5", sample::make_sample()), IoError);
 }
 
 TEST(WriteResults, AnEmptyInvarianceSetHasEmptyLists) {
   const ScratchFolder folder;
-  ResultContent content = sample::make_content();
-  content.partitions.resize(1);
-  content.partitions[0].layer_sizes = {0};
-  content.partitions[0].fixed_point_index = 0;
-  content.partitions[0].layers->start = {0, 0};
+  Sample content = sample::make_sample();
+  content.values.lengths["/layer"] = 1;
+  for (const char* name : {"alone", "a|b+c"}) {
+    content.values.lengths[std::string("/layers/") + name + "/bound"] = 2;
+    content.values.lengths[std::string("/layers/") + name + "/position"] = 0;
+  }
   write(folder / "a.h5", content);
   const Handle file = open_file(folder / "a.h5");
   EXPECT_EQ(dimensions_of(open_dataset(file, "/layers/alone/cell")), Shape{0});

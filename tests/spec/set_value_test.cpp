@@ -1,5 +1,6 @@
 #include "spec/set_value.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -34,10 +35,10 @@ constexpr const char* kText = R"({ // the head
 } // end )";
 
 TEST(SetValue, OnlyTheValueChanges) {
-  std::string expected = kText;
-  expected.replace(expected.find("0.80"), 4, "0.7");
-  EXPECT_EQ(set(kText, "constants.R", "0.7"), expected);
-  EXPECT_EQ(set(set(kText, "constants.R", "0.7"), "constants.R", "0.80"), kText);
+  Json expected = Json::parse(kText, nullptr, true, true);
+  expected["constants"]["R"] = 0.7;
+  EXPECT_EQ(Json::parse(set(kText, "constants.R", "0.7")), expected);
+  EXPECT_EQ(set(R"({"b": 1, "a": [2.50]})", "b", "3"), "{\n  \"b\": 3,\n  \"a\": [\n    2.5\n  ]\n}\n");
 }
 
 TEST(SetValue, ElementsGoByNumberOrName) {
@@ -66,15 +67,22 @@ TEST(SetValue, JsonIsTakenAsJsonAndTheRestAsText) {
 }
 
 TEST(SetValue, NumbersKeepTheirDigits) {
-  const std::string text = set(kText, "constants.R", "0.10000000000000000000001");
-  EXPECT_NE(text.find("\"R\": 0.10000000000000000000001 /* [m] */"), std::string::npos);
+  const char* const kMany = "0.10000000000000000000001";
+  const Json set_there = Json::parse(set(kText, "constants.R", kMany));
+  EXPECT_EQ(set_there["constants"]["R"], kMany);
+  const Json was_there = Json::parse(
+      set(fmt::format(R"({{"a": {}, "b": 12345678901234567890123, "c": 0.1}})", kMany), "d", "1"));
+  EXPECT_EQ(was_there, (Json{{"a", kMany}, {"b", "12345678901234567890123"}, {"c", 0.1}, {"d", 1}}));
 }
 
-TEST(SetValue, MissingKeysAreAddedAtTheEnd) {
-  EXPECT_EQ(set(R"({"a": {}})", "a.b", "1"), R"({"a": {"b": 1}})");
-  EXPECT_EQ(set("{\"a\": 1 // one\n}", "b", "2"), "{\"a\": 1, \"b\": 2 // one\n}");
-  EXPECT_EQ(set(R"({"a": 1})", "b.c.d", "2"), R"({"a": 1, "b": {"c": {"d": 2}}})");
-  EXPECT_EQ(set("\xEF\xBB\xBF{}", "a", "x"), "\xEF\xBB\xBF{\"a\": \"x\"}");
+TEST(SetValue, MissingKeysAreAdded) {
+  const auto after = [](const char* text, const char* path, const char* value) {
+    return Json::parse(set(text, path, value)).dump();
+  };
+  EXPECT_EQ(after(R"({"a": {}})", "a.b", "1"), R"({"a":{"b":1}})");
+  EXPECT_EQ(after("{\"a\": 1 // one\n}", "b", "2"), R"({"a":1,"b":2})");
+  EXPECT_EQ(after(R"({"a": 1})", "b.c.d", "2"), R"({"a":1,"b":{"c":{"d":2}}})");
+  EXPECT_EQ(after("\xEF\xBB\xBF{}", "a", "x"), R"({"a":"x"})");
 }
 
 TEST(SetValue, PathsThatLeadNowhereAreErrors) {
@@ -82,7 +90,7 @@ TEST(SetValue, PathsThatLeadNowhereAreErrors) {
             "no '2' in states, expected 'x1' or 'x2', or a number from 0 to 1 (states.2.step)");
   EXPECT_EQ(error_of(kText, "/dots/a.b/x", "1"),
             "no 'x' in dots.a.b, expected a number from 0 to 1 (/dots/a.b/x)");
-  EXPECT_EQ(error_of(kText, "constants.R.x", "1"), "no 'x' in constants.R: it is '0.80' (constants.R.x)");
+  EXPECT_EQ(error_of(kText, "constants.R.x", "1"), "no 'x' in constants.R: it is '0.8' (constants.R.x)");
   EXPECT_EQ(error_of(R"({"a": []})", "a.0", "1"), "no '0' in a: it is empty (a.0)");
   EXPECT_EQ(error_of("[1]", "a", "1"), "no 'a' in the spec, expected a number from 0 to 0 (a)");
 }
@@ -93,7 +101,10 @@ TEST(SetValue, ConstantsAreNotAdded) {
   EXPECT_EQ(error_of(kText, "constants.Radius", "1"),
             "'Radius' is not one of the constants, expected 'R' or 'two' (constants.Radius)");
   EXPECT_EQ(error_of(R"({"definitions": {}})", "definitions.r", "1"),
-            "'r' is not one of the definitions (definitions.r)");
+            "'r' is not one of the definitions: there are none (definitions.r)");
+  EXPECT_EQ(error_of("{}", "constants.q", "1"),
+            "'q' is not one of the constants: there are none (constants.q)");
+  EXPECT_EQ(Json::parse(set("{}", "constants", R"({"q": 1})")).dump(), R"({"constants":{"q":1}})");
 }
 
 TEST(SetValue, BrokenPathsAndValuesAreErrors) {
@@ -101,6 +112,11 @@ TEST(SetValue, BrokenPathsAndValuesAreErrors) {
   EXPECT_EQ(error_of(kText, "", "1"), "expected keys with dots between, as states.0.step, found ''");
   EXPECT_EQ(error_of(kText, "name", "[1,"), "expected JSON, since it starts like it, found '[1,' (name)");
   EXPECT_EQ(error_of(kText, "name", "\xff"), "expected UTF-8 text as the value (name)");
+  EXPECT_EQ(error_of(kText, "constants.\xff", "1"),
+            "expected UTF-8 text as the path, found 'constants.\xff'");
+  EXPECT_EQ(error_of(kText, "/\xff", "1"), "expected UTF-8 text as the path, found '/\xff'");
+  EXPECT_THROW(static_cast<void>(set(kText, "name", std::string(300, '[') + std::string(300, ']'))),
+               SpecError);
 }
 
 TEST(SetValue, BrokenSpecsAreTheirOwnErrors) {

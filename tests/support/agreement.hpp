@@ -21,8 +21,8 @@ inline std::vector<bool> members(const CellSet& set) {
 /// The packed bits of the fast path as plain sets.
 inline std::vector<std::vector<bool>> unpacked(const FastAnalysis& fast, const ActionGrouping& grouping,
                                                std::size_t c) {
-  const auto actions = static_cast<std::size_t>(grouping.actions(c));
-  const std::size_t bytes = (actions + 7) / 8;
+  const auto actions = static_cast<std::size_t>(grouping[c].actions());
+  const auto bytes = static_cast<std::size_t>(grouping[c].bytes());
   const auto packed = action_bits(fast.controller, grouping, c, 0, fast.engine.rows());
   std::vector<std::vector<bool>> result;
   for (std::size_t x = 0; x < packed.size() / bytes; ++x) {
@@ -38,8 +38,7 @@ inline PlainAnalysis plainly(const ProblemSpec& spec, const FastAnalysis& fast,
                          listed);
 }
 
-inline void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const PlainAnalysis& plain,
-                             ThreadTeam& team) {
+inline void expect_agreement(const FastAnalysis& fast, const PlainAnalysis& plain, ThreadTeam& team) {
   RC_ASSERT(fast.invariance.iterations == plain.iterations);
   RC_ASSERT(members(fast.invariance.invariant) == plain.invariant);
   RC_ASSERT(fast.collision_times() == plain.collision_time);
@@ -53,8 +52,7 @@ inline void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, 
       RC_ASSERT(unpacked(fast, fast.actions[p].grouping, c) == expected.projection[c]);
     }
   }
-  InputClass all;
-  for (std::size_t i = 0; i < spec.inputs.size(); ++i) all.push_back(static_cast<std::int32_t>(i));
+  const InputClass all = whole_class(fast.abstraction.inputs);
   RC_ASSERT(unpacked(fast, ActionGrouping(fast.engine, {all}, team), 0) == plain.controller);
 }
 

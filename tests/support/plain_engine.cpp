@@ -10,8 +10,8 @@
 #include "engine/tube_sets.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
+#include "model/odometer.hpp"
 #include "model/pieces.hpp"
-#include "reach/counter.hpp"
 
 namespace coordreq {
 namespace {
@@ -296,14 +296,14 @@ template <class Visit>
 void for_each_choice(const std::vector<std::vector<RationalInterval>>& choices, const Visit& visit) {
   std::vector<std::int64_t> counts;
   for (const auto& one : choices) counts.push_back(static_cast<std::int64_t>(one.size()));
-  Counter choice(counts);
+  Odometer choice(counts);
   do {
     std::vector<RationalInterval> box;
     for (std::size_t i = 0; i < choices.size(); ++i) {
       box.push_back(choices[i][static_cast<std::size_t>(choice.indices()[i])]);
     }
     visit(box);
-  } while (choice.next());
+  } while (choice.advance());
 }
 
 /// What state i can be in cell k: as whole pieces, and as samples of them.

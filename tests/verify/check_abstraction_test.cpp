@@ -18,28 +18,42 @@ GridDimension line(std::int64_t count, Outside below, Outside above) {
           .upper = 9};
 }
 
-Finding compare(const GridDimension& dimension, IndexRange own, IndexRange claimed, bool exact) {
-  const PostTable mine{.entries = {own}, .exact = exact};
-  const PostTable theirs{.entries = {claimed}};
-  return check_abstraction(dimension, mine, theirs, "abstraction");
+Finding compare(const GridDimension& dimension, IndexRange own, IndexRange claimed) {
+  const UniformGrid grid({dimension});
+  const InputSpace inputs({{"u", {5}}});
+  const auto table = [&grid](IndexRange range) {
+    PostTable result{.states = {0}, .entries = {}, .state_stride = {1}, .input_stride = {0}};
+    result.entries.assign(static_cast<std::size_t>(grid[0].count), range);
+    return result;
+  };
+  std::vector<bool> asked(static_cast<std::size_t>(dimension.count));
+  asked[2] = true;
+  return check_abstraction(grid, inputs, 0, table(own), table(claimed), asked, "abstraction");
 }
 
-TEST(CheckAbstraction, AnExactRangeHasToBeEqualAnEnclosureInside) {
+TEST(CheckAbstraction, AnExactRangeHasToBeEqual) {
   const GridDimension x = line(9, Outside::unsafe, Outside::unsafe);
-  EXPECT_EQ(compare(x, {2, 4}, {2, 4}, true).wrong, 0);
-  EXPECT_EQ(compare(x, {2, 4}, {1, 4}, true).wrong, 1);
-  EXPECT_EQ(compare(x, {2, 4}, {1, 4}, false).wrong, 0);
-  EXPECT_EQ(compare(x, {2, 4}, {3, 4}, false).wrong, 1);
-  EXPECT_EQ(compare(x, {2, 4}, {2, 3}, false).wrong, 1);
-  EXPECT_EQ(compare(x, {2, 4}, {2, 3}, false).examples.front(), "entry 0: 2..3, expected at least 2..4");
+  EXPECT_EQ(compare(x, {2, 4}, {2, 4}).wrong, 0);
+  EXPECT_EQ(compare(x, {2, 4}, {1, 4}).wrong, 1);
+  EXPECT_EQ(compare(x, {2, 4}, {2, 3}).wrong, 1);
+  EXPECT_EQ(compare(x, {2, 4}, {2, 3}).checked, 1);
+  EXPECT_EQ(compare(x, {2, 4}, {2, 3}).examples.front(), "x = 2: x 2 to 3, expected 2 to 4");
 }
 
 TEST(CheckAbstraction, RangesOfARingAreComparedAfterWrappingRound) {
   const GridDimension ring = line(9, Outside::periodic, Outside::periodic);
-  EXPECT_EQ(compare(ring, {-1, 1}, {8, 10}, true).wrong, 0);
-  EXPECT_EQ(compare(ring, {8, 10}, {-2, 1}, false).wrong, 0);
-  EXPECT_EQ(compare(ring, {8, 10}, {0, 2}, false).wrong, 1);
-  EXPECT_EQ(compare(ring, {8, 10}, {3, 11}, false).wrong, 0);
+  EXPECT_EQ(compare(ring, {-1, 1}, {8, 10}).wrong, 0);
+  EXPECT_EQ(compare(ring, {8, 10}, {-2, 1}).wrong, 1);
+  EXPECT_EQ(compare(ring, {8, 10}, {0, 2}).wrong, 1);
+}
+
+TEST(Holds, AskInARingForTheArc) {
+  const GridDimension ring = line(9, Outside::periodic, Outside::periodic);
+  EXPECT_TRUE(holds(ring, {-2, 1}, {8, 10}));
+  EXPECT_TRUE(holds(ring, {3, 11}, {8, 10}));
+  EXPECT_FALSE(holds(ring, {0, 2}, {8, 10}));
+  EXPECT_TRUE(holds(line(9, Outside::unsafe, Outside::unsafe), {1, 4}, {2, 4}));
+  EXPECT_FALSE(holds(line(9, Outside::unsafe, Outside::unsafe), {3, 4}, {2, 4}));
 }
 
 TEST(AfterLeaving, EverySideDoesWhatItsRuleSays) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "spec/read_spec.hpp"
-#include "verify/switching_integral.hpp"
 
 namespace coordreq {
 namespace {
@@ -64,9 +63,9 @@ TEST(TimedMap, AtTheEndOfThePeriodItIsTheSampledMap) {
     const SampledMap map = solved(spec, 0);
     const TimedMap p = timed(spec, 0);
     for (std::size_t j = 0; j < map.coefficient.size(); ++j)
-      EXPECT_EQ(value_at(p.coefficient[j], tau), map.coefficient[j]) << v << j;
-    EXPECT_EQ(value_at(p.lower, tau), map.lower) << v;
-    EXPECT_EQ(value_at(p.upper, tau), map.upper) << v;
+      EXPECT_EQ(p.coefficient[j].at(tau), map.coefficient[j]) << v << j;
+    EXPECT_EQ(p.lower.at(tau), map.lower) << v;
+    EXPECT_EQ(p.upper.at(tau), map.upper) << v;
     EXPECT_TRUE(p.exact) << v;
     EXPECT_EQ(p.attained, (std::vector{p.lower, p.upper})) << v;
   }
@@ -79,24 +78,15 @@ TEST(TimedMap, AKernelThatChangesItsSignIsBounded) {
   const TimedMap p = timed(spec, 0);
   EXPECT_FALSE(p.exact);
   const Rational tau = Rational(1) / 2;
-  EXPECT_GE(value_at(p.upper, tau), solved(spec, 0).upper);
-  EXPECT_EQ(value_at(p.upper, tau), 1);  // integral of 1 + 4 s
+  EXPECT_GE(p.upper.at(tau), solved(spec, 0).upper);
+  EXPECT_EQ(p.upper.at(tau), 1);  // integral of 1 + 4 s
   ASSERT_EQ(p.attained.size(), 2U);
-  EXPECT_EQ(value_at(p.attained[1], Rational(1) / 4), Rational(1) / 8);
+  EXPECT_EQ(p.attained[1].at(Rational(1) / 4), Rational(1) / 8);
 }
 
-TEST(SwitchingIntegral, SplitsWhereTheSignChanges) {
-  const SwitchingIntegral half = integrate_switching({-1, 2}, 1);  // 2s - 1
-  EXPECT_EQ(half.plain, 0);
-  EXPECT_EQ(half.absolute, Rational(1) / 2);
-  EXPECT_TRUE(half.exact);
-}
-
-TEST(SwitchingIntegral, ErrsUpwardsAtARootItCannotHit) {
-  const SwitchingIntegral third = integrate_switching({-1, 3}, 1);  // the root 1/3 is not dyadic
-  EXPECT_FALSE(third.exact);
-  EXPECT_GE(third.absolute, Rational(5) / 6);
-  EXPECT_LT(third.absolute, Rational(5) / 6 + Rational(1) / 1000000);
+TEST(SampledMap, ConstantsThatAreNoRationalNumbersAreNotExact) {
+  const ProblemSpec spec = chain(R"("p": "v", "v": "sin(1) + a", "a": "0")");
+  EXPECT_FALSE(sampled_map(spec, influences_on(spec, 0), 0, std::vector<Rational>(spec.slot_count())));
 }
 
 }  // namespace

@@ -1,11 +1,47 @@
 #include "answers/coalition/fields.hpp"
 
+#include "answers/coalition/answer.hpp"
 #include "answers/coalition/coalition_cost.hpp"
+#include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
+#include "answers/invariance/answer.hpp"
 #include "answers/layers/delay_layers.hpp"
+#include "engine/convert_stretch.hpp"
 #include "spec/partition_names.hpp"
 
 namespace coordreq {
+namespace {
+
+/// [level of CoalitionMap::chosen] what stands in the file for it, kNoPartitionSuffices left out.
+template <class Integer>
+std::vector<Integer> codes(const CoalitionMap& map) {
+  std::vector<Integer> result = {static_cast<Integer>(DelayLayers::kOutsideInvariant)};
+  for (const CoalitionChoice& choice : map.choices) result.push_back(static_cast<Integer>(choice.partition));
+  return result;
+}
+
+template <class Integer>
+FillArray fill_coalition(const CoalitionMap& map, const Answers& answers) {
+  return
+      [&map, &answers, code_of = codes<Integer>(map)](std::uint64_t begin, std::uint64_t count, void* out) {
+        auto* const values = static_cast<Integer*>(out);
+        map.chosen.visit([&]<class Level>(const LevelRows<Level>& levels) {
+          convert_stretch(levels, *answers.ground.order, begin, count, values, [&](Level level) {
+            return level == LevelRows<Level>::kTop ? static_cast<Integer>(kNoPartitionSuffices)
+                                                   : code_of[static_cast<std::size_t>(level)];
+          });
+        });
+        mark_unsafe(answers.get<Invariance>().collision_time, *answers.ground.order, begin, count, values);
+      };
+}
+
+ResultArray coalition_array(const CoalitionMap& map, const Answers& answers) {
+  const ElementType type = level_type(static_cast<std::int64_t>(map.choices.size()) - 1);
+  return {type, type == ElementType::int16 ? fill_coalition<std::int16_t>(map, answers)
+                                           : fill_coalition<std::int32_t>(map, answers)};
+}
+
+}  // namespace
 
 std::vector<std::string> pair_names(const ProblemSpec& spec) {
   std::vector<std::string> names;
@@ -45,6 +81,21 @@ Fields coalition_fields(const ProblemSpec& spec) {
                      counted_cells(count) +
                      std::vector<FieldAttribute>{flags({{0, "not_critical"}, {1, "critical"}})}});
   return fields;
+}
+
+void fill_coalition_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
+  const auto* const map = answers.find<CoalitionMap>();
+  if (map == nullptr) return;
+  std::vector<std::uint64_t> cells(map->choices.size());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    cells[map->choices[i].partition] = static_cast<std::uint64_t>(map->cells[i]);
+  values.entries[paths::kCoalition] = {.array = coalition_array(*map, answers),
+                                       .attributes = {{"cells", std::move(cells)}}};
+  if (map->pairs.empty()) return;
+  values.entries[paths::kCriticalPair] = {
+      .array = sets_array(map->critical, *answers.ground.order),
+      .attributes = {
+          {"cells", std::vector<std::uint64_t>(map->critical_cells.begin(), map->critical_cells.end())}}};
 }
 
 }  // namespace coordreq

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "answers/answers.hpp"
 #include "answers/field.hpp"
+#include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -18,5 +20,8 @@ inline constexpr std::int32_t kNoPartitionSuffices = -3;
 [[nodiscard]] Fields coalition_fields(const ProblemSpec& spec);
 /// The pairs of agents as they are numbered and called in the file: "a+b".
 [[nodiscard]] std::vector<std::string> pair_names(const ProblemSpec& spec);
+
+/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+void fill_coalition_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

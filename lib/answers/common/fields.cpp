@@ -71,4 +71,19 @@ Fields common_fields(const ProblemSpec& spec) {
   return fields;
 }
 
+void fill_common_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
+  const ProblemSpec& spec = answers.ground.spec;
+  for (std::size_t i = 0; spec.output.abstraction && i < spec.states.size(); ++i) {
+    const TransitionTable table = written_out(*answers.ground.abstraction, i);
+    std::vector<std::int32_t> first, last;
+    for (const IndexRange& range : table.entries) {
+      first.push_back(range.first);
+      last.push_back(range.last);
+    }
+    const std::string group = "/abstraction/" + spec.states[i].name;
+    values.entries[group + "/first"].array = owned_array(ElementType::int32, std::move(first));
+    values.entries[group + "/last"].array = owned_array(ElementType::int32, std::move(last));
+  }
+}
+
 }  // namespace coordreq

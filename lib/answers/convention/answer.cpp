@@ -29,16 +29,10 @@ void serialise(Archive& archive, std::int64_t cells, ConventionFreedom& conventi
   }
 }
 
-std::vector<InputClass> inputs_of_agents(const ProblemSpec& spec) {
-  std::vector<InputClass> classes;
-  for (const AgentSpec& agent : spec.agents) classes.push_back(agent.inputs);
-  return classes;
-}
-
 void find_a_convention(Answers& answers, const StageWork& work) {
   const Ground& ground = answers.ground;
-  ConventionAnswer& result = answers.add(
-      ConventionAnswer{ActionGrouping(*ground.engine, inputs_of_agents(ground.spec), work.team), {}});
+  ConventionAnswer& result = answers.add(ConventionAnswer{
+      ActionGrouping(*ground.engine, agent_classes(ground.spec, ground.abstraction->inputs), work.team), {}});
   const auto exchange = [&answers](Archive& archive) {
     serialise(archive, answers.ground.engine->grid().cells(), answers.get<ConventionAnswer>().freedom);
   };

@@ -4,29 +4,15 @@
 
 namespace coordreq {
 
-AgentActions agent_actions(const InputSpace& space, const std::vector<std::int32_t>& inputs) {
-  AgentActions result;
-  for (const std::int32_t i : inputs) result.count *= space[static_cast<std::size_t>(i)].count();
-  for (std::int64_t u = 0; u < space.count(); ++u) {
-    std::int64_t action = 0;
-    for (const std::int32_t i : inputs) {
-      const auto input = static_cast<std::size_t>(i);
-      action = action * space[input].count() + space.index(u, input);
-    }
-    result.of_input.push_back(static_cast<std::int32_t>(action));
-  }
-  return result;
-}
-
 std::vector<std::vector<bool>> convention_at(const std::vector<bool>& admissible,
-                                             const std::vector<AgentActions>& agents) {
+                                             const std::vector<InputClass>& agents) {
   std::vector<std::vector<bool>> sets;
   sets.reserve(agents.size());
-  for (const AgentActions& agent : agents) sets.emplace_back(static_cast<std::size_t>(agent.count), false);
+  for (const InputClass& agent : agents) sets.emplace_back(static_cast<std::size_t>(agent.actions()), false);
   const auto seed = std::find(admissible.begin(), admissible.end(), true) - admissible.begin();
   if (seed == static_cast<std::ptrdiff_t>(admissible.size())) return sets;
   const auto part = [&](std::size_t i, std::size_t u) {
-    return static_cast<std::size_t>(agents[i].of_input[u]);
+    return static_cast<std::size_t>(agents[i].action(static_cast<std::int64_t>(u)));
   };
   for (std::size_t i = 0; i < agents.size(); ++i) sets[i][part(i, static_cast<std::size_t>(seed))] = true;
   for (std::size_t i = 0; i < agents.size(); ++i) {

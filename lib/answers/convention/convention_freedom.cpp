@@ -156,7 +156,7 @@ void write_row(ConventionRows<Level>& finder, const Controller& controller, cons
 
 void fill_convention_bits(const Controller& controller, const RowHull& hull, const ActionGrouping& agents,
                           std::size_t agent, std::uint64_t begin, std::uint64_t count, void* out) {
-  const std::int64_t bytes = PackedPairs::bytes_for(agents.actions(agent));
+  const std::int64_t bytes = agents[agent].bytes();
   const auto row_bytes = static_cast<std::uint64_t>(controller.engine->row_length() * bytes);
   auto* target = static_cast<std::uint8_t*>(out);
   controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {

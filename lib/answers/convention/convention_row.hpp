@@ -32,20 +32,7 @@ class ConventionRows {
         words_(controller.engine->row_words()),
         posts_(*controller.engine, levels),
         free_(controller, hull, posts_) {
-    const InputSpace& space = controller.engine->abstraction().inputs;
-    for (std::size_t i = 0; i < agents.size(); ++i) {
-      std::vector<std::int64_t> parts = {0};
-      for (const std::int32_t input : agents.inputs(i)) {
-        const auto own = static_cast<std::size_t>(input);
-        std::vector<std::int64_t> longer;
-        for (const std::int64_t part : parts) {
-          for (std::int64_t k = 0; k < space[own].count(); ++k)
-            longer.push_back(part + k * space.stride(own));
-        }
-        parts = std::move(longer);
-      }
-      parts_.push_back(std::move(parts));
-    }
+    for (std::size_t i = 0; i < agents.size(); ++i) parts_.push_back(agents[i].parts());
   }
 
   /// Begins with the rows of another unit.

@@ -1,6 +1,9 @@
 #include "answers/convention/fields.hpp"
 
+#include "answers/convention/answer.hpp"
+#include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
+#include "answers/invariance/answer.hpp"
 
 namespace coordreq {
 
@@ -26,6 +29,20 @@ Fields convention_fields(const ProblemSpec& spec) {
              "actions that the agent may take by convention, whatever the others do of theirs, one bit each");
   }
   return fields;
+}
+
+void fill_convention_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
+  const auto* const convention = answers.find<ConventionAnswer>();
+  if (convention == nullptr) return;
+  const ProblemSpec& spec = answers.ground.spec;
+  values.entries[paths::kConventionFreedom].array = freedom_array(convention->freedom, *answers.ground.order);
+  for (std::size_t i = 0; spec.output.actions && i < spec.agents.size(); ++i) {
+    values.entries[paths::convention(spec.agents[i])].array = {
+        ElementType::uint8, [&answers, convention, i](std::uint64_t begin, std::uint64_t count, void* out) {
+          fill_convention_bits(answers.get<Controller>(), *answers.ground.hull, convention->agents, i, begin,
+                               count, out);
+        }};
+  }
 }
 
 }  // namespace coordreq

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "answers/answers.hpp"
 #include "answers/field.hpp"
+#include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -14,5 +16,8 @@ inline constexpr char kConventionFreedom[] = "/convention_freedom";
 
 /// How free the convention leaves each agent; on request what it may do.
 [[nodiscard]] Fields convention_fields(const ProblemSpec& spec);
+
+/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+void fill_convention_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

@@ -5,15 +5,11 @@
 namespace coordreq {
 namespace {
 
-std::int64_t bytes_for(std::int64_t actions) {
-  return (actions + 7) / 8;
-}
-
 /// The sets of the cells of one row.
 template <class Level>
 void write_row(const Controller& controller, const ActionGrouping& grouping, std::size_t c,
                const RowPlace& place, PostReader<Level>& posts, std::uint8_t* cells) {
-  const std::int64_t bytes = bytes_for(grouping.actions(c));
+  const std::int64_t bytes = grouping[c].bytes();
   RowGroups groups;
   grouping.group(place, groups);
   std::vector<Word> members(controller.engine->row_words());
@@ -40,7 +36,7 @@ void write_row(const Controller& controller, const ActionGrouping& grouping, std
 std::vector<std::uint8_t> action_bits(const Controller& controller, const ActionGrouping& grouping,
                                       std::size_t c, std::int64_t first_row, std::int64_t last_row) {
   const std::int64_t length = controller.engine->row_length();
-  const std::int64_t bytes = bytes_for(grouping.actions(c));
+  const std::int64_t bytes = grouping[c].bytes();
   std::vector<std::uint8_t> result(static_cast<std::size_t>((last_row - first_row) * length * bytes), 0);
   controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
     PostReader<Level> posts(*controller.engine, levels);
@@ -57,8 +53,7 @@ std::vector<std::uint8_t> action_bits(const Controller& controller, const Action
 
 void fill_action_bits(const Controller& controller, const ActionGrouping& grouping, std::size_t c,
                       std::uint64_t begin, std::uint64_t count, void* out) {
-  const auto row_bytes =
-      static_cast<std::uint64_t>(controller.engine->row_length() * bytes_for(grouping.actions(c)));
+  const auto row_bytes = static_cast<std::uint64_t>(controller.engine->row_length() * grouping[c].bytes());
   auto* target = static_cast<std::uint8_t*>(out);
   // Row by row: a stretch may begin and end inside a row, and memory stays small.
   while (count > 0) {

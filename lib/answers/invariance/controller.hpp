@@ -9,6 +9,7 @@ namespace coordreq {
 
 /// The controller C of an invariance set, contract "Controller": `maximal` C(x) = {u allowed : empty !=
 /// f(x,u) subset of K}, `given` C(x) = {u allowed}; empty outside K. Never stored, computed row by row.
+/// The paper's C, whose projections make IND_C (its Eq. (3) and (4)).
 struct Controller {
   const RowEngine* engine = nullptr;
   const CellSet* invariant = nullptr;

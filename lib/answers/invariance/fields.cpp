@@ -1,11 +1,15 @@
 #include "answers/invariance/fields.hpp"
 
+#include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
+#include "answers/invariance/action_bits.hpp"
+#include "answers/invariance/answer.hpp"
 
 namespace coordreq {
 namespace {
 
-Field set_of_cells(const std::string& name, const ProblemSpec& spec, const std::string& long_name) {
+Field set_of_cells(const std::string& name, const std::string& compared, const ProblemSpec& spec,
+                   const std::string& long_name) {
   return {.path = "/" + name,
           .section = FieldSection::sets,
           .types = {ElementType::uint8},
@@ -13,14 +17,14 @@ Field set_of_cells(const std::string& name, const ProblemSpec& spec, const std::
           .most = 1,
           .attributes = described(long_name) +
                         std::vector<FieldAttribute>{flags({{0, "not_" + name}, {1, name}}), counted_cells()},
-          .column = {name}};
+          .shown = {.column = name, .compared = compared}};
 }
 
 }  // namespace
 
 Fields invariance_fields(const ProblemSpec& spec) {
-  Fields fields = {set_of_cells("safe", spec, "cell is in the safe set S"),
-                   set_of_cells("invariant", spec, "cell is in the invariance set K")};
+  Fields fields = {set_of_cells("safe", "safe set", spec, "cell is in the safe set S"),
+                   set_of_cells("invariant", "invariance set", spec, "cell is in the invariance set K")};
   fields.push_back(
       {.path = "/collision_time",
        .section = FieldSection::sets,
@@ -30,7 +34,7 @@ Fields invariance_fields(const ProblemSpec& spec) {
            described("steps within which the worst case leaves the safe set, whatever is coordinated") +
            std::vector<FieldAttribute>{flags({{0, "not_safe"}, {kLargestValue, "never"}}),
                                        {"iterations", std::int64_t{0}, true}},
-       .column = {"collision_time"}});
+       .shown = {.column = "collision_time"}});
   if (spec.output.controller) {
     add_bits(fields, paths::kController, FieldSection::controller, spec, all_inputs(spec),
              "joint inputs that the controller admits, one bit each");
@@ -41,6 +45,41 @@ Fields invariance_fields(const ProblemSpec& spec) {
     fields.back().attributes.push_back({"sha256", std::string(), true});
   }
   return fields;
+}
+
+void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValues& values) {
+  const Ground& ground = answers.ground;
+  const auto& invariance = answers.get<Invariance>();
+  const LevelMap& times = invariance.collision_time;
+  values.entries["/safe"] = {.array = safe_array(times, *ground.order),
+                             .attributes = {{"cells", static_cast<std::uint64_t>(ground.safe.count())}}};
+  values.entries["/invariant"] = {
+      .array = invariant_array(times, *ground.order),
+      .attributes = {{"cells", static_cast<std::uint64_t>(invariance.invariant.count())}}};
+  values.entries["/collision_time"] = {
+      .array = collision_array(times, *ground.order, level_type(invariance.iterations - 1)),
+      .attributes = {{"iterations", invariance.iterations}}};
+  if (ground.spec.output.controller) {
+    const auto everything = std::make_shared<const ActionGrouping>(
+        *ground.engine, std::vector<InputClass>{whole_class(ground.abstraction->inputs)}, team);
+    values.entries[paths::kController].array = action_array(answers, everything, 0);
+  }
+  if (!ground.listed) return;
+  values.entries[paths::kListed] = {
+      .array = {ElementType::uint8,
+                [&pairs = ground.listed->pairs](std::uint64_t begin, std::uint64_t count, void* out) {
+                  std::copy_n(pairs.bytes.begin() + static_cast<std::ptrdiff_t>(begin), count,
+                              static_cast<std::uint8_t*>(out));
+                }},
+      .attributes = {{"sha256", ground.listed->sha256}}};
+}
+
+ResultArray action_array(const Answers& answers, std::shared_ptr<const ActionGrouping> grouping,
+                         std::size_t c) {
+  return {ElementType::uint8, [controller = answers.get<Controller>(), grouping = std::move(grouping), c](
+                                  std::uint64_t begin, std::uint64_t count, void* out) {
+            fill_action_bits(controller, *grouping, c, begin, count, out);
+          }};
 }
 
 }  // namespace coordreq

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <memory>
+
+#include "answers/answers.hpp"
 #include "answers/field.hpp"
+#include "base/thread_team.hpp"
+#include "engine/action_groups.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -14,5 +19,12 @@ inline constexpr char kListed[] = "/controller:file";
 
 /// S, K and collision times; on request C(x), and what `controller.file` lists.
 [[nodiscard]] Fields invariance_fields(const ProblemSpec& spec);
+
+/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
+
+/// The admissible actions of class c, a bit each.
+[[nodiscard]] ResultArray action_array(const Answers& answers, std::shared_ptr<const ActionGrouping> grouping,
+                                       std::size_t c);
 
 }  // namespace coordreq

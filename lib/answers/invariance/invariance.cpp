@@ -9,19 +9,12 @@
 namespace coordreq {
 namespace {
 
-/// Every input by itself: the finest classes give the fewest joint groups to try.
-std::vector<InputClass> single_inputs(const InputSpace& inputs) {
-  std::vector<InputClass> classes;
-  for (std::size_t i = 0; i < inputs.size(); ++i) classes.push_back({static_cast<std::int32_t>(i)});
-  return classes;
-}
-
 template <class Level>
 struct Workspace {
   RowGroups groups;
   TupleWalk::Candidates candidates;
   TupleWalk tuple;
-  RowHull::Box box;
+  RowBox box;
   std::vector<Level> lanes;
   std::vector<Word> some_allowed;
 };
@@ -73,7 +66,8 @@ class SomeAction final : public RowOperator<Level> {
   std::vector<Workspace<Level>> work_;
 };
 
-/// level(x) = 1 + min over allowed u of min over f(x,u), 1 where nothing is allowed: all must be safe.
+/// level(x) = 1 + min over allowed u of min over f(x,u), 1 where nothing is allowed: all must be safe. That is
+/// PRE of the paper, Eq. (9), for all sets of the sequence at once.
 template <class Level>
 class EveryAction final : public RowOperator<Level> {
  public:
@@ -121,7 +115,8 @@ std::unique_ptr<RowOperator<Level>> make_operator(const ActionGrouping& grouping
 
 Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
                            Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team) {
-  const ActionGrouping grouping(engine, single_inputs(engine.abstraction().inputs), team);
+  // The finest classes give the fewest joint groups to try.
+  const ActionGrouping grouping(engine, single_classes(engine.abstraction().inputs), team);
   const int workers = team.size();
   const LevelProblem problem{
       .start = &safe,

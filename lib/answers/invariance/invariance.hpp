@@ -21,7 +21,7 @@ struct Invariance {
 };
 
 /// K: for `maximal` the greatest K with K = {x in K n S : some allowed u has empty != f(x,u) subset of K};
-/// for `given` the limit of SPRE_S^i(X) of the paper, C(x) being all that `allow` permits.
+/// for `given` the limit of SPRE_S^i(X), C(x) being all that `allow` permits (paper, Eq. (10) and Lemma 1).
 [[nodiscard]] Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
                                          Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team);
 

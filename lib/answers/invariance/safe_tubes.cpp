@@ -22,8 +22,8 @@ Excess find_excess(const TransitionTable& tube, const GridDimension& dimension) 
   Excess excess;
   const auto add = [&](IndexRange raw) {
     if (resolve(raw, dimension.count, dimension.below, dimension.above).blocked) return;
-    if (dimension.below == Outside::saturate) excess.below = std::max(excess.below, -std::int64_t{raw.first});
-    if (dimension.above == Outside::saturate) {
+    if (traits(dimension.below).resets) excess.below = std::max(excess.below, -std::int64_t{raw.first});
+    if (traits(dimension.above).resets) {
       excess.above = std::max(excess.above, std::int64_t{raw.last} - (dimension.count - 1));
     }
   };

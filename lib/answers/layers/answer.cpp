@@ -74,22 +74,10 @@ Json partition_json(const ProblemSpec& spec, const PartitionSpec& partition, con
 
 PartitionActions::PartitionActions(const Answers& answers, std::size_t p, ThreadTeam& team)
     : grouping(*answers.ground.engine,
-               input_classes(answers.ground.spec, answers.ground.spec.coordination.partitions[p]), team),
+               input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
+                             answers.ground.spec.coordination.partitions[p]),
+               team),
       projections(answers.get<Controller>(), grouping, *answers.ground.hull, team) {}
-
-std::vector<InputClass> input_classes(const ProblemSpec& spec, const PartitionSpec& partition) {
-  std::vector<InputClass> classes;
-  for (const auto& agents : partition.classes) {
-    InputClass inputs;
-    for (const std::int32_t agent : agents) {
-      const auto& own = spec.agents[static_cast<std::size_t>(agent)].inputs;
-      inputs.insert(inputs.end(), own.begin(), own.end());
-    }
-    std::sort(inputs.begin(), inputs.end());
-    classes.push_back(std::move(inputs));
-  }
-  return classes;
-}
 
 std::vector<Stage> layers_stages(const ProblemSpec& spec) {
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;

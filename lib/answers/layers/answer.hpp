@@ -7,15 +7,13 @@
 #include "answers/layers/projections.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
+
 namespace coordreq {
 
 /// The layers of all partitions.
 struct PartitionLayers {
   std::vector<DelayLayers> partitions;  ///< in the order of the spec
 };
-
-/// The inputs of each class of a partition, ascending.
-[[nodiscard]] std::vector<InputClass> input_classes(const ProblemSpec& spec, const PartitionSpec& partition);
 
 /// What the classes of a partition can do, each by itself. Kept only as long as its layers are looked for:
 /// with many partitions it would take more memory than all else.

@@ -5,7 +5,6 @@
 
 #include "answers/layers/independent_actions.hpp"
 #include "engine/find_levels.hpp"
-#include "engine/set_levels.hpp"
 
 namespace coordreq {
 namespace {
@@ -47,7 +46,7 @@ DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, cons
 
 DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
                                std::optional<std::int64_t> max_delay, ThreadTeam& team) {
-  DelayLayers result{.layers_of = LevelMap(top_levels<std::uint8_t>(engine, invariant, team))};
+  DelayLayers result{.layers_of = LevelMap(engine.make_levels<std::uint8_t>(invariant, team))};
   follow_from_levels(max_delay, team, result);
   return result;
 }

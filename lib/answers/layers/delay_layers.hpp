@@ -31,7 +31,8 @@ struct DelayLayers {
   }
 };
 
-/// Z_0 = K, Z_{k+1} = SIPRE_S(Z_k) (paper, Proposition 1), with IND_C given by its projections.
+/// Z_0 = K, Z_{k+1} = SIPRE_S(Z_k) (paper, Eq. (6) and Proposition 1), with IND_C given by its projections;
+/// F is that of Eq. (12).
 /// An empty layer is a fixed point also where `max_delay` stops at it.
 ///
 /// Partitions that this one refines have delays that are nowhere shorter: their IND_C(x) is within this

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
+#include "answers/invariance/answer.hpp"
+#include "answers/invariance/fields.hpp"
+#include "answers/layers/answer.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "answers/layers/trigger_table.hpp"
 #include "spec/partition_names.hpp"
@@ -11,14 +15,14 @@ namespace coordreq {
 namespace {
 
 Field steps_field(const std::string& name, const ProblemSpec& spec, std::int64_t least,
-                  std::vector<FieldAttribute> attributes, FieldColumn column) {
+                  std::vector<FieldAttribute> attributes, FieldShown shown) {
   return {.path = "/" + name,
           .section = FieldSection::steps,
           .types = {ElementType::int16, ElementType::int32},
           .axes = cell_axes("/partition", spec),
           .least = least,
           .attributes = std::move(attributes),
-          .column = std::move(column)};
+          .shown = std::move(shown)};
 }
 
 void add_steps(Fields& fields, const ProblemSpec& spec) {
@@ -28,7 +32,7 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
       "delay", spec, DelayLayers::kOutsideSafe,
       described("largest number of steps without coordination that keeps the system safe") +
           std::vector<FieldAttribute>{flags({outside_safe, outside_invariant, {kLargestValue, "unbounded"}})},
-      {"delay"}));
+      {.column = "delay"}));
   fields.push_back(
       steps_field("trigger", spec, TriggerTable::kMustBeConnected,
                   described("steps until the agents must start to connect") +
@@ -38,7 +42,7 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
                                  outside_invariant,
                                  {kLargestValue, "never"}}),
                           {"connection_delay", spec.coordination.connection_delay}},
-                  {"countdown", TriggerTable::kMustBeConnected}));
+                  {.column = "countdown", .below_zero = TriggerTable::kMustBeConnected}));
 }
 
 void add_sizes(Fields& fields) {
@@ -72,6 +76,58 @@ void add_lists(Fields& fields, const PartitionSpec& partition, std::uint64_t cel
                     .axes = {group + "/position"},
                     .most = static_cast<std::int64_t>(cells) - 1,
                     .attributes = described("row-major linear index of the cell, by layer, ascending")});
+}
+
+/// One type for all partitions, which share an array.
+ElementType delay_type(const std::vector<DelayLayers>& partitions) {
+  std::int64_t greatest = 0;
+  for (const DelayLayers& layers : partitions) {
+    // In Z_F and not in Z_{F+1} is nobody: the greatest finite delay is F - 1, or what stopped the iteration.
+    const std::int64_t last = static_cast<std::int64_t>(layers.sizes.size()) - 1;
+    greatest = std::max(greatest, layers.truncated ? last : last - 1);
+  }
+  return level_type(greatest);
+}
+
+void fill_steps(const Answers& answers, const std::vector<DelayLayers>& partitions, FieldValues& values) {
+  const ProblemSpec& spec = answers.ground.spec;
+  const LevelMap& times = answers.get<Invariance>().collision_time;
+  const CellOrder& order = *answers.ground.order;
+  const ElementType type = delay_type(partitions);
+  std::vector<ResultArray> delays, triggers;
+  for (const DelayLayers& layers : partitions) {
+    delays.push_back(delay_array(layers, times, order, type));
+    triggers.push_back(trigger_array(layers, times, spec.coordination.connection_delay, order, type));
+  }
+  values.entries["/delay"].array = stacked_array(cell_count(spec), std::move(delays));
+  values.entries["/trigger"].array = stacked_array(cell_count(spec), std::move(triggers));
+  if (spec.coordination.connection_delay == 0) values.entries["/trigger"].equals = "/delay";
+}
+
+/// |Z_k| of all partitions, constant once fixed, and F.
+void fill_sizes(const std::vector<DelayLayers>& partitions, FieldValues& values) {
+  std::size_t count = 1;
+  for (const DelayLayers& layers : partitions) count = std::max(count, layers.sizes.size());
+  std::vector<std::uint64_t> sizes;
+  std::vector<std::int32_t> fixed_points;
+  for (const DelayLayers& layers : partitions) {
+    for (std::size_t k = 0; k < count; ++k)
+      sizes.push_back(static_cast<std::uint64_t>(layers.sizes[std::min(k, layers.sizes.size() - 1)]));
+    fixed_points.push_back(layers.fixed_point_index);
+  }
+  values.lengths["/layer"] = count;
+  values.entries["/layer_size"].array = owned_array(ElementType::uint64, std::move(sizes));
+  values.entries["/fixed_point_index"].array = owned_array(ElementType::int32, std::move(fixed_points));
+}
+
+void fill_lists(const Answers& answers, const PartitionSpec& partition, const DelayLayers& layers,
+                FieldValues& values) {
+  const std::string group = paths::layers(partition);
+  LayerLists lists = layer_lists(layers, *answers.ground.order);
+  values.lengths[group + "/bound"] = lists.start.size();
+  values.lengths[group + "/position"] = lists.start.back();
+  values.entries[group + "/start"].array = owned_array(ElementType::uint64, std::move(lists.start));
+  values.entries[group + "/cell"].array = std::move(lists.cell);
 }
 
 /// The most layers that there can be: each but the last loses a cell.
@@ -108,6 +164,22 @@ Fields layer_fields(const ProblemSpec& spec) {
     }
   }
   return fields;
+}
+
+void fill_layer_fields(const Answers& answers, ThreadTeam& team, FieldValues& values) {
+  const std::vector<DelayLayers>& partitions = answers.get<PartitionLayers>().partitions;
+  fill_steps(answers, partitions, values);
+  fill_sizes(partitions, values);
+  const ProblemSpec& spec = answers.ground.spec;
+  for (std::size_t p = 0; p < partitions.size(); ++p) {
+    const PartitionSpec& partition = spec.coordination.partitions[p];
+    if (spec.output.layers) fill_lists(answers, partition, partitions[p], values);
+    if (!spec.output.actions) continue;
+    const auto grouping = std::make_shared<const ActionGrouping>(
+        *answers.ground.engine, input_classes(spec, answers.ground.abstraction->inputs, partition), team);
+    for (std::size_t c = 0; c < partition.classes.size(); ++c)
+      values.entries[paths::actions(spec, partition, c)].array = action_array(answers, grouping, c);
+  }
 }
 
 }  // namespace coordreq

@@ -31,7 +31,7 @@ class FreeRows {
   const Controller& controller_;
   const RowHull& hull_;
   PostReader<Level>& posts_;
-  RowHull::Box box_;
+  RowBox box_;
   std::vector<Level> lanes_;
 };
 

@@ -43,7 +43,7 @@ void IndependentActions<Level>::lower_by_boxes(const RowPlace& place, PostReader
   const RowEngine& engine = grouping_.engine();
   IndependentPosts::unpack(projections_.packed(place.row), boxes_, grouping_.size(), engine.row_words(),
                            work.row);
-  work.box.resize(engine);
+  work.box.resize(engine.grid());
   work.labels = nullptr;
   for (std::size_t p = 0; p < work.row.parts.size(); ++p) {
     if (!work.row.pages.empty() && p % IndependentPosts::kLabelsOfPage == 0)

@@ -8,7 +8,8 @@
 namespace coordreq {
 
 /// level(x) = 1 + min over u in IND_C(x) of min over f(x,u): the greatest level where IND_C(x) is empty, as
-/// it is nowhere in K.
+/// it is nowhere in K. That is the coordination-free predecessor IPRE of the paper, Eq. (5), for all layers
+/// Z_0, Z_1, ... at once: x is in IPRE(Z_k) if its level is above k + 1.
 template <class Level>
 class IndependentActions final : public RowOperator<Level> {
  public:
@@ -25,7 +26,7 @@ class IndependentActions final : public RowOperator<Level> {
     std::vector<std::vector<std::uint32_t>> worst;
     TupleWalk::Candidates candidates;
     TupleWalk tuple;
-    RowHull::Box box;
+    RowBox box;
     IndependentPosts::Row row;
     const Level* labels = nullptr;  ///< of the page at hand; null: there is one part, all of K
     Level label = 0;

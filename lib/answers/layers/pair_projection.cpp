@@ -24,7 +24,7 @@ PairProjection::PairProjection(const Controller& controller, const RowBoxes& box
   applies_ = boxes.moved(leader_).back() < boxes.moved(follower_).front() && leading_ <= engine_.across() &&
              engine_.is_closed(leading_);
   if (!applies_) return;
-  unit_rows_ = engine_.row_stride(leading_ - 1);
+  unit_rows_ = engine_.grid().row_stride(leading_ - 1);
   words_ = engine_.row_words();
   shape_ = engine_.posts().shape;
   margins_ = shape_.margins();
@@ -77,7 +77,7 @@ const PairProjection::Plane& PairProjection::plane(std::uint32_t group) {
   std::vector<Word> row(words_);
   for (std::int64_t inner = 0; inner < unit_rows_; ++inner) {
     row.assign(words_, ~Word{0});
-    for_each_row(engine_, 0, boxes_.ranges(leader_, group), counter_, [&](std::int64_t first) {
+    for_each_row(engine_.grid(), 0, boxes_.ranges(leader_, group), counter_, [&](std::int64_t first) {
       const ConstRow invariant = controller_.invariant->row(first + inner);
       for (std::size_t w = 0; w < words_; ++w) row[w] &= invariant[w];
     });
@@ -172,7 +172,7 @@ void PairProjection::list_places(std::span<const IndexRange> box, std::vector<Pl
   }
   // Lanes are counted such that the first of them is 0; erode() adds what the fastest window begins with.
   const std::int64_t zero = margins_.before - shape_.dimensions.back().margins.before;
-  for_each_row(engine_, leading_, box.first(box.size() - windows), counter_, [&](std::int64_t row) {
+  for_each_row(engine_.grid(), leading_, box.first(box.size() - windows), counter_, [&](std::int64_t row) {
     for (const std::int64_t lane : lanes_) places.push_back({row, static_cast<std::size_t>(zero + lane)});
   });
 }

@@ -46,7 +46,7 @@ class Projections::Builder {
     if (is_full && !is_product) return false;
     is_simple_ = is_product && !boxes_.has_gone() && controller_.engine->allow() == nullptr &&
                  controller_.synthesis == Synthesis::maximal;
-    box_.resize(*controller_.engine);
+    box_.resize(controller_.engine->grid());
     if (!is_full && is_simple_ && pair_.applies()) {
       pair_.find_masks(place, groups_, masks_);
     } else {
@@ -151,7 +151,7 @@ class Projections::Builder {
   RowGroups groups_;
   TupleWalk::Candidates candidates_;
   TupleWalk tuple_;
-  RowHull::Box box_;
+  RowBox box_;
   std::vector<Word> members_;
   std::vector<std::vector<Word>> masks_;
   std::vector<std::uint8_t> known_;

@@ -11,8 +11,8 @@
 
 namespace coordreq {
 
-/// The projections of C onto the classes of one partition: IND_C(x) is their product (paper, Eq. for mesh
-/// networks). Held row by row, in the form that makes the least work of them.
+/// The projections of C onto the classes of one partition: IND_C(x) is their product (paper, Eq. (4); with
+/// every agent by itself Eq. (3)). Held row by row, in the form that makes the least work of them.
 class Projections {
  public:
   Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,

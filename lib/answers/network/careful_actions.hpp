@@ -29,7 +29,7 @@ class CarefulActions final : public RowOperator<std::uint8_t> {
     RowGroups groups;
     TupleWalk::Candidates candidates;
     TupleWalk tuple;
-    RowHull::Box box;
+    RowBox box;
     std::vector<Word> wanted;                   ///< cells with old != 0
     std::vector<Word> good;                     ///< cells where a choice of groups is in C_q
     std::vector<Word> known;                    ///< `good` of the first choices, in their order

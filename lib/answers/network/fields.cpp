@@ -1,6 +1,8 @@
 #include "answers/network/fields.hpp"
 
+#include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
+#include "answers/network/answer.hpp"
 
 namespace coordreq {
 
@@ -18,6 +20,15 @@ Fields network_fields(const ProblemSpec& spec) {
            .attributes = described("from here the agents stay safe if the network is in this mode") +
                          counted_cells(count) +
                          std::vector<FieldAttribute>{flags({{0, "not_safe"}, {1, "safe"}})}}};
+}
+
+void fill_network_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
+  const auto* const network = answers.find<NetworkSafety>();
+  if (network == nullptr) return;
+  std::vector<std::uint64_t> cells;
+  for (const CellSet& safe : network->safe) cells.push_back(static_cast<std::uint64_t>(safe.count()));
+  values.entries[paths::kNetworkSafe] = {.array = sets_array(network->safe, *answers.ground.order),
+                                         .attributes = {{"cells", std::move(cells)}}};
 }
 
 }  // namespace coordreq

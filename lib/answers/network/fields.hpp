@@ -1,6 +1,8 @@
 #pragma once
 
+#include "answers/answers.hpp"
 #include "answers/field.hpp"
+#include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -12,5 +14,8 @@ inline constexpr char kNetworkSafe[] = "/network_safe";
 
 /// Whether each mode of the network is safe from a cell.
 [[nodiscard]] Fields network_fields(const ProblemSpec& spec);
+
+/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+void fill_network_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

@@ -60,7 +60,7 @@ std::vector<std::int64_t> ModeTargets::take_pending(std::size_t mode, std::int64
   std::vector<std::uint8_t> is_pending(is_alive.size(), 0);
   const bool all = state_[mode] == State::untouched;
   team.for_each(engine_.rows(), kGrain, [&](ThreadTeam::Range range, int) {
-    RowHull::Box box;
+    RowBox box;
     std::vector<std::int64_t> counter;
     RowPlace place(engine_.grid(), range.begin);
     for (; place.row < range.end; place.advance(engine_.grid())) {
@@ -68,7 +68,7 @@ std::vector<std::int64_t> ModeTargets::take_pending(std::size_t mode, std::int64
       bool meets = all;
       if (!all) {
         hull_.box(place, box);
-        for_each_row(engine_, 0, box.ranges, counter,
+        for_each_row(engine_.grid(), 0, box.ranges, counter,
                      [&](std::int64_t row) { meets = meets || is_changed(mode, row); });
       }
       is_alive[static_cast<std::size_t>(place.row)] = 1;

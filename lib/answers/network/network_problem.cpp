@@ -29,7 +29,7 @@ NetworkProblem network_problem(const ProblemSpec& spec, const Controller& contro
   std::map<std::string, std::size_t> number;
   for (const PartitionSpec* partition : network_partitions(network)) {
     number.emplace(partition->canonical, number.size());
-    problem.partitions.push_back(input_classes(spec, *partition));
+    problem.partitions.push_back(input_classes(spec, controller.engine->abstraction().inputs, *partition));
   }
   for (std::size_t mode = 0; mode < network.modes.size(); ++mode)
     problem.modes[mode].partition = number.at(network.modes[mode].partition.canonical);

@@ -38,13 +38,8 @@ class IndependentChoices {
   }
 
   [[nodiscard]] bool contains(std::int64_t u) const {
-    const InputSpace& space = controller_.engine->abstraction().inputs;
     for (std::size_t c = 0; c < bits_.size(); ++c) {
-      std::int64_t action = 0;
-      for (const std::int32_t j : grouping_.inputs(c)) {
-        const auto i = static_cast<std::size_t>(j);
-        action = action * space[i].count() + space.index(u, i);
-      }
+      const std::int64_t action = grouping_[c].action(u);
       if ((bits_[c][static_cast<std::size_t>(action / 8)] >> (action % 8) & 1U) == 0) return false;
     }
     return true;

@@ -1,6 +1,7 @@
 #include "answers/requirements/fields.hpp"
 
 #include "answers/field_parts.hpp"
+#include "answers/requirements/answer.hpp"
 
 namespace coordreq {
 namespace {
@@ -190,8 +191,10 @@ Fields requirement_fields(const ProblemSpec& spec) {
   return fields;
 }
 
-void add_requirement_values(const std::vector<ResultRequirement>& requirements, FieldValues& values) {
-  if (requirements.empty()) return;
+void fill_requirement_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
+  const auto* const verdicts = answers.find<RequirementVerdicts>();
+  if (verdicts == nullptr) return;
+  const std::vector<ResultRequirement>& requirements = verdicts->requirements;
   using R = const ResultRequirement&;
   add_of_each<std::uint8_t>(values, requirements, "holds", ElementType::uint8,
                             [](R r) { return r.holds ? 1 : 0; });

@@ -3,9 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "answers/answers.hpp"
 #include "answers/field.hpp"
 #include "answers/field_source.hpp"
 #include "answers/requirements/result_requirement.hpp"
+#include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -14,8 +16,8 @@ namespace coordreq {
 /// the requirements.
 [[nodiscard]] Fields requirement_fields(const ProblemSpec& spec);
 
-/// Adds what was found for them. REQUIRES: one for each requirement of the spec.
-void add_requirement_values(const std::vector<ResultRequirement>& requirements, FieldValues& values);
+/// What was found for them.
+void fill_requirement_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 [[nodiscard]] std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec,
                                                                      const FieldSource& source);

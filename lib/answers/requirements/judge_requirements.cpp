@@ -66,7 +66,7 @@ class Judge {
     std::optional<ActionGrouping> grouping;
     if (partition) {
       const PartitionSpec& own = ground_.spec.coordination.partitions[*partition];
-      grouping.emplace(*ground_.engine, input_classes(ground_.spec, own), team_);
+      grouping.emplace(*ground_.engine, input_classes(ground_.spec, ground_.abstraction->inputs, own), team_);
       sets.grouping = &*grouping;
       sets.layers_of = &layers_of(partition)->layers_of;
     }

@@ -5,8 +5,8 @@ namespace {
 
 /// Notes the unsafe sides that a range passes.
 void add_sides(std::size_t i, IndexRange raw, const GridDimension& dimension, PairPosts::Post& post) {
-  const bool below = raw.first < 0 && dimension.below == Outside::unsafe;
-  const bool above = raw.last >= dimension.count && dimension.above == Outside::unsafe;
+  const bool below = raw.first < 0 && traits(dimension.below).blocks;
+  const bool above = raw.last >= dimension.count && traits(dimension.above).blocks;
   if (below) post.sides.push_back({.dimension = i, .above = false});
   if (above) post.sides.push_back({.dimension = i, .above = true});
   if (below || above) post.blocked = PairPosts::Blocked::left_domain;

@@ -11,16 +11,12 @@ namespace {
 
 using outward::kInfinity;
 
-bool is_open(Outside side) {
-  return side == Outside::unsafe || side == Outside::safe;
-}
-
 /// All values that the state of a dimension can have while another one is outside.
 Interval everywhere(const GridDimension& dimension) {
   if (dimension.periodic()) return {lower_double(dimension.lower), upper_double(dimension.upper)};
   Interval range{-kInfinity, kInfinity};
-  if (!is_open(dimension.below)) range.lower = lower_double(pieces(dimension, 0).front().lower);
-  if (!is_open(dimension.above)) {
+  if (!traits(dimension.below).is_open()) range.lower = lower_double(pieces(dimension, 0).front().lower);
+  if (!traits(dimension.above).is_open()) {
     range.upper = upper_double(pieces(dimension, dimension.count - 1).back().upper);
   }
   return range;
@@ -90,7 +86,7 @@ std::optional<DomainSide> side_reached(const Program& where, const UniformGrid& 
   UnboundedSearch search(where);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     for (const bool above : {false, true}) {
-      if ((above ? grid[i].above : grid[i].below) != Outside::unsafe) continue;
+      if (!traits(above ? grid[i].above : grid[i].below).blocks) continue;
       std::vector<Interval> outside = box;
       outside[i] = beyond(grid[i], above);
       if (search.may_hold(std::move(outside))) return DomainSide{i, above};

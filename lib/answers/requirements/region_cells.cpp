@@ -3,9 +3,9 @@
 
 #include "answers/requirements/region.hpp"
 #include "engine/row_operations.hpp"
-#include "model/condition.hpp"
+#include "expression/condition.hpp"
+#include "model/odometer.hpp"
 #include "model/pieces.hpp"
-#include "reach/counter.hpp"
 
 namespace coordreq {
 namespace {
@@ -97,7 +97,7 @@ class RegionFinder {
       parts.push_back(&ranges_.exact[s][static_cast<std::size_t>(block[ranges_.dimension[s]].first)]);
       counts.push_back(static_cast<std::int64_t>(parts.back()->size()));
     }
-    Counter choice(counts);
+    Odometer choice(counts);
     do {
       for (std::size_t s = 0; s < parts.size(); ++s) {
         const std::uint32_t i = ranges_.states[s];
@@ -106,7 +106,7 @@ class RegionFinder {
       }
       const auto exact = [this]() -> std::span<const RationalInterval> { return exact_box_; };
       if (decider_.decide(box_, exact) != Truth::no) return true;
-    } while (choice.next());
+    } while (choice.advance());
     return false;
   }
 
@@ -116,7 +116,7 @@ class RegionFinder {
       set_bits(cells_.row(row), block[i].first, block[i].last + 1);
       return;
     }
-    const std::int64_t stride = grid_.stride(i) / grid_.row_length();
+    const std::int64_t stride = grid_.row_stride(i);
     for (std::int64_t k = block[i].first; k <= block[i].last; ++k) fill(block, i + 1, row + k * stride);
   }
 

@@ -35,6 +35,21 @@ const kMembers = {
   freedom: { label: "Agent" },
 };
 
+// What a kind of map is called; other kinds than these bring their name and the meanings of their values along.
+function kindTitle(kind) {
+  return kKinds[kind] ?? data.maps.find((map) => map.kind === kind).title;
+}
+
+function meaningsOf(map) {
+  if (map.kind in kMeanings) return kMeanings[map.kind];
+  return new Map(
+    map.meanings.map(([value, word]) => {
+      if (value === "infinite") return [Infinity, [kColors.free, word]];
+      return [value, [value === -1 ? kColors.notInvariant : value < 0 ? kColors.notSafe : scaleColor(0), word]];
+    }),
+  );
+}
+
 // @param member place of the pair or mode that is shown, of maps that have some
 // @returns color: of a value; legend: pairs of colours and texts; from `low` to `high` there is a scale with
 //   labels, none if `high` is 0
@@ -45,7 +60,7 @@ function coloringOf(map, member) {
 }
 
 function colorsOfSteps(map) {
-  const meanings = kMeanings[map.kind];
+  const meanings = meaningsOf(map);
   const isShare = map.kind === "freedom";
   const low = meanings.has(0) ? Math.min(1, map.largest) : 0;
   const high = isShare ? kWholeShare : map.largest;

@@ -57,7 +57,7 @@ class Explorer {
     for (const kind of kinds) {
       const radio = make("input", { type: "radio", name: "kind", value: kind, checked: kind === this.kind });
       radio.addEventListener("change", () => this.change({ kind }));
-      find("kinds").append(make("label", {}, [radio, ` ${kKinds[kind]}`]));
+      find("kinds").append(make("label", {}, [radio, ` ${kindTitle(kind)}`]));
     }
     data.maps.forEach((map, number) => {
       if (map.kind !== "delay") return;
@@ -228,7 +228,7 @@ class Explorer {
     const rows = this.readings(this.hovered === null ? this.index : this.indexAt(this.hovered));
     find("cell").tBodies[0].replaceChildren(...rows.map(([name, text]) => rowOf(name, text)));
     const names = [this.across, this.up].filter((i) => i !== null).map((i) => data.states[i].name);
-    find("picture").setAttribute("aria-label", `${kKinds[this.kind]} over ${names.join(" and ")}`);
+    find("picture").setAttribute("aria-label", `${kindTitle(this.kind)} over ${names.join(" and ")}`);
     return rows;
   }
 

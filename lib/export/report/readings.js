@@ -35,8 +35,11 @@ function furtherReading(map, cell) {
       return [["Safe in", modesText(map, value)]];
     case "freedom":
       return [[`Convention leaves ${map.agent}`, value < 0 ? "-" : `${freedomText(value)} of its actions`]];
-    default:
+    case "delay":
+    case "collision_time":
       return [];
+    default:
+      return [[map.title, meaningsOf(map).get(value)?.[1] ?? timeText(value)]];
   }
 }
 

@@ -4,8 +4,8 @@
 #include <rapidcheck.h>
 
 #include "answers/invariance/safe_set.hpp"
-#include "model/condition_helpers.hpp"
 #include "spec/read_spec.hpp"
+#include "support/condition_helpers.hpp"
 
 namespace coordreq {
 namespace {

@@ -32,7 +32,8 @@ class NetworkOfThreeCells : public testing::Test {
   [[nodiscard]] std::vector<Cells> safe(std::vector<NetworkMode> modes, bool resynthesise) {
     const NetworkProblem problem{.controller = &fast_.controller,
                                  .hull = &fast_.hull,
-                                 .partitions = {{{0, 1}}, {{0}, {1}}},
+                                 .partitions = {{whole_class(fast_.abstraction.inputs)},
+                                                single_classes(fast_.abstraction.inputs)},
                                  .modes = std::move(modes),
                                  .resynthesise = resynthesise};
     std::vector<Cells> result;

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "expression/condition.hpp"
 #include "expression/evaluate.hpp"
-#include "model/condition.hpp"
 #include "model/pieces.hpp"
 #include "spec/read_spec.hpp"
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "app/json_text.hpp"
+#include "spec/problem_spec.hpp"
+
+// An analysis in words, from what summary_json() says of it.
+namespace coordreq {
+
+/// What `analyze` prints for people.
+[[nodiscard]] std::string summary_text(const Json& summary, const ProblemSpec& spec);
+
+/// Figures of a partition in tables: F, |Z_F|, and the largest delay of the cells that have a finite one,
+/// which is empty if none has.
+[[nodiscard]] std::string fixed_point_text(const Json& partition);
+[[nodiscard]] std::string unbounded_text(const Json& partition);
+[[nodiscard]] std::string longest_delay_text(const Json& partition, const Json& summary);
+
+/// The wall time of all stages.
+[[nodiscard]] double seconds_of(const Json& summary);
+
+/// Who must talk to whom: the partitions that cells are given and the pairs that are critical. Empty if the
+/// spec has no horizon or K has no cell.
+[[nodiscard]] std::string coalition_text(const Json& summary);
+
+/// The modes of the network and where they are safe. REQUIRES: there is one.
+[[nodiscard]] std::string network_text(const Json& summary, const NetworkSpec& network);
+
+}  // namespace coordreq

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/checkpoint_options.hpp"
+#include "app/options.hpp"
+#include "app/progress_options.hpp"
+#include "app/sweep.hpp"
+#include "base/error.hpp"
+
+namespace coordreq {
+
+/// What `analyze` has been asked for.
+struct AnalyzeOptions : CommonOptions {
+  std::vector<std::string> specs;
+  std::vector<SpecSetting> settings;
+  std::vector<Sweep> sweeps;
+  std::optional<std::string> output, junit;
+  ProgressOptions progress;
+  std::optional<CheckpointOptions> checkpoint;
+
+  /// Whether there is more than one analysis to do, or a table of one is asked for.
+  [[nodiscard]] bool is_batch() const { return specs.size() > 1 || !sweeps.empty(); }
+};
+
+}  // namespace coordreq

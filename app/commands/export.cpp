@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/commands/all.hpp"
+#include "app/files_in_use.hpp"
+#include "app/late_file.hpp"
+#include "app/option_values.hpp"
+#include "app/standard_streams.hpp"
+#include "export/c_header.hpp"
+#include "export/cell_image.hpp"
+#include "export/csv_table.hpp"
+#include "export/parse_selection.hpp"
+#include "export/scots_controller.hpp"
+#include "export/vti_image.hpp"
+#include "results/results_reader.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+namespace {
+
+enum class Format : std::uint8_t { csv, scs, c_header, vtk };
+
+struct ExportOptions : CommonOptions {
+  std::string results;
+  std::optional<Format> format;
+  std::optional<std::string> output, partition;
+  std::vector<std::string> slices, projections;
+};
+
+/// Hands on text in blocks; the last one with flush().
+class Blocks {
+ public:
+  explicit Blocks(TextSink sink) : sink_(std::move(sink)) {}
+
+  void add(std::string_view text) {
+    text_ += text;
+    if (text_.size() >= kBlockBytes) flush();
+  }
+  void flush() {
+    sink_(text_);
+    text_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kBlockBytes = 1 << 16;
+  TextSink sink_;
+  std::string text_;
+};
+
+using Exporter = std::function<void(const TextSink&)>;
+
+std::vector<std::string> partition_names(const ResultsReader& results) {
+  std::vector<std::string> names;
+  for (const StoredPartition& partition : results.partitions()) names.push_back(partition.name);
+  return names;
+}
+
+std::optional<std::size_t> chosen_partition(const ExportOptions& own, const ResultsReader& results) {
+  if (!own.partition) return std::nullopt;
+  const std::vector<std::string> names = partition_names(results);
+  const auto found = std::find(names.begin(), names.end(), *own.partition);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  throw UsageError(
+      fmt::format("no partition {}, expected {}", quote_text(*own.partition), quote_list(names, "or")),
+      "--partition");
+}
+
+std::size_t one_partition(const ExportOptions& own, const ResultsReader& results) {
+  if (const std::optional<std::size_t> chosen = chosen_partition(own, results)) return *chosen;
+  if (results.partitions().size() == 1) return 0;
+  throw UsageError(
+      fmt::format("which partition? expected --partition {}", quote_list(partition_names(results), "or")));
+}
+
+void refuse_selection(const ExportOptions& own) {
+  if (own.slices.empty() && own.projections.empty()) return;
+  throw UsageError(fmt::format("only csv and vtk can be cut, found it with {}",
+                               own.format == Format::scs ? "scs" : "c-header"),
+                   own.slices.empty() ? "--project" : "--slice");
+}
+
+TableSelection selection_of(const ExportOptions& own, const ResultsReader& results) {
+  TableSelection selection = parse_selection(own.slices, own.projections, results.grid());
+  selection.partition = chosen_partition(own, results);
+  return selection;
+}
+
+Exporter exporter(const ExportOptions& own, const ResultsReader& results, ThreadTeam& team) {
+  if (own.format == Format::csv) {
+    const TableSelection selection = selection_of(own, results);
+    return [&results, selection](const TextSink& sink) { export_csv(results, selection, sink); };
+  }
+  if (own.format == Format::vtk) {
+    if (!own.output || !own.output->ends_with(".vti")) {
+      throw UsageError(fmt::format("expected a name that ends in .vti, found {}",
+                                   own.output ? quote_text(*own.output) : "none"),
+                       "-o");
+    }
+    const TableSelection selection = selection_of(own, results);
+    return [&results, selection](const TextSink& sink) { export_vti(cell_image(results, selection), sink); };
+  }
+  refuse_selection(own);
+  if (own.format == Format::scs) {
+    if (own.partition)
+      throw UsageError("scs holds the controller, which no partition changes", "--partition");
+    return [&](const TextSink& sink) { export_scots(results, team, sink); };
+  }
+  const std::size_t partition = one_partition(own, results);
+  return
+      [&results, &team, partition](const TextSink& sink) { export_c_header(results, partition, team, sink); };
+}
+
+ExitCode run(const ExportOptions& own) {
+  if (!own.format) throw UsageError("no --format, expected csv, scs, c-header or vtk");
+  if (own.output) check_output(own.results, *own.output, "the export");
+  const ResultsReader results(own.results, own.max_memory);
+  ThreadTeam team(own.threads);
+  const Exporter write = exporter(own, results, team);
+  std::optional<LateFile> file;
+  if (own.output) file.emplace(*own.output, "the export");
+  Blocks blocks([&file](std::string_view text) { file ? file->write(text) : write_output(text); });
+  write([&blocks](std::string_view text) { blocks.add(text); });
+  blocks.flush();
+  if (file) file->commit();
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Run declare_export(Options& options) {
+  const auto own = std::make_shared<ExportOptions>();
+  declare_results(options, own->results);
+  options.option(own->format, "--format", "csv|scs|c-header|vtk",
+                 "The format to write; scs is that of SCOTS, vtk that of ParaView",
+                 OneOf<Format>{{{"csv", Format::csv},
+                                {"scs", Format::scs},
+                                {"c-header", Format::c_header},
+                                {"vtk", Format::vtk}}});
+  options.option(own->output, "-o,--output", "FILE",
+                 "File to write (default: standard output; vtk: a name that ends in .vti)", file_name);
+  options.option(own->partition, "--partition", "NAME", "The partition to export (csv, vtk: default all)",
+                 as_typed);
+  options.repeatable(own->slices, "--slice", "STATE=VALUE",
+                     "csv, vtk: only the cells where a state has this value; may be repeated", as_typed);
+  options.repeatable(own->projections, "--project", "STATE:KIND",
+                     "csv, vtk: the smallest or largest value along a state, min or max; may be repeated",
+                     as_typed);
+  declare_common(options, *own);
+  return [own] { return run(*own); };
+}
+
+}  // namespace coordreq

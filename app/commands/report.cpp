@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "app/commands/all.hpp"
+#include "app/files_in_use.hpp"
+#include "app/json_text.hpp"
+#include "app/late_file.hpp"
+#include "app/option_values.hpp"
+#include "app/print_answer.hpp"
+#include "app/report_html.hpp"
+#include "app/report_text.hpp"
+#include "app/text.hpp"
+#include "export/report_data.hpp"
+#include "export/report_page.hpp"
+#include "results/results_reader.hpp"
+
+namespace coordreq {
+namespace {
+
+/// The partitions whose delay can be looked at: as many as a page has room for, those first with the most
+/// classes, where silence matters most.
+std::vector<std::size_t> shown_partitions(const ResultsReader& results) {
+  const auto& partitions = results.partitions();
+  std::vector<std::size_t> order(partitions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::size_t most = ReportLimits().partitions;
+  if (order.size() <= most) return order;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return partitions[a].classes.size() > partitions[b].classes.size();
+  });
+  order.resize(most);
+  std::sort(order.begin(), order.end());
+  return order;
+}
+
+std::string page_of(const ResultsReader& results, ReportData& data) {
+  data = report_data(results, shown_partitions(results));
+  ReportPage page;
+  page.title = printable(results.spec().name);
+  page.summary = "<h1>" + html_line(results.spec().name) + "</h1>\n" + report_task(results) +
+                 report_answer(results, data) + report_requirements(results) + report_coalitions(results) +
+                 report_network(results);
+  page.details = report_details(results) + report_footer(results);
+  page.data = std::move(data.json);
+  return report_page(page);
+}
+
+Json summary_json(const std::string& path, std::size_t bytes, const ReportData& data,
+                  const ResultsReader& results) {
+  Json json;
+  json["output"] = path;
+  json["bytes"] = bytes;
+  json["every_cell"] = data.is_whole;
+  json["partitions"] = Json::array();
+  for (const std::size_t p : data.partitions) json["partitions"].push_back(results.partitions()[p].name);
+  return json;
+}
+
+/// @param partitions of the results
+std::string summary_text(const Json& summary, std::size_t partitions) {
+  std::string text = fmt::format("report in {} ({})\n", printable(summary["output"].get<std::string>()),
+                                 byte_size(summary["bytes"].get<std::uint64_t>()));
+  if (!summary["every_cell"].get<bool>()) text += "not every cell has room in it: the sliders have some values only\n";
+  if (summary["partitions"].size() < partitions)
+    text += fmt::format("its pictures show {} of {} partitions\n", summary["partitions"].size(), partitions);
+  return text;
+}
+
+struct ReportOptions : CommonOptions {
+  std::string results;
+  std::optional<std::string> output;
+};
+
+ExitCode run(const ReportOptions& own) {
+  const ResultsReader results(own.results, own.max_memory);
+  const std::string path = own.output.value_or(results.spec().name + ".html");
+  check_output(own.results, path, "the report");
+  LateFile file(path, "the report");
+  ReportData data;
+  const std::string page = page_of(results, data);
+  file.write(page);
+  file.commit();
+  print_answer(own, summary_json(path, page.size(), data, results), [&results](const Json& summary) {
+    return summary_text(summary, results.partitions().size());
+  });
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Run declare_report(Options& options) {
+  const auto own = std::make_shared<ReportOptions>();
+  declare_results(options, own->results);
+  options.option(own->output, "-o,--output", "FILE", "HTML file (default: NAME.html in the current folder)",
+                 file_name);
+  declare_common(options, *own);
+  return [own] { return run(*own); };
+}
+
+}  // namespace coordreq

@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "app/commands/all.hpp"
+#include "app/files_in_use.hpp"
+#include "app/interrupt.hpp"
+#include "app/option_values.hpp"
+#include "app/progress_display.hpp"
+#include "app/simulate_report.hpp"
+#include "app/standard_streams.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Steps and runs: what an int32 in a file of runs can count.
+constexpr WholeNumber<std::int64_t> kCount{1, INT32_MAX - 1};
+
+struct SimulateOptions : CommonOptions {
+  std::string results;
+  bool starts_anywhere = false;
+  bool has_steps = false;
+  SimulationOptions simulation;
+  ProgressOptions progress;
+};
+
+/// A kind of disturbance, or the values of one that does not vary.
+void read_disturbance(SimulationOptions& simulation, const std::string& text, const std::string& option) {
+  static const OneOf<Disturbance> kKinds = {{{"random", Disturbance::random},
+                                             {"extremes", Disturbance::extremes},
+                                             {"constant", Disturbance::constant}},
+                                            "NAME=VALUE,..."};
+  if (text.find('=') == std::string::npos) {
+    simulation.disturbance = kKinds(text, option);
+  } else {
+    simulation.disturbance = Disturbance::constant;
+    simulation.constant_disturbance = named_values(text, option);
+  }
+}
+
+void check_complete(const SimulateOptions& own) {
+  if (own.simulation.start && own.starts_anywhere) throw UsageError("expected --from or --start, found both");
+  if (!own.simulation.start && !own.starts_anywhere)
+    throw UsageError("no start, expected --from NAME=VALUE,... or --start random");
+  if (!own.has_steps) throw UsageError("no number of steps, expected --steps N");
+}
+
+Simulation simulate_with_care(const ResultsReader& results, SimulationOptions& options,
+                              const SimulateOptions& own) {
+  ProgressDisplay shown(own.progress, own.quiet);
+  Progress progress;
+  // A signal waits while there may be a temporary file; without one it ends the program at once.
+  std::optional<InterruptDelay> delay;
+  options.entered = [&](const std::string& stage) {
+    if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
+    progress = {.stage = stage};
+    shown.update(progress);
+    if (stage == "running") {
+      delay.reset();
+    } else if (!delay) {
+      delay.emplace();
+    }
+  };
+  ThreadTeam team(own.threads);
+  team.set_watch([&](std::int64_t done, std::int64_t all) {
+    if (delay && is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
+    progress.done = done;
+    progress.all = all;
+    shown.update(progress);
+  });
+  Simulation simulation = simulate(results, options, team);
+  shown.finish();
+  if (is_interrupted()) {
+    throw Error(ExitCode::interrupted, "interrupted when the runs were complete",
+                options.output.value_or(""));
+  }
+  return simulation;
+}
+
+ExitCode run(const SimulateOptions& own) {
+  check_complete(own);
+  if (own.simulation.output) check_output(own.results, *own.simulation.output, "the runs");
+  SimulationOptions options = own.simulation;
+  options.max_memory = own.memory();
+  const ResultsReader results(own.results, own.max_memory);
+  const Simulation simulation = simulate_with_care(results, options, own);
+  if (own.json) {
+    write_output(simulation_json(simulation, results, options));
+  } else if (!own.quiet) {
+    write_output(simulation_text(simulation, results, options));
+  }
+  return simulation.violation() ? ExitCode::requirement_failed : ExitCode::success;
+}
+
+}  // namespace
+
+Run declare_simulate(Options& options) {
+  const auto own = std::make_shared<SimulateOptions>();
+  SimulationOptions& simulation = own->simulation;
+  declare_results(options, own->results);
+  options.option(simulation.start, "--from", "STATE", "State to start from, as x1=0.1,x2=0", as_typed);
+  options.option(own->starts_anywhere, "--start", "random", "Start anywhere in the invariance set",
+                 OneOf<bool>{{{"random", true}}});
+  options.option("--steps", "N", "Length of a run", [own = own.get()](const auto& text, const auto& option) {
+    own->simulation.steps = kCount(text, option);
+    own->has_steps = true;
+  });
+  options.option(simulation.runs, "--runs", "N", "Number of runs (default: 1)", kCount);
+  options.option(simulation.seed, "--seed", "N", "Seed of all that is random (default: 1)",
+                 WholeNumber<std::uint64_t>{0, UINT64_MAX});
+  options.option(
+      simulation.policy, "--policy", "random|adversarial|prefer", "How agents choose (default: random)",
+      OneOf<Policy>{
+          {{"random", Policy::random}, {"adversarial", Policy::adversarial}, {"prefer", Policy::prefer}}});
+  options.option(
+      "--disturbance", "random|extremes|constant|VALUES",
+      "How it varies (default: random); VALUES: constant, as w1=0.1,w2=0",
+      [&simulation](const auto& text, const auto& option) { read_disturbance(simulation, text, option); });
+  options.option(simulation.partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
+  options.option(simulation.output, "-o,--output", "FILE", "File for the runs (default: none)", file_name);
+  declare_progress(options, own->progress);
+  declare_common(options, *own);
+  return [own] { return run(*own); };
+}
+
+}  // namespace coordreq

@@ -1,0 +1,71 @@
+#include <chrono>
+#include <memory>
+
+#include "app/commands/all.hpp"
+#include "app/option_values.hpp"
+#include "app/progress_display.hpp"
+#include "app/standard_streams.hpp"
+#include "app/verify_report.hpp"
+#include "verify/verify_file.hpp"
+
+namespace coordreq {
+namespace {
+
+struct VerifyArguments : CommonOptions {
+  std::string results;
+  std::optional<std::int64_t> sample;
+  std::optional<double> budget;
+  bool strict = false;
+  ProgressOptions progress;
+};
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+Verification verify_with_progress(const ClaimedFile& file, const VerifyArguments& own, ThreadTeam& team) {
+  ProgressDisplay shown(own.progress, own.quiet);
+  VerifyOptions options{.sample = own.sample};
+  if (own.budget) options.budget_seconds = *own.budget;
+  options.progress = [&](const VerifyProgress& progress) {
+    shown.update({.stage = "checking " + progress.stage, .done = progress.done, .all = progress.all});
+  };
+  Verification result = verify_file(file, options, team);
+  shown.finish();
+  return result;
+}
+
+ExitCode run(const VerifyArguments& own) {
+  const Clock::time_point start = Clock::now();
+  const ClaimedFile file = read_claims(own.results, own.memory());
+  ThreadTeam team(own.threads);
+  const Verification result = verify_with_progress(file, own, team);
+  if (own.json) {
+    write_output(verification_json(result, own.results, seconds_since(start), team.size()));
+  } else if (!own.quiet) {
+    write_output(verification_text(result, own.results, seconds_since(start), team.size()));
+  }
+  if (result.verdict() == Verdict::not_confirmed) write_diagnostics(not_confirmed_line(result, own.results));
+  const bool passes = result.verdict() == Verdict::holds || (result.holds() && !own.strict);
+  return passes ? ExitCode::success : ExitCode::requirement_failed;
+}
+
+}  // namespace
+
+Run declare_verify(Options& options) {
+  const auto own = std::make_shared<VerifyArguments>();
+  declare_results(options, own->results);
+  options.option(own->sample, "--sample", "N", "Look at so many cells, evenly drawn (default: all)",
+                 WholeNumber<std::int64_t>{1, INT64_MAX});
+  options.option(own->budget, "--budget", "SECONDS",
+                 "Time for reachable sets that are hard to confirm; 0: only a first look (default: 60)",
+                 seconds);
+  options.flag(own->strict, "--strict", "Fail if something is not confirmed");
+  declare_progress(options, own->progress);
+  declare_common(options, *own);
+  return [own] { return run(*own); };
+}
+
+}  // namespace coordreq

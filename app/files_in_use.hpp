@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace coordreq {
+
+/// The files that one run of the program reads and writes, so that none takes the place of another.
+///
+/// Two paths are one file if they lead to the same device and inode, whatever links lie between; where
+/// nothing is there yet, if they lead to one name in one folder.
+class FilesInUse {
+ public:
+  /// @param what it is, for messages: "the spec". "-": standard input, where a file has been put there.
+  void reads(const std::string& path, const std::string& what);
+
+  /// @param option that names the file, for messages
+  /// @throws UsageError if the file is read or is written already
+  void writes(const std::string& path, const std::string& what, const std::string& option);
+
+ private:
+  std::map<std::string, std::string> uses_;  ///< what is said of the file, by its identity
+};
+
+/// For a command that reads one results file and writes one file. @throws UsageError if they are one
+void check_output(const std::string& results, const std::string& output, const std::string& what);
+
+}  // namespace coordreq

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cell/simulate.hpp"
+
+// What the values of options stand for. Every reader throws UsageError with what was found, what was
+// expected, and the option as the place.
+namespace coordreq {
+
+[[noreturn]] void fail_value(const std::string& expected, const std::string& found,
+                             const std::string& option);
+
+/// "a whole number from 1 to 1024".
+[[nodiscard]] std::string range_text(const std::string& lowest, const std::string& highest);
+
+/// A whole number from `lowest` to `highest`.
+template <class Number>
+struct WholeNumber {
+  Number lowest;
+  Number highest;
+
+  Number operator()(const std::string& text, const std::string& option) const {
+    Number value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc() && end == text.data() + text.size() && value >= lowest && value <= highest)
+      return value;
+    fail_value(range_text(std::to_string(lowest), std::to_string(highest)), text, option);
+  }
+};
+
+/// One of a few words.
+template <class Meaning>
+struct OneOf {
+  std::vector<std::pair<const char*, Meaning>> words;
+  const char* others = "";  ///< what else there may be, for the message
+
+  Meaning operator()(const std::string& text, const std::string& option) const {
+    for (const auto& [word, meaning] : words) {
+      if (text == word) return meaning;
+    }
+    fail_value(expected(), text, option);
+  }
+  /// "a, b or c"
+  [[nodiscard]] std::string expected() const {
+    std::string text;
+    const std::string_view last = others;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const bool is_last = last.empty() && i + 1 == words.size();
+      text += std::string(i == 0 ? "" : is_last ? " or " : ", ") + words[i].first;
+    }
+    return last.empty() ? text : text + " or " + others;
+  }
+};
+
+[[nodiscard]] std::string as_typed(const std::string& text, const std::string& option);
+
+/// Not "-", and not nothing.
+[[nodiscard]] std::string file_name(const std::string& text, const std::string& option);
+
+/// At least 0 and at most 10^9.
+[[nodiscard]] double seconds(const std::string& text, const std::string& option);
+
+/// The bytes that "500M", "2G", "1.5GiB" or "1048576" stand for; K, M, G, T are powers of 1024, with or
+/// without "B" or "iB", in either case. Rounded down; at least one.
+[[nodiscard]] std::uint64_t memory_size(const std::string& text, const std::string& option);
+
+/// "w1=0.1,w2=1/3": values by name, in the order given; each once.
+[[nodiscard]] NamedValues named_values(const std::string& text, const std::string& option);
+
+}  // namespace coordreq

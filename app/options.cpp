@@ -1,0 +1,73 @@
+#include "app/options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "app/memory_limit.hpp"
+#include "app/option_values.hpp"
+
+namespace coordreq {
+
+void Options::argument(std::string& target, const char* name, const char* description, const char* takes) {
+  Argument& own = arguments_.emplace_back(Argument{.name = name, .takes = takes, .one = &target});
+  command_.add_option(name, target, description)->required()->type_name(own.takes);
+}
+
+void Options::arguments(std::vector<std::string>& target, const char* name, const char* description) {
+  arguments_.emplace_back(Argument{.name = name, .all = &target});
+  command_.add_option(name, target, description)->required()->type_name("");
+}
+
+void Options::flag(const char* name, const char* description, std::function<void()> take) {
+  Entry& entry = entries_.emplace_back();
+  entry.option = command_.add_flag(name, entry.is_given, description)->disable_flag_override();
+  entry.take = [take = std::move(take)](const auto&, const auto&) { take(); };
+}
+
+void Options::flag(bool& target, const char* name, const char* description) {
+  flag(name, description, [&target] { target = true; });
+}
+
+void Options::option(const char* names, const char* takes, const char* description, Take take) {
+  add(names, takes, description, false, std::move(take));
+}
+
+void Options::add(const char* names, const char* takes, const char* description, bool repeatable, Take take) {
+  Entry& entry = entries_.emplace_back();
+  entry.take = std::move(take);
+  if (repeatable) {
+    entry.option = command_.add_option(names, entry.texts, description)->expected(1)->take_all();
+  } else {
+    entry.option = command_.add_option(names, entry.text, description);
+  }
+  entry.option->type_name(takes);
+}
+
+void Options::read_values() {
+  for (const Entry& entry : entries_) {
+    if (entry.option->count() == 0) continue;
+    const std::string name = "--" + entry.option->get_lnames().front();
+    if (entry.texts.empty()) entry.take(entry.text, name);
+    for (const std::string& text : entry.texts) entry.take(text, name);
+  }
+}
+
+std::optional<std::uint64_t> CommonOptions::memory() const {
+  return max_memory ? max_memory : available_memory();
+}
+
+void declare_common(Options& options, CommonOptions& common) {
+  constexpr int kMostThreads = 1024;
+  options.option(common.threads, "--threads", "N", "Threads to work with (default: all cores)",
+                 WholeNumber<int>{1, kMostThreads});
+  options.option(common.max_memory, "--max-memory", "SIZE",
+                 "Refuse what would need more, as 500M or 1.5G (default: the memory of the machine)",
+                 memory_size);
+  options.flag(common.json, "--json", "Print one JSON document instead of text");
+  options.flag(common.quiet, "--quiet", "No text summary and no progress");
+}
+
+void declare_results(Options& options, std::string& path) {
+  options.argument(path, "RESULTS", "A file that analyze wrote");
+}
+
+}  // namespace coordreq

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace coordreq {
+
+/// The arguments and options of one command, which declares each where it is used and says what its value
+/// stands for. The help, the manual page and the completions of shells are read off them.
+///
+/// Values are read once the whole line has been understood, in the order of declaration. A reader
+/// (option_values.hpp) is given the text and the long name of the option, and throws UsageError with that as
+/// the place. What is read into must outlive this object's use by the parser.
+class Options {
+ public:
+  using Take = std::function<void(const std::string& text, const std::string& option)>;
+
+  /// An argument without the name of an option.
+  struct Argument {
+    std::string name;                         ///< "SPEC"
+    std::string takes;                        ///< words, or the kind of file; empty: the kind is the name
+    std::vector<std::string>* all = nullptr;  ///< where they go: one or more of them,
+    std::string* one = nullptr;               ///< or one
+  };
+
+  explicit Options(CLI::App& command) : command_(command) {}
+  Options(const Options&) = delete;
+  Options& operator=(const Options&) = delete;
+
+  /// Required, like all arguments.
+  void argument(std::string& target, const char* name, const char* description, const char* takes = "");
+  /// One or more; the last argument then.
+  void arguments(std::vector<std::string>& target, const char* name, const char* description);
+
+  void flag(const char* name, const char* description, std::function<void()> take);
+  void flag(bool& target, const char* name, const char* description);
+
+  void option(const char* names, const char* takes, const char* description, Take take);
+  template <class Target, class Read>
+  void option(Target& target, const char* names, const char* takes, const char* description, Read read) {
+    option(names, takes, description,
+           [&target, read = std::move(read)](const auto& text, const auto& option) {
+             target = read(text, option);
+           });
+  }
+  /// May be given several times.
+  template <class Element, class Read>
+  void repeatable(std::vector<Element>& target, const char* names, const char* takes, const char* description,
+                  Read read) {
+    add(names, takes, description, true,
+        [&target, read = std::move(read)](const auto& text, const auto& option) {
+          target.push_back(read(text, option));
+        });
+  }
+
+  // For the parser's side.
+  [[nodiscard]] const std::list<Argument>& argument_list() const { return arguments_; }
+  /// REQUIRES: the line has been parsed, and every argument is there. @throws UsageError
+  void read_values();
+
+ private:
+  struct Entry {
+    CLI::Option* option = nullptr;
+    bool is_given = false;           ///< of a flag
+    std::string text;                ///< of one that is not repeatable
+    std::vector<std::string> texts;  ///< of one that is
+    Take take;
+  };
+  void add(const char* names, const char* takes, const char* description, bool repeatable, Take take);
+
+  CLI::App& command_;
+  std::list<Argument> arguments_;  // lists, for the parser keeps addresses
+  std::list<Entry> entries_;
+};
+
+/// What every command takes.
+struct CommonOptions {
+  int threads = 0;                          ///< 0: all cores
+  std::optional<std::uint64_t> max_memory;  ///< bytes
+  bool json = false;
+  bool quiet = false;
+
+  /// What the work may use: --max-memory, else what the machine has.
+  [[nodiscard]] std::optional<std::uint64_t> memory() const;
+};
+
+/// To be declared last.
+void declare_common(Options& options, CommonOptions& common);
+/// The argument RESULTS.
+void declare_results(Options& options, std::string& path);
+
+}  // namespace coordreq

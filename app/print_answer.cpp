@@ -1,0 +1,16 @@
+#include "app/print_answer.hpp"
+
+#include "app/standard_streams.hpp"
+
+namespace coordreq {
+
+void print_answer(const CommonOptions& asked, const Json& answer,
+                  const std::function<std::string(const Json&)>& in_words) {
+  if (asked.json) {
+    write_output(json_text(answer));
+  } else if (!asked.quiet) {
+    write_output(in_words(answer));
+  }
+}
+
+}  // namespace coordreq

@@ -1,0 +1,110 @@
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "app/analysis_json.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr std::int32_t kForever = std::numeric_limits<std::int32_t>::max();
+
+const char* end_word(EscapeEnd end) {
+  switch (end) {
+    case EscapeEnd::outside_safe_set:
+      return "outside_safe_set";
+    case EscapeEnd::left_domain:
+      return "left_domain";
+    case EscapeEnd::unsafe_between_samples:
+      return "unsafe_between_samples";
+    default:
+      return "no_allowed_action";
+  }
+}
+
+Json side_json(const std::optional<ResultSide>& side, const ProblemSpec& spec) {
+  if (!side) return {};
+  return {{"state", spec.states[side->state].name}, {"side", side->above ? "above" : "below"}};
+}
+
+Json state_json(const ResultPath& path, std::size_t sample, const ProblemSpec& spec) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < spec.states.size(); ++i)
+    json[spec.states[i].name] = path.state[sample * spec.states.size() + i];
+  return json;
+}
+
+Json sample_json(const ResultPath& path, std::size_t sample, const ProblemSpec& spec) {
+  const std::int32_t time = path.collision_time[sample];
+  Json json;
+  json["state"] = state_json(path, sample, spec);
+  json["cell"] = path.cell[sample];
+  json["delay"] = delay_json(path.delay[sample]);
+  json["delay_status"] = delay_word(path.delay[sample]);
+  json["collision_time"] = time == kForever ? Json() : Json(time);
+  return json;
+}
+
+Json step_json(const ResultPath& path, std::size_t step, const ProblemSpec& spec) {
+  Json json = sample_json(path, step, spec);
+  json["action"] = path.phase[step] == EscapePhase::independent ? "independent" : "evasive";
+  json["inputs"] = Json::object();
+  for (const AgentSpec& agent : spec.agents) {
+    Json& own = json["inputs"][agent.name] = Json::object();
+    for (const std::int32_t i : agent.inputs) {
+      const auto input = static_cast<std::size_t>(i);
+      own[spec.inputs[input].name] = path.input[step * spec.inputs.size() + input];
+    }
+  }
+  return json;
+}
+
+Json counterexample_json(const ResultRequirement& result, const ProblemSpec& spec) {
+  Json json;
+  json["state"] = result.path ? state_json(*result.path, 0, spec) : Json();
+  json["steps"] = Json::array();
+  if (!result.path) {
+    json["end"] = "outside_domain";
+    json["end_sample"] = Json();
+    json["left_side"] = side_json(result.reached_side, spec);
+    return json;
+  }
+  const ResultPath& path = *result.path;
+  for (std::size_t s = 0; s < path.steps(); ++s) json["steps"].push_back(step_json(path, s, spec));
+  json["end"] = end_word(path.end);
+  const bool stays = path.samples() > path.steps();
+  json["end_sample"] = stays ? sample_json(path, path.steps(), spec) : Json();
+  json["left_side"] = side_json(path.left_side, spec);
+  return json;
+}
+
+}  // namespace
+
+Json delay_json(std::int32_t delay) {
+  return delay < 0 || delay == kForever ? Json() : Json(delay);
+}
+
+const char* delay_word(std::int32_t delay) {
+  if (delay == kForever) return "unbounded";
+  return delay == -2 ? "not_safe" : delay == -1 ? "not_invariant" : "steps";
+}
+
+Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
+                      const ProblemSpec& spec) {
+  Json json;
+  json["name"] = result.name;
+  json["holds"] = result.holds;
+  json["kind"] = asked.invariant ? "invariant" : "min_delay";
+  json["partition"] =
+      asked.partition ? Json(spec.coordination.partitions[static_cast<std::size_t>(*asked.partition)].name)
+                      : Json();
+  json["min_delay"] = asked.min_delay ? Json(*asked.min_delay) : Json();
+  json["cells"] = result.cells;
+  json["failing"] = result.failing;
+  json["least_delay"] = delay_json(result.least_delay);
+  json["least_delay_status"] = delay_word(result.least_delay);
+  json["reaches_outside"] = side_json(result.reached_side, spec);
+  json["counterexample"] = result.holds ? Json() : counterexample_json(result, spec);
+  return json;
+}
+
+}  // namespace coordreq

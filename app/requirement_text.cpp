@@ -1,0 +1,188 @@
+#include "app/requirement_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/text.hpp"
+
+namespace coordreq {
+namespace {
+
+std::string text_of(const Json& json) {
+  return json.get<std::string>();
+}
+
+std::string cell_failures(const Json& own, const ProblemSpec& spec) {
+  const Json& story = own["counterexample"];
+  const Json& first = story["steps"].empty() ? story["end_sample"] : story["steps"].front();
+  const auto failing = own["failing"].get<std::int64_t>();
+  return fmt::format("{} of {} {}, the worst at {}: it {}", grouped(failing),
+                     cells(own["cells"].get<std::int64_t>()), failing == 1 ? "fails" : "fail",
+                     state_text(story["state"]), worst_text(first["delay"], first["delay_status"], spec));
+}
+
+/// "p1 above its grid".
+std::string side_text(const Json& side) {
+  return fmt::format("{} {} its grid", text_of(side["state"]), text_of(side["side"]));
+}
+
+/// The story as a table and in sentences.
+std::string story_text(const Json& own, const ProblemSpec& spec) {
+  const StoryTable story = story_table(own, spec);
+  std::vector<Table::Align> columns(story.heads.size(), Table::Align::left);
+  std::fill_n(columns.begin(), story.numbers, Table::Align::right);
+  Table table(columns);
+  std::vector<std::string> heads = story.heads;
+  heads.front() = "  " + heads.front();
+  table.add(heads);
+  for (const std::vector<std::string>& row : story.rows) table.add(row);
+  std::string text = table.text() + "\n";
+  for (const std::string& sentence : story_sentences(own, spec)) text += "  " + sentence + "\n";
+  return text;
+}
+
+std::string delay_cell(const Json& sample) {
+  if (sample["delay_status"] == "unbounded") return "unbounded";
+  return sample["delay"].is_null() ? "-" : grouped(sample["delay"].get<std::int64_t>());
+}
+
+std::string time_cell(const Json& time) {
+  return time.is_null() ? "never" : grouped(time.get<std::int64_t>());
+}
+
+/// A row but for its number. @param step whether something is done at the sample
+std::vector<std::string> story_row(const Json& sample, bool has_delay, const ProblemSpec& spec) {
+  const bool is_step = sample.contains("action");
+  std::vector<std::string> row;
+  for (const Json& value : sample["state"]) row.push_back(fmt::format("{:.6g}", value.get<double>()));
+  if (has_delay) row.push_back(delay_cell(sample));
+  row.push_back(time_cell(sample["collision_time"]));
+  row.push_back(is_step ? text_of(sample["action"]) : "");
+  for (const AgentSpec& agent : spec.agents)
+    row.push_back(is_step ? state_text(sample["inputs"][agent.name]) : "");
+  return row;
+}
+
+std::string end_text(const Json& story) {
+  const std::string end = text_of(story["end"]);
+  if (end == "outside_safe_set") return "the state is no longer safe";
+  if (end == "left_domain") return "the state leaves the domain, " + side_text(story["left_side"]);
+  if (end == "unsafe_between_samples") return "the way to the next sample is not safe";
+  return "no action is allowed any more";
+}
+
+bool is_all_alone(const Json& own, const ProblemSpec& spec) {
+  const auto& all = spec.coordination.partitions;
+  const auto named = std::find_if(all.begin(), all.end(),
+                                  [&](const auto& partition) { return own["partition"] == partition.name; });
+  const auto& classes = (named == all.end() ? all.front() : *named).classes;
+  return std::all_of(classes.begin(), classes.end(), [](const auto& agents) { return agents.size() == 1; });
+}
+
+}  // namespace
+
+std::string steps_text(std::int64_t steps, const ProblemSpec& spec) {
+  return duration(steps, nearest_double(spec.dynamics.period), spec.dynamics.unit);
+}
+
+std::string state_text(const Json& state) {
+  std::string text;
+  for (const auto& [name, value] : state.items())
+    text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, value.get<double>());
+  return text;
+}
+
+std::string worst_text(const Json& delay, const Json& status, const ProblemSpec& spec) {
+  if (status == "not_safe") return "is not safe";
+  if (status == "not_invariant") return "cannot be kept safe, even if all agents coordinate";
+  return "has a delay of " + steps_text(delay.get<std::int64_t>(), spec);
+}
+
+std::string outside_text(const Json& own) {
+  return "the region may reach outside the domain, " + side_text(own["reaches_outside"]);
+}
+
+std::string claim_text(const Json& own, const ProblemSpec& spec) {
+  if (own["kind"] == "invariant") return "in the invariance set";
+  return fmt::format("delay of {} at least {}", text_of(own["partition"]),
+                     steps_text(own["min_delay"].get<std::int64_t>(), spec));
+}
+
+std::string failure_line(const Json& own, const ProblemSpec& spec) {
+  if (own["holds"]) return {};
+  std::string text = own["counterexample"]["state"].is_null() ? "" : cell_failures(own, spec);
+  if (!own["reaches_outside"].is_null()) text += (text.empty() ? "" : "; ") + outside_text(own);
+  return text;
+}
+
+std::string failure_text(const Json& own, const ProblemSpec& spec) {
+  if (own["holds"]) return {};
+  std::string text;
+  if (!own["reaches_outside"].is_null()) text += fmt::format("  FAILS: {}.\n", outside_text(own));
+  if (own["counterexample"]["state"].is_null()) return text;
+  text += fmt::format("  FAILS: {}.\n\n", cell_failures(own, spec));
+  return text + story_text(own, spec);
+}
+
+StoryTable story_table(const Json& own, const ProblemSpec& spec) {
+  const bool has_delay = own["kind"] != "invariant";
+  StoryTable table;
+  table.heads = {"step"};
+  for (const StateSpec& state : spec.states) table.heads.push_back(column_heading(state.name, state.unit));
+  if (has_delay) table.heads.emplace_back("delay");
+  table.heads.emplace_back("collision time");
+  table.numbers = table.heads.size();
+  table.heads.emplace_back("action");
+  for (const AgentSpec& agent : spec.agents) table.heads.push_back(agent.name);
+  const Json& story = own["counterexample"];
+  Json samples = story["steps"];
+  if (!story["end_sample"].is_null()) samples.push_back(story["end_sample"]);
+  for (const Json& sample : samples) {
+    std::vector<std::string> row = story_row(sample, has_delay, spec);
+    row.insert(row.begin(), grouped(std::uint64_t{table.rows.size()}));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::vector<std::string> story_sentences(const Json& own, const ProblemSpec& spec) {
+  const Json& story = own["counterexample"];
+  const Json& steps = story["steps"];
+  if (steps.empty() && story["end"] == "outside_safe_set") return {"It is not safe to begin with."};
+  const std::int64_t alone = std::count_if(steps.begin(), steps.end(),
+                                           [](const Json& step) { return step["action"] == "independent"; });
+  const auto evasive = static_cast<std::int64_t>(steps.size()) - alone;
+  std::vector<std::string> sentences;
+  if (alone > 0) {
+    const std::string text =
+        fmt::format("Each {} does what is reasonable to it alone, and after {}",
+                    is_all_alone(own, spec) ? "agent" : "class of agents", steps_text(alone, spec));
+    if (evasive == 0 && story["end"] != "no_allowed_action")
+      return {fmt::format("{} {}.", text, end_text(story))};
+    sentences.push_back(text + " it is too late.");
+  }
+  if (evasive == 0) {
+    sentences.push_back(fmt::format("Then {}.", end_text(story)));
+    return sentences;
+  }
+  const char* const whatever = spec.controller.synthesis == Synthesis::maximal
+                                   ? "Whatever all agents then do together"
+                                   : "With what the controller then may choose";
+  sentences.push_back(fmt::format("{}, after {} {}.", whatever, steps_text(evasive, spec), end_text(story)));
+  return sentences;
+}
+
+std::string requirements_text(const Json& requirements, const ProblemSpec& spec) {
+  std::string text;
+  for (const Json& own : requirements) {
+    text += fmt::format("\nrequirement {}: {}\n", printable(text_of(own["name"])), claim_text(own, spec));
+    text += own["holds"] ? fmt::format("  holds: for all {} that may meet the region\n",
+                                       cells(own["cells"].get<std::int64_t>()))
+                         : failure_text(own, spec);
+  }
+  return text;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/json_text.hpp"
+#include "spec/problem_spec.hpp"
+
+// A requirement in words, from what requirement_json() says of it: `own` in all that follows. `analyze`,
+// JUnit reports and pages tell it alike.
+namespace coordreq {
+
+/// "3 steps (1.5 s)".
+[[nodiscard]] std::string steps_text(std::int64_t steps, const ProblemSpec& spec);
+
+/// "delay of alone at least 20 steps (0.2 s)", "in the invariance set": what is asked of each cell.
+[[nodiscard]] std::string claim_text(const Json& own, const ProblemSpec& spec);
+
+/// A state: "p1 = -9, v1 = 2".
+[[nodiscard]] std::string state_text(const Json& state);
+
+/// What is the matter with the worst cell: "has a delay of 2 steps (1 s)", "is not safe".
+/// @param delay number of steps @param status as delay_word() says it, not unbounded
+[[nodiscard]] std::string worst_text(const Json& delay, const Json& status, const ProblemSpec& spec);
+
+/// Where the region may reach. REQUIRES: own["reaches_outside"].
+[[nodiscard]] std::string outside_text(const Json& own);
+
+/// Why it fails, in one line; empty if it holds.
+[[nodiscard]] std::string failure_line(const Json& own, const ProblemSpec& spec);
+/// The same with the story of its counterexample: lines that end in newlines.
+[[nodiscard]] std::string failure_text(const Json& own, const ProblemSpec& spec);
+
+/// One row a sample: where, what is left, and what each agent does next.
+struct StoryTable {
+  std::vector<std::string> heads;
+  std::vector<std::vector<std::string>> rows;  ///< [sample][head]; the first cell is the number of the sample
+  std::size_t numbers = 0;                     ///< so many of the first columns hold numbers
+};
+/// REQUIRES: the counterexample has a state, likewise below.
+[[nodiscard]] StoryTable story_table(const Json& own, const ProblemSpec& spec);
+
+/// The same in sentences.
+[[nodiscard]] std::vector<std::string> story_sentences(const Json& own, const ProblemSpec& spec);
+
+/// All of an analysis; empty if there are none.
+[[nodiscard]] std::string requirements_text(const Json& requirements, const ProblemSpec& spec);
+
+}  // namespace coordreq

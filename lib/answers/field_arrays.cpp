@@ -1,0 +1,205 @@
+#include "answers/field_arrays.hpp"
+
+#include <limits>
+#include <memory>
+
+#include "answers/layers/trigger_table.hpp"
+#include "engine/convert_stretch.hpp"
+
+namespace coordreq {
+namespace {
+
+ResultArray membership_array(const LevelMap& map, const CellOrder& order, bool only_top) {
+  return {ElementType::uint8, [&map, &order, only_top](std::uint64_t begin, std::uint64_t count, void* out) {
+            map.visit([&]<class Level>(const LevelRows<Level>& levels) {
+              const Level least = only_top ? LevelRows<Level>::kTop : Level{1};
+              convert_stretch(
+                  levels, order, begin, count, static_cast<std::uint8_t*>(out),
+                  [least](Level level) { return static_cast<std::uint8_t>(level >= least ? 1 : 0); });
+            });
+          }};
+}
+
+template <class Integer>
+FillArray fill_collision(const LevelMap& map, const CellOrder& order) {
+  return [&map, &order](std::uint64_t begin, std::uint64_t count, void* out) {
+    map.visit([&]<class Level>(const LevelRows<Level>& levels) {
+      convert_stretch(levels, order, begin, count, static_cast<Integer*>(out), [](Level level) {
+        return level == LevelRows<Level>::kTop ? std::numeric_limits<Integer>::max()
+                                               : static_cast<Integer>(level);
+      });
+    });
+  };
+}
+
+/// Delays less `connection_delay`, as trigger_of() has it; delays themselves if that is negative.
+template <class Integer>
+FillArray fill_delays(const DelayLayers& layers, const LevelMap& collision_time,
+                      std::int64_t connection_delay, const CellOrder& order) {
+  return [&layers, &collision_time, connection_delay, &order](std::uint64_t begin, std::uint64_t count,
+                                                              void* out) {
+    const auto entry = [connection_delay](std::int64_t delay) {
+      const auto value = static_cast<std::int32_t>(delay);
+      const std::int32_t shown = connection_delay < 0 ? value : trigger_of(value, connection_delay);
+      return shown == DelayLayers::kUnbounded ? std::numeric_limits<Integer>::max()
+                                              : static_cast<Integer>(shown);
+    };
+    const Integer top = entry(layers.top_delay());
+    layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& levels) {
+      convert_stretch(levels, order, begin, count, static_cast<Integer*>(out), [&](Level level) {
+        return level == LevelRows<Level>::kTop ? top : entry(std::int64_t{level} - 1);
+      });
+    });
+    mark_unsafe(collision_time, order, begin, count, static_cast<Integer*>(out));
+  };
+}
+
+ResultArray delays_or_triggers(const DelayLayers& layers, const LevelMap& collision_time,
+                               std::int64_t connection_delay, const CellOrder& order, ElementType type) {
+  if (type == ElementType::int16) {
+    return {type, fill_delays<std::int16_t>(layers, collision_time, connection_delay, order)};
+  }
+  return {type, fill_delays<std::int32_t>(layers, collision_time, connection_delay, order)};
+}
+
+/// The layer T(k) that each cell of K is in.
+template <class Visit>
+void for_each_in_layers(const DelayLayers& layers, const CellOrder& order, const Visit& visit) {
+  const auto cells = static_cast<std::uint64_t>(order.cells());
+  const std::size_t last = layers.sizes.size() - 1;
+  layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& levels) {
+    std::vector<Level> stretch(static_cast<std::size_t>(levels.row_length()));
+    for (std::uint64_t begin = 0; begin < cells; begin += stretch.size()) {
+      const std::uint64_t count = std::min<std::uint64_t>(stretch.size(), cells - begin);
+      convert_stretch(levels, order, begin, count, stretch.data(), [](Level level) { return level; });
+      for (std::uint64_t i = 0; i < count; ++i) {
+        if (stretch[i] == 0) continue;
+        visit(begin + i, stretch[i] == LevelRows<Level>::kTop ? last : std::size_t{stretch[i]} - 1);
+      }
+    }
+  });
+}
+
+template <class Index>
+LayerLists lists_of(const DelayLayers& layers, const CellOrder& order, ElementType type) {
+  LayerLists result;
+  const std::size_t count = layers.sizes.size();
+  result.start.assign(count + 1, 0);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::int64_t next = k + 1 < count ? layers.sizes[k + 1] : 0;
+    result.start[k + 1] = result.start[k] + static_cast<std::uint64_t>(layers.sizes[k] - next);
+  }
+  auto cells = std::make_shared<std::vector<Index>>(result.start.back());
+  std::vector<std::uint64_t> next(result.start.begin(), result.start.end() - 1);
+  for_each_in_layers(layers, order, [&](std::uint64_t cell, std::size_t layer) {
+    (*cells)[next[layer]++] = static_cast<Index>(cell);
+  });
+  result.cell = {type, [cells](std::uint64_t begin, std::uint64_t n, void* out) {
+                   std::copy_n(cells->begin() + static_cast<std::ptrdiff_t>(begin), n,
+                               static_cast<Index*>(out));
+                 }};
+  return result;
+}
+
+/// A stretch of one set.
+void fill_members(const CellSet& set, const CellOrder& order, std::uint64_t begin, std::uint64_t count,
+                  std::uint8_t* out) {
+  order.for_each_run(
+      static_cast<std::int64_t>(begin), static_cast<std::int64_t>(count), [&](const CellOrder::Run& run) {
+        for (std::int64_t i = 0; i < run.count; ++i) {
+          const ConstRow row = set.row(run.row + i * run.row_step);
+          const std::int64_t column = run.column + i * run.column_step;
+          out[run.offset + i] = static_cast<std::uint8_t>(
+              row[static_cast<std::size_t>(column / CellSet::kWordBits)] >> (column % CellSet::kWordBits) &
+              1U);
+        }
+      });
+}
+
+}  // namespace
+
+template <class Integer>
+void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::uint64_t begin,
+                 std::uint64_t count, Integer* out) {
+  std::vector<std::uint8_t> is_safe(count);
+  membership_array(collision_time, order, false).fill(begin, count, is_safe.data());
+  for (std::uint64_t i = 0; i < count; ++i) {
+    out[i] = static_cast<Integer>(is_safe[i] == 0 ? DelayLayers::kOutsideSafe : out[i]);
+  }
+}
+
+template void mark_unsafe(const LevelMap&, const CellOrder&, std::uint64_t, std::uint64_t, std::int16_t*);
+template void mark_unsafe(const LevelMap&, const CellOrder&, std::uint64_t, std::uint64_t, std::int32_t*);
+
+ResultArray sets_array(const std::vector<CellSet>& sets, const CellOrder& order) {
+  return {ElementType::uint8, [&sets, &order](std::uint64_t begin, std::uint64_t count, void* out) {
+            const auto cells = static_cast<std::uint64_t>(order.cells());
+            auto* place = static_cast<std::uint8_t*>(out);
+            while (count > 0) {
+              const std::uint64_t first = begin % cells;
+              const std::uint64_t here = std::min(count, cells - first);
+              fill_members(sets[begin / cells], order, first, here, place);
+              begin += here;
+              count -= here;
+              place += here;
+            }
+          }};
+}
+
+ResultArray safe_array(const LevelMap& collision_time, const CellOrder& order) {
+  return membership_array(collision_time, order, false);
+}
+
+ResultArray invariant_array(const LevelMap& collision_time, const CellOrder& order) {
+  return membership_array(collision_time, order, true);
+}
+
+ElementType level_type(std::int64_t greatest_finite) {
+  return greatest_finite >= std::numeric_limits<std::int16_t>::max() ? ElementType::int32
+                                                                     : ElementType::int16;
+}
+
+ResultArray collision_array(const LevelMap& collision_time, const CellOrder& order, ElementType type) {
+  if (type == ElementType::int16) return {type, fill_collision<std::int16_t>(collision_time, order)};
+  return {type, fill_collision<std::int32_t>(collision_time, order)};
+}
+
+ResultArray delay_array(const DelayLayers& layers, const LevelMap& collision_time, const CellOrder& order,
+                        ElementType type) {
+  return delays_or_triggers(layers, collision_time, -1, order, type);
+}
+
+ResultArray trigger_array(const DelayLayers& layers, const LevelMap& collision_time,
+                          std::int64_t connection_delay, const CellOrder& order, ElementType type) {
+  return delays_or_triggers(layers, collision_time, connection_delay, order, type);
+}
+
+ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& order) {
+  return {ElementType::float32, [&](std::uint64_t begin, std::uint64_t count, void* out) {
+            auto* place = static_cast<float*>(out);
+            while (count > 0) {
+              const std::uint64_t cells = convention.agents.front().freedom.size();
+              const std::vector<float>& freedom = convention.agents[begin / cells].freedom;
+              const std::uint64_t here = std::min(count, cells - begin % cells);
+              order.for_each_run(static_cast<std::int64_t>(begin % cells), static_cast<std::int64_t>(here),
+                                 [&](const CellOrder::Run& run) {
+                                   const float* source = freedom.data() + order.place(run);
+                                   const std::int64_t step = order.step(run);
+                                   for (std::int64_t i = 0; i < run.count; ++i)
+                                     place[run.offset + i] = source[i * step];
+                                 });
+              begin += here;
+              count -= here;
+              place += here;
+            }
+          }};
+}
+
+LayerLists layer_lists(const DelayLayers& layers, const CellOrder& order) {
+  if (order.cells() <= std::numeric_limits<std::uint32_t>::max()) {
+    return lists_of<std::uint32_t>(layers, order, ElementType::uint32);
+  }
+  return lists_of<std::uint64_t>(layers, order, ElementType::uint64);
+}
+
+}  // namespace coordreq

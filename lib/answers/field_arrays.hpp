@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "answers/convention/convention_freedom.hpp"
+#include "answers/field.hpp"
+#include "answers/layers/delay_layers.hpp"
+#include "engine/level_map.hpp"
+#include "model/cell_order.hpp"
+
+// Turns what the analysis holds into the arrays of the results file. The functions returned refer to their
+// arguments, which must outlive the writing.
+namespace coordreq {
+
+/// uint8 [cells], 1 for members of S: cells that have a level at all.
+[[nodiscard]] ResultArray safe_array(const LevelMap& collision_time, const CellOrder& order);
+/// uint8 [cells], 1 for members of K: cells that are never lost.
+[[nodiscard]] ResultArray invariant_array(const LevelMap& collision_time, const CellOrder& order);
+
+/// Writes DelayLayers::kOutsideSafe for the cells of a stretch that are not in S. Integer: std::int16_t,
+/// std::int32_t.
+template <class Integer>
+void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::uint64_t begin,
+                 std::uint64_t count, Integer* out);
+/// uint8 [sets, cells], 1 for members.
+[[nodiscard]] ResultArray sets_array(const std::vector<CellSet>& sets, const CellOrder& order);
+
+/// The narrowest of int16 and int32 in which all finite values are below its maximum (contract, section 4).
+[[nodiscard]] ElementType level_type(std::int64_t greatest_finite);
+
+/// Collision times, the maximum of the type inside K.
+[[nodiscard]] ResultArray collision_array(const LevelMap& collision_time, const CellOrder& order,
+                                          ElementType type);
+/// Delays; -2 outside S, -1 in S but not in K, the maximum where they are not bounded.
+[[nodiscard]] ResultArray delay_array(const DelayLayers& layers, const LevelMap& collision_time,
+                                      const CellOrder& order, ElementType type);
+/// The trigger table of the delays.
+[[nodiscard]] ResultArray trigger_array(const DelayLayers& layers, const LevelMap& collision_time,
+                                        std::int64_t connection_delay, const CellOrder& order,
+                                        ElementType type);
+
+/// float32 [agents, cells]; NaN outside K.
+[[nodiscard]] ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& order);
+
+/// The layers T(0), ..., T(F) of one partition as index lists; contract `/layers/PARTITION`.
+struct LayerLists {
+  std::vector<std::uint64_t> start;  ///< F + 2 entries
+  ResultArray cell;                  ///< start.back() entries, uint32 or uint64
+};
+/// T(0), ..., T(F) as ascending lists of linear indices. The lists belong to the result.
+[[nodiscard]] LayerLists layer_lists(const DelayLayers& layers, const CellOrder& order);
+
+}  // namespace coordreq

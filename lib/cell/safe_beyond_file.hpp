@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "base/thread_team.hpp"
+#include "cell/cell_members.hpp"
+#include "cell/cell_posts.hpp"
+#include "engine/cell_set.hpp"
+#include "results/results_reader.hpp"
+
+namespace coordreq {
+
+/// TubeSets::beyond, with S from a results file. How far beyond a limit cells must be safe is a question to
+/// all tubes, so that it is answered only when it is first asked. Not thread-safe.
+class SafeBeyondFile {
+ public:
+  /// REQUIRES: all outlive this object; the spec asks for safety between the samples.
+  SafeBeyondFile(const ResultsReader& results, CellPosts& posts, ThreadTeam& team)
+      : results_(results), posts_(posts), team_(team) {}
+
+  /// Null if it is S.
+  [[nodiscard]] CellMembers* members();
+
+ private:
+  const ResultsReader& results_;
+  CellPosts& posts_;
+  ThreadTeam& team_;
+  bool is_known_ = false;
+  std::optional<CellSet> cells_;
+  std::optional<MembersByCell> members_;
+};
+
+}  // namespace coordreq

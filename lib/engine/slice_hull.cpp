@@ -1,0 +1,107 @@
+#include <algorithm>
+
+#include "engine/row_slices.hpp"
+#include "model/pieces.hpp"
+
+namespace coordreq {
+namespace {
+
+using Kind = RowSegment::Kind;
+
+constexpr IndexRange kNone{0, -1};
+
+bool range_within(IndexRange a, IndexRange b, const GridDimension& target) {
+  const auto inside = [&](std::int64_t shift) {
+    return b.first <= a.first + shift && a.last + shift <= b.last;
+  };
+  if (inside(0)) return true;
+  return target.periodic() && (inside(target.count) || std::int64_t{b.last} - b.first + 1 == target.count);
+}
+
+/// On a ring, with its first index in [0, count).
+IndexRange normal(IndexRange range, const GridDimension& target) {
+  if (!target.periodic()) return range;
+  const auto n = static_cast<std::int32_t>(target.count);
+  const std::int32_t first = (range.first % n + n) % n;
+  return {first, first + (range.last - range.first)};
+}
+
+/// Of slices that are lists of segments.
+SliceHull hull_of_segments(const RowSlices& slices, std::int64_t base, const GridDimension& target,
+                           const RowDimension* along) {
+  const Kind expected = along != nullptr ? Kind::shifted : Kind::fixed;
+  SliceHull result{kNone, true};
+  std::uint32_t previous = UINT32_MAX;
+  for (std::int64_t position = base; position < base + slices.input_combinations; ++position) {
+    const std::uint32_t id = slices.number(position);
+    if (id == previous) continue;
+    previous = id;
+    const std::vector<RowSegment>& slice = slices.slices[id];
+    result.covers = result.covers && slice.size() == 1 && slice[0].kind == expected;
+    for (const RowSegment& segment : slice) {
+      if (segment.kind != expected) continue;
+      const IndexRange range = normal(segment.range, target);
+      result.range = result.range == kNone ? range : merge_ranges(result.range, range, target);
+    }
+  }
+  if (result.range == kNone) {
+    result.covers = false;
+  } else if (along != nullptr) {
+    result.range = fit_window(result.range, target.count, along->ends);
+    // On a ring the arc that holds two windows may begin with the other one, and reach beyond the margins.
+    result.covers = result.covers && -result.range.first <= along->margins.before &&
+                    result.range.last <= along->margins.after;
+  } else if (target.periodic()) {
+    result.range = wrap_range(result.range, target.count);
+  }
+  return result;
+}
+
+/// Sums are not looked at cell by cell, and none of their states wraps round.
+SliceHull hull_of_sums(const RowSlices& slices, std::int64_t base, SumRows::Reader& reader,
+                       const GridDimension& target, const RowDimension* along) {
+  IndexRange raw{INT32_MAX, INT32_MIN};
+  for (std::int64_t position = base; position < base + slices.input_combinations; ++position) {
+    const SumRows::Row row = reader.row(slices.number(position));
+    const IndexRange range = along != nullptr ? slices.sums->offset_hull(row) : slices.sums->hull(row);
+    raw = {std::min(raw.first, range.first), std::max(raw.last, range.last)};
+  }
+  if (along != nullptr) return {fit_window(raw, target.count, along->ends), true};
+  const auto last = static_cast<std::int32_t>(target.count - 1);
+  // What leaves safely, or lands in the boundary cell, asks no more than the part of the box that is left.
+  const bool blocks =
+      (raw.first < 0 && traits(target.below).blocks) || (raw.last > last && traits(target.above).blocks);
+  return {{std::clamp(raw.first, 0, last), std::clamp(raw.last, 0, last)}, !blocks};
+}
+
+}  // namespace
+
+bool RowSlices::is_within(std::uint32_t a, std::uint32_t b, const GridDimension& target) const {
+  if (a == b) return true;
+  if (!is_cut()) return false;
+  const std::vector<RowSegment>& own = slices[a];
+  const std::vector<RowSegment>& other = slices[b];
+  if (own.size() != 1 || other.size() != 1) return own == other;
+  if (own[0].kind == Kind::gone || other[0].kind == Kind::blocked) return true;
+  return own[0].kind == other[0].kind && range_within(own[0].range, other[0].range, target);
+}
+
+std::vector<SliceHull> slice_hulls(const RowSlices& slices, const GridDimension& target,
+                                   const RowDimension* along) {
+  std::optional<SumRows::Reader> reader;
+  if (slices.sums) reader.emplace(*slices.sums);
+  std::vector<SliceHull> hulls;
+  for (std::int64_t base = 0; base < slices.size(); base += slices.input_combinations) {
+    hulls.push_back(reader ? hull_of_sums(slices, base, *reader, target, along)
+                           : hull_of_segments(slices, base, target, along));
+  }
+  return hulls;
+}
+
+std::uint64_t RowSlices::bytes() const {
+  std::uint64_t total = ids.size() * sizeof(std::uint32_t) + slices.size() * sizeof(slices.front());
+  for (const std::vector<RowSegment>& slice : slices) total += slice.capacity() * sizeof(RowSegment);
+  return total + (sums ? sums->bytes() : 0);
+}
+
+}  // namespace coordreq

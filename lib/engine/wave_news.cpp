@@ -1,0 +1,54 @@
+#include "engine/wave_news.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace coordreq {
+
+WaveNews::WaveNews(const RowEngine& engine, const RowHull& hull, std::int64_t unit_rows)
+    : engine_(engine),
+      hull_(hull),
+      unit_rows_(unit_rows),
+      changed_(static_cast<std::size_t>(engine.rows()), 0),
+      unit_changed_(static_cast<std::size_t>((engine.rows() + unit_rows - 1) / unit_rows), 0),
+      seen_(unit_changed_.size(), kBeforeAll) {}
+
+bool WaveNews::is_pending(std::int64_t unit) {
+  if (is_unseen(unit)) return true;
+  const std::uint32_t seen = seen_[static_cast<std::size_t>(unit)];
+  if (engine_.outer() == 0) return last_change_ >= seen;
+  hull_.box(RowPlace(engine_.grid(), unit * unit_rows_), scratch_.box);
+  const std::span<const IndexRange> outer(scratch_.box.ranges.data(), engine_.outer());
+  bool pending = false;
+  for_each_row(engine_.grid(), 0, outer, scratch_.counter, [&](std::int64_t row) {
+    pending = pending || unit_changed_[static_cast<std::size_t>(row / unit_rows_)] >= seen;
+  });
+  return pending;
+}
+
+void WaveNews::enter(std::int64_t unit, Scratch& scratch) const {
+  if (engine_.outer() == 0) return;
+  hull_.box(RowPlace(engine_.grid(), unit * unit_rows_), scratch.box);
+  scratch.merged.assign(static_cast<std::size_t>(unit_rows_), 0);
+  const std::span<const IndexRange> outer(scratch.box.ranges.data(), engine_.outer());
+  for_each_row(engine_.grid(), 0, outer, scratch.counter, [&](std::int64_t row) {
+    const std::uint32_t* changed = changed_.data() + row;
+    for (std::size_t i = 0; i < scratch.merged.size(); ++i)
+      scratch.merged[i] = std::max(scratch.merged[i], changed[i]);
+  });
+}
+
+bool WaveNews::meets_change(const RowPlace& place, std::int64_t unit, Scratch& scratch) const {
+  const std::uint32_t seen = std::max(seen_[static_cast<std::size_t>(unit)], kBeforeAll);
+  hull_.box(place, scratch.box);
+  const std::size_t outer = engine_.outer();
+  const std::span<const IndexRange> inner(scratch.box.ranges.data() + outer,
+                                          scratch.box.ranges.size() - outer);
+  const std::uint32_t* changed = outer == 0 ? changed_.data() : scratch.merged.data();
+  bool meets = false;
+  for_each_row(engine_.grid(), outer, inner, scratch.counter,
+               [&](std::int64_t row) { meets = meets || changed[row] >= seen; });
+  return meets;
+}
+
+}  // namespace coordreq

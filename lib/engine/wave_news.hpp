@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/row_hull.hpp"
+
+namespace coordreq {
+
+/// Which rows have changed since those that can meet them were looked at last. Batches of work are numbered
+/// from 1 on; a change is known by the batch that made it.
+///
+/// Rows come in units of neighbouring numbers. Threads may mark different rows as changed, and ask, each with
+/// a scratch of its own, while nobody marks.
+class WaveNews {
+ public:
+  struct Scratch {
+    RowBox box;
+    std::vector<std::uint32_t> merged;  ///< [row of the unit] the last change in the shared dimensions
+    std::vector<std::int64_t> counter;
+  };
+
+  /// REQUIRES: both outlive this object.
+  WaveNews(const RowEngine& engine, const RowHull& hull, std::int64_t unit_rows);
+
+  /// The unit has to be looked at whatever has changed.
+  void set_unseen(std::int64_t unit) { seen_[static_cast<std::size_t>(unit)] = kNever; }
+  [[nodiscard]] bool is_unseen(std::int64_t unit) const {
+    return seen_[static_cast<std::size_t>(unit)] == kNever;
+  }
+  /// True if it is unseen, or if a unit that its posts can meet has changed since it was looked at last.
+  [[nodiscard]] bool is_pending(std::int64_t unit);
+
+  /// Begins with the next batch. @returns its number
+  std::uint32_t begin_batch() { return ++batch_; }
+  void mark_seen(std::int64_t unit) { seen_[static_cast<std::size_t>(unit)] = batch_; }
+  void mark_row(std::int64_t row) { changed_[static_cast<std::size_t>(row)] = batch_; }
+  void mark_unit_of(std::int64_t row) {
+    unit_changed_[static_cast<std::size_t>(row / unit_rows_)] = batch_;
+    last_change_ = batch_;
+  }
+
+  /// Begins with the rows of a unit.
+  void enter(std::int64_t unit, Scratch& scratch) const;
+  /// True if a row has changed, since the unit entered was looked at, that posts of this row of it can meet.
+  [[nodiscard]] bool meets_change(const RowPlace& place, std::int64_t unit, Scratch& scratch) const;
+
+ private:
+  /// As what a unit has been looked at in: in no batch, or in one whose changes, and all after, are news to
+  /// it.
+  static constexpr std::uint32_t kNever = 0;
+  static constexpr std::uint32_t kBeforeAll = 1;
+
+  const RowEngine& engine_;
+  const RowHull& hull_;
+  std::int64_t unit_rows_;
+  std::uint32_t batch_ = 0;                  ///< number of the last batch
+  std::uint32_t last_change_ = 0;            ///< the last batch with a change
+  std::vector<std::uint32_t> changed_;       ///< [row] the batch that changed it last
+  std::vector<std::uint32_t> unit_changed_;  ///< [unit] likewise
+  std::vector<std::uint32_t> seen_;          ///< [unit] the batch that looked at it last
+  Scratch scratch_;
+};
+
+}  // namespace coordreq

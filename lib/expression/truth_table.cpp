@@ -1,0 +1,248 @@
+#include "expression/truth_table.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "expression/condition.hpp"
+#include "expression/condition_atoms.hpp"
+
+namespace coordreq {
+namespace {
+
+using Word = TruthTable::Word;
+
+constexpr std::int64_t kWordBits = 64;
+
+bool test(std::span<const Word> row, std::int64_t k) {
+  return (row[static_cast<std::size_t>(k / kWordBits)] >> (k % kWordBits) & 1U) != 0;
+}
+
+void set(std::span<Word> row, std::int64_t k) {
+  row[static_cast<std::size_t>(k / kWordBits)] |= Word{1} << (k % kWordBits);
+}
+
+/// The bits of word w that stand for one of `length` cells.
+Word cells_of_word(std::size_t w, std::int64_t length) {
+  const std::int64_t rest = length - static_cast<std::int64_t>(w) * kWordBits;
+  return rest < kWordBits ? (Word{1} << rest) - 1 : ~Word{0};
+}
+
+void set_all(std::span<Word> row, std::int64_t length) {
+  for (std::size_t w = 0; w < row.size(); ++w) row[w] = cells_of_word(w, length);
+}
+
+using FastRanges = std::vector<Interval>;
+
+FastRanges enclosed(const ConditionAxis::Ranges& exact) {
+  FastRanges result;
+  for (const RationalInterval& part : exact) result.push_back(enclose(part));
+  return result;
+}
+
+/// The ranges of all indices of an axis in doubles; nothing if they are not asked for often enough to keep
+/// them.
+std::vector<FastRanges> kept_ranges(const ConditionAxis& axis, std::int64_t times_asked) {
+  constexpr std::int64_t kOften = 16;
+  std::vector<FastRanges> result;
+  if (times_asked < kOften) return result;
+  for (std::int64_t k = 0; k < axis.count; ++k) result.push_back(enclosed(axis.ranges(k)));
+  return result;
+}
+
+/// By Kleene's logic, where a bit that is not set means `not proven`.
+void join_atoms(const ConditionAtoms& atoms, const std::vector<std::span<const Word>>& rows,
+                std::int64_t length, std::vector<std::vector<Word>>& values, std::span<Word> out) {
+  using Join = ConditionAtoms::Join;
+  for (std::size_t i = 0; i < atoms.nodes.size(); ++i) {
+    const ConditionAtoms::Node& node = atoms.nodes[i];
+    std::vector<Word>& value = values[i];
+    if (node.join == Join::atom) {
+      value.assign(rows[node.a].begin(), rows[node.a].end());
+    } else if (node.join == Join::always || node.join == Join::never) {
+      value.assign(out.size(), 0);
+      if (node.join == Join::always) set_all(value, length);
+    } else {
+      value = values[node.a];
+      const std::vector<Word>& other = values[node.b];
+      for (std::size_t w = 0; w < value.size(); ++w) {
+        value[w] = node.join == Join::both ? value[w] & other[w] : value[w] | other[w];
+      }
+    }
+  }
+  std::copy(values.back().begin(), values.back().end(), out.begin());
+}
+
+}  // namespace
+
+/// Evaluates one bit of the table after the other; scratch of one thread.
+class TruthTable::Filler {
+ public:
+  /// @param kept by slot: see kept_ranges()
+  Filler(const Program& condition, std::span<const ConditionAxis> axes,
+         const std::vector<std::vector<FastRanges>>& kept, const Undecided& undecided, Question question)
+      : decider_(condition, question),
+        axes_(axes),
+        kept_(kept),
+        undecided_(undecided),
+        variables_(condition.variables()),
+        indices_(axes.size(), 0),
+        parts_(axes.size(), 0),
+        ranges_(axes.size()),
+        fast_(axes.size()),
+        exact_(axes.size()) {}
+
+  void set(std::size_t slot, std::int64_t index) {
+    indices_[slot] = index;
+    ranges_[slot] = kept_[slot].empty() ? enclosed(axes_[slot].ranges(index))
+                                        : kept_[slot][static_cast<std::size_t>(index)];
+    set_part(slot, 0);
+  }
+
+  [[nodiscard]] bool holds() {
+    const Truth truth = on_all_parts();
+    return truth == Truth::undecided ? undecided_(indices_) : truth == Truth::yes;
+  }
+
+ private:
+  void set_part(std::size_t slot, std::size_t part) {
+    parts_[slot] = part;
+    fast_[slot] = ranges_[slot][part];
+  }
+
+  Truth on_all_parts() {
+    Truth truth = on_these_parts();
+    while (next_parts()) {
+      // After a difference only the parts are left to go round.
+      if (truth != Truth::undecided && on_these_parts() != truth) truth = Truth::undecided;
+    }
+    return truth;
+  }
+
+  /// Goes on to the next combination; @returns false back at the first one
+  bool next_parts() {
+    for (const std::uint32_t slot : variables_) {
+      const std::size_t count = ranges_[slot].size();
+      if (count == 1) continue;
+      const bool more = parts_[slot] + 1 < count;
+      set_part(slot, more ? parts_[slot] + 1 : 0);
+      if (more) return true;
+    }
+    return false;
+  }
+
+  Truth on_these_parts() {
+    return decider_.decide(std::span<const Interval>(fast_), [&] { return exact_box(); });
+  }
+
+  std::span<const RationalInterval> exact_box() {
+    for (const std::uint32_t slot : variables_) {
+      exact_[slot] = axes_[slot].ranges(indices_[slot])[parts_[slot]];
+    }
+    return exact_;
+  }
+
+  ConditionDecider decider_;
+  std::span<const ConditionAxis> axes_;
+  const std::vector<std::vector<FastRanges>>& kept_;
+  const Undecided& undecided_;
+  std::vector<std::uint32_t> variables_;
+  std::vector<std::int64_t> indices_;
+  std::vector<std::size_t> parts_;
+  std::vector<FastRanges> ranges_;  ///< of the indices
+  std::vector<Interval> fast_;
+  std::vector<RationalInterval> exact_;
+};
+
+TruthTable::TruthTable(const Program& condition, std::span<const ConditionAxis> axes, std::uint32_t along,
+                       const Undecided& undecided, ThreadTeam& team, Question question)
+    : along_(along), row_length_(axes[along].count) {
+  lay_out(condition, axes, along);
+  // Comparisons that depend on few variables settle most cells; the others are looked at one by one.
+  std::vector<Word> refuted;
+  if (std::vector<Word> proven = proven_by_atoms(condition, axes, false, team); !proven.empty()) {
+    bits_ = std::move(proven);
+    refuted = proven_by_atoms(condition, axes, true, team);
+  }
+  std::vector<std::vector<FastRanges>> kept(axes.size());
+  if (along_in_use_) kept[along] = kept_ranges(axes[along], rows_);
+  for (const std::size_t slot : across_) kept[slot] = kept_ranges(axes[slot], rows_ / counts_[slot]);
+  const auto words = static_cast<std::size_t>(words_per_row());
+  const std::int64_t grain = std::max<std::int64_t>(1, 4096 / row_length_);
+  team.for_each(rows_, grain, [&](ThreadTeam::Range range, int) {
+    Filler filler(condition, axes, kept, undecided, question);
+    for (std::int64_t r = range.begin; r < range.end; ++r) {
+      const std::size_t begin = refuted.empty() ? 0 : static_cast<std::size_t>(r) * words;
+      fill_row(r, {refuted.data() + begin, refuted.empty() ? 0 : words}, filler);
+    }
+  });
+}
+
+void TruthTable::lay_out(const Program& condition, std::span<const ConditionAxis> axes, std::uint32_t along) {
+  strides_.assign(axes.size(), 0);
+  for (const ConditionAxis& axis : axes) counts_.push_back(axis.count);
+  const std::vector<std::uint32_t> used = condition.variables();
+  for (std::size_t i = used.size(); i-- > 0;) {
+    if (used[i] == along) {
+      along_in_use_ = true;
+      continue;
+    }
+    across_.insert(across_.begin(), used[i]);
+    strides_[used[i]] = rows_;
+    rows_ *= counts_[used[i]];
+  }
+  bits_.assign(static_cast<std::size_t>(rows_ * words_per_row()), 0);
+}
+
+/// @param refuted the cells of the row that need no look as the condition is false there; empty if bits that
+///   are set already do not count either
+void TruthTable::fill_row(std::int64_t position, std::span<const Word> refuted, Filler& filler) {
+  const std::span<Word> bits = row(position);
+  const bool has_settled = !refuted.empty();
+  const auto is_settled = [&](std::int64_t k) { return has_settled && (test(bits, k) || test(refuted, k)); };
+  bool all_settled = has_settled;
+  for (std::size_t w = 0; all_settled && w < bits.size(); ++w) {
+    all_settled = (bits[w] | refuted[w]) == cells_of_word(w, row_length_);
+  }
+  if (all_settled) return;
+  for (const std::size_t slot : across_) filler.set(slot, index_of(position, slot));
+  if (!along_in_use_) {
+    if (filler.holds()) set_all(bits, row_length_);
+    return;
+  }
+  for (std::int64_t k = 0; k < row_length_; ++k) {
+    if (is_settled(k)) continue;
+    filler.set(along_, k);
+    if (filler.holds()) set(bits, k);
+  }
+}
+
+/// The bits where the atoms of the condition (or of its negation) prove it, laid out as this table; empty if
+/// it has no atoms of its own.
+std::vector<Word> TruthTable::proven_by_atoms(const Program& condition, std::span<const ConditionAxis> axes,
+                                              bool negated, ThreadTeam& team) const {
+  const std::optional<ConditionAtoms> found = find_atoms(condition, negated);
+  if (!found) return {};
+  const Undecided is_not_proven = [](const std::vector<std::int64_t>&) { return false; };
+  std::vector<TruthTable> tables;
+  for (const Program& atom : found->atoms)
+    tables.emplace_back(atom, axes, along_, is_not_proven, team, Question::everywhere);
+  const auto words = static_cast<std::size_t>(words_per_row());
+  std::vector<Word> result(bits_.size(), 0);
+  team.for_each(rows_, 256, [&](ThreadTeam::Range range, int) {
+    std::vector<std::vector<Word>> values(found->nodes.size());
+    std::vector<std::span<const Word>> rows;
+    for (std::int64_t r = range.begin; r < range.end; ++r) {
+      rows.clear();
+      for (const TruthTable& table : tables) {
+        std::int64_t position = 0;
+        for (const std::size_t slot : table.across_) position += index_of(r, slot) * table.strides_[slot];
+        rows.push_back(table.row(position));
+      }
+      join_atoms(*found, rows, row_length_, values,
+                 {result.data() + static_cast<std::size_t>(r) * words, words});
+    }
+  });
+  return result;
+}
+
+}  // namespace coordreq

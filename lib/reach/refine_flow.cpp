@@ -1,0 +1,138 @@
+// What is done where solutions that were followed do not come close to all ends of an enclosure.
+
+#include <algorithm>
+#include <cmath>
+
+#include "reach/flow_solver.hpp"
+
+namespace coordreq {
+namespace {
+
+/// No box of initial states may take more steps, nor much longer than a second; it is tried with fewer first.
+constexpr std::size_t kMostSteps = 30000;
+constexpr std::size_t kFewSteps = 1000;
+/// Decay by more powers of e in a period cannot be followed in as many.
+constexpr double kTooStiff = 1e7;
+/// What may lie beyond solutions that were followed, as a part of the initial box or of the value itself.
+constexpr double kTight = 0.2;
+constexpr double kTightMagnitude = 1e-6;
+/// A part of what is allowed that is not worth a thought.
+constexpr double kHardly = 0.1;
+/// A box of initial states is halved so often at most.
+constexpr int kMostHalvings = 4;
+
+double width(const Interval& a) {
+  return a.upper - a.lower;
+}
+
+template <class Combine>
+void combine(FlowEnclosure& a, const FlowEnclosure& b, Combine both) {
+  for (std::size_t i = 0; i < a.end.size(); ++i) {
+    a.end[i] = both(a.end[i], b.end[i]);
+    a.tube[i] = both(a.tube[i], b.tube[i]);
+    a.drift[i] = both(a.drift[i], b.drift[i]);
+  }
+}
+
+}  // namespace
+
+const FlowEnclosure& ValidatedFlow::Solver::flow(std::span<const Interval> slots) {
+  for (std::size_t i = 0; i < n_; ++i) allowed_excess_[i] = kTight * width(slots[system_.state_slots[i]]);
+  enclose(slots, kMostHalvings);
+  return result_;
+}
+
+/// Puts an enclosure into `result_`.
+void ValidatedFlow::Solver::enclose(std::span<const Interval> slots, int halvings) {
+  begin(slots);
+  const bool found = run_steps(kFewSteps, false);
+  if (found && is_tight()) return;
+  const bool divisible = found && is_smooth() && !restarted_;
+  if (divisible) {
+    if (halvings > 0) enclose_halves(slots, halvings - 1);
+  } else if (!bound_by_faces(slots, found) && gave_up_ && fastest_decay_ * period_.upper < kTooStiff) {
+    begin(slots);
+    run_steps(kMostSteps, true);
+  }
+}
+
+/// What may lie beyond solutions that were followed: of a state that starts from a point, seen from the
+/// result.
+double ValidatedFlow::Solver::allowed_excess(std::size_t i) const {
+  return allowed_excess_[i] > 0.0 ? allowed_excess_[i] : kTight * width(result_.end[i]);
+}
+
+/// Whether solutions that were followed come close to all ends. Affine systems have their hull in any case.
+bool ValidatedFlow::Solver::is_tight() const {
+  if (tape_.affine && !ever_stopped_ && !restarted_) return true;
+  if (restarted_ || attained_.empty()) return false;
+  for (std::size_t i = 0; i < n_; ++i) {
+    const double excess = std::max(result_.end[i].upper - attained_[i].upper, 0.0) +
+                          std::max(attained_[i].lower - result_.end[i].lower, 0.0);
+    const double magnitude = std::max(std::fabs(result_.end[i].lower), std::fabs(result_.end[i].upper));
+    if (excess > allowed_excess(i) + kTightMagnitude * magnitude) return false;
+  }
+  return true;
+}
+
+/// Whether differences of solutions come from initial states, and hardly from disturbances and jumps.
+bool ValidatedFlow::Solver::is_smooth() const {
+  for (std::size_t i = 0; i < n_; ++i) {
+    double other = sensitivity_.jump(i);
+    for (std::size_t l = 0; l < m_; ++l) other += sensitivity_.weight(i, l) * width(disturbance_[l]);
+    if (other > kHardly * allowed_excess(i)) return false;
+  }
+  return true;
+}
+
+/// The hull of what both halves of the initial box lead to, if that can be found.
+void ValidatedFlow::Solver::enclose_halves(std::span<const Interval> slots, int halvings) {
+  const FlowEnclosure whole = result_;
+  const std::uint32_t slot = system_.state_slots[most_uncertain()];
+  const double middle = midpoint(slots[slot]);
+  std::vector<Interval> half(slots.begin(), slots.end());
+  half[slot].upper = middle;
+  enclose(half, halvings);
+  FlowEnclosure both = result_;
+  if (both.status == FlowEnclosure::Status::ok) {
+    half[slot] = {middle, slots[slot].upper};
+    enclose(half, halvings);
+    combine(both, result_, [](const Interval& a, const Interval& b) { return hull(a, b); });
+  }
+  const bool found = both.status == FlowEnclosure::Status::ok && result_.status == both.status;
+  result_ = whole;
+  if (!found) return;
+  combine(result_, both, [](const Interval& a, const Interval& b) { return intersect(a, b).value_or(a); });
+}
+
+/// The initial state whose sensitivities are least known, by what they add to the result.
+std::size_t ValidatedFlow::Solver::most_uncertain() const {
+  std::size_t result = 0;
+  double largest = -1.0;
+  for (std::size_t j = 0; j < n_; ++j) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      const double part = width(sensitivity_.initial(i, j)) * width(initial_[j]);
+      sum += part / std::max(allowed_excess(i), 1e-300);
+    }
+    if (sum <= largest) continue;
+    largest = sum;
+    result = j;
+  }
+  return result;
+}
+
+/// Puts what is in both enclosures into the result. @returns whether there is one by faces
+bool ValidatedFlow::Solver::bound_by_faces(std::span<const Interval> slots, bool found) {
+  if (!system_.seams.empty()) return false;
+  if (faces_.enclose(slots, field_, period_, by_faces_)) return false;
+  if (found) {
+    combine(result_, by_faces_,
+            [](const Interval& a, const Interval& b) { return intersect(a, b).value_or(a); });
+  } else {
+    result_ = by_faces_;
+  }
+  return true;
+}
+
+}  // namespace coordreq

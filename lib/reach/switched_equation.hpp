@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "expression/program.hpp"
+#include "numeric/truth.hpp"
+
+namespace coordreq {
+
+/// An equation in double arithmetic whose switches can be kept where they are: abs, sign, min, max and the
+/// comparisons in the conditions of `if`. While they are kept the equation is smooth, also a little beyond
+/// the place where one of them would switch, so that an integrator can step over that place and find it.
+///
+/// Each switch is on the side -1, 0 or 1: the sign of its argument, or of the difference of its arguments.
+/// NaN where undefined. Scratch inside: one object a thread.
+class SwitchedEquation {
+ public:
+  /// REQUIRES: `program` outlives this object and is a number.
+  explicit SwitchedEquation(const Program& program);
+
+  [[nodiscard]] bool has_switches() const { return has_switches_; }
+
+  /// The value with all switches kept. Notes whether one of them should be on another side.
+  [[nodiscard]] double kept(std::span<const double> slots) { return run(slots, true, false); }
+  /// The value as it is. The switches stay where they are.
+  [[nodiscard]] double actual(std::span<const double> slots) { return run(slots, false, false); }
+  /// The same, and puts every switch on its side.
+  double settle(std::span<const double> slots) { return run(slots, false, true); }
+
+  /// Whether a switch was not on its side in the last run.
+  [[nodiscard]] bool left_its_sides() const { return left_; }
+
+ private:
+  double run(std::span<const double> slots, bool keep, bool move);
+  [[nodiscard]] double number_of(const Program::Node& node, std::span<const double> slots, int side) const;
+  [[nodiscard]] Truth truth_of(const Program::Node& node, int side) const;
+
+  const Program* program_;
+  bool has_switches_ = false;
+  bool left_ = false;
+  std::vector<double> constants_;
+  std::vector<double> numbers_;
+  std::vector<Truth> truths_;
+  std::vector<int> sides_;  ///< of every node
+};
+
+}  // namespace coordreq

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "model/table_shape.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// What the table of every state depends on, in which form it will be kept, and how large it gets.
+/// @throws SpecError as build_abstraction() does where an equation is undefined
+[[nodiscard]] std::vector<TableShape> table_shapes(const ProblemSpec& spec);
+
+/// Solves the dynamics for every input and parameter without building tables.
+/// @returns true if every post is an exact hull. @throws SpecError as build_abstraction() does, but for
+///   discrete states off their grid
+[[nodiscard]] bool check_dynamics(const ProblemSpec& spec);
+
+/// @throws SpecError if a discrete state moves between the samples: between its values it has no cells
+void check_between_samples(const ProblemSpec& spec);
+
+}  // namespace coordreq

@@ -1,0 +1,158 @@
+#include "results/check_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "answers/field_table.hpp"
+#include "base/error.hpp"
+
+namespace coordreq {
+namespace {
+
+using Lengths = std::map<std::string, std::uint64_t>;
+
+class FieldChecker {
+ public:
+  FieldChecker(const ResultsFile& file, const ProblemSpec& spec) : file_(file) {
+    for (const StateSpec& state : spec.states) cell_axes_.push_back("/" + state.name);
+  }
+
+  Fields run(const Fields& table, std::optional<std::uint64_t> max_memory) {
+    Fields present;
+    for (const Field& field : table) {
+      if (field.scale ? check_scale(field) : check_array(field)) present.push_back(field);
+    }
+    if (max_memory && bytes_ > *max_memory) {
+      throw LimitError(
+          fmt::format("reading the lists in the file needs about {} MiB of memory, the limit is {} MiB",
+                      bytes_ >> 20U, *max_memory >> 20U),
+          file_.place("/"));
+    }
+    for (const Field& field : present) {
+      if (field.scale) check_coordinates(field);
+    }
+    return present;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what, const Field& field) const {
+    throw ResultsError(what, file_.place(field.path));
+  }
+
+  /// Its length and type. @returns whether it is there
+  bool check_scale(const Field& field) {
+    const FieldScale& scale = *field.scale;
+    if (scale.is_optional && !file_.exists(field.path)) return false;
+    if (scale.least == scale.most) file_.expect_shape(field.path, {scale.least});
+    const std::vector<std::uint64_t> shape = file_.shape(field.path);
+    if (shape.size() != 1) fail("not a list", field);
+    const std::uint64_t length = shape.front();
+    if (length < scale.least || length > scale.most)
+      fail(fmt::format("found {} entries, expected {} to {}", length, scale.least, scale.most), field);
+    lengths_[field.path] = length;
+    if (std::holds_alternative<NoCoordinates>(scale.coordinates)) return true;
+    file_.expect_array(field.path, field.types, shape);
+    if (!std::holds_alternative<GridPoints>(scale.coordinates)) count_bytes(length);
+    return true;
+  }
+
+  bool check_array(const Field& field) {
+    const auto shape = shape_of(field, lengths_);
+    if (!shape) return false;
+    file_.expect_array(field.path, field.types, *shape);
+    for (const FieldAttribute& attribute : field.attributes) check_count(field, attribute);
+    if (!is_over_cells(field)) {
+      std::uint64_t elements = 1;
+      for (const std::uint64_t length : *shape) elements *= length;
+      count_bytes(elements);
+    }
+    return true;
+  }
+
+  /// By what the spec says is counted, bytes are told apart.
+  void check_count(const Field& field, const FieldAttribute& attribute) const {
+    const auto* const expected = std::get_if<std::uint64_t>(&attribute.value);
+    if (expected == nullptr || attribute.is_found) return;
+    const std::int64_t found = file_.integer(field.path, attribute.name);
+    if (found == static_cast<std::int64_t>(*expected)) return;
+    fail(fmt::format("the attribute {} is {}, expected {}", attribute.name, found, *expected), field);
+  }
+
+  [[nodiscard]] bool is_over_cells(const Field& field) const {
+    return std::search(field.axes.begin(), field.axes.end(), cell_axes_.begin(), cell_axes_.end()) !=
+           field.axes.end();
+  }
+
+  /// As read: eight bytes an element, what is stored, and a copy of another type.
+  void count_bytes(std::uint64_t elements) { bytes_ += elements * 24; }
+
+  void check_coordinates(const Field& field) const {
+    const FieldScale& scale = *field.scale;
+    const std::uint64_t length = lengths_.at(field.path);
+    if (const auto* names = std::get_if<std::vector<std::string>>(&scale.coordinates)) {
+      if (file_.texts(field.path) != *names) fail("the names are not those of the spec", field);
+    } else if (const auto* points = std::get_if<GridPoints>(&scale.coordinates)) {
+      check_points(field, *points, length);
+    } else if (std::holds_alternative<Numbers>(scale.coordinates)) {
+      const std::vector<std::int64_t> numbers = file_.integers(field.path);
+      for (std::size_t k = 0; k < numbers.size(); ++k) {
+        if (numbers[k] != static_cast<std::int64_t>(k)) fail("not the numbers 0, 1, ...", field);
+      }
+    }
+  }
+
+  void check_points(const Field& field, const GridPoints& points, std::uint64_t length) const {
+    constexpr std::uint64_t kPart = std::uint64_t{1} << 16U;
+    for (std::uint64_t begin = 0; begin < length; begin += kPart) {
+      const std::vector<double> found = file_.numbers(field.path, begin, std::min(kPart, length - begin));
+      for (std::uint64_t k = 0; k < found.size(); ++k) {
+        if (found[k] == points.at(begin + k)) continue;
+        fail("grid point " + std::to_string(begin + k) + " is not that of the spec", field);
+      }
+    }
+  }
+
+  const ResultsFile& file_;
+  std::vector<std::string> cell_axes_;
+  Lengths lengths_;
+  std::uint64_t bytes_ = 0;
+};
+
+}  // namespace
+
+Fields checked_fields(const ResultsFile& file, const ProblemSpec& spec,
+                      std::optional<std::uint64_t> max_memory) {
+  return FieldChecker(file, spec).run(result_fields(spec), max_memory);
+}
+
+void check_range(const ResultsFile& file, const Field& field, const std::vector<std::int64_t>& values) {
+  for (const std::int64_t value : values) {
+    if (value >= field.least && value <= field.most) continue;
+    throw ResultsError("found " + std::to_string(value) + ", which is none of its values",
+                       file.place(field.path));
+  }
+}
+
+bool SmallFields::has(const std::string& path) const {
+  return std::any_of(fields_.begin(), fields_.end(),
+                     [&path](const Field& field) { return field.path == path; });
+}
+
+std::vector<std::int64_t> SmallFields::integers(const std::string& path) const {
+  const auto field =
+      std::find_if(fields_.begin(), fields_.end(), [&path](const Field& one) { return one.path == path; });
+  std::vector<std::int64_t> values = file_.integers(path);
+  if (field != fields_.end()) check_range(file_, *field, values);
+  return values;
+}
+
+std::vector<double> SmallFields::numbers(const std::string& path) const {
+  return file_.numbers(path);
+}
+
+void SmallFields::fail(const std::string& what, const std::string& path) const {
+  throw ResultsError(what, file_.place(path));
+}
+
+}  // namespace coordreq

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "answers/field.hpp"
+#include "answers/field_source.hpp"
+#include "results/results_file.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// The fields of this spec that the file has, which are all but optional ones. Before anything is read, or
+/// room is made for it, shapes, types and what is stored are compared with what the spec implies; then the
+/// coordinates are.
+/// @throws ResultsError naming the field; LimitError if what is not over cells needs more than `max_memory`
+[[nodiscard]] Fields checked_fields(const ResultsFile& file, const ProblemSpec& spec,
+                                    std::optional<std::uint64_t> max_memory);
+
+/// @throws ResultsError if a value is none that the field has, unless it is `infinite`
+void check_range(const ResultsFile& file, const Field& field, const std::vector<std::int64_t>& values);
+
+/// Small fields as a whole.
+class SmallFields : public FieldSource {
+ public:
+  /// REQUIRES: both outlive this object.
+  SmallFields(const ResultsFile& file, const Fields& fields) : file_(file), fields_(fields) {}
+
+  [[nodiscard]] bool has(const std::string& path) const override;
+  [[nodiscard]] std::vector<std::int64_t> integers(const std::string& path) const override;
+  [[nodiscard]] std::vector<double> numbers(const std::string& path) const override;
+  [[noreturn]] void fail(const std::string& what, const std::string& path) const override;
+
+ private:
+  const ResultsFile& file_;
+  const Fields& fields_;
+};
+
+}  // namespace coordreq

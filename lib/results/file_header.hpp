@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "answers/field.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// The attributes of a results file itself, but for `version`; what tells of the program is marked as found.
+[[nodiscard]] std::vector<FieldAttribute> header_attributes(const ProblemSpec& spec);
+
+}  // namespace coordreq

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "expression/program.hpp"
+#include "numeric/truth.hpp"
+#include "verify/arb.hpp"
+
+namespace coordreq {
+
+/// How an expression behaves over all of a box.
+enum class Smoothness : std::uint8_t {
+  analytic,   ///< one formula without kinks
+  lipschitz,  ///< kinks, as of abs at 0; coefficient 1 encloses all its slopes (Clarke's)
+  jumps,      ///< perhaps different formulas that do not meet; only coefficient 0 counts
+};
+
+/// Runs an expression over power series: constant terms alone give its range over a box, two terms its slope
+/// in one direction, more its Taylor series in time. Encloses. What is not defined is not finite. Scratch
+/// inside: one object a thread.
+class ExpressionSeries {
+ public:
+  /// REQUIRES: `program` is a number and outlives this object.
+  explicit ExpressionSeries(const Program& program);
+
+  /// @param slots series of all variables; @param length of the series, at least 1
+  const ArbSeries& operator()(std::span<const ArbSeries> slots, slong length);
+  /// Of the last result. Where it is not analytic, coefficients from 2 on mean nothing.
+  [[nodiscard]] Smoothness smoothness() const { return smoothness_; }
+
+ private:
+  void run_number(std::size_t n, std::span<const ArbSeries> slots, slong length);
+  void run_binary(std::size_t n, slong length);
+  void run_unary(std::size_t n, slong length);
+  void run_power(std::size_t n, slong length);
+  void run_absolute(std::size_t n, slong length);
+  void run_sign(std::size_t n);
+  void run_choice(std::size_t n, bool minimum, slong length);
+  void run_if(std::size_t n, slong length);
+  [[nodiscard]] Truth condition(std::size_t n) const;
+  [[nodiscard]] bool is_constant(std::size_t n) const;
+  void lose(Smoothness smoothness);
+
+  const Program* program_;
+  std::vector<ArbSeries> values_;
+  std::vector<Truth> truths_;
+  Smoothness smoothness_ = Smoothness::analytic;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,101 @@
+#include "verify/flow_range.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace coordreq {
+namespace {
+
+/// -1, 0 or 1: which way the state goes; 2: not only one.
+int direction(const Arb& change) {
+  if (change.is_zero()) return 0;
+  if (change.is_nonnegative()) return 1;
+  return change.is_nonpositive() ? -1 : 2;
+}
+
+class RangeFinder {
+ public:
+  RangeFinder(VectorField& field, FlowExtremes& flow, const SpanBox& box, const Arb& share)
+      : field_(field), flow_(flow), box_(box), own_(field.variables()[flow.position()]), share_(share) {
+    result_.lower = box[own_].lower.lower();
+    result_.upper = box[own_].upper.upper();
+  }
+
+  FlowRange run() {
+    const std::vector<FlowStep>& steps = flow_.steps();
+    for (std::size_t begin = 0, end = 0; begin < steps.size(); begin = end) {
+      const int way = direction(change(begin));
+      end = begin + 1;
+      while (way != 2 && end < steps.size() && direction(change(end)) == way) ++end;
+      visit(begin, end, way);
+    }
+    result_.stays_above_start = keeps(1) || is_wall(false);
+    result_.stays_below_start = keeps(-1) || is_wall(true);
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] const Arb& change(std::size_t step) const {
+    return flow_.steps()[step].change[flow_.position()];
+  }
+
+  void visit(std::size_t begin, std::size_t end, int way) {
+    if (way == 0) return;
+    if (way == 2) {
+      const Arb moved = share_ * change(begin);
+      look(begin, moved.lower(), moved.upper());
+    }
+    look(end, Arb(), Arb());
+  }
+
+  void look(std::size_t steps, const Arb& down, const Arb& up) {
+    const Extreme least = flow_.extreme_after(steps, false);
+    const Extreme greatest = flow_.extreme_after(steps, true);
+    result_.lower = lesser(result_.lower, (least.bound + down).lower());
+    result_.upper = greater(result_.upper, (greatest.bound + up).upper());
+    if (steps == 0) return;
+    if (least.attained)
+      result_.low = result_.low ? lesser(*result_.low, least.attained->upper()) : least.attained->upper();
+    if (greatest.attained)
+      result_.high =
+          result_.high ? greater(*result_.high, greatest.attained->lower()) : greatest.attained->lower();
+  }
+
+  [[nodiscard]] bool keeps(int way) const {
+    const std::vector<FlowStep>& steps = flow_.steps();
+    return std::all_of(steps.begin(), steps.end(), [&](const FlowStep& step) {
+      const int own = direction(step.change[flow_.position()]);
+      return own == 0 || own == way;
+    });
+  }
+
+  /// Whether the state cannot get to where its derivative does not point: had it done so, it would have moved
+  /// against its derivative since it was last inside.
+  [[nodiscard]] bool is_wall(bool above) {
+    return std::all_of(flow_.steps().begin(), flow_.steps().end(), [&](const FlowStep& step) {
+      ArbBox beyond = step.tube;
+      beyond[own_] = above ? hull(box_[own_].upper, greater(box_[own_].upper, step.tube[own_].upper()))
+                           : hull(box_[own_].lower, lesser(box_[own_].lower, step.tube[own_].lower()));
+      const Arb own = field_.value(flow_.position(), beyond);
+      return own.is_finite() && (above ? own.is_nonpositive() : own.is_nonnegative());
+    });
+  }
+
+  VectorField& field_;
+  FlowExtremes& flow_;
+  const SpanBox& box_;
+  std::uint32_t own_;
+  const Arb& share_;
+  FlowRange result_;
+};
+
+}  // namespace
+
+std::optional<FlowRange> range_during_period(FlowExtremes& flow, const SpanBox& box, const Effort& effort) {
+  if (!flow.enclose(box, effort)) return std::nullopt;
+  FlowRange range = RangeFinder(flow.field(), flow, box, flow.duration_of_step()).run();
+  if (!range.lower.is_finite() || !range.upper.is_finite()) return std::nullopt;
+  return range;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,114 @@
+#include "verify/flow_tube.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace coordreq {
+namespace {
+
+/// The extreme derivative over a face that is cut where its bound is farthest off.
+Arb extreme_change(VectorField& field, std::size_t i, const SpanBox& face,
+                   const std::optional<ArbMatrix>& slopes, bool greatest, int pieces) {
+  std::optional<std::vector<Arb>> row;
+  if (slopes) {
+    row.emplace();
+    for (std::size_t j = 0; j < field.variables().size(); ++j) row->push_back((*slopes)(i, j));
+  }
+  const Extreme whole = extreme_of(field, i, face, row, greatest);
+  const auto worst = std::max_element(whole.excess.begin(), whole.excess.end());
+  if (pieces <= 1 || worst == whole.excess.end() || *worst <= 0.0) return whole.bound;
+  const std::uint32_t slot = field.variables()[static_cast<std::size_t>(worst - whole.excess.begin())];
+  SpanBox half = face;
+  half[slot].upper = face[slot].middle();
+  Arb found = extreme_change(field, i, half, field.jacobian(all_of(half)), greatest, pieces / 2);
+  half[slot] = {half[slot].upper, face[slot].upper};
+  const Arb other = extreme_change(field, i, half, field.jacobian(all_of(half)), greatest, pieces / 2);
+  if (!found.is_finite() || !other.is_finite()) return whole.bound;
+  found = greatest ? greater(found, other) : lesser(found, other);
+  return greatest ? lesser(found, whole.bound) : greater(found, whole.bound);
+}
+
+class StepMaker {
+ public:
+  StepMaker(VectorField& field, const Arb& duration, int pieces)
+      : field_(field), duration_(duration), pieces_(pieces) {}
+
+  std::optional<FlowStep> make(const SpanBox& start) {
+    std::optional<Tube> tube = picard_tube(field_, all_of(start), duration_);
+    if (!tube) return std::nullopt;
+    step_ = {.tube = std::move(tube->box), .change = std::move(tube->change), .end = start};
+    step_.slopes = field_.jacobian(step_.tube);
+    for (std::size_t i = 0; i < field_.size(); ++i) {
+      ArbSpan& span = step_.end[field_.variables()[i]];
+      span = {end_of(start, i, false), end_of(start, i, true)};
+    }
+    return std::move(step_);
+  }
+
+ private:
+  [[nodiscard]] Arb end_of(const SpanBox& start, std::size_t i, bool greatest) {
+    const std::uint32_t slot = field_.variables()[i];
+    const Arb from = greatest ? start[slot].upper : start[slot].lower;
+    const Arb fastest = greatest ? step_.change[i].upper() : step_.change[i].lower();
+    const Arb rough = from + duration_ * fastest;
+    const Arb bound = step_.slopes ? along_face(start, i, greatest) : beyond_face(start, i, greatest);
+    return greatest ? lesser(rough, bound).upper() : greater(rough, bound).lower();
+  }
+
+  /// All derivatives of states are within `change`, so that the one on the moving face changes by
+  /// time * slopes * change at most.
+  [[nodiscard]] Arb along_face(const SpanBox& start, std::size_t i, bool greatest) {
+    const std::uint32_t slot = field_.variables()[i];
+    SpanBox face = start;
+    face[slot] = greatest ? ArbSpan{start[slot].upper, start[slot].upper}
+                          : ArbSpan{start[slot].lower, start[slot].lower};
+    const Arb change = extreme_change(field_, i, face, step_.slopes, greatest, pieces_);
+    Arb second;
+    for (std::size_t j = 0; j < field_.size(); ++j) second = second + (*step_.slopes)(i, j) * step_.change[j];
+    const Arb bend = greatest ? second.upper() : second.lower();
+    return face[slot].lower + duration_ * change + duration_ * duration_ * Arb(0.5) * bend;
+  }
+
+  /// The same without slopes: a state that is beyond the moving end has to have got there with a derivative
+  /// that is taken there.
+  [[nodiscard]] Arb beyond_face(const SpanBox& start, std::size_t i, bool greatest) {
+    const std::uint32_t slot = field_.variables()[i];
+    const Arb from = greatest ? start[slot].upper : start[slot].lower;
+    const Arb moved = from + duration_ * (greatest ? step_.change[i].lower() : step_.change[i].upper());
+    SpanBox beyond = start;
+    for (std::size_t j = 0; j < field_.size(); ++j) {
+      const Arb& all = step_.tube[field_.variables()[j]];
+      beyond[field_.variables()[j]] = {all.lower(), all.upper()};
+    }
+    if (greatest) {
+      beyond[slot].lower = lesser(from, moved).lower();
+    } else {
+      beyond[slot].upper = greater(from, moved).upper();
+    }
+    return from + duration_ * extreme_change(field_, i, beyond, std::nullopt, greatest, pieces_);
+  }
+
+  VectorField& field_;
+  const Arb& duration_;
+  int pieces_;
+  FlowStep step_;
+};
+
+}  // namespace
+
+std::optional<std::vector<FlowStep>> enclose_flow(VectorField& field, const SpanBox& start,
+                                                  const Arb& duration, int steps, int pieces) {
+  const Arb share = duration / Arb(static_cast<double>(steps));
+  std::vector<FlowStep> result;
+  const SpanBox* now = &start;
+  result.reserve(static_cast<std::size_t>(steps));
+  for (int step = 0; step < steps; ++step) {
+    std::optional<FlowStep> next = StepMaker(field, share, pieces).make(*now);
+    if (!next) return std::nullopt;
+    result.push_back(std::move(*next));
+    now = &result.back().end;
+  }
+  return result;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,76 @@
+#include "verify/map_extremes.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace coordreq {
+namespace {
+
+Extreme natural_extreme(VectorField& field, const SpanBox& box, const Arb& natural, bool greatest) {
+  Extreme result{.bound = greatest ? natural.upper() : natural.lower()};
+  for (const ArbSpan& span : box) result.start.push_back(span.middle());
+  for (const std::uint32_t slot : field.variables()) result.excess.push_back(box[slot].width());
+  return result;
+}
+
+/// From the value at a place that the slopes choose; its bound is not finite where that is not defined.
+Extreme mean_value_extreme(VectorField& field, std::size_t equation, const SpanBox& box,
+                           const std::vector<Arb>& slopes, bool greatest) {
+  Extreme result;
+  for (const ArbSpan& span : box) result.start.push_back(span.lower);
+  Arb excess;
+  for (std::size_t j = 0; j < slopes.size(); ++j) {
+    const std::uint32_t slot = field.variables()[j];
+    Choice choice = choose_for_extreme(box[slot], slopes[j], greatest);
+    result.excess.push_back(choice.excess.approximately());
+    excess = excess + choice.excess;
+    result.start[slot] = std::move(choice.place);
+  }
+  const Arb value = field.value(equation, result.start);
+  if (value.is_finite()) result.attained = value;
+  result.bound = greatest ? (value + excess).upper() : (value - excess).lower();
+  return result;
+}
+
+}  // namespace
+
+Extreme extreme_of(VectorField& field, std::size_t equation, const SpanBox& box,
+                   const std::optional<std::vector<Arb>>& slopes, bool greatest) {
+  std::optional<Extreme> mean;
+  if (slopes) mean = mean_value_extreme(field, equation, box, *slopes, greatest);
+  const auto is_zero = [](double excess) { return excess == 0.0; };
+  if (mean && mean->attained && std::all_of(mean->excess.begin(), mean->excess.end(), is_zero)) return *mean;
+  Extreme natural = natural_extreme(field, box, field.value(equation, all_of(box)), greatest);
+  if (mean && mean->attained) {
+    const bool is_better = !natural.bound.is_finite() || is_below(mean->bound, natural.bound) == greatest;
+    if (!is_better) mean->bound = natural.bound;
+    return *mean;
+  }
+  const Arb value = field.value(equation, natural.start);
+  if (value.is_finite()) natural.attained = value;
+  return natural;
+}
+
+MapExtremes::MapExtremes(const ProblemSpec& spec, const Influences& influences, std::size_t state)
+    : map_(spec, influences, {state}) {}
+
+std::optional<Extremes> MapExtremes::extremes(const SpanBox& box, const Effort&, const Enough& enough) {
+  const ArbBox all = all_of(box);
+  const Arb natural = map_.value(0, all);
+  if (natural.is_finite() && enough(natural, natural)) {
+    return Extremes{natural_extreme(map_, box, natural, false), natural_extreme(map_, box, natural, true)};
+  }
+  const std::optional<std::vector<Arb>> slopes = map_.slopes(0, all);
+  if (!slopes && !natural.is_finite()) return std::nullopt;
+  return Extremes{extreme_of(map_, 0, box, slopes, false), extreme_of(map_, 0, box, slopes, true)};
+}
+
+bool MapExtremes::follows(const ArbBox& box, std::uint32_t slot) {
+  const auto place = std::find(map_.variables().begin(), map_.variables().end(), slot);
+  if (place == map_.variables().end()) return false;
+  const std::optional<std::vector<Arb>> slopes = map_.slopes(0, box);
+  return slopes &&
+         arb_is_one((*slopes)[static_cast<std::size_t>(place - map_.variables().begin())].get()) != 0;
+}
+
+}  // namespace coordreq

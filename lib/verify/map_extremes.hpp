@@ -1,0 +1,28 @@
+#pragma once
+
+#include "verify/next_value.hpp"
+
+namespace coordreq {
+
+/// The next value of a state in discrete time, or of any expression of states and disturbances: the better of
+/// its natural range and of its mean value form, which begins at the ends of what is monotone.
+class MapExtremes : public NextValue {
+ public:
+  /// REQUIRES: `spec` outlives this object.
+  MapExtremes(const ProblemSpec& spec, const Influences& influences, std::size_t state);
+
+  [[nodiscard]] std::optional<Extremes> extremes(const SpanBox& box, const Effort& effort,
+                                                 const Enough& enough) override;
+  [[nodiscard]] const std::vector<std::uint32_t>& divisible() const override { return map_.variables(); }
+  /// True if the value is that of `slot` and something that does not depend on it.
+  [[nodiscard]] bool follows(const ArbBox& box, std::uint32_t slot);
+
+ private:
+  VectorField map_;
+};
+
+/// The extreme of one equation of a vector field over a box.
+[[nodiscard]] Extreme extreme_of(VectorField& field, std::size_t equation, const SpanBox& box,
+                                 const std::optional<std::vector<Arb>>& slopes, bool greatest);
+
+}  // namespace coordreq

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "verify/vector_field.hpp"
+
+namespace coordreq {
+
+/// A closed interval by its ends, which are all but points.
+struct ArbSpan {
+  Arb lower;
+  Arb upper;
+  [[nodiscard]] Arb all() const { return hull(lower, upper); }
+  [[nodiscard]] Arb middle() const { return all().middle(); }
+  [[nodiscard]] double width() const { return upper.approximately() - lower.approximately(); }
+};
+/// One for each variable of a spec, by slot.
+using SpanBox = std::vector<ArbSpan>;
+[[nodiscard]] ArbBox all_of(const SpanBox& box);
+
+/// How hard to try.
+struct Effort {
+  int steps = 2;            ///< that a period is cut into
+  double tolerance = 1e-3;  ///< of a solution, in cells
+};
+
+/// What is known about the least or the greatest value that one state can have next.
+struct Extreme {
+  Arb bound;                    ///< a point: no value is beyond it
+  std::optional<Arb> attained;  ///< a value that is taken, by `start`
+  ArbBox start;                 ///< where from; of disturbances that change their value at the beginning
+  std::vector<double> excess;   ///< what each variable adds to the bound beyond `attained`, roughly
+};
+struct Extremes {
+  Extreme least;
+  Extreme greatest;
+};
+
+/// Encloses the next value of one state from boxes of present ones. Scratch inside: one object a thread.
+class NextValue {
+ public:
+  NextValue() = default;
+  NextValue(const NextValue&) = delete;
+  NextValue& operator=(const NextValue&) = delete;
+  virtual ~NextValue() = default;
+
+  /// @param box constant but for states and disturbances
+  /// @param enough tells whether a range that is found first, with less effort, will do
+  /// @returns nothing where no bound is found
+  using Enough = std::function<bool(const Arb& lower, const Arb& upper)>;
+  [[nodiscard]] virtual std::optional<Extremes> extremes(const SpanBox& box, const Effort& effort,
+                                                         const Enough& enough) = 0;
+  /// Slots of what may be cut into pieces: for each piece a bound holds by itself.
+  [[nodiscard]] virtual const std::vector<std::uint32_t>& divisible() const = 0;
+};
+
+/// What a variable that moves a value with a slope adds beyond the place that is taken for the extreme.
+struct Choice {
+  Arb place;   ///< a point of the span
+  Arb excess;  ///< not negative: how far values for other places are beyond
+};
+/// @param slope of the value by the variable, all over the span
+[[nodiscard]] Choice choose_for_extreme(const ArbSpan& span, const Arb& slope, bool greatest);
+
+}  // namespace coordreq

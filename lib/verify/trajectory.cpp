@@ -1,0 +1,155 @@
+#include "verify/trajectory.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace coordreq {
+namespace {
+
+/// Higher ones pay only where more is wanted.
+slong order_for(double tolerance) {
+  return tolerance > 1e-6 ? 4 : 8;
+}
+
+constexpr int kPicardTries = 30;
+constexpr std::size_t kMostKnown = 1 << 14;
+
+Arb from_zero(const Arb& duration) {
+  return hull(Arb(), duration);
+}
+
+Arb widened(const Arb& a) {
+  const Arb margin(0.1 * a.width() + 1e-12 * std::abs(a.approximately()) + 1e-300);
+  return hull(a - margin, a + margin);
+}
+
+int compare(const Arb& a, const Arb& b) {
+  const int middles = arf_cmp(arb_midref(a.get()), arb_midref(b.get()));
+  return middles != 0 ? middles : mag_cmp(arb_radref(a.get()), arb_radref(b.get()));
+}
+
+}  // namespace
+
+std::optional<Tube> picard_tube(VectorField& field, const ArbBox& start, const Arb& duration) {
+  Tube tube{.box = start, .change = std::vector<Arb>(field.size())};
+  const Arb time = from_zero(duration);
+  for (int attempt = 0; attempt < kPicardTries; ++attempt) {
+    bool inside = true;
+    ArbBox next = tube.box;
+    for (std::size_t i = 0; i < field.size(); ++i) {
+      const std::uint32_t slot = field.variables()[i];
+      tube.change[i] = field.value(i, tube.box);
+      if (!tube.change[i].is_finite()) return std::nullopt;
+      next[slot] = start[slot] + time * tube.change[i];
+      inside = inside && tube.box[slot].holds(next[slot]);
+    }
+    if (inside) {
+      // What it moves on to is a tube as well, and a narrower one.
+      tube.box = std::move(next);
+      return tube;
+    }
+    for (std::size_t i = 0; i < field.size(); ++i) {
+      const std::uint32_t slot = field.variables()[i];
+      tube.box[slot] = hull(tube.box[slot], widened(hull(start[slot], next[slot])));
+    }
+  }
+  return std::nullopt;
+}
+
+bool Trajectory::Order::operator()(const ArbBox& a, const ArbBox& b) const {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                      [](const Arb& x, const Arb& y) { return compare(x, y) < 0; });
+}
+
+bool Trajectory::advance(ArbBox& box, const Arb& duration, double tolerance) {
+  if (known_.size() > kMostKnown) known_.clear();
+  ArbBox key = box;
+  key.push_back(duration);
+  key.emplace_back(tolerance);
+  const auto [place, is_new] = known_.try_emplace(std::move(key));
+  if (is_new) {
+    ArbBox end = box;
+    if (integrate(end, duration, tolerance)) place->second = std::move(end);
+  }
+  if (!place->second) return false;
+  box = *place->second;
+  return true;
+}
+
+bool Trajectory::integrate(ArbBox& box, const Arb& duration, double tolerance) {
+  std::uint32_t left = kFinest;
+  std::uint32_t parts = parts_;
+  while (left > 0) {
+    parts = std::min(parts, left);
+    const Arb share(static_cast<double>(parts) / kFinest);
+    std::optional<ArbBox> next = step(box, duration * share, tolerance * share.approximately(), parts == 1);
+    if (next) {
+      box = std::move(*next);
+      left -= parts;
+      parts_ = parts;
+      if (left % (2 * parts) == 0) parts *= 2;
+    } else if (parts > 1) {
+      parts /= 2;
+    } else {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::optional<ArbBox> Trajectory::step(const ArbBox& box, const Arb& duration, double tolerance,
+                                       bool last_try) {
+  const std::optional<Tube> tube = picard_tube(*field_, box, duration);
+  if (!tube) return std::nullopt;
+  if (std::optional<ArbBox> end = analytic_step(box, tube->box, duration, tolerance)) return end;
+  const ArbBox end = kinked_step(box, tube->box, tube->change, duration);
+  for (std::size_t i = 0; i < field_->size() && !last_try; ++i) {
+    const std::uint32_t slot = field_->variables()[i];
+    if (end[slot].width() - box[slot].width() > tolerance) return std::nullopt;
+  }
+  return end;
+}
+
+std::optional<ArbBox> Trajectory::analytic_step(const ArbBox& box, const ArbBox& tube, const Arb& duration,
+                                                double tolerance) {
+  const slong order = order_for(tolerance);
+  const std::optional<std::vector<ArbSeries>> rest = field_->taylor(tube, order + 1);
+  if (!rest) return std::nullopt;
+  Arb power;
+  arb_pow_ui(power.get(), duration.get(), static_cast<ulong>(order), kArbBits);
+  std::vector<Arb> remainder;
+  for (const ArbSeries& series : *rest) {
+    remainder.push_back(series[order] * power);
+    if (!(remainder.back().width() <= tolerance)) return std::nullopt;
+  }
+  const std::optional<std::vector<ArbSeries>> series = field_->taylor(box, order);
+  if (!series) return std::nullopt;
+  ArbBox end = box;
+  for (std::size_t i = 0; i < series->size(); ++i) {
+    Arb value;
+    arb_poly_evaluate(value.get(), (*series)[i].get(), duration.get(), kArbBits);
+    end[field_->variables()[i]] = value + remainder[i];
+  }
+  return end;
+}
+
+/// x(h) is in x + h f(x) + h^2 / 2 J f(tube), J the slopes over the tube; where there are none in x + h
+/// f(tube).
+ArbBox Trajectory::kinked_step(const ArbBox& box, const ArbBox& tube, const std::vector<Arb>& change,
+                               const Arb& duration) {
+  ArbBox end = box;
+  const Arb half_square = duration * duration * Arb(0.5);
+  for (std::size_t i = 0; i < field_->size(); ++i) {
+    const std::uint32_t slot = field_->variables()[i];
+    end[slot] = box[slot] + duration * change[i];
+    const std::optional<std::vector<Arb>> slopes = field_->slopes(i, tube);
+    if (!slopes) continue;
+    Arb second;
+    for (std::size_t j = 0; j < field_->size(); ++j) second = second + (*slopes)[j] * change[j];
+    const Arb better = box[slot] + duration * field_->value(i, box) + half_square * second;
+    if (better.is_finite() && better.width() < end[slot].width()) end[slot] = better;
+  }
+  return end;
+}
+
+}  // namespace coordreq

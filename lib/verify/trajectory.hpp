@@ -1,0 +1,51 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "verify/vector_field.hpp"
+
+namespace coordreq {
+
+/// Solutions of x' = f(x, w) from a point with constant w, enclosed step by step: by Taylor's formula with
+/// Lagrange's remainder where f is analytic, by one of second order with Clarke's slopes where it has kinks,
+/// by the range of f where it jumps. Steps are halved until the remainder is small enough.
+class Trajectory {
+ public:
+  /// REQUIRES: `field` outlives this object.
+  explicit Trajectory(VectorField& field) : field_(&field) {}
+
+  /// @param duration a point; @param tolerance of the end, in the units of each state; a few halvings later
+  /// a step is taken all the same
+  /// @returns false if the solution may not last so long; then the box is not changed
+  [[nodiscard]] bool advance(ArbBox& box, const Arb& duration, double tolerance);
+
+ private:
+  struct Order {
+    [[nodiscard]] bool operator()(const ArbBox& a, const ArbBox& b) const;
+  };
+
+  [[nodiscard]] bool integrate(ArbBox& box, const Arb& duration, double tolerance);
+  [[nodiscard]] std::optional<ArbBox> step(const ArbBox& box, const Arb& duration, double tolerance,
+                                           bool last_try);
+  [[nodiscard]] std::optional<ArbBox> analytic_step(const ArbBox& box, const ArbBox& tube,
+                                                    const Arb& duration, double tolerance);
+  [[nodiscard]] ArbBox kinked_step(const ArbBox& box, const ArbBox& tube, const std::vector<Arb>& change,
+                                   const Arb& duration);
+
+  static constexpr std::uint32_t kFinest = 1U << 12U;  // parts of a duration
+
+  VectorField* field_;
+  std::uint32_t parts_ = kFinest;                         ///< that the last step took
+  std::map<ArbBox, std::optional<ArbBox>, Order> known_;  ///< by box and duration
+};
+
+/// A box that no solution from `start` leaves within [0, duration] (Picard), and the range of f over it.
+struct Tube {
+  ArbBox box;
+  std::vector<Arb> change;
+};
+[[nodiscard]] std::optional<Tube> picard_tube(VectorField& field, const ArbBox& start, const Arb& duration);
+
+}  // namespace coordreq

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "spec/problem_spec.hpp"
+#include "verify/expression_series.hpp"
+#include "verify/sampled_map.hpp"
+
+namespace coordreq {
+
+/// A value for each variable of a spec, by slot.
+using ArbBox = std::vector<Arb>;
+
+/// Several equations of a spec as functions of what varies: some states x, then disturbances w. Encloses
+/// their ranges, slopes and, as right-hand sides of x' = f(x, w), Taylor series in time. Scratch inside: one
+/// object a thread.
+class VectorField {
+ public:
+  /// @param equations indices of states; for taylor() those of all of x
+  /// REQUIRES: `spec` outlives this object.
+  VectorField(const ProblemSpec& spec, const Influences& influences,
+              const std::vector<std::size_t>& equations);
+
+  [[nodiscard]] std::size_t size() const { return equations_.size(); }
+  /// Slots of x, then of w.
+  [[nodiscard]] const std::vector<std::uint32_t>& variables() const { return variables_; }
+
+  /// The range of one equation over a box; not finite where it is not defined or has no bound.
+  [[nodiscard]] Arb value(std::size_t equation, const ArbBox& box);
+  /// Slopes of one equation by all variables, over the box. @returns nothing where it jumps, or they have no
+  /// bound
+  [[nodiscard]] std::optional<std::vector<Arb>> slopes(std::size_t equation, const ArbBox& box);
+  /// A row of slopes() an equation.
+  [[nodiscard]] std::optional<ArbMatrix> jacobian(const ArbBox& box);
+  /// Series in time of all solutions that begin in the box, w constant: one an equation, `length` terms.
+  /// @returns nothing if some equation is not analytic or not bounded over the box
+  [[nodiscard]] std::optional<std::vector<ArbSeries>> taylor(const ArbBox& box, slong length);
+
+ private:
+  void put(const ArbBox& box);
+
+  std::vector<ExpressionSeries> equations_;
+  std::vector<std::vector<bool>> mentions_;  ///< [equation][variable]
+  std::vector<std::uint32_t> variables_;
+  std::vector<ArbSeries> slots_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,115 @@
+// Systems that have an answer although parts of them leave the domain, stop, decay fast or go round far.
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "reach/attack.hpp"
+
+namespace coordreq {
+namespace {
+
+ProblemSpec flow(const std::string& states, const std::string& equations) {
+  return read_spec(test::spec_text(states, "continuous", equations), "test");
+}
+
+std::int64_t cell_of(const Abstraction& a, const std::vector<std::int64_t>& index) {
+  std::int64_t cell = 0;
+  for (std::size_t i = 0; i < index.size(); ++i) cell += index[i] * a.grid.stride(i);
+  return cell;
+}
+
+const std::string kPlace = R"({"name": "p", "lower": -2, "upper": 2, "step": 0.5}, )";
+const std::string kSpeed = R"({"name": "v", "lower": -1, "upper": 1, "step": 0.25)";
+
+TEST(OffLimits, ChainsOfIntegratorsAreExactWhereNothingIsStopped) {
+  const std::string equations = R"("p": "v", "v": "u")";
+  const Abstraction stopped = test::build(flow(kPlace + kSpeed + R"(, "outside": "stop"})", equations));
+  const Abstraction free = test::build(flow(kPlace + kSpeed + "}", equations));
+  int same = 0;
+  for (std::int64_t k = 0; k < 9; ++k) {
+    const double speed = -1.0 + 0.25 * static_cast<double>(k);
+    const double inputs[] = {-1.0, 0.0, 0.5};
+    for (std::int64_t u = 0; u < 3; ++u) {
+      const double moved = 0.5 * inputs[u];
+      const bool off =
+          speed - 0.125 + std::min(moved, 0.0) > -1.0 && speed + 0.125 + std::max(moved, 0.0) < 1.0;
+      if (!off) continue;
+      const std::int64_t cell = cell_of(stopped, {4, k});
+      EXPECT_EQ(stopped.raw(0, cell, u), free.raw(0, cell, u)) << speed << " " << inputs[u];
+      EXPECT_EQ(stopped.raw(1, cell, u), free.raw(1, cell, u)) << speed << " " << inputs[u];
+      ++same;
+    }
+  }
+  EXPECT_EQ(same, 17);
+  EXPECT_FALSE(stopped.exact);
+}
+
+TEST(OffLimits, SolutionsStayInPostsNearLimitsToo) {
+  const ProblemSpec spec = flow(kPlace + kSpeed + R"(, "outside": "stop"})", R"("p": "v", "v": "u")");
+  test::attack(spec, 3000);
+}
+
+TEST(LeftBefore, StateThatDependsOnOneThatEscapesIsBlocked) {
+  const std::string states = R"({"name": "x", "lower": -1, "upper": 1, "step": 0.5}, )"
+                             R"({"name": "y", "lower": -1, "upper": 1, "step": 0.5})";
+  const Abstraction a = test::build(flow(states, R"json("x": "0.1*y", "y": "-5*y^2 - 2 + 0*u")json"));
+  for (std::int64_t k = 0; k < 5; ++k) {
+    const std::int64_t cell = cell_of(a, {2, k});
+    EXPECT_TRUE(a.resolved(0, cell, 0).blocked || a.resolved(1, cell, 0).blocked) << k;
+  }
+}
+
+TEST(LeftBefore, EscapeIsAnErrorWhereTheStateItselfCannotBlock) {
+  const std::string states = R"({"name": "x", "lower": -1, "upper": 1, "step": 0.5, "outside": "safe"}, )"
+                             R"({"name": "y", "lower": -1, "upper": 1, "step": 0.5})";
+  EXPECT_THROW((void)test::build(flow(states, R"json("x": "0.1*y", "y": "-5*y^2 - 2 + 0*u")json")),
+               SpecError);
+}
+
+TEST(LeftBefore, PoleBeyondAnUnsafeSideIsNoError) {
+  const std::string states = R"({"name": "x", "lower": -1.6, "upper": 1.6, "step": 0.4}, )"
+                             R"({"name": "y", "lower": -1, "upper": 1, "step": 0.5})";
+  const Abstraction a = test::build(flow(states, R"json("x": "u", "y": "1/(2 + x)")json"));
+  const std::int64_t cell = cell_of(a, {0, 2});
+  EXPECT_TRUE(a.resolved(0, cell, 0).blocked);  // u = -1
+  EXPECT_FALSE(a.resolved(0, cell, 1).blocked);
+}
+
+TEST(Stiff, IsSolvedWhereEachStateSettles) {
+  const std::string states = R"({"name": "x", "lower": -1, "upper": 1, "step": 0.5}, )"
+                             R"({"name": "y", "lower": -1, "upper": 1, "step": 0.5})";
+  const Abstraction a = test::build(flow(states, R"json("x": "-1e5*(x - sin(y))", "y": "u")json"));
+  // From y in [-0.25, 0.25] with u = 0 to x in sin([-0.25, 0.25]), up to what it has yet to settle.
+  EXPECT_EQ(a.raw(0, cell_of(a, {4, 2}), 1), (IndexRange{2, 2}));
+}
+
+TEST(Stiff, NamesTheRateWhereItIsRefused) {
+  const std::string states = R"({"name": "x", "lower": -1, "upper": 1, "step": 1}, )"
+                             R"({"name": "y", "lower": -1, "upper": 1, "step": 1})";
+  try {
+    (void)test::build(flow(states, R"json("x": "-1e9*(x - 3*y + 0.1*x^3)", "y": "-1e9*(y + 3*x) + u")json"));
+    FAIL();
+  } catch (const SpecError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("too stiff"), std::string::npos) << text;
+    EXPECT_NE(text.find("e+09"), std::string::npos) << text;
+  }
+}
+
+TEST(FarAway, ShiftNearTheLargestIndexIsExactOnARing) {
+  const std::string text = R"({"coordreq": 1, "name": "t",
+"states": [{"name": "h", "lower": 0, "upper": 0.9, "count": 9, "outside": "periodic"}],
+"inputs": [{"name": "u", "values": [0, 1]}], "agents": [{"name": "a", "inputs": ["u"]}],
+"dynamics": {"time": "discrete", "period": 1, "equations": {"h": "h + 214748364.3 + 0.1*u"}},
+"safe": "true", "abstraction": {"cells": "half_open"}})";
+  const Abstraction a = test::build(read_spec(text, "test"));
+  for (std::int64_t k = 0; k < 9; ++k) {
+    for (std::int64_t u = 0; u < 2; ++u) {
+      const auto next = static_cast<std::int32_t>((k + 2147483643 + u) % 9);
+      EXPECT_EQ(a.resolved(0, k, u).inside, (IndexRange{next, next}));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace coordreq
