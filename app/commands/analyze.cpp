@@ -22,9 +22,7 @@ void check_files(const ProblemSpec& spec, const std::string& output, const Analy
   add_read_files(own.specs.front(), &spec, files);
   files.writes(output, "the results", "--output");
   if (own.junit) files.writes(*own.junit, "the JUnit report", "--junit");
-  if (!own.checkpoint) return;
-  for (const std::string& file : files_of(*own.checkpoint))
-    files.writes(file, "the checkpoint", "--checkpoint");
+  if (own.checkpoint) files.writes(own.checkpoint->file, "the checkpoint", "--checkpoint");
 }
 
 Json analyze_and_write(const ProblemSpec& spec, const AnalyzeOptions& own) {

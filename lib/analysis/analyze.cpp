@@ -12,7 +12,7 @@ namespace coordreq {
 namespace {
 
 void open_checkpoint(const ProblemSpec& spec, const AnalysisOptions& options, StageReporter& reporter,
-                     ThreadTeam& team, std::optional<Checkpoint>& checkpoint) {
+                     std::optional<Checkpoint>& checkpoint) {
   if (!options.checkpoint) return;
   const Checkpoint::Listener listener{
       .progress = [&reporter](bool has_temporary) { reporter.set_temporary(has_temporary); },
@@ -21,7 +21,7 @@ void open_checkpoint(const ProblemSpec& spec, const AnalysisOptions& options, St
             if (options.notice) options.notice(text);
           }};
   reporter.enter("checkpoint");
-  checkpoint.emplace(*options.checkpoint, spec, team, listener);
+  checkpoint.emplace(*options.checkpoint, spec, listener);
 }
 
 void find_answers(Answers& answers, StageReporter& reporter, Checkpoint* checkpoint, ThreadTeam& team) {
@@ -53,7 +53,7 @@ AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options,
   if (options.checkpoint) check_checkpoint(*options.checkpoint);
   StageReporter reporter(options.progress, team);
   std::optional<Checkpoint> checkpoint;
-  open_checkpoint(spec, options, reporter, team, checkpoint);
+  open_checkpoint(spec, options, reporter, checkpoint);
   Answers answers(spec);
   find_answers(answers, reporter, checkpoint ? &*checkpoint : nullptr, team);
   AnalysisSummary summary = summarise(answers);

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -19,62 +19,12 @@ namespace {
 
 constexpr const char* kWhat = "the checkpoint";
 constexpr const char* kSuffix = ".new";
-constexpr const char* kFiletype = "coordreq-checkpoint 1";
+constexpr const char* kFiletype = "coordreq-checkpoint 2";
 /// Saving takes at most one part in so many of the time.
 constexpr double kShare = 10;
-/// No name of a stage is longer.
-constexpr std::uint64_t kLongestText = 1 << 20;
 
-/// Numbers and texts one after the other.
-class Packer {
- public:
-  void add(std::uint64_t number) {
-    for (int i = 0; i < 8; ++i) bytes_ += static_cast<char>(number >> (8 * i) & 255U);
-  }
-  void add(const std::string& text) {
-    add(text.size());
-    bytes_ += text;
-  }
-  void write_to(BlockFileWriter& file) const {
-    file.add(bytes_.size(), [this](std::uint64_t begin, std::uint64_t count, std::byte* out) {
-      std::memcpy(out, bytes_.data() + begin, count);
-    });
-  }
-
- private:
-  std::string bytes_;
-};
-
-std::uint64_t read_number(BlockFileReader& file) {
-  std::byte bytes[8];
-  file.read(8, bytes);
-  std::uint64_t number = 0;
-  for (int i = 0; i < 8; ++i) number |= std::to_integer<std::uint64_t>(bytes[i]) << (8 * i);
-  return number;
-}
-
-std::string read_text(BlockFileReader& file) {
-  std::string text(std::min(read_number(file), kLongestText), '\0');
-  void* first = text.data();
-  file.read(text.size(), static_cast<std::byte*>(first));
-  return text;
-}
-
-/// Rows next to one another.
-void write_rows(const NumberRows& rows, BlockFileWriter& file) {
-  if (rows.rows == 0 || rows.row_length == 0) return;
-  const auto row_bytes = static_cast<std::uint64_t>(rows.row_bytes());
-  file.add(static_cast<std::uint64_t>(rows.rows) * row_bytes,
-           [&rows, row_bytes](std::uint64_t begin, std::uint64_t count, std::byte* out) {
-             while (count > 0) {
-               const std::uint64_t offset = begin % row_bytes;
-               const std::uint64_t here = std::min(count, row_bytes - offset);
-               std::memcpy(out, rows.row(static_cast<std::int64_t>(begin / row_bytes)) + offset, here);
-               begin += here;
-               count -= here;
-               out += here;
-             }
-           });
+std::string group_name(std::size_t record) {
+  return fmt::format("stage{}", record);
 }
 
 std::string program() {
@@ -87,49 +37,12 @@ std::string sha256_of_controller(const ProblemSpec& spec) {
 
 }  // namespace
 
-Checkpoint::Checkpoint(CheckpointOptions options, const ProblemSpec& spec, ThreadTeam& team,
-                       Listener listener)
-    : options_(std::move(options)), team_(team), listener_(std::move(listener)), saved_(Clock::now()) {
-  identity_ = {sha256_hex(spec.text), sha256_of_controller(spec), program()};
-  const bool is_there = std::filesystem::exists(options_.file);
-  if (is_there) open();
-  if (!options_.resume) return;
-  listener_.notice(fmt::format("{} ({})",
-                               is_there ? "going on from the checkpoint" : "no checkpoint yet, starting anew",
-                               options_.file));
-}
-
-void Checkpoint::open() {
-  reader_ = std::make_unique<BlockFileReader>(options_.file, "checkpoint");
-  if (reader_->at_end() || read_text(*reader_) != kFiletype)
-    throw ResultsError("this is no checkpoint", options_.file);
-  const std::string spec = read_text(*reader_);
-  const std::string controller = read_text(*reader_);
-  const std::string version = read_text(*reader_);
-  const auto differ = [this](const char* what, const std::string& found, const std::string& expected) {
-    refuse(fmt::format("was made {}: found {}, expected {}", what, found, expected));
-  };
-  if (spec != identity_.spec) differ("from another spec", "SHA-256 " + spec, identity_.spec);
-  if (controller != identity_.controller)
-    differ("with another controller", "SHA-256 " + controller, identity_.controller);
-  if (version != identity_.program) differ("by another coordreq", version, identity_.program);
-  if (reader_->at_end()) reader_.reset();
-}
-
-void Checkpoint::refuse(const std::string& reason) const {
-  throw ResultsError("the checkpoint " + reason, options_.file);
-}
-
 class Checkpoint::Saving : public Archive {
  public:
-  explicit Saving(BlockFileWriter& file) : file_(file) {}
+  explicit Saving(CheckpointWriter& file) : file_(file) {}
   [[nodiscard]] bool is_loading() const override { return false; }
   void rows(const NumberRows& rows) override {
-    Packer head;
-    for (const std::int64_t number : {rows.rows, rows.row_bytes()})
-      head.add(static_cast<std::uint64_t>(number));
-    head.write_to(file_);
-    write_rows(rows, file_);
+    if (rows.rows > 0 && rows.row_length > 0) file_.add(rows);
   }
 
  private:
@@ -137,20 +50,16 @@ class Checkpoint::Saving : public Archive {
     throw std::logic_error(std::string(what));
   }
 
-  BlockFileWriter& file_;
+  CheckpointWriter& file_;
 };
 
 class Checkpoint::Loading : public Archive {
  public:
-  explicit Loading(const Checkpoint& checkpoint) : checkpoint_(checkpoint), file_(*checkpoint.reader_) {}
+  explicit Loading(const Checkpoint& checkpoint) : checkpoint_(checkpoint) {}
   [[nodiscard]] bool is_loading() const override { return true; }
   void rows(const NumberRows& rows) override {
-    const std::uint64_t count = read_number(file_);
-    const std::uint64_t row_bytes = read_number(file_);
-    expect(count == static_cast<std::uint64_t>(rows.rows) &&
-               row_bytes == static_cast<std::uint64_t>(rows.row_bytes()),
-           "a list has another length");
-    for (std::int64_t r = 0; r < rows.rows; ++r) file_.read(row_bytes, rows.row(r));
+    if (rows.rows > 0 && rows.row_length > 0)
+      expect(checkpoint_.reader_->read(rows), "a list has another length or other numbers");
   }
 
  private:
@@ -159,8 +68,71 @@ class Checkpoint::Loading : public Archive {
   }
 
   const Checkpoint& checkpoint_;
-  BlockFileReader& file_;
 };
+
+Checkpoint::Checkpoint(CheckpointOptions options, const ProblemSpec& spec, Listener listener)
+    : options_(std::move(options)),
+      identity_{sha256_hex(spec.text), sha256_of_controller(spec), program()},
+      listener_(std::move(listener)),
+      saved_(Clock::now()) {
+  lock_ = FileLock::take(options_.file, kWhat);
+  const bool is_there = lock_.has_value();
+  is_there ? open() : make_first();
+  remove_unfinished(options_.file, kSuffix);
+  if (!options_.resume) return;
+  listener_.notice(fmt::format("{} ({})",
+                               is_there ? "going on from the checkpoint" : "no checkpoint yet, starting anew",
+                               options_.file));
+}
+
+/// Two processes that begin at once must not both take it for theirs.
+void Checkpoint::make_first() {
+  listener_.progress(true);
+  try {
+    OutputFile output(options_.file, kWhat, kSuffix);
+    write(output.temporary(), nullptr);
+    std::optional<FileLock> lock = FileLock::take(output.temporary(), kWhat);
+    if (output.commit_new()) lock_ = std::move(lock);
+  } catch (const IoError& error) {
+    listener_.notice(fmt::format("warning: going on without a new checkpoint: {}", error.what()));
+    is_failing_ = true;
+  }
+  listener_.progress(false);
+  if (!lock_ && !is_failing_)
+    throw IoError("the checkpoint is in use, expected one run at a time to use it", options_.file);
+}
+
+void Checkpoint::open() {
+  reader_ = std::make_unique<CheckpointReader>(options_.file);
+  if (!reader_->begin("identity") || reader_->read_text() != kFiletype)
+    throw ResultsError("this is no checkpoint", options_.file);
+  const std::string spec = reader_->read_text();
+  const std::string controller = reader_->read_text();
+  const std::string version = reader_->read_text();
+  const auto differ = [this](const char* what, const std::string& found, const std::string& expected) {
+    refuse(fmt::format("was made {}: found {}, expected {}", what, found, expected));
+  };
+  if (spec != identity_.spec) differ("from another spec", "SHA-256 " + spec, identity_.spec);
+  if (controller != identity_.controller)
+    differ("with another controller", "SHA-256 " + controller, identity_.controller);
+  if (version != identity_.program) differ("by another coordreq", version, identity_.program);
+  if (!next_record()) reader_.reset();
+}
+
+void Checkpoint::refuse(const std::string& reason) const {
+  throw ResultsError("the checkpoint " + reason, options_.file);
+}
+
+/// Goes to the next record. @returns false if there is none
+bool Checkpoint::next_record() {
+  if (!reader_->begin(group_name(taken_))) return false;
+  ++taken_;
+  next_stage_ = reader_->read_text();
+  std::uint8_t is_finished = 0;
+  if (!reader_->read(number_rows(&is_finished, 1, 1, 1))) refuse("does not say whether a stage is over");
+  next_is_finished_ = is_finished != 0;
+  return true;
+}
 
 StageStore* Checkpoint::enter(const std::string& stage) {
   stage_ = stage;
@@ -169,12 +141,13 @@ StageStore* Checkpoint::enter(const std::string& stage) {
 
 StageStore::Kept Checkpoint::take(const Serialise& load) {
   if (!reader_) return Kept::nothing;
-  const std::string stage = read_text(*reader_);
-  if (stage != stage_) refuse(fmt::format("has the stage '{}', expected '{}'", stage, stage_));
-  const bool is_finished = read_number(*reader_) != 0;
+  if (next_stage_ != stage_) refuse(fmt::format("has the stage '{}', expected '{}'", next_stage_, stage_));
+  const bool is_finished = next_is_finished_;
   Loading archive(*this);
   load(archive);
-  if (reader_->at_end()) reader_.reset();
+  // What was under way is the last that the file has.
+  if (!next_record()) reader_.reset();
+  if (!is_finished && reader_) refuse(fmt::format("goes on after the stage '{}', which is not over", stage_));
   return is_finished ? Kept::finished : Kept::unfinished;
 }
 
@@ -201,7 +174,7 @@ void Checkpoint::save(const Record* under_way) {
   const Clock::time_point begin = Clock::now();
   listener_.progress(true);
   try {
-    write(under_way);
+    replace(under_way);
     is_failing_ = false;
   } catch (const IoError& error) {
     if (!is_failing_)
@@ -213,25 +186,33 @@ void Checkpoint::save(const Record* under_way) {
   cost_ = saved_ - begin;
 }
 
-void Checkpoint::write(const Record* under_way) {
+/// The new file is locked before it has its name.
+void Checkpoint::replace(const Record* under_way) {
   OutputFile output(options_.file, kWhat, kSuffix);
-  BlockFileWriter file(output.temporary(), options_.file, team_, [this] { listener_.progress(true); });
-  Packer head;
-  head.add(kFiletype);
-  for (const std::string& part : {identity_.spec, identity_.controller, identity_.program}) head.add(part);
-  head.write_to(file);
-  const auto add = [&file](const Record& record) {
-    Packer text;
-    text.add(record.stage);
-    text.add(record.is_finished ? 1 : 0);
-    text.write_to(file);
+  write(output.temporary(), under_way);
+  std::optional<FileLock> lock = FileLock::take(output.temporary(), kWhat);
+  output.commit();
+  lock_ = std::move(lock);
+}
+
+void Checkpoint::write(const std::string& temporary, const Record* under_way) {
+  CheckpointWriter file(temporary, options_.file, [this] { listener_.progress(true); });
+  file.begin("identity");
+  for (const std::string& part :
+       {std::string(kFiletype), identity_.spec, identity_.controller, identity_.program})
+    file.add(part);
+  std::size_t count = 0;
+  const auto add = [&](const Record& record) {
+    file.begin(group_name(count++));
+    file.add(record.stage);
+    const auto is_finished = static_cast<std::uint8_t>(record.is_finished ? 1 : 0);
+    file.add(number_rows(&is_finished, 1, 1, 1));
     Saving archive(file);
     record.save(archive);
   };
   for (const Record& record : finished_) add(record);
   if (under_way != nullptr) add(*under_way);
   file.finish();
-  output.commit();
 }
 
 // A symbolic link stays, as it does when the file is written.
@@ -239,19 +220,10 @@ void Checkpoint::remove() {
   std::error_code error;
   const std::filesystem::path file = std::filesystem::canonical(options_.file, error);
   if (!error) static_cast<void>(std::filesystem::remove(file, error));
-}
-
-std::vector<std::string> files_of(const CheckpointOptions& options) {
-  std::error_code ignored;  // what leads nowhere is written where it says
-  const std::filesystem::path end = std::filesystem::canonical(options.file, ignored);
-  return {options.file, (end.empty() ? options.file : end.string()) + kSuffix};
+  remove_unfinished(options_.file, kSuffix);
 }
 
 void check_checkpoint(const CheckpointOptions& options) {
-  const std::string unfinished = files_of(options).back();
-  if (!may_be_block_file(unfinished))
-    throw UsageError("expected a checkpoint that a kill has left behind, or nothing, found another file",
-                     unfinished);
   const OutputFile probe(options.file, kWhat, kSuffix);
   if (options.resume || !std::filesystem::exists(options.file)) return;
   throw UsageError("the checkpoint is there already, expected --resume to go on from it, or another file",

@@ -4,14 +4,15 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/checkpoint_options.hpp"
 #include "answers/stage.hpp"
 #include "base/archive.hpp"
-#include "base/thread_team.hpp"
-#include "results/block_file.hpp"
+#include "results/checkpoint_file.hpp"
+#include "results/file_lock.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -19,12 +20,13 @@ namespace coordreq {
 /// The state of an analysis in a file, so that it can go on after it was killed: of each stage that is
 /// finished what it has found, and of a fixed point that is under way its levels or sets.
 ///
-/// 1. The file appears whole or not at all, and an older one stays until then; every block has a checksum.
+/// 1. The file appears whole or not at all, and an older one stays until then; it has checksums all over.
 /// 2. It belongs to one spec, one controller file and one version of the program, by their SHA-256; for
 ///    another it is refused. Nothing else has an influence on the result.
-/// 3. Stages come in the order in which they are worked out, which is the same in the file. So it is read
-///    once, from front to back, straight to where the levels are needed: nothing is held twice.
+/// 3. What stages load is read straight to where it is needed: nothing is held twice. Nothing in the file is
+///    trusted, right checksums or not: see Archive.
 /// 4. Saving takes at most a tenth of the time, however long it takes. Where it fails, work goes on.
+/// 5. One process at a time has the file, from the construction of this object on.
 class Checkpoint : public StageStore {
  public:
   struct Listener {
@@ -34,11 +36,12 @@ class Checkpoint : public StageStore {
     std::function<void(const std::string&)> notice;
   };
 
-  /// Goes through the file, if there is one, before any work is done.
+  /// Goes through the file if there is one, else makes one in which nothing is saved yet.
   /// REQUIRES: check_checkpoint(options) has passed.
-  /// @throws IoError if the file cannot be read; ResultsError if it is damaged, none of ours, or of something
-  ///   else
-  Checkpoint(CheckpointOptions options, const ProblemSpec& spec, ThreadTeam& team, Listener listener);
+  /// @throws IoError if the file cannot be read, or another process has it; ResultsError if it is damaged,
+  /// none
+  ///   of ours, or of something else
+  Checkpoint(CheckpointOptions options, const ProblemSpec& spec, Listener listener);
 
   /// From now on the stage under way is this one. @returns this object
   StageStore* enter(const std::string& stage);
@@ -59,10 +62,13 @@ class Checkpoint : public StageStore {
   class Loading;
   class Saving;
 
+  void make_first();
   void open();
+  [[nodiscard]] bool next_record();
   [[nodiscard]] bool is_due() const;
   void save(const Record* under_way);
-  void write(const Record* under_way);
+  void write(const std::string& temporary, const Record* under_way);
+  void replace(const Record* under_way);
   [[noreturn]] void refuse(const std::string& reason) const;
 
   /// What it belongs to.
@@ -74,10 +80,13 @@ class Checkpoint : public StageStore {
 
   CheckpointOptions options_;
   Identity identity_;
-  ThreadTeam& team_;
   Listener listener_;
-  std::unique_ptr<BlockFileReader> reader_;  ///< while there is something to take up
-  std::string stage_;                        ///< under way
+  std::optional<FileLock> lock_;
+  std::unique_ptr<CheckpointReader> reader_;  ///< while there is something to take up
+  std::size_t taken_ = 0;                     ///< records that have been read
+  std::string next_stage_;                    ///< of the record that is to be read
+  bool next_is_finished_ = false;
+  std::string stage_;  ///< under way
   std::vector<Record> finished_;
   bool is_failing_ = false;                ///< the last one could not be saved
   Clock::time_point saved_;                ///< when that was last done, or begun
@@ -85,8 +94,7 @@ class Checkpoint : public StageStore {
 };
 
 /// Tries whether the file can be written; leaves nothing behind.
-/// @throws IoError if not; UsageError if the file is there already and not to be resumed, or if the file to
-///   write it to is there and none of ours
+/// @throws IoError if not; UsageError if the file is there already and not to be resumed
 void check_checkpoint(const CheckpointOptions& options);
 
 }  // namespace coordreq

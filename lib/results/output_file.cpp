@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -89,13 +90,31 @@ std::string create_temporary(const fs::path& folder, std::optional<mode_t> mode)
   throw IoError("cannot create a file in the folder: too many temporary files", folder.string());
 }
 
-/// The file of this name, empty.
-std::string create_named(const std::string& path, std::optional<mode_t> mode, const std::string& what) {
-  const int file = open(path.c_str(), O_CREAT | O_TRUNC | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
-  if (file < 0) throw IoError(because("cannot write " + what, errno), path);
-  if (mode) static_cast<void>(fchmod(file, *mode));
-  close(file);
-  return path;
+/// The same beside the target, under a name that says whose it is: see remove_unfinished().
+std::string create_beside(const std::string& target, const std::string& suffix, std::optional<mode_t> mode,
+                          const std::string& what) {
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    const std::string path = target + "." + std::to_string(getpid()) + "-" + std::to_string(attempt) + suffix;
+    const int file = open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (file < 0 && errno == EEXIST) continue;
+    if (file < 0) throw IoError(because("cannot write " + what, errno), target);
+    if (mode) static_cast<void>(fchmod(file, *mode));
+    close(file);
+    return path;
+  }
+  throw IoError("cannot create a file in the folder: too many temporary files", target);
+}
+
+/// Whether `name` is what create_beside() makes of `target`, by a process that is no more.
+bool is_unfinished(const std::string& name, const std::string& target, const std::string& suffix) {
+  const std::size_t length = target.size() + 1 + suffix.size();
+  if (name.size() <= length || name.compare(0, target.size() + 1, target + ".") != 0) return false;
+  if (name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0) return false;
+  int process = 0, attempt = 0, end = 0;
+  const std::string numbers = name.substr(target.size() + 1, name.size() - length);
+  if (std::sscanf(numbers.c_str(), "%d-%d%n", &process, &attempt, &end) != 2) return false;
+  return static_cast<std::size_t>(end) == numbers.size() && process > 0 && kill(process, 0) != 0 &&
+         errno == ESRCH;
 }
 
 /// @param flags of open()
@@ -119,7 +138,7 @@ OutputFile::OutputFile(const std::string& path, std::string what, const std::str
   target_ = target.string();
   folder_ = folder.string();
   const std::optional<mode_t> mode = check_target(target_, path, what_);
-  temporary_ = suffix.empty() ? create_temporary(folder, mode) : create_named(target_ + suffix, mode, what_);
+  temporary_ = suffix.empty() ? create_temporary(folder, mode) : create_beside(target_, suffix, mode, what_);
 }
 
 OutputFile::~OutputFile() {
@@ -133,6 +152,29 @@ void OutputFile::commit() {
   }
   temporary_.clear();
   sync(folder_, O_RDONLY | O_DIRECTORY, target_, what_);
+}
+
+bool OutputFile::commit_new() {
+  sync(temporary_, O_RDONLY, target_, what_);
+  if (link(temporary_.c_str(), target_.c_str()) == 0) {
+    sync(folder_, O_RDONLY | O_DIRECTORY, target_, what_);
+    return true;  // the temporary name goes with this object
+  }
+  if (errno == EEXIST) return false;
+  commit();  // where a file cannot have two names
+  return true;
+}
+
+void remove_unfinished(const std::string& path, const std::string& suffix) {
+  const fs::path target = resolve_links(path, "the file");
+  std::error_code error;
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    std::error_code ignored;
+    if (it->is_regular_file(ignored) &&
+        is_unfinished(it->path().filename().string(), target.filename().string(), suffix))
+      static_cast<void>(fs::remove(it->path(), ignored));
+  }
 }
 
 }  // namespace coordreq

@@ -14,9 +14,9 @@ class OutputFile {
  public:
   /// Makes the temporary file, empty.
   /// @param what the content in words, for messages
-  /// @param suffix of the temporary file, to be put behind the name of `path`: one that was left behind is
-  /// used
-  ///   again then, and there can be one at a time only. Empty: any free name
+  /// @param suffix of the temporary file, whose name begins with that of `path`: for remove_unfinished().
+  /// Empty:
+  ///   any name
   /// @throws IoError if the folder is missing or no file can be made in it, or `path` is a folder, a device,
   /// a pipe
   ///   or a file without write permission
@@ -31,6 +31,8 @@ class OutputFile {
 
   /// @throws IoError if the content could not be brought to the disk
   void commit();
+  /// The same unless there is a file of this name already. @returns false if there is
+  [[nodiscard]] bool commit_new();
 
  private:
   std::string what_;
@@ -38,5 +40,9 @@ class OutputFile {
   std::string folder_;
   std::string temporary_;  // empty once committed
 };
+
+/// Removes what processes that were killed have left of an OutputFile with this path and suffix.
+/// REQUIRES: no other process of another machine writes it.
+void remove_unfinished(const std::string& path, const std::string& suffix);
 
 }  // namespace coordreq

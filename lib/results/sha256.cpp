@@ -2,10 +2,13 @@
 
 #include <nettle/sha2.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
+#include <limits>
 #include <system_error>
 
 #include "base/error.hpp"
@@ -45,16 +48,24 @@ std::string sha256_hex(std::string_view text) {
   return digest.hex();
 }
 
-std::string sha256_of_file(const std::string& path) {
+std::string sha256_of_file(const std::string& path, std::uint64_t left_out) {
   Digest digest;
   errno = 0;
   std::ifstream file(path, std::ios::binary);
-  std::string block(1U << 16U, '\0');
-  while (file) {
-    file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    digest.add({block.data(), static_cast<std::size_t>(file.gcount())});
+  std::uint64_t left = std::numeric_limits<std::uint64_t>::max();
+  if (left_out > 0) {
+    std::error_code ignored;  // then it cannot be read, either
+    const std::uint64_t size = std::filesystem::file_size(path, ignored);
+    left = ignored || size < left_out ? 0 : size - left_out;
   }
-  if (!file.eof())
+  std::string block(1U << 16U, '\0');
+  while (file && left > 0) {
+    file.read(block.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(block.size(), left)));
+    const auto count = static_cast<std::uint64_t>(file.gcount());
+    digest.add({block.data(), count});
+    left -= count;
+  }
+  if (left > 0 && !file.eof())
     throw IoError("cannot be read: " + std::generic_category().message(errno == 0 ? EIO : errno), path);
   return digest.hex();
 }
