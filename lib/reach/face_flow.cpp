@@ -212,6 +212,12 @@ double FaceFlow::limit(std::size_t i, bool upper) const {
   return outward_end(field_->clipped(i, whole_line(true)), upper);
 }
 
+/// The limit on the other side, which may lie between two doubles, seen in the same direction.
+double FaceFlow::innermost_level(std::size_t i, bool upper) const {
+  const double level = -limit(i, !upper);
+  return level < -outward::kLargest ? level : level + margin(level);
+}
+
 /// How fast each end moves: assumed, found on the faces that move so, and assumed to be somewhat more until
 /// that proves itself.
 bool FaceFlow::find_rates(const Interval& duration) {
@@ -254,7 +260,8 @@ bool FaceFlow::update_rate(std::size_t i, bool upper, const Interval& duration, 
   };
   Interval rate{bound.least, std::max(bound.start, bound.end)};
   // Where the state may be stopped on the way inward, its end does not go on from beyond the limit.
-  const bool stopped = moved_by(start(i, upper), duration, std::min(rate.lower, 0.0)) < -limit(i, !upper);
+  const double innermost = moved_by(start(i, upper), duration, std::min(rate.lower, 0.0));
+  const bool stopped = rate.lower < 0.0 && innermost <= innermost_level(i, upper);
   const bool followed = bound.found && bound.decay * duration.upper >= -kStrongDecay && !stopped;
   if (followed && assumes(rate)) {
     set_end(next_[i], upper, end_of_step(start(i, upper), duration, bound));
@@ -290,7 +297,7 @@ Interval FaceFlow::settle(std::size_t i, bool upper, const Interval& duration) {
     return {0.0, slope};
   }
   double high = from;
-  double low = -outward_end(now_[i], !upper);
+  double low = std::max(-outward_end(now_[i], !upper), innermost_level(i, upper));
   double best = from;
   for (int n = 0; n < kBisections && low < high; ++n) {
     const double middle = 0.5 * low + 0.5 * high;

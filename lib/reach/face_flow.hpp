@@ -51,6 +51,7 @@ class FaceFlow {
   double steepest(std::size_t i, bool upper, double from, double to);
   bool raise_level(std::size_t i, bool upper, double duration, int round);
   [[nodiscard]] double limit(std::size_t i, bool upper) const;
+  [[nodiscard]] double innermost_level(std::size_t i, bool upper) const;
   bool find_rates(const Interval& duration);
   Interval first_rate(std::size_t i, bool upper);
   bool update_rate(std::size_t i, bool upper, const Interval& duration, int round);

@@ -124,7 +124,9 @@ std::size_t ValidatedFlow::Solver::most_uncertain() const {
 
 /// Puts what is in both enclosures into the result. @returns whether there is one by faces
 bool ValidatedFlow::Solver::bound_by_faces(std::span<const Interval> slots, bool found) {
-  if (!system_.seams.empty()) return false;
+  for (std::size_t i = 0; i < n_; ++i) {
+    if (field_.has_seams(i)) return false;
+  }
   if (faces_.enclose(slots, field_, period_, by_faces_)) return false;
   if (found) {
     combine(result_, by_faces_,
