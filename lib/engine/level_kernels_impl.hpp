@@ -140,7 +140,11 @@ void spread(const uint64_t* bits, Level* lanes, size_t n) {
   for (size_t j = 0; j < n; j += kCount) {
     typedef uint64_t Words __attribute__((vector_size(COORDREQ_VECTOR_BYTES)));
     const Words word = Words{} + (bits[j / 64] >> (j % 64));
+#if defined(__clang__)
+    const Vector parts = __builtin_shufflevector(reinterpret_cast<const Vector&>(word), part);
+#else
     const Vector parts = __builtin_shuffle(reinterpret_cast<const Vector&>(word), part);
+#endif
     block(lanes + j) = reinterpret_cast<Vector>((parts & bit) != Level{0});
   }
 }

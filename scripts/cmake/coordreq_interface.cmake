@@ -9,7 +9,7 @@ set(COORDREQ_PUBLIC_HEADERS
   cell/state_query.hpp cell/state_text.hpp
   verify/verify.hpp verify/verify_file.hpp verify/tally.hpp
   export/csv_table.hpp export/c_header.hpp export/scots_controller.hpp export/parse_selection.hpp export/text_sink.hpp
-  analysis/analyze.hpp analysis/simulate.hpp
+  analysis/analyze.hpp cell/simulate.hpp
   cell/simulate_runs.hpp)
 
 # `doc`: what Doxygen makes of them.

@@ -108,9 +108,8 @@ class Cases(Case):
         self.assertGreater(self.assert_good("x^2 + u", time="continuous", period=1)["invariant"], 0)
 
     def test_stiff(self):
-        self.assert_may_escape("-1e6*x + u", "x = -2, u = -1", period=1)
-        self.assert_may_escape("-1e9*x + sin(x)", "x = -2", period=10)
-        self.assert_good("-1e3*x + u", time="continuous", period=1)
+        for equation, period in (("-1e3*x + u", 1), ("-1e6*x + u", 1), ("-1e9*x + sin(x)", 10)):
+            self.assert_good(equation, time="continuous", period=period)
 
     def test_extreme_periods(self):
         for period in (5e-324, 1e-12, 1e300):

@@ -98,7 +98,8 @@ class Cases(Case):
                 data = (self.folder / "k").read_bytes()
             except FileNotFoundError:
                 continue
-            found[len(data)] = data
+            if b"stage" in data:  # something was finished
+                found[len(data)] = data
         process.kill()
         process.wait()
         (self.folder / "k").unlink(missing_ok=True)
@@ -107,7 +108,7 @@ class Cases(Case):
 
     def resume(self, spec, what):
         """Ends well, or with one line; never by a signal, and not with more memory than it may have."""
-        before = self.files()
+        before = [name for name in self.files() if not name.endswith(".new")]  # of the run that was killed
         process = subprocess.Popen(
             [PROGRAM, "analyze", spec, "-o", "o.h5", *LINE, "--checkpoint", "k", "--resume"],
             cwd=self.folder,

@@ -45,7 +45,7 @@ def rough(h, p, edges, **more):
         "disturbances": [{"name": "w", "lower": -0.1, "upper": 0.2}],
         "agents": [{"name": "a", "inputs": ["u"]}],
         "dynamics": {"time": "continuous", "period": 0.5, "equations": {"h": h, "p": p}},
-        "safe": "p <= 2.5",
+        "safe": "true",
         **more,
     }
 

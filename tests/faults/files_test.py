@@ -132,7 +132,7 @@ class Cases(Case):
         self.assert_fails(5, message, "analyze", "s.json", "--set", 'controller.file="pipe"')
 
     def test_spec_without_an_end(self):
-        self.assert_fails(4, "longer than 64 MiB, expected a spec (/dev/zero)", "validate", "/dev/zero")
+        self.assert_fails(5, "is a device, expected a spec file (/dev/zero)", "validate", "/dev/zero")
         with open("/dev/zero", "rb") as zeros:
             process = self.start("validate", "-", stdin=zeros)
             errors = process.communicate(timeout=60)[1]

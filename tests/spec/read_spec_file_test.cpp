@@ -72,7 +72,7 @@ TEST_F(ReadSpecFile, UnreadableFileIsAnIoError) {
   const std::string long_name(300, 'a');
   EXPECT_EQ(io_error(long_name), "cannot be read: File name too long (" + long_name + ")");
   // Opens, but its first page cannot be read, whoever asks.
-  EXPECT_EQ(io_error("/proc/self/mem"), "cannot be read (/proc/self/mem)");
+  EXPECT_EQ(io_error("/proc/self/mem"), "cannot be read: Input/output error (/proc/self/mem)");
 }
 
 TEST_F(ReadSpecFile, SyntaxErrorNamesTheFile) {
