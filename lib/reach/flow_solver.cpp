@@ -126,7 +126,20 @@ std::size_t ValidatedFlow::Solver::fastest() const {
   return static_cast<std::size_t>(found - derivative_.begin());
 }
 
+/// Of each state by itself, from the Jacobian.
+void ValidatedFlow::Solver::note_rates() {
+  for (std::size_t i = 0; i < n_; ++i) {
+    if (-jacobian_.state()[i * n_ + i].lower > fastest_decay_) {
+      fastest_decay_ = -jacobian_.state()[i * n_ + i].lower;
+      stiffest_ = i;
+    }
+    fastest_growth_ = std::max(fastest_growth_, jacobian_.state()[i * n_ + i].upper);
+  }
+}
+
 void ValidatedFlow::Solver::fail(const FlowFailure& failure) {
+  jacobian_.evaluate(now_);
+  note_rates();
   result_.status = failure.undefined ? FlowEnclosure::Status::undefined : FlowEnclosure::Status::blows_up;
   result_.culprit = failure.equation;
   const bool stiff = fastest_decay_ > fastest_growth_ && fastest_decay_ * period_.upper > kStiff;
@@ -197,15 +210,19 @@ void ValidatedFlow::Solver::find_damping(const Interval& duration) {
 /// @returns false if a shorter step is worth trying
 bool ValidatedFlow::Solver::append_sensitivity(const Interval& duration, bool divisible) {
   jacobian_.evaluate(box_);
+  note_rates();
   for (std::size_t i = 0; i < n_; ++i) {
     const auto own = static_cast<Eigen::Index>(i);
     const double strongest = jacobian_.state()(own, own).lower * duration.upper;
     if (strongest < -kStrongDecay) damped_[i] = true;
+<<<<<<< HEAD
     if (-jacobian_.state()(own, own).lower > fastest_decay_) {
       fastest_decay_ = -jacobian_.state()(own, own).lower;
       stiffest_ = i;
     }
     fastest_growth_ = std::max(fastest_growth_, jacobian_.state()(own, own).upper);
+=======
+>>>>>>> 34b7c54
   }
   if (transition_.enclose(jacobian_.state(), duration, damped_)) {
     sensitivity_.append(transition_, jacobian_);

@@ -53,6 +53,7 @@ class ValidatedFlow::Solver {
   void finish_step(bool last);
   void restart();
   [[nodiscard]] std::size_t fastest() const;
+  void note_rates();
   void fail(const FlowFailure& failure);
   FlowStep& next_step();
 
