@@ -63,7 +63,8 @@ Json summary_json(const std::string& path, std::size_t bytes, const ReportData& 
 std::string summary_text(const Json& summary, std::size_t partitions) {
   std::string text = fmt::format("report in {} ({})\n", printable(summary["output"].get<std::string>()),
                                  byte_size(summary["bytes"].get<std::uint64_t>()));
-  if (!summary["every_cell"].get<bool>()) text += "not every cell has room in it: the sliders have some values only\n";
+  if (!summary["every_cell"].get<bool>())
+    text += "not every cell has room in it: the sliders have some values only\n";
   if (summary["partitions"].size() < partitions)
     text += fmt::format("its pictures show {} of {} partitions\n", summary["partitions"].size(), partitions);
   return text;

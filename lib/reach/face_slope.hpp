@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "expression/evaluate.hpp"
 #include "expression/dual.hpp"
+#include "expression/evaluate.hpp"
 #include "reach/flow_system.hpp"
 
 namespace coordreq {

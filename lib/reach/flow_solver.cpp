@@ -129,11 +129,13 @@ std::size_t ValidatedFlow::Solver::fastest() const {
 /// Of each state by itself, from the Jacobian.
 void ValidatedFlow::Solver::note_rates() {
   for (std::size_t i = 0; i < n_; ++i) {
-    if (-jacobian_.state()[i * n_ + i].lower > fastest_decay_) {
-      fastest_decay_ = -jacobian_.state()[i * n_ + i].lower;
+    if (-jacobian_.state()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)).lower >
+        fastest_decay_) {
+      fastest_decay_ = -jacobian_.state()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)).lower;
       stiffest_ = i;
     }
-    fastest_growth_ = std::max(fastest_growth_, jacobian_.state()[i * n_ + i].upper);
+    fastest_growth_ = std::max(
+        fastest_growth_, jacobian_.state()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)).upper);
   }
 }
 
@@ -215,14 +217,6 @@ bool ValidatedFlow::Solver::append_sensitivity(const Interval& duration, bool di
     const auto own = static_cast<Eigen::Index>(i);
     const double strongest = jacobian_.state()(own, own).lower * duration.upper;
     if (strongest < -kStrongDecay) damped_[i] = true;
-<<<<<<< HEAD
-    if (-jacobian_.state()(own, own).lower > fastest_decay_) {
-      fastest_decay_ = -jacobian_.state()(own, own).lower;
-      stiffest_ = i;
-    }
-    fastest_growth_ = std::max(fastest_growth_, jacobian_.state()(own, own).upper);
-=======
->>>>>>> 34b7c54
   }
   if (transition_.enclose(jacobian_.state(), duration, damped_)) {
     sensitivity_.append(transition_, jacobian_);

@@ -62,7 +62,8 @@ Interval TurningProduct::entry(Eigen::Index i, Eigen::Index j) const {
 
 /// An orthogonal basis of the columns, beginning with those along which the rest is widest.
 RealMatrix TurningProduct::orthogonal(const RealMatrix& columns) const {
-  const RealVector reach = magnitudes(rest_).rowwise().sum().cwiseProduct(columns.colwise().norm().transpose());
+  const RealVector reach =
+      magnitudes(rest_).rowwise().sum().cwiseProduct(columns.colwise().norm().transpose());
   // What has overflowed has no place in an order.
   const RealVector widths = reach.unaryExpr([](double x) { return std::isfinite(x) ? x : HUGE_VAL; });
   std::vector<Eigen::Index> order(static_cast<std::size_t>(columns.cols()));
@@ -70,7 +71,8 @@ RealMatrix TurningProduct::orthogonal(const RealMatrix& columns) const {
   std::sort(order.begin(), order.end(),
             [&](Eigen::Index a, Eigen::Index b) { return widths(a) > widths(b); });
   RealMatrix sorted(columns.rows(), columns.cols());
-  for (std::size_t k = 0; k < order.size(); ++k) sorted.col(static_cast<Eigen::Index>(k)) = columns.col(order[k]);
+  for (std::size_t k = 0; k < order.size(); ++k)
+    sorted.col(static_cast<Eigen::Index>(k)) = columns.col(order[k]);
   return Eigen::HouseholderQR<RealMatrix>(sorted).householderQ();
 }
 

@@ -4,9 +4,9 @@
 
 namespace coordreq {
 
-/// The product T_k ... T_2 T_1 of square interval matrices, in coordinates that turn with it: C + Q R with C, Q
-/// of doubles, Q nearly orthogonal, and R of small intervals (Lohner 1987). Multiplying intervals out would let
-/// their widths grow in every step of a rotation.
+/// The product T_k ... T_2 T_1 of square interval matrices, in coordinates that turn with it: C + Q R with C,
+/// Q of doubles, Q nearly orthogonal, and R of small intervals (Lohner 1987). Multiplying intervals out would
+/// let their widths grow in every step of a rotation.
 ///
 /// Over-approximates.
 class TurningProduct {

@@ -168,6 +168,7 @@ std::optional<std::pair<NumberKind, std::int64_t>> numbers_of(const Handle& data
   const Handle type(H5Dget_type(dataset.get()), H5Tclose, "read a type");
   for (const NumberKind kind : {NumberKind::unsigned_integer, NumberKind::signed_integer, NumberKind::real}) {
     for (const std::int64_t bytes : {1, 2, 4, 8}) {
+      if (kind == NumberKind::real && bytes < 4) continue;  // there are none
       if (H5Tequal(type.get(), type_of(kind, bytes)) > 0) return std::pair(kind, bytes);
     }
   }

@@ -4,8 +4,8 @@
 #include <atomic>
 
 #include "base/error.hpp"
-#include "model/pieces.hpp"
 #include "model/odometer.hpp"
+#include "model/pieces.hpp"
 #include "verify/parameter_choices.hpp"
 #include "verify/post_table.hpp"
 

@@ -2,9 +2,9 @@
 #include <atomic>
 #include <utility>
 
+#include "model/odometer.hpp"
 #include "model/pieces.hpp"
 #include "verify/check_tube.hpp"
-#include "model/odometer.hpp"
 #include "verify/parameter_choices.hpp"
 #include "verify/sampled_map.hpp"
 

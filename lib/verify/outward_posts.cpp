@@ -7,9 +7,9 @@
 #include <memory>
 #include <utility>
 
+#include "model/odometer.hpp"
 #include "verify/cell_place.hpp"
 #include "verify/map_extremes.hpp"
-#include "model/odometer.hpp"
 #include "verify/piece_choices.hpp"
 #include "verify/post_proof.hpp"
 

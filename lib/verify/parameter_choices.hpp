@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "model/input_space.hpp"
+#include "model/odometer.hpp"
 #include "model/uniform_grid.hpp"
 #include "spec/problem_spec.hpp"
-#include "model/odometer.hpp"
 #include "verify/post_table.hpp"
 
 namespace coordreq {

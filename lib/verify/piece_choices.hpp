@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "model/odometer.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/next_value.hpp"
-#include "model/odometer.hpp"
 #include "verify/post_table.hpp"
 
 namespace coordreq {

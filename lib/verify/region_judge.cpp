@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "expression/evaluate.hpp"
+#include "model/odometer.hpp"
 #include "model/pieces.hpp"
 #include "verify/corner_truth.hpp"
-#include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "model/pieces.hpp"
 #include "model/odometer.hpp"
+#include "model/pieces.hpp"
 
 namespace coordreq {
 namespace {

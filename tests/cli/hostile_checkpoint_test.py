@@ -150,13 +150,13 @@ class Cases(Case):
         return self.write("spec.json", spec)
 
     def test_levels_and_tables(self):
-        self.attack(self.config("platoon_coalition"), 1, 60)
+        self.attack(self.config("platoon_coalition"), 1, 20)
 
     def test_sets_of_a_network(self):
-        self.attack(self.config("platoon", network={"weakly_hard": {"misses": 1, "window": 3}}), 2, 40)
+        self.attack(self.config("platoon", network={"weakly_hard": {"misses": 1, "window": 3}}), 2, 15)
 
     def test_sums_and_a_convention(self):
-        self.attack(self.config("load", coordination={"convention": True}), 3, 40)
+        self.attack(self.config("load", coordination={"convention": True}), 3, 15)
 
     def test_the_library_s_own_parts(self):
         spec = self.config("circle")

@@ -171,7 +171,7 @@ $""",
             with self.subTest(h=h, p=p):
                 self.results(rough(h, p, edges))
                 for policy in ("random", "adversarial"):
-                    options = ("--start", "random", "--steps", "30", "--runs", "20", "--policy", policy)
+                    options = ("--start", "random", "--steps", "20", "--runs", "4", "--policy", policy)
                     self.simulate("r.h5", *options, "--disturbance", "extremes")
 
     def check_runs(self, spec, policy, steps=12, runs=9, output=EVERYTHING):

@@ -47,7 +47,8 @@ TEST(OffLimits, ChainsOfIntegratorsAreExactWhereNothingIsStopped) {
   EXPECT_FALSE(stopped.exact);
 }
 
-/// Where v' = u, stopped at -1 and 1, and p' = v lead from (0, v) within half a second: how far p goes, and v.
+/// Where v' = u, stopped at -1 and 1, and p' = v lead from (0, v) within half a second: how far p goes, and
+/// v.
 std::pair<double, double> stopped_chain(double v, double u) {
   constexpr double kPeriod = 0.5;
   const double limit = u < 0.0 ? -1.0 : 1.0;

@@ -10,7 +10,8 @@ namespace {
 IntervalMatrix rotation(double angle, double uncertainty) {
   const auto around = [&](double x) { return Interval{x - uncertainty, x + uncertainty}; };
   IntervalMatrix matrix(2, 2);
-  matrix << around(std::cos(angle)), around(std::sin(angle)), around(-std::sin(angle)), around(std::cos(angle));
+  matrix << around(std::cos(angle)), around(std::sin(angle)), around(-std::sin(angle)),
+      around(std::cos(angle));
   return matrix;
 }
 

@@ -66,8 +66,8 @@ class SomeAction final : public RowOperator<Level> {
   std::vector<Workspace<Level>> work_;
 };
 
-/// level(x) = 1 + min over allowed u of min over f(x,u), 1 where nothing is allowed: all must be safe. That is
-/// PRE of the paper, Eq. (9), for all sets of the sequence at once.
+/// level(x) = 1 + min over allowed u of min over f(x,u), 1 where nothing is allowed: all must be safe. That
+/// is PRE of the paper, Eq. (9), for all sets of the sequence at once.
 template <class Level>
 class EveryAction final : public RowOperator<Level> {
  public:

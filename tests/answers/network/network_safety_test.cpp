@@ -30,12 +30,12 @@ class NetworkOfThreeCells : public testing::Test {
  protected:
   /// The cells of W(q), by mode.
   [[nodiscard]] std::vector<Cells> safe(std::vector<NetworkMode> modes, bool resynthesise) {
-    const NetworkProblem problem{.controller = &fast_.controller,
-                                 .hull = &fast_.hull,
-                                 .partitions = {{whole_class(fast_.abstraction.inputs)},
-                                                single_classes(fast_.abstraction.inputs)},
-                                 .modes = std::move(modes),
-                                 .resynthesise = resynthesise};
+    const NetworkProblem problem{
+        .controller = &fast_.controller,
+        .hull = &fast_.hull,
+        .partitions = {{whole_class(fast_.abstraction.inputs)}, single_classes(fast_.abstraction.inputs)},
+        .modes = std::move(modes),
+        .resynthesise = resynthesise};
     std::vector<Cells> result;
     for (const CellSet& set : find_network_safety(problem, {}, team_).safe) {
       Cells& cells = result.emplace_back();
