@@ -39,6 +39,11 @@ Json report_json(const SpecReport& report) {
   for (const SpecReport::Input& input : report.inputs) {
     json["inputs"].push_back(Json{{"name", input.name}, {"unit", input.unit}, {"points", input.points}});
   }
+  json["rows"] = Json{{"across", report.rows.across},
+                      {"along", report.rows.along},
+                      {"count", report.rows.sample.rows},
+                      {"drawn", report.rows.sample.drawn},
+                      {"different", report.rows.sample.different}};
   json["partitions"] = report.partitions;
   if (!report.modes.empty()) json["modes"] = report.modes;
   json["exact"] = report.exact;
@@ -96,10 +101,20 @@ std::string partitions_text(const Json& names) {
                      text_of(names[1]), text_of(names.back()));
 }
 
+std::string rows_text(const Json& rows) {
+  const auto names = [](const Json& list) {
+    return fmt::format("{}", fmt::join(list.get<std::vector<std::string>>(), ", "));
+  };
+  const std::string across = rows["across"].empty() ? "" : "across " + names(rows["across"]) + ", ";
+  return fmt::format("{}along {}; of {} drawn {} different", across, names(rows["along"]),
+                     count_of(rows["drawn"]), count_of(rows["different"]));
+}
+
 std::string totals_table(const Json& report) {
   Table table({Table::Align::left, Table::Align::left});
   table.add({"cells", count_of(report["cells"])});
   table.add({"joint inputs", count_of(report["joint_inputs"])});
+  table.add({"rows", rows_text(report["rows"])});
   table.add({"partitions", partitions_text(report["partitions"])});
   if (report.contains("modes"))
     table.add({"modes of the network", grouped(std::uint64_t{report["modes"].size()})});

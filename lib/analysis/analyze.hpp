@@ -12,6 +12,7 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "base/thread_team.hpp"
+#include "model/row_sample.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -141,8 +142,15 @@ struct SpecReport {
     std::string unit;
     std::int64_t points = 0;
   };
+  /// States that the engine's rows run across and along, the slowest first; and how many rows are different.
+  struct Rows {
+    std::vector<std::string> across;
+    std::vector<std::string> along;
+    RowSample sample;
+  };
   std::string name;
   std::vector<State> states;
+  Rows rows;
   std::vector<Input> inputs;
   std::int64_t cells = 0;
   std::int64_t joint_inputs = 0;

@@ -17,7 +17,7 @@ namespace {
 /// for can be read off them.
 Abstraction in_order(const Model& model, Abstraction abstraction) {
   abstraction = arranged(std::move(abstraction), model.order());
-  if (!model.is_read_by_runs()) abstraction.grid = join_rows(abstraction);
+  abstraction.grid = join_rows(abstraction, model.most_along());
   return abstraction;
 }
 
@@ -58,6 +58,7 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
   ground.beyond = safe_beyond_limits(ground.spec, abstraction, ground.safe, team);
   ground.engine.emplace(abstraction, ground.allow ? &*ground.allow : nullptr, ground.tubes());
   ground.hull.emplace(*ground.engine);
+  ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
   ground.order.emplace(abstraction.grid);
 }
 
