@@ -16,10 +16,13 @@ constexpr std::int64_t kMostShared = 1024;
 /// Wider windows are taken by doubling.
 constexpr std::int64_t kNarrowWindow = 6;
 
+/// In shorter rows looking for equal ones takes longer than their minimum.
+constexpr std::int64_t kLongRow = 1024;
+
 /// Leaves each row once, where rows that are equal are one.
 template <class Level>
 void leave_different(const LevelRows<Level>& levels, std::vector<const Level*>& rows) {
-  if (!levels.is_shared() || rows.size() < 2) return;
+  if (!levels.is_shared() || levels.row_length() < kLongRow || rows.size() < 2) return;
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 }

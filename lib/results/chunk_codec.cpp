@@ -86,27 +86,33 @@ ChunkCodec::ChunkCodec() : compressor_(libdeflate_alloc_compressor(kDeflateLevel
 
 void ChunkCodec::pack(std::span<const std::byte> raw, std::size_t element_size,
                       std::vector<std::byte>& packed) {
-  shuffled_.resize(raw.size());
-  shuffle_bytes(raw, element_size, shuffled_);
-  const std::uint64_t mark = mark_of(shuffled_);
+  const std::uint64_t mark = mark_of(raw) ^ element_size;
   for (const Known& known : known_) {
-    if (known.mark != mark || known.shuffled != shuffled_) continue;
+    if (known.mark != mark || known.element_size != element_size || known.raw.size() != raw.size()) continue;
+    if (!raw.empty() && std::memcmp(known.raw.data(), raw.data(), raw.size()) != 0) continue;
     packed = known.packed;
     return;
   }
-  compress(packed);
+  compress(raw, element_size, packed);
   if (known_.size() < kMostKnown) known_.emplace_back();
   Known& oldest = known_[oldest_];
   oldest_ = (oldest_ + 1) % kMostKnown;
   oldest.mark = mark;
-  oldest.shuffled.swap(shuffled_);
+  oldest.element_size = element_size;
+  oldest.raw.assign(raw.begin(), raw.end());
   oldest.packed = packed;
 }
 
-void ChunkCodec::compress(std::vector<std::byte>& packed) {
-  scratch_.resize(libdeflate_zlib_compress_bound(compressor_.get(), shuffled_.size()));
-  const std::size_t size = libdeflate_zlib_compress(compressor_.get(), shuffled_.data(), shuffled_.size(),
-                                                    scratch_.data(), scratch_.size());
+void ChunkCodec::compress(std::span<const std::byte> raw, std::size_t element_size,
+                          std::vector<std::byte>& packed) {
+  if (element_size > 1) {
+    shuffled_.resize(raw.size());
+    shuffle_bytes(raw, element_size, shuffled_);
+    raw = shuffled_;
+  }
+  scratch_.resize(libdeflate_zlib_compress_bound(compressor_.get(), raw.size()));
+  const std::size_t size =
+      libdeflate_zlib_compress(compressor_.get(), raw.data(), raw.size(), scratch_.data(), scratch_.size());
   packed.assign(scratch_.begin(), scratch_.begin() + static_cast<std::ptrdiff_t>(size));
 }
 

@@ -32,12 +32,12 @@ class ChunkCodec {
   static constexpr std::size_t kMostKnown = 8;
   struct Known {
     std::uint64_t mark = 0;
-    std::vector<std::byte> shuffled;
+    std::size_t element_size = 0;
+    std::vector<std::byte> raw;
     std::vector<std::byte> packed;
   };
 
-  /// Packs `shuffled_`.
-  void compress(std::vector<std::byte>& packed);
+  void compress(std::span<const std::byte> raw, std::size_t element_size, std::vector<std::byte>& packed);
 
   struct Free {
     void operator()(libdeflate_compressor* compressor) const;
