@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/analysis_json.hpp"
+#include "answers/requirements/answer.hpp"
 #include "app/json_text.hpp"
 #include "app/text.hpp"
 #include "cell/state_query.hpp"

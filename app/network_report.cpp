@@ -3,17 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
-#include "app/text.hpp"
+#include "app/render.hpp"
 
 namespace coordreq {
-namespace {
-
-std::string count_of(std::int64_t number, const char* what) {
-  return fmt::format("{} {}{}", grouped(number), what, number == 1 ? "" : "s");
-}
-
-}  // namespace
 
 std::string more_modes(std::size_t modes) {
   return modes <= kMostModes ? "" : fmt::format("  ... and {} more modes\n", grouped(modes - kMostModes));
@@ -35,11 +29,11 @@ std::string network_meaning(const NetworkSpec& network) {
   return count_of(static_cast<std::int64_t>(network.modes.size()), "mode") + " with given transitions";
 }
 
-std::string modes_text(const std::vector<ResultInfo::Mode>& modes) {
+std::string modes_text(const Json& modes) {
   Table table({Table::Align::left, Table::Align::right});
   table.add({"mode of the network", "safe cells"});
   for (std::size_t mode = 0; mode < std::min(kMostModes, modes.size()); ++mode)
-    table.add({printable(modes[mode].name), grouped(modes[mode].safe_cells)});
+    table.add({line_of(modes[mode]["name"]), grouped(modes[mode]["cells"])});
   return table.text() + more_modes(modes.size());
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/analysis_json.hpp"
+#include "answers/requirements/answer.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/requirement_text.hpp"

@@ -82,6 +82,7 @@ struct FieldScale {
 /// The place of a field in the file: fields of a lower section are written first, those of one section in the
 /// order of the answers.
 enum class FieldSection : std::uint8_t {
+  grid,
   axes,
   sets,
   steps,

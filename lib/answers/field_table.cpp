@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
-#include "answers/common/fields.hpp"
 #include "answers/plan.hpp"
 
 namespace coordreq {
 Fields result_fields(const ProblemSpec& spec) {
-  Fields table = common_fields(spec);
+  Fields table;
   // In a section those of later answers come first: files have always been written so.
   const std::vector<Answer>& answers = all_answers();
   for (auto answer = answers.rbegin(); answer != answers.rend(); ++answer) {
@@ -21,7 +20,6 @@ Fields result_fields(const ProblemSpec& spec) {
 
 FieldValues found_values(const Answers& answers, ThreadTeam& team) {
   FieldValues values;
-  fill_common_fields(answers, team, values);
   for (const Answer& answer : all_answers()) answer.fill(answers, team, values);
   return values;
 }

@@ -11,6 +11,7 @@
 #include "answers/layers/fields.hpp"
 #include "answers/network/fields.hpp"
 #include "base/error.hpp"
+#include "results/check_fields.hpp"
 #include "results/child_trial.hpp"
 #include "results/reading.hpp"
 #include "results/results_file.hpp"
@@ -130,6 +131,22 @@ std::vector<std::int32_t> ResultsReader::values(const Field& field, std::optiona
                        file_->place(field.path));
   }
   return values;
+}
+
+std::vector<std::int64_t> ResultsReader::integers(const std::string& path) const {
+  return reading(path_, [&] { return SmallFields(*file_, parts_).integers(path); });
+}
+
+std::vector<double> ResultsReader::numbers(const std::string& path) const {
+  return reading(path_, [&] { return SmallFields(*file_, parts_).numbers(path); });
+}
+
+std::vector<std::uint64_t> ResultsReader::counted(const std::string& path) const {
+  return SmallFields(*file_, parts_).counted(path);
+}
+
+void ResultsReader::fail(const std::string& what, const std::string& path) const {
+  throw ResultsError(what, file_->place(path));
 }
 
 std::vector<std::string> ResultsReader::datasets() const {

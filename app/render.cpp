@@ -1,0 +1,67 @@
+#include "app/render.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace coordreq {
+
+std::int64_t number_of(const Json& json) {
+  return json.get<std::int64_t>();
+}
+
+std::string text_of(const Json& json) {
+  return json.get<std::string>();
+}
+
+std::string line_of(const Json& json) {
+  return printable(text_of(json));
+}
+
+std::string grouped(const Json& count) {
+  return grouped(count.get<std::uint64_t>());
+}
+
+std::string cells(const Json& count) {
+  return cells(number_of(count));
+}
+
+std::string duration(const Json& steps, const Json& document) {
+  return duration(number_of(steps), document["period"].get<double>(), text_of(document["period_unit"]));
+}
+
+std::string values_text(const Json& values) {
+  std::string text;
+  for (const auto& [name, value] : values.items())
+    text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, value.get<double>());
+  return text;
+}
+
+std::string count_of(std::int64_t count, const char* noun) {
+  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
+std::string table_text(const Json& rows, const std::vector<Column>& columns) {
+  std::vector<Table::Align> aligned;
+  std::vector<std::string> headings;
+  for (const Column& column : columns) {
+    aligned.push_back(column.align);
+    headings.push_back(column.heading);
+  }
+  Table table(aligned);
+  table.add(headings);
+  for (const Json& row : rows) {
+    std::vector<std::string> texts;
+    for (const Column& column : columns) texts.push_back(column.text(row));
+    table.add(std::move(texts));
+  }
+  return table.text();
+}
+
+std::string facts_text(const Facts& facts) {
+  Table table({Table::Align::left, Table::Align::left});
+  for (const auto& [name, fact] : facts) table.add({name, fact});
+  return table.text();
+}
+
+}  // namespace coordreq
