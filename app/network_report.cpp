@@ -45,14 +45,13 @@ std::vector<std::string> safe_mode_names(const NetworkSpec& network, const std::
   return names;
 }
 
-std::string safe_modes_text(const NetworkSpec& network, const std::vector<bool>& safe) {
-  std::vector<std::string> names = safe_mode_names(network, safe);
-  const std::size_t count = names.size();
-  std::string text = count == 0 ? "no mode"
-                     : count == safe.size()
-                         ? fmt::format("all {} modes", grouped(count))
-                         : fmt::format("{} of {} modes", grouped(count), grouped(safe.size()));
-  if (count > 0 && count < safe.size()) {
+std::string safe_modes_text(const NetworkSpec& network, std::vector<std::string> names) {
+  const std::size_t count = names.size(), all = network.modes.size();
+  std::string text = count == 0     ? "no mode"
+                     : count == all ? fmt::format("all {} modes", grouped(std::uint64_t{count}))
+                                    : fmt::format("{} of {} modes", grouped(std::uint64_t{count}),
+                                                  grouped(std::uint64_t{all}));
+  if (count > 0 && count < all) {
     names.resize(std::min(kMostModes, count));
     text += fmt::format(": {}{}", fmt::join(names, ", "), count > kMostModes ? " ..." : "");
   }

@@ -20,8 +20,8 @@ inline constexpr std::size_t kMostModes = 12;
 /// A section of `info`.
 [[nodiscard]] std::string modes_text(const Json& modes);
 
-/// A section of `query`. @param safe by mode
-[[nodiscard]] std::string safe_modes_text(const NetworkSpec& network, const std::vector<bool>& safe);
+/// A section of `query`. @param names of the modes that are safe
+[[nodiscard]] std::string safe_modes_text(const NetworkSpec& network, std::vector<std::string> names);
 [[nodiscard]] std::vector<std::string> safe_mode_names(const NetworkSpec& network,
                                                        const std::vector<bool>& safe);
 

@@ -1,13 +1,25 @@
 #include "answers/field_table.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "answers/plan.hpp"
 
 namespace coordreq {
-Fields result_fields(const ProblemSpec& spec) {
+
+Fields answer_fields(const ProblemSpec& spec) {
   Fields table;
+  for (const Answer& answer : all_answers()) {
+    Fields fields = answer.fields(spec);
+    std::move(fields.begin(), fields.end(), std::back_inserter(table));
+  }
+  return table;
+}
+
+Fields result_fields(const ProblemSpec& spec) {
   // In a section those of later answers come first: files have always been written so.
+  Fields table;
   const std::vector<Answer>& answers = all_answers();
   for (auto answer = answers.rbegin(); answer != answers.rend(); ++answer) {
     Fields fields = answer->fields(spec);

@@ -133,6 +133,12 @@ std::vector<std::int32_t> ResultsReader::values(const Field& field, std::optiona
   return values;
 }
 
+std::vector<float> ResultsReader::shares(const Field& field, std::optional<std::size_t> leading,
+                                         const CellBlock& block) const {
+  const Part part(leading, block);
+  return elements<float>(field.path, ElementType::float32, part.offset, part.count);
+}
+
 std::vector<std::int64_t> ResultsReader::integers(const std::string& path) const {
   return reading(path_, [&] { return SmallFields(*file_, parts_).integers(path); });
 }
@@ -230,14 +236,6 @@ std::vector<std::uint8_t> ResultsReader::controller_bits(const CellBlock& block)
 
 std::vector<std::uint8_t> ResultsReader::listed_bits(const CellBlock& block) const {
   return bits(paths::kListed, inputs_.count(), block);
-}
-
-std::vector<float> ResultsReader::convention_freedom(std::size_t agent, const CellBlock& block) const {
-  std::vector<std::uint64_t> offset = unsigned_of(block.first);
-  std::vector<std::uint64_t> count = unsigned_of(block.count);
-  offset.insert(offset.begin(), agent);
-  count.insert(count.begin(), 1);
-  return elements<float>(paths::kConventionFreedom, ElementType::float32, offset, count);
 }
 
 bool ResultsReader::has_convention() const {

@@ -73,6 +73,9 @@ class ResultsReader : public FieldSource {
   /// The same of a field of 0 and 1.
   [[nodiscard]] std::vector<std::uint8_t> members(const Field& field, std::optional<std::size_t> leading,
                                                   const CellBlock& block) const;
+  /// The same of a field of floating point.
+  [[nodiscard]] std::vector<float> shares(const Field& field, std::optional<std::size_t> leading,
+                                          const CellBlock& block) const;
   /// Small fields, as a whole.
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& path) const override;
   [[nodiscard]] std::vector<double> numbers(const std::string& path) const override;
@@ -120,9 +123,6 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] std::vector<std::uint8_t> controller_bits(const CellBlock& block) const;
   /// The same for the pairs that `controller.file` lists. REQUIRES: the spec has one.
   [[nodiscard]] std::vector<std::uint8_t> listed_bits(const CellBlock& block) const;
-  /// Part of an agent's admissible actions that the convention leaves it, NaN outside K. REQUIRES: the spec
-  /// asks for it.
-  [[nodiscard]] std::vector<float> convention_freedom(std::size_t agent, const CellBlock& block) const;
   /// What agents may do by convention is stored.
   [[nodiscard]] bool has_convention() const;
   /// As action_bits(), of one agent. REQUIRES: has_convention().

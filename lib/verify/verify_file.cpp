@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "answers/coalition/fields.hpp"
+#include "answers/convention/fields.hpp"
 #include "answers/network/fields.hpp"
 #include "base/error.hpp"
 #include "results/results_reader.hpp"
@@ -85,7 +86,7 @@ Claims read_all(const ResultsReader& results) {
     claims.listed = {.inputs = results.inputs().count(), .bytes = results.listed_bits(all)};
   for (std::size_t i = 0; i < results.spec().agents.size(); ++i) {
     if (results.spec().coordination.convention)
-      claims.convention_freedom.push_back(results.convention_freedom(i, all));
+      claims.convention_freedom.push_back(results.shares(results.field(paths::kConventionFreedom), i, all));
     if (results.has_convention()) claims.convention.push_back(results.convention_bits(i, all));
   }
   if (results.has_abstraction()) claims.abstraction = stored_tables(results);

@@ -32,7 +32,10 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
       "delay", spec, DelayLayers::kOutsideSafe,
       described("largest number of steps without coordination that keeps the system safe") +
           std::vector<FieldAttribute>{flags({outside_safe, outside_invariant, {kLargestValue, "unbounded"}})},
-      {.column = "delay"}));
+      {.column = "delay",
+       .steps = true,
+       .compared = "delay",
+       .map = {.values = FieldMap::Values::numbers, .kind = "delay"}}));
   fields.push_back(
       steps_field("trigger", spec, TriggerTable::kMustBeConnected,
                   described("steps until the agents must start to connect") +
@@ -42,7 +45,7 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
                                  outside_invariant,
                                  {kLargestValue, "never"}}),
                           {"connection_delay", spec.coordination.connection_delay}},
-                  {.column = "countdown", .below_zero = TriggerTable::kMustBeConnected}));
+                  {.column = "countdown", .below_zero = TriggerTable::kMustBeConnected, .steps = true}));
 }
 
 void add_sizes(Fields& fields) {
