@@ -169,7 +169,9 @@ std::string closing_text(const Json& summary) {
 
 std::string summary_text(const Json& summary, const ProblemSpec& spec) {
   return sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec) +
-         coalition_text(summary) + requirements_text(summary["requirements"], spec) + closing_text(summary);
+         coalition_text(summary) +
+         others_text(summary, {"controller", "coalition", "network", "seconds", "work"}) +
+         requirements_text(summary["requirements"], spec) + closing_text(summary);
 }
 
 std::string fixed_point_text(const Json& partition) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace coordreq {
@@ -62,6 +63,24 @@ std::string facts_text(const Facts& facts) {
   Table table({Table::Align::left, Table::Align::left});
   for (const auto& [name, fact] : facts) table.add({name, fact});
   return table.text();
+}
+
+std::string others_text(const Json& document, const std::vector<std::string>& known) {
+  const auto in_words = [](std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+  };
+  std::string text;
+  for (const auto& [name, section] : document.items()) {
+    if (!section.is_object() || std::find(known.begin(), known.end(), name) != known.end()) continue;
+    Facts facts;
+    for (const auto& [key, value] : section.items()) {
+      if (value.is_primitive() && !value.is_null())
+        facts.emplace_back("  " + in_words(key), value.is_string() ? line_of(value) : value.dump());
+    }
+    text += fmt::format("\n{}\n{}", in_words(name), facts_text(facts));
+  }
+  return text;
 }
 
 }  // namespace coordreq

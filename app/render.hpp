@@ -38,4 +38,8 @@ struct Column {
 using Facts = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] std::string facts_text(const Facts& facts);
 
+/// A section for each member that a text has no words of its own for: numbers, texts and flags as they are.
+/// @param known members that it has words for
+[[nodiscard]] std::string others_text(const Json& document, const std::vector<std::string>& known);
+
 }  // namespace coordreq

@@ -92,6 +92,7 @@ std::string info_text(const Json& info) {
   std::string text = head_text(info) + "\n" + axes_text(info) + "\n" + partitions_text(info["partitions"]) +
                      coalition_text(info) + requirements_text(info);
   if (info.contains("modes")) text += "\n" + modes_text(info["modes"]);
+  text += others_text(info, {"coalition"});
   text += "\ndatasets\n";
   for (const Json& dataset : info["datasets"]) text += "  " + line_of(dataset) + "\n";
   return text;
