@@ -37,8 +37,8 @@ struct PartitionPair {
 };
 
 /// A field of numbers, such as the delay, of which more is better. Delays are compared as what each file
-/// guarantees: a cell outside K bears less than a cell with delay 0, unbounded is more than every number, and
-/// where `max_delay` stopped an analysis its last delay counts as it is, though the true one may be larger.
+/// guarantees: a cell outside K tolerates less than a cell with delay 0, unbounded is more than every number,
+/// and where `max_delay` stopped an analysis its last delay counts as it is, though the true one may be larger.
 struct ValueComparison {
   std::string name;   ///< "delay"
   std::string words;  ///< what it is called

@@ -12,6 +12,7 @@
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/plan.hpp"
 #include "answers/requirements/answer.hpp"
+#include "base/index.hpp"
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
 #include "reach/build_abstraction.hpp"
@@ -22,10 +23,6 @@
 
 namespace coordreq {
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::vector<bool> members(const CellSet& set) {
   std::vector<bool> result;
