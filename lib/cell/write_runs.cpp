@@ -47,7 +47,7 @@ auto of_step(Element filler, const Member& member) {
   };
 }
 
-/// Units stand in the long name, for CF has one unit a dataset.
+/// Units stand in the long name, since CF has one unit a dataset.
 template <class Variable>
 std::string component_text(const std::string& kind, const std::vector<Variable>& variables) {
   std::string text;
