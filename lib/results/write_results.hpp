@@ -31,8 +31,8 @@ struct FileKind {
 };
 /// Any file of fields, by the same rules: its attributes, the text of the spec, and fields in their order.
 void write_fields(const std::string& path, const FileKind& kind,
-                  const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec, const Fields& fields,
-                  const FieldValues& values, ThreadTeam& team);
+                  const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec,
+                  const Fields& fields, const FieldValues& values, ThreadTeam& team);
 
 /// @throws IoError as write_results() would for reasons that are known before the work starts, so that a long
 ///   analysis does not fail at its end. Leaves nothing behind.
