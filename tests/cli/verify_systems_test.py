@@ -119,7 +119,7 @@ class Cases(Case):
         """A sample; `random_systems.py PROGRAM` runs all 500."""
         confirmed, refused = 0, 0
         for seed in range(0, 500, 16):
-            result = self.verified(random_system(seed))
+            result = self.verified(random_system(seed), "--budget", "5")
             if result is None:
                 refused += 1
                 continue
