@@ -2,9 +2,8 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "answers/stage.hpp"
+#include "base/thread_team.hpp"
 #include "engine/packed_pairs.hpp"
 #include "engine/pair_table.hpp"
 #include "engine/row_engine.hpp"
@@ -50,10 +49,6 @@ struct Ground {
   /// The tiles or null.
   [[nodiscard]] const Tiles* equal_work() const { return tiles ? &*tiles : nullptr; }
 };
-
-/// "abstraction" and "safe set".
-/// @throws SpecError for what only shows when the system is built
-[[nodiscard]] std::vector<Stage> ground_stages();
 
 /// S and the engine, on an abstraction that is there.
 void lay_ground(Ground& ground, ThreadTeam& team);
