@@ -1,0 +1,89 @@
+#include "answers/ground/fields.hpp"
+
+#include "answers/field_parts.hpp"
+#include "reach/build_abstraction.hpp"
+#include "spec/unit_text.hpp"
+
+namespace coordreq {
+namespace {
+
+Field axis(const std::string& name, const std::string& unit, const std::string& role,
+           const std::optional<Rational>& step, std::uint64_t count,
+           std::function<double(std::uint64_t)> point) {
+  Field field{.path = "/" + name,
+              .section = FieldSection::grid,
+              .types = {ElementType::float64},
+              .axes = {},
+              .scale = FieldScale{.coordinates = GridPoints{std::move(point)}, .least = count, .most = count},
+              .attributes = {{"long_name", role + " " + name}, {"units", udunits_spelling(unit)}}};
+  if (step) field.attributes.push_back({"step", nearest_double(*step)});
+  field.attributes.push_back({"role", role});
+  return field;
+}
+
+Field state_axis(const StateSpec& state) {
+  return axis(state.name, state.unit, "state", state.grid.step, static_cast<std::uint64_t>(state.grid.count),
+              [grid = state.grid](std::uint64_t k) {
+                return nearest_double(Rational(grid.first + grid.step * Rational(k)));
+              });
+}
+
+Field input_axis(const InputSpec& input) {
+  return axis(input.name, input.unit, "input",
+              input.grid ? std::optional(input.grid->step) : std::optional<Rational>(), input.values.size(),
+              [values = input.values](std::uint64_t k) { return nearest_double(values[k]); });
+}
+
+/// The finite abstraction, of what each state depends on.
+void add_abstraction(Fields& fields, const ProblemSpec& spec) {
+  const std::vector<TableShape> shapes = table_shapes(spec);
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    const std::string& state = spec.states[i].name;
+    std::vector<std::string> axes;
+    for (const std::int32_t j : shapes[i].states)
+      axes.push_back("/" + spec.states[static_cast<std::size_t>(j)].name);
+    for (const std::int32_t j : shapes[i].inputs)
+      axes.push_back("/" + spec.inputs[static_cast<std::size_t>(j)].name);
+    const auto add = [&](const std::string& end, const std::string& which) {
+      fields.push_back({.path = "/abstraction/" + state + "/" + end,
+                        .section = FieldSection::abstraction,
+                        .types = {ElementType::int32},
+                        .axes = axes,
+                        .least = std::numeric_limits<std::int32_t>::min(),
+                        .attributes = described(which + " grid index that " + state + " can have next")});
+    };
+    add("first", "smallest");
+    add("last", "largest");
+  }
+}
+
+}  // namespace
+
+Fields ground_fields(const ProblemSpec& spec) {
+  Fields fields;
+  for (const StateSpec& state : spec.states) fields.push_back(state_axis(state));
+  for (const InputSpec& input : spec.inputs) fields.push_back(input_axis(input));
+  std::vector<std::string> names;
+  for (const PartitionSpec& partition : spec.coordination.partitions) names.push_back(partition.name);
+  fields.push_back(name_scale("/partition", FieldSection::grid, std::move(names),
+                              "partition of the agents into classes that coordinate"));
+  if (spec.output.abstraction) add_abstraction(fields, spec);
+  return fields;
+}
+
+void fill_ground_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
+  const ProblemSpec& spec = answers.ground.spec;
+  for (std::size_t i = 0; spec.output.abstraction && i < spec.states.size(); ++i) {
+    const TransitionTable table = written_out(*answers.ground.abstraction, i);
+    std::vector<std::int32_t> first, last;
+    for (const IndexRange& range : table.entries) {
+      first.push_back(range.first);
+      last.push_back(range.last);
+    }
+    const std::string group = "/abstraction/" + spec.states[i].name;
+    values.entries[group + "/first"].array = owned_array(ElementType::int32, std::move(first));
+    values.entries[group + "/last"].array = owned_array(ElementType::int32, std::move(last));
+  }
+}
+
+}  // namespace coordreq

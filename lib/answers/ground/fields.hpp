@@ -1,0 +1,16 @@
+#pragma once
+
+#include "answers/answers.hpp"
+#include "answers/field.hpp"
+#include "base/thread_team.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// The axes of states, inputs and partitions; on request the finite abstraction.
+[[nodiscard]] Fields ground_fields(const ProblemSpec& spec);
+
+/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+void fill_ground_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
+
+}  // namespace coordreq

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "answers/one_cell/cell_members.hpp"
+#include "answers/one_cell/cell_posts.hpp"
+#include "expression/condition.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// The controller C at single cells, computed when asked for: the analysis never stores C, and a run or a
+/// question visits few cells. Straight from the definitions (contract, "Controller").
+///
+/// States and inputs fall into components that have nothing to do with one another (as the directions of a
+/// robot). Inputs of a component that move it alike are tried once: the gridworld's 14,641 joint inputs
+/// become at most 625 boxes. Scratch inside: one object a thread.
+class AdmissibleInputs {
+ public:
+  struct Sets {
+    CellMembers* invariant = nullptr;
+    CellMembers* safe = nullptr;  ///< needed only if there are tubes
+    /// TubeSets::beyond, called only where it matters; none: it is S.
+    std::function<CellMembers*()> safe_beyond;
+    /// Whether `controller.file` lists a pair of a cell and a joint input; none: there is no such file.
+    std::function<bool(std::int64_t cell, std::int64_t u)> listed;
+  };
+
+  /// REQUIRES: `spec`, `posts`, which are the spec's, and all sets outlive this object.
+  AdmissibleInputs(const ProblemSpec& spec, CellPosts& posts, Sets sets);
+
+  /// C(x) as joint inputs, ascending. `maximal`: {u allowed : empty != f(x,u) subset of K}; `given`: all that
+  /// are allowed. REQUIRES: x is in K. Cost: that of asking the sets for every different post, and |C(x)|.
+  /// @throws SpecError if `allow` cannot be decided
+  [[nodiscard]] const std::vector<std::int64_t>& of(std::int64_t x);
+  /// Whether `allow` permits u at any cell x of the grid, and `controller.file` lists it.
+  [[nodiscard]] bool allows(std::int64_t x, std::int64_t u);
+
+ private:
+  using Box = std::vector<IndexRange>;  ///< of some states
+  /// Where a component's states can be next, and on the way there.
+  struct Move {
+    Box post;
+    Box tube;  ///< empty if there are none
+    bool passes_a_limit = false;
+    [[nodiscard]] auto operator<=>(const Move&) const = default;
+  };
+  struct Component {
+    std::vector<std::size_t> states;
+    std::vector<std::size_t> inputs;
+    bool has_allow = false;  ///< `allow` depends on inputs, all of them in here
+    /// Of the cell at work: the parts of joint input numbers that lead to a move.
+    std::vector<std::pair<Move, std::vector<std::int64_t>>> groups;
+  };
+
+  void find_components();
+  void find_moves(Component& component, std::int64_t x);
+  [[nodiscard]] std::optional<Move> move(const Component& component, std::int64_t u) const;
+  [[nodiscard]] bool is_allowed(std::int64_t x, std::int64_t u);
+  void cover(Box Move::*part, CellMembers& set) const;
+  void prepare_sets();
+  [[nodiscard]] bool is_safe(const std::vector<std::int64_t>& choice) const;
+  [[nodiscard]] bool stays_in(const std::vector<std::int64_t>& choice, Box Move::*part,
+                              const CellMembers& set) const;
+  void collect(const std::vector<std::int64_t>& choice);
+  void sort();
+
+  const ProblemSpec* spec_;
+  CellPosts* posts_;
+  Sets sets_;
+  CellMembers* safe_beyond_ = nullptr;  ///< of the cell at work: what tubes that pass a limit must stay in
+  std::vector<Component> components_;
+  std::unique_ptr<ConditionDecider> allow_;  ///< none if everything is allowed
+  bool allow_has_inputs_ = false;
+  std::vector<Interval> fast_point_;
+  std::vector<RationalInterval> point_;
+  std::vector<std::int64_t> admissible_;
+  std::vector<bool> marks_;
+};
+
+}  // namespace coordreq
