@@ -64,6 +64,7 @@ $""",
                 "joint_inputs",
                 "states",
                 "inputs",
+                "rows",
                 "partitions",
                 "exact",
                 "guarantee",
@@ -85,6 +86,14 @@ $""",
             },
         )
         self.assertEqual(report["inputs"][0], {"name": "left_change", "unit": "", "points": 2})
+        rows = report["rows"]
+        self.assertEqual((len(rows["across"] + rows["along"]), rows["count"]), (len(report["states"]), rows["drawn"]))
+        self.assertLessEqual(rows["different"], rows["drawn"])
+
+    def test_validate_tells_along_which_states_few_rows_are_different(self):
+        result = self.run_program("validate", str(CONFIGS / "gridworld.json"))
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        self.assertIn(b"across x1, x2, along y1, y2; of 64 drawn 2 different\n", result.stdout)
 
     def test_validate_tells_shifts_from_full_tables(self):
         result = self.run_program("validate", str(CONFIGS / "platoon.json"))
