@@ -6,22 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "app/render.hpp"
 #include "app/requirement_text.hpp"
-#include "app/text.hpp"
 
 namespace coordreq {
 namespace {
 
 /// With more partitions than this each gets one line.
 constexpr std::size_t kMostInFull = 3;
-
-std::int64_t number(const Json& json) {
-  return json.get<std::int64_t>();
-}
-
-std::string length(std::int64_t steps, const Json& summary) {
-  return duration(steps, summary["period"].get<double>(), summary["period_unit"].get<std::string>());
-}
 
 /// "201 x 41 = 8,241", or "201" for a single factor.
 std::string product(const std::vector<std::int64_t>& factors, std::int64_t result) {
@@ -35,8 +27,8 @@ std::string sizes(const Json& summary, const ProblemSpec& spec) {
   std::vector<std::int64_t> points, values;
   for (const StateSpec& state : spec.states) points.push_back(state.grid.count);
   for (const InputSpec& input : spec.inputs) values.push_back(static_cast<std::int64_t>(input.values.size()));
-  return fmt::format("{}: {} cells, {} joint inputs\n", summary["name"].get<std::string>(),
-                     product(points, number(summary["states"])), product(values, number(summary["inputs"])));
+  return fmt::format("{}: {} cells, {} joint inputs\n", text_of(summary["name"]),
+                     product(points, number_of(summary["states"])), product(values, number_of(summary["inputs"])));
 }
 
 bool is_joint(const Json& class_name) {
@@ -52,102 +44,99 @@ std::string meaning(const Json& partition, const Json& summary) {
   const char* const without = alone ? "without coordination" : "without coordination between classes";
   if (partition["truncated"]) {
     const auto limit = static_cast<std::int64_t>(partition["layers"].size()) - 1;
-    const std::int64_t last = number(partition["layers"].back());
+    const std::int64_t last = number_of(partition["layers"].back());
     return fmt::format("Stopped at max_delay: {} {} {} {}, perhaps more.", cells(last),
-                       last == 1 ? "allows" : "allow", length(limit, summary), without);
+                       last == 1 ? "allows" : "allow", duration(limit, summary), without);
   }
   // The layers shrink strictly up to F, so the largest finite delay is F - 1.
-  const std::int64_t largest = number(partition["F"]) - 1;
-  const std::int64_t unbounded = number(partition["fixed_point"]);
+  const std::int64_t largest = number_of(partition["F"]) - 1;
+  const std::int64_t unbounded = number_of(partition["fixed_point"]);
   const char* const are = largest == 1 ? "is" : "are";
   if (unbounded == 0) {
     if (largest == 0) return fmt::format("From no state is even one step {} safe.", without);
-    return fmt::format("From the best state, {} {} {} safe.", length(largest, summary), without, are);
+    return fmt::format("From the best state, {} {} {} safe.", duration(largest, summary), without, are);
   }
   if (!alone && classes.size() == 1)
     return "All agents coordinate within every step, so every delay is unbounded.";
   if (largest < 0) return fmt::format("The {} never need to coordinate: every delay is unbounded.", who);
   return fmt::format("From {} the {} never need to coordinate; from the best of the others, {} {} {} safe.",
-                     cells(unbounded), who, length(largest, summary), without, are);
+                     cells(unbounded), who, duration(largest, summary), without, are);
 }
 
 /// For how many cells D steps are more than they can do without.
 std::string connection_text(const Json& partition, const Json& summary) {
-  const std::int64_t delay = number(summary["connection_delay"]);
+  const std::int64_t delay = number_of(summary["connection_delay"]);
   const bool unknown =
       partition["truncated"].get<bool>() && delay >= static_cast<std::int64_t>(partition["layers"].size());
   return fmt::format("{}{} may never be without one, which takes {} to stand", unknown ? "at most " : "",
-                     cells(number(partition["never_without_connection"])), length(delay, summary));
+                     cells(partition["never_without_connection"]), duration(delay, summary));
 }
 
 std::string unbounded_cells(const Json& partition) {
-  return partition["truncated"] ? "unknown" : cells(number(partition["fixed_point"]));
+  return partition["truncated"] ? "unknown" : cells(partition["fixed_point"]);
 }
 
 std::string partition_text(const Json& partition, const Json& summary) {
-  Table table({Table::Align::left, Table::Align::left});
-  table.add({"  layers", shortened(partition["layers"].get<std::vector<std::int64_t>>())});
-  table.add({"  fixed point", (partition["truncated"] ? "" : "F = ") + fixed_point_text(partition)});
-  table.add({"  unbounded", unbounded_cells(partition)});
-  if (number(summary["connection_delay"]) > 0)
-    table.add({"  connection", connection_text(partition, summary)});
-  return fmt::format("\npartition {}\n{}  {}\n", partition["name"].get<std::string>(), table.text(),
+  Facts facts = {{"  layers", shortened(partition["layers"].get<std::vector<std::int64_t>>())},
+                 {"  fixed point", (partition["truncated"] ? "" : "F = ") + fixed_point_text(partition)},
+                 {"  unbounded", unbounded_cells(partition)}};
+  if (number_of(summary["connection_delay"]) > 0)
+    facts.emplace_back("  connection", connection_text(partition, summary));
+  return fmt::format("\npartition {}\n{}  {}\n", text_of(partition["name"]), facts_text(facts),
                      meaning(partition, summary));
 }
 
 /// One line a partition.
 std::string partitions_table(const Json& summary) {
   using Align = Table::Align;
-  const std::int64_t delay = number(summary["connection_delay"]);
-  std::vector<Align> columns = {Align::left, Align::right, Align::right, Align::left};
-  std::vector<std::string> heading = {"partition", "F", "unbounded", "longest finite delay"};
+  const std::int64_t delay = number_of(summary["connection_delay"]);
+  std::vector<Column> columns = {
+      {"partition", Align::left, [](const Json& own) { return text_of(own["name"]); }},
+      {"F", Align::right, fixed_point_text},
+      {"unbounded", Align::right, unbounded_cells},
+      {"longest finite delay", Align::left,
+       [&summary](const Json& own) { return longest_delay_text(own, summary); }}};
   if (delay > 0) {
-    columns.push_back(Align::right);
-    heading.emplace_back("never without connection");
-  }
-  Table table(columns);
-  table.add(heading);
-  for (const Json& partition : summary["partitions"]) {
-    std::vector<std::string> row = {partition["name"].get<std::string>(), fixed_point_text(partition),
-                                    unbounded_cells(partition), longest_delay_text(partition, summary)};
-    if (delay > 0) row.push_back(cells(number(partition["never_without_connection"])));
-    table.add(std::move(row));
+    columns.push_back({"never without connection", Align::right,
+                       [](const Json& own) { return cells(own["never_without_connection"]); }});
   }
   const std::string connection =
-      delay > 0 ? fmt::format("A connection takes {} to stand.\n", length(delay, summary)) : "";
-  return "\n" + table.text() + connection;
+      delay > 0 ? fmt::format("A connection takes {} to stand.\n", duration(delay, summary)) : "";
+  return "\n" + table_text(summary["partitions"], columns) + connection;
+}
+
+/// Where an agent keeps at most half of its actions.
+std::string cells_of_half(const Json& own) {
+  const auto histogram = own["histogram"].get<std::vector<std::int64_t>>();
+  return cells(std::accumulate(histogram.begin(), histogram.begin() + 5, std::int64_t{0}));
 }
 
 std::string convention_text(const Json& convention) {
   using Align = Table::Align;
-  Table table({Align::left, Align::right, Align::right, Align::right});
-  table.add({"  agent", "keeps on average", "all in", "at most half in"});
-  for (const Json& own : convention) {
-    const auto histogram = own["histogram"].get<std::vector<std::int64_t>>();
-    const std::int64_t half = std::accumulate(histogram.begin(), histogram.begin() + 5, std::int64_t{0});
-    table.add({"  " + own["agent"].get<std::string>(),
-               fmt::format("{:.1f} %", 100 * own["mean"].get<double>()), cells(number(own["full"])),
-               cells(half)});
-  }
   return fmt::format(
       "\nconvention\n{}  Agents that keep to it never need to coordinate inside the invariance set.\n",
-      table.text());
+      table_text(convention,
+                 {{"  agent", Align::left, [](const Json& own) { return "  " + text_of(own["agent"]); }},
+                  {"keeps on average", Align::right,
+                   [](const Json& own) { return fmt::format("{:.1f} %", 100 * own["mean"].get<double>()); }},
+                  {"all in", Align::right, [](const Json& own) { return cells(own["full"]); }},
+                  {"at most half in", Align::right, cells_of_half}}));
 }
 
 std::string sets_text(const Json& summary) {
-  Table table({Table::Align::left, Table::Align::left});
+  Facts facts;
   if (summary.contains("controller")) {
     const Json& controller = summary["controller"];
-    table.add({"controller", fmt::format("{} of {} pairs, from {}", grouped(number(controller["pairs"])),
-                                         grouped(number(summary["states"]) * number(summary["inputs"])),
-                                         printable(controller["file"].get<std::string>()))});
+    facts.emplace_back("controller",
+                       fmt::format("{} of {} pairs, from {}", grouped(controller["pairs"]),
+                                   grouped(number_of(summary["states"]) * number_of(summary["inputs"])),
+                                   line_of(controller["file"])));
   }
-  const std::int64_t sweeps = number(summary["iterations"]);
-  table.add({"safe set", cells(number(summary["safe"]))});
-  table.add({"invariance set", fmt::format("{} after {} sweep{}", cells(number(summary["invariant"])),
-                                           grouped(sweeps), sweeps == 1 ? "" : "s")});
-  table.add({"guarantee", guarantee_text(summary["guarantee"].get<std::string>())});
-  return table.text();
+  facts.emplace_back("safe set", cells(summary["safe"]));
+  facts.emplace_back("invariance set", fmt::format("{} after {}", cells(summary["invariant"]),
+                                                   count_of(number_of(summary["iterations"]), "sweep")));
+  facts.emplace_back("guarantee", guarantee_text(text_of(summary["guarantee"])));
+  return facts_text(facts);
 }
 
 std::string partitions_text(const Json& summary, const ProblemSpec& spec) {
@@ -170,32 +159,33 @@ std::string partitions_text(const Json& summary, const ProblemSpec& spec) {
 }
 
 std::string closing_text(const Json& summary) {
-  const std::int64_t threads = number(summary["threads"]);
-  const std::string output = summary["output"].is_null() ? "" : summary["output"].get<std::string>();
-  return fmt::format("\nresults in {} ({:.2f} s on {} thread{}, {})\n", printable(output),
-                     seconds_of(summary), threads, threads == 1 ? "" : "s",
-                     byte_size(summary["peak_memory_bytes"].get<std::uint64_t>()));
+  const std::int64_t threads = number_of(summary["threads"]);
+  const std::string output = summary["output"].is_null() ? "" : line_of(summary["output"]);
+  return fmt::format("\nresults in {} ({:.2f} s on {} thread{}, {})\n", output, seconds_of(summary), threads,
+                     threads == 1 ? "" : "s", byte_size(summary["peak_memory_bytes"].get<std::uint64_t>()));
 }
 
 }  // namespace
 
 std::string summary_text(const Json& summary, const ProblemSpec& spec) {
   return sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec) +
-         coalition_text(summary) + requirements_text(summary["requirements"], spec) + closing_text(summary);
+         coalition_text(summary) +
+         others_text(summary, {"controller", "coalition", "network", "seconds", "work"}) +
+         requirements_text(summary["requirements"], spec) + closing_text(summary);
 }
 
 std::string fixed_point_text(const Json& partition) {
-  return partition["truncated"] ? "not reached" : std::to_string(number(partition["F"]));
+  return partition["truncated"] ? "not reached" : std::to_string(number_of(partition["F"]));
 }
 
 std::string unbounded_text(const Json& partition) {
-  return partition["truncated"] ? "unknown" : grouped(number(partition["fixed_point"]));
+  return partition["truncated"] ? "unknown" : grouped(partition["fixed_point"]);
 }
 
 std::string longest_delay_text(const Json& partition, const Json& summary) {
   const auto last = static_cast<std::int64_t>(partition["layers"].size()) - 1;
-  if (partition["truncated"]) return "at least " + length(last, summary);
-  return last == 0 ? "" : length(last - 1, summary);
+  if (partition["truncated"]) return "at least " + duration(last, summary);
+  return last == 0 ? "" : duration(last - 1, summary);
 }
 
 double seconds_of(const Json& summary) {

@@ -5,7 +5,7 @@
 #include "app/json_text.hpp"
 #include "spec/problem_spec.hpp"
 
-// An analysis in words, from what summary_json() says of it.
+// An analysis in words, from the summary of analyze().
 namespace coordreq {
 
 /// What `analyze` prints for people.

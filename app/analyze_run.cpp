@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/analysis_json.hpp"
+#include "analysis/analyze.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress_display.hpp"
 #include "results/write_results.hpp"
@@ -49,9 +49,9 @@ Json analyze_with_progress(const ProblemSpec& spec, const std::string& output, c
   options.notice = [&](const std::string& text) {
     if (!asked.quiet) shown.notice(text);
   };
-  const AnalysisSummary summary = analyze(spec, options, team);
+  Json summary = analyze(spec, options, team);
   shown.finish();
-  return summary_json(summary, spec);
+  return summary;
 }
 
 void check_interrupted(const std::string& place) {

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/analysis_json.hpp"
-#include "app/json_text.hpp"
-#include "app/text.hpp"
+#include "app/render.hpp"
 #include "cell/state_query.hpp"
 #include "numeric/rational.hpp"
 
@@ -22,147 +20,43 @@ struct Files {
   const ResultsReader& after;
 };
 
-std::string sets_table(const ResultsComparison& comparison) {
-  Table table({Align::left, Align::right, Align::right, Align::right, Align::right});
-  table.add({"cells of the", "before", "after", "left", "joined"});
-  for (const SetComparison& set : comparison.sets)
-    table.add({set.words, grouped(set.before), grouped(set.after), grouped(set.left), grouped(set.joined)});
-  return table.text();
-}
-
-/// "alone", or "alone (was: a|b)".
-std::string partition_name(const PartitionComparison& partition, const Files& files) {
-  const std::string& old = files.before.partitions()[partition.before].name;
-  const std::string& now = files.after.partitions()[partition.after].name;
-  return printable(now) + (old == now ? "" : " (was: " + printable(old) + ")");
-}
-
-std::string partitions_table(const ResultsComparison& comparison, const Files& files, bool tolerant) {
-  std::vector<Align> columns(tolerant ? 6 : 5, Align::right);
-  columns[0] = Align::left;
-  Table table(columns);
-  std::vector<std::string> heading = {"partition", "lost delay", "left the set", "now bounded",
-                                      "gained delay"};
-  if (tolerant) heading.emplace_back("tolerated");
-  table.add(heading);
-  for (const PartitionComparison& partition : comparison.partitions) {
-    std::vector<std::string> row = {partition_name(partition, files), grouped(partition.lost),
-                                    grouped(partition.left), grouped(partition.from_forever),
-                                    grouped(partition.gained)};
-    if (tolerant) row.push_back(grouped(partition.tolerated));
-    table.add(std::move(row));
-  }
-  return table.text();
-}
-
-/// Whether a delay of the partition is only known to be at least this.
-bool is_cut_off(std::int32_t delay, std::size_t partition, const ResultsReader& file) {
-  return file.partitions()[partition].truncated() && file.spec().coordination.max_delay == delay;
-}
-
-std::string delay_text(std::int32_t delay, std::size_t partition, const ResultsReader& file) {
-  if (delay == ResultsReader::kNever) return "unbounded";
-  if (delay == -1) return "not in the invariance set";
-  if (delay < 0) return "not safe";
-  const ProblemSpec& spec = file.spec();
-  const std::string steps = duration(delay, nearest_double(spec.dynamics.period), spec.dynamics.unit);
-  return (is_cut_off(delay, partition, file) ? "at least " : "") + steps;
-}
-
-/// The cells that have lost most; empty if none has lost anything.
-std::string worst_text(const PartitionComparison& partition, const Files& files) {
-  if (partition.worst.empty()) return "";
-  const std::vector<StateSpec>& states = files.before.spec().states;
-  std::vector<Align> columns(states.size() + 3, Align::right);
-  columns[states.size() + 1] = columns[states.size() + 2] = Align::left;
-  Table table(columns);
-  std::vector<std::string> heading = {"  cell"};
-  for (const StateSpec& state : states) heading.push_back(column_heading(state.name, state.unit));
-  heading.emplace_back("before");
-  heading.emplace_back("after");
-  table.add(heading);
-  for (const DelayChange& change : partition.worst) {
-    std::vector<std::string> row = {"  " + grouped(change.cell)};
-    for (const Rational& value : box_of_cell(files.before.grid(), change.cell).centre)
-      row.push_back(fmt::format("{:.6g}", nearest_double(value)));
-    row.push_back(delay_text(change.before, partition.before, files.before));
-    row.push_back(delay_text(change.after, partition.after, files.after));
-    table.add(std::move(row));
-  }
-  const auto named = static_cast<std::int64_t>(partition.worst.size());
-  const std::string which = named < partition.lost ? fmt::format("the worst {} of ", grouped(named)) : "";
-  return fmt::format("\npartition {}: {}{} that lost delay\n{}", partition_name(partition, files), which,
-                     cells(partition.lost), table.text());
-}
-
-/// Where analyses stopped at max_delay, what they found is less than the whole truth.
-std::string cut_off_text(const PartitionComparison& partition) {
-  if (partition.cut_off == 0) return "";
-  return fmt::format(
-      "  {} of these {} the delay at which max_delay stopped the later analysis: perhaps nothing is lost "
-      "there.\n",
-      cells(partition.cut_off), partition.cut_off == 1 ? "has" : "have");
-}
-
-std::string only_text(const ResultsComparison& comparison, const Files& files) {
-  std::string text;
-  const auto add = [&text](const char* kind, const std::string& name, const ResultsReader& file) {
-    text += fmt::format("{} {}: only in {}\n", kind, printable(name), printable(file.path()));
-  };
-  for (const std::size_t p : comparison.only_before)
-    add("partition", files.before.partitions()[p].name, files.before);
-  for (const std::size_t p : comparison.only_after)
-    add("partition", files.after.partitions()[p].name, files.after);
-  for (const VerdictChange& verdict : comparison.verdicts) {
-    text += fmt::format("requirement {}: {}\n", printable(verdict.name),
-                        verdict.holds_after ? "failed, now holds" : "held, now FAILS");
-  }
-  for (const std::string& name : comparison.requirements_only_before) add("requirement", name, files.before);
-  for (const std::string& name : comparison.requirements_only_after) add("requirement", name, files.after);
-  return text.empty() ? "" : "\n" + text;
-}
-
-std::string verdict_text(const ResultsComparison& comparison, const CompareOptions& options) {
-  if (!comparison.is_worse()) {
-    return fmt::format("\nNot worse: no cell has lost {}.\n",
-                       options.tolerance > 0 ? "more delay than is tolerated" : "delay");
-  }
-  const bool cells_lost =
-      std::any_of(comparison.partitions.begin(), comparison.partitions.end(),
-                  [](const PartitionComparison& partition) { return partition.lost > 0; });
-  return cells_lost ? "\nWorse: cells have lost delay.\n" : "\nWorse: a requirement no longer holds.\n";
+std::string key_of(const std::string& field) {
+  return field == "delay" ? "partitions" : field;
 }
 
 Json set_json(const SetComparison& set) {
   return {{"before", set.before}, {"after", set.after}, {"left", set.left}, {"joined", set.joined}};
 }
 
-Json change_json(const DelayChange& change, const Files& files) {
+Json change_json(const ValueChange& change, const Field& field, const Files& files) {
   Json json;
   json["cell"] = change.cell;
   json["state"] = Json::object();
   const CellBox box = box_of_cell(files.before.grid(), change.cell);
   for (std::size_t i = 0; i < box.centre.size(); ++i)
     json["state"][files.before.spec().states[i].name] = nearest_double(box.centre[i]);
-  json["before"] = delay_json(change.before);
-  json["before_status"] = delay_word(change.before);
-  json["after"] = delay_json(change.after);
-  json["after_status"] = delay_word(change.after);
+  json["before"] = value_json(field, change.before);
+  json["before_status"] = status_of(field, change.before);
+  json["after"] = value_json(field, change.after);
+  json["after_status"] = status_of(field, change.after);
   return json;
 }
 
-Json partition_json(const PartitionComparison& partition, const Files& files) {
+Json values_json(const ValueComparison& own, const Files& files) {
   Json json;
-  json["name"] = files.after.partitions()[partition.after].name;
-  json["name_before"] = files.before.partitions()[partition.before].name;
-  json["lost"] = partition.lost;
-  json["left"] = partition.left;
-  json["now_bounded"] = partition.from_forever;
-  json["cut_off"] = partition.cut_off;
-  json["tolerated"] = partition.tolerated;
-  json["gained"] = partition.gained;
+  if (own.partition) {
+    json["name"] = files.after.partitions()[own.partition->after].name;
+    json["name_before"] = files.before.partitions()[own.partition->before].name;
+  }
+  json["lost"] = own.lost;
+  json["left"] = own.left;
+  json["now_bounded"] = own.from_forever;
+  json["cut_off"] = own.cut_off;
+  json["tolerated"] = own.tolerated;
+  json["gained"] = own.gained;
   json["worst"] = Json::array();
-  for (const DelayChange& change : partition.worst) json["worst"].push_back(change_json(change, files));
+  for (const ValueChange& change : own.worst)
+    json["worst"].push_back(change_json(change, files.after.field("/" + own.name), files));
   return json;
 }
 
@@ -178,22 +72,149 @@ Json file_json(const ResultsReader& file, const std::vector<std::size_t>& partit
   return json;
 }
 
-}  // namespace
+/// A field that has been compared, and what was found: of numbers a list, by partition or of one.
+struct Compared {
+  const Field& field;
+  Json found;
+};
 
-std::string comparison_text(const ResultsComparison& comparison, const ResultsReader& before,
-                            const ResultsReader& after, const CompareOptions& options) {
-  const Files files{before, after};
-  std::string text = fmt::format("{} -> {}: {}\n\n{}\n{}", printable(before.path()), printable(after.path()),
-                                 cells(before.grid().cells()), sets_table(comparison),
-                                 partitions_table(comparison, files, options.tolerance > 0));
-  for (const PartitionComparison& partition : comparison.partitions)
-    text += worst_text(partition, files) + cut_off_text(partition);
-  text += only_text(comparison, files);
-  return text + verdict_text(comparison, options);
+std::vector<Compared> compared_fields(const Json& comparison, bool sets, const ResultsReader& file) {
+  std::vector<Compared> result;
+  for (const Field& field : file.fields()) {
+    const std::string key = key_of(field.path.substr(1));
+    if (field.shown.compared.empty() || !comparison.contains(key)) continue;
+    const Json& found = comparison[key];
+    if (found.contains("joined") == sets) result.push_back({field, found.is_array() ? found : Json::array({found})});
+  }
+  return result;
 }
 
-std::string comparison_json(const ResultsComparison& comparison, const ResultsReader& before,
-                            const ResultsReader& after, const CompareOptions& options) {
+std::string sets_table(const std::vector<Compared>& sets) {
+  Table table({Align::left, Align::right, Align::right, Align::right, Align::right});
+  table.add({"cells of the", "before", "after", "left", "joined"});
+  for (const Compared& set : sets) {
+    const Json& own = set.found.front();
+    table.add({set.field.shown.compared, grouped(own["before"]), grouped(own["after"]), grouped(own["left"]),
+               grouped(own["joined"])});
+  }
+  return table.text();
+}
+
+/// "alone", or "alone (was: a|b)"; the words of a field that is not over partitions.
+std::string name_of(const Json& own, const Field& field) {
+  if (!own.contains("name")) return field.shown.compared;
+  const Json& old = own["name_before"];
+  return line_of(own["name"]) + (own["name"] == old ? "" : " (was: " + line_of(old) + ")");
+}
+
+std::string values_table(const Compared& values, bool tolerant) {
+  const Field& field = values.field;
+  const auto count = [](const char* key) { return [key](const Json& own) { return grouped(own[key]); }; };
+  std::vector<Column> columns = {{values.found.front().contains("name") ? "partition" : "", Align::left,
+                                  [&field](const Json& own) { return name_of(own, field); }},
+                                 {"lost " + field.shown.compared, Align::right, count("lost")},
+                                 {"left the set", Align::right, count("left")},
+                                 {"now bounded", Align::right, count("now_bounded")},
+                                 {"gained " + field.shown.compared, Align::right, count("gained")}};
+  if (tolerant) columns.push_back({"tolerated", Align::right, count("tolerated")});
+  return table_text(values.found, columns);
+}
+
+/// Whether a delay of the partition is only known to be at least this.
+bool is_cut_off(const Json& value, const Json& partition, const ResultsReader& file) {
+  const auto& all = file.partitions();
+  const auto own = std::find_if(all.begin(), all.end(),
+                                [&](const StoredPartition& stored) { return partition == stored.name; });
+  const std::optional<std::int64_t>& limit = file.spec().coordination.max_delay;
+  return own != all.end() && own->truncated() && limit && value == *limit;
+}
+
+/// @param partition its name in this file; null if there is none
+std::string value_text(const Json& value, const Json& status, const Json& partition,
+                       const ResultsReader& file) {
+  if (status == "number") return grouped(value);
+  if (status == "not_invariant") return "not in the invariance set";
+  if (status != "steps") {
+    std::string word = text_of(status);
+    std::replace(word.begin(), word.end(), '_', ' ');
+    return word;
+  }
+  const DynamicsSpec& dynamics = file.spec().dynamics;
+  return (is_cut_off(value, partition, file) ? "at least " : "") +
+         duration(number_of(value), nearest_double(dynamics.period), dynamics.unit);
+}
+
+/// The cells that have lost most; empty if none has lost anything.
+std::string worst_text(const Json& own, const Field& field, const Files& files) {
+  if (own["worst"].empty()) return "";
+  const std::vector<StateSpec>& states = files.before.spec().states;
+  std::vector<Column> columns = {
+      {"  cell", Align::right, [](const Json& change) { return "  " + grouped(change["cell"]); }}};
+  for (const StateSpec& state : states) {
+    columns.push_back({column_heading(state.name, state.unit), Align::right, [&state](const Json& change) {
+                         return fmt::format("{:.6g}", change["state"][state.name].get<double>());
+                       }});
+  }
+  const bool is_partition = own.contains("name");
+  const auto value = [](const std::string& when, const Json& partition, const ResultsReader& file) {
+    return [&file, when, partition](const Json& change) {
+      return value_text(change[when], change[when + "_status"], partition, file);
+    };
+  };
+  columns.push_back(
+      {"before", Align::left, value("before", is_partition ? own["name_before"] : Json(), files.before)});
+  columns.push_back({"after", Align::left, value("after", is_partition ? own["name"] : Json(), files.after)});
+  const auto named = static_cast<std::int64_t>(own["worst"].size());
+  const std::string which =
+      named < number_of(own["lost"]) ? fmt::format("the worst {} of ", grouped(named)) : "";
+  return fmt::format("\n{}{}: {}{} that lost {}\n{}", is_partition ? "partition " : "", name_of(own, field),
+                     which, cells(own["lost"]), field.shown.compared, table_text(own["worst"], columns));
+}
+
+/// Where analyses stopped at max_delay, what they found is less than the whole truth.
+std::string cut_off_text(const Json& count) {
+  if (count == 0) return "";
+  return fmt::format(
+      "  {} of these {} the delay at which max_delay stopped the later analysis: perhaps nothing is lost "
+      "there.\n",
+      cells(count), count == 1 ? "has" : "have");
+}
+
+std::string only_text(const Json& comparison) {
+  std::string text;
+  const auto add = [&](const char* kind, const std::string& list) {
+    for (const char* const which : {"before", "after"}) {
+      const Json& file = comparison[which];
+      for (const Json& name : file[list])
+        text += fmt::format("{} {}: only in {}\n", kind, line_of(name), line_of(file["file"]));
+    }
+  };
+  add("partition", "only_partitions");
+  for (const Json& verdict : comparison["verdicts"]) {
+    text += fmt::format("requirement {}: {}\n", line_of(verdict["name"]),
+                        verdict["after"] ? "failed, now holds" : "held, now FAILS");
+  }
+  add("requirement", "only_requirements");
+  return text.empty() ? "" : "\n" + text;
+}
+
+std::string verdict_text(const Json& comparison, const std::vector<Compared>& values) {
+  if (!comparison["worse"].get<bool>()) {
+    return fmt::format("\nNot worse: no cell has lost {}.\n",
+                       comparison["tolerance"] > 0 ? "more delay than is tolerated" : "delay");
+  }
+  for (const Compared& one : values) {
+    for (const Json& own : one.found) {
+      if (own["lost"] > 0) return fmt::format("\nWorse: cells have lost {}.\n", one.field.shown.compared);
+    }
+  }
+  return "\nWorse: a requirement no longer holds.\n";
+}
+
+}  // namespace
+
+Json comparison_json(const ResultsComparison& comparison, const ResultsReader& before,
+                     const ResultsReader& after, const CompareOptions& options) {
   const Files files{before, after};
   Json json;
   json["before"] = file_json(before, comparison.only_before, comparison.requirements_only_before);
@@ -201,15 +222,32 @@ std::string comparison_json(const ResultsComparison& comparison, const ResultsRe
   json["cells"] = before.grid().cells();
   json["tolerance"] = options.tolerance;
   for (const SetComparison& set : comparison.sets) json[set.name] = set_json(set);
-  json["partitions"] = Json::array();
-  for (const PartitionComparison& partition : comparison.partitions)
-    json["partitions"].push_back(partition_json(partition, files));
+  for (const ValueComparison& own : comparison.values) {
+    Json& place = json[key_of(own.name)];
+    if (own.partition) {
+      place.push_back(values_json(own, files));
+    } else {
+      place = values_json(own, files);
+    }
+  }
   json["verdicts"] = Json::array();
   for (const VerdictChange& verdict : comparison.verdicts)
     json["verdicts"].push_back(
         Json{{"name", verdict.name}, {"before", !verdict.holds_after}, {"after", verdict.holds_after}});
   json["worse"] = comparison.is_worse();
-  return json_text(json);
+  return json;
+}
+
+std::string comparison_text(const Json& comparison, const ResultsReader& before, const ResultsReader& after) {
+  const Files files{before, after};
+  const std::vector<Compared> values = compared_fields(comparison, false, after);
+  std::string text = fmt::format("{} -> {}: {}\n\n{}", printable(before.path()), printable(after.path()),
+                                 cells(comparison["cells"]), sets_table(compared_fields(comparison, true, after)));
+  for (const Compared& one : values) text += "\n" + values_table(one, comparison["tolerance"] > 0);
+  for (const Compared& one : values) {
+    for (const Json& own : one.found) text += worst_text(own, one.field, files) + cut_off_text(own["cut_off"]);
+  }
+  return text + only_text(comparison) + verdict_text(comparison, values);
 }
 
 }  // namespace coordreq

@@ -2,16 +2,17 @@
 
 #include <string>
 
+#include "app/json_text.hpp"
 #include "results/compare_results.hpp"
 
 namespace coordreq {
 
-/// What `compare` prints for people.
-[[nodiscard]] std::string comparison_text(const ResultsComparison& comparison, const ResultsReader& before,
-                                          const ResultsReader& after, const CompareOptions& options);
-
-/// What `compare --json` prints: one document, keys in a fixed order, ending in a newline.
-[[nodiscard]] std::string comparison_json(const ResultsComparison& comparison, const ResultsReader& before,
-                                          const ResultsReader& after, const CompareOptions& options);
+/// What `compare` has found. What fields are compared by stands under their names, but for the delay, which
+/// is under `partitions`.
+[[nodiscard]] Json comparison_json(const ResultsComparison& comparison, const ResultsReader& before,
+                                   const ResultsReader& after, const CompareOptions& options);
+/// The same in words.
+[[nodiscard]] std::string comparison_text(const Json& comparison, const ResultsReader& before,
+                                          const ResultsReader& after);
 
 }  // namespace coordreq

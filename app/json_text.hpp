@@ -1,12 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace coordreq {
+#include "base/json.hpp"
 
-/// Keys keep the order in which they are set.
-using Json = nlohmann::ordered_json;
+namespace coordreq {
 
 /// The document indented by two, ending in a newline. File names may hold bytes that are not UTF-8: those
 /// become U+FFFD.

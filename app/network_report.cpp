@@ -3,17 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
-#include "app/text.hpp"
+#include "app/render.hpp"
 
 namespace coordreq {
-namespace {
-
-std::string count_of(std::int64_t number, const char* what) {
-  return fmt::format("{} {}{}", grouped(number), what, number == 1 ? "" : "s");
-}
-
-}  // namespace
 
 std::string more_modes(std::size_t modes) {
   return modes <= kMostModes ? "" : fmt::format("  ... and {} more modes\n", grouped(modes - kMostModes));
@@ -35,11 +29,11 @@ std::string network_meaning(const NetworkSpec& network) {
   return count_of(static_cast<std::int64_t>(network.modes.size()), "mode") + " with given transitions";
 }
 
-std::string modes_text(const std::vector<ResultInfo::Mode>& modes) {
+std::string modes_text(const Json& modes) {
   Table table({Table::Align::left, Table::Align::right});
   table.add({"mode of the network", "safe cells"});
   for (std::size_t mode = 0; mode < std::min(kMostModes, modes.size()); ++mode)
-    table.add({printable(modes[mode].name), grouped(modes[mode].safe_cells)});
+    table.add({line_of(modes[mode]["name"]), grouped(modes[mode]["cells"])});
   return table.text() + more_modes(modes.size());
 }
 
@@ -51,14 +45,13 @@ std::vector<std::string> safe_mode_names(const NetworkSpec& network, const std::
   return names;
 }
 
-std::string safe_modes_text(const NetworkSpec& network, const std::vector<bool>& safe) {
-  std::vector<std::string> names = safe_mode_names(network, safe);
-  const std::size_t count = names.size();
-  std::string text = count == 0 ? "no mode"
-                     : count == safe.size()
-                         ? fmt::format("all {} modes", grouped(count))
-                         : fmt::format("{} of {} modes", grouped(count), grouped(safe.size()));
-  if (count > 0 && count < safe.size()) {
+std::string safe_modes_text(const NetworkSpec& network, std::vector<std::string> names) {
+  const std::size_t count = names.size(), all = network.modes.size();
+  std::string text = count == 0     ? "no mode"
+                     : count == all ? fmt::format("all {} modes", grouped(std::uint64_t{count}))
+                                    : fmt::format("{} of {} modes", grouped(std::uint64_t{count}),
+                                                  grouped(std::uint64_t{all}));
+  if (count > 0 && count < all) {
     names.resize(std::min(kMostModes, count));
     text += fmt::format(": {}{}", fmt::join(names, ", "), count > kMostModes ? " ..." : "");
   }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "results/read_results.hpp"
+#include "app/json_text.hpp"
 #include "spec/problem_spec.hpp"
 
 // What is said of the network, for people.
@@ -18,10 +18,10 @@ inline constexpr std::size_t kMostModes = 12;
 [[nodiscard]] std::string more_modes(std::size_t modes);
 
 /// A section of `info`.
-[[nodiscard]] std::string modes_text(const std::vector<ResultInfo::Mode>& modes);
+[[nodiscard]] std::string modes_text(const Json& modes);
 
-/// A section of `query`. @param safe by mode
-[[nodiscard]] std::string safe_modes_text(const NetworkSpec& network, const std::vector<bool>& safe);
+/// A section of `query`. @param names of the modes that are safe
+[[nodiscard]] std::string safe_modes_text(const NetworkSpec& network, std::vector<std::string> names);
 [[nodiscard]] std::vector<std::string> safe_mode_names(const NetworkSpec& network,
                                                        const std::vector<bool>& safe);
 

@@ -42,6 +42,7 @@ std::string answer_csv_header(const ResultsReader& results) {
   if (results.spec().coordination.convention) {
     for (const AgentSpec& agent : results.spec().agents) line += ",convention:" + agent.name;
   }
+  for (const Field* const field : asked_fields(results)) line += "," + field->path.substr(1);
   return line + "\n";
 }
 
@@ -57,6 +58,7 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
     if (results.has_coalition()) line += ",,";
     if (results.spec().network) line += ",";
     if (results.spec().coordination.convention) line += std::string(results.spec().agents.size(), ',');
+    line += std::string(asked_fields(results).size(), ',');
     return line + "\n";
   }
   line += fmt::format("1,{},{:d},{:d},{}", answer.location.cell, answer.safe, answer.invariant,
@@ -69,6 +71,7 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
   if (const auto& network = results.spec().network)
     line += fmt::format(",{}", fmt::join(safe_mode_names(*network, answer.safe_modes), " "));
   for (const std::vector<bool>& actions : answer.convention) line += "," + csv_actions(actions);
+  for (const std::int32_t value : answer.others) line += "," + csv_steps(value);
   return line + "\n";
 }
 

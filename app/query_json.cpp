@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
-#include "answers/layers/trigger_table.hpp"
+#include "answers/coalition/fields.hpp"
+#include "answers/field_parts.hpp"
 #include "app/json_text.hpp"
 #include "app/network_report.hpp"
 #include "app/query_report.hpp"
@@ -54,27 +55,13 @@ Json outside_json(const UniformGrid& grid, const Location& location) {
 }
 
 /// A number of steps, or null and a word why there is none.
-void add_steps(Json& json, const std::string& name, std::int32_t steps, const char* status,
+void add_steps(Json& json, const std::string& name, std::int32_t steps, const std::string& status,
                const ResultsReader& results) {
   const bool finite = steps >= 0 && steps != ResultsReader::kNever;
   const Rational time = results.spec().dynamics.period * Rational(static_cast<long>(steps));
   json[name] = finite ? Json(steps) : Json();
   json[name + "_time"] = finite ? Json(nearest_double(time)) : Json();
   json[name + "_status"] = status;
-}
-
-const char* delay_status(std::int32_t delay, const StoredPartition& partition) {
-  if (delay == -2) return "not_safe";
-  if (delay == -1) return "not_invariant";
-  if (delay == ResultsReader::kNever) return "unbounded";
-  return is_lower_bound(delay, partition) ? "at_least" : "steps";
-}
-
-const char* trigger_status(std::int32_t trigger) {
-  if (trigger == TriggerTable::kMustBeConnected) return "connection_must_stand_already";
-  if (trigger == -2) return "not_safe";
-  if (trigger == -1) return "not_invariant";
-  return trigger == ResultsReader::kNever ? "never" : "steps";
 }
 
 Json class_json(const ProblemSpec& spec, const std::string& name, const std::vector<std::int32_t>& inputs,
@@ -96,24 +83,25 @@ Json class_json(const ProblemSpec& spec, const std::string& name, const std::vec
   return json;
 }
 
+/// Whether a delay is a lower bound only: the largest one of a partition that max_delay cut off.
+bool is_lower_bound(std::int32_t delay, const StoredPartition& partition) {
+  return partition.truncated() && std::int64_t{delay} + 1 == static_cast<std::int64_t>(partition.layer_sizes.size());
+}
+
 Json partition_json(const StateAnswer::Partition& answer, std::size_t p, const ResultsReader& results) {
   const StoredPartition& stored = results.partitions()[p];
   Json json;
   json["name"] = stored.name;
-  add_steps(json, "delay", answer.delay, delay_status(answer.delay, stored), results);
-  add_steps(json, "countdown", answer.trigger, trigger_status(answer.trigger), results);
+  add_steps(json, "delay", answer.delay,
+            is_lower_bound(answer.delay, stored) ? "at_least" : status_of(results.field("/delay"), answer.delay),
+            results);
+  add_steps(json, "countdown", answer.trigger, status_of(results.field("/trigger"), answer.trigger), results);
   json["classes"] = Json::array();
   for (std::size_t c = 0; c < answer.actions.size(); ++c) {
-    const auto inputs = inputs_of_class(results.spec(), results.spec().coordination.partitions[p].classes[c]);
+    const auto inputs = inputs_of(results.spec(), results.spec().coordination.partitions[p].classes[c]);
     json["classes"].push_back(class_json(results.spec(), stored.classes[c], inputs, answer.actions[c]));
   }
   return json;
-}
-
-const char* coalition_status(std::int32_t partition) {
-  if (partition == -3) return "no_partition_suffices";
-  if (partition == -2) return "not_safe";
-  return partition == -1 ? "not_invariant" : "partition";
 }
 
 Json coalition_json(const StateAnswer::Coalition& coalition, const ResultsReader& results) {
@@ -121,14 +109,16 @@ Json coalition_json(const StateAnswer::Coalition& coalition, const ResultsReader
   Json json;
   json["horizon"] = *results.spec().coordination.horizon;
   json["partition"] = p >= 0 ? Json(results.partitions()[static_cast<std::size_t>(p)].name) : Json();
-  json["status"] = coalition_status(p);
+  json["status"] = p >= 0 ? "partition" : status_of(results.field(paths::kCoalition), p);
   json["critical_pairs"] = Json::array();
   for (const std::size_t pair : coalition.critical_pairs)
     json["critical_pairs"].push_back(results.pairs()[pair]);
   return json;
 }
 
-Json json_of(const StateAnswer& answer, const ResultsReader& results) {
+}  // namespace
+
+Json answer_json(const StateAnswer& answer, const ResultsReader& results) {
   const bool inside = answer.location.kind == Location::Kind::cell;
   const bool left_safely = answer.location.kind == Location::Kind::left_safely;
   Json json;
@@ -149,19 +139,18 @@ Json json_of(const StateAnswer& answer, const ResultsReader& results) {
     json["coalition"] = answer.coalition ? coalition_json(*answer.coalition, results) : Json();
   if (const auto& network = results.spec().network)
     json["safe_modes"] = inside ? Json(safe_mode_names(*network, answer.safe_modes)) : Json();
-  if (!results.spec().coordination.convention) return json;
-  json["convention"] = Json::array();
+  if (results.spec().coordination.convention) json["convention"] = Json::array();
   for (std::size_t i = 0; i < answer.convention.size(); ++i) {
     const AgentSpec& agent = results.spec().agents[i];
     json["convention"].push_back(class_json(results.spec(), agent.name, agent.inputs, answer.convention[i]));
   }
+  const std::vector<const Field*> others = asked_fields(results);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const std::string name = others[i]->path.substr(1);
+    json[name] = inside ? value_json(*others[i], answer.others[i]) : Json();
+    json[name + "_status"] = inside ? Json(status_of(*others[i], answer.others[i])) : Json();
+  }
   return json;
-}
-
-}  // namespace
-
-bool is_lower_bound(std::int32_t delay, const StoredPartition& partition) {
-  return partition.truncated() && delay + 1 == static_cast<std::int64_t>(partition.layer_sizes.size());
 }
 
 std::vector<Rational> values_of(const ProblemSpec& spec, const std::vector<std::int32_t>& inputs,
@@ -173,14 +162,6 @@ std::vector<Rational> values_of(const ProblemSpec& spec, const std::vector<std::
     action /= choices.size();
   }
   return values;
-}
-
-std::string answer_json(const StateAnswer& answer, const ResultsReader& results) {
-  return json_text(json_of(answer, results));
-}
-
-std::string answer_json_line(const StateAnswer& answer, const ResultsReader& results) {
-  return json_line(json_of(answer, results));
 }
 
 }  // namespace coordreq

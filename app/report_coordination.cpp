@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include "answers/coalition/coalition_cost.hpp"
+#include "answers/coalition/fields.hpp"
+#include "answers/network/fields.hpp"
 #include "app/network_report.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
@@ -17,13 +19,13 @@ std::string count_row(const std::string& name, const std::string& detail, std::u
 }
 
 std::string choices(const ResultsReader& results) {
-  const std::vector<std::int64_t>& given = results.attributes().coalition_cells;
+  const std::vector<std::uint64_t> given = results.counted(paths::kCoalition);
   const std::uint64_t kept = results.attributes().invariant_cells;
   if (given.empty()) return "";
   std::vector<std::string> rows;
   std::uint64_t total = 0;
   for (const CoalitionChoice& choice : order_of_preference(results.spec().coordination)) {
-    const auto count = static_cast<std::uint64_t>(given[choice.partition]);
+    const std::uint64_t count = given[choice.partition];
     total += count;
     if (count > 0) {
       rows.push_back(count_row(results.partitions()[choice.partition].name,
@@ -35,13 +37,12 @@ std::string choices(const ResultsReader& results) {
 }
 
 std::string pairs(const ResultsReader& results) {
-  const std::vector<std::int64_t>& counts = results.attributes().critical_pair_cells;
+  const std::vector<std::uint64_t> counts = results.counted(paths::kCriticalPair);
   std::vector<std::string> rows;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    const auto count = static_cast<std::uint64_t>(counts[i]);
-    if (count > 0)
-      rows.push_back(html_row({html_line(results.pairs()[i]), grouped(count),
-                               share_text(count, results.attributes().invariant_cells)}));
+    if (counts[i] > 0)
+      rows.push_back(html_row({html_line(results.pairs()[i]), grouped(counts[i]),
+                               share_text(counts[i], results.attributes().invariant_cells)}));
   }
   if (rows.empty()) return "<p>No pair of agents is critical.</p>\n";
   return html_long_table({"Critical pair", "States", "Share"}, rows);
@@ -67,7 +68,7 @@ std::string report_coalitions(const ResultsReader& results) {
 std::string report_network(const ResultsReader& results) {
   if (!results.spec().network || results.attributes().invariant_cells == 0) return "";
   const NetworkSpec& network = *results.spec().network;
-  const std::vector<std::uint64_t>& safe = results.attributes().network_cells;
+  const std::vector<std::uint64_t> safe = results.counted(paths::kNetworkSafe);
   const std::uint64_t kept = results.attributes().invariant_cells;
   std::vector<std::string> rows;
   for (std::size_t mode = 0; mode < network.modes.size(); ++mode) {

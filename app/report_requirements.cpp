@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/analysis_json.hpp"
+#include "answers/requirements/answer.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
+#include "app/render.hpp"
 #include "app/requirement_text.hpp"
-#include "app/text.hpp"
 
 namespace coordreq {
 namespace {
@@ -31,7 +31,7 @@ std::string worst(const Json& own, const ProblemSpec& spec) {
   const Json& status = own["least_delay_status"];
   const auto text = [&] { return worst_text(own["least_delay"], status, spec); };
   if (!own["holds"].get<bool>() && !own["counterexample"]["state"].is_null())
-    return fmt::format("{}: {}", state_text(own["counterexample"]["state"]), text());
+    return fmt::format("{}: {}", values_text(own["counterexample"]["state"]), text());
   if (!own["reaches_outside"].is_null()) return capital(outside_text(own));
   if (own["kind"] == "invariant") return "";
   return status == "unbounded" ? "Never needs contact" : capital(text());

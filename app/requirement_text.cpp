@@ -5,22 +5,18 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/text.hpp"
+#include "app/render.hpp"
 
 namespace coordreq {
 namespace {
-
-std::string text_of(const Json& json) {
-  return json.get<std::string>();
-}
 
 std::string cell_failures(const Json& own, const ProblemSpec& spec) {
   const Json& story = own["counterexample"];
   const Json& first = story["steps"].empty() ? story["end_sample"] : story["steps"].front();
   const auto failing = own["failing"].get<std::int64_t>();
   return fmt::format("{} of {} {}, the worst at {}: it {}", grouped(failing),
-                     cells(own["cells"].get<std::int64_t>()), failing == 1 ? "fails" : "fail",
-                     state_text(story["state"]), worst_text(first["delay"], first["delay_status"], spec));
+                     cells(own["cells"]), failing == 1 ? "fails" : "fail",
+                     values_text(story["state"]), worst_text(first["delay"], first["delay_status"], spec));
 }
 
 /// "p1 above its grid".
@@ -45,11 +41,11 @@ std::string story_text(const Json& own, const ProblemSpec& spec) {
 
 std::string delay_cell(const Json& sample) {
   if (sample["delay_status"] == "unbounded") return "unbounded";
-  return sample["delay"].is_null() ? "-" : grouped(sample["delay"].get<std::int64_t>());
+  return sample["delay"].is_null() ? "-" : grouped(sample["delay"]);
 }
 
 std::string time_cell(const Json& time) {
-  return time.is_null() ? "never" : grouped(time.get<std::int64_t>());
+  return time.is_null() ? "never" : grouped(time);
 }
 
 /// A row but for its number. @param step whether something is done at the sample
@@ -61,7 +57,7 @@ std::vector<std::string> story_row(const Json& sample, bool has_delay, const Pro
   row.push_back(time_cell(sample["collision_time"]));
   row.push_back(is_step ? text_of(sample["action"]) : "");
   for (const AgentSpec& agent : spec.agents)
-    row.push_back(is_step ? state_text(sample["inputs"][agent.name]) : "");
+    row.push_back(is_step ? values_text(sample["inputs"][agent.name]) : "");
   return row;
 }
 
@@ -85,13 +81,6 @@ bool is_all_alone(const Json& own, const ProblemSpec& spec) {
 
 std::string steps_text(std::int64_t steps, const ProblemSpec& spec) {
   return duration(steps, nearest_double(spec.dynamics.period), spec.dynamics.unit);
-}
-
-std::string state_text(const Json& state) {
-  std::string text;
-  for (const auto& [name, value] : state.items())
-    text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, value.get<double>());
-  return text;
 }
 
 std::string worst_text(const Json& delay, const Json& status, const ProblemSpec& spec) {
@@ -177,9 +166,9 @@ std::vector<std::string> story_sentences(const Json& own, const ProblemSpec& spe
 std::string requirements_text(const Json& requirements, const ProblemSpec& spec) {
   std::string text;
   for (const Json& own : requirements) {
-    text += fmt::format("\nrequirement {}: {}\n", printable(text_of(own["name"])), claim_text(own, spec));
+    text += fmt::format("\nrequirement {}: {}\n", line_of(own["name"]), claim_text(own, spec));
     text += own["holds"] ? fmt::format("  holds: for all {} that may meet the region\n",
-                                       cells(own["cells"].get<std::int64_t>()))
+                                       cells(own["cells"]))
                          : failure_text(own, spec);
   }
   return text;

@@ -17,9 +17,6 @@ namespace coordreq {
 /// "delay of alone at least 20 steps (0.2 s)", "in the invariance set": what is asked of each cell.
 [[nodiscard]] std::string claim_text(const Json& own, const ProblemSpec& spec);
 
-/// A state: "p1 = -9, v1 = 2".
-[[nodiscard]] std::string state_text(const Json& state);
-
 /// What is the matter with the worst cell: "has a delay of 2 steps (1 s)", "is not safe".
 /// @param delay number of steps @param status as delay_word() says it, not unbounded
 [[nodiscard]] std::string worst_text(const Json& delay, const Json& status, const ProblemSpec& spec);

@@ -2,16 +2,15 @@
 
 #include <string>
 
+#include "app/json_text.hpp"
 #include "cell/simulate.hpp"
 
 namespace coordreq {
 
-/// What `simulate` prints for people.
-[[nodiscard]] std::string simulation_text(const Simulation& simulation, const ResultsReader& results,
-                                          const SimulationOptions& options);
-
-/// What `simulate --json` prints: one document, keys in a fixed order, ending in a newline.
-[[nodiscard]] std::string simulation_json(const Simulation& simulation, const ResultsReader& results,
-                                          const SimulationOptions& options);
+/// What `simulate` has found.
+[[nodiscard]] Json simulation_json(const Simulation& simulation, const ResultsReader& results,
+                                   const SimulationOptions& options);
+/// The same in words. @param spec of the results
+[[nodiscard]] std::string simulation_text(const Json& simulation, const ProblemSpec& spec);
 
 }  // namespace coordreq

@@ -1,10 +1,11 @@
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/commands/all.hpp"
 #include "app/compare_report.hpp"
 #include "app/option_values.hpp"
+#include "app/print_answer.hpp"
 #include "app/progress_display.hpp"
-#include "app/standard_streams.hpp"
 
 namespace coordreq {
 namespace {
@@ -31,11 +32,8 @@ ExitCode run(const CompareArguments& own) {
   const ResultsReader before(own.before, own.max_memory);
   const ResultsReader after(own.after, own.max_memory);
   const ResultsComparison comparison = compare_with_progress(before, after, own);
-  if (own.json) {
-    write_output(comparison_json(comparison, before, after, own.compare));
-  } else if (!own.quiet) {
-    write_output(comparison_text(comparison, before, after, own.compare));
-  }
+  print_answer(own, comparison_json(comparison, before, after, own.compare),
+               [&](const Json& found) { return comparison_text(found, before, after); });
   return comparison.is_worse() ? ExitCode::requirement_failed : ExitCode::success;
 }
 

@@ -1,15 +1,16 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/commands/all.hpp"
 #include "app/files_in_use.hpp"
 #include "app/interrupt.hpp"
 #include "app/option_values.hpp"
+#include "app/print_answer.hpp"
 #include "app/progress_display.hpp"
 #include "app/simulate_report.hpp"
-#include "app/standard_streams.hpp"
 
 namespace coordreq {
 namespace {
@@ -85,11 +86,8 @@ ExitCode run(const SimulateOptions& own) {
   options.max_memory = own.memory();
   const ResultsReader results(own.results, own.max_memory);
   const Simulation simulation = simulate_with_care(results, options, own);
-  if (own.json) {
-    write_output(simulation_json(simulation, results, options));
-  } else if (!own.quiet) {
-    write_output(simulation_text(simulation, results, options));
-  }
+  print_answer(own, simulation_json(simulation, results, options),
+               [&results](const Json& found) { return simulation_text(found, results.spec()); });
   return simulation.violation() ? ExitCode::requirement_failed : ExitCode::success;
 }
 

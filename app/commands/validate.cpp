@@ -6,10 +6,9 @@
 #include "analysis/analyze.hpp"
 #include "answers/requirements/judge_requirements.hpp"
 #include "app/commands/all.hpp"
-#include "app/json_text.hpp"
 #include "app/load_spec.hpp"
 #include "app/print_answer.hpp"
-#include "app/text.hpp"
+#include "app/render.hpp"
 
 namespace coordreq {
 namespace {
@@ -47,14 +46,6 @@ Json report_json(const SpecReport& report) {
   return json;
 }
 
-std::string text_of(const Json& json) {
-  return json.get<std::string>();
-}
-
-std::string count_of(const Json& json) {
-  return grouped(json.get<std::uint64_t>());
-}
-
 std::string dependencies(const Json& state) {
   std::vector<std::string> all;
   for (const Json& kind : state["depends_on"]) {
@@ -68,24 +59,36 @@ const char* table_kind(const Json& state) {
   return state["shift"] ? "shift" : "full";
 }
 
+using Align = Table::Align;
+
+std::string name_of(const Json& own) {
+  return text_of(own["name"]);
+}
+
+std::string points_of(const Json& own) {
+  return grouped(own["points"]);
+}
+
+std::string unit_of(const Json& own) {
+  return line_of(own["unit"]);
+}
+
 std::string states_table(const Json& states) {
-  using Align = Table::Align;
-  Table table({Align::left, Align::right, Align::left, Align::left, Align::right, Align::right, Align::left});
-  table.add({"state", "points", "unit", "table", "entries", "memory", "next value depends on"});
-  for (const Json& state : states) {
-    table.add({text_of(state["name"]), count_of(state["points"]), printable(text_of(state["unit"])),
-               table_kind(state), count_of(state["table_entries"]),
-               byte_size(state["table_bytes"].get<std::uint64_t>()), dependencies(state)});
-  }
-  return table.text();
+  return table_text(
+      states, {{"state", Align::left, name_of},
+               {"points", Align::right, points_of},
+               {"unit", Align::left, unit_of},
+               {"table", Align::left, table_kind},
+               {"entries", Align::right, [](const Json& own) { return grouped(own["table_entries"]); }},
+               {"memory", Align::right,
+                [](const Json& own) { return byte_size(own["table_bytes"].get<std::uint64_t>()); }},
+               {"next value depends on", Align::left, dependencies}});
 }
 
 std::string inputs_table(const Json& inputs) {
-  Table table({Table::Align::left, Table::Align::right, Table::Align::left});
-  table.add({"input", "points", "unit"});
-  for (const Json& input : inputs)
-    table.add({text_of(input["name"]), count_of(input["points"]), printable(text_of(input["unit"]))});
-  return table.text();
+  return table_text(inputs, {{"input", Align::left, name_of},
+                             {"points", Align::right, points_of},
+                             {"unit", Align::left, unit_of}});
 }
 
 /// All of a few, else how many and the first and last of them.
@@ -97,16 +100,16 @@ std::string partitions_text(const Json& names) {
 }
 
 std::string totals_table(const Json& report) {
-  Table table({Table::Align::left, Table::Align::left});
-  table.add({"cells", count_of(report["cells"])});
-  table.add({"joint inputs", count_of(report["joint_inputs"])});
-  table.add({"partitions", partitions_text(report["partitions"])});
+  Facts facts = {{"cells", grouped(report["cells"])},
+                 {"joint inputs", grouped(report["joint_inputs"])},
+                 {"partitions", partitions_text(report["partitions"])}};
   if (report.contains("modes"))
-    table.add({"modes of the network", grouped(std::uint64_t{report["modes"].size()})});
-  table.add({"reachable sets", report["exact"] ? "exact interval hulls" : "outward rounded"});
-  table.add({"guarantee", guarantee_text(text_of(report["guarantee"]))});
-  table.add({"memory of analyze", "about " + byte_size(report["memory_bytes"].get<std::uint64_t>())});
-  return table.text();
+    facts.emplace_back("modes of the network", grouped(std::uint64_t{report["modes"].size()}));
+  facts.insert(facts.end(),
+               {{"reachable sets", report["exact"] ? "exact interval hulls" : "outward rounded"},
+                {"guarantee", guarantee_text(text_of(report["guarantee"]))},
+                {"memory of analyze", "about " + byte_size(report["memory_bytes"].get<std::uint64_t>())}});
+  return facts_text(facts);
 }
 
 std::string report_text(const Json& report) {

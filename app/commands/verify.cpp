@@ -1,8 +1,10 @@
 #include <chrono>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/commands/all.hpp"
 #include "app/option_values.hpp"
+#include "app/print_answer.hpp"
 #include "app/progress_display.hpp"
 #include "app/standard_streams.hpp"
 #include "app/verify_report.hpp"
@@ -42,12 +44,9 @@ ExitCode run(const VerifyArguments& own) {
   const ClaimedFile file = read_claims(own.results, own.memory());
   ThreadTeam team(own.threads);
   const Verification result = verify_with_progress(file, own, team);
-  if (own.json) {
-    write_output(verification_json(result, own.results, seconds_since(start), team.size()));
-  } else if (!own.quiet) {
-    write_output(verification_text(result, own.results, seconds_since(start), team.size()));
-  }
-  if (result.verdict() == Verdict::not_confirmed) write_diagnostics(not_confirmed_line(result, own.results));
+  const Json found = verification_json(result, own.results, seconds_since(start), team.size());
+  print_answer(own, found, verification_text);
+  if (result.verdict() == Verdict::not_confirmed) write_diagnostics(not_confirmed_line(found));
   const bool passes = result.verdict() == Verdict::holds || (result.holds() && !own.strict);
   return passes ? ExitCode::success : ExitCode::requirement_failed;
 }

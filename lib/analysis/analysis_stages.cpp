@@ -25,7 +25,6 @@ std::vector<Stage> analysis_stages(const ProblemSpec& spec) {
     if (answer.checks != nullptr) append(stages, answer.checks(spec));
   }
   if (spec.controller.file) stages.push_back({"controller", read_listed});
-  append(stages, ground_stages());
   append(stages, answer_stages(spec));
   return stages;
 }

@@ -1,9 +1,10 @@
 #include "analysis/analyze.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "analysis/analysis_stages.hpp"
 #include "analysis/checkpoint.hpp"
 #include "analysis/stage_reporter.hpp"
-#include "analysis/summarise.hpp"
 #include "answers/field_table.hpp"
 #include "answers/plan.hpp"
 #include "results/write_results.hpp"
@@ -45,9 +46,16 @@ void write(const std::string& path, const Answers& answers, StageReporter& repor
   write_results(path, answers.ground.spec, values, team);
 }
 
+/// What each answer says of itself. @param work what fixed points took
+Json summarise(const Answers& answers, Json& work) {
+  Json summary;
+  for (const Answer& answer : all_answers()) answer.summarise(answers, summary, work);
+  return summary;
+}
+
 }  // namespace
 
-AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team) {
+Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team) {
   check_memory(spec, options.max_memory);
   if (!options.output.empty()) check_writable(options.output);
   if (options.checkpoint) check_checkpoint(*options.checkpoint);
@@ -56,13 +64,16 @@ AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options,
   open_checkpoint(spec, options, reporter, checkpoint);
   Answers answers(spec);
   find_answers(answers, reporter, checkpoint ? &*checkpoint : nullptr, team);
-  AnalysisSummary summary = summarise(answers);
+  Json work = Json::object();
+  Json summary = summarise(answers, work);
   if (!options.output.empty()) write(options.output, answers, reporter, team);
   if (checkpoint) checkpoint->remove();
-  summary.seconds = reporter.finish();
-  summary.output = options.output;
-  summary.threads = team.size();
-  summary.peak_memory_bytes = peak_memory_bytes();
+  summary["output"] = options.output.empty() ? Json() : Json(options.output);
+  summary["threads"] = team.size();
+  summary["seconds"] = Json::object();
+  for (const auto& [stage, seconds] : reporter.finish()) summary["seconds"][stage] = seconds;
+  summary["work"] = std::move(work);
+  summary["peak_memory_bytes"] = peak_memory_bytes();
   return summary;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/analyze.hpp"
+#include "answers/invariance/answer.hpp"
 #include "answers/network/network_problem.hpp"
 #include "base/error.hpp"
 #include "engine/join_rows.hpp"

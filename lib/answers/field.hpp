@@ -8,10 +8,13 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "base/json.hpp"
 
 // A dataset of the results file, declared once: what writes the file, reads it, checks it and shows what it
 // holds goes over these declarations and knows no dataset by name.
@@ -82,6 +85,7 @@ struct FieldScale {
 /// The place of a field in the file: fields of a lower section are written first, those of one section in the
 /// order of the answers.
 enum class FieldSection : std::uint8_t {
+  grid,
   axes,
   sets,
   steps,
@@ -96,17 +100,36 @@ enum class FieldSection : std::uint8_t {
   requirements
 };
 
-/// How commands show a field over cells; where the name is empty they do not.
+/// How the page of a report draws a field over cells.
+struct FieldMap {
+  enum class Values : std::uint8_t {
+    none,     ///< not at all
+    numbers,  ///< as they are: a map, or one for each entry of the leading axis
+    members,  ///< of 0 and 1: one map of the sets of entries of the leading axis that hold
+    shares    ///< of 0 to 1 inside K: one map for each entry of the leading axis
+  };
+  Values values = Values::none;
+  std::string kind = {};  ///< what the page knows it by: "delay"
+  /// Of kinds that the page has no words for: "Time to arrival".
+  std::string title = {};
+  /// What else the page is to know, given the values that occur; may be empty.
+  std::function<void(const std::set<std::int32_t>& found, Json& head)> legend = {};
+};
+
+/// How commands show a field over cells; where nothing is said they do not.
 struct FieldShown {
   /// As a column of tables over cells (CSV, VTK): "delay", and "delay:alone" where it is over /partition.
   std::string column = {};
   /// In a table a value that is worse than every number of steps, but better than what is lower; 0: none.
   std::int32_t below_zero = 0;
-  /// As a row of the comparison of two files: "safe set". For fields of 0 and 1 without a leading axis.
+  bool steps = false;  ///< values are steps, which are told with the time that they take
+  /// What it is called in the comparison of two files: "safe set", "delay". Fields of 0 and 1 are compared as
+  /// sets; others by value, of which more is better. Without a leading axis, or over /partition.
   std::string compared = {};
-  /// As a map on the page of a report: "Time to arrival". For steps without a leading axis; fields that the
-  /// page draws in a way of their own need none.
-  std::string map = {};
+  /// What it is called in the answer to a query: "time to arrival". For numbers without a leading axis that
+  /// the answer has no form of its own for.
+  std::string asked = {};
+  FieldMap map = {};
 };
 
 struct Field {
@@ -120,6 +143,13 @@ struct Field {
   FieldShown shown = {};
 };
 using Fields = std::vector<Field>;
+
+/// What values of a field of integers mean, as far as they mean a word.
+[[nodiscard]] std::vector<FieldFlag> flags_of(const Field& field);
+/// The word that a value means; "steps" or "number" if it is one.
+[[nodiscard]] std::string status_of(const Field& field, std::int64_t value);
+/// The value; null if it means a word.
+[[nodiscard]] Json value_json(const Field& field, std::int64_t value);
 
 /// What an analysis has found for the fields, by path. Scales with coordinates and what does not depend on
 /// the analysis need no entry.

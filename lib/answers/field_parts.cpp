@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <stdexcept>
 
@@ -123,6 +124,26 @@ std::int64_t joint_actions(const ProblemSpec& spec, const std::vector<std::int32
   for (const std::int32_t i : inputs)
     actions *= static_cast<std::int64_t>(spec.inputs[static_cast<std::size_t>(i)].values.size());
   return actions;
+}
+
+std::vector<FieldFlag> flags_of(const Field& field) {
+  for (const FieldAttribute& attribute : field.attributes) {
+    if (const auto* flags = std::get_if<std::vector<FieldFlag>>(&attribute.value)) return *flags;
+  }
+  return {};
+}
+
+std::string status_of(const Field& field, std::int64_t value) {
+  for (const FieldFlag& flag : flags_of(field)) {
+    const bool is_largest = flag.value == kLargestValue && value == std::numeric_limits<std::int32_t>::max();
+    if (flag.value == value || is_largest) return flag.word;
+  }
+  return field.shown.steps ? "steps" : "number";
+}
+
+Json value_json(const Field& field, std::int64_t value) {
+  const std::string status = status_of(field, value);
+  return status == "steps" || status == "number" ? Json(value) : Json();
 }
 
 ResultArray stacked_array(std::uint64_t length, std::vector<ResultArray> parts) {

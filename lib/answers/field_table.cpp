@@ -1,14 +1,25 @@
 #include "answers/field_table.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
-#include "answers/common/fields.hpp"
 #include "answers/plan.hpp"
 
 namespace coordreq {
+
+Fields answer_fields(const ProblemSpec& spec) {
+  Fields table;
+  for (const Answer& answer : all_answers()) {
+    Fields fields = answer.fields(spec);
+    std::move(fields.begin(), fields.end(), std::back_inserter(table));
+  }
+  return table;
+}
+
 Fields result_fields(const ProblemSpec& spec) {
-  Fields table = common_fields(spec);
   // In a section those of later answers come first: files have always been written so.
+  Fields table;
   const std::vector<Answer>& answers = all_answers();
   for (auto answer = answers.rbegin(); answer != answers.rend(); ++answer) {
     Fields fields = answer->fields(spec);
@@ -21,7 +32,6 @@ Fields result_fields(const ProblemSpec& spec) {
 
 FieldValues found_values(const Answers& answers, ThreadTeam& team) {
   FieldValues values;
-  fill_common_fields(answers, team, values);
   for (const Answer& answer : all_answers()) answer.fill(answers, team, values);
   return values;
 }

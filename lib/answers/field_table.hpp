@@ -16,6 +16,9 @@ namespace coordreq {
 /// the file.
 [[nodiscard]] Fields result_fields(const ProblemSpec& spec);
 
+/// The same in the order of the answers.
+[[nodiscard]] Fields answer_fields(const ProblemSpec& spec);
+
 /// What was found for them. The arrays refer to the answers, which must outlive the writing.
 [[nodiscard]] FieldValues found_values(const Answers& answers, ThreadTeam& team);
 

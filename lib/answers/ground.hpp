@@ -2,9 +2,8 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "answers/stage.hpp"
+#include "base/thread_team.hpp"
 #include "engine/packed_pairs.hpp"
 #include "engine/pair_table.hpp"
 #include "engine/row_engine.hpp"
@@ -46,10 +45,6 @@ struct Ground {
   /// What tubes must stay in, if there are any. REQUIRES: S is there.
   [[nodiscard]] TubeSets tubes() const;
 };
-
-/// "abstraction" and "safe set".
-/// @throws SpecError for what only shows when the system is built
-[[nodiscard]] std::vector<Stage> ground_stages();
 
 /// S and the engine, on an abstraction that is there.
 void lay_ground(Ground& ground, ThreadTeam& team);

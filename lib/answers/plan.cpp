@@ -6,6 +6,8 @@
 #include "answers/coalition/fields.hpp"
 #include "answers/convention/answer.hpp"
 #include "answers/convention/fields.hpp"
+#include "answers/ground/answer.hpp"
+#include "answers/ground/fields.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/invariance/fields.hpp"
 #include "answers/layers/answer.hpp"
@@ -19,22 +21,30 @@ namespace coordreq {
 
 const std::vector<Answer>& all_answers() {
   static const std::vector<Answer> plan = {
+      {.stages = ground_stages,
+       .fields = ground_fields,
+       .fill = fill_ground_fields,
+       .summarise = summarise_ground},
       {.stages = invariance_stages,
        .fields = invariance_fields,
        .fill = fill_invariance_fields,
-       .summarise = summarise_invariance},
+       .summarise = summarise_invariance,
+       .tell = tell_invariance},
       {.stages = layers_stages,
        .fields = layer_fields,
        .fill = fill_layer_fields,
-       .summarise = summarise_layers},
+       .summarise = summarise_layers,
+       .tell = tell_layers},
       {.stages = coalition_stages,
        .fields = coalition_fields,
        .fill = fill_coalition_fields,
-       .summarise = summarise_coalition},
+       .summarise = summarise_coalition,
+       .tell = tell_coalition},
       {.stages = network_stages,
        .fields = network_fields,
        .fill = fill_network_fields,
-       .summarise = summarise_network},
+       .summarise = summarise_network,
+       .tell = tell_network},
       {.stages = convention_stages,
        .fields = convention_fields,
        .fill = fill_convention_fields,
@@ -43,7 +53,8 @@ const std::vector<Answer>& all_answers() {
        .stages = requirements_stages,
        .fields = requirement_fields,
        .fill = fill_requirement_fields,
-       .summarise = summarise_requirements},
+       .summarise = summarise_requirements,
+       .tell = tell_requirements},
   };
   return plan;
 }

@@ -6,6 +6,7 @@
 
 #include "answers/answers.hpp"
 #include "answers/field.hpp"
+#include "answers/field_source.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
 
@@ -16,7 +17,7 @@ namespace coordreq {
 struct Answer {
   /// What can be refused before any work is done, for the spec alone; null: nothing.
   std::vector<Stage> (*checks)(const ProblemSpec& spec) = nullptr;
-  /// In their order; none if the spec does not ask for it. They need the ground and the answers before.
+  /// In their order; none if the spec does not ask for it. They need the answers before.
   std::vector<Stage> (*stages)(const ProblemSpec& spec) = nullptr;
   /// Its datasets in the results file of a spec; none if the spec does not ask for it.
   Fields (*fields)(const ProblemSpec& spec) = nullptr;
@@ -25,12 +26,15 @@ struct Answer {
   /// Adds its keys to the JSON summary (contract, section 3), and what its fixed points took to `work`, by
   /// stage. Called whether or not it was asked for.
   void (*summarise)(const Answers& answers, Json& summary, Json& work) = nullptr;
+  /// Adds to what `info` says of a file: the same keys, as far as the file tells them. Called whether or not
+  /// it was asked for; null: nothing.
+  void (*tell)(const ProblemSpec& spec, const FieldSource& source, Json& info) = nullptr;
 };
 
-/// In the order of need.
+/// In the order of need; the first is the ground, on which all others stand.
 [[nodiscard]] const std::vector<Answer>& all_answers();
 
-/// The stages of all answers that the spec asks for, in order. They need the ground.
+/// The stages of all answers that the spec asks for, in order.
 [[nodiscard]] std::vector<Stage> answer_stages(const ProblemSpec& spec);
 
 /// Where the work is told of and kept.

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "cell/admissible_inputs.hpp"
+#include "answers/one_cell/admissible_inputs.hpp"
 #include "cell/margin.hpp"
 #include "cell/next_states.hpp"
 #include "cell/random_stream.hpp"

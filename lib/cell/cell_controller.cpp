@@ -1,8 +1,7 @@
 #include "cell/cell_controller.hpp"
 
-#include <algorithm>
-
 #include "answers/convention/convention.hpp"
+#include "answers/field_parts.hpp"
 #include "base/error.hpp"
 #include "base/index.hpp"
 #include "model/input_class.hpp"
@@ -17,21 +16,17 @@ std::vector<bool> unpacked(const std::vector<std::uint8_t>& bytes, std::int64_t 
   return bits;
 }
 
-}  // namespace
-
-std::vector<std::int32_t> inputs_of_class(const ProblemSpec& spec, const std::vector<std::int32_t>& agents) {
-  std::vector<std::int32_t> inputs;
-  for (const std::int32_t agent : agents) {
-    const auto& own = spec.agents[at(agent)].inputs;
-    inputs.insert(inputs.end(), own.begin(), own.end());
-  }
-  std::sort(inputs.begin(), inputs.end());
-  return inputs;
+/// Tubes are not stored.
+std::optional<Abstraction> stored_abstraction(const ResultsReader& results) {
+  if (!results.has_abstraction() || results.spec().abstraction.between_samples) return std::nullopt;
+  return results.abstraction();
 }
+
+}  // namespace
 
 CellController::CellController(const ResultsReader& results, ThreadTeam& team)
     : results_(results),
-      posts_(results, team),
+      posts_(results.spec(), results.grid(), results.inputs(), team, stored_abstraction(results)),
       invariant_(results.grid(), [&results](const CellBlock& block) { return results.invariant(block); }),
       safe_(results.grid(), [&results](const CellBlock& block) { return results.safe(block); }),
       admissible_(results.spec(), posts_, sets(team)) {}
@@ -91,7 +86,7 @@ std::vector<std::vector<bool>> CellController::actions(std::size_t partition, st
       continue;
     }
     const std::vector<bool>& admissible = joint_inputs(cell);
-    const InputClass one(results_.inputs(), inputs_of_class(results_.spec(), spec.classes[c]));
+    const InputClass one(results_.inputs(), inputs_of(results_.spec(), spec.classes[c]));
     std::vector<bool>& projection = result.emplace_back(at(stored.actions[c]), false);
     for (std::int64_t u = 0; u < results_.inputs().count(); ++u) {
       if (admissible[at(u)]) projection[at(one.action(u))] = true;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
-#include "cell/admissible_inputs.hpp"
-#include "cell/cell_posts.hpp"
+#include "answers/one_cell/admissible_inputs.hpp"
+#include "answers/one_cell/cell_posts.hpp"
 #include "cell/safe_beyond_file.hpp"
 #include "cell/set_window.hpp"
 #include "results/results_reader.hpp"
@@ -51,9 +51,5 @@ class CellController {
   std::int64_t listed_cell_ = -1;
   std::vector<bool> listed_;  ///< what `controller.file` lists there
 };
-
-/// The inputs of a class of agents, ascending.
-[[nodiscard]] std::vector<std::int32_t> inputs_of_class(const ProblemSpec& spec,
-                                                        const std::vector<std::int32_t>& agents);
 
 }  // namespace coordreq

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "base/thread_team.hpp"
-#include "cell/cell_members.hpp"
-#include "cell/cell_posts.hpp"
+#include "answers/one_cell/cell_members.hpp"
+#include "answers/one_cell/cell_posts.hpp"
 #include "engine/cell_set.hpp"
 #include "results/results_reader.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "cell/cell_members.hpp"
+#include "answers/one_cell/cell_members.hpp"
 #include "model/cell_block.hpp"
 #include "model/uniform_grid.hpp"
 

@@ -7,13 +7,12 @@
 
 #include "answers/invariance/safe_tubes.hpp"
 #include "base/error.hpp"
-#include "cell/run_arrays.hpp"
 #include "cell/state_text.hpp"
+#include "cell/write_runs.hpp"
 #include "model/locate.hpp"
 #include "model/sample_reset.hpp"
 #include "reach/build_abstraction.hpp"
 #include "results/write_results.hpp"
-#include "results/write_runs.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {
@@ -188,7 +187,7 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   Simulation simulation{.partition = problem.partition->name, .traces = simulate_runs(problem, runs, team)};
   if (options.output) {
     enter("writing");
-    write_runs(*options.output, run_content(results, abstraction.inputs, options, simulation), team);
+    write_runs(*options.output, results, options, simulation, team);
   }
   return simulation;
 }

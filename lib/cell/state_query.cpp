@@ -4,6 +4,14 @@
 
 namespace coordreq {
 
+std::vector<const Field*> asked_fields(const ResultsReader& results) {
+  std::vector<const Field*> fields;
+  for (const Field& field : results.fields()) {
+    if (!field.shown.asked.empty()) fields.push_back(&field);
+  }
+  return fields;
+}
+
 StateAnswer StateQuery::at(std::vector<Rational> state) {
   StateAnswer answer;
   answer.location = locate(results_.grid(), state);
@@ -25,6 +33,8 @@ StateAnswer StateQuery::at(std::vector<Rational> state) {
       answer.safe_modes.push_back(safe != 0);
   }
   if (results_.spec().coordination.convention) answer.convention = controller_.convention(cell);
+  for (const Field* const field : asked_fields(results_))
+    answer.others.push_back(results_.values(*field, std::nullopt, block).front());
   return answer;
 }
 

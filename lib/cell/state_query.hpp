@@ -34,7 +34,11 @@ struct StateAnswer {
   std::vector<bool> safe_modes;        ///< by mode of the network; none without one
   /// What the convention leaves each agent, [agent][action]; none without a convention.
   std::vector<std::vector<bool>> convention;
+  std::vector<std::int32_t> others;  ///< of the fields of asked_fields()
 };
+
+/// The fields of the file that are told as FieldShown::asked says.
+[[nodiscard]] std::vector<const Field*> asked_fields(const ResultsReader& results);
 
 /// Answers questions about states. Not thread-safe.
 class StateQuery {

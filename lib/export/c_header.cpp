@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/field_parts.hpp"
 #include "base/error.hpp"
 #include "cell/cell_controller.hpp"
 #include "export/c_header_tables.hpp"
@@ -83,7 +84,7 @@ class HeaderWriter {
     std::string list;
     for (std::size_t c = 0; c < partition_.classes.size(); ++c) {
       std::vector<std::string> names;
-      for (const std::int32_t i : inputs_of_class(results_.spec(), spec_.classes[c])) {
+      for (const std::int32_t i : inputs_of(results_.spec(), spec_.classes[c])) {
         names.push_back(results_.spec().inputs[static_cast<std::size_t>(i)].name);
       }
       list += fmt::format("     class {}: {}, inputs {}, {} joint actions\n", c, partition_.classes[c],
@@ -169,7 +170,7 @@ class HeaderWriter {
     std::vector<std::size_t> class_first{0}, value_first, value_count;
     std::vector<double> values;
     for (const auto& agents : spec_.classes) {
-      for (const std::int32_t i : inputs_of_class(results_.spec(), agents)) {
+      for (const std::int32_t i : inputs_of(results_.spec(), agents)) {
         value_first.push_back(values.size());
         for (const Rational& value : results_.spec().inputs[static_cast<std::size_t>(i)].values) {
           values.push_back(nearest_double(value));

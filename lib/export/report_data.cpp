@@ -9,8 +9,6 @@
 namespace coordreq {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::vector<std::int64_t> index_of(const UniformGrid& grid, std::int64_t cell) {
   std::vector<std::int64_t> index;
   for (std::size_t i = 0; i < grid.size(); ++i) index.push_back(grid.index(cell, i));
@@ -114,7 +112,7 @@ ReportData report_data(const ResultsReader& results, std::vector<std::size_t> pa
   for (std::size_t m = 0; m < data.partitions.size(); ++m) {
     data.best_cells.push_back(first_largest(grid, maps[m].read));
     if (data.best_cells.back() >= 0) pins.push_back(index_of(grid, data.best_cells.back()));
-    maps[m].head["best"] = data.best_cells.back() < 0 ? Json() : Json(pins.back());
+    (*maps[m].head)["best"] = data.best_cells.back() < 0 ? Json() : Json(pins.back());
   }
   const Json ways = ways_json(results);
   for (const Json& way : ways) pins.push_back(way["cells"].front().get<std::vector<std::int64_t>>());
@@ -133,7 +131,7 @@ ReportData report_data(const ResultsReader& results, std::vector<std::size_t> pa
     if (packed_bytes(json["sets"]) <= limits.packed_bytes || cells <= 1) break;
   }
   json["maps"] = Json::array();
-  for (ReportMap& map : maps) json["maps"].push_back(std::move(map.head));
+  for (ReportMap& map : maps) json["maps"].push_back(std::move(*map.head));
   data.json = text_of(json);
   return data;
 }

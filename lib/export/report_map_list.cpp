@@ -2,50 +2,57 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
 
-#include "answers/coalition/coalition_cost.hpp"
+#include "answers/field_table.hpp"
 
 namespace coordreq {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Leading = std::optional<std::size_t>;
 
-ReportMap delay_map(const ResultsReader& results, std::size_t p) {
-  return {{{"kind", "delay"}, {"partition", p}},
-          [&results, p](const CellBlock& block) { return results.delay(p, block); },
-          {}};
+std::shared_ptr<Json> head_of(const Field& field) {
+  auto head = std::make_shared<Json>();
+  (*head)["kind"] = field.shown.map.kind;
+  return head;
 }
 
-ReportMap coalition_map(const ResultsReader& results) {
-  auto found = std::make_shared<std::set<std::int32_t>>();
-  const auto read = [&results, found](const CellBlock& block) {
-    std::vector<std::int32_t> values = results.coalition(block);
+/// The page learns what values mean from the flags, unless it has words of its own for the field.
+ReportMap number_map(const ResultsReader& results, const Field& field, Leading leading) {
+  ReportMap map{.head = head_of(field), .read = [&results, &field, leading](const CellBlock& block) {
+                  return results.values(field, leading, block);
+                }};
+  Json& head = *map.head;
+  if (leading) head[field.axes.front().substr(1)] = *leading;
+  if (!field.shown.map.title.empty()) {
+    head["title"] = field.shown.map.title;
+    head["meanings"] = Json::array();
+    for (auto [value, word] : flags_of(field)) {
+      std::replace(word.begin(), word.end(), '_', ' ');
+      head["meanings"].push_back({value == kLargestValue ? Json("infinite") : Json(value), word});
+    }
+  }
+  if (!field.shown.map.legend) return map;
+  const auto found = std::make_shared<std::set<std::int32_t>>();
+  map.legend = [&field, found](Json& own) { field.shown.map.legend(*found, own); };
+  map.read = [read = std::move(map.read), found](const CellBlock& block) {
+    std::vector<std::int32_t> values = read(block);
     found->insert(values.begin(), values.end());
     return values;
   };
-  return {{{"kind", "coalition"}}, read, {}, found};
+  return map;
 }
 
-ReportMap member_map(const char* kind, std::shared_ptr<MemberMap> members) {
-  return {{{"kind", kind}}, [members](const CellBlock& block) { return members->read(block); }, members};
-}
-
-ReportMap pair_map(const ResultsReader& results, const ReportLimits& limits) {
-  const auto read = [&results](std::size_t pair, const CellBlock& block) {
-    return results.critical_pair(pair, block);
+ReportMap member_map(const ResultsReader& results, const Field& field, const ReportLimits& limits) {
+  const auto read = [&results, &field](std::size_t member, const CellBlock& block) {
+    return results.members(field, member, block);
   };
-  return member_map(
-      "pairs", std::make_shared<MemberMap>(results, read, results.pairs(), limits.members, limits.subsets));
-}
-
-ReportMap mode_map(const ResultsReader& results, const ReportLimits& limits) {
-  const auto read = [&results](std::size_t mode, const CellBlock& block) {
-    return results.network_safe(mode, 1, block);
-  };
-  std::vector<std::string> names;
-  for (const NetworkModeSpec& mode : results.spec().network->modes) names.push_back(mode.name);
-  return member_map(
-      "modes", std::make_shared<MemberMap>(results, read, std::move(names), limits.members, limits.subsets));
+  const auto members = std::make_shared<MemberMap>(results, read, results.leading_names(field),
+                                                   limits.members, limits.subsets);
+  return {.head = head_of(field),
+          .read = [members](const CellBlock& block) { return members->read(block); },
+          .members = members};
 }
 
 /// Hundredths of a per cent; all and nothing are never the result of rounding.
@@ -55,67 +62,56 @@ std::int32_t share_code(float share) {
   return std::clamp(static_cast<std::int32_t>(std::lround(share * float{kAll})), 1, kAll - 1);
 }
 
-ReportMap freedom_map(const ResultsReader& results, std::size_t agent) {
-  const auto read = [&results, agent](const CellBlock& block) {
+ReportMap share_map(const ResultsReader& results, const Field& field, std::size_t entry) {
+  const auto read = [&results, &field, entry](const CellBlock& block) {
     std::vector<std::int32_t> values = results.collision_time(block);
-    const std::vector<float> freedom = results.convention_freedom(agent, block);
-    for (std::size_t x = 0; x < values.size(); ++x) {
-      values[x] = values[x] == ResultsReader::kNever ? share_code(freedom[x]) : values[x] == 0 ? -2 : -1;
-    }
+    const std::vector<float> shares = results.shares(field, entry, block);
+    for (std::size_t x = 0; x < values.size(); ++x)
+      values[x] = values[x] == ResultsReader::kNever ? share_code(shares[x]) : values[x] == 0 ? -2 : -1;
     return values;
   };
-  return {{{"kind", "freedom"}, {"agent", results.spec().agents[agent].name}}, read, {}};
+  ReportMap map{.head = head_of(field), .read = read};
+  (*map.head)[field.axes.front().substr(1)] = results.leading_names(field)[entry];
+  return map;
 }
 
-/// A field that has no way of its own to be drawn: the page learns what its values mean from its flags.
-ReportMap plain_map(const ResultsReader& results, const Field& field) {
-  Json meanings = Json::array();
-  for (const FieldAttribute& attribute : field.attributes) {
-    const auto* const flags = std::get_if<std::vector<FieldFlag>>(&attribute.value);
-    if (flags == nullptr) continue;
-    for (const FieldFlag& flag : *flags) {
-      std::string word = flag.word;
-      std::replace(word.begin(), word.end(), '_', ' ');
-      meanings.push_back({flag.value == kLargestValue ? Json("infinite") : Json(flag.value), word});
-    }
+/// All maps of a field that is not over partitions.
+void add_maps(const ResultsReader& results, const Field& field, const ReportLimits& limits,
+              std::vector<ReportMap>& maps) {
+  const std::size_t entries = results.leading_length(field);
+  switch (field.shown.map.values) {
+    case FieldMap::Values::none:
+      return;
+    case FieldMap::Values::members:
+      maps.push_back(member_map(results, field, limits));
+      return;
+    case FieldMap::Values::shares:
+      for (std::size_t i = 0; i < std::min(entries, limits.agents); ++i)
+        maps.push_back(share_map(results, field, i));
+      return;
+    case FieldMap::Values::numbers:
+      if (entries == 0) maps.push_back(number_map(results, field, std::nullopt));
+      for (std::size_t i = 0; i < entries; ++i) maps.push_back(number_map(results, field, i));
   }
-  return {{{"kind", field.path.substr(1)}, {"title", field.shown.map}, {"meanings", meanings}},
-          [&results, &field](const CellBlock& block) { return results.values(field, std::nullopt, block); },
-          {}};
-}
-
-/// The partitions that occur, the most wanted first, with what they cost.
-Json choices_json(const ResultsReader& results, const std::set<std::int32_t>& found) {
-  Json choices = Json::array();
-  for (const CoalitionChoice& choice : order_of_preference(results.spec().coordination)) {
-    if (found.contains(static_cast<std::int32_t>(choice.partition)))
-      choices.push_back({{"partition", choice.partition}, {"cost", nearest_double(choice.cost)}});
-  }
-  return choices;
 }
 
 }  // namespace
 
 std::vector<ReportMap> list_maps(const ResultsReader& results, const std::vector<std::size_t>& partitions,
                                  const ReportLimits& limits) {
+  std::vector<const Field*> drawn;
+  for (const Field& field : answer_fields(results.spec())) {
+    if (field.shown.map.values != FieldMap::Values::none && results.has(field.path))
+      drawn.push_back(&results.field(field.path));
+  }
+  const auto others = std::stable_partition(drawn.begin(), drawn.end(), [](const Field* field) {
+    return field->axes.front() == "/partition";
+  });
   std::vector<ReportMap> maps;
-  maps.reserve(partitions.size() + 1);
-  for (const std::size_t p : partitions) maps.push_back(delay_map(results, p));
-  maps.push_back({{{"kind", "collision_time"}},
-                  [&results](const CellBlock& block) { return results.collision_time(block); },
-                  {}});
-  if (results.has_coalition()) {
-    maps.push_back(coalition_map(results));
-    if (!results.pairs().empty()) maps.push_back(pair_map(results, limits));
+  for (auto field = drawn.begin(); field != others; ++field) {
+    for (const std::size_t p : partitions) maps.push_back(number_map(results, **field, p));
   }
-  if (results.spec().network) maps.push_back(mode_map(results, limits));
-  if (results.spec().coordination.convention) {
-    for (std::size_t i = 0; i < std::min(results.spec().agents.size(), limits.agents); ++i)
-      maps.push_back(freedom_map(results, i));
-  }
-  for (const Field& field : results.fields()) {
-    if (!field.shown.map.empty()) maps.push_back(plain_map(results, field));
-  }
+  for (auto field = others; field != drawn.end(); ++field) add_maps(results, **field, limits, maps);
   return maps;
 }
 
@@ -126,16 +122,17 @@ std::vector<PackedMap> pack_listed(const ResultsReader& results, ReportMap& map,
     map.members->halve();
     packed = pack_map(results.grid(), map.read, sets);
   }
-  map.head["largest"] = packed.largest;
-  map.head["flags"] = Json::array();
+  Json& head = *map.head;
+  head["largest"] = packed.largest;
+  head["flags"] = Json::array();
   for (const std::int32_t flag : packed.flags)
-    map.head["flags"].push_back(flag == ResultsReader::kNever ? Json("infinite") : Json(flag));
+    head["flags"].push_back(flag == ResultsReader::kNever ? Json("infinite") : Json(flag));
   if (map.members) {
-    map.head["members"] = map.members->names();
-    map.head["total"] = map.members->total();
-    map.head["sets"] = map.members->sets();
+    head["members"] = map.members->names();
+    head["total"] = map.members->total();
+    head["sets"] = map.members->sets();
   }
-  if (map.coalitions) map.head["choices"] = choices_json(results, *map.coalitions);
+  if (map.legend) map.legend(head);
   return std::move(packed.sets);
 }
 

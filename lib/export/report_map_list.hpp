@@ -1,11 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
+#include "base/json.hpp"
 #include "export/report_data.hpp"
 #include "export/report_maps.hpp"
 #include "export/report_members.hpp"
@@ -14,14 +15,15 @@ namespace coordreq {
 
 /// A map and what the page calls it.
 struct ReportMap {
-  nlohmann::ordered_json head;
+  std::shared_ptr<Json> head;
   ReadCells read;
-  std::shared_ptr<MemberMap> members;                       ///< of maps of pairs and modes
-  std::shared_ptr<std::set<std::int32_t>> coalitions = {};  ///< of the coalition map: partitions read so far
+  std::shared_ptr<MemberMap> members = {};  ///< if it is one of sets
+  /// FieldMap::legend with the values read so far; may be empty.
+  std::function<void(Json& head)> legend = {};
 };
 
-/// The maps of a page: the delay of each of `partitions`, the collision time, and what else the file has.
-/// REQUIRES: `results` outlives them.
+/// The maps of a page, of every field that is drawn: first those over partitions for each of `partitions`,
+/// then the others in the order of the answers. REQUIRES: `results` outlives them.
 [[nodiscard]] std::vector<ReportMap> list_maps(const ResultsReader& results,
                                                const std::vector<std::size_t>& partitions,
                                                const ReportLimits& limits);

@@ -126,29 +126,33 @@ Fields checked_fields(const ResultsFile& file, const ProblemSpec& spec,
   return FieldChecker(file, spec).run(result_fields(spec), max_memory);
 }
 
-void check_range(const ResultsFile& file, const Field& field, const std::vector<std::int64_t>& values) {
-  for (const std::int64_t value : values) {
-    if (value >= field.least && value <= field.most) continue;
-    throw ResultsError("found " + std::to_string(value) + ", which is none of its values",
-                       file.place(field.path));
-  }
+const Field* SmallFields::find(const std::string& path) const {
+  const auto field = std::find_if(parts_.fields.begin(), parts_.fields.end(),
+                                  [&path](const Field& one) { return one.path == path; });
+  return field == parts_.fields.end() ? nullptr : &*field;
 }
 
 bool SmallFields::has(const std::string& path) const {
-  return std::any_of(fields_.begin(), fields_.end(),
-                     [&path](const Field& field) { return field.path == path; });
+  return find(path) != nullptr;
 }
 
 std::vector<std::int64_t> SmallFields::integers(const std::string& path) const {
-  const auto field =
-      std::find_if(fields_.begin(), fields_.end(), [&path](const Field& one) { return one.path == path; });
   std::vector<std::int64_t> values = file_.integers(path);
-  if (field != fields_.end()) check_range(file_, *field, values);
+  const Field* const field = find(path);
+  for (const std::int64_t value : values) {
+    if (field == nullptr || (value >= field->least && value <= field->most)) continue;
+    fail("found " + std::to_string(value) + ", which is none of its values", path);
+  }
   return values;
 }
 
 std::vector<double> SmallFields::numbers(const std::string& path) const {
   return file_.numbers(path);
+}
+
+std::vector<std::uint64_t> SmallFields::counted(const std::string& path) const {
+  const auto found = parts_.counted.find(path);
+  return found == parts_.counted.end() ? std::vector<std::uint64_t>() : found->second;
 }
 
 void SmallFields::fail(const std::string& what, const std::string& path) const {

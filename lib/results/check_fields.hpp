@@ -8,6 +8,7 @@
 #include "answers/field.hpp"
 #include "answers/field_source.hpp"
 #include "results/results_file.hpp"
+#include "results/results_parts.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -19,23 +20,23 @@ namespace coordreq {
 [[nodiscard]] Fields checked_fields(const ResultsFile& file, const ProblemSpec& spec,
                                     std::optional<std::uint64_t> max_memory);
 
-/// @throws ResultsError if a value is none that the field has, unless it is `infinite`
-void check_range(const ResultsFile& file, const Field& field, const std::vector<std::int64_t>& values);
-
 /// Small fields as a whole.
 class SmallFields : public FieldSource {
  public:
-  /// REQUIRES: both outlive this object.
-  SmallFields(const ResultsFile& file, const Fields& fields) : file_(file), fields_(fields) {}
+  /// REQUIRES: both outlive this object. @param parts with fields and what was counted
+  SmallFields(const ResultsFile& file, const ResultsParts& parts) : file_(file), parts_(parts) {}
 
   [[nodiscard]] bool has(const std::string& path) const override;
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& path) const override;
   [[nodiscard]] std::vector<double> numbers(const std::string& path) const override;
+  [[nodiscard]] std::vector<std::uint64_t> counted(const std::string& path) const override;
   [[noreturn]] void fail(const std::string& what, const std::string& path) const override;
 
  private:
+  [[nodiscard]] const Field* find(const std::string& path) const;
+
   const ResultsFile& file_;
-  const Fields& fields_;
+  const ResultsParts& parts_;
 };
 
 }  // namespace coordreq

@@ -10,26 +10,26 @@ namespace coordreq {
 namespace {
 
 /// 2: the cell has left K, 1: it was unbounded and is no longer, 0: it has fewer steps.
-int gravity(const DelayChange& change) {
+int gravity(const ValueChange& change) {
   if (change.after < 0) return 2;
   return change.before == ResultsReader::kNever ? 1 : 0;
 }
 
-/// Steps between the two delays; REQUIRES: has_lost(change).
-std::int64_t difference(const DelayChange& change) {
+/// Between the two values; REQUIRES: has_lost(change).
+std::int64_t difference(const ValueChange& change) {
   return std::int64_t{change.before} - change.after;
 }
 
 /// A code of what is no number of steps counts as it does in the file: kNever is the largest number.
-bool has_lost(const DelayChange& change) {
+bool has_lost(const ValueChange& change) {
   return change.before >= 0 && change.after < change.before;
 }
-bool has_gained(const DelayChange& change) {
+bool has_gained(const ValueChange& change) {
   return change.after >= 0 && change.after > change.before;
 }
 
 /// Whether `a` is to be named before `b`.
-bool is_worse(const DelayChange& a, const DelayChange& b) {
+bool is_worse(const ValueChange& a, const ValueChange& b) {
   if (gravity(a) != gravity(b)) return gravity(a) > gravity(b);
   if (difference(a) != difference(b)) return difference(a) > difference(b);
   return a.cell < b.cell;
@@ -63,15 +63,15 @@ SetComparison compare_sets(const ResultsReader& before, const ResultsReader& aft
   return result;
 }
 
-/// Adds up the cells of a partition, and keeps the worst of them.
-class PartitionCounter {
+/// Adds up the cells, and keeps the worst of them.
+class ValueCounter {
  public:
   /// @param last delay of the later file that only says "at least"; none if it was not cut off
-  PartitionCounter(PartitionComparison& result, const CompareOptions& options,
+  ValueCounter(ValueComparison& result, const CompareOptions& options,
                    std::optional<std::int64_t> last)
       : result_(result), options_(options), last_(last) {}
 
-  void add(const DelayChange& change) {
+  void add(const ValueChange& change) {
     if (has_gained(change)) ++result_.gained;
     if (!has_lost(change)) return;
     if (gravity(change) == 0 && difference(change) <= options_.tolerance) {
@@ -90,8 +90,8 @@ class PartitionCounter {
 
  private:
   /// A heap with the least bad one on top.
-  void keep(const DelayChange& change) {
-    std::vector<DelayChange>& worst = result_.worst;
+  void keep(const ValueChange& change) {
+    std::vector<ValueChange>& worst = result_.worst;
     if (options_.worst == 0) return;
     if (worst.size() == options_.worst) {
       if (!is_worse(change, worst.front())) return;
@@ -102,26 +102,50 @@ class PartitionCounter {
     std::push_heap(worst.begin(), worst.end(), is_worse);
   }
 
-  PartitionComparison& result_;
+  ValueComparison& result_;
   const CompareOptions& options_;
   std::optional<std::int64_t> last_;
 };
 
-void compare_delays(const ResultsReader& before, const ResultsReader& after, const CompareOptions& options,
-                    PartitionComparison& result) {
-  const bool truncated = after.partitions()[result.after].truncated();
-  PartitionCounter counter(result, options,
-                           truncated ? after.spec().coordination.max_delay : std::optional<std::int64_t>());
-  const auto read = [&result](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool earlier) {
-    const std::size_t partition = earlier ? result.before : result.after;
-    return file.stretch(begin, end, [&](const CellBlock& block) { return file.delay(partition, block); });
+/// @param result with what is compared
+void compare_values(const ResultsReader& before, const ResultsReader& after, const CompareOptions& options,
+                    const Field& field, ValueComparison& result) {
+  using Leading = std::optional<std::size_t>;
+  const auto& pair = result.partition;
+  const bool truncated = pair && after.partitions()[pair->after].truncated();
+  ValueCounter counter(result, options,
+                       truncated ? after.spec().coordination.max_delay : std::optional<std::int64_t>());
+  const std::string subject = pair ? "partition " + before.partitions()[pair->before].name : result.words;
+  const auto read = [&](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool earlier) {
+    const Leading leading = pair ? Leading(earlier ? pair->before : pair->after) : std::nullopt;
+    return file.stretch(begin, end,
+                        [&](const CellBlock& block) { return file.values(field, leading, block); });
   };
   for_each_part(before, after, read, [&](std::int64_t begin, const auto& old, const auto& now) {
-    if (options.progress) options.progress("partition " + before.partitions()[result.before].name);
+    if (options.progress) options.progress(subject);
     for (std::size_t i = 0; i < old.size(); ++i)
       counter.add({begin + static_cast<std::int64_t>(i), old[i], now[i]});
   });
   counter.finish();
+}
+
+/// Of every pair of partitions, where the field is over these.
+void add_values(const ResultsReader& before, const ResultsReader& after, const CompareOptions& options,
+                const Field& field, ResultsComparison& result) {
+  const ValueComparison begun{.name = field.path.substr(1), .words = field.shown.compared};
+  std::vector<ValueComparison> all;
+  if (after.leading_length(field) == 0) all.push_back(begun);
+  for (const PartitionPair& pair : result.partitions) {
+    if (field.axes.front() == "/partition") all.emplace_back(begun).partition = pair;
+  }
+  for (ValueComparison& own : all) {
+    compare_values(before, after, options, field, own);
+    result.values.push_back(std::move(own));
+  }
+}
+
+bool is_set(const Field& field) {
+  return field.types == std::vector<ElementType>{ElementType::uint8} && field.most == 1;
 }
 
 const ResultRequirement* find_requirement(const ResultsReader& file, const std::string& name) {
@@ -151,8 +175,7 @@ void compare_requirements(const ResultsReader& before, const ResultsReader& afte
 bool ResultsComparison::is_worse() const {
   return std::any_of(sets.begin(), sets.end(),
                      [](const SetComparison& set) { return set.name == "invariant" && set.left > 0; }) ||
-         std::any_of(partitions.begin(), partitions.end(),
-                     [](const PartitionComparison& partition) { return partition.lost > 0; }) ||
+         std::any_of(values.begin(), values.end(), [](const ValueComparison& own) { return own.lost > 0; }) ||
          std::any_of(verdicts.begin(), verdicts.end(),
                      [](const VerdictChange& verdict) { return !verdict.holds_after; });
 }
@@ -166,11 +189,16 @@ ResultsComparison compare_results(const ResultsReader& before, const ResultsRead
     throw ResultsError("no partition of " + before.path() + " is in it", after.path());
   }
   if (options.progress) options.progress("sets");
+  std::vector<const Field*> compared;
   for (const Field& field : after.fields()) {
-    if (!field.shown.compared.empty() && before.has(field.path))
-      result.sets.push_back(compare_sets(before, after, field));
+    if (!field.shown.compared.empty() && before.has(field.path)) compared.push_back(&field);
   }
-  for (PartitionComparison& partition : result.partitions) compare_delays(before, after, options, partition);
+  for (const Field* const field : compared) {
+    if (is_set(*field)) result.sets.push_back(compare_sets(before, after, *field));
+  }
+  for (const Field* const field : compared) {
+    if (!is_set(*field)) add_values(before, after, options, *field, result);
+  }
   compare_requirements(before, after, result);
   return result;
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,28 +23,35 @@ struct SetComparison {
   std::int64_t joined = 0;  ///< only in the later one
 };
 
-/// Delays of a cell, as ResultsReader::delay() tells them.
-struct DelayChange {
+/// Values of a cell, as ResultsReader::values() tells them.
+struct ValueChange {
   std::int64_t cell = 0;
   std::int32_t before = 0;
   std::int32_t after = 0;
 };
 
-/// A partition that both files have. Delays are compared as what each file guarantees: a cell outside K
-/// tolerates less than a cell with delay 0, unbounded is more than every number, and where `max_delay`
-/// stopped an analysis its last delay counts as it is, though the true one may be larger.
-struct PartitionComparison {
+/// Where a field is over partitions: one that both files have.
+struct PartitionPair {
   std::size_t before = 0;  ///< index into the partitions of the earlier file
   std::size_t after = 0;
-  std::int64_t lost = 0;          ///< cells with a smaller delay than before
+};
+
+/// A field of numbers, such as the delay, of which more is better. Delays are compared as what each file
+/// guarantees: a cell outside K tolerates less than a cell with delay 0, unbounded is more than every number,
+/// and where `max_delay` stopped an analysis its last delay counts as it is, though the true one may be larger.
+struct ValueComparison {
+  std::string name;   ///< "delay"
+  std::string words;  ///< what it is called
+  std::optional<PartitionPair> partition;
+  std::int64_t lost = 0;          ///< cells with a smaller value than before
   std::int64_t left = 0;          ///< of these, cells that have left K
   std::int64_t from_forever = 0;  ///< of these, cells that are in K and were unbounded
   /// Of these, cells with the last delay before `max_delay` of the later file: perhaps they have lost
   /// nothing.
   std::int64_t cut_off = 0;
   std::int64_t tolerated = 0;      ///< cells that lost steps, but no more than is tolerated; not in `lost`
-  std::int64_t gained = 0;         ///< cells with a larger delay than before
-  std::vector<DelayChange> worst;  ///< of `lost`, see CompareOptions::worst
+  std::int64_t gained = 0;         ///< cells with a larger value than before
+  std::vector<ValueChange> worst;  ///< of `lost`, see CompareOptions::worst
 };
 
 /// A requirement that both files have, by its name, with another verdict.
@@ -53,22 +61,24 @@ struct VerdictChange {
 };
 
 struct ResultsComparison {
-  std::vector<SetComparison> sets;  ///< those that both files have and that fields are compared by
-  std::vector<PartitionComparison> partitions;
+  // Of the fields that both files have and are compared by:
+  std::vector<SetComparison> sets;
+  std::vector<ValueComparison> values;    ///< one field after the other, partition by partition
+  std::vector<PartitionPair> partitions;  ///< that both files have
   std::vector<std::size_t> only_before;  ///< partitions that the later file does not have
   std::vector<std::size_t> only_after;   ///< partitions that the earlier file does not have
   std::vector<VerdictChange> verdicts;
   std::vector<std::string> requirements_only_before;
   std::vector<std::string> requirements_only_after;
 
-  /// Whether a cell has lost delay, or left K, or a requirement no longer holds.
+  /// Whether a cell has lost value, or left K, or a requirement no longer holds.
   [[nodiscard]] bool is_worse() const;
 };
 
 struct CompareOptions {
   /// A cell may lose so many steps, unless it leaves K or was unbounded.
   std::int64_t tolerance = 0;
-  /// Cells to name for each partition: first those that have left K, then those that were unbounded, each by
+  /// Cells to name for each comparison: first those that have left K, then those that were unbounded, each by
   /// the steps that they have lost, then by number.
   std::size_t worst = 5;
   std::function<void(const std::string& subject)> progress;  ///< often; may be empty

@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "answers/coalition/fields.hpp"
-#include "answers/convention/fields.hpp"
-#include "answers/field_parts.hpp"
 #include "answers/field_table.hpp"
 #include "answers/invariance/fields.hpp"
 #include "answers/layers/fields.hpp"
@@ -14,7 +12,6 @@
 #include "results/check_fields.hpp"
 #include "results/results_file.hpp"
 #include "results/sha256.hpp"
-#include "spec/partition_names.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {
@@ -31,8 +28,10 @@ class PartsReader {
     read_spec_text();
     parts_.fields = checked_fields(file_, parts_.spec, max_memory_);
     read_found();
-    read_partitions();
-    parts_.requirements = read_requirement_values(parts_.spec, SmallFields(file_, parts_.fields));
+    const SmallFields source(file_, parts_);
+    parts_.partitions = read_partition_values(parts_.spec, source);
+    check_layer_lists();
+    parts_.requirements = read_requirement_values(parts_.spec, source);
     if (parts_.spec.output.abstraction) read_tables();
     if (parts_.spec.coordination.horizon) parts_.pairs = pair_names(parts_.spec);
     return std::move(parts_);
@@ -73,61 +72,36 @@ class PartsReader {
 
   /// What the analysis has counted.
   void read_found() {
-    const ProblemSpec& spec = parts_.spec;
+    for (const Field& field : parts_.fields) {
+      for (const FieldAttribute& attribute : field.attributes) read_count(field, attribute);
+    }
     StoredAttributes& attributes = parts_.attributes;
-    attributes.safe_cells = file_.natural("/safe", "cells");
-    attributes.invariant_cells = file_.natural("/invariant", "cells");
+    attributes.safe_cells = parts_.counted.at("/safe").front();
+    attributes.invariant_cells = parts_.counted.at("/invariant").front();
     attributes.iterations = file_.integer("/collision_time", "iterations");
     attributes.connection_delay = file_.integer("/trigger", "connection_delay");
-    if (spec.controller.file) attributes.controller_sha256 = file_.text(paths::kListed, "sha256");
-    const std::vector<std::uint64_t> given = counted(paths::kCoalition);
-    const std::vector<std::uint64_t> critical = counted(paths::kCriticalPair);
-    attributes.coalition_cells.assign(given.begin(), given.end());
-    attributes.critical_pair_cells.assign(critical.begin(), critical.end());
-    attributes.network_cells = counted(paths::kNetworkSafe);
-    if (spec.network && attributes.network_cells.size() != spec.network->modes.size())
+    if (parts_.spec.controller.file) attributes.controller_sha256 = file_.text(paths::kListed, "sha256");
+    const auto& network = parts_.spec.network;
+    if (network && parts_.counted[paths::kNetworkSafe].size() != network->modes.size())
       fail("the attribute cells does not hold a number a mode", paths::kNetworkSafe);
   }
 
-  /// The attribute `cells`; empty where the field, or the attribute, is not in the file.
-  [[nodiscard]] std::vector<std::uint64_t> counted(const std::string& path) const {
-    const auto field = std::find_if(parts_.fields.begin(), parts_.fields.end(),
-                                    [&path](const Field& one) { return one.path == path; });
-    if (field == parts_.fields.end()) return {};
-    for (const FieldAttribute& attribute : field->attributes) {
-      const auto* const list = std::get_if<std::vector<std::uint64_t>>(&attribute.value);
-      if (attribute.name == "cells" && list != nullptr && !list->empty() && file_.has(path, "cells"))
-        return file_.naturals(path, attribute.name, list->size());
+  /// A list may be missing.
+  void read_count(const Field& field, const FieldAttribute& attribute) {
+    if (attribute.name != "cells") return;
+    std::size_t count = 1;
+    if (const auto* const list = std::get_if<std::vector<std::uint64_t>>(&attribute.value)) {
+      count = list->size();
+      if (count == 0 || !file_.has(field.path, "cells")) return;
     }
-    return {};
+    parts_.counted[field.path] = file_.naturals(field.path, "cells", count);
   }
 
-  void read_partitions() {
-    const SmallFields source(file_, parts_.fields);
-    const std::vector<std::int64_t> sizes = source.integers("/layer_size");
-    const std::vector<std::int64_t> fixed_points = source.integers("/fixed_point_index");
-    const auto layers = static_cast<std::ptrdiff_t>(file_.shape("/layer").front());
-    auto row = sizes.begin();
-    const std::vector<PartitionSpec>& partitions = parts_.spec.coordination.partitions;
-    for (std::size_t p = 0; p < partitions.size(); ++p, row += layers)
-      add_partition(partitions[p], fixed_points[p], {row, row + layers});
-  }
-
-  void add_partition(const PartitionSpec& spec, std::int64_t fixed_point, std::vector<std::int64_t> sizes) {
-    StoredPartition& partition = parts_.partitions.emplace_back();
-    partition.name = spec.name;
-    for (const auto& agents : spec.classes) {
-      partition.classes.push_back(class_name(parts_.spec.agents, agents));
-      partition.actions.push_back(joint_actions(parts_.spec, inputs_of(parts_.spec, agents)));
+  void check_layer_lists() const {
+    for (std::size_t p = 0; parts_.spec.output.layers && p < parts_.partitions.size(); ++p) {
+      file_.expect_shape(paths::layers(parts_.spec.coordination.partitions[p]) + "/start",
+                         {parts_.partitions[p].layer_sizes.size() + 1});
     }
-    if (fixed_point >= static_cast<std::int64_t>(sizes.size()))
-      fail("found " + std::to_string(fixed_point) + ", expected a layer or -1", "/fixed_point_index");
-    partition.fixed_point_index = static_cast<std::int32_t>(fixed_point);
-    partition.padded_sizes.assign(sizes.begin(), sizes.end());
-    if (fixed_point >= 0) sizes.resize(static_cast<std::size_t>(fixed_point) + 1);
-    partition.layer_sizes.assign(sizes.begin(), sizes.end());
-    if (parts_.spec.output.layers)
-      file_.expect_shape(paths::layers(spec) + "/start", {partition.layer_sizes.size() + 1});
   }
 
   /// Of each state, from the axes that its table has.

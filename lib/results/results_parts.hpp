@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "answers/field.hpp"
+#include "answers/layers/fields.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "reach/abstraction.hpp"
 #include "spec/problem_spec.hpp"
@@ -20,20 +22,6 @@ struct StoredAttributes {
   std::int64_t iterations = 0;
   std::int64_t connection_delay = 0;
   std::string controller_sha256;  ///< of `controller.file`; empty if the spec has none
-  /// Attributes `cells`, by partition, pair and mode; empty without such a field, or where they are too many.
-  std::vector<std::int64_t> coalition_cells, critical_pair_cells;
-  std::vector<std::uint64_t> network_cells;
-};
-
-/// What is stored of a partition besides arrays over cells.
-struct StoredPartition {
-  std::string name;
-  std::vector<std::string> classes;         ///< names of the classes, in the order of the spec
-  std::vector<std::int64_t> actions;        ///< joint actions of each class
-  std::int32_t fixed_point_index = -1;      ///< F; -1 if truncated
-  std::vector<std::uint64_t> layer_sizes;   ///< |Z_0|, ..., |Z_F|; as far as stored if truncated
-  std::vector<std::uint64_t> padded_sizes;  ///< the whole row of /layer_size
-  [[nodiscard]] bool truncated() const { return fixed_point_index < 0; }
 };
 
 /// /layers/PARTITION: T(k) is cell[start[k]], ..., cell[start[k + 1] - 1].
@@ -51,6 +39,8 @@ struct ResultsParts {
   StoredAttributes attributes;
   std::vector<StoredPartition> partitions;  ///< as many as the spec has, in its order
   std::vector<ResultRequirement> requirements;
+  /// Attributes `cells`, by path; none where they are too many.
+  std::map<std::string, std::vector<std::uint64_t>> counted;
   std::vector<TransitionTable> tables;  ///< without entries; none unless stored
   std::vector<std::string> pairs;       ///< of agents, for which critical cells are stored
 };

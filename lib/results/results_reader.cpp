@@ -11,6 +11,7 @@
 #include "answers/layers/fields.hpp"
 #include "answers/network/fields.hpp"
 #include "base/error.hpp"
+#include "results/check_fields.hpp"
 #include "results/child_trial.hpp"
 #include "results/reading.hpp"
 #include "results/results_file.hpp"
@@ -132,6 +133,28 @@ std::vector<std::int32_t> ResultsReader::values(const Field& field, std::optiona
   return values;
 }
 
+std::vector<float> ResultsReader::shares(const Field& field, std::optional<std::size_t> leading,
+                                         const CellBlock& block) const {
+  const Part part(leading, block);
+  return elements<float>(field.path, ElementType::float32, part.offset, part.count);
+}
+
+std::vector<std::int64_t> ResultsReader::integers(const std::string& path) const {
+  return reading(path_, [&] { return SmallFields(*file_, parts_).integers(path); });
+}
+
+std::vector<double> ResultsReader::numbers(const std::string& path) const {
+  return reading(path_, [&] { return SmallFields(*file_, parts_).numbers(path); });
+}
+
+std::vector<std::uint64_t> ResultsReader::counted(const std::string& path) const {
+  return SmallFields(*file_, parts_).counted(path);
+}
+
+void ResultsReader::fail(const std::string& what, const std::string& path) const {
+  throw ResultsError(what, file_->place(path));
+}
+
 std::vector<std::string> ResultsReader::datasets() const {
   const auto list = [this] { return reading(path_, [this] { return file_->datasets(); }); };
   try_in_child(path_, [&list] { static_cast<void>(list()); });
@@ -213,14 +236,6 @@ std::vector<std::uint8_t> ResultsReader::controller_bits(const CellBlock& block)
 
 std::vector<std::uint8_t> ResultsReader::listed_bits(const CellBlock& block) const {
   return bits(paths::kListed, inputs_.count(), block);
-}
-
-std::vector<float> ResultsReader::convention_freedom(std::size_t agent, const CellBlock& block) const {
-  std::vector<std::uint64_t> offset = unsigned_of(block.first);
-  std::vector<std::uint64_t> count = unsigned_of(block.count);
-  offset.insert(offset.begin(), agent);
-  count.insert(count.begin(), 1);
-  return elements<float>(paths::kConventionFreedom, ElementType::float32, offset, count);
 }
 
 bool ResultsReader::has_convention() const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/field_source.hpp"
 #include "model/cell_block.hpp"
 #include "model/input_space.hpp"
 #include "model/uniform_grid.hpp"
@@ -29,7 +30,7 @@ class ResultsFile;
 /// Every member function throws ResultsError naming the file and the object where something is missing,
 /// damaged or not as the contract says, IoError where the system cannot read. Not thread-safe, and no two
 /// objects may be used at the same time from different threads: the HDF5 library admits one caller.
-class ResultsReader {
+class ResultsReader : public FieldSource {
  public:
   /// Infinite delays, triggers and collision times, whatever type they are stored as.
   static constexpr std::int32_t kNever = INT32_MAX;
@@ -38,7 +39,7 @@ class ResultsReader {
   /// @throws IoError if the file is not there or cannot be read; ResultsError if it is no results file of a
   ///   version that this program reads, or is damaged, or its spec is none; LimitError
   explicit ResultsReader(const std::string& path, std::optional<std::uint64_t> max_memory = std::nullopt);
-  ~ResultsReader();
+  ~ResultsReader() override;
   ResultsReader(const ResultsReader&) = delete;
   ResultsReader& operator=(const ResultsReader&) = delete;
 
@@ -58,7 +59,7 @@ class ResultsReader {
 
   /// What the file holds.
   [[nodiscard]] const Fields& fields() const { return parts_.fields; }
-  [[nodiscard]] bool has(const std::string& path) const { return field_of_path_.contains(path); }
+  [[nodiscard]] bool has(const std::string& path) const override { return field_of_path_.contains(path); }
   /// REQUIRES: the file has it.
   [[nodiscard]] const Field& field(const std::string& path) const;
   /// Entries along the axis before those of the cells; 0: there is none.
@@ -72,6 +73,14 @@ class ResultsReader {
   /// The same of a field of 0 and 1.
   [[nodiscard]] std::vector<std::uint8_t> members(const Field& field, std::optional<std::size_t> leading,
                                                   const CellBlock& block) const;
+  /// The same of a field of floating point.
+  [[nodiscard]] std::vector<float> shares(const Field& field, std::optional<std::size_t> leading,
+                                          const CellBlock& block) const;
+  /// Small fields, as a whole.
+  [[nodiscard]] std::vector<std::int64_t> integers(const std::string& path) const override;
+  [[nodiscard]] std::vector<double> numbers(const std::string& path) const override;
+  [[nodiscard]] std::vector<std::uint64_t> counted(const std::string& path) const override;
+  [[noreturn]] void fail(const std::string& what, const std::string& path) const override;
   /// Paths of all datasets, sorted; without bare dimensions, which hold no data.
   [[nodiscard]] std::vector<std::string> datasets() const;
 
@@ -114,9 +123,6 @@ class ResultsReader {
   [[nodiscard]] std::vector<std::uint8_t> controller_bits(const CellBlock& block) const;
   /// The same for the pairs that `controller.file` lists. REQUIRES: the spec has one.
   [[nodiscard]] std::vector<std::uint8_t> listed_bits(const CellBlock& block) const;
-  /// Part of an agent's admissible actions that the convention leaves it, NaN outside K. REQUIRES: the spec
-  /// asks for it.
-  [[nodiscard]] std::vector<float> convention_freedom(std::size_t agent, const CellBlock& block) const;
   /// What agents may do by convention is stored.
   [[nodiscard]] bool has_convention() const;
   /// As action_bits(), of one agent. REQUIRES: has_convention().

@@ -74,24 +74,25 @@ ResultArray points(const GridPoints& grid) {
           }};
 }
 
-class ResultsWriter {
+class FieldsWriter {
  public:
-  ResultsWriter(const std::string& path, const FieldValues& values, ThreadTeam& team)
+  FieldsWriter(const std::string& path, const FieldValues& values, ThreadTeam& team)
       : file_(path, team), values_(values) {}
 
-  void write(const ProblemSpec& spec) {
-    write_header(spec);
-    for (const Field& field : result_fields(spec)) field.scale ? write_scale(field) : write_array(field);
+  void write(const FileKind& kind, const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec,
+             const Fields& fields) {
+    write_header(kind, attributes, spec);
+    for (const Field& field : fields) field.scale ? write_scale(field) : write_array(field);
     file_.finish();
   }
 
  private:
-  void write_header(const ProblemSpec& spec) {
+  void write_header(const FileKind& kind, const std::vector<FieldAttribute>& attributes,
+                    const ProblemSpec& spec) {
     const hdf5::Handle root = hdf5::open_object(file_.file(), "/");
-    hdf5::set_attribute(root, "filetype", std::string(kResultsFiletype));
-    hdf5::set_attribute(root, "version", ElementType::int32,
-                        {kResultsVersion.begin(), kResultsVersion.end()});
-    for (const FieldAttribute& attribute : header_attributes(spec))
+    hdf5::set_attribute(root, "filetype", kind.filetype);
+    hdf5::set_attribute(root, "version", ElementType::int32, {kind.version.begin(), kind.version.end()});
+    for (const FieldAttribute& attribute : attributes)
       AttributeWriter(root, ElementType::int32).write(attribute.name, attribute.value);
     const hdf5::Handle text = file_.add_text("/spec", spec.text);
     hdf5::set_attribute(text, "long_name", std::string("problem spec as analysed"));
@@ -152,8 +153,17 @@ class ResultsWriter {
 
 void write_results(const std::string& path, const ProblemSpec& spec, const FieldValues& values,
                    ThreadTeam& team) {
-  write_whole_file(path, "the results",
-                   [&](const std::string& temporary) { ResultsWriter(temporary, values, team).write(spec); });
+  const FileKind kind{
+      .words = "the results", .filetype = std::string(kResultsFiletype), .version = kResultsVersion};
+  write_fields(path, kind, header_attributes(spec), spec, result_fields(spec), values, team);
+}
+
+void write_fields(const std::string& path, const FileKind& kind,
+                  const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec, const Fields& fields,
+                  const FieldValues& values, ThreadTeam& team) {
+  write_whole_file(path, kind.words, [&](const std::string& temporary) {
+    FieldsWriter(temporary, values, team).write(kind, attributes, spec, fields);
+  });
 }
 
 void check_writable(const std::string& path) {

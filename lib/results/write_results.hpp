@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "answers/field.hpp"
 #include "base/thread_team.hpp"
@@ -19,6 +22,17 @@ namespace coordreq {
 ///   folder, a device or a pipe; what a FillArray throws, with nothing left behind
 void write_results(const std::string& path, const ProblemSpec& spec, const FieldValues& values,
                    ThreadTeam& team);
+
+/// A kind of file: what it is in words, for errors, and its first two attributes.
+struct FileKind {
+  std::string words;
+  std::string filetype;
+  std::array<std::int32_t, 2> version;
+};
+/// Any file of fields, by the same rules: its attributes, the text of the spec, and fields in their order.
+void write_fields(const std::string& path, const FileKind& kind,
+                  const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec, const Fields& fields,
+                  const FieldValues& values, ThreadTeam& team);
 
 /// @throws IoError as write_results() would for reasons that are known before the work starts, so that a long
 ///   analysis does not fail at its end. Leaves nothing behind.

@@ -4,6 +4,9 @@
 
 #include <utility>
 
+#include "answers/coalition/fields.hpp"
+#include "answers/convention/fields.hpp"
+#include "answers/network/fields.hpp"
 #include "base/error.hpp"
 #include "results/results_reader.hpp"
 #include "results/version.hpp"
@@ -52,9 +55,11 @@ PartitionClaims read_partition(const ResultsReader& results, std::size_t p, cons
 
 void read_coalition(const ResultsReader& results, const CellBlock& all, Claims& claims) {
   claims.coalition = results.coalition(all);
-  claims.coalition_cells = results.attributes().coalition_cells;
+  const std::vector<std::uint64_t> given = results.counted(paths::kCoalition);
+  const std::vector<std::uint64_t> critical = results.counted(paths::kCriticalPair);
+  claims.coalition_cells.assign(given.begin(), given.end());
   claims.pairs = results.pairs();
-  claims.critical_pair_cells = results.attributes().critical_pair_cells;
+  claims.critical_pair_cells.assign(critical.begin(), critical.end());
   for (std::size_t pair = 0; pair < results.pairs().size(); ++pair)
     claims.critical_pairs.push_back(results.critical_pair(pair, all));
 }
@@ -74,14 +79,14 @@ Claims read_all(const ResultsReader& results) {
   const std::size_t modes = results.spec().network ? results.spec().network->modes.size() : 0;
   for (std::size_t mode = 0; mode < modes; ++mode)
     claims.network.push_back(results.network_safe(mode, 1, all));
-  claims.network_cells = results.attributes().network_cells;
+  claims.network_cells = results.counted(paths::kNetworkSafe);
   claims.requirements = results.requirements();
   if (claims.has_controller) claims.controller = results.controller_bits(all);
   if (results.spec().controller.file)
     claims.listed = {.inputs = results.inputs().count(), .bytes = results.listed_bits(all)};
   for (std::size_t i = 0; i < results.spec().agents.size(); ++i) {
     if (results.spec().coordination.convention)
-      claims.convention_freedom.push_back(results.convention_freedom(i, all));
+      claims.convention_freedom.push_back(results.shares(results.field(paths::kConventionFreedom), i, all));
     if (results.has_convention()) claims.convention.push_back(results.convention_bits(i, all));
   }
   if (results.has_abstraction()) claims.abstraction = stored_tables(results);

@@ -5,7 +5,7 @@ set(COORDREQ_PUBLIC_HEADERS
   numeric/rational.hpp
   spec/problem_spec.hpp spec/read_spec.hpp
   model/uniform_grid.hpp model/input_space.hpp model/cell_block.hpp model/locate.hpp
-  results/read_results.hpp results/results_reader.hpp results/version.hpp
+  results/read_info.hpp results/results_reader.hpp results/version.hpp
   cell/state_query.hpp cell/state_text.hpp
   verify/verify.hpp verify/verify_file.hpp verify/tally.hpp
   export/csv_table.hpp export/c_header.hpp export/scots_controller.hpp export/parse_selection.hpp export/text_sink.hpp

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "analysis/analyze.hpp"
 #include "answers/invariance/invariance.hpp"

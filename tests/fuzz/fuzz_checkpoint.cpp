@@ -1,4 +1,6 @@
 // Checkpoints: an analysis that shall be taken up from the input.
+#include <nlohmann/json.hpp>
+
 #include "analysis/analyze.hpp"
 #include "base/thread_team.hpp"
 #include "fuzz/target.hpp"

@@ -7,14 +7,15 @@
 #include <algorithm>
 #include <optional>
 
-#include "analysis/analyze.hpp"
+#include "analysis/analysis_stages.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "answers/invariance/safe_tubes.hpp"
+#include "answers/plan.hpp"
+#include "answers/requirements/answer.hpp"
 #include "base/index.hpp"
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
 #include "reach/build_abstraction.hpp"
-#include "results/scratch_folder.hpp"
 #include "spec/read_spec.hpp"
 #include "support/analysed_file.hpp"
 #include "support/plain_engine.hpp"
@@ -29,21 +30,20 @@ std::vector<bool> members(const CellSet& set) {
   return result;
 }
 
-/// The summary of a spec, and the same system analysed the plain way.
+/// The verdicts on a spec, and the same system analysed the plain way.
 struct Both {
   Both(const std::string& text, ThreadTeam& team)
       : spec(read_spec(text, "random")),
-        summary(analysed(spec, team)),
+        requirements(judged(spec, team)),
         abstraction(build_abstraction(spec, team)),
         safe(safe_set(spec, abstraction, team)),
         beyond(safe_beyond_limits(spec, abstraction, safe, team)),
         plain(analyze_plainly(spec, abstraction, members(safe), members(beyond.value_or(safe)))) {}
 
-  static AnalysisSummary analysed(const ProblemSpec& spec, ThreadTeam& team) {
-    const sample::ScratchFolder folder;
-    AnalysisOptions options;
-    options.output = folder / "results.h5";
-    return analyze(spec, options, team);
+  static std::vector<ResultRequirement> judged(const ProblemSpec& spec, ThreadTeam& team) {
+    Answers answers(spec);
+    run_stages(analysis_stages(spec), answers, {.team = team});
+    return answers.get<RequirementVerdicts>().requirements;
   }
 
   /// As in `/delay`, of the partition that a requirement means.
@@ -53,7 +53,7 @@ struct Both {
   }
 
   ProblemSpec spec;
-  AnalysisSummary summary;
+  std::vector<ResultRequirement> requirements;
   Abstraction abstraction;
   CellSet safe;
   std::optional<CellSet> beyond;
@@ -201,7 +201,7 @@ void expect_real_path(const Both& both, const RequirementSpec& asked, const Resu
 
 void expect_plain_verdict(const Both& both, std::size_t r) {
   const RequirementSpec& asked = both.spec.requirements[r];
-  const ResultRequirement& found = both.summary.requirements[r];
+  const ResultRequirement& found = both.requirements[r];
   const PlainRegion region(both.spec, asked.where, both.abstraction.grid);
   std::uint64_t least = 0, most = 0, least_failing = 0, most_failing = 0;
   std::int32_t worst = INT32_MAX;

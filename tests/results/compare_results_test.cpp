@@ -66,8 +66,8 @@ TEST_F(CompareResults, AFileIsNotWorseThanItself) {
   const ResultsComparison comparison = compare(path, path);
   EXPECT_FALSE(comparison.is_worse());
   ASSERT_EQ(comparison.partitions.size(), 1U);
-  EXPECT_EQ(comparison.partitions[0].lost, 0);
-  EXPECT_EQ(comparison.partitions[0].gained, 0);
+  EXPECT_EQ(comparison.values[0].lost, 0);
+  EXPECT_EQ(comparison.values[0].gained, 0);
   EXPECT_EQ(comparison.sets.at(0).before, 22);
   EXPECT_EQ(comparison.sets.at(1).joined, 0);
 }
@@ -77,8 +77,8 @@ TEST_F(CompareResults, UnboundedIsMoreThanAnyNumberAndNothingLessThanNone) {
   const std::string good = file("good.h5", spec_text("x <= 9"));
   const std::string bad = file("bad.h5", spec_text("x + y <= 6"));
   const ResultsComparison lost = compare(good, bad, {.worst = 4});
-  ASSERT_EQ(lost.partitions.size(), 1U);
-  const PartitionComparison& partition = lost.partitions[0];
+  ASSERT_EQ(lost.values.size(), 1U);
+  const ValueComparison& partition = lost.values[0];
   EXPECT_EQ(partition.lost, 25);
   EXPECT_EQ(partition.left, 3);
   EXPECT_EQ(partition.from_forever, 22);
@@ -87,23 +87,23 @@ TEST_F(CompareResults, UnboundedIsMoreThanAnyNumberAndNothingLessThanNone) {
   EXPECT_EQ(partition.worst[1].cell, 23);
   EXPECT_EQ(partition.worst[2].cell, 24);
   EXPECT_EQ(partition.worst[3].after, 0);
-  EXPECT_EQ(compare(good, bad, {.tolerance = 1'000'000}).partitions[0].lost, 25);
+  EXPECT_EQ(compare(good, bad, {.tolerance = 1'000'000}).values[0].lost, 25);
 
   const ResultsComparison gained = compare(bad, good);
   EXPECT_FALSE(gained.is_worse());
-  EXPECT_EQ(gained.partitions[0].gained, 25);
-  EXPECT_TRUE(gained.partitions[0].worst.empty());
+  EXPECT_EQ(gained.values[0].gained, 25);
+  EXPECT_TRUE(gained.values[0].worst.empty());
 }
 
 TEST_F(CompareResults, TheLastDelayBeforeALimitCountsAndIsMarked) {
   const std::string whole = file("whole.h5", spec_text("x + y <= 6"));
   const std::string cut = file("cut.h5", spec_text("x + y <= 6", R"(, "coordination": {"max_delay": 2})"));
   const ResultsComparison comparison = compare(whole, cut);
-  EXPECT_EQ(comparison.partitions[0].lost, 1);  // of the only cell that tolerates 3
-  EXPECT_EQ(comparison.partitions[0].cut_off, 1);
-  EXPECT_EQ(comparison.partitions[0].worst[0].before, 3);
-  EXPECT_EQ(comparison.partitions[0].worst[0].after, 2);
-  EXPECT_EQ(compare(cut, whole).partitions[0].gained, 1);
+  EXPECT_EQ(comparison.values[0].lost, 1);  // of the only cell that tolerates 3
+  EXPECT_EQ(comparison.values[0].cut_off, 1);
+  EXPECT_EQ(comparison.values[0].worst[0].before, 3);
+  EXPECT_EQ(comparison.values[0].worst[0].after, 2);
+  EXPECT_EQ(compare(cut, whole).values[0].gained, 1);
 }
 
 TEST_F(CompareResults, PartitionsAreTheSameByNameOrClasses) {
@@ -115,8 +115,8 @@ TEST_F(CompareResults, PartitionsAreTheSameByNameOrClasses) {
   const std::string b = file("b.h5", spec_text("x + y <= 6"));
   const ResultsComparison comparison = compare(a, b);
   ASSERT_EQ(comparison.partitions.size(), 1U);
-  EXPECT_EQ(comparison.partitions[0].before, 1U);
-  EXPECT_EQ(comparison.partitions[0].after, 0U);
+  EXPECT_EQ(comparison.partitions.at(0).before, 1U);
+  EXPECT_EQ(comparison.partitions.at(0).after, 0U);
   EXPECT_EQ(comparison.only_before, std::vector<std::size_t>{0});
   EXPECT_TRUE(comparison.only_after.empty());
   const std::string c = file("c.h5", with(R"({"name": "together", "classes": [["a", "b"]]})"));
@@ -164,11 +164,12 @@ double steps(std::int32_t delay) {
 }
 
 /// What is counted, added up from the whole arrays.
-void expect_sums(const ResultsReader& before, const ResultsReader& after, const PartitionComparison& found,
+void expect_sums(const ResultsReader& before, const ResultsReader& after, const ValueComparison& found,
                  std::int64_t tolerance) {
   const CellBlock all = all_cells(before.grid());
-  const std::vector<std::int32_t> old = before.delay(found.before, all), now = after.delay(found.after, all);
-  PartitionComparison expected;
+  const std::vector<std::int32_t> old = before.delay(found.partition->before, all),
+                                  now = after.delay(found.partition->after, all);
+  ValueComparison expected;
   for (std::size_t i = 0; i < old.size(); ++i) {
     const double a = steps(old[i]), b = steps(now[i]);
     const bool only_steps = b >= 0 && std::isfinite(a);
@@ -202,10 +203,10 @@ TEST_F(CompareResults, AddsUpWhatTheArraysSay) {
     const ResultsReader after(file("b.h5", swapped ? text : other));
     const auto tolerance = *rc::gen::inRange<std::int64_t>(0, 3);
     const ResultsComparison comparison = compare_results(before, after, {.tolerance = tolerance, .worst = 3});
-    RC_ASSERT(comparison.partitions.size() == before.partitions().size());
+    RC_ASSERT(comparison.values.size() == before.partitions().size());
     RC_ASSERT(comparison.sets.at(0).before == static_cast<std::int64_t>(before.attributes().safe_cells));
     RC_ASSERT(comparison.sets.at(1).after == static_cast<std::int64_t>(after.attributes().invariant_cells));
-    for (const PartitionComparison& partition : comparison.partitions)
+    for (const ValueComparison& partition : comparison.values)
       expect_sums(before, after, partition, tolerance);
   }));
 }

@@ -267,9 +267,9 @@ TEST_F(Reader, EverythingThatWasWrittenIsRead) {
   write({.points = sample::kFewPoints, .with_everything = true});
   const ResultsReader results(path_);
   EXPECT_EQ(results.attributes().controller_sha256, "0123");
-  EXPECT_EQ(results.attributes().coalition_cells, (std::vector<std::int64_t>{1, 2}));
-  EXPECT_EQ(results.attributes().critical_pair_cells, (std::vector<std::int64_t>{1, 2, 3}));
-  EXPECT_EQ(results.attributes().network_cells.size(), results.spec().network->modes.size());
+  EXPECT_EQ(results.counted(paths::kCoalition), (std::vector<std::uint64_t>{1, 2}));
+  EXPECT_EQ(results.counted(paths::kCriticalPair), (std::vector<std::uint64_t>{1, 2, 3}));
+  EXPECT_EQ(results.counted(paths::kNetworkSafe).size(), results.spec().network->modes.size());
   ASSERT_EQ(results.requirements().size(), 2U);
   EXPECT_FALSE(results.requirements()[0].holds);
   ASSERT_TRUE(results.requirements()[0].path);

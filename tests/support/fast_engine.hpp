@@ -75,8 +75,9 @@ struct FastAnalysis {
     Ground& ground = result->ground;
     if (listed != nullptr) ground.listed = ListedController{.pairs = *listed};
     ground.abstraction = std::move(given);
-    lay_ground(ground, team);
-    run_stages(answer_stages(spec), *result, {.team = team});
+    std::vector<Stage> stages = answer_stages(spec);
+    stages.erase(stages.begin());  // "abstraction", which is there already
+    run_stages(stages, *result, {.team = team});
     return result;
   }
 };

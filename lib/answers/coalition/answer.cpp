@@ -1,7 +1,10 @@
 #include "answers/coalition/answer.hpp"
 
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
+#include "answers/coalition/fields.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"
 #include "spec/partition_names.hpp"
@@ -50,6 +53,25 @@ std::vector<Stage> coalition_stages(const ProblemSpec& spec) {
 void summarise_coalition(const Answers& answers, Json& summary, Json& /*work*/) {
   const auto* const map = answers.find<CoalitionMap>();
   summary["coalition"] = map == nullptr ? Json() : coalition_json(*map, answers.ground.spec);
+}
+
+void tell_coalition(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+  Json& json = info["coalition"] = Json();
+  if (!spec.coordination.horizon) return;
+  const std::vector<std::uint64_t> given = source.counted(paths::kCoalition);
+  const std::vector<std::uint64_t> critical = source.counted(paths::kCriticalPair);
+  json["horizon"] = *spec.coordination.horizon;
+  json["partitions"] = Json::array();
+  for (std::size_t p = 0; p < given.size(); ++p)
+    json["partitions"].push_back({{"name", spec.coordination.partitions[p].name}, {"cells", given[p]}});
+  json["no_partition_suffices"] =
+      given.empty() ? Json()
+                    : Json(std::accumulate(given.begin(), given.end(), info["invariant"].get<std::int64_t>(),
+                                           std::minus<>()));
+  json["critical_pairs"] = Json::array();
+  const std::vector<std::string> pairs = pair_names(spec);
+  for (std::size_t i = 0; i < critical.size(); ++i)
+    json["critical_pairs"].push_back({{"name", pairs[i]}, {"cells", critical[i]}});
 }
 
 }  // namespace coordreq

@@ -5,8 +5,10 @@
 
 #include "answers/answers.hpp"
 #include "answers/coalition/coalition_map.hpp"
+#include "answers/field_source.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
+
 namespace coordreq {
 
 /// "first+second".
@@ -15,5 +17,6 @@ namespace coordreq {
 /// Adds CoalitionMap, if the spec has a horizon: "coalitions".
 [[nodiscard]] std::vector<Stage> coalition_stages(const ProblemSpec& spec);
 void summarise_coalition(const Answers& answers, Json& summary, Json& work);
+void tell_coalition(const ProblemSpec& spec, const FieldSource& source, Json& info);
 
 }  // namespace coordreq

@@ -1,5 +1,8 @@
 #include "answers/coalition/fields.hpp"
 
+#include <memory>
+#include <nlohmann/json.hpp>
+
 #include "answers/coalition/answer.hpp"
 #include "answers/coalition/coalition_cost.hpp"
 #include "answers/field_arrays.hpp"
@@ -41,6 +44,18 @@ ResultArray coalition_array(const CoalitionMap& map, const Answers& answers) {
                                            : fill_coalition<std::int32_t>(map, answers)};
 }
 
+/// The partitions that occur, the most wanted first, with what they cost.
+std::function<void(const std::set<std::int32_t>&, Json&)> choices_of(const CoordinationSpec& coordination) {
+  return [own = std::make_shared<const CoordinationSpec>(coordination)](const std::set<std::int32_t>& found,
+                                                                        Json& head) {
+    head["choices"] = Json::array();
+    for (const CoalitionChoice& choice : order_of_preference(*own)) {
+      if (found.contains(static_cast<std::int32_t>(choice.partition)))
+        head["choices"].push_back({{"partition", choice.partition}, {"cost", nearest_double(choice.cost)}});
+    }
+  };
+}
+
 }  // namespace
 
 std::vector<std::string> pair_names(const ProblemSpec& spec) {
@@ -66,7 +81,10 @@ Fields coalition_fields(const ProblemSpec& spec) {
            std::vector<FieldAttribute>{{"horizon", *spec.coordination.horizon}} + counted_cells(partitions) +
            std::vector<FieldAttribute>{flags({{kNoPartitionSuffices, "no_partition_suffices"},
                                               {DelayLayers::kOutsideSafe, "not_safe"},
-                                              {DelayLayers::kOutsideInvariant, "not_invariant"}})}}};
+                                              {DelayLayers::kOutsideInvariant, "not_invariant"}})},
+       .shown = {.map = {.values = FieldMap::Values::numbers,
+                         .kind = "coalition",
+                         .legend = choices_of(spec.coordination)}}}};
   std::vector<std::string> pairs = pair_names(spec);
   if (pairs.empty()) return fields;
   const std::size_t count = pairs.size();
@@ -79,7 +97,8 @@ Fields coalition_fields(const ProblemSpec& spec) {
        .most = 1,
        .attributes = described("the two are together in every partition of least cost that suffices") +
                      counted_cells(count) +
-                     std::vector<FieldAttribute>{flags({{0, "not_critical"}, {1, "critical"}})}});
+                     std::vector<FieldAttribute>{flags({{0, "not_critical"}, {1, "critical"}})},
+       .shown = {.map = {.values = FieldMap::Values::members, .kind = "pairs"}}});
   return fields;
 }
 

@@ -43,4 +43,9 @@ void summarise_invariance(const Answers& answers, Json& summary, Json& work) {
   work["invariance"] = work_json(invariance.counts);
 }
 
+void tell_invariance(const ProblemSpec& /*spec*/, const FieldSource& source, Json& info) {
+  info["safe"] = source.counted("/safe").front();
+  info["invariant"] = source.counted("/invariant").front();
+}
+
 }  // namespace coordreq

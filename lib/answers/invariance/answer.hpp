@@ -4,10 +4,12 @@
 #include <vector>
 
 #include "answers/answers.hpp"
+#include "answers/field_source.hpp"
 #include "answers/invariance/controller.hpp"
 #include "answers/invariance/invariance.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
+
 namespace coordreq {
 
 /// Adds Invariance, with the Controller of its K: "invariance".
@@ -16,5 +18,6 @@ namespace coordreq {
 /// guaranteed"). Centres say nothing of the way between the samples, so that they never make it "continuous".
 [[nodiscard]] std::string guarantee_of(const ProblemSpec& spec);
 void summarise_invariance(const Answers& answers, Json& summary, Json& work);
+void tell_invariance(const ProblemSpec& spec, const FieldSource& source, Json& info);
 
 }  // namespace coordreq

@@ -34,7 +34,8 @@ Fields invariance_fields(const ProblemSpec& spec) {
            described("steps within which the worst case leaves the safe set, whatever is coordinated") +
            std::vector<FieldAttribute>{flags({{0, "not_safe"}, {kLargestValue, "never"}}),
                                        {"iterations", std::int64_t{0}, true}},
-       .shown = {.column = "collision_time"}});
+       .shown = {.column = "collision_time",
+                 .map = {.values = FieldMap::Values::numbers, .kind = "collision_time"}}});
   if (spec.output.controller) {
     add_bits(fields, paths::kController, FieldSection::controller, spec, all_inputs(spec),
              "joint inputs that the controller admits, one bit each");

@@ -6,6 +6,7 @@
 
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
+#include "answers/layers/fields.hpp"
 #include "answers/layers/refinement.hpp"
 #include "answers/work_json.hpp"
 #include "spec/partition_names.hpp"
@@ -104,6 +105,16 @@ void summarise_layers(const Answers& answers, Json& summary, Json& work) {
     const DelayLayers& layers = answers.get<PartitionLayers>().partitions[p];
     summary["partitions"].push_back(partition_json(spec, partition, layers));
     work["layers " + partition.name] = work_json(layers.counts);
+  }
+}
+
+void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+  info["partitions"] = Json::array();
+  for (const StoredPartition& partition : read_partition_values(spec, source)) {
+    info["partitions"].push_back({{"name", partition.name},
+                                  {"F", partition.truncated() ? Json() : Json(partition.fixed_point_index)},
+                                  {"layers", partition.layer_sizes},
+                                  {"truncated", partition.truncated()}});
   }
 }
 

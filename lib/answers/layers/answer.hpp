@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "answers/answers.hpp"
+#include "answers/field_source.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "answers/layers/projections.hpp"
 #include "answers/stage.hpp"
@@ -30,5 +31,6 @@ struct PartitionActions {
 /// Adds PartitionLayers: "layers PARTITION" for each partition, coarser ones before finer ones.
 [[nodiscard]] std::vector<Stage> layers_stages(const ProblemSpec& spec);
 void summarise_layers(const Answers& answers, Json& summary, Json& work);
+void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info);
 
 }  // namespace coordreq

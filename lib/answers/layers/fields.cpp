@@ -32,7 +32,10 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
       "delay", spec, DelayLayers::kOutsideSafe,
       described("largest number of steps without coordination that keeps the system safe") +
           std::vector<FieldAttribute>{flags({outside_safe, outside_invariant, {kLargestValue, "unbounded"}})},
-      {.column = "delay"}));
+      {.column = "delay",
+       .steps = true,
+       .compared = "delay",
+       .map = {.values = FieldMap::Values::numbers, .kind = "delay"}}));
   fields.push_back(
       steps_field("trigger", spec, TriggerTable::kMustBeConnected,
                   described("steps until the agents must start to connect") +
@@ -42,7 +45,7 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
                                  outside_invariant,
                                  {kLargestValue, "never"}}),
                           {"connection_delay", spec.coordination.connection_delay}},
-                  {.column = "countdown", .below_zero = TriggerTable::kMustBeConnected}));
+                  {.column = "countdown", .below_zero = TriggerTable::kMustBeConnected, .steps = true}));
 }
 
 void add_sizes(Fields& fields) {
@@ -180,6 +183,32 @@ void fill_layer_fields(const Answers& answers, ThreadTeam& team, FieldValues& va
     for (std::size_t c = 0; c < partition.classes.size(); ++c)
       values.entries[paths::actions(spec, partition, c)].array = action_array(answers, grouping, c);
   }
+}
+
+std::vector<StoredPartition> read_partition_values(const ProblemSpec& spec, const FieldSource& source) {
+  const std::vector<std::int64_t> sizes = source.integers("/layer_size");
+  const std::vector<std::int64_t> fixed_points = source.integers("/fixed_point_index");
+  const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
+  const std::size_t layers = sizes.size() / partitions.size();
+  std::vector<StoredPartition> result;
+  for (std::size_t p = 0; p < partitions.size(); ++p) {
+    StoredPartition& partition = result.emplace_back();
+    partition.name = partitions[p].name;
+    for (const auto& agents : partitions[p].classes) {
+      partition.classes.push_back(class_name(spec.agents, agents));
+      partition.actions.push_back(joint_actions(spec, inputs_of(spec, agents)));
+    }
+    if (fixed_points[p] >= static_cast<std::int64_t>(layers))
+      source.fail("found " + std::to_string(fixed_points[p]) + ", expected a layer or -1",
+                  "/fixed_point_index");
+    partition.fixed_point_index = static_cast<std::int32_t>(fixed_points[p]);
+    const auto row = sizes.begin() + static_cast<std::ptrdiff_t>(p * layers);
+    partition.padded_sizes.assign(row, row + static_cast<std::ptrdiff_t>(layers));
+    partition.layer_sizes = partition.padded_sizes;
+    if (!partition.truncated())
+      partition.layer_sizes.resize(static_cast<std::size_t>(partition.fixed_point_index) + 1);
+  }
+  return result;
 }
 
 }  // namespace coordreq

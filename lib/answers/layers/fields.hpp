@@ -1,7 +1,12 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "answers/answers.hpp"
 #include "answers/field.hpp"
+#include "answers/field_source.hpp"
 #include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -14,11 +19,26 @@ namespace paths {
 
 }  // namespace paths
 
+/// What is stored of a partition besides arrays over cells.
+struct StoredPartition {
+  std::string name;
+  std::vector<std::string> classes;         ///< names of the classes, in the order of the spec
+  std::vector<std::int64_t> actions;        ///< joint actions of each class
+  std::int32_t fixed_point_index = -1;      ///< F; -1 if truncated
+  std::vector<std::uint64_t> layer_sizes;   ///< |Z_0|, ..., |Z_F|; as far as stored if truncated
+  std::vector<std::uint64_t> padded_sizes;  ///< the whole row of /layer_size
+  [[nodiscard]] bool truncated() const { return fixed_point_index < 0; }
+};
+
 /// Delays and triggers of all partitions, sizes of layers, F; on request the layers' cells, and the
 /// admissible actions of each class.
 [[nodiscard]] Fields layer_fields(const ProblemSpec& spec);
 
 /// What was found for them. The arrays refer to the answers, which must outlive the writing.
 void fill_layer_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
+
+/// @throws ResultsError if an F is no layer
+[[nodiscard]] std::vector<StoredPartition> read_partition_values(const ProblemSpec& spec,
+                                                                 const FieldSource& source);
 
 }  // namespace coordreq

@@ -4,6 +4,7 @@
 
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
+#include "answers/network/fields.hpp"
 #include "answers/network/network_problem.hpp"
 #include "answers/work_json.hpp"
 
@@ -72,6 +73,13 @@ void summarise_network(const Answers& answers, Json& summary, Json& work) {
   if (safety == nullptr) return;
   summary["network"] = network_json(*answers.ground.spec.network, *safety);
   work["network"] = work_json(safety->counts);
+}
+
+void tell_network(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+  if (!spec.network) return;
+  const std::vector<std::uint64_t> cells = source.counted(paths::kNetworkSafe);
+  for (std::size_t mode = 0; mode < cells.size(); ++mode)
+    info["modes"].push_back({{"name", spec.network->modes[mode].name}, {"cells", cells[mode]}});
 }
 
 }  // namespace coordreq

@@ -3,13 +3,16 @@
 #include <vector>
 
 #include "answers/answers.hpp"
+#include "answers/field_source.hpp"
 #include "answers/network/network_safety.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
+
 namespace coordreq {
 
 /// Adds NetworkSafety, if the spec has a network: "network".
 [[nodiscard]] std::vector<Stage> network_stages(const ProblemSpec& spec);
 void summarise_network(const Answers& answers, Json& summary, Json& work);
+void tell_network(const ProblemSpec& spec, const FieldSource& source, Json& info);
 
 }  // namespace coordreq

@@ -19,7 +19,8 @@ Fields network_fields(const ProblemSpec& spec) {
            .most = 1,
            .attributes = described("from here the agents stay safe if the network is in this mode") +
                          counted_cells(count) +
-                         std::vector<FieldAttribute>{flags({{0, "not_safe"}, {1, "safe"}})}}};
+                         std::vector<FieldAttribute>{flags({{0, "not_safe"}, {1, "safe"}})},
+           .shown = {.map = {.values = FieldMap::Values::members, .kind = "modes"}}}};
 }
 
 void fill_network_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {

@@ -1,24 +1,13 @@
 #include "answers/requirements/answer.hpp"
 
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "answers/layers/delay_layers.hpp"
+#include "answers/requirements/fields.hpp"
 #include "answers/requirements/judge_requirements.hpp"
 
 namespace coordreq {
 namespace {
-
-Json delay_json(std::int32_t delay) {
-  return delay < 0 || delay == DelayLayers::kUnbounded ? Json() : Json(delay);
-}
-
-const char* delay_word(std::int32_t delay) {
-  if (delay == DelayLayers::kUnbounded) return "unbounded";
-  return delay == DelayLayers::kOutsideSafe        ? "not_safe"
-         : delay == DelayLayers::kOutsideInvariant ? "not_invariant"
-                                                   : "steps";
-}
 
 const char* end_word(EscapeEnd end) {
   switch (end) {
@@ -91,6 +80,19 @@ Json counterexample_json(const ResultRequirement& result, const ProblemSpec& spe
   return json;
 }
 
+}  // namespace
+
+Json delay_json(std::int32_t delay) {
+  return delay < 0 || delay == DelayLayers::kUnbounded ? Json() : Json(delay);
+}
+
+const char* delay_word(std::int32_t delay) {
+  if (delay == DelayLayers::kUnbounded) return "unbounded";
+  return delay == DelayLayers::kOutsideSafe        ? "not_safe"
+         : delay == DelayLayers::kOutsideInvariant ? "not_invariant"
+                                                   : "steps";
+}
+
 Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
                       const ProblemSpec& spec) {
   Json json;
@@ -109,8 +111,6 @@ Json requirement_json(const ResultRequirement& result, const RequirementSpec& as
   json["counterexample"] = result.holds ? Json() : counterexample_json(result, spec);
   return json;
 }
-
-}  // namespace
 
 std::vector<Stage> requirements_checks(const ProblemSpec& spec) {
   if (spec.requirements.empty()) return {};
@@ -132,6 +132,19 @@ void summarise_requirements(const Answers& answers, Json& summary, Json& /*work*
   for (std::size_t r = 0; r < spec.requirements.size(); ++r)
     summary["requirements"].push_back(
         requirement_json(verdicts->requirements[r], spec.requirements[r], spec));
+}
+
+void tell_requirements(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+  info["requirements"] = Json::array();
+  for (const ResultRequirement& own : read_requirement_values(spec, source)) {
+    info["requirements"].push_back({{"name", own.name},
+                                    {"holds", own.holds},
+                                    {"cells", own.cells},
+                                    {"failing", own.failing},
+                                    {"least_delay", delay_json(own.least_delay)},
+                                    {"least_delay_status", delay_word(own.least_delay)},
+                                    {"counterexample_steps", own.path ? Json(own.path->steps()) : Json()}});
+  }
 }
 
 }  // namespace coordreq

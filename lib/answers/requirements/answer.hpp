@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "answers/answers.hpp"
+#include "answers/field_source.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
+
 namespace coordreq {
 
 /// The verdicts.
@@ -17,6 +20,14 @@ struct RequirementVerdicts {
 [[nodiscard]] std::vector<Stage> requirements_checks(const ProblemSpec& spec);
 /// Adds RequirementVerdicts, if there are any: "requirements".
 [[nodiscard]] std::vector<Stage> requirements_stages(const ProblemSpec& spec);
+/// One requirement as the summary has it, with the story of its counterexample.
+[[nodiscard]] Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
+                                    const ProblemSpec& spec);
+/// A delay as in `/delay`: the number of steps, else null.
+[[nodiscard]] Json delay_json(std::int32_t delay);
+/// "steps", "unbounded", "not_invariant" or "not_safe".
+[[nodiscard]] const char* delay_word(std::int32_t delay);
 void summarise_requirements(const Answers& answers, Json& summary, Json& work);
+void tell_requirements(const ProblemSpec& spec, const FieldSource& source, Json& info);
 
 }  // namespace coordreq

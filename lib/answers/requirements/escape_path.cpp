@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "answers/invariance/action_bits.hpp"
+#include "answers/one_cell/admissible_inputs.hpp"
 
 namespace coordreq {
 namespace {
@@ -19,50 +19,24 @@ std::int64_t level_of(const LevelMap& levels, std::int64_t cell) {
   return level == LevelMap::kTop ? kNeverLost : level;
 }
 
-/// IND_C(x) at one cell after another.
-class IndependentChoices {
- public:
-  IndependentChoices(const Controller& controller, const ActionGrouping& grouping)
-      : controller_(controller), grouping_(grouping) {}
-
-  void go_to(std::int64_t cell) {
-    const std::int64_t length = controller_.engine->row_length();
-    const std::int64_t row = cell / length;
-    bits_.clear();
-    for (std::size_t c = 0; c < grouping_.size(); ++c) {
-      const std::vector<std::uint8_t> of_row = action_bits(controller_, grouping_, c, row, row + 1);
-      const auto bytes = static_cast<std::ptrdiff_t>(of_row.size()) / length;
-      const auto first = of_row.begin() + cell % length * bytes;
-      bits_.emplace_back(first, first + bytes);
-    }
-  }
-
-  [[nodiscard]] bool contains(std::int64_t u) const {
-    for (std::size_t c = 0; c < bits_.size(); ++c) {
-      const std::int64_t action = grouping_[c].action(u);
-      if ((bits_[c][static_cast<std::size_t>(action / 8)] >> (action % 8) & 1U) == 0) return false;
-    }
-    return true;
-  }
-
- private:
-  const Controller& controller_;
-  const ActionGrouping& grouping_;
-  std::vector<std::vector<std::uint8_t>> bits_;  // [class]
-};
-
 class EscapeFinder {
  public:
   explicit EscapeFinder(const EscapeSets& sets)
       : sets_(sets),
-        engine_(*sets.controller->engine),
-        collision_time_(*sets.controller->collision_time),
-        posts_(engine_.abstraction(), sets.tubes) {}
+        ground_(*sets.ground),
+        grid_(ground_.abstraction->grid),
+        collision_time_(sets.invariance->collision_time),
+        tubes_(ground_.tubes()),
+        posts_(*ground_.abstraction),
+        invariant_(grid_, [&set = sets.invariance->invariant](std::int64_t cell) { return set.test(cell); }),
+        safe_(grid_, [this](std::int64_t cell) { return tubes_.inside->test(cell); }),
+        beyond_(grid_, [this](std::int64_t cell) { return tubes_.beyond->test(cell); }),
+        inputs_(ground_.spec, posts_, members()) {}
 
   EscapePath run(std::int64_t cell) {
     path_.cells.push_back(cell);
     bool goes_on = true;
-    while (goes_on && sets_.controller->invariant->test(path_.cells.back())) goes_on = take_independent();
+    while (goes_on && sets_.invariance->invariant.test(path_.cells.back())) goes_on = take_independent();
     while (goes_on && level_of(collision_time_, path_.cells.back()) > 0) goes_on = take_evasive();
     return std::move(path_);
   }
@@ -72,15 +46,35 @@ class EscapeFinder {
   struct Choice {
     std::int64_t joint_input = 0;
     std::int64_t level = kNeverLost;
-    PairPosts::Post post;
+    CellPost post;
   };
+
+  AdmissibleInputs::Sets members() {
+    AdmissibleInputs::Sets sets{.invariant = &invariant_, .safe = &safe_, .safe_beyond = {}, .listed = {}};
+    if (tubes_.beyond != nullptr) sets.safe_beyond = [this] { return &beyond_; };
+    if (ground_.listed) {
+      sets.listed = [this](std::int64_t cell, std::int64_t u) {
+        return ground_.listed->pairs.test(number(cell), u);
+      };
+    }
+    return sets;
+  }
 
   bool take_independent() {
     const std::int64_t cell = path_.cells.back();
     const std::int64_t layers = level_of(*sets_.layers_of, cell);
-    IndependentChoices choices(*sets_.controller, *sets_.grouping);
-    choices.go_to(cell);
-    const auto is_choice = [&choices](std::int64_t u) { return choices.contains(u); };
+    const std::vector<std::int64_t>& admissible = inputs_.of(cell);
+    std::vector<std::vector<bool>> projections;  // IND_C(x): [class][action]
+    for (const InputClass& own : sets_.classes) {
+      projections.emplace_back(static_cast<std::size_t>(own.actions()), false);
+      for (const std::int64_t a : own.project(admissible)) projections.back()[static_cast<std::size_t>(a)] = true;
+    }
+    const auto is_choice = [&](std::int64_t u) {
+      for (std::size_t c = 0; c < projections.size(); ++c) {
+        if (!projections[c][static_cast<std::size_t>(sets_.classes[c].action(u))]) return false;
+      }
+      return true;
+    };
     // From the last layer that holds the cell the way out of K is a single step.
     const bool is_last = layers == 1;
     const LevelMap& levels = is_last ? collision_time_ : *sets_.layers_of;
@@ -89,14 +83,7 @@ class EscapeFinder {
 
   bool take_evasive() {
     const std::int64_t cell = path_.cells.back();
-    const auto is_allowed = [this, cell](std::int64_t u) {
-      const std::int64_t column = cell % engine_.row_length();
-      const PairTable* allow = engine_.allow();
-      if (allow == nullptr) return true;
-      const auto row = allow->row(cell / engine_.row_length(), u);
-      return (row[static_cast<std::size_t>(column / CellSet::kWordBits)] >> (column % CellSet::kWordBits) &
-              1U) != 0;
-    };
+    const auto is_allowed = [this, cell](std::int64_t u) { return inputs_.allows(cell, u); };
     const std::int64_t target = level_of(collision_time_, cell) - 1;
     return take(find(collision_time_, target, is_allowed), collision_time_, EscapePhase::evasive);
   }
@@ -106,9 +93,10 @@ class EscapeFinder {
   std::optional<Choice> find(const LevelMap& levels, std::int64_t target, const IsCandidate& is_candidate) {
     std::map<std::vector<IndexRange>, std::int64_t> known;
     std::optional<Choice> best;
-    for (std::int64_t u = 0; u < engine_.abstraction().inputs.count(); ++u) {
+    posts_.move_to(path_.cells.back());
+    for (std::int64_t u = 0; u < posts_.inputs().count(); ++u) {
       if (!is_candidate(u)) continue;
-      Choice choice{.joint_input = u, .post = posts_.of(path_.cells.back(), u)};
+      Choice choice{.joint_input = u, .post = posts_.post(u, tubes_)};
       choice.level = worst_level(choice.post, levels, known);
       if (target == kLeast ? !best || choice.level < best->level : choice.level == target) {
         best = std::move(choice);
@@ -119,13 +107,13 @@ class EscapeFinder {
   }
 
   /// 0 for a post that is blocked. @param known of boxes that were asked for before
-  std::int64_t worst_level(const PairPosts::Post& post, const LevelMap& levels,
+  std::int64_t worst_level(const CellPost& post, const LevelMap& levels,
                            std::map<std::vector<IndexRange>, std::int64_t>& known) const {
-    if (post.blocked != PairPosts::Blocked::no) return 0;
+    if (post.blocked != CellPost::Blocked::no) return 0;
     if (post.all_left) return kNeverLost;
     const auto [place, is_new] = known.try_emplace(post.box, kNeverLost);
     if (is_new) {
-      for_each_cell(engine_.grid(), post.box, [&worst = place->second, &levels](std::int64_t next) {
+      for_each_cell(grid_, post.box, [&worst = place->second, &levels](std::int64_t next) {
         worst = std::min(worst, level_of(levels, next));
         return worst > 0;
       });
@@ -141,8 +129,8 @@ class EscapeFinder {
     }
     path_.joint_inputs.push_back(choice->joint_input);
     path_.phases.push_back(phase);
-    if (choice->post.blocked != PairPosts::Blocked::no) {
-      const bool left = choice->post.blocked == PairPosts::Blocked::left_domain;
+    if (choice->post.blocked != CellPost::Blocked::no) {
+      const bool left = choice->post.blocked == CellPost::Blocked::left_domain;
       path_.end = left ? EscapeEnd::left_domain : EscapeEnd::unsafe_between_samples;
       path_.sides = choice->post.sides;
       return false;
@@ -152,10 +140,10 @@ class EscapeFinder {
   }
 
   /// The lowest-numbered cell of a post that has the level.
-  [[nodiscard]] std::int64_t lowest_cell(const PairPosts::Post& post, std::int64_t level,
+  [[nodiscard]] std::int64_t lowest_cell(const CellPost& post, std::int64_t level,
                                          const LevelMap& levels) const {
     std::int64_t lowest = -1;
-    for_each_cell(engine_.grid(), post.box, [&](std::int64_t next) {
+    for_each_cell(grid_, post.box, [&](std::int64_t next) {
       if (level_of(levels, next) == level && (lowest < 0 || number(next) < number(lowest))) lowest = next;
       return true;
     });
@@ -165,15 +153,19 @@ class EscapeFinder {
   [[nodiscard]] std::int64_t number(std::int64_t cell) const {
     std::int64_t sum = 0;
     for (std::size_t i = 0; i < sets_.number_stride.size(); ++i) {
-      sum += engine_.grid().index(cell, i) * sets_.number_stride[i];
+      sum += grid_.index(cell, i) * sets_.number_stride[i];
     }
     return sum;
   }
 
   const EscapeSets& sets_;
-  const RowEngine& engine_;
+  const Ground& ground_;
+  const UniformGrid& grid_;
   const LevelMap& collision_time_;
-  PairPosts posts_;
+  TubeSets tubes_;
+  CellPosts posts_;
+  MembersByCell invariant_, safe_, beyond_;
+  AdmissibleInputs inputs_;
   EscapePath path_;
 };
 

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "answers/invariance/controller.hpp"
-#include "answers/requirements/pair_posts.hpp"
+#include "answers/ground.hpp"
+#include "answers/invariance/invariance.hpp"
+#include "answers/one_cell/cell_posts.hpp"
+#include "model/input_class.hpp"
 
 namespace coordreq {
 
@@ -37,11 +39,11 @@ struct EscapePath {
 
 /// What escapes are made of.
 struct EscapeSets {
-  const Controller* controller = nullptr;
-  TubeSets tubes;
-  /// Of the partition: its classes, and DelayLayers::layers_of. Not used outside K; may be null if no path
+  const Ground* ground = nullptr;
+  const Invariance* invariance = nullptr;
+  /// Of the partition: its classes, and DelayLayers::layers_of. Not used outside K; may be missing if no path
   /// starts in K.
-  const ActionGrouping* grouping = nullptr;
+  std::vector<InputClass> classes;
   const LevelMap* layers_of = nullptr;
   /// [dimension]: what one index adds to a cell's number, by which ties are broken.
   std::vector<std::int64_t> number_stride;

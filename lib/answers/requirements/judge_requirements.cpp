@@ -60,12 +60,11 @@ class Judge {
   }
 
   [[nodiscard]] ResultPath path_from(std::int64_t cell, std::optional<std::size_t> partition) const {
-    EscapeSets sets{.controller = &controller_, .tubes = ground_.tubes(), .number_stride = number_stride_};
-    std::optional<ActionGrouping> grouping;
+    EscapeSets sets{
+        .ground = &ground_, .invariance = &answers_.get<Invariance>(), .number_stride = number_stride_};
     if (partition) {
       const PartitionSpec& own = ground_.spec.coordination.partitions[*partition];
-      grouping.emplace(*ground_.engine, input_classes(ground_.spec, ground_.abstraction->inputs, own), team_);
-      sets.grouping = &*grouping;
+      sets.classes = input_classes(ground_.spec, ground_.abstraction->inputs, own);
       sets.layers_of = &layers_of(partition)->layers_of;
     }
     const UniformGrid& grid = ground_.abstraction->grid;

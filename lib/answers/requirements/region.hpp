@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 
+#include "answers/one_cell/cell_posts.hpp"
 #include "base/thread_team.hpp"
 #include "engine/cell_set.hpp"
 #include "expression/program.hpp"
@@ -10,13 +10,6 @@
 
 // The region of states that a requirement is about: {x : where(x)} (contract, section 2, `where`).
 namespace coordreq {
-
-/// One end of one dimension.
-struct DomainSide {
-  std::size_t dimension = 0;
-  bool above = false;
-  [[nodiscard]] bool operator==(const DomainSide&) const = default;
-};
 
 /// The cells that may be measured while the state is in the region: closed cells, widened by the measurement
 /// errors and without what lies beyond a `stop` limit, in which `where` holds at some point, or may, or is

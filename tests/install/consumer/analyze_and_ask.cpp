@@ -6,13 +6,14 @@
 #include <coordreq/cell/state_text.hpp>
 #include <coordreq/spec/read_spec.hpp>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 namespace {
 
 void analyze(const coordreq::ProblemSpec& spec, const std::string& results) {
   coordreq::ThreadTeam team;
-  const coordreq::AnalysisSummary summary = coordreq::analyze(spec, {.output = results}, team);
-  std::cout << "invariance set: " << summary.invariant << " of " << summary.states << " cells\n";
+  const coordreq::Json summary = coordreq::analyze(spec, {.output = results}, team);
+  std::cout << "invariance set: " << summary["invariant"] << " of " << summary["states"] << " cells\n";
 }
 
 void ask(const std::string& path, const std::string& state) {

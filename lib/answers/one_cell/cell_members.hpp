@@ -10,6 +10,19 @@
 
 namespace coordreq {
 
+/// Calls `visit(cell)` for the cells of a box of ranges, which may wrap in periodic dimensions, until it
+/// returns false.
+/// @returns false if it was stopped
+template <class Visit>
+bool for_each_cell(const UniformGrid& grid, std::span<const IndexRange> box, const Visit& visit,
+                   std::size_t i = 0, std::int64_t cell = 0) {
+  if (i == box.size()) return visit(cell);
+  for (std::int64_t k = box[i].first; k <= box[i].last; ++k) {
+    if (!for_each_cell(grid, box, visit, i + 1, cell + k % grid[i].count * grid.stride(i))) return false;
+  }
+  return true;
+}
+
 /// A set of cells, of which it is asked whether boxes lie in it. Ranges as ResolvedRange::inside has them: an
 /// index beyond the last one of a periodic dimension wraps.
 class CellMembers {
@@ -36,18 +49,10 @@ class MembersByCell : public CellMembers {
 
   void cover(std::span<const IndexRange> /*box*/) override {}
   [[nodiscard]] bool contains(std::span<const IndexRange> box) const override {
-    return contains_from(box, 0, 0);
+    return for_each_cell(grid_, box, is_member_);
   }
 
  private:
-  [[nodiscard]] bool contains_from(std::span<const IndexRange> box, std::size_t i, std::int64_t cell) const {
-    if (i == box.size()) return is_member_(cell);
-    for (std::int64_t k = box[i].first; k <= box[i].last; ++k) {
-      if (!contains_from(box, i + 1, cell + k % grid_[i].count * grid_.stride(i))) return false;
-    }
-    return true;
-  }
-
   const UniformGrid& grid_;
   IsMember is_member_;
 };

@@ -7,9 +7,10 @@
 
 namespace coordreq {
 
-[[nodiscard]] Fields common_fields(const ProblemSpec& spec);
+/// The axes of states, inputs and partitions; on request the finite abstraction.
+[[nodiscard]] Fields ground_fields(const ProblemSpec& spec);
 
 /// What was found for them. The arrays refer to the answers, which must outlive the writing.
-void fill_common_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
+void fill_ground_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
 }  // namespace coordreq

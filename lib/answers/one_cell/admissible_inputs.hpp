@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "cell/cell_members.hpp"
-#include "cell/cell_posts.hpp"
+#include "answers/one_cell/cell_members.hpp"
+#include "answers/one_cell/cell_posts.hpp"
 #include "expression/condition.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -38,6 +38,8 @@ class AdmissibleInputs {
   /// are allowed. REQUIRES: x is in K. Cost: that of asking the sets for every different post, and |C(x)|.
   /// @throws SpecError if `allow` cannot be decided
   [[nodiscard]] const std::vector<std::int64_t>& of(std::int64_t x);
+  /// Whether `allow` permits u at any cell x of the grid, and `controller.file` lists it.
+  [[nodiscard]] bool allows(std::int64_t x, std::int64_t u);
 
  private:
   using Box = std::vector<IndexRange>;  ///< of some states

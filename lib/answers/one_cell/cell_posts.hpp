@@ -8,21 +8,43 @@
 #include "base/thread_team.hpp"
 #include "reach/abstraction.hpp"
 #include "reach/affine_dynamics.hpp"
-#include "results/results_reader.hpp"
+#include "engine/tube_sets.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
-/// The posts of one cell after another: from a finite abstraction; or of a results file, from the abstraction
-/// if all of it is stored there (tubes are not), else computed from the embedded spec, and then at first only
-/// for the cells asked for. When that has cost as much as the whole abstraction would, all of it is computed.
+/// One end of one dimension.
+struct DomainSide {
+  std::size_t dimension = 0;
+  bool above = false;
+  [[nodiscard]] bool operator==(const DomainSide&) const = default;
+};
+
+/// f(x, u), with the reason where it is empty.
+struct CellPost {
+  enum class Blocked : std::uint8_t {
+    no,
+    left_domain,             ///< through an unsafe side, at the sample or on the way there
+    unsafe_between_samples,  ///< the tube is not safe
+  };
+  Blocked blocked = Blocked::no;
+  std::vector<DomainSide> sides;  ///< unsafe ones that were left by, if `left_domain`
+  bool all_left = false;          ///< through a safe side: f(x, u) = {T}
+  std::vector<IndexRange> box;    ///< else f(x, u), unless blocked; ends as in ResolvedRange::inside
+};
+
+/// The posts of one cell after another: from a finite abstraction, or computed from a spec, and then at first
+/// only for the cells asked for. When that has cost as much as the whole abstraction would, all of it is
+/// computed. Whole rows are for PostReader.
 ///
 /// Not thread-safe.
 class CellPosts {
  public:
   /// REQUIRES: `abstraction` outlives this object.
-  explicit CellPosts(const Abstraction& abstraction) : grid_(&abstraction.grid), whole_(&abstraction) {}
-  /// REQUIRES: `results` and `team` outlive this object.
-  CellPosts(const ResultsReader& results, ThreadTeam& team);
+  explicit CellPosts(const Abstraction& abstraction) : grid_(&abstraction.grid), inputs_(&abstraction.inputs), whole_(&abstraction) {}
+  /// @param stored the abstraction, if it is known. REQUIRES: all others outlive this object.
+  CellPosts(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, ThreadTeam& team,
+            std::optional<Abstraction> stored);
   CellPosts(const CellPosts&) = delete;
   CellPosts& operator=(const CellPosts&) = delete;
   ~CellPosts() = default;
@@ -33,7 +55,7 @@ class CellPosts {
   [[nodiscard]] const Abstraction& whole();
 
   [[nodiscard]] const UniformGrid& grid() const { return *grid_; }
-  [[nodiscard]] const InputSpace& inputs() const { return whole_ ? whole_->inputs : file_->results.inputs(); }
+  [[nodiscard]] const InputSpace& inputs() const { return *inputs_; }
   /// The inputs that the next value of state `i` can depend on, ascending.
   [[nodiscard]] const std::vector<std::int32_t>& inputs_of(std::size_t i) const;
   /// Safety is asked for between the samples, so that there are tubes.
@@ -46,11 +68,13 @@ class CellPosts {
   /// The same of its tube: see Abstraction. REQUIRES: has_tubes().
   [[nodiscard]] ResolvedRange resolved_tube(std::size_t i, std::int64_t u) const;
   [[nodiscard]] IndexRange raw_tube(std::size_t i, std::int64_t u) const;
+  /// f(x, u) of the whole state. @param tubes what tubes must stay in
+  [[nodiscard]] CellPost post(std::int64_t u, const TubeSets& tubes) const;
 
  private:
   /// What posts are computed from, and what of them is computed so far.
-  struct File {
-    const ResultsReader& results;
+  struct Source {
+    const ProblemSpec& spec;
     ThreadTeam& team;
     AffineDynamics dynamics;
     double most_entries;
@@ -65,8 +89,12 @@ class CellPosts {
   void build_parts(std::int64_t cell);
   [[nodiscard]] Abstraction part_of(std::size_t state, std::int64_t cell) const;
 
+  void follow_tube(std::int64_t u, const TubeSets& tubes, CellPost& post) const;
+  [[nodiscard]] IndexRange raw(std::size_t i, std::int64_t u) const;
+
   const UniformGrid* grid_;
-  std::unique_ptr<File> file_;          ///< null if there is an abstraction from the start
+  const InputSpace* inputs_;
+  std::unique_ptr<Source> source_;          ///< null if there is an abstraction from the start
   const Abstraction* whole_ = nullptr;  ///< null until there is one
   std::int64_t cell_ = -1;
 };

@@ -1,4 +1,4 @@
-#include "cell/admissible_inputs.hpp"
+#include "answers/one_cell/admissible_inputs.hpp"
 
 #include <algorithm>
 #include <map>
@@ -105,6 +105,10 @@ bool AdmissibleInputs::is_allowed(std::int64_t x, std::int64_t u) {
       allow_->decide(fast_point_, [this]() -> std::span<const RationalInterval> { return point_; });
   if (truth == Truth::undecided) throw SpecError("'allow' cannot be decided at a cell", "/controller/allow");
   return truth == Truth::yes;
+}
+
+bool AdmissibleInputs::allows(std::int64_t x, std::int64_t u) {
+  return (!allow_ || is_allowed(x, u)) && (!sets_.listed || sets_.listed(x, u));
 }
 
 /// The component's states under `u`; nothing if blocked. `given` does not ask: all moves are alike.

@@ -1,4 +1,4 @@
-#include "answers/common/fields.hpp"
+#include "answers/ground/fields.hpp"
 
 #include "answers/field_parts.hpp"
 #include "reach/build_abstraction.hpp"
@@ -11,7 +11,7 @@ Field axis(const std::string& name, const std::string& unit, const std::string& 
            const std::optional<Rational>& step, std::uint64_t count,
            std::function<double(std::uint64_t)> point) {
   Field field{.path = "/" + name,
-              .section = FieldSection::axes,
+              .section = FieldSection::grid,
               .types = {ElementType::float64},
               .axes = {},
               .scale = FieldScale{.coordinates = GridPoints{std::move(point)}, .least = count, .most = count},
@@ -59,19 +59,19 @@ void add_abstraction(Fields& fields, const ProblemSpec& spec) {
 
 }  // namespace
 
-Fields common_fields(const ProblemSpec& spec) {
+Fields ground_fields(const ProblemSpec& spec) {
   Fields fields;
   for (const StateSpec& state : spec.states) fields.push_back(state_axis(state));
   for (const InputSpec& input : spec.inputs) fields.push_back(input_axis(input));
   std::vector<std::string> names;
   for (const PartitionSpec& partition : spec.coordination.partitions) names.push_back(partition.name);
-  fields.push_back(name_scale("/partition", FieldSection::axes, std::move(names),
+  fields.push_back(name_scale("/partition", FieldSection::grid, std::move(names),
                               "partition of the agents into classes that coordinate"));
   if (spec.output.abstraction) add_abstraction(fields, spec);
   return fields;
 }
 
-void fill_common_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
+void fill_ground_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const ProblemSpec& spec = answers.ground.spec;
   for (std::size_t i = 0; spec.output.abstraction && i < spec.states.size(); ++i) {
     const TransitionTable table = written_out(*answers.ground.abstraction, i);

@@ -1,0 +1,86 @@
+#include "app/render.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace coordreq {
+
+std::int64_t number_of(const Json& json) {
+  return json.get<std::int64_t>();
+}
+
+std::string text_of(const Json& json) {
+  return json.get<std::string>();
+}
+
+std::string line_of(const Json& json) {
+  return printable(text_of(json));
+}
+
+std::string grouped(const Json& count) {
+  return grouped(count.get<std::uint64_t>());
+}
+
+std::string cells(const Json& count) {
+  return cells(number_of(count));
+}
+
+std::string duration(const Json& steps, const Json& document) {
+  return duration(number_of(steps), document["period"].get<double>(), text_of(document["period_unit"]));
+}
+
+std::string values_text(const Json& values) {
+  std::string text;
+  for (const auto& [name, value] : values.items())
+    text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, value.get<double>());
+  return text;
+}
+
+std::string count_of(std::int64_t count, const char* noun) {
+  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+}
+
+std::string table_text(const Json& rows, const std::vector<Column>& columns) {
+  std::vector<Table::Align> aligned;
+  std::vector<std::string> headings;
+  for (const Column& column : columns) {
+    aligned.push_back(column.align);
+    headings.push_back(column.heading);
+  }
+  Table table(aligned);
+  table.add(headings);
+  for (const Json& row : rows) {
+    std::vector<std::string> texts;
+    for (const Column& column : columns) texts.push_back(column.text(row));
+    table.add(std::move(texts));
+  }
+  return table.text();
+}
+
+std::string facts_text(const Facts& facts) {
+  Table table({Table::Align::left, Table::Align::left});
+  for (const auto& [name, fact] : facts) table.add({name, fact});
+  return table.text();
+}
+
+std::string others_text(const Json& document, const std::vector<std::string>& known) {
+  const auto in_words = [](std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+  };
+  std::string text;
+  for (const auto& [name, section] : document.items()) {
+    if (!section.is_object() || std::find(known.begin(), known.end(), name) != known.end()) continue;
+    Facts facts;
+    for (const auto& [key, value] : section.items()) {
+      if (value.is_primitive() && !value.is_null())
+        facts.emplace_back("  " + in_words(key), value.is_string() ? line_of(value) : value.dump());
+    }
+    text += fmt::format("\n{}\n{}", in_words(name), facts_text(facts));
+  }
+  return text;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/json_text.hpp"
+#include "app/text.hpp"
+
+// What the texts of all commands are made of: each is rendered from the document that --json prints.
+namespace coordreq {
+
+[[nodiscard]] std::int64_t number_of(const Json& json);
+/// As it is, and on one line.
+[[nodiscard]] std::string text_of(const Json& json);
+[[nodiscard]] std::string line_of(const Json& json);
+/// "1,234", "1,234 cells".
+[[nodiscard]] std::string grouped(const Json& count);
+[[nodiscard]] std::string cells(const Json& count);
+/// "28 steps (0.28 s)". @param document with `period` and `period_unit`
+[[nodiscard]] std::string duration(const Json& steps, const Json& document);
+/// "x = 0.1, v = -2", of an object of numbers.
+[[nodiscard]] std::string values_text(const Json& values);
+/// "4 steps", "1 step".
+[[nodiscard]] std::string count_of(std::int64_t count, const char* noun);
+
+struct Column {
+  std::string heading;
+  Table::Align align;
+  std::function<std::string(const Json& row)> text;
+};
+/// A line for each of a list, below the headings.
+[[nodiscard]] std::string table_text(const Json& rows, const std::vector<Column>& columns);
+
+/// Names and what is said of each: two columns to the left.
+using Facts = std::vector<std::pair<std::string, std::string>>;
+[[nodiscard]] std::string facts_text(const Facts& facts);
+
+/// A section for each member that a text has no words of its own for: numbers, texts and flags as they are.
+/// @param known members that it has words for
+[[nodiscard]] std::string others_text(const Json& document, const std::vector<std::string>& known);
+
+}  // namespace coordreq

@@ -1,0 +1,60 @@
+#include "answers/ground/answer.hpp"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "engine/join_rows.hpp"
+#include "model/model.hpp"
+#include "reach/build_abstraction.hpp"
+#include "reach/serialise_abstraction.hpp"
+
+namespace coordreq {
+namespace {
+
+/// In the order of the model. Rows run along several dimensions where they can, and all that the spec asks
+/// for can be read off them.
+Abstraction in_order(const Model& model, Abstraction abstraction) {
+  abstraction = arranged(std::move(abstraction), model.order());
+  if (!model.is_read_by_runs()) abstraction.grid = join_rows(abstraction);
+  return abstraction;
+}
+
+/// What is kept of it is in the order of the spec.
+void find_abstraction(Ground& ground, const StageWork& work) {
+  const ProblemSpec& spec = ground.spec;
+  std::optional<Abstraction>& abstraction = ground.abstraction;
+  const auto load = [&](Archive& archive) {
+    abstraction = Abstraction{.grid = make_grid(spec), .inputs = make_input_space(spec)};
+    serialise(archive, spec, *abstraction);
+  };
+  const bool is_kept = work.store != nullptr && work.store->take(load) == StageStore::Kept::finished;
+  const std::vector<TableShape> shapes = table_shapes(spec);
+  if (!is_kept) abstraction = build_abstraction(spec, shapes, work.team);
+  abstraction = in_order(Model(spec, shapes), std::move(*abstraction));
+  if (work.store == nullptr) return;
+  work.store->finish([&ground](Archive& archive) { serialise(archive, ground.spec, *ground.abstraction); });
+}
+
+}  // namespace
+
+std::vector<Stage> ground_stages(const ProblemSpec& /*spec*/) {
+  return {
+      {"abstraction",
+       [](Answers& answers, const StageWork& work) { find_abstraction(answers.ground, work); }},
+      {"safe set", [](Answers& answers, const StageWork& work) { lay_ground(answers.ground, work.team); }}};
+}
+
+void summarise_ground(const Answers& answers, Json& summary, Json& /*work*/) {
+  const Ground& ground = answers.ground;
+  summary["name"] = ground.spec.name;
+  summary["states"] = ground.abstraction->grid.points();
+  summary["inputs"] = ground.abstraction->inputs.count();
+  if (ground.listed) {
+    summary["controller"] = {{"file", *ground.spec.controller.file},
+                             {"sha256", ground.listed->sha256},
+                             {"pairs", ground.listed->pairs.count()}};
+  }
+  summary["safe"] = ground.safe.count();
+}
+
+}  // namespace coordreq

@@ -1,0 +1,153 @@
+#include "answers/one_cell/cell_posts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "answers/one_cell/cell_members.hpp"
+#include "reach/affine_table.hpp"
+#include "reach/build_abstraction.hpp"
+#include "reach/enclosure_table.hpp"
+
+namespace coordreq {
+namespace {
+
+bool contains(const std::vector<std::int32_t>& list, std::size_t value) {
+  return std::find(list.begin(), list.end(), static_cast<std::int32_t>(value)) != list.end();
+}
+
+/// Entries to compute from which on all are computed. Sums have few, and no others hold the same ranges.
+double most_entries(const ProblemSpec& spec) {
+  double entries = 0;
+  for (const TableShape& shape : table_shapes(spec)) {
+    if (shape.sum) return 0;
+    entries += shape.entries;
+  }
+  return entries;
+}
+
+/// Notes the unsafe sides that a range passes.
+void add_sides(std::size_t i, IndexRange raw, const GridDimension& dimension, CellPost& post) {
+  const bool below = raw.first < 0 && traits(dimension.below).blocks;
+  const bool above = raw.last >= dimension.count && traits(dimension.above).blocks;
+  if (below) post.sides.push_back({.dimension = i, .above = false});
+  if (above) post.sides.push_back({.dimension = i, .above = true});
+  if (below || above) post.blocked = CellPost::Blocked::left_domain;
+}
+
+}  // namespace
+
+CellPosts::CellPosts(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+                     ThreadTeam& team, std::optional<Abstraction> stored)
+    : grid_(&grid),
+      inputs_(&inputs),
+      source_(std::make_unique<Source>(
+          Source{spec, team, AffineDynamics(spec), most_entries(spec), {}, {}, 0, std::move(stored)})) {
+  if (source_->whole) whole_ = &*source_->whole;
+}
+
+const Abstraction& CellPosts::whole() {
+  if (whole_ == nullptr) {
+    source_->whole = build_abstraction(source_->spec, source_->team);
+    whole_ = &*source_->whole;
+  }
+  return *whole_;
+}
+
+const std::vector<std::int32_t>& CellPosts::inputs_of(std::size_t i) const {
+  return source_ ? source_->dynamics.dependencies(i).inputs : whole_->tables[i].inputs;
+}
+
+bool CellPosts::has_tubes() const {
+  return source_ ? source_->spec.abstraction.between_samples : !whole_->tubes.empty();
+}
+
+void CellPosts::move_to(std::int64_t cell) {
+  if (cell == cell_) return;
+  if (whole_ == nullptr && source_->entries_built >= source_->most_entries) prepare_all();
+  if (whole_ == nullptr) build_parts(cell);
+  cell_ = cell;
+}
+
+/// Restricts the states in which the map moves: a table is then filled for their one index. The state itself
+/// stays whole, because its dimension is also the one that posts lie in (and may be a periodic one), and so
+/// do discrete states whose values are put in one by one: whether the system is affine is decided over all of
+/// them, and must be decided as in the analysis. A state that stops stays whole, because its limits are the
+/// first and the last point of its dimension.
+Abstraction CellPosts::part_of(std::size_t state, std::int64_t cell) const {
+  std::vector<GridDimension> dimensions = grid_->dimensions();
+  for (std::size_t j = 0; j < dimensions.size(); ++j) {
+    const bool stops = traits(dimensions[j].below).stops || traits(dimensions[j].above).stops;
+    if (j == state || stops || !contains(source_->dynamics.dependencies(state).moving, j)) continue;
+    dimensions[j].first = dimensions[j].point(grid_->index(cell, j));
+    dimensions[j].count = 1;
+  }
+  Abstraction part{.grid = UniformGrid(std::move(dimensions)), .inputs = *inputs_};
+  part.tables.resize(part.grid.size());
+  if (has_tubes()) part.tubes.resize(part.grid.size());
+  return part;
+}
+
+void CellPosts::build_parts(std::int64_t cell) {
+  const ProblemSpec& spec = source_->spec;
+  source_->parts.clear();
+  source_->place.clear();
+  for (std::size_t i = 0; i < grid_->size(); ++i) {
+    Abstraction& part = source_->parts.emplace_back(part_of(i, cell));
+    const bool is_affine = build_affine_table(spec, source_->dynamics, part, i, source_->team).has_value();
+    if (!is_affine) build_enclosure_tables(spec, source_->dynamics, part, {i}, source_->team);
+    std::int64_t place = 0;
+    for (std::size_t j = 0; j < part.grid.size(); ++j) {
+      if (part.grid[j].count > 1) place += grid_->index(cell, j) * part.grid.stride(j);
+    }
+    source_->place.push_back(place);
+    source_->entries_built += static_cast<double>(part.tables[i].entries.size());
+  }
+}
+
+ResolvedRange CellPosts::resolved(std::size_t i, std::int64_t u) const {
+  return whole_ ? whole_->resolved(i, cell_, u) : source_->parts[i].resolved(i, source_->place[i], u);
+}
+
+ResolvedRange CellPosts::resolved_tube(std::size_t i, std::int64_t u) const {
+  return whole_ ? whole_->resolved_tube(i, cell_, u) : source_->parts[i].resolved_tube(i, source_->place[i], u);
+}
+
+IndexRange CellPosts::raw_tube(std::size_t i, std::int64_t u) const {
+  return whole_ ? whole_->raw_tube(i, cell_, u) : source_->parts[i].raw_tube(i, source_->place[i], u);
+}
+
+IndexRange CellPosts::raw(std::size_t i, std::int64_t u) const {
+  return whole_ ? whole_->raw(i, cell_, u) : source_->parts[i].raw(i, source_->place[i], u);
+}
+
+CellPost CellPosts::post(std::int64_t u, const TubeSets& tubes) const {
+  CellPost post;
+  for (std::size_t i = 0; i < grid_->size(); ++i) {
+    add_sides(i, raw(i, u), (*grid_)[i], post);
+    const IndexRange inside = resolved(i, u).inside;
+    post.all_left = post.all_left || inside.first > inside.last;
+    post.box.push_back(inside);
+  }
+  if (post.blocked == CellPost::Blocked::no && tubes.inside != nullptr) follow_tube(u, tubes, post);
+  return post;
+}
+
+void CellPosts::follow_tube(std::int64_t u, const TubeSets& tubes, CellPost& post) const {
+  std::vector<IndexRange> tube;
+  bool passes = false;
+  bool all_left = false;
+  for (std::size_t i = 0; i < grid_->size(); ++i) {
+    const IndexRange range = raw_tube(i, u);
+    const ResolvedRange inside = resolved_tube(i, u);
+    add_sides(i, range, (*grid_)[i], post);
+    passes = passes || passes_a_limit(range, (*grid_)[i]);
+    all_left = all_left || inside.all_left();
+    tube.push_back(inside.inside);
+  }
+  if (post.blocked != CellPost::Blocked::no || all_left) return;
+  const CellSet& safe = passes && tubes.beyond != nullptr ? *tubes.beyond : *tubes.inside;
+  if (!for_each_cell(*grid_, tube, [&safe](std::int64_t cell) { return safe.test(cell); }))
+    post.blocked = CellPost::Blocked::unsafe_between_samples;
+}
+
+}  // namespace coordreq

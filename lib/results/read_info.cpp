@@ -1,0 +1,66 @@
+#include "results/read_info.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "answers/plan.hpp"
+#include "results/results_reader.hpp"
+#include "spec/unit_text.hpp"
+
+namespace coordreq {
+namespace {
+
+Json axis_json(const std::string& name, const std::string& unit, std::int64_t points, const Rational& first,
+               const Rational& last) {
+  return {{"name", name},
+          {"unit", unit.empty() ? "" : udunits_spelling(unit)},
+          {"points", points},
+          {"first", nearest_double(first)},
+          {"last", nearest_double(last)}};
+}
+
+void add_header(const ResultsReader& results, Json& info) {
+  const StoredAttributes& attributes = results.attributes();
+  info["file"] = results.path();
+  info["name"] = attributes.title;
+  info["coordreq_version"] = attributes.coordreq_version;
+  info["git_sha1"] = attributes.git_sha1;
+  info["spec_sha256"] = attributes.spec_sha256;
+  if (!attributes.controller_sha256.empty()) info["controller_sha256"] = attributes.controller_sha256;
+  info["guarantee"] = attributes.guarantee;
+  info["period"] = attributes.period;
+  info["period_unit"] = attributes.period_unit;
+  info["connection_delay"] = attributes.connection_delay;
+}
+
+void add_axes(const ResultsReader& results, Json& info) {
+  info["states"] = Json::array();
+  for (std::size_t i = 0; i < results.grid().size(); ++i) {
+    const StateSpec& state = results.spec().states[i];
+    const GridSpec& grid = state.grid;
+    const Rational last = grid.first + grid.step * Rational(static_cast<long>(grid.count - 1));
+    info["states"].push_back(axis_json(state.name, state.unit, grid.count, grid.first, last));
+  }
+  info["inputs"] = Json::array();
+  for (const InputSpec& input : results.spec().inputs) {
+    const auto points = static_cast<std::int64_t>(input.values.size());
+    info["inputs"].push_back(
+        axis_json(input.name, input.unit, points, input.values.front(), input.values.back()));
+  }
+  info["cells"] = results.grid().cells();
+}
+
+}  // namespace
+
+Json read_info(const std::string& path, std::optional<std::uint64_t> max_memory) {
+  const ResultsReader results(path, max_memory);
+  Json info;
+  add_header(results, info);
+  add_axes(results, info);
+  for (const Answer& answer : all_answers()) {
+    if (answer.tell != nullptr) answer.tell(results.spec(), results, info);
+  }
+  info["datasets"] = results.datasets();
+  return info;
+}
+
+}  // namespace coordreq

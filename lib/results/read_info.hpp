@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/json.hpp"
+
+namespace coordreq {
+
+/// What `info` says of a results file: where it comes from, its axes, what each answer tells of itself, and
+/// `datasets`: paths, sorted, without bare dimensions, which hold no data.
+/// @param max_memory as of ResultsReader. @throws as ResultsReader
+[[nodiscard]] Json read_info(const std::string& path, std::optional<std::uint64_t> max_memory = std::nullopt);
+
+}  // namespace coordreq

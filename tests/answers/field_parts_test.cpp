@@ -1,0 +1,44 @@
+#include "answers/field_parts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace coordreq {
+namespace {
+
+Field steps_field() {
+  return {.path = "/time",
+          .types = {ElementType::int16, ElementType::int32},
+          .axes = {"/x"},
+          .least = -2,
+          .attributes = described("a time") +
+                        std::vector<FieldAttribute>{flags({{-2, "not_safe"}, {kLargestValue, "never"}})},
+          .shown = {.steps = true}};
+}
+
+TEST(FieldValue, IsItselfUnlessItMeansAWord) {
+  const Field field = steps_field();
+  EXPECT_EQ(value_json(field, 7), 7);
+  EXPECT_EQ(status_of(field, 7), "steps");
+  EXPECT_TRUE(value_json(field, -2).is_null());
+  EXPECT_EQ(status_of(field, -2), "not_safe");
+}
+
+TEST(FieldValue, TheLargestIsReadAsThatOfThirtyTwoBits) {
+  EXPECT_TRUE(value_json(steps_field(), INT32_MAX).is_null());
+  EXPECT_EQ(status_of(steps_field(), INT32_MAX), "never");
+  EXPECT_EQ(status_of(steps_field(), INT16_MAX), "steps");
+}
+
+TEST(FieldValue, WithoutFlagsIsANumber) {
+  Field field = steps_field();
+  field.attributes = described("a number");
+  field.shown.steps = false;
+  EXPECT_TRUE(flags_of(field).empty());
+  EXPECT_EQ(status_of(field, -2), "number");
+  EXPECT_EQ(value_json(field, -2), -2);
+}
+
+}  // namespace
+}  // namespace coordreq
