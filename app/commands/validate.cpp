@@ -38,6 +38,11 @@ Json report_json(const SpecReport& report) {
   for (const SpecReport::Input& input : report.inputs) {
     json["inputs"].push_back(Json{{"name", input.name}, {"unit", input.unit}, {"points", input.points}});
   }
+  json["rows"] = Json{{"across", report.rows.across},
+                      {"along", report.rows.along},
+                      {"count", report.rows.sample.rows},
+                      {"drawn", report.rows.sample.drawn},
+                      {"different", report.rows.sample.different}};
   json["partitions"] = report.partitions;
   if (!report.modes.empty()) json["modes"] = report.modes;
   json["exact"] = report.exact;
@@ -99,9 +104,19 @@ std::string partitions_text(const Json& names) {
                      text_of(names[1]), text_of(names.back()));
 }
 
+std::string rows_text(const Json& rows) {
+  const auto names = [](const Json& list) {
+    return fmt::format("{}", fmt::join(list.get<std::vector<std::string>>(), ", "));
+  };
+  const std::string across = rows["across"].empty() ? "" : "across " + names(rows["across"]) + ", ";
+  return fmt::format("{}along {}; of {} drawn {} different", across, names(rows["along"]),
+                     grouped(rows["drawn"]), grouped(rows["different"]));
+}
+
 std::string totals_table(const Json& report) {
   Facts facts = {{"cells", grouped(report["cells"])},
                  {"joint inputs", grouped(report["joint_inputs"])},
+                 {"rows", rows_text(report["rows"])},
                  {"partitions", partitions_text(report["partitions"])}};
   if (report.contains("modes"))
     facts.emplace_back("modes of the network", grouped(std::uint64_t{report["modes"].size()}));

@@ -10,6 +10,7 @@
 #include "analysis/progress.hpp"
 #include "base/json.hpp"
 #include "base/thread_team.hpp"
+#include "model/row_sample.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -53,8 +54,15 @@ struct SpecReport {
     std::string unit;
     std::int64_t points = 0;
   };
+  /// States that the engine's rows run across and along, the slowest first; and how many rows are different.
+  struct Rows {
+    std::vector<std::string> across;
+    std::vector<std::string> along;
+    RowSample sample;
+  };
   std::string name;
   std::vector<State> states;
+  Rows rows;
   std::vector<Input> inputs;
   std::int64_t cells = 0;
   std::int64_t joint_inputs = 0;

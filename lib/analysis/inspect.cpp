@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "engine/join_rows.hpp"
 #include "model/model.hpp"
+#include "model/row_sample.hpp"
 #include "reach/build_abstraction.hpp"
 #include "results/controller_file.hpp"
 
@@ -28,7 +29,8 @@ double count_product(const ProblemSpec& spec) {
 struct Rows {
   double count = 1;
   double lanes = 1;
-  bool joined = false;  ///< they run along several dimensions
+  bool joined = false;     ///< they run along several dimensions
+  std::size_t across = 0;  ///< dimensions that they do not run along
 
   [[nodiscard]] double set_bytes() const { return count * 8 * std::ceil(lanes / 64); }
 };
@@ -41,15 +43,15 @@ Rows rows_of(const Model& model) {
   const auto is_alone = [&](std::size_t i) {
     return are_alone_from(i, shapes) && shapes[i].shift && !shapes[i].sum && model.grid()[i].count > 1;
   };
-  const bool can_join = !model.is_read_by_runs() && !model.spec().abstraction.between_samples;
   std::size_t i = shapes.size() - 1;
   Rows rows{.lanes = count(i)};
-  while (can_join && i > 1 && is_alone(i) && is_alone(i - 1) &&
+  while (shapes.size() - i < model.most_along() && i > 1 && is_alone(i) && is_alone(i - 1) &&
          (rows.lanes + kGap) * count(i - 1) <= static_cast<double>(kMostJoinedLanes)) {
     rows.lanes = (rows.lanes + kGap) * count(--i);
     rows.joined = true;
   }
   for (std::size_t t = 0; t < i; ++t) rows.count *= count(t);
+  rows.across = i;
   return rows;
 }
 
@@ -231,6 +233,19 @@ std::vector<std::string> names(const std::vector<Variable>& variables,
   return result;
 }
 
+SpecReport::Rows row_report(const Model& model) {
+  SpecReport::Rows report;
+  const std::size_t across = rows_of(model).across;
+  std::vector<std::size_t> along;
+  for (std::size_t i = 0; i < model.order().size(); ++i) {
+    const std::size_t state = model.order()[i];
+    if (i >= across) along.push_back(state);
+    (i < across ? report.across : report.along).push_back(model.spec().states[state].name);
+  }
+  report.sample = sample_rows(model.spec(), model.shapes(), along);
+  return report;
+}
+
 std::uint64_t to_bytes(double bytes) {
   return bytes < 1.8e19 ? static_cast<std::uint64_t>(bytes) : UINT64_MAX;
 }
@@ -274,6 +289,7 @@ SpecReport inspect(const ProblemSpec& spec) {
     report.partitions.push_back(partition.name);
   for (std::size_t mode = 0; spec.network && mode < spec.network->modes.size(); ++mode)
     report.modes.push_back(spec.network->modes[mode].name);
+  report.rows = row_report(model);
   report.exact = check_dynamics(spec);
   report.guarantee = guarantee_of(spec);
   report.memory_bytes = to_bytes(estimate_memory(model));

@@ -17,6 +17,7 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
   ground.beyond = safe_beyond_limits(ground.spec, abstraction, ground.safe, team);
   ground.engine.emplace(abstraction, ground.allow ? &*ground.allow : nullptr, ground.tubes());
   ground.hull.emplace(*ground.engine);
+  ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
   ground.order.emplace(abstraction.grid);
 }
 

@@ -8,6 +8,7 @@
 #include "engine/pair_table.hpp"
 #include "engine/row_engine.hpp"
 #include "engine/row_hull.hpp"
+#include "engine/tiles.hpp"
 #include "engine/tube_sets.hpp"
 #include "model/cell_order.hpp"
 #include "reach/abstraction.hpp"
@@ -40,10 +41,13 @@ struct Ground {
   std::optional<CellSet> beyond;  ///< TubeSets::beyond
   std::optional<RowEngine> engine;
   std::optional<RowHull> hull;
+  std::optional<Tiles> tiles;  ///< where equal work is looked for, if there seems to be much of it
   std::optional<CellOrder> order;
 
   /// What tubes must stay in, if there are any. REQUIRES: S is there.
   [[nodiscard]] TubeSets tubes() const;
+  /// The tiles or null.
+  [[nodiscard]] const Tiles* equal_work() const { return tiles ? &*tiles : nullptr; }
 };
 
 /// S and the engine, on an abstraction that is there.

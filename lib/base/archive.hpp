@@ -18,8 +18,11 @@ struct NumberRows {
   std::int64_t row_length = 0;  ///< numbers
   NumberKind kind = NumberKind::unsigned_integer;
   std::int64_t number_bytes = 1;
+  const std::uint32_t* places = nullptr;  ///< [row] in which place it stands; null: each in its own
 
-  [[nodiscard]] std::byte* row(std::int64_t r) const { return first + r * stride; }
+  [[nodiscard]] std::byte* row(std::int64_t r) const {
+    return first + (places == nullptr ? r : std::int64_t{places[r]}) * stride;
+  }
   [[nodiscard]] std::int64_t row_bytes() const { return row_length * number_bytes; }
 };
 
@@ -40,7 +43,8 @@ template <class Number>
           rows,
           row_length,
           kind_of_number<Number>(),
-          sizeof(Number)};
+          sizeof(Number),
+          nullptr};
 }
 
 /// What a type has to keep, told once: its serialise() hands the same lists to an archive in the same order

@@ -14,18 +14,30 @@ namespace coordreq {
 namespace {
 
 /// Waits a little while for what is about to happen: loops often follow one another within microseconds, and
-/// waking a thread that sleeps takes longer than that. Then gives up, to leave the core to others.
-template <class Condition>
-bool comes_soon(const Condition& condition) {
-  constexpr int kLooks = 2000;
-  for (int i = 0; i < kLooks; ++i) {
-    if (condition()) return true;
+/// waking a thread that sleeps takes longer than that. Then gives up, to leave the core to others; the
+/// sooner, the more often it has waited in vain, as where others want the core.
+class ShortWait {
+ public:
+  template <class Condition>
+  bool comes_soon(const Condition& condition) {
+    for (int i = 0; i < looks_; ++i) {
+      if (condition()) {
+        looks_ = std::min(2 * looks_, kMostLooks);
+        return true;
+      }
 #if defined(__x86_64__)
-    __builtin_ia32_pause();
+      __builtin_ia32_pause();
 #endif
+    }
+    looks_ = std::max(looks_ / 2, kLeastLooks);
+    return condition();
   }
-  return condition();
-}
+
+ private:
+  static constexpr int kLeastLooks = 16;
+  static constexpr int kMostLooks = 1024;
+  int looks_ = kMostLooks;
+};
 
 }  // namespace
 
@@ -39,6 +51,7 @@ struct ThreadTeam::State {
   std::atomic<bool> stopping{false};
   int sleeping = 0;          // helpers; under the mutex
   bool main_sleeps = false;  // likewise
+  ShortWait main_wait;       // of the thread that calls for_each()
 
   const Body* body = nullptr;
   std::int64_t count = 0;
@@ -68,9 +81,10 @@ struct ThreadTeam::State {
 
   void help(int worker) {
     std::uint64_t seen = 0;
+    ShortWait wait;
     for (;;) {
       const auto called = [&] { return stopping.load() || generation.load() != seen; };
-      if (!comes_soon(called)) {
+      if (!wait.comes_soon(called)) {
         std::unique_lock lock(mutex);
         ++sleeping;
         start.wait(lock, called);
@@ -95,7 +109,7 @@ struct ThreadTeam::State {
 
   void wait_for_helpers() {
     const auto done = [&] { return busy.load() == 0; };
-    if (comes_soon(done)) return;
+    if (main_wait.comes_soon(done)) return;
     std::unique_lock lock(mutex);
     main_sleeps = true;
     finished.wait(lock, done);

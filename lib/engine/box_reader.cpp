@@ -16,6 +16,17 @@ constexpr std::int64_t kMostShared = 1024;
 /// Wider windows are taken by doubling.
 constexpr std::int64_t kNarrowWindow = 6;
 
+/// In shorter rows looking for equal ones takes longer than their minimum.
+constexpr std::int64_t kLongRow = 1024;
+
+/// Leaves each row once, where rows that are equal are one.
+template <class Level>
+void leave_different(const LevelRows<Level>& levels, std::vector<const Level*>& rows) {
+  if (!levels.is_shared() || levels.row_length() < kLongRow || rows.size() < 2) return;
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+}
+
 }  // namespace
 
 template <class Level>
@@ -217,12 +228,13 @@ void BoxReader<Level>::collect_rows(bool gone) {
   if (outer_ == 0) {
     for_each_row(engine_.grid(), 0, ranges_, counter_,
                  [&](std::int64_t row) { rows_.push_back(levels_.row(row)); });
-    return;
+    return leave_different(levels_, rows_);
   }
   Shared& taken = shared();
   const std::span<const IndexRange> inner(ranges_.data() + outer_, ranges_.size() - outer_);
   for_each_row(engine_.grid(), outer_, inner, counter_,
                [&](std::int64_t row) { rows_.push_back(shared_row(taken, row)); });
+  leave_different(levels_, rows_);
 }
 
 /// The shared minima for the leading ranges of the box.
@@ -257,6 +269,7 @@ const Level* BoxReader<Level>::shared_row(Shared& shared, std::int64_t inner) {
   sources_.clear();
   for_each_row(engine_.grid(), 0, shared.ranges, shared_counter_,
                [&](std::int64_t first) { sources_.push_back(levels_.row(first + inner)); });
+  leave_different(levels_, sources_);
   if (sources_.size() == 1) return known = sources_[0];
   // Whole blocks are written, so a row has its last block to itself; and read from any lane on, so that
   // another one follows the last row.

@@ -14,13 +14,18 @@ void convert_stretch(const LevelRows<Level>& levels, const CellOrder& order, std
                      std::uint64_t count, Out* out, const Convert& convert) {
   order.for_each_run(static_cast<std::int64_t>(begin), static_cast<std::int64_t>(count),
                      [&](const CellOrder::Run& run) {
-                       const Level* source = levels.row(run.row) + run.column;
-                       const std::int64_t step = run.row_step * levels.stride() + run.column_step;
                        Out* target = out + run.offset;
-                       if (step == 1) {  // for the compiler: neighbours can be done together
+                       if (run.row_step != 0) {
+                         for (std::int64_t i = 0; i < run.count; ++i)
+                           target[i] = convert(levels.row(run.row + i * run.row_step)[run.column]);
+                         return;
+                       }
+                       const Level* source = levels.row(run.row) + run.column;
+                       if (run.column_step == 1) {  // for the compiler: neighbours can be done together
                          for (std::int64_t i = 0; i < run.count; ++i) target[i] = convert(source[i]);
                        } else {
-                         for (std::int64_t i = 0; i < run.count; ++i) target[i] = convert(source[i * step]);
+                         for (std::int64_t i = 0; i < run.count; ++i)
+                           target[i] = convert(source[i * run.column_step]);
                        }
                      });
 }

@@ -14,26 +14,38 @@ Level converted(Other level) {
   return static_cast<Level>(level);
 }
 
+/// Calls `change(row, cells)` for every row, and puts the cells that it leaves in `levels`.
+template <class Level, class Change>
+void change_rows(LevelRows<Level>& levels, ThreadTeam& team, const Change& change) {
+  // Rows that are shared are put one after the other.
+  const std::int64_t grain = levels.is_shared() ? levels.rows() : 256;
+  team.for_each(levels.rows(), grain, [&](ThreadTeam::Range range, int) {
+    std::vector<Level> cells(static_cast<std::size_t>(levels.row_length()) + kLevelBlock / sizeof(Level));
+    for (std::int64_t r = range.begin; r < range.end; ++r) {
+      const Level* const row = std::as_const(levels).row(r);
+      std::copy(row, row + levels.row_length(), cells.begin());
+      change(r, cells.data());
+      levels.put(r, cells.data());
+    }
+  });
+}
+
 template <class Wide, class Narrow>
-LevelRows<Wide> widened(const RowEngine& engine, const LevelRows<Narrow>& narrow) {
-  LevelRows<Wide> levels = engine.make_levels<Wide>(engine.posts());
-  for (std::int64_t r = 0; r < levels.rows(); ++r) {
+LevelRows<Wide> widened(const RowEngine& engine, const LevelRows<Narrow>& narrow, ThreadTeam& team) {
+  LevelRows<Wide> levels = engine.make_levels<Wide>(engine.posts(), narrow.is_shared());
+  change_rows(levels, team, [&](std::int64_t r, Wide* cells) {
     const Narrow* source = narrow.row(r);
-    std::transform(source, source + levels.row_length(), levels.row(r), converted<Wide, Narrow>);
-    levels.close(r);
-  }
+    std::transform(source, source + levels.row_length(), cells, converted<Wide, Narrow>);
+  });
   return levels;
 }
 
 template <class Level>
 void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team) {
   bound.visit([&]<class Other>(const LevelRows<Other>& other) {
-    team.for_each(levels.rows(), 256, [&](ThreadTeam::Range range, int) {
-      for (std::int64_t r = range.begin; r < range.end; ++r) {
-        std::transform(levels.row(r), levels.row(r) + levels.row_length(), other.row(r), levels.row(r),
-                       [](Level own, Other least) { return std::min(own, converted<Level>(least)); });
-        levels.close(r);
-      }
+    change_rows(levels, team, [&](std::int64_t r, Level* cells) {
+      std::transform(cells, cells + levels.row_length(), other.row(r), cells,
+                     [](Level own, Other least) { return std::min(own, converted<Level>(least)); });
     });
   });
 }
@@ -41,13 +53,12 @@ void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team)
 /// True if a cell has the greatest finite level of the width: the ones before it may need more.
 template <class Level>
 bool is_full(const LevelRows<Level>& levels) {
-  for (std::int64_t r = 0; r < levels.rows(); ++r) {
-    const Level* row = levels.row(r);
-    if (std::find(row, row + levels.row_length(), LevelRows<Level>::kTop - 1) != row + levels.row_length()) {
-      return true;
-    }
-  }
-  return false;
+  bool found = false;
+  levels.for_each_held(0, levels.held(), [&](const Level* row, std::int64_t) {
+    const Level* const end = row + levels.row_length();
+    found = found || std::find(row, end, LevelRows<Level>::kTop - 1) != end;
+  });
+  return found;
 }
 
 template <class Level>
@@ -71,7 +82,8 @@ class LevelFinder {
       : engine_(engine), hull_(hull), problem_(problem), watch_(watch), team_(team), counts_(counts) {}
 
   LevelMap from_start() {
-    auto levels = engine_.make_levels<std::uint8_t>(*problem_.start, team_);
+    const bool shared = problem_.equal.tiles != nullptr;
+    auto levels = engine_.make_levels<std::uint8_t>(*problem_.start, team_, shared);
     for (const LevelMap* bound : problem_.bounds) lower_to(*bound, levels, team_);
     const std::vector<std::uint8_t> nothing;
     return from(std::move(levels), problem_.settled == nullptr ? nothing : *problem_.settled);
@@ -87,7 +99,8 @@ class LevelFinder {
       step.sweep += before;
       watch_.step(step);
     } : std::function<void(const WaveStep&)>()};
-    counts_.add(run_wave(levels, engine_, hull_, clipped<Level>(problem_.limit), settled, *op, watch, team_));
+    counts_.add(run_wave(levels, engine_, hull_, clipped<Level>(problem_.limit), settled, *op, watch, team_,
+                         problem_.equal));
     if constexpr (sizeof(Level) < sizeof(std::uint32_t)) {
       if (!is_enough(levels, problem_.limit)) return from(widened_and_bounded(std::move(levels)));
     }
@@ -98,7 +111,7 @@ class LevelFinder {
   template <class Level>
   auto widened_and_bounded(LevelRows<Level> levels) {
     using Wide = std::conditional_t<sizeof(Level) == 1, std::uint16_t, std::uint32_t>;
-    LevelRows<Wide> wide = widened<Wide>(engine_, levels);
+    LevelRows<Wide> wide = widened<Wide>(engine_, levels, team_);
     levels = {};
     for (const LevelMap* bound : problem_.bounds) lower_to(*bound, wide, team_);
     return wide;

@@ -27,12 +27,12 @@ std::optional<RowMargins> margins(const TransitionTable& table, const GridDimens
 
 }  // namespace
 
-UniformGrid join_rows(const Abstraction& abstraction) {
+UniformGrid join_rows(const Abstraction& abstraction, std::size_t most) {
   const UniformGrid& grid = abstraction.grid;
   if (!abstraction.tubes.empty()) return grid;
   std::vector<std::int64_t> gaps;  // of all dimensions taken so far, the first one too
   std::int64_t lanes = 1;
-  for (std::size_t i = grid.size() - 1; i > 0; --i) {
+  for (std::size_t i = grid.size() - 1; i > 0 && gaps.size() < most; --i) {
     const auto own = margins(abstraction.tables[i], grid[i]);
     if (!own || !are_alone_from(i, abstraction.tables) || lanes * grid[i].count > kMostJoinedLanes) break;
     gaps.insert(gaps.begin(), own->before + own->after);

@@ -3,13 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "model/row_sample.hpp"
 #include "reach/abstraction.hpp"
 
 namespace coordreq {
-
-/// Lanes of a row along several dimensions, at the most; at a byte each a quarter of 32 KiB, a usual
-/// first-level cache.
-inline constexpr std::int64_t kMostJoinedLanes = 8192;
 
 /// True if no state depends on one from `i` on, but for itself.
 /// @param tables with their `states`: TransitionTable, TableShape
@@ -31,7 +28,8 @@ template <class Tables>
 /// actions there are, which rows they lead to) is done once for a whole plane of cells: on the gridworld of
 /// the paper 41 times less often. Rows stay small enough for the first-level caches, and one dimension at
 /// least is left across them.
+/// @param most dimensions to take together, kMostJoinedLanes apart
 /// @returns the grid as it is if nothing can be joined, or if there are tubes
-[[nodiscard]] UniformGrid join_rows(const Abstraction& abstraction);
+[[nodiscard]] UniformGrid join_rows(const Abstraction& abstraction, std::size_t most = SIZE_MAX);
 
 }  // namespace coordreq

@@ -10,8 +10,10 @@ namespace coordreq {
 /// The cells of levels, without their margins.
 template <class Level>
 [[nodiscard]] NumberRows rows_of(const LevelRows<Level>& levels) {
-  return number_rows(levels.rows() == 0 ? nullptr : levels.row(0), levels.stride(), levels.rows(),
-                     levels.row_length());
+  if (levels.rows() == 0) return {};
+  NumberRows rows = number_rows(levels.first_place(), levels.stride(), levels.rows(), levels.row_length());
+  if (levels.is_shared()) rows.places = levels.slots().data();
+  return rows;
 }
 
 [[nodiscard]] inline NumberRows rows_of(const CellSet& set) {

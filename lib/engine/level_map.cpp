@@ -10,19 +10,18 @@ std::int64_t decoded(Level level) {
   return level == LevelRows<Level>::kTop ? LevelMap::kTop : static_cast<std::int64_t>(level);
 }
 
-/// Adds the cells of some rows to the counts of their levels.
+/// Adds the cells of some of the rows held to the counts of their levels.
 template <class Level>
 void count_rows(const LevelRows<Level>& levels, ThreadTeam::Range rows, std::vector<std::int64_t>& counts) {
-  for (std::int64_t r = rows.begin; r < rows.end; ++r) {
+  levels.for_each_held(rows.begin, rows.end, [&](const Level* row, std::int64_t times) {
     levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
-      const Level* cells = levels.row(r) + lane;
-      for (std::int64_t c = 0; c < count; ++c) {
-        const std::size_t level = cells[c] == LevelRows<Level>::kTop ? 0 : std::size_t{cells[c]} + 1;
+      for (std::int64_t c = lane; c < lane + count; ++c) {
+        const std::size_t level = row[c] == LevelRows<Level>::kTop ? 0 : std::size_t{row[c]} + 1;
         if (level >= counts.size()) counts.resize(level + 1, 0);
-        ++counts[level];
+        counts[level] += times;
       }
     });
-  }
+  });
 }
 
 /// 8-bit levels need no look at the size; four counters a level, so that equal neighbours do not wait for
@@ -30,12 +29,12 @@ void count_rows(const LevelRows<Level>& levels, ThreadTeam::Range rows, std::vec
 void count_rows(const LevelRows<std::uint8_t>& levels, ThreadTeam::Range rows,
                 std::vector<std::int64_t>& counts) {
   std::array<std::array<std::int64_t, 256>, 4> part{};
-  for (std::int64_t r = rows.begin; r < rows.end; ++r) {
+  levels.for_each_held(rows.begin, rows.end, [&](const std::uint8_t* row, std::int64_t times) {
     levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
-      const std::uint8_t* cells = levels.row(r) + lane;
-      for (std::int64_t c = 0; c < count; ++c) ++part[static_cast<std::size_t>(c % 4)][cells[c]];
+      const std::uint8_t* cells = row + lane;
+      for (std::int64_t c = 0; c < count; ++c) part[static_cast<std::size_t>(c % 4)][cells[c]] += times;
     });
-  }
+  });
   counts.resize(256, 0);
   for (std::size_t level = 0; level < 256; ++level) {
     counts[(level + 1) % 256] += part[0][level] + part[1][level] + part[2][level] + part[3][level];
@@ -47,7 +46,7 @@ template <class Level>
 std::vector<std::int64_t> count_levels(const LevelRows<Level>& levels, ThreadTeam& team) {
   constexpr std::int64_t kGrain = 1024;
   std::vector<std::vector<std::int64_t>> counts(static_cast<std::size_t>(team.size()));
-  team.for_each(levels.rows(), kGrain, [&](ThreadTeam::Range range, int worker) {
+  team.for_each(levels.held(), kGrain, [&](ThreadTeam::Range range, int worker) {
     count_rows(levels, range, counts[static_cast<std::size_t>(worker)]);
   });
   std::vector<std::int64_t> total(1, 0);

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "engine/cell_set.hpp"
 #include "engine/level_kernels.hpp"
+#include "engine/list_numbers.hpp"
 #include "engine/row_shape.hpp"
+#include "engine/slot_book.hpp"
 
 namespace coordreq {
 
@@ -21,6 +25,9 @@ namespace coordreq {
 ///
 /// 8 bits are enough for most problems; Level is the narrowest of 8, 16, 32 bits that all finite levels fit
 /// into.
+///
+/// Rows that are equal may be *shared*: held once, and only put(), never written to where they stand. Memory
+/// for all rows is asked for all the same, but what is not used the system never gives.
 template <class Level>
 class LevelRows {
  public:
@@ -29,11 +36,21 @@ class LevelRows {
   LevelRows() = default;
   LevelRows(std::int64_t rows, std::int64_t row_length, RowMargins margins, RowEnds ends)
       : LevelRows(rows, {{{row_length, 1, margins, ends}}}) {}
-  LevelRows(std::int64_t rows, RowShape shape)
+  /// All levels 0. @param shared whether equal rows are held once; then they are closed
+  LevelRows(std::int64_t rows, RowShape shape, bool shared = false)
       : rows_(rows), shape_(std::move(shape)), length_(shape_.length()), margins_(shape_.margins()) {
     constexpr std::int64_t kAlign = 16 / static_cast<std::int64_t>(sizeof(Level));
     stride_ = (margins_.before + length_ + margins_.after + kAlign - 1) / kAlign * kAlign;
-    levels_.resize(static_cast<std::size_t>(rows * stride_) + kLevelBlock / sizeof(Level), 0);
+    // A row that is put takes a place before the one that stood there leaves its own.
+    const auto size = static_cast<std::size_t>((rows + 1) * stride_) + kLevelBlock / sizeof(Level);
+    levels_ = std::make_unique_for_overwrite<Level[]>(size);
+    std::fill_n(levels_.get(), shared ? static_cast<std::size_t>(stride_) : size, Level{0});
+    if (!shared || rows == 0) return;
+    lanes_.assign(static_cast<std::size_t>(stride_), 0);
+    Level* const first = levels_.get() + margins_.before;
+    close_row(first);
+    slots_.assign(static_cast<std::size_t>(rows), book_.add(hash_of(first)));
+    book_.hold(0, rows - 1);
   }
 
   [[nodiscard]] std::int64_t rows() const { return rows_; }
@@ -44,23 +61,75 @@ class LevelRows {
   [[nodiscard]] const RowShape& shape() const { return shape_; }
   /// Levels from one row to the next.
   [[nodiscard]] std::int64_t stride() const { return stride_; }
-  [[nodiscard]] std::size_t bytes() const { return levels_.size() * sizeof(Level); }
 
+  [[nodiscard]] bool is_shared() const { return !slots_.empty(); }
   /// First cell of a row; margins().before levels stand before it, margins().after after its last.
-  [[nodiscard]] Level* row(std::int64_t r) { return levels_.data() + r * stride_ + margins_.before; }
-  [[nodiscard]] const Level* row(std::int64_t r) const {
-    return levels_.data() + r * stride_ + margins_.before;
+  [[nodiscard]] const Level* row(std::int64_t r) const { return at(slot(r)); }
+  /// REQUIRES: rows are not shared.
+  [[nodiscard]] Level* row(std::int64_t r) { return levels_.get() + r * stride_ + margins_.before; }
+  /// The row in the first place, and [row] in which place a row stands; empty: each in its own.
+  [[nodiscard]] const Level* first_place() const { return at(0); }
+  [[nodiscard]] const std::vector<std::uint32_t>& slots() const { return slots_; }
+
+  /// Gives a row these cells, and margins to them. By one thread at a time if rows are shared.
+  /// @param cells whole blocks may be read; what gaps hold does not matter
+  void put(std::int64_t r, const Level* cells) {
+    if (!is_shared()) {
+      std::copy_n(cells, length_, row(r));
+      return close(r);
+    }
+    Level* const own = lanes_.data() + margins_.before;
+    std::copy_n(cells, length_, own);
+    close_row(own);
+    const std::uint64_t hash = hash_of(own);
+    const auto cells_bytes = static_cast<std::size_t>(length_) * sizeof(Level);
+    std::uint32_t place =
+        book_.find(hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), own, cells_bytes) == 0; });
+    if (place != SlotBook::kNone) {
+      book_.hold(place);
+    } else {
+      place = book_.add(hash);
+      std::copy(lanes_.begin(), lanes_.end(), levels_.get() + place * stride_);
+    }
+    move_to(r, place);
+  }
+  /// Makes a row equal to another one. @returns whether it was not. REQUIRES: rows are shared.
+  bool copy_row(std::int64_t from, std::int64_t to) {
+    const std::uint32_t place = slots_[static_cast<std::size_t>(from)];
+    if (slots_[static_cast<std::size_t>(to)] == place) return false;
+    book_.hold(place);
+    move_to(to, place);
+    return true;
+  }
+  /// Equal numbers mean equal rows, and different ones different rows; as long as renumber() is not called.
+  /// REQUIRES: rows are shared.
+  [[nodiscard]] std::uint32_t content(std::int64_t r) const {
+    return book_.content(slots_[static_cast<std::size_t>(r)]);
+  }
+  void renumber() { book_.renumber(); }
+
+  /// Calls `visit(row, count)` for rows [begin, end) of those held: first cell, and how many rows are like
+  /// it.
+  template <class Visit>
+  void for_each_held(std::int64_t begin, std::int64_t end, const Visit& visit) const {
+    for (std::int64_t k = begin; k < end; ++k) {
+      const std::int64_t count = is_shared() ? book_.rows(static_cast<std::size_t>(k)) : 1;
+      if (count > 0) visit(at(k), count);
+    }
+  }
+  [[nodiscard]] std::int64_t held() const {
+    return is_shared() ? static_cast<std::int64_t>(book_.size()) : rows_;
   }
 
-  /// Makes the cells of a set in the rows [begin, end) the greatest level, others 0, margins included.
+  /// Makes the cells of a set in the rows [begin, end) the greatest level, others 0, margins included; as
+  /// put() does.
   void assign(const CellSet& set, std::int64_t begin, std::int64_t end) {
     const LevelKernels<Level>& kernels = level_kernels<Level>(best_instruction_set());
     // By way of a buffer: the kernel writes whole blocks, beyond the row.
     std::vector<Level> lanes(static_cast<std::size_t>(length_) + kLevelBlock / sizeof(Level));
     for (std::int64_t r = begin; r < end; ++r) {
       kernels.spread(set.row(r).data(), lanes.data(), static_cast<std::size_t>(length_));
-      std::copy_n(lanes.begin(), length_, row(r));
-      close(r);
+      put(r, lanes.data());
     }
   }
 
@@ -130,12 +199,42 @@ class LevelRows {
     return traits(rule).arrives ? kTop : boundary;
   }
 
+  [[nodiscard]] std::int64_t slot(std::int64_t r) const {
+    return slots_.empty() ? r : std::int64_t{slots_[static_cast<std::size_t>(r)]};
+  }
+  [[nodiscard]] const Level* at(std::int64_t slot) const {
+    return levels_.get() + slot * stride_ + margins_.before;
+  }
+  void move_to(std::int64_t r, std::uint32_t place) {
+    std::uint32_t& own = slots_[static_cast<std::size_t>(r)];
+    book_.drop(own);
+    own = place;
+  }
+  [[nodiscard]] std::uint64_t hash_of(const Level* cells) const {
+    const auto bytes = static_cast<std::size_t>(length_) * sizeof(Level);
+    const char* const from = reinterpret_cast<const char*>(cells);
+    std::uint64_t hash = bytes;
+    std::uint64_t word = 0;
+    std::size_t k = 0;
+    for (; k + sizeof(word) <= bytes; k += sizeof(word)) {
+      std::memcpy(&word, from + k, sizeof(word));
+      hash = mixed_hash(hash, word);
+    }
+    word = 0;
+    std::memcpy(&word, from + k, bytes - k);
+    hash = mixed_hash(hash, word);
+    return hash;
+  }
+
   std::int64_t rows_ = 0;
   RowShape shape_;
   std::int64_t length_ = 0;
   RowMargins margins_;
   std::int64_t stride_ = 0;
-  std::vector<Level> levels_;
+  std::unique_ptr<Level[]> levels_;
+  std::vector<std::uint32_t> slots_;  ///< [row]; empty: rows are not shared
+  SlotBook book_;
+  std::vector<Level> lanes_;  ///< the row to be put, with its margins
 };
 
 }  // namespace coordreq

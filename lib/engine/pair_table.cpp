@@ -48,8 +48,7 @@ PairTable::PairTable(const ConditionTable& allow)
       input_space_(&allow.input_space()),
       inputs_(allow.inputs()),
       state_stride_(allow.state_stride()),
-      input_stride_(allow.input_stride()),
-      rows_(words_for(*grid_)) {
+      input_stride_(allow.input_stride()) {
   for (std::int64_t r = 0; r < allow.table().rows(); ++r) ids_.push_back(rows_.number(allow.table().row(r)));
 }
 
@@ -59,8 +58,7 @@ PairTable::PairTable(const UniformGrid& grid, const InputSpace& inputs, const Pa
       input_space_(&inputs),
       inputs_(inputs.size()),
       state_stride_(grid.size(), 0),
-      input_stride_(inputs.size()),
-      rows_(words_for(grid)) {
+      input_stride_(inputs.size()) {
   std::iota(inputs_.begin(), inputs_.end(), 0);
   for (std::size_t i = 0; i < inputs.size(); ++i) input_stride_[i] = inputs.stride(i);
   for (std::size_t i = 0; i + 1 < grid.size(); ++i)

@@ -63,6 +63,18 @@ void RowBoxes::put(std::size_t c, std::span<const IndexRange> ranges, RowBox& bo
   }
 }
 
+void RowBoxes::move(std::size_t c, std::span<const std::int32_t> shift, RowBox& box) const {
+  for (const std::size_t t : moved_[c]) {
+    if (shift[t] == 0) continue;
+    const GridDimension& dimension = grouping_.engine().grid()[t];
+    const auto n = static_cast<std::int32_t>(dimension.count);
+    const std::int32_t width = box[t].last - box[t].first;
+    const std::int32_t first = box[t].first + shift[t];
+    box[t].first = dimension.periodic() ? (first % n + n) % n : first;
+    box[t].last = box[t].first + width;
+  }
+}
+
 void RowBoxes::put(std::size_t c, std::span<const Word> ranges, RowBox& box) const {
   for (std::size_t k = 0; k < moved_[c].size(); ++k) {
     const std::size_t t = moved_[c][k];

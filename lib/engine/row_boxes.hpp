@@ -51,6 +51,8 @@ class RowBoxes {
   /// Writes the part of class c into a box of all dimensions; `ranges` packed by pack_range().
   void put(std::size_t c, std::span<const Word> ranges, RowBox& box) const;
   void put(std::size_t c, std::span<const IndexRange> ranges, RowBox& box) const;
+  /// Moves the part of class c further up. @param shift by dimension, in indices
+  void move(std::size_t c, std::span<const std::int32_t> shift, RowBox& box) const;
 
  private:
   bool add(std::size_t c, std::uint32_t action);

@@ -74,14 +74,15 @@ class RowEngine {
 
   /// Levels of all rows, 0, with the margins that a family asks for.
   template <class Level>
-  [[nodiscard]] LevelRows<Level> make_levels(const RowFamily& family) const {
-    return {rows(), family.shape};
+  [[nodiscard]] LevelRows<Level> make_levels(const RowFamily& family, bool shared = false) const {
+    return {rows(), family.shape, shared};
   }
   /// The greatest level for the cells of a set, 0 for all others, laid out for the posts.
   template <class Level>
-  [[nodiscard]] LevelRows<Level> make_levels(const CellSet& set, ThreadTeam& team) const {
-    auto levels = make_levels<Level>(posts());
-    team.for_each(levels.rows(), 256,
+  [[nodiscard]] LevelRows<Level> make_levels(const CellSet& set, ThreadTeam& team,
+                                             bool shared = false) const {
+    auto levels = make_levels<Level>(posts(), shared);
+    team.for_each(levels.rows(), shared ? levels.rows() : 256,
                   [&](ThreadTeam::Range range, int) { levels.assign(set, range.begin, range.end); });
     return levels;
   }

@@ -11,16 +11,18 @@ RowHull::RowHull(const RowEngine& engine) : engine_(&engine), is_bound_(engine.d
   }
 }
 
+const SliceHull& RowHull::hull(const RowPlace& place, std::size_t i) const {
+  const RowSlices& slices = engine_->slices()[i];
+  return hulls_[i][static_cast<std::size_t>(place.offset(slices.state_stride) / slices.input_combinations)];
+}
+
 void RowHull::box(const RowPlace& place, RowBox& box) const {
   box.resize(engine_->grid());
   box.covers = is_bound_;
   for (std::size_t i = 0; i < engine_->tables(); ++i) {
-    const RowSlices& slices = engine_->slices()[i];
-    const auto choice =
-        static_cast<std::size_t>(place.offset(slices.state_stride) / slices.input_combinations);
-    const SliceHull& hull = hulls_[i][choice];
-    box[i] = hull.range;
-    box.covers = box.covers && hull.covers;
+    const SliceHull& own = hull(place, i);
+    box[i] = own.range;
+    box.covers = box.covers && own.covers;
   }
 }
 

@@ -18,10 +18,18 @@ class RowHull {
 
   /// What the posts of one row have in common.
   void box(const RowPlace& place, RowBox& box) const;
+  /// Its range or window in dimension i.
+  [[nodiscard]] IndexRange range(const RowPlace& place, std::size_t i) const { return hull(place, i).range; }
+  /// The same for one choice of the states that its table uses.
+  [[nodiscard]] IndexRange range_of(std::size_t choice, std::size_t i) const {
+    return hulls_[i][choice].range;
+  }
 
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
+  [[nodiscard]] const SliceHull& hull(const RowPlace& place, std::size_t i) const;
+
   const RowEngine* engine_;
   bool is_bound_ = true;                       ///< no tube can block a post, whatever its box is inside of
   std::vector<std::vector<SliceHull>> hulls_;  ///< [dimension][choice of the states that its table uses]

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <deque>
+#include <utility>
 #include <vector>
 
+#include "engine/equal_tiles.hpp"
 #include "engine/wave_news.hpp"
 
 namespace coordreq {
@@ -24,7 +26,7 @@ class WaveRunner {
  public:
   WaveRunner(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
              const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,
-             ThreadTeam& team)
+             ThreadTeam& team, const TileClasses& equal)
       : levels_(levels),
         engine_(engine),
         limit_(limit),
@@ -33,7 +35,8 @@ class WaveRunner {
         watch_(watch),
         team_(team),
         unit_rows_(std::min(engine.unit_rows(), engine.outer() == 0 ? kBlockRows : engine.unit_rows())),
-        news_(engine, hull, unit_rows_) {
+        news_(engine, hull, unit_rows_),
+        equal_(equal, levels) {
     units_ = (engine.rows() + unit_rows_ - 1) / unit_rows_;
     batch_units_ = std::max<std::int64_t>(1, kBatchRows / unit_rows_);
     for (int w = 0; w < team.size(); ++w) workers_.emplace_back(engine, levels);
@@ -45,6 +48,7 @@ class WaveRunner {
     const bool backwards = number % 2 == 1;
     WaveStep step{.sweep = number, .rows_left = alive_rows_, .rows = alive_rows_, .layer = layer_};
     lowest_ = kTop;
+    equal_.begin_sweep();
     std::vector<std::int64_t> batch;
     for (std::int64_t k = 0; k < units_; ++k) {
       const std::int64_t unit = backwards ? units_ - 1 - k : k;
@@ -65,6 +69,7 @@ class WaveRunner {
   }
 
   [[nodiscard]] std::int64_t alive_rows() const { return alive_rows_; }
+  [[nodiscard]] std::int64_t copied_rows() const { return copied_; }
 
  private:
   static constexpr Level kTop = LevelRows<Level>::kTop;
@@ -78,6 +83,12 @@ class WaveRunner {
     std::int64_t unit;
     std::int64_t begin;
     std::int64_t end;
+    bool is_wanted = false;  ///< whatever has changed
+  };
+  /// A tile that will be equal to another one.
+  struct Copy {
+    std::int64_t from;
+    std::int64_t to;
   };
   struct Worker {
     Worker(const RowEngine& engine, const LevelRows<Level>& levels)
@@ -99,19 +110,28 @@ class WaveRunner {
     return !settled_.empty() && settled_[static_cast<std::size_t>(row)] != 0;
   }
 
+  [[nodiscard]] bool can_sink(const Level* row) const {
+    bool can = false;
+    levels_.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+      const Level* cells = row + lane;
+      can = can || std::any_of(cells, cells + count, [](Level level) { return level > 1; });
+    });
+    return can;
+  }
+
   /// Rows without a cell in the set never change, nor do those that have sunk as deep as cells in the set
   /// can.
   void find_alive() {
     alive_.assign(static_cast<std::size_t>(engine_.rows()), 0);
     unit_alive_.assign(static_cast<std::size_t>(units_), 0);
+    const Level* before = nullptr;  // rows that are shared are often the same ones one after the other
+    bool is_alive = false;
     for (std::int64_t r = 0; r < engine_.rows(); ++r) {
-      bool alive = false;
-      levels_.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
-        const Level* cells = levels_.row(r) + lane;
-        alive = alive || std::any_of(cells, cells + count, [](Level level) { return level > 1; });
-      });
-      alive_[static_cast<std::size_t>(r)] = alive ? 1 : 0;
-      if (!alive) continue;
+      const Level* const row = std::as_const(levels_).row(r);
+      if (row != before) is_alive = can_sink(row);
+      before = row;
+      alive_[static_cast<std::size_t>(r)] = is_alive ? 1 : 0;
+      if (!is_alive) continue;
       const auto unit = static_cast<std::size_t>(r / unit_rows_);
       ++unit_alive_[unit];
       if (!is_settled(r)) news_.set_unseen(r / unit_rows_);
@@ -133,23 +153,59 @@ class WaveRunner {
     });
     for (const std::int64_t unit : batch) news_.mark_seen(unit);
     commit_all();
+    copy_all();
     std::int64_t visited = 0;
     for (const Worker& worker : workers_) {
       visited += worker.visited;
       lowest_ = std::min(lowest_, worker.lowest);
       for (const Change& change : worker.changes) news_.mark_unit_of(change.row);
     }
+    if (equal_.is_on() && equal_.rows() > 1) {
+      for (const std::int64_t unit : batch) equal_.update(unit);
+    }
     return visited;
   }
 
   void cut_into_pieces(const std::vector<std::int64_t>& batch) {
     pieces_.clear();
+    copies_.clear();
     for (const std::int64_t unit : batch) {
       const std::int64_t end = std::min((unit + 1) * unit_rows_, engine_.rows());
+      if (equal_.is_on() && equal_.rows() == 1) {
+        choose_rows(unit, end);
+        continue;
+      }
+      if (equal_.is_on()) {
+        const std::int64_t other = equal_.find(RowPlace(engine_.grid(), unit * unit_rows_));
+        if (other != unit) copies_.push_back({other, unit});
+        if (other != unit) continue;
+      }
       for (std::int64_t begin = unit * unit_rows_; begin < end; begin += kPieceRows) {
         pieces_.push_back({unit, begin, std::min(begin + kPieceRows, end)});
       }
     }
+  }
+
+  /// Of the rows that are to be looked at those that are equal to no other.
+  void choose_rows(std::int64_t unit, std::int64_t end) {
+    news_.enter(unit, scratch_);
+    RowPlace place(engine_.grid(), unit * unit_rows_);
+    for (; place.row < end; place.advance(engine_.grid())) {
+      if (!is_to_be_looked_at(place, unit, scratch_)) continue;
+      const std::int64_t other = equal_.find(place);
+      if (other == place.row) {
+        pieces_.push_back({unit, place.row, place.row + 1, true});
+      } else {
+        copies_.push_back({other, place.row});
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_to_be_looked_at(const RowPlace& place, std::int64_t unit,
+                                        WaveNews::Scratch& scratch) const {
+    if (alive_[static_cast<std::size_t>(place.row)] == 0) return false;
+    const bool is_new = news_.is_unseen(unit) && !is_settled(place.row);
+    return is_new || news_.meets_change(place, unit, scratch);
   }
 
   void visit(const Piece& piece, int w) {
@@ -159,20 +215,18 @@ class WaveRunner {
       worker.batch = batch_;
       worker.unit = piece.unit;
     }
-    const bool is_first = news_.is_unseen(piece.unit);
-    if (!is_first || !settled_.empty()) news_.enter(piece.unit, worker.news);
+    if (!piece.is_wanted && (!news_.is_unseen(piece.unit) || !settled_.empty()))
+      news_.enter(piece.unit, worker.news);
     RowPlace place(engine_.grid(), piece.begin);
     for (; place.row < piece.end; place.advance(engine_.grid())) {
-      if (alive_[static_cast<std::size_t>(place.row)] == 0) continue;
-      const bool is_new = is_first && !is_settled(place.row);
-      if (is_new || news_.meets_change(place, piece.unit, worker.news)) visit_row(place, worker, w);
+      if (piece.is_wanted || is_to_be_looked_at(place, piece.unit, worker.news)) visit_row(place, worker, w);
     }
   }
 
   void visit_row(const RowPlace& place, Worker& worker, int w) {
     ++worker.visited;
     const auto n = static_cast<std::size_t>(levels_.row_length());
-    const Level* present = levels_.row(place.row);
+    const Level* present = std::as_const(levels_).row(place.row);
     std::copy_n(present, n, worker.old.begin());
     levels_.clear_gaps(worker.old.data());
     if (!op_.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w)) return;
@@ -199,7 +253,7 @@ class WaveRunner {
   void commit_all() {
     std::size_t levels = 0;
     for (const Worker& worker : workers_) levels += worker.storage.size();
-    if (levels < kFewLevels) {
+    if (levels < kFewLevels || levels_.is_shared()) {
       for (const Worker& worker : workers_) commit(worker);
       return;
     }
@@ -210,9 +264,18 @@ class WaveRunner {
 
   void commit(const Worker& worker) {
     for (const Change& change : worker.changes) {
-      std::copy_n(worker.storage.data() + change.position, levels_.row_length(), levels_.row(change.row));
-      levels_.close(change.row);
+      levels_.put(change.row, worker.storage.data() + change.position);
       news_.mark_row(change.row);
+    }
+  }
+
+  void copy_all() {
+    for (const Copy& copy : copies_) {
+      equal_.copy(copy.from, copy.to, [this](std::int64_t row) {
+        news_.mark_row(row);
+        news_.mark_unit_of(row);
+      });
+      copied_ += equal_.rows() == 1 ? 1 : unit_alive_[static_cast<std::size_t>(copy.to)];
     }
   }
 
@@ -225,6 +288,8 @@ class WaveRunner {
   ThreadTeam& team_;
   std::int64_t unit_rows_;
   WaveNews news_;
+  EqualTiles<Level> equal_;
+  std::int64_t copied_ = 0;  ///< rows
   std::int64_t units_ = 0;
   std::int64_t batch_units_ = 1;
   std::int64_t alive_rows_ = 0;
@@ -235,6 +300,8 @@ class WaveRunner {
   std::vector<std::int64_t> unit_alive_;  ///< [unit] rows that are alive
   std::deque<Worker> workers_;
   std::vector<Piece> pieces_;
+  std::vector<Copy> copies_;
+  WaveNews::Scratch scratch_;
 };
 
 }  // namespace
@@ -242,25 +309,26 @@ class WaveRunner {
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
                     const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,
-                    ThreadTeam& team) {
-  WaveRunner<Level> runner(levels, engine, hull, limit, settled, op, watch, team);
+                    ThreadTeam& team, const TileClasses& equal) {
+  WaveRunner<Level> runner(levels, engine, hull, limit, settled, op, watch, team, equal);
   WaveCounts counts;
   for (;;) {
     const std::int64_t visited = runner.sweep(++counts.sweeps);
     counts.rows_visited += visited;
-    counts.rows_skipped += runner.alive_rows() - visited;
+    counts.rows_skipped += runner.alive_rows() - visited - (runner.copied_rows() - counts.rows_copied);
+    counts.rows_copied = runner.copied_rows();
     if (visited == 0) return counts;
   }
 }
 
 template WaveCounts run_wave(LevelRows<std::uint8_t>&, const RowEngine&, const RowHull&, std::uint8_t,
                              const std::vector<std::uint8_t>&, RowOperator<std::uint8_t>&, const WaveWatch&,
-                             ThreadTeam&);
+                             ThreadTeam&, const TileClasses&);
 template WaveCounts run_wave(LevelRows<std::uint16_t>&, const RowEngine&, const RowHull&, std::uint16_t,
                              const std::vector<std::uint8_t>&, RowOperator<std::uint16_t>&, const WaveWatch&,
-                             ThreadTeam&);
+                             ThreadTeam&, const TileClasses&);
 template WaveCounts run_wave(LevelRows<std::uint32_t>&, const RowEngine&, const RowHull&, std::uint32_t,
                              const std::vector<std::uint8_t>&, RowOperator<std::uint32_t>&, const WaveWatch&,
-                             ThreadTeam&);
+                             ThreadTeam&, const TileClasses&);
 
 }  // namespace coordreq

@@ -6,6 +6,7 @@
 #include "base/thread_team.hpp"
 #include "engine/post_reader.hpp"
 #include "engine/row_hull.hpp"
+#include "engine/tiles.hpp"
 #include "engine/wave_watch.hpp"
 
 namespace coordreq {
@@ -14,12 +15,14 @@ namespace coordreq {
 struct WaveCounts {
   std::int64_t sweeps = 0;
   std::int64_t rows_visited = 0;  ///< rows whose levels were worked out, again each time
+  std::int64_t rows_copied = 0;   ///< rows that got the levels of one worked out in the same sweep
   std::int64_t rows_skipped =
       0;  ///< rows whose levels can still sink, passed over as nothing near them had changed
 
   void add(const WaveCounts& other) {
     sweeps += other.sweeps;
     rows_visited += other.rows_visited;
+    rows_copied += other.rows_copied;
     rows_skipped += other.rows_skipped;
   }
 };
@@ -51,9 +54,11 @@ class RowOperator {
 /// at
 ///   before a row that its posts can meet has changed. Empty: nothing is known
 /// @param watch its `resumed` is not looked at
+/// @param equal what the operator says depends on these, and on the levels, alone. Where rows of levels are
+///   shared, work that would be equal to some done in the same sweep is not done again
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
                     const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,
-                    ThreadTeam& team);
+                    ThreadTeam& team, const TileClasses& equal = {});
 
 }  // namespace coordreq

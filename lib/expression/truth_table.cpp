@@ -72,6 +72,13 @@ void join_atoms(const ConditionAtoms& atoms, const std::vector<std::span<const W
   std::copy(values.back().begin(), values.back().end(), out.begin());
 }
 
+/// Neighbouring rows often are alike: where a condition depends on a difference most of all.
+bool are_equal(const std::vector<std::span<const Word>>& a, const std::vector<std::span<const Word>>& b) {
+  return std::ranges::equal(a, b, [](std::span<const Word> x, std::span<const Word> y) {
+    return x.data() == y.data() || std::ranges::equal(x, y);
+  });
+}
+
 }  // namespace
 
 /// Evaluates one bit of the table after the other; scratch of one thread.
@@ -169,10 +176,13 @@ TruthTable::TruthTable(const Program& condition, std::span<const ConditionAxis> 
   const auto words = static_cast<std::size_t>(words_per_row());
   const std::int64_t grain = std::max<std::int64_t>(1, 4096 / row_length_);
   team.for_each(rows_, grain, [&](ThreadTeam::Range range, int) {
-    Filler filler(condition, axes, kept, undecided, question);
+    std::optional<Filler> filler;  // most ranges need none
     for (std::int64_t r = range.begin; r < range.end; ++r) {
       const std::size_t begin = refuted.empty() ? 0 : static_cast<std::size_t>(r) * words;
-      fill_row(r, {refuted.data() + begin, refuted.empty() ? 0 : words}, filler);
+      const std::span<const Word> settled(refuted.data() + begin, refuted.empty() ? 0 : words);
+      if (is_settled(r, settled)) continue;
+      if (!filler) filler.emplace(condition, axes, kept, undecided, question);
+      fill_row(r, settled, *filler);
     }
   });
 }
@@ -193,24 +203,28 @@ void TruthTable::lay_out(const Program& condition, std::span<const ConditionAxis
   bits_.assign(static_cast<std::size_t>(rows_ * words_per_row()), 0);
 }
 
+/// Every bit of the row is known: set already, or refuted.
+bool TruthTable::is_settled(std::int64_t position, std::span<const Word> refuted) const {
+  const std::span<const Word> bits = row(position);
+  bool all = !refuted.empty();
+  for (std::size_t w = 0; all && w < bits.size(); ++w)
+    all = (bits[w] | refuted[w]) == cells_of_word(w, row_length_);
+  return all;
+}
+
 /// @param refuted the cells of the row that need no look as the condition is false there; empty if bits that
 ///   are set already do not count either
 void TruthTable::fill_row(std::int64_t position, std::span<const Word> refuted, Filler& filler) {
   const std::span<Word> bits = row(position);
   const bool has_settled = !refuted.empty();
-  const auto is_settled = [&](std::int64_t k) { return has_settled && (test(bits, k) || test(refuted, k)); };
-  bool all_settled = has_settled;
-  for (std::size_t w = 0; all_settled && w < bits.size(); ++w) {
-    all_settled = (bits[w] | refuted[w]) == cells_of_word(w, row_length_);
-  }
-  if (all_settled) return;
+  const auto is_known = [&](std::int64_t k) { return has_settled && (test(bits, k) || test(refuted, k)); };
   for (const std::size_t slot : across_) filler.set(slot, index_of(position, slot));
   if (!along_in_use_) {
     if (filler.holds()) set_all(bits, row_length_);
     return;
   }
   for (std::int64_t k = 0; k < row_length_; ++k) {
-    if (is_settled(k)) continue;
+    if (is_known(k)) continue;
     filler.set(along_, k);
     if (filler.holds()) set(bits, k);
   }
@@ -230,16 +244,24 @@ std::vector<Word> TruthTable::proven_by_atoms(const Program& condition, std::spa
   std::vector<Word> result(bits_.size(), 0);
   team.for_each(rows_, 256, [&](ThreadTeam::Range range, int) {
     std::vector<std::vector<Word>> values(found->nodes.size());
-    std::vector<std::span<const Word>> rows;
+    std::vector<std::span<const Word>> rows, before;
+    std::vector<std::int64_t> index;  // by slot in use
+    for (const std::size_t slot : across_) index.push_back(index_of(range.begin, slot));
     for (std::int64_t r = range.begin; r < range.end; ++r) {
+      rows.swap(before);
       rows.clear();
       for (const TruthTable& table : tables) {
         std::int64_t position = 0;
-        for (const std::size_t slot : table.across_) position += index_of(r, slot) * table.strides_[slot];
+        for (std::size_t i = 0; i < index.size(); ++i) position += index[i] * table.strides_[across_[i]];
         rows.push_back(table.row(position));
       }
-      join_atoms(*found, rows, row_length_, values,
-                 {result.data() + static_cast<std::size_t>(r) * words, words});
+      for (std::size_t i = index.size(); i-- > 0 && ++index[i] == counts_[across_[i]];) index[i] = 0;
+      Word* const out = result.data() + static_cast<std::size_t>(r) * words;
+      if (r > range.begin && are_equal(rows, before)) {
+        std::copy_n(out - words, words, out);
+      } else {
+        join_atoms(*found, rows, row_length_, values, {out, words});
+      }
     }
   });
   return result;

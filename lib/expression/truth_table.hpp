@@ -59,6 +59,7 @@ class TruthTable {
   [[nodiscard]] std::vector<Word> proven_by_atoms(const Program& condition,
                                                   std::span<const ConditionAxis> axes, bool negated,
                                                   ThreadTeam& team) const;
+  [[nodiscard]] bool is_settled(std::int64_t position, std::span<const Word> refuted) const;
   void fill_row(std::int64_t position, std::span<const Word> refuted, Filler& filler);
 
   std::uint32_t along_;

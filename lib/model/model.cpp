@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "model/row_sample.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -57,6 +59,17 @@ bool is_bound_to_the_spec(const ProblemSpec& spec) {
          spec.controller.file.has_value();
 }
 
+/// Or in rows along the last dimension alone.
+bool is_read_by_runs(const ProblemSpec& spec) {
+  return is_bound_to_the_spec(spec) || spec.controller.allow || spec.network ||
+         spec.coordination.convention || spec.coordination.horizon || !spec.requirements.empty();
+}
+
+/// Rows along several dimensions take no tubes.
+bool can_join_rows(const ProblemSpec& spec) {
+  return !is_read_by_runs(spec) && !spec.abstraction.between_samples;
+}
+
 std::vector<TableShape> arranged(const std::vector<TableShape>& shapes, const UniformGrid& grid) {
   std::vector<TableShape> result;
   for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -70,38 +83,40 @@ std::vector<TableShape> arranged(const std::vector<TableShape>& shapes, const Un
 
 }  // namespace
 
-std::vector<std::size_t> choose_order(const ProblemSpec& spec, const std::vector<TableShape>& shapes) {
+StateOrder choose_order(const ProblemSpec& spec, const std::vector<TableShape>& shapes) {
   std::vector<std::size_t> order = natural_order(spec);
-  if (is_bound_to_the_spec(spec)) return order;
+  if (is_bound_to_the_spec(spec)) return {order};
   const auto quality = [&](std::size_t i) {
     return std::tuple(shapes[i].shift, spec.states[i].grid.count, i);
   };
   const std::size_t last = *std::max_element(
       order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return quality(a) < quality(b); });
-  if (const auto summed = sums_last(spec, shapes)) return *summed;
+  if (const auto summed = sums_last(spec, shapes)) return {*summed};
   const std::vector<std::size_t> component = components(shapes);
   const auto place = [&](std::size_t i) {
     const bool with_last = component[i] == component[last];
     return std::tuple(i == last, with_last, component[i], with_last ? shapes[i].states.size() : 0, i);
   };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
-  return order;
+  if (!can_join_rows(spec)) return {order};
+  const auto along = find_similar_rows(spec, shapes, order);
+  if (!along) return {order};
+  const auto is_across = [&](std::size_t i) {
+    return std::find(along->begin(), along->end(), i) == along->end();
+  };
+  std::stable_partition(order.begin(), order.end(), is_across);
+  return {order, along->size()};
 }
 
 Model::Model(const ProblemSpec& spec, std::vector<TableShape> shapes)
     : spec_(&spec),
       shapes_(std::move(shapes)),
       order_(choose_order(spec, shapes_)),
+      most_along_(can_join_rows(spec) ? order_.most_along : 1),
       keeps_sums_(!is_bound_to_the_spec(spec) && sums_last(spec, shapes_).has_value()),
-      grid_(make_grid(spec).arranged(order_)),
+      grid_(make_grid(spec).arranged(order_.states)),
       inputs_(make_input_space(spec)) {
   arranged_shapes_ = arranged(shapes_, grid_);
-}
-
-bool Model::is_read_by_runs() const {
-  const ProblemSpec& spec = *spec_;
-  return is_bound_to_the_spec(spec) || spec.controller.allow || spec.network ||
-         spec.coordination.convention || spec.coordination.horizon || !spec.requirements.empty();
 }
 
 }  // namespace coordreq

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "model/input_space.hpp"
@@ -9,6 +10,12 @@
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
+
+/// The states in the order in which the engine works best.
+struct StateOrder {
+  std::vector<std::size_t> states;    ///< [dimension] the state
+  std::size_t most_along = SIZE_MAX;  ///< rows run along no more than so many of the last ones
+};
 
 /// A problem made ready once and handed on: what its states depend on, the grid in the order in which the
 /// engine works best, the joint inputs. The spec stays as it was read; whoever meets a dimension of the grid
@@ -25,7 +32,9 @@ class Model {
   /// By state of the spec.
   [[nodiscard]] const std::vector<TableShape>& shapes() const { return shapes_; }
   /// [dimension] its state; choose_order().
-  [[nodiscard]] const std::vector<std::size_t>& order() const { return order_; }
+  [[nodiscard]] const std::vector<std::size_t>& order() const { return order_.states; }
+  /// Rows may run along so many of the last dimensions, or none but the last.
+  [[nodiscard]] std::size_t most_along() const { return most_along_; }
   /// By dimension of the grid, `states` too.
   [[nodiscard]] const std::vector<TableShape>& arranged_shapes() const { return arranged_shapes_; }
   /// In that order, in rows along the last dimension.
@@ -34,20 +43,19 @@ class Model {
 
   /// The order is the one of sums: then their tables are not cut into rows.
   [[nodiscard]] bool keeps_sums() const { return keeps_sums_; }
-  /// What the spec asks for is read or written in rows along the last dimension alone.
-  [[nodiscard]] bool is_read_by_runs() const;
 
  private:
   const ProblemSpec* spec_;
   std::vector<TableShape> shapes_;
-  std::vector<std::size_t> order_;
+  StateOrder order_;
+  std::size_t most_along_ = 1;
   bool keeps_sums_ = false;
   std::vector<TableShape> arranged_shapes_;
   UniformGrid grid_;
   InputSpace inputs_;
 };
 
-/// The states in the order in which the engine works best; [dimension] the state.
+/// The order of the states:
 ///
 /// 1. Rows run along a state that moves by an offset that does not depend on itself, if there is one: the
 /// longest, and of equals the last. Then a whole row is one window.
@@ -55,8 +63,9 @@ class Model {
 /// leading dimensions are shared (RowEngine). States that move together stand together.
 /// 3. But where motion is coupled and led by what moves by itself (SumRows), the leaders come first and the
 /// sums behind them, the longest along the rows.
+/// 4. But where rows along several states are far more often equal if they run along others, those come last:
+/// find_similar_rows().
 /// The order of the spec is kept where nothing is gained.
-[[nodiscard]] std::vector<std::size_t> choose_order(const ProblemSpec& spec,
-                                                    const std::vector<TableShape>& shapes);
+[[nodiscard]] StateOrder choose_order(const ProblemSpec& spec, const std::vector<TableShape>& shapes);
 
 }  // namespace coordreq

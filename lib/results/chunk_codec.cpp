@@ -19,10 +19,18 @@ void shuffle_fixed(std::span<const std::byte> raw, std::span<std::byte> shuffled
   }
 }
 
-/// All elements are equal: every one is the one before it.
-bool is_uniform(std::span<const std::byte> raw, std::size_t element_size) {
-  return raw.size() > element_size &&
-         std::memcmp(raw.data(), raw.data() + element_size, raw.size() - element_size) == 0;
+/// A look at some places, so that a chunk is compared as a whole with hardly any that it is not equal to.
+std::uint64_t mark_of(std::span<const std::byte> bytes) {
+  constexpr std::size_t kLooks = 256;
+  std::uint64_t mark = bytes.size();
+  std::uint64_t word = 0;
+  const std::size_t step = std::max(sizeof(word), bytes.size() / kLooks);
+  for (std::size_t at = 0; at + sizeof(word) <= bytes.size(); at += step) {
+    std::memcpy(&word, bytes.data() + at, sizeof(word));
+    mark = (mark ^ word) * 0x9E3779B97F4A7C15U;
+    mark ^= mark >> 32U;
+  }
+  return mark;
 }
 
 }  // namespace
@@ -78,18 +86,21 @@ ChunkCodec::ChunkCodec() : compressor_(libdeflate_alloc_compressor(kDeflateLevel
 
 void ChunkCodec::pack(std::span<const std::byte> raw, std::size_t element_size,
                       std::vector<std::byte>& packed) {
-  if (!is_uniform(raw, element_size)) {
-    compress(raw, element_size, packed);
+  const std::uint64_t mark = mark_of(raw) ^ element_size;
+  for (const Known& known : known_) {
+    if (known.mark != mark || known.element_size != element_size || known.raw.size() != raw.size()) continue;
+    if (!raw.empty() && std::memcmp(known.raw.data(), raw.data(), raw.size()) != 0) continue;
+    packed = known.packed;
     return;
   }
-  const std::span<const std::byte> element = raw.first(element_size);
-  if (raw.size() != uniform_bytes_ ||
-      !std::equal(element.begin(), element.end(), uniform_.begin(), uniform_.end())) {
-    compress(raw, element_size, uniform_packed_);
-    uniform_.assign(element.begin(), element.end());
-    uniform_bytes_ = raw.size();
-  }
-  packed = uniform_packed_;
+  compress(raw, element_size, packed);
+  if (known_.size() < kMostKnown) known_.emplace_back();
+  Known& oldest = known_[oldest_];
+  oldest_ = (oldest_ + 1) % kMostKnown;
+  oldest.mark = mark;
+  oldest.element_size = element_size;
+  oldest.raw.assign(raw.begin(), raw.end());
+  oldest.packed = packed;
 }
 
 void ChunkCodec::compress(std::span<const std::byte> raw, std::size_t element_size,

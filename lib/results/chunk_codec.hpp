@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -17,8 +18,8 @@ inline constexpr int kDeflateLevel = 1;
 /// libdeflate rather than HDF5's own filter: it is faster, and works on several chunks at a time while the
 /// HDF5 library admits one caller. The output depends on the input alone. One object a thread.
 ///
-/// Far from where anything happens whole chunks hold one value: the last of them is remembered with what
-/// became of it.
+/// Where rows are often equal, so are chunks, and far from where anything happens they hold one value: some
+/// of the last ones are remembered with what became of them.
 class ChunkCodec {
  public:
   ChunkCodec();
@@ -28,6 +29,14 @@ class ChunkCodec {
   void pack(std::span<const std::byte> raw, std::size_t element_size, std::vector<std::byte>& packed);
 
  private:
+  static constexpr std::size_t kMostKnown = 8;
+  struct Known {
+    std::uint64_t mark = 0;
+    std::size_t element_size = 0;
+    std::vector<std::byte> raw;
+    std::vector<std::byte> packed;
+  };
+
   void compress(std::span<const std::byte> raw, std::size_t element_size, std::vector<std::byte>& packed);
 
   struct Free {
@@ -36,9 +45,8 @@ class ChunkCodec {
   std::unique_ptr<libdeflate_compressor, Free> compressor_;
   std::vector<std::byte> shuffled_;
   std::vector<std::byte> scratch_;
-  std::vector<std::byte> uniform_;         ///< the last element that a whole chunk consisted of
-  std::size_t uniform_bytes_ = 0;          ///< length of that chunk; 0: none yet
-  std::vector<std::byte> uniform_packed_;  ///< and what became of it
+  std::vector<Known> known_;
+  std::size_t oldest_ = 0;  ///< of them, the next to be forgotten
 };
 
 /// All first bytes of the elements, then all second bytes, and so on: HDF5's "shuffle" filter.

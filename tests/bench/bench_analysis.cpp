@@ -5,12 +5,17 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 #include "analysis/analyze.hpp"
 #include "answers/invariance/invariance.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "answers/layers/projections.hpp"
+#include "engine/join_rows.hpp"
+#include "engine/tiles.hpp"
+#include "model/model.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 
@@ -46,6 +51,35 @@ void sweep(benchmark::State& state) {
                          benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(sweep)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Question: what does looking for equal work save where there is much (the gridworld), and what does it cost
+/// where there is none (the circle)? K with tiles of single rows, or without.
+void equal_work(benchmark::State& state, const std::string& name) {
+  const ProblemSpec spec = read_spec_file(std::string(COORDREQ_CONFIGS "/") + name + ".json", std::cin);
+  ThreadTeam team(1);
+  const Model model(spec, table_shapes(spec));
+  Abstraction built = arranged(build_abstraction(spec, team), model.order());
+  built.grid = join_rows(built, model.most_along());
+  const CellSet safe = safe_set(spec, built, team);
+  const RowEngine engine(built, nullptr, {});
+  const RowHull hull(engine);
+  for (auto _ : state) {
+    const std::optional<Tiles> tiles =
+        state.range(0) == 0 ? std::nullopt : Tiles::make(engine, hull, engine.across());
+    benchmark::DoNotOptimize(
+        find_invariance(engine, hull, safe, Synthesis::maximal, {}, team, tiles ? &*tiles : nullptr));
+  }
+}
+BENCHMARK_CAPTURE(equal_work, gridworld, "gridworld")
+    ->ArgName("tiles")
+    ->Arg(0)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(equal_work, circle, "circle")
+    ->ArgName("tiles")
+    ->Arg(0)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond);
 
 /// Question: what does the whole circle cost, results file written?
 void whole_circle(benchmark::State& state) {

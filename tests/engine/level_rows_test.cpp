@@ -1,6 +1,10 @@
 #include "engine/level_rows.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <utility>
 
 namespace coordreq {
 namespace {
@@ -70,6 +74,50 @@ TEST(LevelRows, OfSeveralDimensionsGoOnInEach) {
         EXPECT_EQ(row[lane], lane % 7 < 2 ? 10 * (lane / 7) + lane % 7 + 1 : 0);
     }
   }
+}
+
+TEST(LevelRows, SharedRowsAreHeldOnceAndReadAsOthersAre) {
+  const RowShape shape{{{3, 7, {1, 2}, {Outside::safe, Outside::saturate}},
+                        {2, 1, {2, 3}, {Outside::periodic, Outside::periodic}}}};
+  EXPECT_TRUE(rc::check("shared rows", [&] {
+    Levels plain(5, shape);
+    Levels shared(5, shape, true);
+    for (std::int64_t r = 0; r < 5; ++r) plain.close(r);
+    const int changes = *rc::gen::inRange(0, 30);
+    for (int k = 0; k < changes; ++k) {
+      const auto r = *rc::gen::inRange<std::int64_t>(0, 5);
+      std::vector<std::uint8_t> cells(21 + kLevelBlock, 0);
+      shape.for_each_run([&](std::int64_t lane, std::int64_t count) {
+        for (std::int64_t c = lane; c < lane + count; ++c)
+          cells[static_cast<std::size_t>(c)] = *rc::gen::element<std::uint8_t>(0, 0, 1, 255);
+      });
+      const auto from = *rc::gen::inRange<std::int64_t>(0, 5);
+      if (*rc::gen::inRange(0, 4) == 0) {
+        const std::vector<std::uint8_t> other(plain.row(from), plain.row(from) + 21 + kLevelBlock);
+        plain.put(r, other.data());
+        const bool was_equal = shared.content(from) == shared.content(r);
+        RC_ASSERT(shared.copy_row(from, r) != was_equal);
+      } else {
+        plain.put(r, cells.data());
+        shared.put(r, cells.data());
+      }
+      if (k % 7 == 0) shared.renumber();
+    }
+    const RowMargins margins = plain.margins();
+    std::int64_t held = 0;
+    shared.for_each_held(0, shared.held(), [&](const std::uint8_t*, std::int64_t rows) { held += rows; });
+    RC_ASSERT(held == 5);
+    for (std::int64_t r = 0; r < 5; ++r) {
+      const std::uint8_t* const a = std::as_const(plain).row(r);
+      const std::uint8_t* const b = std::as_const(shared).row(r);
+      RC_ASSERT(std::equal(a - margins.before, a + 21 + margins.after, b - margins.before));
+      for (std::int64_t other = 0; other < r; ++other) {
+        const bool equal = std::equal(a, a + 21, std::as_const(plain).row(other));
+        RC_ASSERT((b == std::as_const(shared).row(other)) == equal);
+        RC_ASSERT((shared.content(r) == shared.content(other)) == equal);
+      }
+    }
+  }));
 }
 
 TEST(LevelRows, MarkCellsThatLeaveThroughUnsafeEnds) {

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "model/cell_order.hpp"
+#include "model/row_sample.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 #include "support/random_problem.hpp"
@@ -64,7 +65,7 @@ ProblemSpec four_states(const std::string& equations, const std::string& output 
 }
 
 std::vector<std::size_t> order_of(const ProblemSpec& spec) {
-  return choose_order(spec, table_shapes(spec));
+  return choose_order(spec, table_shapes(spec)).states;
 }
 
 TEST(Layout, RowsRunAlongTheLongestShiftAndWhatMovesWithItComesLast) {
@@ -83,6 +84,61 @@ TEST(Layout, SumsComeAfterWhatLeadsThemTheLongestLast) {
 "safe": "x^2 + y^2 >= 4"})json",
                                      "turn");
   EXPECT_EQ(order_of(spec), (std::vector<std::size_t>{2, 1, 0}));
+}
+
+/// Two in a square, as the equations and S say.
+ProblemSpec two_in_a_square(const std::string& equations, const std::string& safe,
+                            const std::string& more = "") {
+  std::string states;
+  for (const char* name : {"x1", "y1", "x2", "y2"})
+    states += std::string(states.empty() ? "" : ", ") + R"({"name": ")" + name +
+              R"(", "lower": 0, "upper": 19, "step": 1})";
+  return read_spec(
+      R"json({"coordreq": 1, "name": "square", "states": [)json" + states +
+          R"json(], "inputs": [{"name": "u", "values": [-1, 1]}, {"name": "v", "values": [-1, 1]}],
+"agents": [{"name": "one", "inputs": ["u"]}, {"name": "two", "inputs": ["v"]}],
+"dynamics": {"time": "discrete", "period": 1, "equations": {)json" +
+          equations + R"(}}, "safe": ")" + safe + "\"" + more + "}",
+      "square");
+}
+
+TEST(Layout, StatesThatOnlyMeetInADifferenceStandOnDifferentSides) {
+  const std::string moves = R"("x1": "x1 + u", "y1": "y1 + u", "x2": "x2 + v", "y2": "y2 + v")";
+  const std::string apart = "max(abs(x1 - x2), abs(y1 - y2)) >= 5";
+  const ProblemSpec spec = two_in_a_square(moves, apart);
+  const StateOrder order = choose_order(spec, table_shapes(spec));
+  EXPECT_EQ(order.states, (std::vector<std::size_t>{0, 2, 1, 3}));
+  EXPECT_EQ(order.most_along, 2U);
+  // Where other states meet, others stand side by side.
+  EXPECT_EQ(order_of(two_in_a_square(moves, "max(abs(x1 - y1), abs(x2 - y2)) >= 5")),
+            (std::vector<std::size_t>{0, 1, 2, 3}));
+  // What is asked for is read in rows along one state; or all meet all.
+  EXPECT_EQ(order_of(two_in_a_square(moves, apart, R"(, "coordination": {"convention": true})")),
+            (std::vector<std::size_t>{0, 1, 2, 3}));
+  EXPECT_EQ(order_of(two_in_a_square(moves, "abs(3*x1 + 7*y1 - 5*x2 - 11*y2) >= 20")),
+            (std::vector<std::size_t>{0, 1, 2, 3}));
+  // The rows of states that others depend on are not taken together.
+  EXPECT_EQ(
+      order_of(two_in_a_square(R"("x1": "x1 + y1", "y1": "y1 + u", "x2": "x2 + v", "y2": "y2 + v")", apart))
+          .back(),
+      3U);
+}
+
+TEST(Layout, ASampleOfRowsCountsWhatIsDifferent) {
+  const std::string moves = R"("x1": "x1 + u", "y1": "y1 + u", "x2": "x2 + v", "y2": "y2 + x1")";
+  const ProblemSpec spec = two_in_a_square(moves, "max(abs(x1 - x2), abs(y1 - y2)) >= 5");
+  const std::vector<TableShape> shapes = table_shapes(spec);
+  const RowSample along_y = sample_rows(spec, shapes, {1, 3});
+  EXPECT_EQ(along_y.rows, 400);
+  EXPECT_EQ(along_y.lanes, 400);
+  EXPECT_EQ(along_y.drawn, 64);
+  EXPECT_GT(along_y.different, 10);  // y2 moves by x1, which is across
+  EXPECT_EQ(sample_rows(spec, shapes, {1, 3}), along_y);
+  const ProblemSpec free =
+      two_in_a_square(R"("x1": "x1 + u", "y1": "y1 + u", "x2": "x2 + v", "y2": "y2 + v")",
+                      "max(abs(x1 - x2), abs(y1 - y2)) >= 5");
+  EXPECT_EQ(sample_rows(free, table_shapes(free), {1, 3}).different, 2);
+  EXPECT_EQ(sample_rows(free, table_shapes(free), {0, 1, 2, 3}).rows, 1);
 }
 
 TEST(Layout, TheOrderOfTheSpecIsKeptWhereNothingIsGained) {

@@ -66,6 +66,22 @@ TEST(ChunkCodec, ChunksOfOneValueArePackedLikeAllOthers) {
   }
 }
 
+TEST(ChunkCodec, ChunksThatComeAgainArePackedTheSame) {
+  ChunkCodec used;
+  for (int round = 0; round < 3; ++round) {
+    for (std::size_t k = 0; k < 12; ++k) {  // more than it remembers, alike but for one byte
+      std::vector<std::byte> raw(5000, std::byte{3});
+      raw[k * 400 + 3] = std::byte{4};
+      std::vector<std::byte> packed, expected;
+      used.pack(raw, 2, packed);
+      ChunkCodec().pack(raw, 2, expected);
+      EXPECT_EQ(packed, expected);
+      if (k % 4 == 0) used.pack(raw, 2, packed);
+      EXPECT_EQ(packed, expected);
+    }
+  }
+}
+
 TEST(ChunkCodec, WhatItPackedBeforeLeavesNoTrace) {
   ChunkCodec used;
   std::vector<std::byte> packed;

@@ -15,7 +15,7 @@ namespace {
 /// for can be read off them.
 Abstraction in_order(const Model& model, Abstraction abstraction) {
   abstraction = arranged(std::move(abstraction), model.order());
-  if (!model.is_read_by_runs()) abstraction.grid = join_rows(abstraction);
+  abstraction.grid = join_rows(abstraction, model.most_along());
   return abstraction;
 }
 

@@ -15,8 +15,8 @@ void find_invariance_set(Answers& answers, const StageWork& work) {
   // No cell is lost later than all others one after the other.
   const LevelBounds bounds{&ground.safe, ground.engine->grid().points() + 1};
   find_or_take_levels(work, *ground.engine, bounds, result.collision_time, [&](const WaveWatch& watch) {
-    Invariance found =
-        find_invariance(*ground.engine, *ground.hull, ground.safe, synthesis, watch, work.team);
+    Invariance found = find_invariance(*ground.engine, *ground.hull, ground.safe, synthesis, watch, work.team,
+                                       ground.equal_work());
     result.counts = found.counts;
     return std::move(found.collision_time);
   });

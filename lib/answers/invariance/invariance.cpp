@@ -114,12 +114,14 @@ std::unique_ptr<RowOperator<Level>> make_operator(const ActionGrouping& grouping
 }  // namespace
 
 Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
-                           Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team) {
+                           Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
+                           const Tiles* tiles) {
   // The finest classes give the fewest joint groups to try.
   const ActionGrouping grouping(engine, single_classes(engine.abstraction().inputs), team);
   const int workers = team.size();
   const LevelProblem problem{
       .start = &safe,
+      .equal = {tiles, tiles == nullptr ? nullptr : &tiles->tables()},
       .make8 = [&] { return make_operator<std::uint8_t>(grouping, hull, synthesis, workers); },
       .make16 = [&] { return make_operator<std::uint16_t>(grouping, hull, synthesis, workers); },
       .make32 = [&] { return make_operator<std::uint32_t>(grouping, hull, synthesis, workers); }};

@@ -21,7 +21,8 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
   std::vector<DelayLayers>& all = answers.get<PartitionLayers>().partitions;
   const CellSet& invariant = answers.get<Invariance>().invariant;
   if (coordination.partitions[p].classes.size() == 1) {
-    all[p] = coordinated_layers(*ground.engine, invariant, coordination.max_delay, work.team);
+    all[p] = coordinated_layers(*ground.engine, invariant, coordination.max_delay, work.team,
+                                ground.tiles.has_value());
     return;
   }
   const std::int64_t steps = ground.engine->grid().points();
@@ -78,7 +79,8 @@ PartitionActions::PartitionActions(const Answers& answers, std::size_t p, Thread
                input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
                              answers.ground.spec.coordination.partitions[p]),
                team),
-      projections(answers.get<Controller>(), grouping, *answers.ground.hull, team) {}
+      projections(answers.get<Controller>(), grouping, *answers.ground.hull, team,
+                  answers.ground.equal_work()) {}
 
 std::vector<Stage> layers_stages(const ProblemSpec& spec) {
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;

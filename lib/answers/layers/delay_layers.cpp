@@ -33,6 +33,7 @@ DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, cons
       .start = &invariant,
       .bounds = coarser,
       .settled = &projections.full_rows(),
+      .equal = projections.tile_classes(),
       .limit = max_delay.value_or(-1),
       .make8 = [&] { return make_operator<std::uint8_t>(projections, hull, invariant, workers); },
       .make16 = [&] { return make_operator<std::uint16_t>(projections, hull, invariant, workers); },
@@ -45,8 +46,8 @@ DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, cons
 }
 
 DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
-                               std::optional<std::int64_t> max_delay, ThreadTeam& team) {
-  DelayLayers result{.layers_of = LevelMap(engine.make_levels<std::uint8_t>(invariant, team))};
+                               std::optional<std::int64_t> max_delay, ThreadTeam& team, bool shared) {
+  DelayLayers result{.layers_of = LevelMap(engine.make_levels<std::uint8_t>(invariant, team, shared))};
   follow_from_levels(max_delay, team, result);
   return result;
 }

@@ -43,6 +43,7 @@ void IndependentActions<Level>::lower_by_boxes(const RowPlace& place, PostReader
   const RowEngine& engine = grouping_.engine();
   IndependentPosts::unpack(projections_.packed(place.row), boxes_, grouping_.size(), engine.row_words(),
                            work.row);
+  work.is_moved = projections_.find_shift(place.row, work.shift);
   work.box.resize(engine.grid());
   work.labels = nullptr;
   for (std::size_t p = 0; p < work.row.parts.size(); ++p) {
@@ -75,6 +76,7 @@ void IndependentActions<Level>::lower_by_class(const IndependentPosts::Part& par
   const IndependentPosts::Boxes& boxes = work.row.lists[part.boxes[c]];
   for (std::size_t i = 0; i < boxes.count; ++i) {
     boxes_.put(c, boxes[i], work.box);
+    if (work.is_moved) boxes_.move(c, work.shift, work.box);
     lower_by_class(part, c + 1, posts, next, work);
   }
 }

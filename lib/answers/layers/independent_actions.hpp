@@ -28,6 +28,8 @@ class IndependentActions final : public RowOperator<Level> {
     TupleWalk tuple;
     RowBox box;
     IndependentPosts::Row row;
+    bool is_moved = false;  ///< what was packed lies somewhere else, by
+    std::vector<std::int32_t> shift;
     const Level* labels = nullptr;  ///< of the page at hand; null: there is one part, all of K
     Level label = 0;
     std::vector<Word> reasonable;

@@ -8,6 +8,8 @@ namespace coordreq {
 namespace {
 
 constexpr auto kBits = static_cast<std::size_t>(CellSet::kWordBits);
+/// Rows of K that are kept with what lies beyond their ends.
+constexpr std::int64_t kContinued = 512;
 
 }  // namespace
 
@@ -17,14 +19,15 @@ PairProjection::PairProjection(const Controller& controller, const RowBoxes& box
       engine_(*controller.engine),
       kernels_(&bit_kernels(best_instruction_set())) {
   if (classes != 2 || !boxes.is_product() || boxes.moved(0).empty() || boxes.moved(1).empty()) return;
-  leader_ = boxes.moved(0).front() == 0 ? 0 : 1;
+  applies_ = true;
+  leader_ = boxes.moved(0).back() < boxes.moved(1).back() ? 0 : 1;
   follower_ = 1 - leader_;
-  leading_ = boxes.moved(leader_).size();
+  const std::size_t own = boxes.moved(leader_).size();
   // Dimensions ascend: the leader has the first ones if its last one comes before all of the follower's.
-  applies_ = boxes.moved(leader_).back() < boxes.moved(follower_).front() && leading_ <= engine_.across() &&
-             engine_.is_closed(leading_);
-  if (!applies_) return;
-  unit_rows_ = engine_.grid().row_stride(leading_ - 1);
+  const bool leads = boxes.moved(leader_).back() < boxes.moved(follower_).front() &&
+                     own <= engine_.across() && engine_.is_closed(own);
+  leading_ = leads ? own : 0;
+  unit_rows_ = leads ? engine_.grid().row_stride(leading_ - 1) : 1;
   words_ = engine_.row_words();
   shape_ = engine_.posts().shape;
   margins_ = shape_.margins();
@@ -34,6 +37,8 @@ PairProjection::PairProjection(const Controller& controller, const RowBoxes& box
   taken_words_ = static_cast<std::size_t>(fastest.before + fastest.after) / kBits + words_ + 2;
   plane_words_ = static_cast<std::size_t>(margins_.before + margins_.after) / kBits + taken_words_ + 2;
   found_.resize(words_);
+  if (!leads) continued_.resize(static_cast<std::size_t>(std::min(engine_.rows(), kContinued)));
+  box_.resize(engine_.grid());
 }
 
 void PairProjection::find_masks(const RowPlace& place, const RowGroups& groups,
@@ -53,7 +58,7 @@ void PairProjection::find_masks(const RowPlace& place, const RowGroups& groups,
       const bool for_leader = follower.is_minimal && !leader.is_full;
       const bool for_follower = leader.is_minimal && !follower.is_full;
       if (!for_leader && !for_follower) continue;
-      erode(plane(leader.group), follower, invariant);
+      erode(leader, follower, invariant);
       if (for_leader) add(leader, masks[leader_]);
       if (for_follower) add(follower, masks[follower_]);
     }
@@ -62,7 +67,7 @@ void PairProjection::find_masks(const RowPlace& place, const RowGroups& groups,
 
 void PairProjection::enter_unit(const RowPlace& place, const ActionGroups& own) {
   const std::int64_t unit = place.row / unit_rows_;
-  if (unit == unit_) return;
+  if (leading_ == 0 || unit == unit_) return;
   unit_ = unit;
   planes_.resize(own.size());
   for (Plane& plane : planes_) plane.is_known = false;
@@ -86,6 +91,15 @@ const PairProjection::Plane& PairProjection::plane(std::uint32_t group) {
   return plane;
 }
 
+const std::vector<Word>& PairProjection::continued(std::int64_t row) {
+  Continued& kept = continued_[static_cast<std::size_t>(row % kContinued) % continued_.size()];
+  if (kept.row == row) return kept.bits;
+  kept.row = row;
+  kept.bits.assign(plane_words_, 0);
+  continue_row(controller_.invariant->row(row), kept.bits.data());
+  return kept.bits;
+}
+
 /// Which lanes beyond the ends repeat which cells is the same for all rows: it is read off a row whose levels
 /// are the numbers of its lanes.
 void PairProjection::find_beyond() {
@@ -105,7 +119,7 @@ void PairProjection::find_beyond() {
 }
 
 /// The row at margins().before, and beyond its ends what a post meets there.
-void PairProjection::continue_row(const std::vector<Word>& row, Word* out) const {
+void PairProjection::continue_row(ConstRow row, Word* out) const {
   const auto before = static_cast<std::size_t>(margins_.before);
   for (std::size_t w = 0; w < words_; ++w) {
     const std::size_t word = w + before / kBits;
@@ -120,10 +134,12 @@ void PairProjection::continue_row(const std::vector<Word>& row, Word* out) const
   }
 }
 
-/// The groups of a class that may be found at all, and where.
+/// The groups of a class that may be found at all, and the cells from which they do not leave an unsafe end
+/// of the row.
 void PairProjection::list(const RowGroups& groups, std::size_t c, ConstRow invariant,
-                          std::vector<Candidate>& candidates) const {
+                          std::vector<Candidate>& candidates) {
   const ActionGroups& own = *groups.classes[c];
+  const std::vector<std::size_t>& moved = boxes_.moved(c);
   candidates.resize(own.size());
   std::size_t count = 0;
   for (std::uint32_t g = 0; g < own.size(); ++g) {
@@ -133,11 +149,17 @@ void PairProjection::list(const RowGroups& groups, std::size_t c, ConstRow invar
     candidate.is_minimal = std::binary_search(own.minimal.begin(), own.minimal.end(), g);
     candidate.is_full = false;
     candidate.reach.assign(invariant.begin(), invariant.end());
+    found_.assign(words_, 0);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      if (moved[i] >= engine_.across())
+        mark_leaving(shape_, moved[i] - engine_.across(), boxes_.ranges(c, g)[i], found_);
+    }
+    for (std::size_t w = 0; w < words_; ++w) candidate.reach[w] &= ~found_[w];
   }
   candidates.resize(count);
 }
 
-/// What it reads within the unit, and the cells from which it does not leave an unsafe end of the row.
+/// What it reads within the unit.
 void PairProjection::place_follower(Candidate& candidate) {
   const auto ranges = boxes_.ranges(follower_, candidate.group);
   const auto all_but_one = ranges.first(ranges.size() - 1);
@@ -148,21 +170,18 @@ void PairProjection::place_follower(Candidate& candidate) {
   candidate.rows = static_cast<std::size_t>(known - row_boxes_.begin());
   if (known == row_boxes_.end()) {
     row_boxes_.emplace_back(all_but_one.begin(), all_but_one.end());
-    list_places(all_but_one, row_lists_.emplace_back());
+    row_lists_.emplace_back();
+    if (leading_ > 0) list_places(all_but_one, row_lists_.back());
     taken_.resize(row_boxes_.size() * taken_words_);
   }
-  const auto windows = ranges.last(engine_.along());
-  found_.assign(words_, 0);
-  for (std::size_t k = 0; k < windows.size(); ++k) mark_leaving(shape_, k, windows[k], found_);
-  for (std::size_t w = 0; w < words_; ++w) candidate.reach[w] &= ~found_[w];
 }
 
-/// The rows of a box, and in each the lanes that the windows of all dimensions but the fastest lead to.
-void PairProjection::list_places(std::span<const IndexRange> box, std::vector<Place>& places) {
-  const std::size_t windows = engine_.along() - 1;
-  lanes_.assign(1, 0);
-  for (std::size_t k = 0; k < windows; ++k) {
-    const IndexRange window = box[box.size() - windows + k];
+/// The lanes that the windows of all dimensions but the fastest lead to.
+void PairProjection::list_lanes(std::span<const IndexRange> windows) {
+  // Lanes are counted such that the first of them is 0; erode() adds what the fastest window begins with.
+  lanes_.assign(1, margins_.before - shape_.dimensions.back().margins.before);
+  for (std::size_t k = 0; k < windows.size(); ++k) {
+    const IndexRange window = windows[k];
     const std::size_t size = lanes_.size();
     for (std::int64_t offset = window.first; offset <= window.last; ++offset) {
       for (std::size_t i = 0; i < size; ++i)
@@ -170,20 +189,24 @@ void PairProjection::list_places(std::span<const IndexRange> box, std::vector<Pl
     }
     lanes_.erase(lanes_.begin(), lanes_.begin() + static_cast<std::ptrdiff_t>(size));
   }
-  // Lanes are counted such that the first of them is 0; erode() adds what the fastest window begins with.
-  const std::int64_t zero = margins_.before - shape_.dimensions.back().margins.before;
+}
+
+/// The rows of a box, and in each those lanes.
+void PairProjection::list_places(std::span<const IndexRange> box, std::vector<Place>& places) {
+  const std::size_t windows = engine_.along() - 1;
+  list_lanes(box.last(windows));
   for_each_row(engine_.grid(), leading_, box.first(box.size() - windows), counter_, [&](std::int64_t row) {
-    for (const std::int64_t lane : lanes_) places.push_back({row, static_cast<std::size_t>(zero + lane)});
+    for (const std::int64_t lane : lanes_) places.push_back({row, static_cast<std::size_t>(lane)});
   });
 }
 
-/// found_ = the cells of `invariant` from which the follower's box lies in the plane.
-void PairProjection::erode(const Plane& plane, const Candidate& follower, ConstRow invariant) {
+/// found_ = the cells of `invariant` from which the box of both lies in K.
+void PairProjection::erode(const Candidate& leader, const Candidate& follower, ConstRow invariant) {
   Word* const rows = taken_.data() + follower.rows * taken_words_;
-  if (is_taken_[follower.rows] == 0) {
-    is_taken_[follower.rows] = 1;
-    take(plane, row_lists_[follower.rows], rows);
-  }
+  if (is_taken_[follower.rows] == 0 && leading_ > 0)
+    take(plane(leader.group), row_lists_[follower.rows], rows);
+  if (is_taken_[follower.rows] == 0 && leading_ == 0) take(leader, follower, rows);
+  is_taken_[follower.rows] = 1;
   const std::int64_t before = shape_.dimensions.back().margins.before;
   const auto first = static_cast<std::size_t>(before + follower.window.first);
   const auto last = static_cast<std::size_t>(before + follower.window.last);
@@ -198,6 +221,21 @@ void PairProjection::take(const Plane& plane, const std::vector<Place>& list, Wo
     const Word* const bits = plane.rows.data() + static_cast<std::size_t>(place.row) * plane_words_;
     kernels_->and_shifted(bits, place.lane, 1, rows, taken_words_);
   }
+}
+
+/// The same of the rows of K in a box of both.
+void PairProjection::take(const Candidate& leader, const Candidate& follower, Word* rows) {
+  boxes_.put(leader_, boxes_.ranges(leader_, leader.group), box_);
+  boxes_.put(follower_, boxes_.ranges(follower_, follower.group), box_);
+  all_.assign(plane_words_, ~Word{0});
+  for_each_row(engine_.grid(), 0, box_.ranges, counter_, [&](std::int64_t row) {
+    const std::vector<Word>& bits = continued(row);
+    for (std::size_t w = 0; w < plane_words_; ++w) all_[w] &= bits[w];
+  });
+  list_lanes(std::span<const IndexRange>(box_.windows).first(engine_.along() - 1));
+  std::fill_n(rows, taken_words_, ~Word{0});
+  for (const std::int64_t lane : lanes_)
+    kernels_->and_shifted(all_.data(), static_cast<std::size_t>(lane), 1, rows, taken_words_);
 }
 
 void PairProjection::add(Candidate& candidate, std::vector<Word>& masks) const {

@@ -9,13 +9,14 @@
 
 namespace coordreq {
 
-/// The projections of C onto two classes of which one, the *leader*, moves the leading dimensions and the
-/// other, the *follower*, all others: two vehicles, each with states of its own.
+/// The projections of C onto two classes, each with states of its own: two vehicles. The *follower* moves the
+/// last dimension, the *leader* is the other one.
 ///
 /// In the projection of one class is an action with which some action of the other goes; the smallest boxes
-/// are enough to try. Membership in K is all that is asked, so this is done on bits, 64 cells a word: what K
-/// leaves to the follower under an action of the leader is one *plane* of bits, the same for all rows of a
-/// unit, and the follower's boxes are eroded from its rows.
+/// are enough to try. Membership in K is all that is asked, so this is done on bits, 64 cells a word. Where
+/// the leader moves the leading dimensions and the follower all others, what K leaves to the follower under
+/// an action of the leader is one *plane* of bits, the same for all rows of a unit, and the follower's boxes
+/// are eroded from its rows. Else boxes of both are taken from the rows of K.
 ///
 /// One object a thread.
 class PairProjection {
@@ -62,13 +63,15 @@ class PairProjection {
   void find_beyond();
   void enter_unit(const RowPlace& place, const ActionGroups& own);
   [[nodiscard]] const Plane& plane(std::uint32_t group);
-  void continue_row(const std::vector<Word>& row, Word* out) const;
-  void list(const RowGroups& groups, std::size_t c, ConstRow invariant,
-            std::vector<Candidate>& candidates) const;
+  [[nodiscard]] const std::vector<Word>& continued(std::int64_t row);
+  void continue_row(ConstRow row, Word* out) const;
+  void list(const RowGroups& groups, std::size_t c, ConstRow invariant, std::vector<Candidate>& candidates);
   void place_follower(Candidate& candidate);
+  void list_lanes(std::span<const IndexRange> windows);
   void list_places(std::span<const IndexRange> box, std::vector<Place>& places);
-  void erode(const Plane& plane, const Candidate& follower, ConstRow invariant);
+  void erode(const Candidate& leader, const Candidate& follower, ConstRow invariant);
   void take(const Plane& plane, const std::vector<Place>& list, Word* rows) const;
+  void take(const Candidate& leader, const Candidate& follower, Word* rows);
   void add(Candidate& candidate, std::vector<Word>& masks) const;
 
   const Controller& controller_;
@@ -78,7 +81,7 @@ class PairProjection {
   bool applies_ = false;
   std::size_t leader_ = 0;
   std::size_t follower_ = 1;
-  std::size_t leading_ = 0;  ///< number of leading dimensions
+  std::size_t leading_ = 0;  ///< dimensions that the leader moves, if these are the leading ones; else 0
   std::int64_t unit_rows_ = 1;
   std::size_t words_ = 0;
   std::size_t plane_words_ = 0;  ///< of a row of a plane
@@ -88,6 +91,13 @@ class PairProjection {
   std::vector<Beyond> beyond_;  ///< all but those that are never a member
   std::int64_t unit_ = -1;
   std::vector<Plane> planes_;  ///< [group of the leader]
+  struct Continued {
+    std::int64_t row = -1;
+    std::vector<Word> bits;
+  };
+  std::vector<Continued> continued_;  ///< rows of K, some of them
+  RowBox box_;
+  std::vector<Word> all_;
   std::vector<Candidate> leaders_, followers_;
   std::vector<std::vector<IndexRange>> row_boxes_;  ///< distinct boxes of the followers but for `window`
   std::vector<std::vector<Place>> row_lists_;       ///< what they read

@@ -161,13 +161,10 @@ class Projections::Builder {
 };
 
 Projections::Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
-                         ThreadTeam& team)
-    : grouping_(&grouping),
-      words_(controller.engine->row_words()),
-      rows_(static_cast<std::size_t>(controller.engine->rows())),
-      is_product_(rows_.size(), 0),
-      is_full_(rows_.size(), 0) {
+                         ThreadTeam& team, const Tiles* tiles)
+    : grouping_(&grouping), words_(controller.engine->row_words()), tiles_(tiles) {
   const RowEngine& engine = *controller.engine;
+  number_rows_of(*controller.invariant);
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<Builder<Level>> builders;
@@ -179,18 +176,40 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
            place.advance(engine.grid())) {
         // Minima are shared within a unit.
         if (place.row == range.begin * grain || place.row % engine.unit_rows() == 0) builder.enter();
-        if (!any_set(controller.invariant->row(place.row))) continue;
-        const auto row = static_cast<std::size_t>(place.row);
-        bool is_full = false;
-        is_product_[row] = builder.project(place, rows_[row], is_full) ? 1 : 0;
-        is_full_[row] = is_full ? 1 : 0;
+        const std::uint32_t number = number_[static_cast<std::size_t>(place.row)];
+        if (number == kNothing || found_[number].row != place.row) continue;
+        Found& found = found_[number];
+        found.is_product = builder.project(place, found.packed, found.is_full);
       }
     });
   });
+  for (const std::uint32_t number : number_)
+    is_full_.push_back(number != kNothing && found_[number].is_full ? 1 : 0);
+}
+
+/// Every row of K is found by itself, or with the first of those that are the same.
+void Projections::number_rows_of(const CellSet& invariant) {
+  number_.assign(static_cast<std::size_t>(invariant.rows()), kNothing);
+  if (tiles_ != nullptr) classes_ = tiles_->refined(tiles_->tables(), number_rows(invariant));
+  std::vector<std::int64_t> first;  // [class] its first tile
+  const std::int64_t rows = tiles_ == nullptr ? 1 : tiles_->rows();
+  for (std::int64_t r = 0; r < invariant.rows(); ++r) {
+    if (!any_set(invariant.row(r))) continue;
+    const std::int64_t tile = r / rows;
+    const std::uint32_t own = tiles_ == nullptr ? 0 : classes_[static_cast<std::size_t>(tile)];
+    if (own >= first.size()) first.resize(own + 1, -1);
+    if (tiles_ == nullptr || first[own] < 0) first[own] = tile;
+    if (first[own] != tile) {
+      number_[static_cast<std::size_t>(r)] = number_[static_cast<std::size_t>(first[own] * rows + r % rows)];
+      continue;
+    }
+    number_[static_cast<std::size_t>(r)] = static_cast<std::uint32_t>(found_.size());
+    found_.push_back({.row = r});
+  }
 }
 
 ConstRow Projections::mask(std::int64_t row, const RowGroups& groups, std::size_t c, std::uint32_t g) const {
-  return {rows_[static_cast<std::size_t>(row)].data() + (group_offset(groups, c) + g) * words_, words_};
+  return {of(row).packed.data() + (group_offset(groups, c) + g) * words_, words_};
 }
 
 }  // namespace coordreq

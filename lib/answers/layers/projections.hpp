@@ -8,6 +8,7 @@
 #include "base/thread_team.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/row_hull.hpp"
+#include "engine/tiles.hpp"
 
 namespace coordreq {
 
@@ -15,8 +16,9 @@ namespace coordreq {
 /// every agent by itself Eq. (3)). Held row by row, in the form that makes the least work of them.
 class Projections {
  public:
+  /// @param tiles where equal work is looked for; may be null
   Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
-              ThreadTeam& team);
+              ThreadTeam& team, const Tiles* tiles = nullptr);
 
   [[nodiscard]] const ActionGrouping& grouping() const { return *grouping_; }
   enum class Form : std::uint8_t {
@@ -25,9 +27,9 @@ class Projections {
     product,  ///< boxes of posts for parts of the row, see IndependentPosts
   };
   [[nodiscard]] Form form(std::int64_t row) const {
-    const auto r = static_cast<std::size_t>(row);
-    if (rows_[r].empty()) return Form::full;
-    return is_product_[r] != 0 ? Form::product : Form::masks;
+    const std::uint32_t number = number_[static_cast<std::size_t>(row)];
+    if (number == kNothing || found_[number].packed.empty()) return Form::full;
+    return found_[number].is_product ? Form::product : Form::masks;
   }
   /// [row] not 0 where every action is in C(x) for all x of K in the row, and K has any there: then IND_C is
   /// the same for all partitions.
@@ -36,17 +38,42 @@ class Projections {
   /// numbers them. REQUIRES: form(row) is `masks`.
   [[nodiscard]] ConstRow mask(std::int64_t row, const RowGroups& groups, std::size_t c,
                               std::uint32_t g) const;
-  /// For IndependentPosts::unpack(). REQUIRES: form(row) is `product`.
-  [[nodiscard]] ConstRow packed(std::int64_t row) const { return rows_[static_cast<std::size_t>(row)]; }
+  /// For IndependentPosts::unpack(). Boxes are those of a row that is the same, seen from itself: they lie
+  /// somewhere else by shift(). REQUIRES: form(row) is `product`.
+  [[nodiscard]] ConstRow packed(std::int64_t row) const { return of(row).packed; }
+  /// @returns whether boxes have to be moved at all
+  bool find_shift(std::int64_t row, std::vector<std::int32_t>& shift) const {
+    if (of(row).row == row) return false;
+    tiles_->find_shift(of(row).row, row, shift);
+    return true;
+  }
+
+  /// What the operator of IND_C depends on, but for levels.
+  [[nodiscard]] TileClasses tile_classes() const { return {tiles_, &classes_}; }
 
  private:
+  static constexpr std::uint32_t kNothing = UINT32_MAX;
   template <class Level>
   class Builder;
+  /// What was found for one row, and holds for those that are the same.
+  struct Found {
+    std::int64_t row = 0;
+    bool is_product = false;
+    bool is_full = false;
+    std::vector<Word> packed;  ///< masks: groups of class 0, then of class 1, ...
+  };
+
+  [[nodiscard]] const Found& of(std::int64_t row) const {
+    return found_[number_[static_cast<std::size_t>(row)]];
+  }
+  void number_rows_of(const CellSet& invariant);
 
   const ActionGrouping* grouping_;
   std::size_t words_;
-  std::vector<std::vector<Word>> rows_;  ///< masks: groups of class 0, then of class 1, ...
-  std::vector<std::uint8_t> is_product_;
+  const Tiles* tiles_;
+  Tiles::Numbers classes_;             ///< [tile] equal numbers where projections are the same
+  std::vector<std::uint32_t> number_;  ///< [row] into `found_`, or kNothing where K has no cell
+  std::vector<Found> found_;
   std::vector<std::uint8_t> is_full_;
 };
 

@@ -1,0 +1,219 @@
+#include "engine/tiles.hpp"
+
+#include <algorithm>
+
+#include "engine/slot_book.hpp"
+
+namespace coordreq {
+namespace {
+
+using Numbers = Tiles::Numbers;
+using Kind = RowSegment::Kind;
+
+/// Tiles that are looked at to see whether enough of them are equal.
+constexpr std::int64_t kSample = 4096;
+/// Below this part of different tiles the looking up pays.
+constexpr double kMostDifferent = 0.5;
+/// Fewer rows are done before anything has been looked up.
+constexpr std::int64_t kFewRows = 4;
+
+void add_segment(const RowSegment& segment, std::int64_t origin, const GridDimension& target, Numbers& list) {
+  const bool is_moved = segment.kind == Kind::fixed;
+  std::int64_t first = std::int64_t{segment.range.first} - (is_moved ? origin : 0);
+  if (is_moved && target.periodic()) first = (first % target.count + target.count) % target.count;
+  const std::int64_t width = std::int64_t{segment.range.last} - segment.range.first;
+  for (const std::int64_t part : {std::int64_t{segment.begin}, std::int64_t{segment.end},
+                                  static_cast<std::int64_t>(segment.kind), first, width})
+    list.push_back(static_cast<std::uint32_t>(part));
+}
+
+/// [choice] numbers of equal lists of ids.
+Numbers number_lists(const std::vector<std::uint32_t>& ids, std::int64_t combinations) {
+  const auto width = static_cast<std::size_t>(combinations);
+  ListNumbers<std::uint32_t> lists;
+  Numbers numbers;
+  for (std::size_t base = 0; base < ids.size(); base += width)
+    numbers.push_back(lists.number({ids.data() + base, width}));
+  return numbers;
+}
+
+bool are_possible(const RowEngine& engine) {
+  return engine.posts().is_cut() && engine.demands().empty() && engine.across() > 0;
+}
+
+}  // namespace
+
+Tiles::Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading)
+    : engine_(&engine), hull_(&hull), leading_(leading) {
+  rows_ = leading == engine.across() ? 1 : engine.grid().row_stride(leading - 1);
+  size_ = engine.rows() / rows_;
+  for (std::size_t t = 0; t < engine.tables(); ++t) {
+    const RowSlices& slices = engine.slices()[t];
+    add_source(slices.state_stride, slices.input_combinations, number_choices(t));
+  }
+  const PairTable* const allow = engine.allow();
+  if (allow == nullptr) return;
+  std::int64_t combinations = 1;
+  for (const std::int32_t i : allow->inputs())
+    combinations *= engine.abstraction().inputs[static_cast<std::size_t>(i)].count();
+  add_source(allow->state_stride(), combinations, number_lists(allow->ids(), combinations));
+}
+
+void Tiles::add_source(const std::vector<std::int64_t>& state_stride, std::int64_t combinations,
+                       Numbers numbers) {
+  const auto is_used = [&](std::size_t begin, std::size_t end) {
+    return std::any_of(state_stride.begin() + static_cast<std::ptrdiff_t>(begin),
+                       state_stride.begin() + static_cast<std::ptrdiff_t>(end),
+                       [](std::int64_t stride) { return stride != 0; });
+  };
+  if (!is_used(0, leading_)) return;  // it says the same of all tiles
+  sources_.push_back({&state_stride, combinations, is_used(leading_, engine_->across()), std::move(numbers)});
+}
+
+/// In the dimensions that tell tiles apart, ranges count from where the box of all posts begins.
+Numbers Tiles::number_choices(std::size_t t) const {
+  const RowSlices& slices = engine_->slices()[t];
+  if (t >= leading_) return number_lists(slices.ids, slices.input_combinations);
+  const GridDimension& target = engine_->grid()[t];
+  ListNumbers<std::uint32_t> meanings, lists;
+  Numbers result, meaning, list;
+  for (std::int64_t base = 0; base < slices.size(); base += slices.input_combinations) {
+    const IndexRange hull = hull_->range_of(result.size(), t);
+    list.assign(1, static_cast<std::uint32_t>(hull.last - hull.first));
+    for (std::int64_t position = base; position < base + slices.input_combinations; ++position) {
+      if (position > base && slices.number(position) == slices.number(position - 1)) {
+        list.push_back(list.back());
+        continue;
+      }
+      meaning.clear();
+      for (const RowSegment& segment : slices.slices[slices.number(position)])
+        add_segment(segment, hull.first, target, meaning);
+      list.push_back(meanings.number(meaning));
+    }
+    result.push_back(lists.number(list));
+  }
+  return result;
+}
+
+void Tiles::add_tables(std::int64_t tile, Numbers& list) const {
+  const std::int64_t first = tile * rows_;
+  for (const Source& source : sources_) {
+    RowPlace place(engine_->grid(), first);
+    for (; place.row < first + (source.by_rows ? rows_ : 1); place.advance(engine_->grid())) {
+      const std::int64_t choice = place.offset(*source.state_stride) / source.combinations;
+      list.push_back(source.numbers[static_cast<std::size_t>(choice)]);
+    }
+  }
+}
+
+void Tiles::number_tables() {
+  ListNumbers<std::uint32_t> lists;
+  Numbers list;
+  tables_.clear();
+  for (std::int64_t tile = 0; tile < size_; ++tile) {
+    list.clear();
+    add_tables(tile, list);
+    tables_.push_back(lists.number(list));
+  }
+}
+
+void Tiles::find_shift(std::int64_t from, std::int64_t to, std::vector<std::int32_t>& shift) const {
+  shift.assign(engine_->tables(), 0);
+  if (from == to) return;
+  const RowPlace one(engine_->grid(), from);
+  const RowPlace other(engine_->grid(), to);
+  for (std::size_t t = 0; t < leading_; ++t)
+    shift[t] = hull_->range(other, t).first - hull_->range(one, t).first;
+}
+
+Numbers Tiles::contents_of_tiles(const Numbers& content) const {
+  if (rows_ == 1) return content;
+  ListNumbers<std::uint32_t> lists;
+  const auto rows = static_cast<std::size_t>(rows_);
+  Numbers result;
+  for (std::size_t first = 0; first < content.size(); first += rows)
+    result.push_back(lists.number({content.data() + first, rows}));
+  return result;
+}
+
+Numbers Tiles::refined(const Numbers& before, const Numbers& content) const {
+  const Numbers own = contents_of_tiles(content);
+  ListNumbers<std::uint32_t> lists;
+  Scratch scratch;
+  Numbers result, list;
+  for (RowPlace place(engine_->grid(), 0); place.row < engine_->rows();) {
+    const auto tile = static_cast<std::size_t>(place.row / rows_);
+    list.assign(1, before[tile]);
+    add_contents(
+        place, [&](std::int64_t other) { return own[static_cast<std::size_t>(other)]; }, scratch, list);
+    result.push_back(lists.number(list));
+    place = RowPlace(engine_->grid(), place.row + rows_);
+  }
+  return result;
+}
+
+/// Of a sample, drawn with equal distances.
+double Tiles::part_different(const Numbers& content) const {
+  const Numbers own = contents_of_tiles(content);
+  // Not a divisor of what grids usually have.
+  const std::int64_t step = std::max<std::int64_t>(1, size_ / kSample) | 1;
+  ListNumbers<std::uint32_t> lists;
+  Scratch scratch;
+  Numbers list;
+  std::int64_t drawn = 0;
+  for (std::int64_t tile = 0; tile < size_; tile += step, ++drawn) {
+    list.clear();
+    add_tables(tile, list);
+    const RowPlace place(engine_->grid(), tile * rows_);
+    add_contents(
+        place, [&](std::int64_t other) { return own[static_cast<std::size_t>(other)]; }, scratch, list);
+    static_cast<void>(lists.number(list));
+  }
+  return static_cast<double>(lists.size()) / static_cast<double>(drawn);
+}
+
+std::optional<Tiles> Tiles::make(const RowEngine& engine, const RowHull& hull, std::size_t leading) {
+  if (!are_possible(engine) || leading == 0) return std::nullopt;
+  Tiles tiles(engine, hull, leading);
+  tiles.number_tables();
+  return tiles;
+}
+
+std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, const CellSet& set) {
+  if (!are_possible(engine) || engine.rows() < kFewRows) return std::nullopt;
+  const Numbers content = number_rows(set);
+  std::optional<Tiles> best;
+  double least = kMostDifferent;
+  // Units first: with equal success they save more looking up.
+  for (const std::size_t leading : {engine.outer(), engine.across()}) {
+    if (leading == 0 || (best && leading == engine.outer())) continue;
+    Tiles tiles(engine, hull, leading);
+    if (tiles.size() < kFewRows) continue;
+    const double part = tiles.part_different(content);
+    if (part >= least) continue;
+    least = part;
+    best = std::move(tiles);
+  }
+  if (best) best->number_tables();
+  return best;
+}
+
+Numbers number_rows(const CellSet& set) {
+  SlotBook book;
+  std::vector<std::int64_t> first;  // [number] the row that has come first
+  Numbers result;
+  for (std::int64_t r = 0; r < set.rows(); ++r) {
+    std::uint64_t hash = 0;
+    for (const Word word : set.row(r)) hash = mixed_hash(hash, word);
+    std::uint32_t number = book.find(
+        hash, [&](std::uint32_t other) { return std::ranges::equal(set.row(first[other]), set.row(r)); });
+    if (number == SlotBook::kNone) {
+      number = book.add(hash);
+      first.push_back(r);
+    }
+    result.push_back(number);
+  }
+  return result;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/list_numbers.hpp"
+#include "engine/row_engine.hpp"
+#include "engine/row_hull.hpp"
+
+namespace coordreq {
+
+/// Rows that are looked at together to see whether work on them is equal: a *tile* is one row, or the rows of
+/// a unit.
+///
+/// What an operator says of a tile follows from what the tables say of it, from its own cells, and from the
+/// tiles in the box that its posts can meet. Tables that send two tiles to boxes of one size, at the same
+/// places in these, say the same *seen from the tiles*. So where all that is equal, the result is. Numbers
+/// stand for contents: equal ones mean equal contents, for these have been compared.
+///
+/// Not for tables that are added up (SumRows), nor where tubes can block a post. Immutable once built.
+class Tiles {
+ public:
+  using Numbers = std::vector<std::uint32_t>;
+  struct Scratch {
+    std::vector<IndexRange> ranges;
+    std::vector<std::int64_t> counter;
+  };
+
+  /// Rows, units or nothing: what is often equal in a sample, where `set` is what rows hold.
+  /// REQUIRES: engine and hull outlive the tiles.
+  [[nodiscard]] static std::optional<Tiles> find(const RowEngine& engine, const RowHull& hull,
+                                                 const CellSet& set);
+  /// The same without a sample.
+  /// @param leading number of leading dimensions that tell tiles apart: all across rows, or those of a unit
+  [[nodiscard]] static std::optional<Tiles> make(const RowEngine& engine, const RowHull& hull,
+                                                 std::size_t leading);
+
+  [[nodiscard]] std::int64_t size() const { return size_; }
+  /// Rows of a tile, which have neighbouring numbers.
+  [[nodiscard]] std::int64_t rows() const { return rows_; }
+  [[nodiscard]] const RowEngine& engine() const { return *engine_; }
+  /// [tile] equal numbers where the tables say the same, seen from the tiles.
+  [[nodiscard]] const Numbers& tables() const { return tables_; }
+
+  /// Appends the content of the tile that begins at `place`, and of those that its posts can meet.
+  /// @param content number of what a tile holds, by the tile
+  template <class Content>
+  void add_contents(const RowPlace& place, const Content& content, Scratch& scratch, Numbers& list) const {
+    list.push_back(content(place.row / rows_));
+    scratch.ranges.resize(leading_);
+    for (std::size_t t = 0; t < leading_; ++t) scratch.ranges[t] = hull_->range(place, t);
+    for_each_row(engine_->grid(), 0, scratch.ranges, scratch.counter,
+                 [&](std::int64_t row) { list.push_back(content(row / rows_)); });
+  }
+
+  /// How much further up the boxes of row `to` lie than those of row `from`, where the two are in tiles of
+  /// which the tables say the same: by leading dimension, in indices.
+  void find_shift(std::int64_t from, std::int64_t to, std::vector<std::int32_t>& shift) const;
+
+  /// [tile] equal numbers where `before` is equal, and so are the contents of all that posts can meet.
+  /// @param content [row] equal numbers for equal rows
+  [[nodiscard]] Numbers refined(const Numbers& before, const Numbers& content) const;
+
+ private:
+  Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading);
+
+  /// A table, or `allow`.
+  struct Source {
+    const std::vector<std::int64_t>* state_stride;
+    std::int64_t combinations;
+    bool by_rows;     ///< it says something else of each row of a tile
+    Numbers numbers;  ///< [choice of its states] equal ones for what means the same under all inputs
+  };
+
+  void add_source(const std::vector<std::int64_t>& state_stride, std::int64_t combinations, Numbers numbers);
+  [[nodiscard]] Numbers number_choices(std::size_t t) const;
+  void add_tables(std::int64_t tile, Numbers& list) const;
+  void number_tables();
+  [[nodiscard]] Numbers contents_of_tiles(const Numbers& content) const;
+  [[nodiscard]] double part_different(const Numbers& content) const;
+
+  const RowEngine* engine_;
+  const RowHull* hull_;
+  std::size_t leading_;
+  std::int64_t rows_;
+  std::int64_t size_;
+  std::vector<Source> sources_;
+  Numbers tables_;
+};
+
+/// Tiles, and [tile] equal numbers where an operator asks the same of the levels, seen from the tiles.
+struct TileClasses {
+  const Tiles* tiles = nullptr;  ///< null: nobody looks for equal work
+  const Tiles::Numbers* numbers = nullptr;
+};
+
+/// [row] equal numbers for equal rows of a set.
+[[nodiscard]] Tiles::Numbers number_rows(const CellSet& set);
+
+}  // namespace coordreq
