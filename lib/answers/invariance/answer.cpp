@@ -43,4 +43,16 @@ void summarise_invariance(const Answers& answers, Json& summary, Json& work) {
   work["invariance"] = work_json(invariance.counts);
 }
 
+MemoryNeed invariance_memory(const EngineSizes& sizes, int threads) {
+  const InputSpace& inputs = sizes.model().inputs();
+  const double groups = sizes.groups({whole_class(inputs)});
+  MemoryNeed need{.kept = sizes.levels() + sizes.set(),
+                  .work = groups + sizes.wave(threads),
+                  .array = sizes.cells() * sizeof(std::int16_t)};
+  if (!sizes.model().spec().output.controller) return need;
+  need.written = groups + sizes.readers(threads);
+  need.array = std::max(need.array, sizes.packed_pairs(inputs.count()));
+  return need;
+}
+
 }  // namespace coordreq
