@@ -25,6 +25,14 @@ hdf5::Storage storage_of(const ChunkLayout& layout, ElementType type) {
 
 }  // namespace
 
+double ArrayWriter::bytes(double longest, int threads) {
+  constexpr double kUsualPacking = 0.5;
+  constexpr double kCopies = 4;  // of a chunk: filled, shuffled, packed, and what filling takes
+  const double chunk = ChunkLayout::largest_chunk(longest);
+  const double batch = std::min(chunk * kChunksPerThread * threads, longest);
+  return threads * (kCopies * chunk + ChunkCodec::kBytes) + kUsualPacking * batch;
+}
+
 ArrayWriter::ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver)
     : team_(team),
       driver_(driver),

@@ -48,4 +48,16 @@ void tell_invariance(const ProblemSpec& /*spec*/, const FieldSource& source, Jso
   info["invariant"] = source.counted("/invariant").front();
 }
 
+MemoryNeed invariance_memory(const EngineSizes& sizes, int threads) {
+  const InputSpace& inputs = sizes.model().inputs();
+  const double groups = sizes.groups({whole_class(inputs)});
+  MemoryNeed need{.kept = sizes.levels() + sizes.set(),
+                  .work = groups + sizes.wave(threads),
+                  .array = sizes.cells() * sizeof(std::int16_t)};
+  if (!sizes.model().spec().output.controller) return need;
+  need.written = groups + sizes.readers(threads);
+  need.array = std::max(need.array, sizes.packed_pairs(inputs.count()));
+  return need;
+}
+
 }  // namespace coordreq
