@@ -5,7 +5,9 @@
 #include <functional>
 #include <random>
 
+#include "answers/coalition/fields.hpp"
 #include "answers/field_table.hpp"
+#include "answers/network/fields.hpp"
 #include "base/error.hpp"
 #include "base/thread_team.hpp"
 #include "results/hdf5_handle.hpp"

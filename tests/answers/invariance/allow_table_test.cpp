@@ -59,17 +59,5 @@ TEST(PairTable, IsNoneWhereEverythingIsAdmissible) {
   EXPECT_FALSE(allow_table(spec, system, team).has_value());
 }
 
-TEST(RowNumbers, AreTheSameForEqualRowsOnly) {
-  RowNumbers rows(2);
-  std::vector<std::uint32_t> first;
-  for (Word k = 0; k < 1000; ++k) first.push_back(rows.number(std::vector<Word>{k % 10, k / 10}));
-  for (Word k = 0; k < 1000; ++k) {
-    EXPECT_EQ(first[k], k);
-    EXPECT_EQ(rows.number(std::vector<Word>{k % 10, k / 10}), k);
-    EXPECT_EQ(rows[static_cast<std::uint32_t>(k)][1], k / 10);
-  }
-  EXPECT_EQ(rows.size(), 1000U);
-}
-
 }  // namespace
 }  // namespace coordreq
