@@ -47,9 +47,23 @@ Rational Arb::upper_rational() const {
   return rational_of(arb_midref(upper().get()));
 }
 
+/// [0, 2 r] with the radius r, which is half of what bounds |a|, as its middle.
+Arb ending_at_zero(const Arb& a, bool nonnegative) {
+  if (!a.is_finite() || (nonnegative ? a.is_nonnegative() : a.is_nonpositive())) return a;
+  Arb result;
+  mag_struct* const radius = arb_radref(result.get());
+  arb_get_mag(radius, a.get());
+  mag_mul_2exp_si(radius, radius, -1);
+  arf_set_mag(arb_midref(result.get()), radius);
+  if (!nonnegative) arf_neg(arb_midref(result.get()), arb_midref(result.get()));
+  return result;
+}
+
 Arb hull(const Arb& a, const Arb& b) {
   Arb result;
   arb_union(result.get(), a.get(), b.get(), kArbBits);
+  if (a.is_nonnegative() && b.is_nonnegative()) return ending_at_zero(result, true);
+  if (a.is_nonpositive() && b.is_nonpositive()) return ending_at_zero(result, false);
   return result;
 }
 

@@ -77,7 +77,10 @@ class Arb {
   arb_div(quotient.get(), a.get(), b.get(), kArbBits);
   return quotient;
 }
-/// A ball that holds both.
+/// A ball that ends at 0, for a range that is known not to go beyond: rounding a radius widens others a
+/// little.
+[[nodiscard]] Arb ending_at_zero(const Arb& a, bool nonnegative);
+/// A ball that holds both, and ends at 0 if both do not go beyond.
 [[nodiscard]] Arb hull(const Arb& a, const Arb& b);
 /// The points at or below (above) both: for ends. REQUIRES: both finite.
 [[nodiscard]] Arb lesser(const Arb& a, const Arb& b);

@@ -1,31 +1,32 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 
 namespace coordreq {
 
-/// Wall time that may be spent on what is hard to confirm. Immutable.
+/// Processor time that may be spent on what is hard to confirm, so that what else the machine does has no say
+/// in what is confirmed. Immutable; begins when it is made.
 class Budget {
  public:
-  using Clock = std::chrono::steady_clock;
+  /// @param seconds for each thread, on average
+  Budget(double seconds, int threads)
+      : seconds_(seconds), threads_(threads), end_(now() + seconds * threads) {}
 
-  explicit Budget(double seconds) : seconds_(seconds), end_(Clock::now() + duration(seconds)) {}
-
-  [[nodiscard]] bool is_over() const { return Clock::now() >= end_; }
+  [[nodiscard]] bool is_over() const { return now() >= end_; }
   /// The end of what one of many questions may take that begins now.
-  [[nodiscard]] Clock::time_point end_of_one() const {
-    return std::min(end_, Clock::now() + duration(kShareOfOne * seconds_));
+  [[nodiscard]] double end_of_one() const {
+    return std::min(end_, now() + kShareOfOne * seconds_ * threads_);
   }
+  /// Processor time of all threads so far.
+  [[nodiscard]] static double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
  private:
   static constexpr double kShareOfOne = 0.05;
-  static Clock::duration duration(double seconds) {
-    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-  }
 
   double seconds_;
-  Clock::time_point end_;
+  int threads_;
+  double end_;
 };
 
 }  // namespace coordreq

@@ -1,6 +1,7 @@
 #include "verify/expression_series.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace coordreq {
 namespace {
@@ -62,6 +63,95 @@ Arb positive_power(const Arb& a, const Arb& p) {
   return hull(least, most);
 }
 
+/// The side of 0 on which a sum or product of numbers on these sides is: -1, 0 or 1; 2 if that is not known.
+int side_of_sum(int a, int b) {
+  return a == 2 || b == 2 || a * b < 0 ? 2 : std::clamp(a + b, -1, 1);
+}
+int side_of_product(int a, int b) {
+  return a == 2 || b == 2 ? 2 : a * b;
+}
+int side_of(const Arb& a) {
+  if (a.is_zero()) return 0;
+  return a.is_nonnegative() ? 1 : a.is_nonpositive() ? -1 : 2;
+}
+
+using Series = void (*)(ArbSeries& result, const ArbSeries& a, slong length);
+
+/// A function of one number without kinks, from FLINT/Arb.
+struct SmoothFunction {
+  Operator op;
+  Series series;
+  bool keeps_side;  ///< of 0, on which its operand is
+};
+
+template <void (*f)(arb_poly_struct*, const arb_poly_struct*, slong, slong)>
+void of(ArbSeries& result, const ArbSeries& a, slong length) {
+  f(result.get(), a.get(), length, kArbBits);
+}
+void minus(ArbSeries& result, const ArbSeries& a, slong) {
+  arb_poly_neg(result.get(), a.get());
+}
+void sine(ArbSeries& result, const ArbSeries& a, slong length) {
+  ArbSeries other;
+  arb_poly_sin_cos_series(result.get(), other.get(), a.get(), length, kArbBits);
+}
+void cosine(ArbSeries& result, const ArbSeries& a, slong length) {
+  ArbSeries other;
+  arb_poly_sin_cos_series(other.get(), result.get(), a.get(), length, kArbBits);
+}
+void hyperbolic_tangent(ArbSeries& result, const ArbSeries& a, slong length) {
+  ArbSeries sine, cosine;
+  arb_poly_sinh_cosh_series(sine.get(), cosine.get(), a.get(), length, kArbBits);
+  arb_poly_div_series(result.get(), sine.get(), cosine.get(), length, kArbBits);
+  Arb value;
+  arb_tanh(value.get(), a[0].get(), kArbBits);
+  result.set(0, value);
+}
+void square_root(ArbSeries& result, const ArbSeries& a, slong length) {
+  arb_poly_sqrt_series(result.get(), a.get(), length, kArbBits);
+  if (length > 1 || !is_nonnegative_before_rounding(a[0])) return;
+  Arb root;
+  arb_sqrtpos(root.get(), a[0].get(), kArbBits);
+  result.assign(root);
+}
+
+constexpr SmoothFunction kSmooth[] = {
+    {Operator::negate, minus, false},
+    {Operator::sine, sine, false},
+    {Operator::cosine, cosine, false},
+    {Operator::tangent, of<arb_poly_tan_series>, false},
+    {Operator::arcsine, of<arb_poly_asin_series>, true},
+    {Operator::arccosine, of<arb_poly_acos_series>, false},
+    {Operator::arctangent, of<arb_poly_atan_series>, true},
+    {Operator::hyperbolic_sine, of<arb_poly_sinh_series>, true},
+    {Operator::hyperbolic_cosine, of<arb_poly_cosh_series>, false},
+    {Operator::hyperbolic_tangent, hyperbolic_tangent, true},
+    {Operator::exponential, of<arb_poly_exp_series>, false},
+    {Operator::logarithm, of<arb_poly_log_series>, false},
+    {Operator::square_root, square_root, true},
+};
+
+constexpr std::size_t number_of(Operator op) {
+  return static_cast<std::size_t>(op);
+}
+constexpr bool is_in_order(std::span<const SmoothFunction> rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (number_of(rows[i].op) != number_of(Operator::negate) + i) return false;
+  }
+  return true;
+}
+// Whoever adds a function adds a row, or a kink to run_unary().
+static_assert(is_in_order(kSmooth) &&
+              number_of(Operator::absolute) == number_of(Operator::negate) + std::size(kSmooth));
+static_assert(number_of(Operator::if_else) == number_of(Operator::absolute) + 2,
+              "a function of one number is missing");
+static_assert(number_of(Operator::negate) == number_of(Operator::add) + 7,
+              "one of two numbers is missing in run_binary()");
+
+const SmoothFunction& smooth_function(Operator op) {
+  return kSmooth[number_of(op) - number_of(Operator::negate)];
+}
+
 }  // namespace
 
 ExpressionSeries::ExpressionSeries(const Program& program)
@@ -88,6 +178,13 @@ void ExpressionSeries::lose(Smoothness smoothness) {
   smoothness_ = std::max(smoothness_, smoothness);
 }
 
+/// Whether two nodes are the same number, for all that can be seen.
+bool ExpressionSeries::is_same(std::size_t a, std::size_t b) const {
+  const Program::Node& one = program_->nodes[a];
+  const Program::Node& other = program_->nodes[b];
+  return a == b || (one.op == Operator::variable && other.op == Operator::variable && one.a == other.a);
+}
+
 bool ExpressionSeries::is_constant(std::size_t n) const {
   return arb_poly_length(values_[n].get()) <= 1;
 }
@@ -101,9 +198,28 @@ void ExpressionSeries::run_number(std::size_t n, std::span<const ArbSeries> slot
     run_if(n, length);
   } else if (is_unary_function(node.op)) {
     run_unary(n, length);
+    keep_side(n);
   } else {
     run_binary(n, length);
+    keep_side(n);
   }
+}
+
+/// A range that ends at 0 matters: a state does not pass where its derivative is 0.
+void ExpressionSeries::keep_side(std::size_t n) {
+  const Arb value = constant_term(values_[n]);
+  if (side_of(value) != 2 || !value.is_finite()) return;
+  const Program::Node& node = program_->nodes[n];
+  const int a = side_of(constant_term(values_[node.a]));
+  const int b = is_unary_function(node.op) ? 0 : side_of(constant_term(values_[node.b]));
+  int side = 2;
+  if (node.op == Operator::add) side = side_of_sum(a, b);
+  if (node.op == Operator::subtract) side = side_of_sum(a, b == 2 ? 2 : -b);
+  if (node.op == Operator::multiply) side = is_same(node.a, node.b) ? 1 : side_of_product(a, b);
+  if (node.op == Operator::divide) side = side_of_product(a, b);
+  if (node.op < Operator::absolute && is_unary_function(node.op) && smooth_function(node.op).keeps_side)
+    side = a;
+  if (side == 1 || side == -1) values_[n].set(0, ending_at_zero(value, side == 1));
 }
 
 void ExpressionSeries::run_binary(std::size_t n, slong length) {
@@ -118,7 +234,7 @@ void ExpressionSeries::run_binary(std::size_t n, slong length) {
       return arb_poly_sub_series(result, a, b, length, kArbBits);
     case Operator::multiply:
       arb_poly_mullow(result, a, b, length, kArbBits);
-      if (node.a == node.b && is_wide(values_[node.a][0])) {
+      if (is_same(node.a, node.b) && is_wide(values_[node.a][0])) {
         const Arb whole = absolute(values_[node.a][0]);
         values_[n].set(0, hull(whole.lower() * whole.lower(), whole.upper() * whole.upper()));
       }
@@ -148,7 +264,11 @@ void ExpressionSeries::run_power(std::size_t n, slong length) {
     return;
   }
   const auto times = static_cast<ulong>(whole < 0 ? -whole : whole);
-  arb_poly_pow_ui_trunc_binexp(result.get(), a.get(), times, length, kArbBits);
+  if (times == 2) {
+    arb_poly_mullow(result.get(), a.get(), a.get(), length, kArbBits);
+  } else {
+    arb_poly_pow_ui_trunc_binexp(result.get(), a.get(), times, length, kArbBits);
+  }
   if (times % 2 == 0 && times > 0 && is_wide(constant_term(a))) {
     const Arb size = absolute(constant_term(a));
     Arb least, most;
@@ -164,53 +284,9 @@ void ExpressionSeries::run_power(std::size_t n, slong length) {
 
 void ExpressionSeries::run_unary(std::size_t n, slong length) {
   const Program::Node& node = program_->nodes[n];
-  arb_poly_struct* result = values_[n].get();
-  const arb_poly_struct* a = values_[node.a].get();
-  ArbSeries other;
-  switch (node.op) {
-    case Operator::negate:
-      return arb_poly_neg(result, a);
-    case Operator::sine:
-      return arb_poly_sin_cos_series(result, other.get(), a, length, kArbBits);
-    case Operator::cosine:
-      return arb_poly_sin_cos_series(other.get(), result, a, length, kArbBits);
-    case Operator::tangent:
-      return arb_poly_tan_series(result, a, length, kArbBits);
-    case Operator::arcsine:
-      return arb_poly_asin_series(result, a, length, kArbBits);
-    case Operator::arccosine:
-      return arb_poly_acos_series(result, a, length, kArbBits);
-    case Operator::arctangent:
-      return arb_poly_atan_series(result, a, length, kArbBits);
-    case Operator::hyperbolic_sine:
-      return arb_poly_sinh_series(result, a, length, kArbBits);
-    case Operator::hyperbolic_cosine:
-      return arb_poly_cosh_series(result, a, length, kArbBits);
-    case Operator::hyperbolic_tangent: {
-      ArbSeries cosine;
-      arb_poly_sinh_cosh_series(other.get(), cosine.get(), a, length, kArbBits);
-      arb_poly_div_series(result, other.get(), cosine.get(), length, kArbBits);
-      Arb value;
-      arb_tanh(value.get(), constant_term(values_[node.a]).get(), kArbBits);
-      return values_[n].set(0, value);
-    }
-    case Operator::exponential:
-      return arb_poly_exp_series(result, a, length, kArbBits);
-    case Operator::logarithm:
-      return arb_poly_log_series(result, a, length, kArbBits);
-    case Operator::square_root: {
-      arb_poly_sqrt_series(result, a, length, kArbBits);
-      Arb root;
-      arb_sqrtpos(root.get(), constant_term(values_[node.a]).get(), kArbBits);
-      if (length == 1 && is_nonnegative_before_rounding(constant_term(values_[node.a])))
-        values_[n].assign(root);
-      return;
-    }
-    case Operator::absolute:
-      return run_absolute(n, length);
-    default:
-      return run_sign(n);
-  }
+  if (node.op == Operator::absolute) return run_absolute(n, length);
+  if (node.op == Operator::sign) return run_sign(n);
+  smooth_function(node.op).series(values_[n], values_[node.a], length);
 }
 
 void ExpressionSeries::run_absolute(std::size_t n, slong length) {
@@ -249,6 +325,10 @@ void ExpressionSeries::run_choice(std::size_t n, bool minimum, slong length) {
   const ArbSeries& a = values_[node.a];
   const ArbSeries& b = values_[node.b];
   ArbSeries& result = values_[n];
+  if (is_same(node.a, node.b)) {
+    result = a;
+    return;
+  }
   const Arb first = constant_term(a), second = constant_term(b);
   if (arb_lt(first.get(), second.get()) != 0 || arb_gt(first.get(), second.get()) != 0) {
     const bool a_counts = (arb_lt(first.get(), second.get()) != 0) == minimum;

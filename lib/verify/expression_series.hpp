@@ -32,6 +32,7 @@ class ExpressionSeries {
 
  private:
   void run_number(std::size_t n, std::span<const ArbSeries> slots, slong length);
+  void keep_side(std::size_t n);
   void run_binary(std::size_t n, slong length);
   void run_unary(std::size_t n, slong length);
   void run_power(std::size_t n, slong length);
@@ -40,6 +41,7 @@ class ExpressionSeries {
   void run_choice(std::size_t n, bool minimum, slong length);
   void run_if(std::size_t n, slong length);
   [[nodiscard]] Truth condition(std::size_t n) const;
+  [[nodiscard]] bool is_same(std::size_t a, std::size_t b) const;
   [[nodiscard]] bool is_constant(std::size_t n) const;
   void lose(Smoothness smoothness);
 

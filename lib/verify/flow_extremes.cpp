@@ -19,39 +19,28 @@ ArbMatrix columns(const ArbMatrix& a, std::size_t rows, std::size_t first, std::
   return result;
 }
 
-bool all_finite(const std::vector<Arb>& values) {
-  return std::all_of(values.begin(), values.end(), [](const Arb& value) { return value.is_finite(); });
-}
-
-std::vector<Arb> entries(const ArbMatrix& row, std::size_t count) {
-  std::vector<Arb> result;
-  for (std::size_t j = 0; j < count; ++j) result.push_back(row(0, j));
-  return result;
+bool same(const std::vector<Arb>& a, const std::vector<Arb>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Arb& x, const Arb& y) { return arb_equal(x.get(), y.get()) != 0; });
 }
 
 }  // namespace
 
-FlowExtremes::FlowExtremes(const ProblemSpec& spec, const Influences& influences, std::size_t state,
-                           double cell)
+FlowExtremes::FlowExtremes(const ProblemSpec& spec, const Influences& influences, double cell)
     : field_(spec, influences, influences.moving),
       trajectory_(field_),
       period_(spec.dynamics.period),
       cell_(cell) {
-  for (const std::size_t j : influences.moving) {
-    if (j == state) position_ = states_.size();
-    states_.push_back(spec.state_slot(j));
-  }
+  for (const std::size_t j : influences.moving) states_.push_back(spec.state_slot(j));
   for (const std::size_t l : influences.disturbances) disturbances_.push_back(spec.disturbance_slot(l));
 }
 
-std::optional<Extremes> FlowExtremes::extremes(const SpanBox& box, const Effort& effort,
-                                               const Enough& enough) {
-  if (!enclose(box, effort)) return std::nullopt;
-  Extremes result{bound_after(steps_.size(), false), bound_after(steps_.size(), true)};
+Extremes FlowExtremes::extremes(std::size_t state, const Enough& enough) {
+  const std::size_t steps = steps_.size();
+  Extremes result{bound_after(steps, state, false), bound_after(steps, state, true)};
   if (enough(result.least.bound, result.greatest.bound)) return result;
-  result.least = extreme_after(steps_.size(), false);
-  if (!enough(result.least.bound, result.greatest.bound))
-    result.greatest = extreme_after(steps_.size(), true);
+  result.least = extreme_after(steps, state, false);
+  if (!enough(result.least.bound, result.greatest.bound)) result.greatest = extreme_after(steps, state, true);
   return result;
 }
 
@@ -85,19 +74,19 @@ int FlowExtremes::steps_for(const ArbMatrix& slopes, const Effort& effort) const
   return std::max(effort.steps, static_cast<int>(std::ceil(least)));
 }
 
-Extreme FlowExtremes::bound_after(std::size_t steps, bool greatest) const {
+Extreme FlowExtremes::bound_after(std::size_t steps, std::size_t state, bool greatest) const {
   Extreme result;
-  const ArbSpan& end = steps == 0 ? box_[states_[position_]] : steps_[steps - 1].end[states_[position_]];
+  const ArbSpan& end = (steps == 0 ? box_ : steps_[steps - 1].end)[states_[state]];
   result.bound = greatest ? end.upper.upper() : end.lower.lower();
   for (const ArbSpan& span : box_) result.start.push_back(span.middle());
   for (const std::uint32_t slot : states_) result.excess.push_back(box_[slot].width());
   return result;
 }
 
-Extreme FlowExtremes::extreme_after(std::size_t steps, bool greatest) {
-  Extreme result = bound_after(steps, greatest);
+Extreme FlowExtremes::extreme_after(std::size_t steps, std::size_t state, bool greatest) {
+  Extreme result = bound_after(steps, state, greatest);
   if (const std::optional<Influence>& influence = influence_after(steps))
-    follow(*influence, steps, greatest, result);
+    follow(*influence, state, greatest, result);
   return result;
 }
 
@@ -110,63 +99,60 @@ const std::optional<FlowExtremes::Influence>& FlowExtremes::influence_after(std:
 std::optional<FlowExtremes::Influence> FlowExtremes::find_influence(std::size_t steps) const {
   const std::size_t n = states_.size();
   const std::size_t m = disturbances_.size();
-  ArbMatrix row(1, n);
-  row.set(0, position_, Arb(1.0));
-  Influence result;
-  result.of_disturbance.resize(steps);
+  Influence result{.of_start = ArbMatrix(n, n)};
+  arb_mat_one(result.of_start.get());
+  result.of_disturbance.assign(steps, ArbMatrix(n, m));
   for (std::size_t k = steps; k-- > 0;) {
     if (!steps_[k].slopes) return std::nullopt;
     const ArbMatrix by_state = columns(*steps_[k].slopes, n, 0, n);
     if (m > 0) {
-      const ArbMatrix within = row * transition_matrix(by_state, hull(Arb(), step_));
-      result.of_disturbance[k] = entries(within * columns(*steps_[k].slopes, n, n, m), m);
-      if (!all_finite(result.of_disturbance[k])) return std::nullopt;
+      const ArbMatrix within = result.of_start * transition_matrix(by_state, hull(Arb(), step_));
+      result.of_disturbance[k] = within * columns(*steps_[k].slopes, n, n, m);
+      if (arb_mat_is_finite(result.of_disturbance[k].get()) == 0) return std::nullopt;
     }
-    row = row * transition_matrix(by_state, step_);
+    result.of_start = result.of_start * transition_matrix(by_state, step_);
   }
-  result.of_start = entries(row, n);
-  if (!all_finite(result.of_start)) return std::nullopt;
+  if (arb_mat_is_finite(result.of_start.get()) == 0) return std::nullopt;
   return result;
 }
 
-void FlowExtremes::follow(const Influence& influence, std::size_t steps, bool greatest, Extreme& extreme) {
+void FlowExtremes::follow(const Influence& influence, std::size_t state, bool greatest, Extreme& extreme) {
   Arb excess;
   for (std::size_t j = 0; j < states_.size(); ++j) {
-    const Choice choice = choose_for_extreme(box_[states_[j]], influence.of_start[j], greatest);
+    const Choice choice = choose_for_extreme(box_[states_[j]], influence.of_start(state, j), greatest);
     extreme.start[states_[j]] = choice.place;
     extreme.excess[j] = choice.excess.approximately();
     excess = excess + choice.excess;
   }
-  std::vector<std::vector<Arb>> signal(steps);
-  for (std::size_t k = 0; k < steps; ++k) {
+  std::vector<std::vector<Arb>> signal;
+  for (const ArbMatrix& of_disturbance : influence.of_disturbance) {
+    auto& now = signal.emplace_back();
     for (std::size_t l = 0; l < disturbances_.size(); ++l) {
-      Choice choice = choose_for_extreme(box_[disturbances_[l]], influence.of_disturbance[k][l], greatest);
+      Choice choice = choose_for_extreme(box_[disturbances_[l]], of_disturbance(state, l), greatest);
       excess = excess + choice.excess * step_;
-      signal[k].push_back(std::move(choice.place));
+      now.push_back(std::move(choice.place));
     }
   }
+  for (std::size_t l = 0; l < disturbances_.size() && !signal.empty(); ++l)
+    extreme.start[disturbances_[l]] = signal.front()[l];
   ArbBox now = extreme.start;
-  const auto set_disturbances = [&](ArbBox& box, std::size_t k) {
-    for (std::size_t l = 0; l < disturbances_.size(); ++l) box[disturbances_[l]] = signal[k][l];
-  };
-  if (steps > 0) set_disturbances(extreme.start, 0);
-  const auto same = [](const std::vector<Arb>& a, const std::vector<Arb>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const Arb& x, const Arb& y) { return arb_equal(x.get(), y.get()) != 0; });
-  };
-  for (std::size_t k = 0; k < steps;) {
-    std::size_t end = k + 1;
-    while (end < steps && same(signal[k], signal[end])) ++end;
-    set_disturbances(now, k);
-    const Arb duration =
-        period_ * Arb(static_cast<double>(end - k)) / Arb(static_cast<double>(effort_.steps));
-    if (!trajectory_.advance(now, duration, effort_.tolerance * cell_)) return;
-    k = end;
-  }
-  const Arb& value = now[states_[position_]];
+  if (!move_on(now, signal)) return;
+  const Arb& value = now[states_[state]];
   extreme.attained = value;
   const Arb bound = greatest ? (value + excess).upper() : (value - excess).lower();
   if (is_below(bound, extreme.bound) == greatest) extreme.bound = bound;
+}
+
+/// Follows a solution while disturbances take these values, one a step.
+bool FlowExtremes::move_on(ArbBox& now, const std::vector<std::vector<Arb>>& signal) {
+  const Arb all(static_cast<double>(effort_.steps));
+  for (std::size_t begin = 0, end = 0; begin < signal.size(); begin = end) {
+    while (end < signal.size() && same(signal[begin], signal[end])) ++end;
+    for (std::size_t l = 0; l < disturbances_.size(); ++l) now[disturbances_[l]] = signal[begin][l];
+    const Arb duration = period_ * Arb(static_cast<double>(end - begin)) / all;
+    if (!trajectory_.advance(now, duration, effort_.tolerance * cell_)) return false;
+  }
+  return true;
 }
 
 }  // namespace coordreq

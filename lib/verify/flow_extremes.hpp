@@ -4,56 +4,54 @@
 
 namespace coordreq {
 
-/// The value of a state of x' = f(x, w) after a period, or after some of its steps.
+/// The values of all states of x' = f(x, w) after a period, or after some of its steps.
 ///
 /// 1. A tube of all solutions (enclose_flow()), and with it bounds.
 /// 2. Two solutions x, y for different starts and disturbances v, w differ by e with e' = A(t) e + B(t) (v -
 /// w), A and B
-///    within the slopes over the tube (a mean value theorem that holds with kinks, too). So the row of the
-///    state in bounds of the transition matrices tells how the end depends on the start, and on the
+///    within the slopes over the tube (a mean value theorem that holds with kinks, too). So the row of a
+///    state in bounds of the transition matrices tells how its end depends on the start, and on the
 ///    disturbance during each step, whatever measurable signal that is.
 /// 3. A solution from the place, and with the disturbances, that these signs say is extreme; where a sign is
-/// open
-///    the rest is added.
+///    open the rest is added. Cells that meet in a corner share the solutions from there.
 ///
 /// Scratch inside: one object a thread.
 class FlowExtremes : public NextValue {
  public:
-  /// @param cell step of the state's grid, for tolerances
+  /// @param cell the shortest step of the states' grids, for tolerances
   /// REQUIRES: `spec` outlives this object.
-  FlowExtremes(const ProblemSpec& spec, const Influences& influences, std::size_t state, double cell);
+  FlowExtremes(const ProblemSpec& spec, const Influences& influences, double cell);
 
-  [[nodiscard]] std::optional<Extremes> extremes(const SpanBox& box, const Effort& effort,
-                                                 const Enough& enough) override;
+  /// Makes the tube.
+  [[nodiscard]] bool enclose(const SpanBox& box, const Effort& effort) override;
+  /// @param state its place among the moving ones
+  [[nodiscard]] Extremes extremes(std::size_t state, const Enough& enough) override;
   [[nodiscard]] const std::vector<std::uint32_t>& divisible() const override { return states_; }
 
-  /// Makes the tube. @returns false if there is none
-  [[nodiscard]] bool enclose(const SpanBox& box, const Effort& effort);
   [[nodiscard]] const std::vector<FlowStep>& steps() const { return steps_; }
   /// The extreme after so many steps.
-  [[nodiscard]] Extreme extreme_after(std::size_t steps, bool greatest);
+  [[nodiscard]] Extreme extreme_after(std::size_t steps, std::size_t state, bool greatest);
   [[nodiscard]] const Arb& duration_of_step() const { return step_; }
   [[nodiscard]] VectorField& field() { return field_; }
-  /// Where the state is among the moving ones.
-  [[nodiscard]] std::size_t position() const { return position_; }
 
  private:
+  /// On each state (rows), by bounds.
   struct Influence {
-    std::vector<Arb> of_start;                     ///< [moving state]
-    std::vector<std::vector<Arb>> of_disturbance;  ///< [step][disturbance]: per time
+    ArbMatrix of_start;                     ///< of each moving state
+    std::vector<ArbMatrix> of_disturbance;  ///< [step]: of each disturbance, per time
   };
   [[nodiscard]] std::optional<std::vector<FlowStep>> enclosed(int steps);
   [[nodiscard]] int steps_for(const ArbMatrix& slopes, const Effort& effort) const;
   [[nodiscard]] const std::optional<Influence>& influence_after(std::size_t steps);
   [[nodiscard]] std::optional<Influence> find_influence(std::size_t steps) const;
-  [[nodiscard]] Extreme bound_after(std::size_t steps, bool greatest) const;
-  void follow(const Influence& influence, std::size_t steps, bool greatest, Extreme& extreme);
+  [[nodiscard]] Extreme bound_after(std::size_t steps, std::size_t state, bool greatest) const;
+  void follow(const Influence& influence, std::size_t state, bool greatest, Extreme& extreme);
+  [[nodiscard]] bool move_on(ArbBox& now, const std::vector<std::vector<Arb>>& signal);
 
   VectorField field_;
   Trajectory trajectory_;
   std::vector<std::uint32_t> states_;
   std::vector<std::uint32_t> disturbances_;
-  std::size_t position_ = 0;
   Arb period_;
   double cell_;
   SpanBox box_;

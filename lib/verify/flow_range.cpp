@@ -15,8 +15,13 @@ int direction(const Arb& change) {
 
 class RangeFinder {
  public:
-  RangeFinder(VectorField& field, FlowExtremes& flow, const SpanBox& box, const Arb& share)
-      : field_(field), flow_(flow), box_(box), own_(field.variables()[flow.position()]), share_(share) {
+  RangeFinder(FlowExtremes& flow, std::size_t state, const SpanBox& box)
+      : field_(flow.field()),
+        flow_(flow),
+        state_(state),
+        box_(box),
+        own_(field_.variables()[state]),
+        share_(flow.duration_of_step()) {
     result_.lower = box[own_].lower.lower();
     result_.upper = box[own_].upper.upper();
   }
@@ -35,9 +40,7 @@ class RangeFinder {
   }
 
  private:
-  [[nodiscard]] const Arb& change(std::size_t step) const {
-    return flow_.steps()[step].change[flow_.position()];
-  }
+  [[nodiscard]] const Arb& change(std::size_t step) const { return flow_.steps()[step].change[state_]; }
 
   void visit(std::size_t begin, std::size_t end, int way) {
     if (way == 0) return;
@@ -49,8 +52,8 @@ class RangeFinder {
   }
 
   void look(std::size_t steps, const Arb& down, const Arb& up) {
-    const Extreme least = flow_.extreme_after(steps, false);
-    const Extreme greatest = flow_.extreme_after(steps, true);
+    const Extreme least = flow_.extreme_after(steps, state_, false);
+    const Extreme greatest = flow_.extreme_after(steps, state_, true);
     result_.lower = lesser(result_.lower, (least.bound + down).lower());
     result_.upper = greater(result_.upper, (greatest.bound + up).upper());
     if (steps == 0) return;
@@ -64,7 +67,7 @@ class RangeFinder {
   [[nodiscard]] bool keeps(int way) const {
     const std::vector<FlowStep>& steps = flow_.steps();
     return std::all_of(steps.begin(), steps.end(), [&](const FlowStep& step) {
-      const int own = direction(step.change[flow_.position()]);
+      const int own = direction(step.change[state_]);
       return own == 0 || own == way;
     });
   }
@@ -76,13 +79,14 @@ class RangeFinder {
       ArbBox beyond = step.tube;
       beyond[own_] = above ? hull(box_[own_].upper, greater(box_[own_].upper, step.tube[own_].upper()))
                            : hull(box_[own_].lower, lesser(box_[own_].lower, step.tube[own_].lower()));
-      const Arb own = field_.value(flow_.position(), beyond);
+      const Arb own = field_.value(state_, beyond);
       return own.is_finite() && (above ? own.is_nonpositive() : own.is_nonnegative());
     });
   }
 
   VectorField& field_;
   FlowExtremes& flow_;
+  std::size_t state_;
   const SpanBox& box_;
   std::uint32_t own_;
   const Arb& share_;
@@ -91,9 +95,10 @@ class RangeFinder {
 
 }  // namespace
 
-std::optional<FlowRange> range_during_period(FlowExtremes& flow, const SpanBox& box, const Effort& effort) {
+std::optional<FlowRange> range_during_period(FlowExtremes& flow, std::size_t state, const SpanBox& box,
+                                             const Effort& effort) {
   if (!flow.enclose(box, effort)) return std::nullopt;
-  FlowRange range = RangeFinder(flow.field(), flow, box, flow.duration_of_step()).run();
+  FlowRange range = RangeFinder(flow, state, box).run();
   if (!range.lower.is_finite() || !range.upper.is_finite()) return std::nullopt;
   return range;
 }

@@ -20,8 +20,9 @@ struct FlowRange {
 /// Where its derivative keeps its sign the state lies between its bounds at both ends of that time
 /// (FlowExtremes), elsewhere it moves from where it was at the beginning of a step as far as the derivative
 /// says.
+/// @param state its place among the moving ones
 /// @returns nothing where there are no bounds
-[[nodiscard]] std::optional<FlowRange> range_during_period(FlowExtremes& flow, const SpanBox& box,
-                                                           const Effort& effort);
+[[nodiscard]] std::optional<FlowRange> range_during_period(FlowExtremes& flow, std::size_t state,
+                                                           const SpanBox& box, const Effort& effort);
 
 }  // namespace coordreq

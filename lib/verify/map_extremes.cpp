@@ -54,15 +54,18 @@ Extreme extreme_of(VectorField& field, std::size_t equation, const SpanBox& box,
 MapExtremes::MapExtremes(const ProblemSpec& spec, const Influences& influences, std::size_t state)
     : map_(spec, influences, {state}) {}
 
-std::optional<Extremes> MapExtremes::extremes(const SpanBox& box, const Effort&, const Enough& enough) {
+bool MapExtremes::enclose(const SpanBox& box, const Effort&) {
+  box_ = box;
   const ArbBox all = all_of(box);
-  const Arb natural = map_.value(0, all);
-  if (natural.is_finite() && enough(natural, natural)) {
-    return Extremes{natural_extreme(map_, box, natural, false), natural_extreme(map_, box, natural, true)};
-  }
-  const std::optional<std::vector<Arb>> slopes = map_.slopes(0, all);
-  if (!slopes && !natural.is_finite()) return std::nullopt;
-  return Extremes{extreme_of(map_, 0, box, slopes, false), extreme_of(map_, 0, box, slopes, true)};
+  natural_ = map_.value(0, all);
+  slopes_ = map_.slopes(0, all);
+  return slopes_ || natural_.is_finite();
+}
+
+Extremes MapExtremes::extremes(std::size_t, const Enough& enough) {
+  if (natural_.is_finite() && enough(natural_, natural_))
+    return {natural_extreme(map_, box_, natural_, false), natural_extreme(map_, box_, natural_, true)};
+  return {extreme_of(map_, 0, box_, slopes_, false), extreme_of(map_, 0, box_, slopes_, true)};
 }
 
 bool MapExtremes::follows(const ArbBox& box, std::uint32_t slot) {

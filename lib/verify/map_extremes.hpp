@@ -11,14 +11,17 @@ class MapExtremes : public NextValue {
   /// REQUIRES: `spec` outlives this object.
   MapExtremes(const ProblemSpec& spec, const Influences& influences, std::size_t state);
 
-  [[nodiscard]] std::optional<Extremes> extremes(const SpanBox& box, const Effort& effort,
-                                                 const Enough& enough) override;
+  [[nodiscard]] bool enclose(const SpanBox& box, const Effort& effort) override;
+  [[nodiscard]] Extremes extremes(std::size_t value, const Enough& enough) override;
   [[nodiscard]] const std::vector<std::uint32_t>& divisible() const override { return map_.variables(); }
   /// True if the value is that of `slot` and something that does not depend on it.
   [[nodiscard]] bool follows(const ArbBox& box, std::uint32_t slot);
 
  private:
   VectorField map_;
+  SpanBox box_;
+  Arb natural_;                             ///< the range over it
+  std::optional<std::vector<Arb>> slopes_;  ///< if they were asked for
 };
 
 /// The extreme of one equation of a vector field over a box.

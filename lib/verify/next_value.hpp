@@ -26,7 +26,7 @@ struct Effort {
   double tolerance = 1e-3;  ///< of a solution, in cells
 };
 
-/// What is known about the least or the greatest value that one state can have next.
+/// What is known about the least or the greatest value that a state can have next.
 struct Extreme {
   Arb bound;                    ///< a point: no value is beyond it
   std::optional<Arb> attained;  ///< a value that is taken, by `start`
@@ -38,7 +38,7 @@ struct Extremes {
   Extreme greatest;
 };
 
-/// Encloses the next value of one state from boxes of present ones. Scratch inside: one object a thread.
+/// Encloses the next values of states from boxes of present ones. Scratch inside: one object a thread.
 class NextValue {
  public:
   NextValue() = default;
@@ -47,11 +47,13 @@ class NextValue {
   virtual ~NextValue() = default;
 
   /// @param box constant but for states and disturbances
+  /// @returns false where no bound is found
+  [[nodiscard]] virtual bool enclose(const SpanBox& box, const Effort& effort) = 0;
+  /// Of the box enclosed last.
+  /// @param value which of several
   /// @param enough tells whether a range that is found first, with less effort, will do
-  /// @returns nothing where no bound is found
   using Enough = std::function<bool(const Arb& lower, const Arb& upper)>;
-  [[nodiscard]] virtual std::optional<Extremes> extremes(const SpanBox& box, const Effort& effort,
-                                                         const Enough& enough) = 0;
+  [[nodiscard]] virtual Extremes extremes(std::size_t value, const Enough& enough) = 0;
   /// Slots of what may be cut into pieces: for each piece a bound holds by itself.
   [[nodiscard]] virtual const std::vector<std::uint32_t>& divisible() const = 0;
 };

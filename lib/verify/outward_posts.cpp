@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <cstdint>
+#include <deque>
 #include <memory>
 #include <utility>
 
@@ -20,44 +21,91 @@ namespace {
 const PostEffort kRounds[] = {{1, {2, 1e-3}},   {2, {8, 1e-4}},    {16, {8, 1e-5}},
                               {64, {16, 1e-6}}, {512, {32, 1e-7}}, {4096, {96, 1e-7}}};
 
+/// The next value is the present one and something that does not depend on it.
+bool follows_itself(const PostQuestion& question, const Influences& influences) {
+  const ProblemSpec& spec = *question.spec;
+  const UniformGrid& grid = *question.grid;
+  const InputSpace& inputs = *question.inputs;
+  if (grid[question.state].discrete) return false;
+  if (spec.dynamics.time == Time::continuous) return flows_alike(spec, influences, question.state);
+  ArbBox everything(spec.slot_count());
+  for (std::size_t j = 0; j < grid.size(); ++j) {
+    const Rational reach = grid[j].radius() + grid[j].measurement_error;
+    const Rational last = grid[j].point(grid[j].count - 1);
+    everything[spec.state_slot(j)] = span_of(std::min(Rational(grid[j].first - reach), grid[j].lower),
+                                             std::max(Rational(last + reach), grid[j].upper))
+                                         .all();
+  }
+  for (std::size_t j = 0; j < inputs.size(); ++j) {
+    const auto ends = std::minmax_element(inputs[j].values.begin(), inputs[j].values.end());
+    everything[spec.input_slot(j)] = span_of(*ends.first, *ends.second).all();
+  }
+  for (const std::size_t l : influences.disturbances)
+    everything[spec.disturbance_slot(l)] =
+        span_of(spec.disturbances[l].lower, spec.disturbances[l].upper).all();
+  return MapExtremes(spec, influences, question.state).follows(everything, spec.state_slot(question.state));
+}
+
+/// Tables that one enclosure serves.
 class OutwardPosts {
  public:
-  explicit OutwardPosts(const PostQuestion& question)
-      : spec_(*question.spec),
-        grid_(*question.grid),
-        inputs_(*question.inputs),
-        state_(question.state),
-        target_(grid_[state_]),
-        claimed_(*question.claimed),
-        cells_(*question.cells),
-        budget_(*question.budget),
-        influences_(influences_on(spec_, state_)),
+  OutwardPosts(std::vector<PostQuestion> questions, PostGroup group)
+      : questions_(std::move(questions)),
+        group_(std::move(group)),
+        spec_(*questions_.front().spec),
+        grid_(*questions_.front().grid),
+        inputs_(*questions_.front().inputs),
+        budget_(*questions_.front().budget),
         slots_(spec_.slot_count()),
-        tally_(question.check) {
-    for (const std::size_t l : influences_.disturbances)
+        choices_(spec_, grid_, inputs_, table(0),
+                 group_.shifts ? std::optional(group_.states.front()) : std::nullopt),
+        open_(open_choices()) {
+    for (const std::size_t l : group_.influences.disturbances)
       slots_[spec_.disturbance_slot(l)] = span_of(spec_.disturbances[l].lower, spec_.disturbances[l].upper);
+    if (group_.shifts) slots_[spec_.state_slot(group_.states.front())] = span_of(0, 0);
+    for (const PostQuestion& question : questions_) {
+      tallies_.emplace_back(question.check);
+      tallies_.back().add_checked(static_cast<std::int64_t>(open_.size()) * copies());
+      tallies_.back().set_note("enclosures");
+    }
   }
 
-  std::optional<Finding> run(ThreadTeam& team) {
-    const PostTable shape = empty_table(grid_, inputs_, influences_);
-    if (has_stops(spec_, influences_) || jumps_on_the_way(spec_, influences_) ||
-        claimed_.entries.size() != shape.entries.size())
-      return std::nullopt;
-    shifts_ = follows_itself();
-    if (shifts_) slots_[spec_.state_slot(state_)] = span_of(0, 0);
-    choices_.emplace(spec_, grid_, inputs_, claimed_, shifts_ ? std::optional(state_) : std::nullopt);
-    open_ = choices_->made_by(cells_);
-    tally_.add_checked(static_cast<std::int64_t>(open_.size()) * copies());
-    tally_.set_note("enclosures");
+  std::vector<Finding> run(ThreadTeam& team) {
     std::vector<std::unique_ptr<PostProver>> provers(static_cast<std::size_t>(team.size()));
     for (std::size_t round = 0; round < std::size(kRounds) && !open_.empty(); ++round) {
       is_last_ = round + 1 == std::size(kRounds);
       run_round(kRounds[round], provers, team);
     }
-    return tally_.finding();
+    std::vector<Finding> findings;
+    for (const Tally& tally : tallies_) findings.push_back(tally.finding());
+    return findings;
   }
 
  private:
+  /// A choice of indices, and which of its claims are settled: bits, as far as they go.
+  struct Open {
+    std::int64_t choice = 0;
+    std::uint64_t settled = 0;
+    [[nodiscard]] bool has_settled(std::size_t claim) const {
+      return claim < kMostSettled && (settled >> claim & 1U) != 0;
+    }
+    void settle(std::size_t claim) {
+      if (claim < kMostSettled) settled |= std::uint64_t{1} << claim;
+    }
+    static constexpr std::size_t kMostSettled = 64;
+  };
+  /// A claim and the entries of its table that make it.
+  struct Claimed {
+    PostClaim claim;
+    std::vector<std::int64_t> entries;
+  };
+
+  [[nodiscard]] std::vector<Open> open_choices() const {
+    std::vector<Open> open;
+    for (const std::int64_t choice : choices_.made_by(*questions_.front().cells)) open.push_back({choice});
+    return open;
+  }
+
   void run_round(const PostEffort& effort, std::vector<std::unique_ptr<PostProver>>& provers,
                  ThreadTeam& team) {
     std::vector<std::uint8_t> still_open(open_.size());
@@ -65,10 +113,7 @@ class OutwardPosts {
     const std::int64_t grain = effort.most_boxes == 1 ? 16 : 1;
     team.for_each(count, grain, [&](ThreadTeam::Range range, int worker) {
       auto& prover = provers[static_cast<std::size_t>(worker)];
-      if (!prover) {
-        prover = std::make_unique<PostProver>(spec_, target_,
-                                              next_value_of(spec_, influences_, state_, target_), shifts_);
-      }
+      if (!prover) prover = std::make_unique<PostProver>(spec_, grid_, group_);
       for (std::int64_t i = range.begin; i < range.end; ++i) {
         const auto place = static_cast<std::size_t>(i);
         still_open[place] = settle(open_[place], effort, *prover) ? 0 : 1;
@@ -82,116 +127,147 @@ class OutwardPosts {
   }
 
   /// @returns false if it is to be tried again
-  bool settle(std::int64_t number, const PostEffort& effort, PostProver& prover) {
-    const Odometer choice(choices_->counts(), number);
+  bool settle(Open& open, const PostEffort& effort, PostProver& prover) {
+    const Odometer choice(choices_.counts(), open.choice);
     const bool over = budget_.is_over();
-    bool settled = true;
-    const std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int64_t>> claims =
-        claims_of(choice);
-    std::vector<std::pair<std::int64_t, PostProof>> proofs;
-    for (const auto& [range, entries] : claims) {
-      PostProof proof = over ? PostProof{PostVerdict::open, "the budget ended"}
-                             : prove(choice, {range.first, range.second}, effort, prover);
-      settled = settled && proof.verdict != PostVerdict::open;
-      for (const std::int64_t entry : entries) proofs.emplace_back(entry, proof);
+    const std::vector<Claimed> all = claims_of(choice);
+    std::vector<PostClaim> asked;
+    std::vector<std::size_t> numbers;
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      if (open.has_settled(c)) continue;
+      asked.push_back(all[c].claim);
+      numbers.push_back(c);
     }
-    if (!settled && !over && !is_last_) return false;
-    for (const auto& [entry, proof] : proofs) note(entry, proof);
-    return true;
+    const std::vector<PostProof> proofs =
+        over ? std::vector<PostProof>(asked.size(), {PostVerdict::open, "the budget ended"})
+             : prove(choice, asked, effort, prover);
+    bool settled = true;
+    for (std::size_t k = 0; k < proofs.size(); ++k) {
+      if (proofs[k].verdict == PostVerdict::open && !over && !is_last_) {
+        settled = false;
+        continue;
+      }
+      open.settle(numbers[k]);
+      const Claimed& one = all[numbers[k]];
+      for (const std::int64_t entry : one.entries) note(one.claim.target, entry, proofs[k]);
+    }
+    return settled;
   }
 
   /// Ranges as they are for the cell with index 0 if cells follow themselves, and whose they are.
-  [[nodiscard]] std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int64_t>> claims_of(
-      const Odometer& choice) const {
-    std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int64_t>> result;
-    const std::int64_t base = choices_->position(choice);
-    for (std::int64_t k = 0; k < copies(); ++k) {
-      const std::int64_t entry = base + (shifts_ ? k * claimed_.state_stride[state_] : 0);
-      const IndexRange range = claimed_.entries[static_cast<std::size_t>(entry)];
-      result[{back(range.first, k), back(range.last, k)}].push_back(entry);
+  [[nodiscard]] std::vector<Claimed> claims_of(const Odometer& choice) const {
+    std::vector<Claimed> result;
+    const std::int64_t base = choices_.position(choice);
+    for (std::size_t t = 0; t < group_.states.size(); ++t) {
+      const std::size_t first = result.size();
+      for (std::int64_t k = 0; k < copies(); ++k) {
+        const std::int64_t entry = base + (group_.shifts ? k * table(t).state_stride[group_.states[t]] : 0);
+        const IndexRange range = back(table(t).entries[static_cast<std::size_t>(entry)], k);
+        const auto known = std::find_if(result.begin() + static_cast<std::ptrdiff_t>(first), result.end(),
+                                        [&](const Claimed& one) { return one.claim.range == range; });
+        if (known != result.end()) {
+          known->entries.push_back(entry);
+        } else {
+          result.push_back({{t, range}, {entry}});
+        }
+      }
     }
     return result;
   }
 
-  [[nodiscard]] static std::int32_t back(std::int32_t index, std::int64_t by) {
-    return index == INT32_MIN || index == INT32_MAX ? index : saturate_index(std::int64_t{index} - by);
+  [[nodiscard]] static IndexRange back(IndexRange range, std::int64_t by) {
+    const auto one = [by](std::int32_t index) {
+      return index == INT32_MIN || index == INT32_MAX ? index : saturate_index(std::int64_t{index} - by);
+    };
+    return {one(range.first), one(range.last)};
   }
 
-  [[nodiscard]] PostProof prove(const Odometer& choice, IndexRange claimed, const PostEffort& effort,
-                                PostProver& prover) const {
-    if (claimed.first == INT32_MIN && claimed.last == INT32_MAX) return {};
-    const Budget::Clock::time_point end = budget_.end_of_one();
+  [[nodiscard]] std::vector<PostProof> prove(const Odometer& choice, const std::vector<PostClaim>& claims,
+                                             const PostEffort& effort, PostProver& prover) const {
+    const double end = budget_.end_of_one();
     SpanBox slots = slots_;
-    PostProof worst;
-    choices_->for_each_piece(choice, slots, [&](const Odometer&) {
-      PostProof proof = prover.prove(slots, claimed, effort, end);
-      if (proof.verdict != PostVerdict::holds && worst.verdict != PostVerdict::wrong)
-        worst = std::move(proof);
-      return worst.verdict != PostVerdict::wrong;
+    std::vector<PostProof> worst(claims.size());
+    choices_.for_each_piece(choice, slots, [&](const Odometer&) {
+      std::vector<PostProof> proofs = prover.prove(slots, claims, effort, end);
+      bool all_wrong = true;
+      for (std::size_t c = 0; c < claims.size(); ++c) {
+        if (proofs[c].verdict != PostVerdict::holds && worst[c].verdict != PostVerdict::wrong)
+          worst[c] = std::move(proofs[c]);
+        all_wrong = all_wrong && worst[c].verdict == PostVerdict::wrong;
+      }
+      return !all_wrong;
     });
     return worst;
   }
 
-  void note(std::int64_t entry, const PostProof& proof) {
-    const IndexRange range = claimed_.entries[static_cast<std::size_t>(entry)];
-    const bool has_limits = with_measurements_at_limits(target_, spec_.abstraction.cells, range) == range;
+  void note(std::size_t target, std::int64_t entry, const PostProof& proof) {
+    const GridDimension& dimension = grid_[group_.states[target]];
+    const IndexRange range = table(target).entries[static_cast<std::size_t>(entry)];
+    const bool has_limits = with_measurements_at_limits(dimension, spec_.abstraction.cells, range) == range;
+    const auto place = [&] { return entry_text(grid_, inputs_, table(target), entry); };
     const auto describe = [&] {
-      return fmt::format("{}: {} {}, but {}", entry_text(grid_, inputs_, claimed_, entry), target_.name,
-                         range_text(target_, range),
+      return fmt::format("{}: {} {}, but {}", place(), dimension.name, range_text(dimension, range),
                          has_limits ? proof.why : "without the cells that may be measured at a limit");
     };
+    Tally& tally = tallies_[target];
     if (range.first > range.last) {
-      tally_.add_wrong(entry,
-                       [&] { return entry_text(grid_, inputs_, claimed_, entry) + ": no cell at all"; });
+      tally.add_wrong(entry, [&] { return place() + ": no cell at all"; });
     } else if (proof.verdict == PostVerdict::wrong) {
-      tally_.add_wrong(entry, describe);
+      tally.add_wrong(entry, describe);
     } else if (proof.verdict == PostVerdict::open || !has_limits) {
-      tally_.add_unproven(entry, describe);
+      tally.add_unproven(entry, describe);
     }
   }
 
-  [[nodiscard]] std::int64_t copies() const { return shifts_ ? target_.count : 1; }
+  [[nodiscard]] const PostTable& table(std::size_t target) const { return *questions_[target].claimed; }
+  [[nodiscard]] std::int64_t copies() const { return group_.shifts ? grid_[group_.states.front()].count : 1; }
 
-  /// The next value is the present one and something that does not depend on it.
-  [[nodiscard]] bool follows_itself() const {
-    if (target_.discrete) return false;
-    if (spec_.dynamics.time == Time::continuous) return flows_alike(spec_, influences_, state_);
-    ArbBox everything = all_of(slots_);
-    for (std::size_t j = 0; j < grid_.size(); ++j) {
-      const Rational reach = grid_[j].radius() + grid_[j].measurement_error;
-      const Rational last = grid_[j].point(grid_[j].count - 1);
-      everything[spec_.state_slot(j)] = span_of(std::min(Rational(grid_[j].first - reach), grid_[j].lower),
-                                                std::max(Rational(last + reach), grid_[j].upper))
-                                            .all();
-    }
-    for (std::size_t j = 0; j < inputs_.size(); ++j) {
-      const auto ends = std::minmax_element(inputs_[j].values.begin(), inputs_[j].values.end());
-      everything[spec_.input_slot(j)] = span_of(*ends.first, *ends.second).all();
-    }
-    return MapExtremes(spec_, influences_, state_).follows(everything, spec_.state_slot(state_));
-  }
-
+  std::vector<PostQuestion> questions_;
+  PostGroup group_;
   const ProblemSpec& spec_;
   const UniformGrid& grid_;
   const InputSpace& inputs_;
-  std::size_t state_;
-  const GridDimension& target_;
-  const PostTable& claimed_;
-  const std::vector<std::int64_t>& cells_;
   const Budget& budget_;
-  Influences influences_;
   SpanBox slots_;
-  Tally tally_;
-  std::optional<PieceChoices> choices_;
-  std::vector<std::int64_t> open_;  ///< numbers of choices
-  bool shifts_ = false;
+  PieceChoices choices_;
+  std::vector<Open> open_;
+  std::deque<Tally> tallies_;  ///< [target]
   bool is_last_ = false;
 };
 
+bool can_be_asked(const PostQuestion& question, const Influences& influences) {
+  const PostTable shape = empty_table(*question.grid, *question.inputs, influences);
+  return !has_stops(*question.spec, influences) && !jumps_on_the_way(*question.spec, influences) &&
+         question.claimed->entries.size() == shape.entries.size();
+}
+
 }  // namespace
 
-std::optional<Finding> check_outward_posts(const PostQuestion& question, ThreadTeam& team) {
-  return OutwardPosts(question).run(team);
+std::vector<std::optional<Finding>> check_outward_posts(const std::vector<PostQuestion>& questions,
+                                                        ThreadTeam& team) {
+  std::vector<std::optional<Finding>> findings(questions.size());
+  std::vector<bool> done(questions.size(), false);
+  for (std::size_t q = 0; q < questions.size(); ++q) {
+    if (done[q]) continue;
+    const ProblemSpec& spec = *questions[q].spec;
+    PostGroup group{.states = {}, .influences = influences_on(spec, questions[q].state)};
+    if (!can_be_asked(questions[q], group.influences)) continue;
+    group.shifts = follows_itself(questions[q], group.influences);
+    const bool alone = group.shifts || spec.dynamics.time == Time::discrete;
+    std::vector<PostQuestion> together;
+    std::vector<std::size_t> places;
+    for (std::size_t other = q; other < (alone ? q + 1 : questions.size()); ++other) {
+      if (!(influences_on(spec, questions[other].state) == group.influences)) continue;
+      if (!can_be_asked(questions[other], group.influences)) continue;
+      done[other] = true;
+      places.push_back(other);
+      together.push_back(questions[other]);
+      group.states.push_back(questions[other].state);
+    }
+    std::vector<Finding> found = OutwardPosts(std::move(together), std::move(group)).run(team);
+    for (std::size_t k = 0; k < places.size(); ++k) findings[places[k]] = std::move(found[k]);
+  }
+  return findings;
 }
 
 }  // namespace coordreq

@@ -12,7 +12,7 @@
 
 namespace coordreq {
 
-/// Which claims about a state's next values are to be proven, and how.
+/// Which claims about a state's next values, or its way there, are to be proven, and how.
 struct PostQuestion {
   const ProblemSpec* spec = nullptr;
   const UniformGrid* grid = nullptr;
@@ -24,10 +24,14 @@ struct PostQuestion {
   std::string check;  ///< name of the finding
 };
 
-/// Proves the entries of a state's table by enclosures in ball arithmetic: a little work for all, then more
+/// Proves the entries of states' tables by enclosures in ball arithmetic: a little work for all, then more
 /// and more for those that do not fit, until the budget ends. What follows its own present value is proven
-/// once for all its cells. An entry is wrong only if a value that does come next is not in it.
-/// @returns nothing where these do not do: limits that stop a state, jumps in a flow, another table's shape
-[[nodiscard]] std::optional<Finding> check_outward_posts(const PostQuestion& question, ThreadTeam& team);
+/// once for all its cells; states with the same influences are enclosed together. An entry is wrong only if a
+/// value that does come next is not in it.
+/// @param questions that differ in state, table and name
+/// @returns a finding for each; nothing where these do not do: limits that stop a state, jumps in a flow,
+///   another table's shape
+[[nodiscard]] std::vector<std::optional<Finding>> check_outward_posts(
+    const std::vector<PostQuestion>& questions, ThreadTeam& team);
 
 }  // namespace coordreq

@@ -28,6 +28,7 @@ class OutwardTubes {
         asked_(choices_.made_by(*question.cells)),
         slots_(spec_.slot_count()),
         tally_(question) {
+    moving_ = row_of(influences_, state_).value_or(0);
     for (const std::size_t l : influences_.disturbances)
       slots_[spec_.disturbance_slot(l)] = span_of(spec_.disturbances[l].lower, spec_.disturbances[l].upper);
     if (alike_) {
@@ -45,7 +46,7 @@ class OutwardTubes {
     std::vector<std::unique_ptr<FlowExtremes>> flows(static_cast<std::size_t>(team.size()));
     team.for_each(static_cast<std::int64_t>(asked_.size()), 16, [&](ThreadTeam::Range range, int worker) {
       auto& flow = flows[static_cast<std::size_t>(worker)];
-      if (!flow) flow = std::make_unique<FlowExtremes>(spec_, influences_, state_, target_.step.get_d());
+      if (!flow) flow = std::make_unique<FlowExtremes>(spec_, influences_, target_.step.get_d());
       for (std::int64_t i = range.begin; i < range.end; ++i)
         check(Odometer(choices_.counts(), asked_[static_cast<std::size_t>(i)]), *flow);
     });
@@ -76,7 +77,7 @@ class OutwardTubes {
     SpanBox slots = slots_;
     std::vector<OwnTube> result;
     const bool enclosed = choices_.for_each_piece(choice, slots, [&](const Odometer& piece) {
-      const std::optional<FlowRange> range = range_during_period(flow, slots, effort);
+      const std::optional<FlowRange> range = range_during_period(flow, moving_, slots, effort);
       if (range) result.push_back(tube_from(*range, place_of(choice, piece)));
       return range.has_value();
     });
@@ -118,6 +119,7 @@ class OutwardTubes {
   std::vector<std::int64_t> asked_;  ///< numbers of choices
   SpanBox slots_;
   TubeTally tally_;
+  std::size_t moving_ = 0;                  ///< place among the moving states
   std::size_t own_ = 0;                     ///< among the variables of choices_
   std::vector<std::vector<Piece>> places_;  ///< [own index][piece]
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "verify/cell_place.hpp"
@@ -25,132 +26,157 @@ const std::string& name_of(const ProblemSpec& spec, std::uint32_t slot) {
   return spec.inputs[slot - spec.states.size()].name;
 }
 
+/// The next values of a group, of a map or a flow, whichever the spec has.
+std::unique_ptr<NextValue> next_values_of(const ProblemSpec& spec, const UniformGrid& grid,
+                                          const PostGroup& group) {
+  if (spec.dynamics.time == Time::discrete)
+    return std::make_unique<MapExtremes>(spec, group.influences, group.states.front());
+  double step = grid[group.states.front()].step.get_d();
+  for (const std::size_t i : group.states) step = std::min(step, grid[i].step.get_d());
+  return std::make_unique<FlowExtremes>(spec, group.influences, step);
+}
+
 }  // namespace
 
-PostProver::PostProver(const ProblemSpec& spec, const GridDimension& target, std::unique_ptr<NextValue> next,
-                       bool shifts)
-    : spec_(spec), target_(target), next_(std::move(next)), shifts_(shifts) {}
+PostProver::PostProver(const ProblemSpec& spec, const UniformGrid& grid, const PostGroup& group)
+    : spec_(spec), grid_(grid), group_(group), next_(next_values_of(spec, grid, group)) {
+  const bool is_map = spec.dynamics.time == Time::discrete;
+  for (const std::size_t i : group.states)
+    values_.push_back(is_map ? 0 : row_of(group.influences, i).value_or(0));
+}
 
-/// Pieces are proven one after the other; only those that do not fit are cut.
-PostProof PostProver::prove(const SpanBox& box, IndexRange claimed, const PostEffort& effort,
-                            Budget::Clock::time_point end) {
-  claimed_ = claimed;
-  std::vector<SpanBox> pending = {box};
+/// Pieces are proven one after the other; only those where something does not fit are cut.
+std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<PostClaim>& claims,
+                                         const PostEffort& effort, double end) {
+  std::vector<PostProof> proofs(claims.size());
+  std::vector<Piece> pending = {{box, std::vector<std::size_t>(claims.size())}};
+  std::iota(pending.front().claims.begin(), pending.front().claims.end(), std::size_t{0});
   for (int boxes = 1; !pending.empty(); ++boxes) {
-    SpanBox piece = std::move(pending.back());
+    Piece piece = std::move(pending.back());
     pending.pop_back();
-    std::optional<std::uint32_t> cut;
-    PostProof proof = prove_piece(piece, effort.effort, cut);
-    if (proof.verdict == PostVerdict::holds) continue;
-    if (proof.verdict == PostVerdict::wrong || !cut) return proof;
-    if (boxes + static_cast<int>(pending.size()) >= effort.most_boxes || Budget::Clock::now() >= end)
-      return proof;
-    SpanBox half = piece;
-    half[*cut].upper = piece[*cut].middle();
-    piece[*cut].lower = half[*cut].upper;
+    // Of what is lost already no more need be known.
+    std::erase_if(piece.claims, [&](std::size_t c) { return proofs[c].verdict != PostVerdict::holds; });
+    if (piece.claims.empty()) continue;
+    const bool may_cut = boxes + static_cast<int>(pending.size()) < effort.most_boxes && Budget::now() < end;
+    std::vector<PostProof> own(claims.size());
+    const std::optional<std::uint32_t> cut = prove_piece(piece, claims, effort.effort, own);
+    std::erase_if(piece.claims, [&](std::size_t c) {
+      const bool is_open = own[c].verdict == PostVerdict::open;
+      if (own[c].verdict == PostVerdict::wrong || (is_open && !(may_cut && cut))) proofs[c] = own[c];
+      return !is_open;
+    });
+    if (piece.claims.empty() || !may_cut || !cut) continue;
+    Piece half = piece;
+    half.box[*cut].upper = piece.box[*cut].middle();
+    piece.box[*cut].lower = half.box[*cut].upper;
     pending.push_back(std::move(piece));
     pending.push_back(std::move(half));
   }
-  return {};
+  return proofs;
 }
 
-PostProof PostProver::prove_piece(const SpanBox& box, const Effort& effort,
-                                  std::optional<std::uint32_t>& cut) {
-  const auto enough = [this](const Arb& lower, const Arb& upper) { return is_claimed(lower, upper); };
-  const std::optional<Extremes> found = next_->extremes(box, effort, enough);
-  if (!found) {
-    cut = widest(box, {});
-    return {PostVerdict::open, "no bound was found"};
+/// @returns what to cut where something is open
+std::optional<std::uint32_t> PostProver::prove_piece(Piece& piece, const std::vector<PostClaim>& claims,
+                                                     const Effort& effort, std::vector<PostProof>& proofs) {
+  const std::vector<std::uint32_t>& slots = next_->divisible();
+  if (!next_->enclose(piece.box, effort)) {
+    for (const std::size_t c : piece.claims) proofs[c] = {PostVerdict::open, "no bound was found"};
+    return widest(piece.box, std::vector<double>(slots.size()));
   }
-  if (is_claimed(found->least.bound, found->greatest.bound)) return {};
-  for (const Extreme* extreme : {&found->least, &found->greatest}) {
-    if (std::optional<std::string> end = witness(*extreme)) return {PostVerdict::wrong, *end};
+  std::vector<double> excess(slots.size());
+  for (const std::size_t c : piece.claims) {
+    const auto enough = [&](const Arb& lower, const Arb& upper) {
+      return is_claimed(claims[c], lower, upper);
+    };
+    const Extremes found = next_->extremes(values_[claims[c].target], enough);
+    proofs[c] = prove_claim(claims[c], found);
+    if (proofs[c].verdict != PostVerdict::open) continue;
+    for (const Extreme* extreme : {&found.least, &found.greatest}) {
+      for (std::size_t j = 0; j < extreme->excess.size(); ++j) excess[j] += extreme->excess[j];
+    }
   }
-  cut = widest(box, *found);
-  return {PostVerdict::open, proven_text(*found)};
+  return widest(piece.box, std::move(excess));
 }
 
-bool PostProver::is_claimed(const Arb& lower, const Arb& upper) const {
+PostProof PostProver::prove_claim(const PostClaim& claim, const Extremes& found) const {
+  const Arb& lower = found.least.bound;
+  const Arb& upper = found.greatest.bound;
+  if (is_claimed(claim, lower, upper)) return {};
+  for (const Extreme* extreme : {&found.least, &found.greatest}) {
+    if (std::optional<std::string> end = witness(claim, *extreme)) return {PostVerdict::wrong, *end};
+  }
+  if (!lower.is_finite() || !upper.is_finite()) return {PostVerdict::open, "no bound was found"};
+  const IndexRange own = cells_of(claim.target, lower, upper);
+  return {PostVerdict::open, fmt::format("only {} is proven", range_text(target(claim.target), own))};
+}
+
+bool PostProver::is_claimed(const PostClaim& claim, const Arb& lower, const Arb& upper) const {
   if (!lower.is_finite() || !upper.is_finite())
-    return claimed_.first == INT32_MIN && claimed_.last == INT32_MAX;
-  return holds(target_, claimed_, cells_of(lower, upper, false));
+    return claim.range.first == INT32_MIN && claim.range.last == INT32_MAX;
+  return holds(target(claim.target), claim.range, cells_of(claim.target, lower, upper));
 }
 
 /// The cells met by values in a range, or if it is a difference by those from the cell with index 0.
-IndexRange PostProver::cells_of(const Arb& lower, const Arb& upper, bool closed) const {
-  const Rational& error = target_.measurement_error;
-  const Cells cells = closed ? Cells::closed : spec_.abstraction.cells;
-  if (!shifts_)
-    return cells_met(target_, cells, lower.lower_rational() - error, upper.upper_rational() + error, true);
-  const Rational reach = target_.radius() + 2 * error;
-  return cells_met(target_, cells, target_.first - reach + lower.lower_rational(),
-                   target_.first + reach + upper.upper_rational(), false);
+IndexRange PostProver::cells_of(std::size_t i, const Arb& lower, const Arb& upper) const {
+  const GridDimension& own = target(i);
+  const Cells cells = spec_.abstraction.cells;
+  const Rational least = lower.lower_rational();
+  const Rational greatest = upper.upper_rational();
+  if (!group_.shifts)
+    return cells_met(own, cells, least - own.measurement_error, greatest + own.measurement_error, true);
+  const Rational reach = own.radius() + 2 * own.measurement_error;
+  return cells_met(own, cells, own.first - reach + least, own.first + reach + greatest, false);
 }
 
 /// A value is outside for certain if every closed cell that it may be in is.
-bool PostProver::misses(const Rational& lower, const Rational& upper) const {
-  const IndexRange met = cells_met(target_, Cells::closed, lower, upper, true);
+bool PostProver::misses(const PostClaim& claim, const Rational& lower, const Rational& upper) const {
+  const GridDimension& own = target(claim.target);
+  const IndexRange met = cells_met(own, Cells::closed, lower, upper, true);
   if (std::int64_t{met.last} - met.first > 3) return false;
   for (std::int64_t k = met.first; k <= met.last; ++k) {
     const auto cell = static_cast<std::int32_t>(k);
-    if (holds(target_, claimed_, {cell, cell})) return false;
+    if (holds(own, claim.range, {cell, cell})) return false;
   }
   return true;
 }
 
-std::optional<std::string> PostProver::witness(const Extreme& extreme) const {
+std::optional<std::string> PostProver::witness(const PostClaim& claim, const Extreme& extreme) const {
   if (!extreme.attained || !extreme.attained->is_finite()) return std::nullopt;
-  const Rational lower = extreme.attained->lower_rational();
-  const Rational upper = extreme.attained->upper_rational();
-  const Rational reach =
-      shifts_ ? Rational(target_.radius() + 2 * target_.measurement_error) : target_.measurement_error;
-  const Rational base = shifts_ ? target_.first : Rational(0);
-  if (!misses(base + lower - reach, base + upper - reach) &&
-      !misses(base + lower + reach, base + upper + reach))
+  const GridDimension& own = target(claim.target);
+  const Rational error = own.measurement_error;
+  const Rational reach = group_.shifts ? Rational(own.radius() + 2 * error) : error;
+  const Rational base = group_.shifts ? own.first : Rational(0);
+  const Rational lower = base + extreme.attained->lower_rational();
+  const Rational upper = base + extreme.attained->upper_rational();
+  if (!misses(claim, lower - reach, upper - reach) && !misses(claim, lower + reach, upper + reach))
     return std::nullopt;
+  std::vector<std::uint32_t> named = next_->divisible();
+  for (std::size_t l = 0; l < spec_.disturbances.size(); ++l) {
+    const std::uint32_t slot = spec_.disturbance_slot(l);
+    if (std::find(named.begin(), named.end(), slot) == named.end()) named.push_back(slot);
+  }
   std::string from;
-  for (const std::uint32_t slot : next_->divisible()) {
-    if (shifts_ && name_of(spec_, slot) == target_.name) continue;
+  for (const std::uint32_t slot : named) {
+    if (group_.shifts && name_of(spec_, slot) == own.name) continue;
     from += fmt::format("{}{} = {}", from.empty() ? "" : ", ", name_of(spec_, slot),
                         number_text(extreme.start[slot]));
   }
-  for (std::size_t l = 0; l < spec_.disturbances.size(); ++l) {
-    const std::uint32_t slot = spec_.disturbance_slot(l);
-    const std::vector<std::uint32_t>& named = next_->divisible();
-    if (std::find(named.begin(), named.end(), slot) != named.end()) continue;
-    from += fmt::format("{}{} = {}", from.empty() ? "" : ", ", spec_.disturbances[l].name,
-                        number_text(extreme.start[slot]));
-  }
-  return fmt::format("{}{} {} {}", from.empty() ? "" : "from " + from + " ", target_.name,
-                     shifts_ ? "changes by" : "gets to", number_text(*extreme.attained));
+  return fmt::format("{}{} {} {}", from.empty() ? "" : "from " + from + " ", own.name,
+                     group_.shifts ? "changes by" : "gets to", number_text(*extreme.attained));
 }
 
-std::optional<std::uint32_t> PostProver::widest(const SpanBox& box, const Extremes& extremes) const {
+/// What adds most to the bounds; of equals the widest.
+std::optional<std::uint32_t> PostProver::widest(const SpanBox& box, std::vector<double> excess) const {
   std::optional<std::uint32_t> result;
   double most = 0.0;
-  const std::vector<std::uint32_t>& slots = next_->divisible();
-  for (std::size_t j = 0; j < slots.size(); ++j) {
-    double excess = 1e-6 * box[slots[j]].width();
-    for (const Extreme* extreme : {&extremes.least, &extremes.greatest}) {
-      if (j < extreme->excess.size()) excess += extreme->excess[j];
-    }
-    if (excess <= most || box[slots[j]].width() <= 0.0) continue;
-    most = excess;
-    result = slots[j];
+  for (std::size_t j = 0; j < excess.size(); ++j) {
+    const std::uint32_t slot = next_->divisible()[j];
+    const double own = excess[j] + 1e-6 * box[slot].width();
+    if (own <= most || box[slot].width() <= 0.0) continue;
+    most = own;
+    result = slot;
   }
   return result;
-}
-
-std::string PostProver::proven_text(const Extremes& extremes) const {
-  if (!extremes.least.bound.is_finite() || !extremes.greatest.bound.is_finite()) return "no bound was found";
-  const IndexRange own = cells_of(extremes.least.bound, extremes.greatest.bound, false);
-  return fmt::format("only {} is proven", range_text(target_, own));
-}
-
-std::unique_ptr<NextValue> next_value_of(const ProblemSpec& spec, const Influences& influences,
-                                         std::size_t state, const GridDimension& target) {
-  if (spec.dynamics.time == Time::discrete) return std::make_unique<MapExtremes>(spec, influences, state);
-  return std::make_unique<FlowExtremes>(spec, influences, state, target.step.get_d());
 }
 
 }  // namespace coordreq

@@ -9,10 +9,17 @@
 #include "verify/budget.hpp"
 #include "verify/next_value.hpp"
 #include "verify/post_table.hpp"
+#include "verify/sampled_map.hpp"
 
 namespace coordreq {
 
-/// What could be proven about a claimed range of cells.
+/// The range of cells that the next value of a state is said to be in.
+struct PostClaim {
+  std::size_t target = 0;  ///< which of the states
+  IndexRange range;
+};
+
+/// What could be proven about a claim.
 enum class PostVerdict : std::uint8_t {
   holds,  ///< it has every value that can come next
   wrong,  ///< some value that does come next is not in it
@@ -29,39 +36,49 @@ struct PostEffort {
   Effort effort;
 };
 
-/// Proves claimed ranges of the next value of one state. One object a thread.
-class PostProver {
- public:
-  /// @param shifts the next value is the present one and something that does not depend on it: claims are
-  /// about
-  ///   the cell with index 0
-  /// REQUIRES: `spec` and `target` outlive this object.
-  PostProver(const ProblemSpec& spec, const GridDimension& target, std::unique_ptr<NextValue> next,
-             bool shifts);
-
-  /// @param box where the present state can be
-  [[nodiscard]] PostProof prove(const SpanBox& box, IndexRange claimed, const PostEffort& effort,
-                                Budget::Clock::time_point end);
-
- private:
-  [[nodiscard]] PostProof prove_piece(const SpanBox& box, const Effort& effort,
-                                      std::optional<std::uint32_t>& cut);
-  [[nodiscard]] bool is_claimed(const Arb& lower, const Arb& upper) const;
-  [[nodiscard]] IndexRange cells_of(const Arb& lower, const Arb& upper, bool closed) const;
-  [[nodiscard]] std::optional<std::string> witness(const Extreme& extreme) const;
-  [[nodiscard]] bool misses(const Rational& lower, const Rational& upper) const;
-  [[nodiscard]] std::optional<std::uint32_t> widest(const SpanBox& box, const Extremes& extremes) const;
-  [[nodiscard]] std::string proven_text(const Extremes& extremes) const;
-
-  const ProblemSpec& spec_;
-  const GridDimension& target_;
-  std::unique_ptr<NextValue> next_;
-  bool shifts_;
-  IndexRange claimed_;
+/// States that the same things have an influence on, so that one enclosure serves them all.
+struct PostGroup {
+  std::vector<std::size_t> states;
+  Influences influences;
+  /// The next value is the present one and something that does not depend on it: claims are about the cell
+  /// with index 0. Only of one state alone.
+  bool shifts = false;
 };
 
-/// The next value of a state, of a map or a flow, whichever the spec has.
-[[nodiscard]] std::unique_ptr<NextValue> next_value_of(const ProblemSpec& spec, const Influences& influences,
-                                                       std::size_t state, const GridDimension& target);
+/// Proves claimed ranges of next values. One object a thread.
+class PostProver {
+ public:
+  /// REQUIRES: all outlive this object.
+  PostProver(const ProblemSpec& spec, const UniformGrid& grid, const PostGroup& group);
+
+  /// @param box where the present state can be
+  /// @param end of Budget::now(); a piece that is begun is finished
+  /// @returns one a claim
+  [[nodiscard]] std::vector<PostProof> prove(const SpanBox& box, const std::vector<PostClaim>& claims,
+                                             const PostEffort& effort, double end);
+
+ private:
+  struct Piece {
+    SpanBox box;
+    std::vector<std::size_t> claims;  ///< that are open on it, by number
+  };
+
+  [[nodiscard]] std::optional<std::uint32_t> prove_piece(Piece& piece, const std::vector<PostClaim>& claims,
+                                                         const Effort& effort,
+                                                         std::vector<PostProof>& proofs);
+  [[nodiscard]] PostProof prove_claim(const PostClaim& claim, const Extremes& found) const;
+  [[nodiscard]] bool is_claimed(const PostClaim& claim, const Arb& lower, const Arb& upper) const;
+  [[nodiscard]] IndexRange cells_of(std::size_t target, const Arb& lower, const Arb& upper) const;
+  [[nodiscard]] std::optional<std::string> witness(const PostClaim& claim, const Extreme& extreme) const;
+  [[nodiscard]] bool misses(const PostClaim& claim, const Rational& lower, const Rational& upper) const;
+  [[nodiscard]] std::optional<std::uint32_t> widest(const SpanBox& box, std::vector<double> excess) const;
+  [[nodiscard]] const GridDimension& target(std::size_t i) const { return grid_[group_.states[i]]; }
+
+  const ProblemSpec& spec_;
+  const UniformGrid& grid_;
+  const PostGroup& group_;
+  std::unique_ptr<NextValue> next_;
+  std::vector<std::size_t> values_;  ///< [target]: which of those of next_
+};
 
 }  // namespace coordreq

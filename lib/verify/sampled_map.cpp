@@ -147,13 +147,6 @@ std::optional<LinearFlow> solved(const std::vector<AffineForm>& equations, std::
   return flow;
 }
 
-/// Where the state is among the moving ones; nothing for a parameter.
-std::optional<std::size_t> row_of(const Influences& influences, std::size_t state) {
-  const auto place = std::find(influences.moving.begin(), influences.moving.end(), state);
-  if (place == influences.moving.end()) return std::nullopt;
-  return static_cast<std::size_t>(place - influences.moving.begin());
-}
-
 std::optional<LinearFlow> linear_flow(const ProblemSpec& spec, const Influences& influences,
                                       std::size_t state, const std::vector<Rational>& slots) {
   const std::optional<std::size_t> row = row_of(influences, state);
@@ -240,6 +233,12 @@ Influences influences_on(const ProblemSpec& spec, std::size_t state) {
     if (seen[spec.disturbance_slot(i)]) result.disturbances.push_back(i);
   }
   return result;
+}
+
+std::optional<std::size_t> row_of(const Influences& influences, std::size_t state) {
+  const auto place = std::find(influences.moving.begin(), influences.moving.end(), state);
+  if (place == influences.moving.end()) return std::nullopt;
+  return static_cast<std::size_t>(place - influences.moving.begin());
 }
 
 std::optional<SampledMap> sampled_map(const ProblemSpec& spec, const Influences& influences,

@@ -17,8 +17,11 @@ struct Influences {
   std::vector<std::size_t> parameters;  ///< discrete states, put in value by value
   std::vector<std::size_t> inputs;
   std::vector<std::size_t> disturbances;
+  [[nodiscard]] bool operator==(const Influences&) const = default;
 };
 [[nodiscard]] Influences influences_on(const ProblemSpec& spec, std::size_t state);
+/// Where a state is among the moving ones; nothing for a parameter.
+[[nodiscard]] std::optional<std::size_t> row_of(const Influences& influences, std::size_t state);
 
 /// One state a period later, as a function of the moving states x now:
 /// { sum_j coefficient[j] x_j + r : lower <= r <= upper }.

@@ -1,6 +1,7 @@
 #include "verify/trajectory.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace coordreq {
@@ -8,7 +9,7 @@ namespace {
 
 /// Higher ones pay only where more is wanted.
 slong order_for(double tolerance) {
-  return tolerance > 1e-6 ? 4 : 8;
+  return tolerance > 1e-6 ? 7 : 10;
 }
 
 constexpr int kPicardTries = 30;
@@ -87,7 +88,7 @@ bool Trajectory::integrate(ArbBox& box, const Arb& duration, double tolerance) {
       box = std::move(*next);
       left -= parts;
       parts_ = parts;
-      if (left % (2 * parts) == 0) parts *= 2;
+      if (left % (2 * parts) == 0 && may_double_) parts *= 2;
     } else if (parts > 1) {
       parts /= 2;
     } else {
@@ -102,6 +103,7 @@ std::optional<ArbBox> Trajectory::step(const ArbBox& box, const Arb& duration, d
   const std::optional<Tube> tube = picard_tube(*field_, box, duration);
   if (!tube) return std::nullopt;
   if (std::optional<ArbBox> end = analytic_step(box, tube->box, duration, tolerance)) return end;
+  may_double_ = true;
   const ArbBox end = kinked_step(box, tube->box, tube->change, duration);
   for (std::size_t i = 0; i < field_->size() && !last_try; ++i) {
     const std::uint32_t slot = field_->variables()[i];
@@ -118,10 +120,14 @@ std::optional<ArbBox> Trajectory::analytic_step(const ArbBox& box, const ArbBox&
   Arb power;
   arb_pow_ui(power.get(), duration.get(), static_cast<ulong>(order), kArbBits);
   std::vector<Arb> remainder;
+  double most = 0.0;
   for (const ArbSeries& series : *rest) {
     remainder.push_back(series[order] * power);
-    if (!(remainder.back().width() <= tolerance)) return std::nullopt;
+    most = std::max(most, remainder.back().width());
+    if (!(most <= tolerance)) return std::nullopt;
   }
+  // Twice the time has 2^order times the remainder, and twice the tolerance.
+  may_double_ = std::ldexp(most, static_cast<int>(order)) <= tolerance;
   const std::optional<std::vector<ArbSeries>> series = field_->taylor(box, order);
   if (!series) return std::nullopt;
   ArbBox end = box;

@@ -38,6 +38,7 @@ class Trajectory {
 
   VectorField* field_;
   std::uint32_t parts_ = kFinest;                         ///< that the last step took
+  bool may_double_ = true;                                ///< a step of twice its length looks promising
   std::map<ArbBox, std::optional<ArbBox>, Order> known_;  ///< by box and duration
 };
 

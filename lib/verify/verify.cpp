@@ -40,8 +40,7 @@ class Verifier {
         options_(options),
         team_(team),
         grid_(make_grid(spec)),
-        inputs_(make_input_space(spec)),
-        budget_(options.budget_seconds) {
+        inputs_(make_input_space(spec)) {
     if (options.sample && *options.sample < grid_.cells())
       sample_ = drawn_cells(grid_.cells(), *options.sample);
     if (!sample_.empty()) cells_of_posts_ = with_paths(sample_);
@@ -77,46 +76,58 @@ class Verifier {
   }
 
   void find_posts() {
+    const bool stored = !claims_.abstraction.empty();
+    std::vector<std::size_t> enclosed;
+    std::vector<std::optional<Finding>> findings(grid_.size());
     for (std::size_t i = 0; i < grid_.size(); ++i) {
-      const bool stored = !claims_.abstraction.empty();
       std::optional<PostTable> own = corner_posts(spec_, grid_, inputs_, i, cells_of_posts_, team_);
       if (own && own->exact) {
         if (stored) {
-          result_.findings.push_back(check_abstraction(grid_, inputs_, i, *own, claims_.abstraction[i],
-                                                       entries_of(grid_, inputs_, *own, cells_of_posts_),
-                                                       "abstraction"));
+          findings[i] = check_abstraction(grid_, inputs_, i, *own, claims_.abstraction[i],
+                                          entries_of(grid_, inputs_, *own, cells_of_posts_), "abstraction");
         }
         tables_.push_back(std::move(*own));
         continue;
       }
       result_.basis = stored ? PostBasis::stored : PostBasis::computed;
       tables_.push_back(stored ? claims_.abstraction[i] : table_of_analysis(i));
-      prove(i, std::string(stored ? "abstraction " : "reachable sets ") + grid_[i].name);
+      enclosed.push_back(i);
+    }
+    budget_.emplace(options_.budget_seconds, team_.size());
+    prove(enclosed, stored ? "abstraction " : "reachable sets ", findings);
+    for (std::optional<Finding>& finding : findings) {
+      if (finding) result_.findings.push_back(std::move(*finding));
     }
   }
 
-  void prove(std::size_t state, const std::string& check) {
-    const PostQuestion question{.spec = &spec_,
-                                .grid = &grid_,
-                                .inputs = &inputs_,
-                                .state = state,
-                                .claimed = &tables_.back(),
-                                .cells = &cells_of_posts_,
-                                .budget = &budget_,
-                                .check = check};
-    std::optional<Finding> finding = check_outward_posts(question, team_);
-    if (finding) {
-      result_.enclosed += finding->checked;
-      result_.confirmed += finding->checked - finding->unproven - finding->wrong;
-      result_.findings.push_back(std::move(*finding));
-    } else {
-      borrow(grid_[state].name);
+  void prove(const std::vector<std::size_t>& states, const std::string& check,
+             std::vector<std::optional<Finding>>& all) {
+    std::vector<PostQuestion> questions;
+    for (const std::size_t i : states) {
+      questions.push_back({.spec = &spec_,
+                           .grid = &grid_,
+                           .inputs = &inputs_,
+                           .state = i,
+                           .claimed = &tables_[i],
+                           .cells = &cells_of_posts_,
+                           .budget = &*budget_,
+                           .check = check + grid_[i].name});
+    }
+    std::vector<std::optional<Finding>> findings = check_outward_posts(questions, team_);
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      if (!findings[k]) {
+        borrow(grid_[states[k]].name);
+        continue;
+      }
+      result_.enclosed += findings[k]->checked;
+      result_.confirmed += findings[k]->checked - findings[k]->unproven - findings[k]->wrong;
+      all[states[k]] = std::move(findings[k]);
     }
   }
 
   void find_tubes() {
     report({.stage = "tubes"});
-    CheckedTubes checked = check_tubes(spec_, analysis(), claims_.safe, sample_, budget_, team_);
+    CheckedTubes checked = check_tubes(spec_, analysis(), claims_.safe, sample_, *budget_, team_);
     result_.tubes = checked.exact ? PostBasis::exact : PostBasis::computed;
     for (const std::string& state : checked.borrowed) borrow(state);
     append(result_.findings, std::move(checked.findings));
@@ -169,7 +180,7 @@ class Verifier {
   ThreadTeam& team_;
   UniformGrid grid_;
   InputSpace inputs_;
-  Budget budget_;
+  std::optional<Budget> budget_;              ///< begins after the analysis
   std::vector<std::int64_t> sample_;          ///< cells to be checked; all if empty
   std::vector<std::int64_t> cells_of_posts_;  ///< and those whose posts are; all if empty
   std::vector<PostTable> tables_;

@@ -1,6 +1,18 @@
-"""Random nonlinear systems with disturbances, the same for the same seed."""
+"""Random nonlinear systems with disturbances, the same for the same seed; run as a script, verifies the results of many.
 
+A line of JSON for each, then how many got which verdict. Fails if one is called wrong, or a tenth is not confirmed.
+"""
+
+import argparse
+import collections
+import json
+import pathlib
 import random
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
 
 
 def _term(rng, names, disturbances):
@@ -109,3 +121,60 @@ def random_analysis(seed):
         half, cells = state["upper"], {1: 20000, 2: 100, 3: 20}[len(spec["states"])]
         state["step"] = round(2 * half / rng.choice([cells, cells // 2]), 4)
     return spec
+
+
+def timed(command):
+    """What a command said, and the seconds of all processors that it took."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    result = subprocess.run(command, capture_output=True, text=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return result, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def outcome(program, seed, folder, *arguments):
+    """What analyze and verify say of a random system: verdict, sets confirmed and asked about, seconds of each."""
+    spec, results = folder / f"{seed}.json", folder / f"{seed}.h5"
+    spec.write_text(json.dumps(random_system(seed)))
+    analysis, analysis_seconds = timed([program, "analyze", spec, "-o", results, "--json"])
+    if analysis.returncode != 0:
+        return {"seed": seed, "verdict": "refused", "why": analysis.stderr.strip()}
+    command = [program, "verify", results, "--json", *arguments]
+    verification, seconds = timed(command)
+    results.unlink()
+    if not verification.stdout:
+        return {"seed": seed, "verdict": "failed", "why": verification.stderr.strip()}
+    summary = json.loads(verification.stdout)
+    return {
+        "seed": seed,
+        "verdict": summary["verdict"],
+        "confirmed": summary["confirmed"],
+        "analysis": round(analysis_seconds, 2),
+        "seconds": round(seconds, 2),
+        "why": [text for check in summary["checks"] for text in check["examples"] + check["doubts"]],
+    }
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("program")
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--count", type=int, default=500)
+    parser.add_argument("--verify", default="", help="arguments of verify, such as '--budget 10'")
+    options = parser.parse_args()
+    verdicts = collections.Counter()
+    seconds = []
+    with tempfile.TemporaryDirectory() as folder:
+        for seed in range(options.first, options.first + options.count):
+            found = outcome(options.program, seed, pathlib.Path(folder), *options.verify.split())
+            verdicts[found["verdict"]] += 1
+            if "seconds" in found:
+                seconds.append(found["seconds"])
+            print(json.dumps(found), flush=True)
+    seconds.sort()
+    print(dict(verdicts), f"verify: median {statistics.median(seconds):.2f} s, slowest {seconds[-1]:.1f} s")
+    accepted = sum(verdicts.values()) - verdicts["refused"]
+    return 1 if verdicts["wrong"] + verdicts["failed"] > 0 or verdicts["holds"] < 0.9 * accepted else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

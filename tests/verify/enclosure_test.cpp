@@ -40,9 +40,11 @@ std::optional<Range> range_of(const ProblemSpec& spec, Range x, Range y, Range w
   const auto never = [](const Arb&, const Arb&) { return false; };
   std::optional<Extremes> found;
   if (spec.dynamics.time == Time::continuous) {
-    found = FlowExtremes(spec, influences, 0, 1.0).extremes(box, effort, never);
+    FlowExtremes flow(spec, influences, 1.0);
+    if (flow.enclose(box, effort)) found = flow.extremes(0, never);
   } else {
-    found = MapExtremes(spec, influences, 0).extremes(box, effort, never);
+    MapExtremes map(spec, influences, 0);
+    if (map.enclose(box, effort)) found = map.extremes(0, never);
   }
   if (!found || !found->least.bound.is_finite() || !found->greatest.bound.is_finite()) return std::nullopt;
   return Range{found->least.bound.lower_rational().get_d(), found->greatest.bound.upper_rational().get_d()};
@@ -80,6 +82,13 @@ TEST(FlowExtremes, EveryFunctionOfTheLanguageIsExpanded) {
     SCOPED_TRACE(one);
     expect_tight(range_of(spec_of(one, "0"), {0.25, 0.25}, {0, 0}), 0.75, 0.75, 1e-8);
   }
+}
+
+TEST(FlowExtremes, WhereADerivativeEndsAtZeroNothingIsAddedBeyond) {
+  const ProblemSpec spec = spec_of("-0.95*w^2", "0", R"({"name": "w", "lower": -0.2, "upper": 0.2})");
+  const std::optional<Range> found = range_of(spec, {1, 2}, {0, 0}, {-0.2, 0.2});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->upper, 2.0);
 }
 
 TEST(FlowExtremes, ADisturbanceWithOneSignIsTheHull) {

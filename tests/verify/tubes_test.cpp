@@ -38,7 +38,7 @@ Checked check(ProblemSpec spec) {
   ThreadTeam team(2);
   Abstraction analysis = build_abstraction(spec, team);
   const std::vector<std::uint8_t> safe(static_cast<std::size_t>(analysis.grid.cells()), 1);
-  CheckedTubes tubes = check_tubes(spec, analysis, safe, {}, Budget(60), team);
+  CheckedTubes tubes = check_tubes(spec, analysis, safe, {}, Budget(60, team.size()), team);
   return {std::move(spec), std::move(analysis), std::move(tubes)};
 }
 
@@ -53,7 +53,7 @@ using Check = std::optional<TubeFinding> (*)(const PostQuestion&, ThreadTeam&);
 std::optional<TubeFinding> check_one(const Checked& checked, std::size_t state, const PostTable& claimed,
                                      Check check_them) {
   ThreadTeam team(2);
-  const Budget budget(60);
+  const Budget budget(60, 2);
   const std::vector<std::int64_t> all;
   const PostQuestion question{.spec = &checked.spec,
                               .grid = &checked.analysis.grid,
@@ -158,8 +158,8 @@ std::optional<FlowRange> range_of(const ProblemSpec& spec, Range p, Range v, dou
   slots[1] = span_of(exact(v.lower), exact(v.upper));
   slots[spec.input_slot(0)] = span_of(exact(u), exact(u));
   const Influences influences = influences_on(spec, 0);
-  FlowExtremes flow(spec, influences, 0, 1.0);
-  return range_during_period(flow, slots, {steps, 1e-10});
+  FlowExtremes flow(spec, influences, 1.0);
+  return range_during_period(flow, 0, slots, {steps, 1e-10});
 }
 
 TEST(FlowRange, OneWayItLiesBetweenItsEnds) {

@@ -1,0 +1,82 @@
+// Every function of the language, in the verifier's own arithmetic.
+
+#include "verify/expression_series.hpp"
+
+#include <gtest/gtest.h>
+
+#include "expression/domains.hpp"
+#include "expression/functions.hpp"
+#include "verify/sloped.hpp"
+
+namespace coordreq {
+namespace {
+
+/// f(x, y).
+Program program_of(Operator op) {
+  Program program;
+  program.nodes = {{Operator::variable, 0, 0, 0}, {Operator::variable, 1, 0, 0}, {op, 0, 1, 0}};
+  return program;
+}
+
+constexpr double kPlaces[][2] = {{0.375, 0.625}, {0.75, -0.5}, {0.25, 2.0}};
+constexpr double kStep = 1e-6;
+
+double slope_at(const NumberFunction& f, double a, double b) {
+  return (f.at_point(a + kStep, b) - f.at_point(a - kStep, b)) / (2 * kStep);
+}
+
+TEST(ExpressionSeries, EveryFunctionHasItsValueAndItsSlope) {
+  for (const NumberFunction& f : number_functions()) {
+    SCOPED_TRACE(f.spelling);
+    const Program program = program_of(f.op);
+    ExpressionSeries series(program);
+    for (const auto& [a, b] : kPlaces) {
+      std::vector<ArbSeries> slots(2);
+      slots[0].assign(Arb(a));
+      slots[0].set(1, Arb(1.0));
+      slots[1].assign(Arb(b));
+      const ArbSeries& found = series(slots, 2);
+      EXPECT_NEAR(found[0].approximately(), f.at_point(a, b), 1e-12);
+      EXPECT_NEAR(found[1].approximately(), slope_at(f, a, b), 1e-6);
+      EXPECT_EQ(series.smoothness(), Smoothness::analytic);
+    }
+  }
+}
+
+TEST(ExpressionSeries, OfARangeEveryFunctionHoldsTheValuesInIt) {
+  for (const NumberFunction& f : number_functions()) {
+    SCOPED_TRACE(f.spelling);
+    const Program program = program_of(f.op);
+    ExpressionSeries series(program);
+    for (const auto& [a, b] : kPlaces) {
+      std::vector<ArbSeries> slots(2);
+      slots[0].assign(hull(Arb(a), Arb(a + 0.125)));
+      slots[1].assign(Arb(b));
+      const Arb range = series(slots, 1)[0];
+      for (const double part : {0.0, 0.5, 1.0}) {
+        const double value = f.at_point(a + 0.125 * part, b);
+        EXPECT_LE(range.lower().approximately(), value + 1e-12);
+        EXPECT_GE(range.upper().approximately(), value - 1e-12);
+      }
+    }
+  }
+}
+
+TEST(Sloped, EveryFunctionHasItsSlope) {
+  for (const NumberFunction& f : number_functions()) {
+    SCOPED_TRACE(f.spelling);
+    for (const auto& [a, b] : kPlaces) {
+      const Sloped<Interval> x{.value = Interval(a), .gradient = {Interval(1.0)}};
+      const Sloped<Interval> y{.value = Interval(b)};
+      const Sloped<Interval> found = is_unary_function(f.op) ? apply(f.op, x) : apply(f.op, x, y);
+      const double slope = slope_at(f, a, b);
+      ASSERT_EQ(found.gradient.size(), 1U);
+      EXPECT_LE(found.gradient[0].lower, slope + 1e-6);
+      EXPECT_GE(found.gradient[0].upper, slope - 1e-6);
+      EXPECT_LE(found.gradient[0].upper - found.gradient[0].lower, 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace coordreq
