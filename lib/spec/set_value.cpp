@@ -91,11 +91,12 @@ class PlaceFinder {
   PlaceFinder(const OrderedJson& spec, const std::string& path) : path_(path), at_(&spec) {}
 
   /// What is not there yet is added, as far as it may be.
-  [[nodiscard]] Pointer to(const std::vector<std::string>& steps) {
+  /// @returns keys, and indices of elements that are there
+  [[nodiscard]] std::vector<std::string> to(const std::vector<std::string>& steps) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
       walked_ = {steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(i)};
       if (at_ == nullptr) {
-        place_ /= steps[i];
+        place_.push_back(steps[i]);
       } else if (at_->is_object()) {
         enter_member(steps, i);
       } else if (at_->is_array()) {
@@ -113,7 +114,7 @@ class PlaceFinder {
     const auto found = at_->find(steps[i]);
     if (found == at_->end()) check_may_add(steps, i);
     at_ = found == at_->end() ? nullptr : &*found;
-    place_ /= steps[i];
+    place_.push_back(steps[i]);
   }
 
   /// Nothing would refer to a constant or a definition that is added.
@@ -133,7 +134,7 @@ class PlaceFinder {
     if (at_->empty()) fail(fmt::format("no {} in {}: it is empty", quote_text(step), place()), path_);
     const std::size_t index = index_of(step);
     at_ = &(*at_)[index];
-    place_ /= index;
+    place_.push_back(std::to_string(index));
   }
 
   [[nodiscard]] std::size_t index_of(const std::string& step) const {
@@ -161,7 +162,7 @@ class PlaceFinder {
   const std::string& path_;
   const OrderedJson* at_;  ///< nothing where it is not there
   std::vector<std::string> walked_;
-  Pointer place_;
+  std::vector<std::string> place_;
 };
 
 }  // namespace
@@ -169,8 +170,11 @@ class PlaceFinder {
 std::string with_setting(const std::string& text, const std::string& source, const SpecSetting& setting) {
   static_cast<void>(JsonDocument::parse(text, source));  // from here on it is well-formed
   OrderedJson spec = parsed(text);
-  const Pointer place = PlaceFinder(spec, setting.path).to(steps_of(setting.path));
-  spec[place] = value_of(setting);
+  OrderedJson* at = &spec;
+  // A JSON pointer would make a list of what is not there wherever a step is a number, however large.
+  for (const std::string& step : PlaceFinder(spec, setting.path).to(steps_of(setting.path)))
+    at = at->is_array() ? &(*at)[std::stoul(step)] : &(*at)[step];
+  *at = value_of(setting);
   return spec.dump(2) + "\n";
 }
 

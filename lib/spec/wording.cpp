@@ -51,7 +51,8 @@ std::string one_line(std::string_view text) {
 std::string quote_text(std::string_view text) {
   if (text.size() <= kLongestQuote) return "'" + one_line(text) + "'";
   std::size_t end = kLongestQuote - 3;
-  while (is_utf8_continuation(text[end])) --end;
+  // A character has no more than three of these; text that is no UTF-8 may consist of them.
+  for (int n = 0; n < 3 && is_utf8_continuation(text[end]); ++n) --end;
   return "'" + one_line(text.substr(0, end)) + "...'";
 }
 

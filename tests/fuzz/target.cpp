@@ -2,13 +2,33 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
 
 namespace coordreq::test {
+namespace {
 
-InputFile::InputFile(const std::uint8_t* data, std::size_t size)
-    : path_("/dev/shm/coordreq-fuzz-" + std::to_string(getpid())) {
+/// libFuzzer takes counters in this section for coverage.
+constexpr std::size_t kCounters = 4096;
+[[gnu::section("__libfuzzer_extra_counters")]] std::array<std::uint8_t, kCounters> counters;
+
+}  // namespace
+
+/// By the words of small letters in it, up to the first quoted one.
+void note_answer(std::string_view text) {
+  std::size_t hash = 0;
+  for (const char c : text.substr(0, text.find('\''))) {
+    if (c >= 'a' && c <= 'z') hash = hash * 31 + static_cast<std::size_t>(c);
+  }
+  counters[hash % kCounters] = 1;
+}
+
+std::string InputFile::new_path() {
+  return "/dev/shm/coordreq-fuzz-" + std::to_string(getpid());
+}
+
+InputFile::InputFile(const std::uint8_t* data, std::size_t size) : path_(new_path()) {
   std::ofstream file(path_, std::ios::binary);
   file.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   if (!file.flush()) std::abort();
@@ -26,7 +46,8 @@ std::string_view small_spec() {
     "agents": [ { "name": "a", "inputs": ["u1"] }, { "name": "b", "inputs": ["u2"] } ],
     "dynamics": { "time": "continuous", "period": 0.5, "equations": { "x1": "u1", "x2": "u2 + 0.1*x1" } },
     "safe": "x1^2 + x2^2 <= 1",
-    "coordination": { "convention": true, "network": { "delay": 2 } } })";
+    "coordination": { "convention": true },
+    "network": { "delay": 2 } })";
 }
 
 }  // namespace coordreq::test

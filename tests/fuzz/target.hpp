@@ -9,13 +9,19 @@
 
 namespace coordreq::test {
 
+/// Tells libFuzzer that an answer was met, so that the first input that leads to it is kept; answers that
+/// differ in numbers or names only are often the same. What guides it where the code is not instrumented.
+void note_answer(std::string_view text);
+
 /// Does what a command does with foreign input. An Error is an answer; whatever else is thrown, and every
 /// report of a sanitiser, is a finding.
 template <class Work>
 void answers(const Work& work) {
   try {
     work();
-  } catch (const Error&) {
+    note_answer({});
+  } catch (const Error& error) {
+    note_answer(error.what());
   }
 }
 
@@ -27,6 +33,9 @@ inline std::string text_of(const std::uint8_t* data, std::size_t size) {
 /// A file in memory with the input as its content, for readers that take a path.
 class InputFile {
  public:
+  /// A place for one.
+  [[nodiscard]] static std::string new_path();
+
   InputFile(const std::uint8_t* data, std::size_t size);
   ~InputFile();
   InputFile(const InputFile&) = delete;

@@ -75,6 +75,11 @@ TEST(SetValue, NumbersKeepTheirDigits) {
   EXPECT_EQ(was_there, (Json{{"a", kMany}, {"b", "12345678901234567890123"}, {"c", 0.1}, {"d", 1}}));
 }
 
+TEST(SetValue, WhatIsMissingIsNoList) {
+  EXPECT_EQ(Json::parse(set("{}", "a.4000000000", "1")), Json::parse(R"({"a": {"4000000000": 1}})"));
+  EXPECT_EQ(Json::parse(set("{}", "//", "1")), Json::parse(R"({"": {"": 1}})"));
+}
+
 TEST(SetValue, MissingKeysAreAdded) {
   const auto after = [](const char* text, const char* path, const char* value) {
     return Json::parse(set(text, path, value)).dump();
