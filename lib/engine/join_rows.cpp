@@ -81,9 +81,8 @@ UniformGrid join_rows(const Abstraction& abstraction) {
 UniformGrid join_rows(const Model& model, const std::vector<IndexRange>& offsets) {
   const bool has_tubes = model.spec().abstraction.between_samples;
   if (has_tubes || model.is_read_by_runs() || model.grid().cells() > kMostCells) return model.grid();
-  return joined(model.grid(), model.arranged_shapes(), [&](std::size_t i) {
-    return std::span(&offsets[model.grid().state(i)], 1);
-  });
+  return joined(model.grid(), model.arranged_shapes(),
+                [&](std::size_t i) { return std::span(&offsets[model.grid().state(i)], 1); });
 }
 
 }  // namespace coordreq
