@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kDescription = R"(.PP
 Several agents share a safety task. While they can talk to each other they agree on their actions; when the
-connection is lost each of them goes on alone.
+connection is lost each of them acts alone.
 .B coordreq
 computes for how long they may stay silent, from every cell of a grid over the state space, before safety needs
 them to agree again.

@@ -79,7 +79,7 @@ class Options {
   void add(const char* names, const char* takes, const char* description, bool repeatable, Take take);
 
   CLI::App& command_;
-  std::list<Argument> arguments_;  // lists, for the parser keeps addresses
+  std::list<Argument> arguments_;  // lists: the parser keeps addresses
   std::list<Entry> entries_;
 };
 

@@ -9,7 +9,7 @@
 
 namespace coordreq {
 
-/// Tells on standard error how work goes on: as one line that is rewritten at most ten times a second and
+/// Shows progress on standard error: as one line that is rewritten at most ten times a second and
 /// gone in the end, or as a log. Uses no colour, so NO_COLOR has nothing to switch off.
 class ProgressDisplay {
  public:

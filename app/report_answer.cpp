@@ -39,7 +39,7 @@ class PartitionAnswer {
           "From {} of the states {} may be silent for {}, perhaps longer: the analysis stopped there.",
           share_text(stored_.layer_sizes.back(), kept()), who(), time_text(last, results_));
     }
-    if (is_joint()) return "All agents coordinate within every step, so there is no silence to bear.";
+    if (is_joint()) return "All agents coordinate within every step, so there is no silence to tolerate.";
     if (last == 0) return capital(who()) + " never need to talk to each other.";
     if (unbounded() == 0 && last == 1)
       return fmt::format("From no state may {} be silent, not even for one step.", who());
@@ -76,7 +76,7 @@ class PartitionAnswer {
                           : share_text(count, kept()));
   }
 
-  /// How much silence most, half, few of the states bear.
+  /// How much silence most, half, few of the states tolerate.
   [[nodiscard]] std::string shares() const {
     if (is_joint() || stored_.layer_sizes.size() < 2) return "";
     std::string rows;

@@ -118,7 +118,7 @@ std::string report_task(const ResultsReader& results) {
          fmt::format(
              "<p>{} keep a system safe together and decide anew every {}. While they are connected they "
              "agree on what they do; "
-             "when they are silent, each goes on alone.</p>\n",
+             "when they are silent, each acts alone.</p>\n",
              agents_words(spec), every) +
          safe_text(spec);
 }

@@ -65,7 +65,7 @@ struct FieldAttribute {
 };
 
 /// Where the coordinates of an axis come from: it has none but its length; the numbers 0, 1, ...; names; or
-/// grid points, which are asked for one by one, for there may be very many.
+/// grid points, which are asked for one by one, since there may be very many.
 struct NoCoordinates {};
 struct Numbers {};
 struct GridPoints {

@@ -7,16 +7,11 @@
 #include <utility>
 
 #include "answers/layers/delay_layers.hpp"
+#include "base/index.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The candidate with the smallest (score, number). Scores in double arithmetic sort out most of them, so
 /// that few need the sharp one.
@@ -27,7 +22,7 @@ std::int64_t smallest(const std::vector<std::int64_t>& candidates, const Approxi
   for (const std::int64_t u : candidates) scores.push_back(approximate(u));
   const double lowest = *std::min_element(scores.begin(), scores.end());
   const double slack = std::isfinite(lowest) ? 1e-9 * std::max(1.0, std::fabs(lowest)) : 0.0;
-  std::pair<double, std::int64_t> best{kInfinity, std::numeric_limits<std::int64_t>::max()};
+  std::pair<double, std::int64_t> best{outward::kInfinity, std::numeric_limits<std::int64_t>::max()};
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (scores[i] <= lowest + slack) best = std::min(best, std::pair(sharp(candidates[i]), candidates[i]));
   }
@@ -35,7 +30,7 @@ std::int64_t smallest(const std::vector<std::int64_t>& candidates, const Approxi
 }
 
 double known(double score) {
-  return std::isnan(score) ? kInfinity : score;
+  return std::isnan(score) ? outward::kInfinity : score;
 }
 
 }  // namespace
@@ -151,12 +146,12 @@ std::int64_t ActionChooser::smallest_margin(NextStates& next, const Numbers& can
   return smallest(
       candidates,
       [&](std::int64_t u) {
-        if (!next.is_known(u)) return -kInfinity;
+        if (!next.is_known(u)) return -outward::kInfinity;
         fill_approximately(next, u);
         return margin_.approximate(doubles_);
       },
       [&](std::int64_t u) {
-        if (!next.is_known(u)) return -kInfinity;
+        if (!next.is_known(u)) return -outward::kInfinity;
         fill(next, u);
         return margin_.value(slots_);
       });
@@ -194,12 +189,12 @@ std::int64_t ActionChooser::smallest_preference(const std::vector<std::int32_t>&
   return smallest(
       candidates,
       [&](std::int64_t u) {
-        if (!nominal_.is_known(u)) return kInfinity;
+        if (!nominal_.is_known(u)) return outward::kInfinity;
         fill_approximately(nominal_, u);
         return sum([&](PointValue& prefer) { return prefer.approximate(doubles_); });
       },
       [&](std::int64_t u) {
-        if (!nominal_.is_known(u)) return kInfinity;
+        if (!nominal_.is_known(u)) return outward::kInfinity;
         fill(nominal_, u);
         return sum([&](PointValue& prefer) { return prefer.value(slots_); });
       });

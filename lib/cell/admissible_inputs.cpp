@@ -6,15 +6,12 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "engine/tube_sets.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Sets that are merged: the root of each element.
 class Merger {

@@ -4,15 +4,12 @@
 
 #include "answers/convention/convention.hpp"
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "model/input_class.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::vector<bool> unpacked(const std::vector<std::uint8_t>& bytes, std::int64_t count) {
   std::vector<bool> bits(at(count));

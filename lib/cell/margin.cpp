@@ -7,8 +7,6 @@
 namespace coordreq {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 double margin_of(Operator op, double difference) {
   switch (op) {
     case Operator::less:
@@ -67,17 +65,17 @@ double Margin::combine() {
         value = -node_values_[node.a];
         break;
       case Operator::literal_true:
-        value = kInfinity;
+        value = outward::kInfinity;
         break;
       case Operator::literal_false:
-        value = -kInfinity;
+        value = -outward::kInfinity;
         break;
       default:
         value = margin_of(formula_->comparisons[node.a].op, difference_values_[node.a]);
     }
   }
   const double result = node_values_.back();
-  return std::isnan(result) ? -kInfinity : result + 0.0;  // no -0
+  return std::isnan(result) ? -outward::kInfinity : result + 0.0;  // no -0
 }
 
 }  // namespace coordreq

@@ -7,8 +7,6 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int64_t kPartCells = 1 << 20;
-
 CellSet all_safe_cells(const ResultsReader& results) {
   const UniformGrid& grid = results.grid();
   CellSet safe(grid.rows(), grid.row_length());

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/index.hpp"
 #include "model/sample_reset.hpp"
 
 namespace coordreq {
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Draws from the cells of K without a list of them: counts by block, then a walk through one block.
 class InvariantCells {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/index.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
@@ -15,10 +16,6 @@ constexpr int kBits = TransitionTable::kFractionBits;
 
 /// More numbers than this in the runs are no small table any more.
 constexpr std::int64_t kMostRunNumbers = std::int64_t{1} << 22;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// One part of a sum as the table stores it.
 struct Source {

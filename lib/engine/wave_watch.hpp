@@ -29,8 +29,8 @@ struct WaveWatch {
   std::function<void(const WaveStep&)> step;
   /// Levels that `step` has been shown once, under the same problem; taken away. Null: begin at the start.
   ///
-  /// The result is the same. At any step the levels L lie above the greatest solution G, for they began above
-  /// it and only sink by level(x) <- 1 + op(level)(x), under which nothing above G gets below it. And
+  /// The result is the same. At any step the levels L lie above the greatest solution G, since they began
+  /// above it and only sink by level(x) <- 1 + op(level)(x), under which nothing above G gets below it. And
   /// 1 + op(L) <= L: it holds at the start, and where a row has sunk to 1 + op(L), op of the lower levels is
   /// nowhere higher than it was. So L is as good a start as any, however much of it a sweep had seen, if
   /// every row is looked at again.

@@ -10,8 +10,6 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int64_t kPartCells = 1 << 20;
-
 /// Gives equal values equal numbers, in the order in which they come.
 template <class Value>
 class Numbering {

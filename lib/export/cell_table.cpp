@@ -9,8 +9,6 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int64_t kPartCells = 1 << 20;
-
 /// Cells of which all columns are read at a time: they take half of the memory that reading may take.
 std::int64_t part_cells(std::optional<std::uint64_t> max_memory, std::size_t columns) {
   if (!max_memory) return kPartCells;

@@ -15,7 +15,6 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int64_t kPartCells = 1 << 20;
 constexpr int kLevel = 9;
 constexpr std::int32_t kLowestFlag = -3;
 

@@ -11,7 +11,7 @@ namespace {
 
 using Join = ConditionAtoms::Join;
 
-constexpr std::size_t kMostNodes = 64;
+constexpr std::size_t kMostJoins = 64;
 
 Operator mirrored(Operator op) {
   switch (op) {
@@ -76,7 +76,7 @@ class Finder {
   }
 
   Index add(Join join, std::uint32_t a = 0, std::uint32_t b = 0) {
-    if (found_.nodes.size() >= kMostNodes) return std::nullopt;
+    if (found_.nodes.size() >= kMostJoins) return std::nullopt;
     found_.nodes.push_back({join, a, b});
     return static_cast<std::uint32_t>(found_.nodes.size() - 1);
   }

@@ -48,7 +48,7 @@ template <class T>
 T minus_a(const T& a, const T& /*b*/) {
   return -a;
 }
-/// An irrational function of an exact interval; sin(0), exp(0) and the like stay exact, for Interval gives
+/// An irrational function of an exact interval; sin(0), exp(0) and the like stay exact, since Interval gives
 /// them as points.
 template <Interval (*f)(const Interval&)>
 RationalInterval outward(const RationalInterval& a, const RationalInterval& /*b*/) {

@@ -7,6 +7,9 @@
 
 namespace coordreq {
 
+/// So many cells are read at a time by whoever goes through a whole array.
+inline constexpr std::int64_t kPartCells = 1 << 20;
+
 /// A box of cells: the grid indices first[i], ..., first[i] + count[i] - 1 of each dimension i. Arrays over
 /// it are row-major, the last dimension fastest.
 struct CellBlock {

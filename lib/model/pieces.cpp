@@ -5,7 +5,7 @@
 namespace coordreq {
 namespace {
 
-Rational floor_of(const Rational& q) {
+Rational rounded_down(const Rational& q) {
   mpz_class result;
   mpz_fdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
   return Rational(result);
@@ -31,7 +31,7 @@ std::vector<Piece> pieces(const GridDimension& dimension, std::int64_t k) {
   Rational low = dimension.point(k) - reach;
   const Rational period = dimension.upper - dimension.lower;
   if (2 * reach >= period) return {{dimension.lower, dimension.upper}};
-  low -= period * floor_of((low - dimension.lower) / period);
+  low -= period * rounded_down((low - dimension.lower) / period);
   const Rational high = low + 2 * reach;
   if (high < dimension.upper) return {{low, high}};
   return {{low, dimension.upper}, {dimension.lower, high - period}};

@@ -5,16 +5,13 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/place.hpp"
 #include "reach/polynomial.hpp"
 
 namespace coordreq {
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// " at x = 1, u = 0.5"; empty without parameters and inputs.
 std::string place(const ProblemSpec& spec, const Dependencies& dependencies,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/index.hpp"
 #include "expression/evaluate.hpp"
 #include "reach/sensitivity.hpp"
 #include "reach/shift.hpp"
@@ -14,10 +15,6 @@ using Slots = std::vector<bool>;
 /// Largest norm times duration that the series is used for.
 constexpr double kLongest = 8.0;
 constexpr int kMostHalvings = 8;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 void unite(Slots& a, const Slots& b) {
   for (std::size_t s = 0; s < a.size(); ++s) {

@@ -35,7 +35,7 @@ struct AffinePost {
     return shift && source == state ? 1 : grid[source].count;
   }
 
-  /// A shifted cell need not be cut at its seam, for all goes round with it.
+  /// A shifted cell need not be cut at its seam: all of it goes round with it.
   [[nodiscard]] std::vector<Piece> pieces_of(std::size_t source, std::int64_t k) const {
     const GridDimension& dimension = grid[source];
     if (!shift || source != state) return pieces(dimension, k);

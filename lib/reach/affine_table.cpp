@@ -6,6 +6,7 @@
 #include <atomic>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
 #include "reach/affine_post.hpp"
@@ -15,10 +16,6 @@
 
 namespace coordreq {
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Fills the table of one state: for each choice of parameters and inputs one affine row, then all cells.
 class TableBuilder {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "expression/place.hpp"
 #include "model/pieces.hpp"
 #include "reach/affine_table.hpp"
@@ -18,10 +19,6 @@
 
 namespace coordreq {
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 constexpr IndexRange kEverywhere{std::numeric_limits<std::int32_t>::min(),
                                  std::numeric_limits<std::int32_t>::max()};

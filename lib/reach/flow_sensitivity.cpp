@@ -6,6 +6,9 @@ namespace {
 using outward::add_up;
 using outward::multiply_up;
 
+/// A product of fewer matrices is hardly wider than that of a turning frame, which costs more than they do.
+constexpr std::size_t kShortProduct = 8;
+
 /// |Phi(h, 0)| before + (integral of |Phi|) acting, rounded up. REQUIRES: no entry is negative.
 template <class Sizes>
 Sizes carried_on(const TransitionMatrix& transition, const Sizes& before, const Sizes& acting) {
@@ -38,6 +41,7 @@ void FlowSensitivity::reset() {
   first_ = true;
   initial_.setIdentity();
   turning_.reset();
+  first_steps_.clear();
   kernel_.setZero();
   weight_.setZero();
   jump_.setZero();
@@ -53,13 +57,23 @@ void FlowSensitivity::append(const TransitionMatrix& transition, const Jacobian&
   weight_ = carried_on(transition, weight_, acting);
   jump_ = carried_on(transition, jump_, jacobian.jump());
   const IntervalMatrix initial = product(transition.end(), initial_);
-  turning_.append(transition.end());
   initial_ = first_ ? transition.end() : initial;
+  intersect_with_turning(transition.end());
+  first_ = false;
+}
+
+void FlowSensitivity::intersect_with_turning(const IntervalMatrix& transition) {
+  if (first_steps_.size() < kShortProduct) {
+    first_steps_.push_back(transition);
+    if (first_steps_.size() < kShortProduct) return;
+    for (const IntervalMatrix& step : first_steps_) turning_.append(step);
+  } else {
+    turning_.append(transition);
+  }
   for (Eigen::Index i = 0; i < initial_.rows(); ++i) {
     for (Eigen::Index j = 0; j < initial_.cols(); ++j)
       initial_(i, j) = intersect(initial_(i, j), turning_.entry(i, j)).value_or(initial_(i, j));
   }
-  first_ = false;
 }
 
 void FlowSensitivity::lose() {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "reach/jacobian.hpp"
 #include "reach/sensitivity.hpp"
 #include "reach/turning_product.hpp"
@@ -38,10 +40,13 @@ class FlowSensitivity {
  private:
   static Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
+  void intersect_with_turning(const IntervalMatrix& transition);
+
   bool bounded_ = true;
   bool first_ = true;
   IntervalMatrix initial_;
-  TurningProduct turning_;  ///< the same
+  TurningProduct turning_;  ///< the same, kept from the first long product on
+  std::vector<IntervalMatrix> first_steps_;
   IntervalMatrix kernel_;
   RealMatrix weight_;
   RealVector jump_;

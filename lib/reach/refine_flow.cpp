@@ -19,7 +19,7 @@ constexpr double kTightMagnitude = 1e-6;
 /// A part of what is allowed that is not worth a thought.
 constexpr double kHardly = 0.1;
 /// A box of initial states is halved so often at most.
-constexpr int kMostHalvings = 4;
+constexpr int kMostHalvings = 2;
 
 double width(const Interval& a) {
   return a.upper - a.lower;

@@ -4,16 +4,13 @@
 #include <optional>
 #include <vector>
 
+#include "base/index.hpp"
 #include "expression/dual.hpp"
 #include "expression/evaluate.hpp"
 #include "reach/slope.hpp"
 
 namespace coordreq {
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool contains(const std::vector<std::int32_t>& list, std::size_t state) {
   return std::find(list.begin(), list.end(), static_cast<std::int32_t>(state)) != list.end();

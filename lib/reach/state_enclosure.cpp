@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/index.hpp"
 #include "expression/dual.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/undefined_reason.hpp"
@@ -10,10 +11,6 @@
 
 namespace coordreq {
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 FlowSystem::Limit limit_of(const StateSpec& state) {
   const Rational last =

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "base/index.hpp"
 #include "reach/box_choices.hpp"
 #include "reach/scaled_number.hpp"
 #include "reach/shift.hpp"
@@ -14,10 +15,6 @@ namespace {
 
 /// So many terms of at most kLargestTerm steps each stay below the 2^30 that TransitionTable promises.
 constexpr std::size_t kMostTerms = 14;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool contains(const std::vector<std::int32_t>& list, std::int32_t value) {
   return std::find(list.begin(), list.end(), value) != list.end();

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
 #include "model/odometer.hpp"
 #include "reach/abstraction.hpp"
 #include "reach/affine_dynamics.hpp"
@@ -14,10 +15,6 @@
 
 namespace coordreq {
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool contains(const std::vector<std::int32_t>& list, std::int32_t value) {
   return std::find(list.begin(), list.end(), value) != list.end();

@@ -29,7 +29,7 @@ constexpr hsize_t kChunkBytes = hsize_t{1} << 20U;
 constexpr hsize_t kCompactBytes = 1024;
 constexpr std::uint64_t kLongestText = 4096;
 constexpr hsize_t kMostNumbers = hsize_t{1} << 48U;
-constexpr unsigned kDeflateLevel = 1;  // it has to be done again in a minute
+constexpr unsigned kQuickDeflate = 1;  // it has to be done again in a minute
 constexpr std::uint64_t kDigestBytes = 64;
 /// Deflate packs no more than so many bytes into one.
 constexpr double kMostPacked = 1100;
@@ -76,7 +76,7 @@ Handle storage_of(const Shape& shape, hsize_t number_bytes) {
     return list;
   }
   check(H5Pset_chunk(list.get(), 2, chunk_of(shape, number_bytes).data()), "choose chunks");
-  check(H5Pset_deflate(list.get(), kDeflateLevel), "choose a filter");
+  check(H5Pset_deflate(list.get(), kQuickDeflate), "choose a filter");
   check(H5Pset_fletcher32(list.get()), "choose a filter");
   return list;
 }

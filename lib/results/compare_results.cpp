@@ -9,8 +9,6 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int64_t kPartCells = 1 << 20;
-
 /// 2: the cell has left K, 1: it was unbounded and is no longer, 0: it has fewer steps.
 int gravity(const DelayChange& change) {
   if (change.after < 0) return 2;

@@ -29,9 +29,9 @@ struct DelayChange {
   std::int32_t after = 0;
 };
 
-/// A partition that both files have. Delays are compared as what each file guarantees: a cell outside K bears
-/// less than a cell with delay 0, unbounded is more than every number, and where `max_delay` stopped an
-/// analysis its last delay counts as it is, though the true one may be larger.
+/// A partition that both files have. Delays are compared as what each file guarantees: a cell outside K
+/// tolerates less than a cell with delay 0, unbounded is more than every number, and where `max_delay`
+/// stopped an analysis its last delay counts as it is, though the true one may be larger.
 struct PartitionComparison {
   std::size_t before = 0;  ///< index into the partitions of the earlier file
   std::size_t after = 0;

@@ -85,7 +85,7 @@ class ResultsFile {
   template <typename Value>
   [[nodiscard]] std::vector<Value> elements(const std::string& dataset) const;
   void collect_datasets(const std::string& group, int depth, std::vector<std::string>& found) const;
-  /// It stays open, for asking what it is takes longer than reading a cell.
+  /// It stays open: asking what it is takes longer than reading a cell.
   [[nodiscard]] const StoredArray& array(const std::string& path) const;
 
   std::string path_;

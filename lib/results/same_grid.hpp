@@ -7,7 +7,7 @@
 #include "numeric/rational.hpp"
 
 // Whether the grid of a file that others wrote is that of a spec: numbers in it may be off in their last
-// digits, for they are sums of rounded steps.
+// digits, since they are sums of rounded steps.
 namespace coordreq {
 
 /// How far a grid point in a file may be off, as a part of the distance of neighbours.

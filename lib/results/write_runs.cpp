@@ -98,7 +98,7 @@ class RunsFile {
     set_attribute(file_.add_coordinates(path, names), "long_name", "name of the " + kind);
   }
 
-  /// Units stand in the long name, for CF has one unit a dataset.
+  /// Units stand in the long name, since CF has one unit a dataset.
   void write_components(const std::string& path, const std::string& names, const Components& components,
                         const ResultArray& array, const std::string& kind) {
     const hdf5::Handle dataset = file_.add_array(path, {"/run", "/time", names}, array);

@@ -35,7 +35,7 @@ std::string lexer_complaint(std::string_view message) {
   return one_line(complaint.substr(0, complaint.find("; last read")));
 }
 
-bool is_word_part(char c) {
+bool is_name_part(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
@@ -49,7 +49,7 @@ std::size_t token_start(std::string_view text, std::size_t end, std::size_t toke
                            message.find("unexpected number") != std::string_view::npos;
   if (is_recorded) return end - std::min(end, token_size);
   std::size_t start = end - std::min<std::size_t>(end, 1);
-  while (start > 0 && is_word_part(text[start]) && is_word_part(text[start - 1])) --start;
+  while (start > 0 && is_name_part(text[start]) && is_name_part(text[start - 1])) --start;
   return start;
 }
 

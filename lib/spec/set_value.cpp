@@ -17,8 +17,8 @@
 namespace coordreq {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using Pointer = Json::json_pointer;
+using OrderedJson = nlohmann::ordered_json;
+using Pointer = OrderedJson::json_pointer;
 
 [[noreturn]] void fail(const std::string& what, const std::string& path) {
   throw UsageError(what, one_line(path));
@@ -26,12 +26,12 @@ using Pointer = Json::json_pointer;
 
 /// Builds a document in which numbers are what was typed: one that a double cannot hold becomes a text, for a
 /// spec may have that instead.
-class ExactReader : public nlohmann::detail::json_sax_dom_parser<Json> {
+class ExactReader : public nlohmann::detail::json_sax_dom_parser<OrderedJson> {
  public:
-  explicit ExactReader(Json& document) : json_sax_dom_parser(document) {}
+  explicit ExactReader(OrderedJson& document) : json_sax_dom_parser(document) {}
 
   bool number_float(double value, const std::string& token) {
-    if (parse_decimal(Json(value).dump()) == parse_decimal(token))
+    if (parse_decimal(OrderedJson(value).dump()) == parse_decimal(token))
       return json_sax_dom_parser::number_float(value, token);
     std::string text = token;
     return string(text);
@@ -39,18 +39,19 @@ class ExactReader : public nlohmann::detail::json_sax_dom_parser<Json> {
 };
 
 /// REQUIRES: JsonDocument::parse() has accepted the text.
-Json parsed(const std::string& text) {
-  Json json;
+OrderedJson parsed(const std::string& text) {
+  OrderedJson json;
   ExactReader reader(json);
   constexpr bool kStrict = true, kIgnoreComments = true;
-  static_cast<void>(Json::sax_parse(text, &reader, Json::input_format_t::json, kStrict, kIgnoreComments));
+  static_cast<void>(
+      OrderedJson::sax_parse(text, &reader, OrderedJson::input_format_t::json, kStrict, kIgnoreComments));
   return json;
 }
 
-Json value_of(const SpecSetting& setting) {
+OrderedJson value_of(const SpecSetting& setting) {
   const std::string& value = setting.value;
   if (!is_utf8(value)) fail("expected UTF-8 text as the value", setting.path);
-  if (Json::accept(value)) {
+  if (OrderedJson::accept(value)) {
     static_cast<void>(JsonDocument::parse(value, setting.path));
     return parsed(value);
   }
@@ -72,7 +73,7 @@ std::vector<std::string> tokens_of(const std::string& path) {
   std::vector<std::string> tokens;
   try {
     for (Pointer pointer(path); !pointer.empty(); pointer.pop_back()) tokens.push_back(pointer.back());
-  } catch (const Json::parse_error&) {
+  } catch (const OrderedJson::parse_error&) {
     throw UsageError("expected '~0' or '~1' where a '~' stands in a JSON pointer, found " + quote_text(path));
   }
   std::reverse(tokens.begin(), tokens.end());
@@ -85,9 +86,9 @@ std::vector<std::string> steps_of(const std::string& path) {
 }
 
 /// Finds the place of a setting in a spec.
-class Walk {
+class PlaceFinder {
  public:
-  Walk(const Json& spec, const std::string& path) : path_(path), at_(&spec) {}
+  PlaceFinder(const OrderedJson& spec, const std::string& path) : path_(path), at_(&spec) {}
 
   /// What is not there yet is added, as far as it may be.
   [[nodiscard]] Pointer to(const std::vector<std::string>& steps) {
@@ -141,7 +142,7 @@ class Walk {
     if (error == std::errc() && end == step.data() + step.size() && index < at_->size()) return index;
     std::vector<std::string> names;
     for (index = 0; index < at_->size(); ++index) {
-      const Json& element = (*at_)[index];
+      const OrderedJson& element = (*at_)[index];
       const auto name = element.is_object() ? element.find("name") : element.end();
       if (!element.is_object() || name == element.end() || !name->is_string()) continue;
       if (*name == step) return index;
@@ -158,7 +159,7 @@ class Walk {
   }
 
   const std::string& path_;
-  const Json* at_;  ///< nothing where it is not there
+  const OrderedJson* at_;  ///< nothing where it is not there
   std::vector<std::string> walked_;
   Pointer place_;
 };
@@ -167,8 +168,8 @@ class Walk {
 
 std::string with_setting(const std::string& text, const std::string& source, const SpecSetting& setting) {
   static_cast<void>(JsonDocument::parse(text, source));  // from here on it is well-formed
-  Json spec = parsed(text);
-  const Pointer place = Walk(spec, setting.path).to(steps_of(setting.path));
+  OrderedJson spec = parsed(text);
+  const Pointer place = PlaceFinder(spec, setting.path).to(steps_of(setting.path));
   spec[place] = value_of(setting);
   return spec.dump(2) + "\n";
 }

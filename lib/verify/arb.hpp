@@ -10,7 +10,7 @@
 
 namespace coordreq {
 
-/// Bits of a midpoint; more would only cost time, for cells are never that small.
+/// Bits of a midpoint; more would only cost time: cells are never that small.
 inline constexpr slong kArbBits = 64;
 
 /// A real number enclosed in a ball of FLINT/Arb. Every operation encloses all results for all numbers in the

@@ -22,7 +22,7 @@ namespace coordreq {
 /// True if a `stop` limit holds one of the moving states.
 [[nodiscard]] bool has_stops(const ProblemSpec& spec, const Influences& influences);
 
-/// In continuous time: x(t) - x(0) of the state does not depend on x(0), for no equation mentions the state.
+/// In continuous time: x(t) - x(0) of the state does not depend on x(0): no equation mentions the state.
 [[nodiscard]] bool flows_alike(const ProblemSpec& spec, const Influences& influences, std::size_t state);
 
 /// All choices of one index for each state and input that a table ranges over, with their boxes. Immutable.

@@ -1,6 +1,6 @@
-"""The delay map: how many steps without coordination each cell bears
+"""The delay map: how many steps without coordination each cell tolerates
 
-Over two states, the others cut with --slice. With --snapshots 1,14,29 one panel for each k: cells that do not bear k
+Over two states, the others cut with --slice. With --snapshots 1,14,29 one panel for each k: cells that do not tolerate k
 steps, coloured by their delay, around the layer Z_k."""
 
 from dataclasses import dataclass
@@ -96,6 +96,6 @@ def _label(layers):
 
 
 def _legend(layers):
-    free = "unbounded" if layers.panels[0].k is None else "bears k steps (Z_k)"
+    free = "unbounded" if layers.panels[0].k is None else "tolerates k steps (Z_k)"
     texts = {NOT_SAFE: "not safe", NOT_INVARIANT: "safe, not invariant", FREE: free}
     return [(_COLORS[kind], texts[kind]) for kind in sorted(layers.kinds - {-1})]

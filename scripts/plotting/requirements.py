@@ -1,4 +1,4 @@
-"""How many cells bear how long without coordination, with the lines of the requirements
+"""How many cells tolerate how long without coordination, with the lines of the requirements
 
 A histogram of the delay over the cells of the invariance set for each partition. A requirement is a line at the delay
 that it asks for in its region; whether it holds says `coordreq analyze`."""

@@ -1,7 +1,7 @@
 """The unsafe region in three dimensions, and how it grows with the connection delay
 
 First the cells outside the invariance set K, coloured by the time within which the worst case collides, whatever is
-coordinated. Then for each connection delay D the cells that cannot bear D steps without coordination, coloured by their
+coordinated. Then for each connection delay D the cells that cannot tolerate D steps without coordination, coloured by their
 delay. Three states are drawn, the others cut with --slice."""
 
 import math

@@ -260,7 +260,7 @@ class Cases(Case):
     # Requirements are judged under the controller.
 
     def judged(self, name, spec, cell):
-        """Whether one cell is kept and bears two steps of silence: verdicts as the JSON summary has them."""
+        """Whether one cell is kept and tolerates two steps of silence: verdicts as the JSON summary has them."""
         axes = {"p1": range(-10, 11), "v1": np.arange(7) / 2, "v2": np.arange(7) / 2, "p2": range(-10, 11)}
         middle = {state: float(axis[k]) for (state, axis), k in zip(axes.items(), cell)}
         where = " and ".join(f"{x - 0.1:.1f} <= {state} and {state} <= {x + 0.1:.1f}" for state, x in middle.items())

@@ -113,7 +113,7 @@ class Cases(PlotCase):
             self.assert_arrays_equal(steps.get_array().compressed(), delay[left])
             self.assert_arrays_equal(kinds.get_array().filled(-1) == 2, delay >= k)
         self.assertEqual(titles(figure)[1:], ["k = 1 step (0.01 s)", "k = 14 steps (0.14 s)", "k = 29 steps (0.29 s)"])
-        self.assertEqual(legend(figure), ["not safe", "safe, not invariant", "bears k steps (Z_k)"])
+        self.assertEqual(legend(figure), ["not safe", "safe, not invariant", "tolerates k steps (Z_k)"])
 
     def test_slices_of_more_dimensions(self):
         partitions = [{"classes": []}, {"name": "both", "classes": [["first", "second"]]}]

@@ -71,7 +71,7 @@ class Cases(PageCase):
         self.assertLessEqual({"a connection must stand already", "start to connect now", "none"}, set(seen))
         self.select("partition", 1)
         self.assert_is_answer(self.cell(), "together")
-        self.assertIn("(100 %) bear this much silence.", self.browser.run("document.getElementById('chart-reading').innerText"))
+        self.assertIn("(100 %) tolerate this much silence.", self.browser.run("document.getElementById('chart-reading').innerText"))
         self.assert_is_quiet()
 
     def test_equal_axes_are_swapped(self):
@@ -141,9 +141,9 @@ class Cases(PageCase):
         self.focus("#chart")
         reading = "document.getElementById('chart-reading').innerText"
         self.browser.press("ArrowRight")
-        self.assertEqual(self.browser.run(reading), "0.02 s (2 steps): 17,869 of 20,077 states (89 %) bear this much silence.")
+        self.assertEqual(self.browser.run(reading), "0.02 s (2 steps): 17,869 of 20,077 states (89 %) tolerate this much silence.")
         self.browser.press("End")
-        self.assertEqual(self.browser.run(reading), "0.29 s (29 steps): 0 of 20,077 states (0 %) bear this much silence.")
+        self.assertEqual(self.browser.run(reading), "0.29 s (29 steps): 0 of 20,077 states (0 %) tolerate this much silence.")
 
     def test_light_and_dark(self):
         self.report(SPEC)

@@ -190,7 +190,7 @@ class Attack {
     const GridDimension& dimension = a_.grid[i];
     const std::optional<long double> state = after_rules(i);
     if (!state) {
-      // Not through an unsafe side, for then the pair would be blocked.
+      // Not through an unsafe side: then the pair would be blocked.
       const bool below = next_[i] < number(dimension.first);
       const Outside side = below ? dimension.below : dimension.above;
       RC_ASSERT(side == Outside::safe || side == Outside::stop);

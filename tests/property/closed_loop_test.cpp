@@ -1,5 +1,5 @@
 // The paper's propositions on random systems, seen from the system itself: self-triggered runs from K stay in
-// K, and cells of delay k bear k steps of any choices in IND_C.
+// K, and cells of delay k tolerate k steps of any choices in IND_C.
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

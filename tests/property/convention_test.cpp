@@ -6,6 +6,7 @@
 
 #include "answers/convention/convention.hpp"
 #include "answers/convention/convention_freedom.hpp"
+#include "base/index.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 #include "support/random_problem.hpp"
@@ -14,10 +15,6 @@ namespace coordreq {
 namespace {
 
 using Sets = std::vector<std::vector<bool>>;
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Whether every joint input of the product is admissible.
 bool is_inside(const Sets& sets, const std::vector<bool>& admissible, const std::vector<InputClass>& agents) {

@@ -10,6 +10,7 @@
 #include "analysis/analyze.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "answers/invariance/safe_tubes.hpp"
+#include "base/index.hpp"
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
 #include "reach/build_abstraction.hpp"
@@ -21,10 +22,6 @@
 
 namespace coordreq {
 namespace {
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::vector<bool> members(const CellSet& set) {
   std::vector<bool> result;

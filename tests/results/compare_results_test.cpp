@@ -99,7 +99,7 @@ TEST_F(CompareResults, TheLastDelayBeforeALimitCountsAndIsMarked) {
   const std::string whole = file("whole.h5", spec_text("x + y <= 6"));
   const std::string cut = file("cut.h5", spec_text("x + y <= 6", R"(, "coordination": {"max_delay": 2})"));
   const ResultsComparison comparison = compare(whole, cut);
-  EXPECT_EQ(comparison.partitions[0].lost, 1);  // of the only cell that bears 3
+  EXPECT_EQ(comparison.partitions[0].lost, 1);  // of the only cell that tolerates 3
   EXPECT_EQ(comparison.partitions[0].cut_off, 1);
   EXPECT_EQ(comparison.partitions[0].worst[0].before, 3);
   EXPECT_EQ(comparison.partitions[0].worst[0].after, 2);

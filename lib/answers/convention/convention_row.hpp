@@ -76,7 +76,7 @@ class ConventionRows {
   }
 
   /// The groups of the lowest-numbered joint input of every cell, as the first sets. The lowest one of a
-  /// choice of groups has the lowest action of each, for numbers grow with every agent's action.
+  /// choice of groups has the lowest action of each, as numbers grow with every agent's action.
   void find_seeds(ConstRow invariant, ConventionRow& row) {
     row.kept.resize(agents_.size());
     for (std::size_t i = 0; i < agents_.size(); ++i)

@@ -9,14 +9,12 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int32_t kForever = std::numeric_limits<std::int32_t>::max();
-
 Json delay_json(std::int32_t delay) {
-  return delay < 0 || delay == kForever ? Json() : Json(delay);
+  return delay < 0 || delay == DelayLayers::kUnbounded ? Json() : Json(delay);
 }
 
 const char* delay_word(std::int32_t delay) {
-  if (delay == kForever) return "unbounded";
+  if (delay == DelayLayers::kUnbounded) return "unbounded";
   return delay == DelayLayers::kOutsideSafe        ? "not_safe"
          : delay == DelayLayers::kOutsideInvariant ? "not_invariant"
                                                    : "steps";
@@ -54,7 +52,7 @@ Json sample_json(const ResultPath& path, std::size_t sample, const ProblemSpec& 
   json["cell"] = path.cell[sample];
   json["delay"] = delay_json(path.delay[sample]);
   json["delay_status"] = delay_word(path.delay[sample]);
-  json["collision_time"] = time == kForever ? Json() : Json(time);
+  json["collision_time"] = time == DelayLayers::kUnbounded ? Json() : Json(time);
   return json;
 }
 

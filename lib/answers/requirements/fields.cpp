@@ -23,7 +23,7 @@ std::vector<std::string> names_of(const std::vector<Variable>& variables) {
   return names;
 }
 
-/// "x [m], v [m/s]": units stand in the long name, for CF has one unit a dataset.
+/// "x [m], v [m/s]": units stand in the long name, since CF has one unit a dataset.
 template <class Variable>
 std::string component_text(const std::vector<Variable>& variables) {
   std::string text;

@@ -13,8 +13,6 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int32_t kForever = std::numeric_limits<std::int32_t>::max();
-
 /// Judges one requirement after the other.
 class Judge {
  public:
@@ -90,7 +88,8 @@ class Judge {
     for (std::size_t i = 0; i < grid_.size(); ++i)
       path.state.push_back(nearest_double(grid_[i].point(grid_.index(number, i))));
     const std::int64_t time = controller_.collision_time->at(cell);
-    path.collision_time.push_back(time == LevelMap::kTop ? kForever : static_cast<std::int32_t>(time));
+    path.collision_time.push_back(time == LevelMap::kTop ? DelayLayers::kUnbounded
+                                                         : static_cast<std::int32_t>(time));
     path.delay.push_back(delay_of(cell, time, layers_of(partition)));
   }
 

@@ -13,7 +13,7 @@ namespace coordreq {
 /// What is asked of all cells of a region.
 struct CellRequirement {
   const LevelMap* collision_time = nullptr;  ///< Controller::collision_time
-  /// Of the partition that is meant; null: membership in K, where all agents together bear any delay.
+  /// Of the partition that is meant; null: membership in K, where all agents together tolerate any delay.
   const DelayLayers* layers = nullptr;
   std::int64_t min_delay = 0;  ///< steps
 };

@@ -1,4 +1,4 @@
-// The share of states that bear each length of silence: the sizes of the layers.
+// The share of states that tolerate each length of silence: the sizes of the layers.
 
 class Chart {
   constructor(canvas, reading) {
@@ -22,7 +22,7 @@ class Chart {
     const states = layers[0] === 1 ? "state" : "states";
     this.reading.textContent =
       `${timeText(this.step)}: ${grouped(bearing)} of ${grouped(layers[0])} ${states} ` +
-      `(${shareText(bearing, layers[0])}) ${bearing === 1 ? "bears" : "bear"} this much silence.`;
+      `(${shareText(bearing, layers[0])}) ${bearing === 1 ? "tolerates" : "tolerate"} this much silence.`;
     this.draw();
   }
 

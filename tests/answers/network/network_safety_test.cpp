@@ -88,7 +88,7 @@ TEST_F(NetworkOfThreeCells, WithCareAgentsGoBackWhileTheyAreConnected) {
 }
 
 // After a connected step the next one may be lost or not; after a lost one it is not. Then T(connected) is
-// what both can bear, {0, 1}, and the answer is that of every second one lost.
+// what both can tolerate, {0, 1}, and the answer is that of every second one lost.
 TEST_F(NetworkOfThreeCells, ALossThatMayComeCountsAsOneThatDoes) {
   EXPECT_EQ(safe({{kTogether, {0, 1}}, {kAlone, {0}}}, true), (std::vector<Cells>{{0, 1, 2}, {0, 1}}));
   EXPECT_EQ(safe({{kTogether, {0, 1}}, {kAlone, {0}}}, false), (std::vector<Cells>{{}, {}}));
