@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/index.hpp"
 #include "engine/action_groups.hpp"
 #include "engine/join_rows.hpp"
 #include "engine/limits.hpp"
@@ -60,13 +61,12 @@ double EngineSizes::slices(std::size_t t) const {
   double choices = 1;
   bool is_cut = false;
   for (const std::int32_t j : shape.states) {
-    const auto i = static_cast<std::size_t>(j);
+    const auto i = at(j);
     const bool is_along = i >= grid_.across();
     if (!is_along) choices *= in_double(grid_[i].count);
     is_cut = is_cut || (is_along && !(i == t && shape.shift && !shape.sum));
   }
-  for (const std::int32_t j : shape.inputs)
-    choices *= in_double(model_->inputs()[static_cast<std::size_t>(j)].count());
+  for (const std::int32_t j : shape.inputs) choices *= in_double(model_->inputs()[at(j)].count());
   const double segments = std::min(kUsualSegments, in_double(grid_.row_length()));
   const double slice = is_cut ? segments * sizeof(RowSegment) + kBytesOfSlice : 0;
   return choices * (sizeof(std::uint32_t) + slice);
@@ -123,7 +123,7 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
     if (!has_common(shape.inputs, inputs)) continue;
     groups *= shape.shift ? in_double(reach_of(t).before + reach_of(t).after + 1) : actions;
     for (const std::int32_t j : shape.states) {
-      Use& own = use[static_cast<std::size_t>(j)];
+      Use& own = use[at(j)];
       own = std::max(own, shape.shift ? by_offset : in_full);
     }
   }
