@@ -11,7 +11,8 @@ namespace coordreq {
 /// One analysis, interruptible, with its progress on standard error.
 /// @returns its summary. @param output path of the results file; empty: none
 /// @param prefix of the progress line: "2 of 5, "
-/// @throws LimitError if it needs more memory than there may be, before threads or anything else are there; as
+/// @throws LimitError if it needs more memory than there may be, before threads or anything else are there;
+/// as
 ///   analyze(); Error if the program was interrupted
 [[nodiscard]] Json analyze_with_progress(const ProblemSpec& spec, const std::string& output,
                                          const AnalyzeOptions& asked, const std::string& prefix);

@@ -19,7 +19,8 @@ inline constexpr const char* kSpecDescription = "The problem spec, a JSON file; 
 void declare_settings(Options& options, std::vector<SpecSetting>& settings);
 
 /// The text at `path` ("-": standard input).
-/// @param memory that this program may take. @throws LimitError if reading a text so long would take more; IoError
+/// @param memory that this program may take. @throws LimitError if reading a text so long would take more;
+/// IoError
 [[nodiscard]] SpecSource load_source(const std::string& path, std::optional<std::uint64_t> memory);
 
 /// The spec at `path`, as the settings make it, checked.

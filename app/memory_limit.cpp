@@ -43,7 +43,8 @@ void lower_by_groups(std::optional<std::uint64_t>& limit, const fs::path& mount,
   }
 }
 
-/// Of /proc/self/status, in bytes: "VmData", what the limit is about; "RssAnon", "RssFile", what is in memory.
+/// Of /proc/self/status, in bytes: "VmData", what the limit is about; "RssAnon", "RssFile", what is in
+/// memory.
 std::uint64_t status_bytes(const std::string& key) {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
@@ -67,7 +68,9 @@ void hold_to_memory(std::uint64_t bytes, int threads) {
   if (getrlimit(RLIMIT_STACK, &stack) != 0) return;
   constexpr std::uint64_t kUsualStack = std::uint64_t{8} << 20U;
   const std::uint64_t of_thread = stack.rlim_cur == RLIM_INFINITY ? kUsualStack : stack.rlim_cur;
-  const auto stacks = std::uint64_t{threads > 0 ? static_cast<unsigned>(threads) : std::thread::hardware_concurrency()} * of_thread;
+  const auto stacks =
+      std::uint64_t{threads > 0 ? static_cast<unsigned>(threads) : std::thread::hardware_concurrency()} *
+      of_thread;
   rlimit limit{};
   if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
   const rlim_t wanted = std::max(bytes - program + untouched, data + kAlwaysGranted) + stacks;

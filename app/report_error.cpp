@@ -16,7 +16,8 @@ namespace {
 const char* no_memory() {
   return is_held_to_memory()
              ? "more memory is needed than the limit allows, and than was estimated (--max-memory)"
-             : "the system gave no more memory; make the grids coarser, or find the need with \"coordreq validate\"";
+             : "the system gave no more memory; make the grids coarser, or find the need with \"coordreq "
+               "validate\"";
 }
 
 void print(std::string_view what) {

@@ -16,7 +16,7 @@
 namespace coordreq {
 
 struct AnalysisOptions {
-  std::string output;                       ///< path of the results file; empty: none
+  std::string output;  ///< path of the results file; empty: none
   /// Called from the calling thread only, when something begins and often in between; may be empty. What it
   /// throws ends the work, with nothing left behind.
   std::function<void(const Progress&)> progress;

@@ -17,7 +17,7 @@ namespace coordreq {
 namespace {
 
 /// Parts of the program and its libraries that come into memory only when they are used.
-constexpr double kProgramBytes = 6.0 * 1024 * 1024;
+constexpr double kProgramBytes = 8.5 * 1024 * 1024;
 /// What a thread takes before it does anything: the part of its stack that is touched, and what the allocator
 /// keeps for it.
 constexpr double kThreadBytes = 108.0 * 1024;
@@ -55,10 +55,10 @@ void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit, i
   const Model model(spec, table_shapes(spec));
   const double bytes = estimate_memory(model, threads);
   if (bytes <= static_cast<double>(*limit)) return;
-  throw LimitError(
-      fmt::format("{:.3g} cells need about {} of memory, the limit is {}",
-                  static_cast<double>(model.grid().points()), in_words(bytes), in_words(static_cast<double>(*limit))),
-      "--max-memory");
+  throw LimitError(fmt::format("{:.3g} cells need about {} of memory, the limit is {}",
+                               static_cast<double>(model.grid().points()), in_words(bytes),
+                               in_words(static_cast<double>(*limit))),
+                   "--max-memory");
 }
 
 }  // namespace coordreq

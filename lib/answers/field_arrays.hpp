@@ -46,8 +46,8 @@ void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::ui
 [[nodiscard]] ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& order);
 
 /// The layers T(0), ..., T(F) of one partition as ascending lists of linear indices, one after the other
-/// (contract `/layers/PARTITION`): where each begins, F + 2 entries; then the lists, uint32 or uint64, of which
-/// there are never those of more than one partition.
+/// (contract `/layers/PARTITION`): where each begins, F + 2 entries; then the lists, uint32 or uint64, of
+/// which there are never those of more than one partition.
 [[nodiscard]] std::vector<std::uint64_t> layer_starts(const DelayLayers& layers);
 using LatestCells = Latest<const DelayLayers*, FillArray>;
 [[nodiscard]] ResultArray layer_cells(const DelayLayers& layers, const CellOrder& order,

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "answers/memory_need.hpp"
+#include "base/index.hpp"
 
 namespace coordreq {
 namespace {
@@ -8,10 +9,8 @@ namespace {
 /// Of a table written out: an entry for every choice of what the state depends on.
 double entries_in_full(const Model& model, const TableShape& shape) {
   double entries = 1;
-  for (const std::int32_t j : shape.states)
-    entries *= static_cast<double>(model.grid()[static_cast<std::size_t>(j)].count);
-  for (const std::int32_t j : shape.inputs)
-    entries *= static_cast<double>(model.inputs()[static_cast<std::size_t>(j)].count());
+  for (const std::int32_t j : shape.states) entries *= static_cast<double>(model.grid()[at(j)].count);
+  for (const std::int32_t j : shape.inputs) entries *= static_cast<double>(model.inputs()[at(j)].count());
   return entries;
 }
 

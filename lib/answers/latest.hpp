@@ -6,8 +6,8 @@
 
 namespace coordreq {
 
-/// What is asked for by a key, made when another one was asked for before: there is never more than one, however
-/// many there are in turn. May be asked by several threads at once.
+/// What is asked for by a key, made when another one was asked for before: there is never more than one,
+/// however many there are in turn. May be asked by several threads at once.
 template <class Key, class Value>
 class Latest {
  public:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/index.hpp"
 #include "engine/action_groups.hpp"
 #include "engine/join_rows.hpp"
 #include "engine/limits.hpp"
@@ -18,11 +19,11 @@ double row_of_words(std::int64_t cells) {
   return sizeof(CellSet::Word) * in_double((cells + CellSet::kWordBits - 1) / CellSet::kWordBits);
 }
 
-/// Of ActionGroups with so many actions, each in a group of its own.
-double one_grouping(double actions) {
-  constexpr double kBytesOfGroup = 60;  // in all lists, that of holders included
-  const double compared = actions <= kMostComparedGroups ? 1.5 * actions * actions : 0;
-  return sizeof(ActionGroups) + actions * (sizeof(std::uint32_t) + kBytesOfGroup) + compared;
+/// Of ActionGroups, with what tells equal ones while they are looked for.
+double one_grouping(double actions, double groups) {
+  constexpr double kBytesOfAction = 8, kBytesOfGroup = 40, kBytesOfPair = 2.5;
+  const double pairs = groups <= kMostComparedGroups ? groups * groups : 0;
+  return sizeof(ActionGroups) + actions * kBytesOfAction + groups * kBytesOfGroup + pairs * kBytesOfPair;
 }
 
 bool has_common(const std::vector<std::int32_t>& list, const InputClass& inputs) {
@@ -32,12 +33,12 @@ bool has_common(const std::vector<std::int32_t>& list, const InputClass& inputs)
 }  // namespace
 
 EngineSizes::EngineSizes(const Model& model)
-    : model_(&model), grid_(join_rows(model, usual_offsets(model.spec()))) {
-  const std::vector<IndexRange> offsets = usual_offsets(model.spec());
+    : model_(&model), offsets_(usual_offsets(model.spec())), grid_(join_rows(model, offsets_)) {
   for (std::size_t i = grid_.across(); i < grid_.size(); ++i) {
     const GridDimension& dimension = grid_[i];
-    const RowMargins margins = window_margins({&offsets[grid_.state(i)], 1}, dimension);
-    shape_.dimensions.push_back({dimension.count, grid_.stride(i), margins, {dimension.below, dimension.above}});
+    const RowMargins margins = window_margins({&offsets_[grid_.state(i)], 1}, dimension);
+    shape_.dimensions.push_back(
+        {dimension.count, grid_.stride(i), margins, {dimension.below, dimension.above}});
   }
 }
 
@@ -60,13 +61,12 @@ double EngineSizes::slices(std::size_t t) const {
   double choices = 1;
   bool is_cut = false;
   for (const std::int32_t j : shape.states) {
-    const auto i = static_cast<std::size_t>(j);
+    const auto i = at(j);
     const bool is_along = i >= grid_.across();
     if (!is_along) choices *= in_double(grid_[i].count);
     is_cut = is_cut || (is_along && !(i == t && shape.shift && !shape.sum));
   }
-  for (const std::int32_t j : shape.inputs)
-    choices *= in_double(model_->inputs()[static_cast<std::size_t>(j)].count());
+  for (const std::int32_t j : shape.inputs) choices *= in_double(model_->inputs()[at(j)].count());
   const double segments = std::min(kUsualSegments, in_double(grid_.row_length()));
   const double slice = is_cut ? segments * sizeof(RowSegment) + kBytesOfSlice : 0;
   return choices * (sizeof(std::uint32_t) + slice);
@@ -105,16 +105,25 @@ double EngineSizes::groups(const std::vector<InputClass>& classes) const {
   return sum;
 }
 
+/// Farther than that posts do not go in dimension i.
+RowMargins EngineSizes::reach_of(std::size_t i) const {
+  const IndexRange offsets = offsets_[grid_.state(i)];
+  return {std::max<std::int64_t>(0, -std::int64_t{offsets.first}), std::max<std::int64_t>(0, offsets.last)};
+}
+
 /// Once for each choice of the states that the class depends on, or for each row anew.
 double EngineSizes::groups_of_class(const InputClass& inputs) const {
   enum Use : std::uint8_t { none, by_offset, in_full };
-  constexpr double kUsualChanges = 3;  // near either end of a state, and in between, groups are different
   const ControllerSpec& controller = model_->spec().controller;
+  const double actions = in_double(inputs.actions());
   std::vector<Use> use(grid_.size(), controller.allow || controller.file ? in_full : none);
-  for (const TableShape& shape : model_->arranged_shapes()) {
+  double groups = 1;
+  for (std::size_t t = 0; t < grid_.size(); ++t) {
+    const TableShape& shape = model_->arranged_shapes()[t];
     if (!has_common(shape.inputs, inputs)) continue;
+    groups *= shape.shift ? in_double(reach_of(t).before + reach_of(t).after + 1) : actions;
     for (const std::int32_t j : shape.states) {
-      Use& own = use[static_cast<std::size_t>(j)];
+      Use& own = use[at(j)];
       own = std::max(own, shape.shift ? by_offset : in_full);
     }
   }
@@ -123,13 +132,15 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
     if (use[i] == none) continue;
     const double count = in_double(grid_[i].count);
     choices *= count;
-    distinct *= use[i] == by_offset ? std::min(count, kUsualChanges) : count;
+    // Groups are others where some of them leave the domain.
+    const double near_ends = in_double(reach_of(i).before + reach_of(i).after + 1);
+    distinct *= use[i] == by_offset ? std::min(count, near_ends) : count;
   }
-  const double actions = in_double(inputs.actions());
   const double offsets = actions * in_double(std::ssize(grid_.dimensions())) * (sizeof(std::int64_t) + 4);
   if (choices > in_double(most_shared_choices(inputs.actions()))) return offsets;
   const double at_once = std::min(choices, in_double(kGroupsFoundAtOnce));
-  return offsets + choices * sizeof(std::uint32_t) + (distinct + at_once) * one_grouping(actions);
+  return offsets + choices * sizeof(std::uint32_t) +
+         (distinct + at_once) * one_grouping(actions, std::min(groups, actions));
 }
 
 double EngineSizes::readers(int threads) const {

@@ -12,8 +12,8 @@
 namespace coordreq {
 
 /// What the types of the engine will take for a problem, in bytes, told before there is any of them; maybe
-/// more than this machine has. Rows are those that the engine will make, as far as that is known before tables
-/// are (join_rows()). Where it depends on what is found, on the high side of what is usual.
+/// more than this machine has. Rows are those that the engine will make, as far as that is known before
+/// tables are (join_rows()). Where it depends on what is found, on the high side of what is usual.
 class EngineSizes {
  public:
   /// REQUIRES: `model` outlives this object.
@@ -46,9 +46,10 @@ class EngineSizes {
 
  private:
   [[nodiscard]] double groups_of_class(const InputClass& inputs) const;
-  [[nodiscard]] double row_of_set() const;
+  [[nodiscard]] RowMargins reach_of(std::size_t i) const;
 
   const Model* model_;
+  std::vector<IndexRange> offsets_;  ///< by state, usual_offsets()
   UniformGrid grid_;
   RowShape shape_;  ///< of the rows of posts
 };

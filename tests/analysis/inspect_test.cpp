@@ -54,7 +54,8 @@ TEST(Inspect, SaysWhatAResultWouldGuarantee) {
 }
 
 TEST(Inspect, MemoryGrowsWithTheCells) {
-  EXPECT_GT(inspect(spec_of("9999999"), 1).memory_bytes, inspect(spec_of("99"), 1).memory_bytes + 1000000 * 80U);
+  EXPECT_GT(inspect(spec_of("9999999"), 1).memory_bytes,
+            inspect(spec_of("99"), 1).memory_bytes + 1000000 * 80U);
 }
 
 TEST(CheckMemory, RefusesWithTheEstimateBeforeAnythingRuns) {

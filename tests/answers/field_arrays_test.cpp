@@ -74,7 +74,8 @@ TEST(FieldArrays, LayersListTheirCellsInAscendingOrder) {
   EXPECT_EQ(cells.type, ElementType::uint32);
   EXPECT_EQ(filled<std::uint32_t>(cells, 0, 5), (std::vector<std::uint32_t>{2, 6, 0, 4, 3}));
   const DelayLayers others{.layers_of = levels(7, {0, 1, 0, 0, kTop, 0, 0}), .sizes = {2, 1}};
-  EXPECT_EQ(filled<std::uint32_t>(layer_cells(others, order, latest), 0, 2), (std::vector<std::uint32_t>{1, 4}));
+  EXPECT_EQ(filled<std::uint32_t>(layer_cells(others, order, latest), 0, 2),
+            (std::vector<std::uint32_t>{1, 4}));
   EXPECT_EQ(filled<std::uint32_t>(cells, 3, 2), (std::vector<std::uint32_t>{4, 3}));
 }
 

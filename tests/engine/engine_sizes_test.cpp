@@ -13,8 +13,8 @@ namespace {
 
 ProblemSpec plane(const std::string& equations, const std::string& outside = "unsafe") {
   const std::string state = R"(, "lower": 0, "upper": 30, "step": 1, "outside": ")" + outside + R"("})";
-  return read_spec(R"({"coordreq": 1, "name": "rows", "states": [{"name": "a")" + state + R"(, {"name": "b")" +
-                       state + R"(, {"name": "c")" + state +
+  return read_spec(R"({"coordreq": 1, "name": "rows", "states": [{"name": "a")" + state +
+                       R"(, {"name": "b")" + state + R"(, {"name": "c")" + state +
                        R"(], "inputs": [{"name": "u", "values": [-2, 0, 3]}],
                        "agents": [{"name": "one", "inputs": ["u"]}], "safe": "a > 0",
                        "dynamics": {"time": "discrete", "period": 1, "equations": )" +

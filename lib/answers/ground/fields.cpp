@@ -66,8 +66,10 @@ using WrittenOut = Latest<std::size_t, TransitionTable>;
 /// One end of all ranges of the table of a state, which is written out when it is asked for.
 ResultArray ends_array(const Answers& answers, std::size_t state, std::int32_t IndexRange::*end,
                        const std::shared_ptr<WrittenOut>& tables) {
-  return {ElementType::int32, [&answers, state, end, tables](std::uint64_t begin, std::uint64_t count, void* out) {
-            const auto table = tables->get(state, [&] { return written_out(*answers.ground.abstraction, state); });
+  return {ElementType::int32,
+          [&answers, state, end, tables](std::uint64_t begin, std::uint64_t count, void* out) {
+            const auto table =
+                tables->get(state, [&] { return written_out(*answers.ground.abstraction, state); });
             const auto first = table->entries.begin() + static_cast<std::ptrdiff_t>(begin);
             std::transform(first, first + static_cast<std::ptrdiff_t>(count), static_cast<std::int32_t*>(out),
                            [end](const IndexRange& range) { return range.*end; });

@@ -50,12 +50,11 @@ void tell_invariance(const ProblemSpec& /*spec*/, const FieldSource& source, Jso
 
 MemoryNeed invariance_memory(const EngineSizes& sizes, int threads) {
   const InputSpace& inputs = sizes.model().inputs();
-  const double groups = sizes.groups({whole_class(inputs)});
   MemoryNeed need{.kept = sizes.levels() + sizes.set(),
-                  .work = groups + sizes.wave(threads),
+                  .work = sizes.groups(single_classes(inputs)) + sizes.wave(threads),
                   .array = sizes.cells() * sizeof(std::int16_t)};
   if (!sizes.model().spec().output.controller) return need;
-  need.written = groups + sizes.readers(threads);
+  need.written = sizes.groups({whole_class(inputs)}) + sizes.readers(threads);
   need.array = std::max(need.array, sizes.packed_pairs(inputs.count()));
   return need;
 }

@@ -134,7 +134,8 @@ MemoryNeed layers_memory(const EngineSizes& sizes, int threads) {
     need.work = std::max(need.work, groups + projection_bytes(sizes, classes));
     if (!spec.output.actions) continue;
     actions = std::max(actions, groups);
-    for (const InputClass& own : classes) need.array = std::max(need.array, sizes.packed_pairs(own.actions()));
+    for (const InputClass& own : classes)
+      need.array = std::max(need.array, sizes.packed_pairs(own.actions()));
   }
   need.work += sizes.wave(threads);
   if (spec.output.actions) need.written += actions + sizes.readers(threads);

@@ -25,14 +25,15 @@ double projection_bytes(const EngineSizes& sizes, const std::vector<InputClass>&
   for (const InputClass& inputs : classes) actions += static_cast<double>(inputs.actions());
   const double masks = sizes.set() * actions + sizes.rows() * kBytesOfList;
   const ProblemSpec& spec = sizes.model().spec();
-  const bool is_simple = !spec.abstraction.between_samples && !spec.controller.allow && !spec.controller.file &&
-                         spec.controller.synthesis == Synthesis::maximal;
+  const bool is_simple = !spec.abstraction.between_samples && !spec.controller.allow &&
+                         !spec.controller.file && spec.controller.synthesis == Synthesis::maximal;
   if (!is_simple || !is_product(sizes.model(), classes)) return masks;
   const UniformGrid& grid = sizes.grid();
   const bool is_joined = grid.size() - grid.across() > 1;
-  const double boxes = sizes.rows() * (is_joined ? kBytesOfLabel * static_cast<double>(grid.row_length())
-                                                 : kBytesOfBoxes + kBytesOfMoreBoxes *
-                                                                       static_cast<double>(classes.size() - 2));
+  const double boxes =
+      sizes.rows() * (is_joined
+                          ? kBytesOfLabel * static_cast<double>(grid.row_length())
+                          : kBytesOfBoxes + kBytesOfMoreBoxes * static_cast<double>(classes.size() - 2));
   // The parts that two classes with few actions can have are few, too.
   return classes.size() > 2 ? boxes : std::min(masks, boxes);
 }
