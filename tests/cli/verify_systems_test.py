@@ -117,17 +117,14 @@ class Cases(Case):
 
     def test_random_systems_are_confirmed(self):
         """A sample; `random_systems.py PROGRAM` runs all 500."""
-        confirmed, refused = 0, 0
-        for seed in range(0, 500, 16):
+        verdicts = {}
+        for seed in range(124, 154):
             result = self.verified(random_system(seed), "--budget", "5")
-            if result is None:
-                refused += 1
-                continue
-            summary = json.loads(result.stdout)
-            self.assertNotEqual(summary["verdict"], "wrong", f"seed {seed}")
-            confirmed += summary["verdict"] == "holds"
-        self.assertLess(refused, 8)
-        self.assertGreaterEqual(confirmed, 0.9 * (32 - refused))
+            verdicts[seed] = json.loads(result.stdout)["verdict"] if result else "refused"
+        found = list(verdicts.values())
+        self.assertNotIn("wrong", found, verdicts)
+        self.assertLess(found.count("refused"), 3, verdicts)
+        self.assertGreaterEqual(found.count("holds"), 27, verdicts)
 
 
 if __name__ == "__main__":
