@@ -20,7 +20,8 @@ namespace {
 constexpr std::uint64_t kBytesOfByte = 5;
 
 void check_length(std::uintmax_t bytes, const std::string& name, std::optional<std::uint64_t> memory) {
-  if (!memory) return;
+  constexpr std::uintmax_t kShort = std::uintmax_t{1} << 20U;  // no matter
+  if (!memory || bytes < kShort) return;
   const std::uint64_t need = resident_bytes() + kBytesOfByte * bytes;
   if (need <= *memory) return;
   throw LimitError(fmt::format("reading {} of spec needs about {} of memory, the limit of --max-memory is {}",
