@@ -28,7 +28,8 @@ std::string sizes(const Json& summary, const ProblemSpec& spec) {
   for (const StateSpec& state : spec.states) points.push_back(state.grid.count);
   for (const InputSpec& input : spec.inputs) values.push_back(static_cast<std::int64_t>(input.values.size()));
   return fmt::format("{}: {} cells, {} joint inputs\n", text_of(summary["name"]),
-                     product(points, number_of(summary["states"])), product(values, number_of(summary["inputs"])));
+                     product(points, number_of(summary["states"])),
+                     product(values, number_of(summary["inputs"])));
 }
 
 bool is_joint(const Json& class_name) {

@@ -84,7 +84,8 @@ std::vector<Compared> compared_fields(const Json& comparison, bool sets, const R
     const std::string key = key_of(field.path.substr(1));
     if (field.shown.compared.empty() || !comparison.contains(key)) continue;
     const Json& found = comparison[key];
-    if (found.contains("joined") == sets) result.push_back({field, found.is_array() ? found : Json::array({found})});
+    if (found.contains("joined") == sets)
+      result.push_back({field, found.is_array() ? found : Json::array({found})});
   }
   return result;
 }
@@ -241,11 +242,13 @@ Json comparison_json(const ResultsComparison& comparison, const ResultsReader& b
 std::string comparison_text(const Json& comparison, const ResultsReader& before, const ResultsReader& after) {
   const Files files{before, after};
   const std::vector<Compared> values = compared_fields(comparison, false, after);
-  std::string text = fmt::format("{} -> {}: {}\n\n{}", printable(before.path()), printable(after.path()),
-                                 cells(comparison["cells"]), sets_table(compared_fields(comparison, true, after)));
+  std::string text =
+      fmt::format("{} -> {}: {}\n\n{}", printable(before.path()), printable(after.path()),
+                  cells(comparison["cells"]), sets_table(compared_fields(comparison, true, after)));
   for (const Compared& one : values) text += "\n" + values_table(one, comparison["tolerance"] > 0);
   for (const Compared& one : values) {
-    for (const Json& own : one.found) text += worst_text(own, one.field, files) + cut_off_text(own["cut_off"]);
+    for (const Json& own : one.found)
+      text += worst_text(own, one.field, files) + cut_off_text(own["cut_off"]);
   }
   return text + only_text(comparison) + verdict_text(comparison, values);
 }

@@ -42,7 +42,8 @@ std::string coalition_text(const Json& summary) {
   const Json& coalition = summary["coalition"];
   if (coalition.is_null() || summary["invariant"] == 0) return "";
   return fmt::format("\ncoalitions for {} without further contact\n{}{}",
-                     duration(coalition["horizon"], summary), choices_table(coalition), pairs_table(coalition));
+                     duration(coalition["horizon"], summary), choices_table(coalition),
+                     pairs_table(coalition));
 }
 
 std::string network_text(const Json& summary, const NetworkSpec& network) {

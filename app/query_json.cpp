@@ -85,16 +85,18 @@ Json class_json(const ProblemSpec& spec, const std::string& name, const std::vec
 
 /// Whether a delay is a lower bound only: the largest one of a partition that max_delay cut off.
 bool is_lower_bound(std::int32_t delay, const StoredPartition& partition) {
-  return partition.truncated() && std::int64_t{delay} + 1 == static_cast<std::int64_t>(partition.layer_sizes.size());
+  return partition.truncated() &&
+         std::int64_t{delay} + 1 == static_cast<std::int64_t>(partition.layer_sizes.size());
 }
 
 Json partition_json(const StateAnswer::Partition& answer, std::size_t p, const ResultsReader& results) {
   const StoredPartition& stored = results.partitions()[p];
   Json json;
   json["name"] = stored.name;
-  add_steps(json, "delay", answer.delay,
-            is_lower_bound(answer.delay, stored) ? "at_least" : status_of(results.field("/delay"), answer.delay),
-            results);
+  add_steps(
+      json, "delay", answer.delay,
+      is_lower_bound(answer.delay, stored) ? "at_least" : status_of(results.field("/delay"), answer.delay),
+      results);
   add_steps(json, "countdown", answer.trigger, status_of(results.field("/trigger"), answer.trigger), results);
   json["classes"] = Json::array();
   for (std::size_t c = 0; c < answer.actions.size(); ++c) {

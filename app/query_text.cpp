@@ -200,7 +200,8 @@ class AnswerText {
                                                 : "none"}};
     const auto pairs = coalition["critical_pairs"].get<std::vector<std::string>>();
     if (status == "partition")
-      facts.emplace_back("  critical pairs", pairs.empty() ? "none" : fmt::format("{}", fmt::join(pairs, ", ")));
+      facts.emplace_back("  critical pairs",
+                         pairs.empty() ? "none" : fmt::format("{}", fmt::join(pairs, ", ")));
     return fmt::format("\n{} without further contact\n{}", steps_text(coalition["horizon"]),
                        facts_text(facts));
   }
@@ -213,7 +214,8 @@ class AnswerText {
 
 }  // namespace
 
-std::string answer_text(const Json& answer, const std::vector<Rational>& state, const ResultsReader& results) {
+std::string answer_text(const Json& answer, const std::vector<Rational>& state,
+                        const ResultsReader& results) {
   return AnswerText(answer, state, results).all();
 }
 

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "answers/requirements/answer.hpp"
+#include "app/render.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
-#include "app/render.hpp"
 #include "app/requirement_text.hpp"
 
 namespace coordreq {

@@ -14,9 +14,9 @@ std::string cell_failures(const Json& own, const ProblemSpec& spec) {
   const Json& story = own["counterexample"];
   const Json& first = story["steps"].empty() ? story["end_sample"] : story["steps"].front();
   const auto failing = own["failing"].get<std::int64_t>();
-  return fmt::format("{} of {} {}, the worst at {}: it {}", grouped(failing),
-                     cells(own["cells"]), failing == 1 ? "fails" : "fail",
-                     values_text(story["state"]), worst_text(first["delay"], first["delay_status"], spec));
+  return fmt::format("{} of {} {}, the worst at {}: it {}", grouped(failing), cells(own["cells"]),
+                     failing == 1 ? "fails" : "fail", values_text(story["state"]),
+                     worst_text(first["delay"], first["delay_status"], spec));
 }
 
 /// "p1 above its grid".
@@ -167,8 +167,7 @@ std::string requirements_text(const Json& requirements, const ProblemSpec& spec)
   std::string text;
   for (const Json& own : requirements) {
     text += fmt::format("\nrequirement {}: {}\n", line_of(own["name"]), claim_text(own, spec));
-    text += own["holds"] ? fmt::format("  holds: for all {} that may meet the region\n",
-                                       cells(own["cells"]))
+    text += own["holds"] ? fmt::format("  holds: for all {} that may meet the region\n", cells(own["cells"]))
                          : failure_text(own, spec);
   }
   return text;

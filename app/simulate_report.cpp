@@ -21,9 +21,10 @@ bool is_disturbed(const ProblemSpec& spec) {
 }
 
 std::string heading(const Json& simulation, const ProblemSpec& spec) {
-  std::string text = fmt::format("{}, partition {}: {} of {}, policy {}", text_of(simulation["name"]),
-                                 text_of(simulation["partition"]), count_of(number_of(simulation["runs"]), "run"),
-                                 duration(simulation["steps"], simulation), text_of(simulation["policy"]));
+  std::string text =
+      fmt::format("{}, partition {}: {} of {}, policy {}", text_of(simulation["name"]),
+                  text_of(simulation["partition"]), count_of(number_of(simulation["runs"]), "run"),
+                  duration(simulation["steps"], simulation), text_of(simulation["policy"]));
   if (is_disturbed(spec)) text += ", disturbance " + text_of(simulation["disturbance"]);
   return text + fmt::format(", seed {}\n", simulation["seed"].get<std::uint64_t>());
 }

@@ -25,9 +25,8 @@ const char* verdict_word(Verdict verdict) {
 }
 
 Json finding_json(const Finding& finding) {
-  return {{"check", finding.check},       {"status", status_of(finding)},
-          {"checked", finding.checked},   {"wrong", finding.wrong},
-          {"not_confirmed", finding.unproven}, {"examples", finding.examples},
+  return {{"check", finding.check},  {"status", status_of(finding)},      {"checked", finding.checked},
+          {"wrong", finding.wrong},  {"not_confirmed", finding.unproven}, {"examples", finding.examples},
           {"doubts", finding.doubts}};
 }
 
@@ -74,9 +73,10 @@ std::string confirmed_text(const Json& confirmed) {
 /// On what the verdict on the ways between the samples rests; empty if they do not matter.
 std::string tubes_text(const Json& basis) {
   if (basis.is_null()) return "";
-  return basis == "exact" ? "between the samples: exact, extremes in time from the corners of the cells\n"
-                          : "between the samples: tubes of the analysis, computed anew, which hold independent "
-                            "enclosures\n";
+  return basis == "exact"
+             ? "between the samples: exact, extremes in time from the corners of the cells\n"
+             : "between the samples: tubes of the analysis, computed anew, which hold independent "
+               "enclosures\n";
 }
 
 /// On what the verdict rests.
@@ -97,10 +97,9 @@ std::string verdict(const Json& result) {
   const std::string name = line_of(result["file"]);
   if (!result["holds"].get<bool>()) return name + " does not hold";
   const bool sampled = result["cells_checked"] < result["cells"];
-  const std::string what =
-      sampled
-          ? fmt::format("{} of {} cells of {}", grouped(result["cells_checked"]), grouped(result["cells"]), name)
-          : name;
+  const std::string what = sampled ? fmt::format("{} of {} cells of {}", grouped(result["cells_checked"]),
+                                                 grouped(result["cells"]), name)
+                                   : name;
   return what + (result["verdict"] == "holds" ? " holds" : " holds, apart from what is not confirmed");
 }
 

@@ -21,13 +21,14 @@ std::string head_text(const Json& info) {
                  {"spec SHA-256", line_of(info["spec_sha256"])}};
   if (info.contains("controller_sha256"))
     facts.emplace_back("controller SHA-256", line_of(info["controller_sha256"]));
-  facts.insert(facts.end(), {{"period", fmt::format("{:.6g} {}", info["period"].get<double>(),
-                                                    line_of(info["period_unit"]))},
-                             {"connection delay", duration(info["connection_delay"], info)},
-                             {"guarantee", guarantee_text(text_of(info["guarantee"]))},
-                             {"cells", grouped(info["cells"])},
-                             {"safe set", grouped(info["safe"])},
-                             {"invariance set", grouped(info["invariant"])}});
+  facts.insert(
+      facts.end(),
+      {{"period", fmt::format("{:.6g} {}", info["period"].get<double>(), line_of(info["period_unit"]))},
+       {"connection delay", duration(info["connection_delay"], info)},
+       {"guarantee", guarantee_text(text_of(info["guarantee"]))},
+       {"cells", grouped(info["cells"])},
+       {"safe set", grouped(info["safe"])},
+       {"invariance set", grouped(info["invariant"])}});
   return facts_text(facts);
 }
 
@@ -45,12 +46,13 @@ std::string axes_text(const Json& info) {
 }
 
 std::string partitions_text(const Json& partitions) {
-  return table_text(
-      partitions,
-      {{"partition", Align::left, [](const Json& own) { return line_of(own["name"]); }},
-       {"F", Align::right, [](const Json& own) { return own["truncated"] ? "not reached" : own["F"].dump(); }},
-       {"layers", Align::left,
-        [](const Json& own) { return shortened(own["layers"].get<std::vector<std::int64_t>>()); }}});
+  return table_text(partitions,
+                    {{"partition", Align::left, [](const Json& own) { return line_of(own["name"]); }},
+                     {"F", Align::right,
+                      [](const Json& own) { return own["truncated"] ? "not reached" : own["F"].dump(); }},
+                     {"layers", Align::left, [](const Json& own) {
+                        return shortened(own["layers"].get<std::vector<std::int64_t>>());
+                      }}});
 }
 
 /// How many cells are given which partition, and where pairs are critical, as far as there are any.
@@ -79,13 +81,14 @@ std::string requirements_text(const Json& info) {
   };
   if (info["requirements"].empty()) return "";
   return "\n" +
-         table_text(info["requirements"],
-                    {{"requirement", Align::left, [](const Json& own) { return line_of(own["name"]); }},
-                     {"verdict", Align::left, [](const Json& own) { return own["holds"] ? "holds" : "FAILS"; }},
-                     {"cells", Align::right, [](const Json& own) { return grouped(own["cells"]); }},
-                     {"failing", Align::right, [](const Json& own) { return grouped(own["failing"]); }},
-                     {"least delay", Align::left, least},
-                     {"counterexample", Align::right, story}});
+         table_text(
+             info["requirements"],
+             {{"requirement", Align::left, [](const Json& own) { return line_of(own["name"]); }},
+              {"verdict", Align::left, [](const Json& own) { return own["holds"] ? "holds" : "FAILS"; }},
+              {"cells", Align::right, [](const Json& own) { return grouped(own["cells"]); }},
+              {"failing", Align::right, [](const Json& own) { return grouped(own["failing"]); }},
+              {"least delay", Align::left, least},
+              {"counterexample", Align::right, story}});
 }
 
 std::string info_text(const Json& info) {

@@ -80,21 +80,21 @@ std::string unit_of(const Json& own) {
 }
 
 std::string states_table(const Json& states) {
-  return table_text(
-      states, {{"state", Align::left, name_of},
-               {"points", Align::right, points_of},
-               {"unit", Align::left, unit_of},
-               {"table", Align::left, table_kind},
-               {"entries", Align::right, [](const Json& own) { return grouped(own["table_entries"]); }},
-               {"memory", Align::right,
-                [](const Json& own) { return byte_size(own["table_bytes"].get<std::uint64_t>()); }},
-               {"next value depends on", Align::left, dependencies}});
+  return table_text(states,
+                    {{"state", Align::left, name_of},
+                     {"points", Align::right, points_of},
+                     {"unit", Align::left, unit_of},
+                     {"table", Align::left, table_kind},
+                     {"entries", Align::right, [](const Json& own) { return grouped(own["table_entries"]); }},
+                     {"memory", Align::right,
+                      [](const Json& own) { return byte_size(own["table_bytes"].get<std::uint64_t>()); }},
+                     {"next value depends on", Align::left, dependencies}});
 }
 
 std::string inputs_table(const Json& inputs) {
-  return table_text(inputs, {{"input", Align::left, name_of},
-                             {"points", Align::right, points_of},
-                             {"unit", Align::left, unit_of}});
+  return table_text(
+      inputs,
+      {{"input", Align::left, name_of}, {"points", Align::right, points_of}, {"unit", Align::left, unit_of}});
 }
 
 /// All of a few, else how many and the first and last of them.

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "base/thread_team.hpp"
 #include "answers/one_cell/admissible_inputs.hpp"
 #include "answers/one_cell/cell_posts.hpp"
+#include "base/thread_team.hpp"
 #include "cell/safe_beyond_file.hpp"
 #include "cell/set_window.hpp"
 #include "results/results_reader.hpp"

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "base/thread_team.hpp"
 #include "answers/one_cell/cell_members.hpp"
 #include "answers/one_cell/cell_posts.hpp"
+#include "base/thread_team.hpp"
 #include "engine/cell_set.hpp"
 #include "results/results_reader.hpp"
 

@@ -148,16 +148,15 @@ class RunFields {
 
   void add_coordination() {
     const FieldFlag no_sample{kNoSample, "no_sample"};
-    add_list<std::int32_t>(
-        "/countdown", ElementType::int32,
-        described("steps that the agents still go on without coordination") +
-            std::vector<FieldAttribute>{flags({no_sample, {kLargestValue, "never"}})},
-        of_sample(kNoSample, [](const Sample& s, std::size_t) { return s.countdown; }));
+    add_list<std::int32_t>("/countdown", ElementType::int32,
+                           described("steps that the agents still go on without coordination") +
+                               std::vector<FieldAttribute>{flags({no_sample, {kLargestValue, "never"}})},
+                           of_sample(kNoSample, [](const Sample& s, std::size_t) { return s.countdown; }));
     add_list<std::int32_t>(
         "/delay", ElementType::int32,
         described("delay of the cell: steps without coordination that keep the system safe") +
-            std::vector<FieldAttribute>{flags(
-                {no_sample, {-2, "not_safe"}, {-1, "not_invariant"}, {kLargestValue, "unbounded"}})},
+            std::vector<FieldAttribute>{
+                flags({no_sample, {-2, "not_safe"}, {-1, "not_invariant"}, {kLargestValue, "unbounded"}})},
         of_sample(kNoSample, [](const Sample& s, std::size_t) { return s.delay; }));
     add_list<std::uint8_t>(
         "/coordinated", ElementType::uint8,

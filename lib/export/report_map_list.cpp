@@ -104,9 +104,8 @@ std::vector<ReportMap> list_maps(const ResultsReader& results, const std::vector
     if (field.shown.map.values != FieldMap::Values::none && results.has(field.path))
       drawn.push_back(&results.field(field.path));
   }
-  const auto others = std::stable_partition(drawn.begin(), drawn.end(), [](const Field* field) {
-    return field->axes.front() == "/partition";
-  });
+  const auto others = std::stable_partition(
+      drawn.begin(), drawn.end(), [](const Field* field) { return field->axes.front() == "/partition"; });
   std::vector<ReportMap> maps;
   for (auto field = drawn.begin(); field != others; ++field) {
     for (const std::size_t p : partitions) maps.push_back(number_map(results, **field, p));

@@ -67,8 +67,7 @@ SetComparison compare_sets(const ResultsReader& before, const ResultsReader& aft
 class ValueCounter {
  public:
   /// @param last delay of the later file that only says "at least"; none if it was not cut off
-  ValueCounter(ValueComparison& result, const CompareOptions& options,
-                   std::optional<std::int64_t> last)
+  ValueCounter(ValueComparison& result, const CompareOptions& options, std::optional<std::int64_t> last)
       : result_(result), options_(options), last_(last) {}
 
   void add(const ValueChange& change) {

@@ -38,7 +38,8 @@ struct PartitionPair {
 
 /// A field of numbers, such as the delay, of which more is better. Delays are compared as what each file
 /// guarantees: a cell outside K tolerates less than a cell with delay 0, unbounded is more than every number,
-/// and where `max_delay` stopped an analysis its last delay counts as it is, though the true one may be larger.
+/// and where `max_delay` stopped an analysis its last delay counts as it is, though the true one may be
+/// larger.
 struct ValueComparison {
   std::string name;   ///< "delay"
   std::string words;  ///< what it is called
@@ -65,8 +66,8 @@ struct ResultsComparison {
   std::vector<SetComparison> sets;
   std::vector<ValueComparison> values;    ///< one field after the other, partition by partition
   std::vector<PartitionPair> partitions;  ///< that both files have
-  std::vector<std::size_t> only_before;  ///< partitions that the later file does not have
-  std::vector<std::size_t> only_after;   ///< partitions that the earlier file does not have
+  std::vector<std::size_t> only_before;   ///< partitions that the later file does not have
+  std::vector<std::size_t> only_after;    ///< partitions that the earlier file does not have
   std::vector<VerdictChange> verdicts;
   std::vector<std::string> requirements_only_before;
   std::vector<std::string> requirements_only_after;

@@ -159,8 +159,8 @@ void write_results(const std::string& path, const ProblemSpec& spec, const Field
 }
 
 void write_fields(const std::string& path, const FileKind& kind,
-                  const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec, const Fields& fields,
-                  const FieldValues& values, ThreadTeam& team) {
+                  const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec,
+                  const Fields& fields, const FieldValues& values, ThreadTeam& team) {
   write_whole_file(path, kind.words, [&](const std::string& temporary) {
     FieldsWriter(temporary, values, team).write(kind, attributes, spec, fields);
   });

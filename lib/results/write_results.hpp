@@ -31,8 +31,8 @@ struct FileKind {
 };
 /// Any file of fields, by the same rules: its attributes, the text of the spec, and fields in their order.
 void write_fields(const std::string& path, const FileKind& kind,
-                  const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec, const Fields& fields,
-                  const FieldValues& values, ThreadTeam& team);
+                  const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec,
+                  const Fields& fields, const FieldValues& values, ThreadTeam& team);
 
 /// What that takes. @param longest bytes of the longest field, before it is packed
 [[nodiscard]] double write_results_bytes(const ProblemSpec& spec, double longest, int threads);

@@ -109,7 +109,8 @@ ResolvedRange CellPosts::resolved(std::size_t i, std::int64_t u) const {
 }
 
 ResolvedRange CellPosts::resolved_tube(std::size_t i, std::int64_t u) const {
-  return whole_ ? whole_->resolved_tube(i, cell_, u) : source_->parts[i].resolved_tube(i, source_->place[i], u);
+  return whole_ ? whole_->resolved_tube(i, cell_, u)
+                : source_->parts[i].resolved_tube(i, source_->place[i], u);
 }
 
 IndexRange CellPosts::raw_tube(std::size_t i, std::int64_t u) const {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
+#include "engine/tube_sets.hpp"
 #include "reach/abstraction.hpp"
 #include "reach/affine_dynamics.hpp"
-#include "engine/tube_sets.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -41,7 +41,8 @@ struct CellPost {
 class CellPosts {
  public:
   /// REQUIRES: `abstraction` outlives this object.
-  explicit CellPosts(const Abstraction& abstraction) : grid_(&abstraction.grid), inputs_(&abstraction.inputs), whole_(&abstraction) {}
+  explicit CellPosts(const Abstraction& abstraction)
+      : grid_(&abstraction.grid), inputs_(&abstraction.inputs), whole_(&abstraction) {}
   /// @param stored the abstraction, if it is known. REQUIRES: all others outlive this object.
   CellPosts(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, ThreadTeam& team,
             std::optional<Abstraction> stored);
@@ -94,7 +95,7 @@ class CellPosts {
 
   const UniformGrid* grid_;
   const InputSpace* inputs_;
-  std::unique_ptr<Source> source_;          ///< null if there is an abstraction from the start
+  std::unique_ptr<Source> source_;      ///< null if there is an abstraction from the start
   const Abstraction* whole_ = nullptr;  ///< null until there is one
   std::int64_t cell_ = -1;
 };

@@ -67,7 +67,8 @@ class EscapeFinder {
     std::vector<std::vector<bool>> projections;  // IND_C(x): [class][action]
     for (const InputClass& own : sets_.classes) {
       projections.emplace_back(static_cast<std::size_t>(own.actions()), false);
-      for (const std::int64_t a : own.project(admissible)) projections.back()[static_cast<std::size_t>(a)] = true;
+      for (const std::int64_t a : own.project(admissible))
+        projections.back()[static_cast<std::size_t>(a)] = true;
     }
     const auto is_choice = [&](std::int64_t u) {
       for (std::size_t c = 0; c < projections.size(); ++c) {
