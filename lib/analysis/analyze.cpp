@@ -48,7 +48,6 @@ void write(const std::string& path, const Answers& answers, StageReporter& repor
 }  // namespace
 
 AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team) {
-  check_memory(spec, options.max_memory);
   if (!options.output.empty()) check_writable(options.output);
   if (options.checkpoint) check_checkpoint(*options.checkpoint);
   StageReporter reporter(options.progress, team);

@@ -17,8 +17,7 @@
 namespace coordreq {
 
 struct AnalysisOptions {
-  std::string output;                       ///< path of the results file; empty: none
-  std::optional<std::uint64_t> max_memory;  ///< bytes; refuse up front if the estimate is above
+  std::string output;  ///< path of the results file; empty: none
   /// Called from the calling thread only, when something begins and often in between; may be empty. What it
   /// throws ends the work, with nothing left behind.
   std::function<void(const Progress&)> progress;
@@ -117,8 +116,7 @@ struct AnalysisSummary {
 /// is the same to the byte whether or not the work was broken off and gone on with from a checkpoint; that is
 /// removed in the end.
 /// @throws SpecError for what only shows when the system is built (undecidable `allow`, a discrete state off
-/// its
-///   grid, dynamics that this version cannot abstract); LimitError; IoError
+///   its grid, dynamics that this version cannot abstract); IoError
 [[nodiscard]] AnalysisSummary analyze(const ProblemSpec& spec, const AnalysisOptions& options,
                                       ThreadTeam& team);
 
@@ -153,9 +151,7 @@ struct SpecReport {
   std::uint64_t memory_bytes = 0;  ///< estimate of the peak of `analyze`
 };
 
-/// @throws LimitError with the estimate if `analyze` needs more than `limit` bytes
-void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit);
-
-[[nodiscard]] SpecReport inspect(const ProblemSpec& spec);
+/// @param threads that an analysis would have; 0: all cores
+[[nodiscard]] SpecReport inspect(const ProblemSpec& spec, int threads);
 
 }  // namespace coordreq

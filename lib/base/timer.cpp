@@ -2,6 +2,7 @@
 
 #include <malloc.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -27,6 +28,12 @@ void reset_peak_memory() {
   malloc_trim(0);
   // proc(5): 5 resets the peak resident set size.
   std::ofstream("/proc/self/clear_refs") << 5;
+}
+
+std::uint64_t resident_bytes() {
+  std::uint64_t pages = 0;  // the second number
+  std::ifstream("/proc/self/statm") >> pages >> pages;
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
 std::uint64_t peak_memory_bytes() {

@@ -1,27 +1,13 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
+#include <span>
+#include <vector>
 
+#include "engine/row_shape.hpp"
+#include "model/model.hpp"
 #include "reach/abstraction.hpp"
 
 namespace coordreq {
-
-/// Lanes of a row along several dimensions, at the most; at a byte each a quarter of 32 KiB, a usual
-/// first-level cache.
-inline constexpr std::int64_t kMostJoinedLanes = 8192;
-
-/// True if no state depends on one from `i` on, but for itself.
-/// @param tables with their `states`: TransitionTable, TableShape
-template <class Tables>
-[[nodiscard]] bool are_alone_from(std::size_t i, const Tables& tables) {
-  for (std::size_t t = 0; t < tables.size(); ++t) {
-    for (const std::int32_t state : tables[t].states) {
-      if (static_cast<std::size_t>(state) >= i && static_cast<std::size_t>(state) != t) return false;
-    }
-  }
-  return true;
-}
 
 /// The grid of an abstraction with rows along as many of the last dimensions as can be: each of them moves by
 /// offsets that depend on none of them, and none of the others depends on them. So do integrators (x' = x +
@@ -33,5 +19,10 @@ template <class Tables>
 /// least is left across them.
 /// @returns the grid as it is if nothing can be joined, or if there are tubes
 [[nodiscard]] UniformGrid join_rows(const Abstraction& abstraction);
+/// The same as far as it can be told before there are tables; for estimates. @param offsets by state
+[[nodiscard]] UniformGrid join_rows(const Model& model, const std::vector<IndexRange>& offsets);
+
+/// As far as windows along a dimension reach beyond its ends, either way.
+[[nodiscard]] RowMargins window_margins(std::span<const IndexRange> windows, const GridDimension& dimension);
 
 }  // namespace coordreq

@@ -21,6 +21,9 @@ inline constexpr int kDeflateLevel = 1;
 /// became of it.
 class ChunkCodec {
  public:
+  /// Of a compressor, beside its chunks.
+  static constexpr double kBytes = 256.0 * 1024;
+
   ChunkCodec();
 
   /// Replaces `packed` by the zlib stream of `raw`, a whole number of elements.

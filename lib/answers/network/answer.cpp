@@ -4,6 +4,7 @@
 
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
+#include "answers/layers/projection_bytes.hpp"
 #include "answers/network/network_problem.hpp"
 #include "answers/work_json.hpp"
 
@@ -72,6 +73,24 @@ void summarise_network(const Answers& answers, Json& summary, Json& work) {
   if (safety == nullptr) return;
   summary["network"] = network_json(*answers.ground.spec.network, *safety);
   work["network"] = work_json(safety->counts);
+}
+
+/// The sets of all modes, the levels of one target, which rows of each have changed, and the projections of
+/// all partitions.
+MemoryNeed network_memory(const EngineSizes& sizes, int threads) {
+  const ProblemSpec& spec = sizes.model().spec();
+  if (!spec.network) return {};
+  const auto modes = static_cast<double>(spec.network->modes.size());
+  MemoryNeed need{.kept = modes * sizes.set(), .array = modes * sizes.cells()};
+  need.work = modes * (sizes.rows() / 8) + sizes.levels() + sizes.readers(threads);
+  if (spec.network->resynthesise)
+    need.work += modes * sizes.set();  // what is left of the rows that lose cells
+  for (const PartitionSpec* partition : network_partitions(*spec.network)) {
+    const std::vector<InputClass> classes = input_classes(spec, sizes.model().inputs(), *partition);
+    need.work += sizes.groups(classes);
+    if (!spec.network->resynthesise) need.work += projection_bytes(sizes, classes);
+  }
+  return need;
 }
 
 }  // namespace coordreq

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "answers/answers.hpp"
+#include "answers/memory_need.hpp"
 #include "answers/network/network_safety.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
@@ -10,6 +11,7 @@ namespace coordreq {
 
 /// Adds NetworkSafety, if the spec has a network: "network".
 [[nodiscard]] std::vector<Stage> network_stages(const ProblemSpec& spec);
+[[nodiscard]] MemoryNeed network_memory(const EngineSizes& sizes, int threads);
 void summarise_network(const Answers& answers, Json& summary, Json& work);
 
 }  // namespace coordreq

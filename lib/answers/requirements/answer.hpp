@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "answers/answers.hpp"
+#include "answers/memory_need.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
@@ -17,6 +18,7 @@ struct RequirementVerdicts {
 [[nodiscard]] std::vector<Stage> requirements_checks(const ProblemSpec& spec);
 /// Adds RequirementVerdicts, if there are any: "requirements".
 [[nodiscard]] std::vector<Stage> requirements_stages(const ProblemSpec& spec);
+[[nodiscard]] MemoryNeed requirements_memory(const EngineSizes& sizes, int threads);
 void summarise_requirements(const Answers& answers, Json& summary, Json& work);
 
 }  // namespace coordreq
