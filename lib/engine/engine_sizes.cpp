@@ -50,12 +50,12 @@ double EngineSizes::levels() const {
   constexpr std::int64_t kAlign = 16;
   const RowMargins margins = shape_.margins();
   const std::int64_t row = margins.before + shape_.length() + margins.after;
-  return rows() * in_double((row + kAlign - 1) / kAlign * kAlign);
+  return (rows() + 1) * in_double((row + kAlign - 1) / kAlign * kAlign) + kLevelBlock;
 }
 
 double EngineSizes::slices(std::size_t t) const {
   constexpr double kUsualSegments = 12;  // that a row is cut into where cells do not move alike
-  constexpr double kBytesOfSlice = 120;  // its list, and where it stands while equal ones are looked for
+  constexpr double kBytesOfSlice = 240;  // its list, and where it stands while equal ones are looked for
   const TableShape& shape = model_->arranged_shapes()[t];
   if (model_->keeps_sums() && shape.sum) return shape.bytes;  // the same numbers laid out for reading
   double choices = 1;
