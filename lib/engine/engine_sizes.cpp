@@ -5,6 +5,7 @@
 #include "base/index.hpp"
 #include "engine/action_groups.hpp"
 #include "engine/join_rows.hpp"
+#include "engine/level_kernels.hpp"
 #include "engine/limits.hpp"
 #include "reach/usual_offsets.hpp"
 
