@@ -17,23 +17,21 @@
 namespace coordreq {
 namespace {
 
-void analyze_into(FinishedRun& run, const AnalyzeOptions& asked, ThreadTeam& team,
-                  const std::string& prefix) {
+void analyze_into(FinishedRun& run, const AnalyzeOptions& asked, const std::string& prefix) {
   reset_peak_memory();
   try {
     run.summary =
-        std::make_shared<Json>(analyze_with_progress(*run.plan.spec, run.plan.output, asked, team, prefix));
+        std::make_shared<Json>(analyze_with_progress(*run.plan.spec, run.plan.output, asked, prefix));
     run.exit_code = static_cast<int>(verdict(*run.summary));
   } catch (...) {
     run.failure = describe_current_exception();
   }
 }
 
-FinishedRun finish(PlannedRun plan, const AnalyzeOptions& asked, ThreadTeam& team,
-                   const std::string& prefix) {
+FinishedRun finish(PlannedRun plan, const AnalyzeOptions& asked, const std::string& prefix) {
   FinishedRun run{.plan = std::move(plan)};
   run.failure = run.plan.failure;
-  if (run.plan.spec) analyze_into(run, asked, team, prefix);
+  if (run.plan.spec) analyze_into(run, asked, prefix);
   if (run.failure) run.exit_code = run.failure->exit_code;
   if (is_interrupted() || run.exit_code == static_cast<int>(ExitCode::interrupted)) {
     throw Error(ExitCode::interrupted, "interrupted", run_label(run.plan));
@@ -66,11 +64,10 @@ ExitCode run_analyze_batch(const AnalyzeOptions& asked) {
   const BatchTable table(plan, asked);
   const bool is_text = !asked.json && !asked.quiet;
   if (is_text) write_output(table.heading());
-  ThreadTeam team(asked.threads);
   std::vector<FinishedRun> runs;
   for (std::size_t i = 0; i < plan.size(); ++i) {
     const std::string prefix = fmt::format("{} of {}, ", i + 1, plan.size());
-    runs.push_back(finish(std::move(plan[i]), asked, team, prefix));
+    runs.push_back(finish(std::move(plan[i]), asked, prefix));
     if (is_text) write_output(table.row(runs.back()));
   }
   if (asked.junit) write_report(*asked.junit, runs);

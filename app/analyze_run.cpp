@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "analysis/analyze.hpp"
+#include "analysis/estimate_memory.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress_display.hpp"
 #include "results/write_results.hpp"
@@ -33,12 +34,13 @@ class InterruptPolicy {
 }  // namespace
 
 Json analyze_with_progress(const ProblemSpec& spec, const std::string& output, const AnalyzeOptions& asked,
-                           ThreadTeam& team, const std::string& prefix) {
+                           const std::string& prefix) {
+  check_memory(spec, asked.memory(), asked.threads);
+  ThreadTeam team(asked.threads);
   InterruptPolicy interrupts;
   ProgressDisplay shown(asked.progress, asked.quiet);
   AnalysisOptions options;
   options.output = output;
-  options.max_memory = asked.memory();
   options.checkpoint = asked.checkpoint;
   options.progress = [&](const Progress& progress) {
     interrupts.obey(progress);

@@ -4,7 +4,6 @@
 
 #include "app/analyze_options.hpp"
 #include "app/json_text.hpp"
-#include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -12,10 +11,11 @@ namespace coordreq {
 /// One analysis, interruptible, with its progress on standard error.
 /// @returns its summary. @param output path of the results file; empty: none
 /// @param prefix of the progress line: "2 of 5, "
-/// @throws as analyze(); Error if the program was interrupted
+/// @throws LimitError if it needs more memory than there may be, before threads or anything else are there;
+/// as
+///   analyze(); Error if the program was interrupted
 [[nodiscard]] Json analyze_with_progress(const ProblemSpec& spec, const std::string& output,
-                                         const AnalyzeOptions& asked, ThreadTeam& team,
-                                         const std::string& prefix);
+                                         const AnalyzeOptions& asked, const std::string& prefix);
 
 /// @throws Error if a signal waits. @param place what is complete nevertheless
 void check_interrupted(const std::string& place);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <iostream>
 #include <utility>
 
 #include "app/load_spec.hpp"
@@ -31,7 +30,7 @@ void add_runs(const AnalyzeOptions& asked, const std::string& path,
   std::optional<SpecSource> source;
   std::optional<Failure> failure;
   try {
-    source = read_spec_source(path, std::cin);
+    source = load_source(path, asked.memory());
   } catch (...) {
     failure = describe_current_exception();
   }

@@ -1,12 +1,35 @@
 #include "app/load_spec.hpp"
 
+#include <fmt/format.h>
+
+#include <filesystem>
 #include <iostream>
+#include <system_error>
 #include <utility>
 
 #include "app/sweep.hpp"
+#include "app/text.hpp"
+#include "base/error.hpp"
+#include "base/timer.hpp"
 #include "results/controller_file.hpp"
 
 namespace coordreq {
+namespace {
+
+/// A text takes so many times its length while it is read, as one long string; short values take more.
+constexpr std::uint64_t kBytesOfByte = 5;
+
+void check_length(std::uintmax_t bytes, const std::string& name, std::optional<std::uint64_t> memory) {
+  constexpr std::uintmax_t kShort = std::uintmax_t{1} << 20U;  // no matter
+  if (!memory || bytes < kShort) return;
+  const std::uint64_t need = resident_bytes() + kBytesOfByte * bytes;
+  if (need <= *memory) return;
+  throw LimitError(fmt::format("reading {} of spec needs about {} of memory, the limit of --max-memory is {}",
+                               byte_size(bytes), byte_size(need), byte_size(*memory)),
+                   name);
+}
+
+}  // namespace
 
 void declare_settings(Options& options, std::vector<SpecSetting>& settings) {
   options.repeatable(
@@ -25,8 +48,18 @@ void add_read_files(const std::string& path, const ProblemSpec* spec, FilesInUse
   if (spec != nullptr && spec->controller.file) files.reads(controller_path(*spec), "the controller");
 }
 
-ProblemSpec load_spec(const std::string& path, const std::vector<SpecSetting>& settings) {
-  return read_spec(with_settings(read_spec_source(path, std::cin), settings));
+SpecSource load_source(const std::string& path, std::optional<std::uint64_t> memory) {
+  std::error_code not_a_file;
+  const std::uintmax_t size = path == "-" ? 0 : std::filesystem::file_size(path, not_a_file);
+  if (!not_a_file) check_length(size, path, memory);
+  SpecSource source = read_spec_source(path, std::cin);
+  check_length(source.text.size(), source.name, memory);
+  return source;
+}
+
+ProblemSpec load_spec(const std::string& path, const std::vector<SpecSetting>& settings,
+                      std::optional<std::uint64_t> memory) {
+  return read_spec(with_settings(load_source(path, memory), settings));
 }
 
 }  // namespace coordreq

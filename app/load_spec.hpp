@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,9 +18,15 @@ inline constexpr const char* kSpecDescription = "The problem spec, a JSON file; 
 /// --set.
 void declare_settings(Options& options, std::vector<SpecSetting>& settings);
 
-/// The spec at `path` ("-": standard input), as the settings make it, checked.
-/// @throws IoError, SpecError; UsageError for a setting that leads nowhere
-[[nodiscard]] ProblemSpec load_spec(const std::string& path, const std::vector<SpecSetting>& settings);
+/// The text at `path` ("-": standard input).
+/// @param memory that this program may take. @throws LimitError if reading a text so long would take more;
+/// IoError
+[[nodiscard]] SpecSource load_source(const std::string& path, std::optional<std::uint64_t> memory);
+
+/// The spec at `path`, as the settings make it, checked.
+/// @throws as load_source(); SpecError; UsageError for a setting that leads nowhere
+[[nodiscard]] ProblemSpec load_spec(const std::string& path, const std::vector<SpecSetting>& settings,
+                                    std::optional<std::uint64_t> memory);
 
 /// The files that the spec at `path` is made of. @param spec nothing where it could not be read
 void add_read_files(const std::string& path, const ProblemSpec* spec, FilesInUse& files);

@@ -1,11 +1,14 @@
 #include "app/memory_limit.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 
 namespace coordreq {
 namespace {
@@ -40,7 +43,49 @@ void lower_by_groups(std::optional<std::uint64_t>& limit, const fs::path& mount,
   }
 }
 
+/// Of /proc/self/status, in bytes: "VmData", what the limit is about; "RssAnon", "RssFile", what is in
+/// memory.
+std::uint64_t status_bytes(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.compare(0, key.size() + 1, key + ":") == 0)
+      return std::strtoull(line.c_str() + key.size() + 1, nullptr, 10) * 1024;
+  }
+  return 0;
+}
+
 }  // namespace
+
+void hold_to_memory(std::uint64_t bytes, int threads) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  constexpr std::uint64_t kAlwaysGranted = std::uint64_t{16} << 20U;
+  const std::uint64_t data = status_bytes("VmData");
+  if (data == 0) return;
+  // Data counts whether or not it is in memory yet; parts of the program and its libraries do not count.
+  const std::uint64_t untouched = data - std::min(data, status_bytes("RssAnon"));
+  const std::uint64_t program = std::min(bytes, status_bytes("RssFile"));
+  rlimit stack{};
+  if (getrlimit(RLIMIT_STACK, &stack) != 0) return;
+  constexpr std::uint64_t kUsualStack = std::uint64_t{8} << 20U;
+  const std::uint64_t of_thread = stack.rlim_cur == RLIM_INFINITY ? kUsualStack : stack.rlim_cur;
+  const auto stacks =
+      std::uint64_t{threads > 0 ? static_cast<unsigned>(threads) : std::thread::hardware_concurrency()} *
+      of_thread;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  const rlim_t wanted = std::max(bytes - program + untouched, data + kAlwaysGranted) + stacks;
+  limit.rlim_cur = std::min(limit.rlim_max, wanted);
+  static_cast<void>(setrlimit(RLIMIT_DATA, &limit));
+#else
+  static_cast<void>(bytes);
+  static_cast<void>(threads);
+#endif
+}
+
+bool is_held_to_memory() {
+  rlimit limit{};
+  return getrlimit(RLIMIT_DATA, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
 
 std::optional<std::uint64_t> available_memory() {
   std::optional<std::uint64_t> limit = physical_memory();

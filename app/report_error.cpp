@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/memory_limit.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
 #include "base/error.hpp"
@@ -12,8 +13,12 @@
 namespace coordreq {
 namespace {
 
-constexpr const char* kNoMemory =
-    "the system gave no more memory; make the grids coarser, or find the need with \"coordreq validate\"";
+const char* no_memory() {
+  return is_held_to_memory()
+             ? "more memory is needed than the limit allows, and than was estimated (--max-memory)"
+             : "the system gave no more memory; make the grids coarser, or find the need with \"coordreq "
+               "validate\"";
+}
 
 void print(std::string_view what) {
   write_diagnostics("coordreq: error: " + std::string(what) + "\n");
@@ -61,7 +66,7 @@ int report() {
   } catch (const std::bad_alloc&) {
     // No string is built here: there may be no memory for one.
     write_diagnostics("coordreq: error: ");
-    write_diagnostics(kNoMemory);
+    write_diagnostics(no_memory());
     write_diagnostics("\n");
     return static_cast<int>(ExitCode::limit);
   } catch (...) {
@@ -79,7 +84,7 @@ Failure describe_current_exception() {
   } catch (const Error& error) {
     return {error_text(error.what()), static_cast<int>(error.exit_code())};
   } catch (const std::bad_alloc&) {
-    return {kNoMemory, static_cast<int>(ExitCode::limit)};
+    return {no_memory(), static_cast<int>(ExitCode::limit)};
   } catch (const std::exception& error) {
     return {std::string("internal error, please report it: ") + error_text(error.what()), kInternalError};
   } catch (...) {

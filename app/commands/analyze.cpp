@@ -10,6 +10,7 @@
 #include "app/interrupt.hpp"
 #include "app/junit_report.hpp"
 #include "app/load_spec.hpp"
+#include "app/memory_limit.hpp"
 #include "app/option_values.hpp"
 #include "app/print_answer.hpp"
 
@@ -27,10 +28,9 @@ void check_files(const ProblemSpec& spec, const std::string& output, const Analy
 
 Json analyze_and_write(const ProblemSpec& spec, const AnalyzeOptions& own) {
   const std::string output = own.output.value_or(spec.name + ".h5");
-  ThreadTeam team(own.threads);
   check_files(spec, output, own);
   if (own.junit) try_to_write(*own.junit);
-  Json summary = analyze_with_progress(spec, output, own, team, "");
+  Json summary = analyze_with_progress(spec, output, own, "");
   const InterruptDelay delay;
   if (own.junit) write_junit(*own.junit, {{.name = spec.name, .spec = &spec, .summary = &summary}});
   check_interrupted(output);
@@ -38,8 +38,9 @@ Json analyze_and_write(const ProblemSpec& spec, const AnalyzeOptions& own) {
 }
 
 ExitCode run(const AnalyzeOptions& own) {
+  if (own.max_memory) hold_to_memory(*own.max_memory, own.threads);
   if (own.is_batch()) return run_analyze_batch(own);
-  const ProblemSpec spec = load_spec(own.specs.front(), own.settings);
+  const ProblemSpec spec = load_spec(own.specs.front(), own.settings, own.memory());
   const Json summary = analyze_and_write(spec, own);
   print_answer(own, summary, [&spec](const Json& found) { return summary_text(found, spec); });
   return verdict(summary);

@@ -7,6 +7,7 @@
 #include "answers/requirements/judge_requirements.hpp"
 #include "app/commands/all.hpp"
 #include "app/load_spec.hpp"
+#include "app/memory_limit.hpp"
 #include "app/print_answer.hpp"
 #include "app/render.hpp"
 
@@ -138,10 +139,11 @@ struct ValidateOptions : CommonOptions {
 };
 
 ExitCode run(const ValidateOptions& own) {
-  const ProblemSpec spec = load_spec(own.spec, own.settings);
-  const SpecReport report = inspect(spec);
+  if (own.max_memory) hold_to_memory(*own.max_memory, own.threads);
   // What cannot be analysed here need not be looked at closely.
   const std::optional<std::uint64_t> memory = own.memory();
+  const ProblemSpec spec = load_spec(own.spec, own.settings, memory);
+  const SpecReport report = inspect(spec, own.threads);
   if (!memory || report.memory_bytes <= *memory) {
     ThreadTeam team(own.threads);
     check_regions(spec, team);

@@ -56,7 +56,6 @@ Json summarise(const Answers& answers, Json& work) {
 }  // namespace
 
 Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team) {
-  check_memory(spec, options.max_memory);
   if (!options.output.empty()) check_writable(options.output);
   if (options.checkpoint) check_checkpoint(*options.checkpoint);
   StageReporter reporter(options.progress, team);

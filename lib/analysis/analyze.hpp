@@ -16,8 +16,7 @@
 namespace coordreq {
 
 struct AnalysisOptions {
-  std::string output;                       ///< path of the results file; empty: none
-  std::optional<std::uint64_t> max_memory;  ///< bytes; refuse up front if the estimate is above
+  std::string output;  ///< path of the results file; empty: none
   /// Called from the calling thread only, when something begins and often in between; may be empty. What it
   /// throws ends the work, with nothing left behind.
   std::function<void(const Progress&)> progress;
@@ -32,7 +31,7 @@ struct AnalysisOptions {
 ///   if no file was written), `threads`, `seconds` (wall time by stage), `work` (of each fixed point, by
 ///   stage), `peak_memory_bytes`
 /// @throws SpecError for what only shows when the system is built (undecidable `allow`, a discrete state off
-///   its grid, dynamics that this version cannot abstract); LimitError; IoError
+///   its grid, dynamics that this version cannot abstract); IoError
 [[nodiscard]] Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team);
 
 /// What `validate` prints, known before the analysis runs.
@@ -73,9 +72,7 @@ struct SpecReport {
   std::uint64_t memory_bytes = 0;  ///< estimate of the peak of `analyze`
 };
 
-/// @throws LimitError with the estimate if `analyze` needs more than `limit` bytes
-void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit);
-
-[[nodiscard]] SpecReport inspect(const ProblemSpec& spec);
+/// @param threads that an analysis would have; 0: all cores
+[[nodiscard]] SpecReport inspect(const ProblemSpec& spec, int threads);
 
 }  // namespace coordreq

@@ -81,24 +81,22 @@ void for_each_in_layers(const DelayLayers& layers, const CellOrder& order, const
 }
 
 template <class Index>
-LayerLists lists_of(const DelayLayers& layers, const CellOrder& order, ElementType type) {
-  LayerLists result;
-  const std::size_t count = layers.sizes.size();
-  result.start.assign(count + 1, 0);
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::int64_t next = k + 1 < count ? layers.sizes[k + 1] : 0;
-    result.start[k + 1] = result.start[k] + static_cast<std::uint64_t>(layers.sizes[k] - next);
-  }
-  auto cells = std::make_shared<std::vector<Index>>(result.start.back());
-  std::vector<std::uint64_t> next(result.start.begin(), result.start.end() - 1);
+FillArray cells_by_layer(const DelayLayers& layers, const CellOrder& order) {
+  std::vector<std::uint64_t> next = layer_starts(layers);
+  std::vector<Index> cells(next.back());
   for_each_in_layers(layers, order, [&](std::uint64_t cell, std::size_t layer) {
-    (*cells)[next[layer]++] = static_cast<Index>(cell);
+    cells[next[layer]++] = static_cast<Index>(cell);
   });
-  result.cell = {type, [cells](std::uint64_t begin, std::uint64_t n, void* out) {
-                   std::copy_n(cells->begin() + static_cast<std::ptrdiff_t>(begin), n,
-                               static_cast<Index*>(out));
-                 }};
-  return result;
+  return owned_array({}, std::move(cells)).fill;
+}
+
+template <class Index>
+ResultArray cells_of(ElementType type, const DelayLayers& layers, const CellOrder& order,
+                     const std::shared_ptr<LatestCells>& latest) {
+  return {type, [&layers, &order, latest](std::uint64_t begin, std::uint64_t count, void* out) {
+            const auto fill = latest->get(&layers, [&] { return cells_by_layer<Index>(layers, order); });
+            (*fill)(begin, count, out);
+          }};
 }
 
 /// A stretch of one set.
@@ -195,11 +193,22 @@ ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& 
           }};
 }
 
-LayerLists layer_lists(const DelayLayers& layers, const CellOrder& order) {
-  if (order.cells() <= std::numeric_limits<std::uint32_t>::max()) {
-    return lists_of<std::uint32_t>(layers, order, ElementType::uint32);
+std::vector<std::uint64_t> layer_starts(const DelayLayers& layers) {
+  const std::size_t count = layers.sizes.size();
+  std::vector<std::uint64_t> start(count + 1, 0);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::int64_t next = k + 1 < count ? layers.sizes[k + 1] : 0;
+    start[k + 1] = start[k] + static_cast<std::uint64_t>(layers.sizes[k] - next);
   }
-  return lists_of<std::uint64_t>(layers, order, ElementType::uint64);
+  return start;
+}
+
+ResultArray layer_cells(const DelayLayers& layers, const CellOrder& order,
+                        const std::shared_ptr<LatestCells>& latest) {
+  if (order.cells() <= std::numeric_limits<std::uint32_t>::max()) {
+    return cells_of<std::uint32_t>(ElementType::uint32, layers, order, latest);
+  }
+  return cells_of<std::uint64_t>(ElementType::uint64, layers, order, latest);
 }
 
 }  // namespace coordreq

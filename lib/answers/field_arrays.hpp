@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "answers/convention/convention_freedom.hpp"
 #include "answers/field.hpp"
+#include "answers/latest.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "engine/level_map.hpp"
 #include "model/cell_order.hpp"
@@ -43,12 +45,12 @@ void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::ui
 /// float32 [agents, cells]; NaN outside K.
 [[nodiscard]] ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& order);
 
-/// The layers T(0), ..., T(F) of one partition as index lists; contract `/layers/PARTITION`.
-struct LayerLists {
-  std::vector<std::uint64_t> start;  ///< F + 2 entries
-  ResultArray cell;                  ///< start.back() entries, uint32 or uint64
-};
-/// T(0), ..., T(F) as ascending lists of linear indices. The lists belong to the result.
-[[nodiscard]] LayerLists layer_lists(const DelayLayers& layers, const CellOrder& order);
+/// The layers T(0), ..., T(F) of one partition as ascending lists of linear indices, one after the other
+/// (contract `/layers/PARTITION`): where each begins, F + 2 entries; then the lists, uint32 or uint64, of
+/// which there are never those of more than one partition.
+[[nodiscard]] std::vector<std::uint64_t> layer_starts(const DelayLayers& layers);
+using LatestCells = Latest<const DelayLayers*, FillArray>;
+[[nodiscard]] ResultArray layer_cells(const DelayLayers& layers, const CellOrder& order,
+                                      const std::shared_ptr<LatestCells>& latest);
 
 }  // namespace coordreq

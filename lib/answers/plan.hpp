@@ -7,6 +7,7 @@
 #include "answers/answers.hpp"
 #include "answers/field.hpp"
 #include "answers/field_source.hpp"
+#include "answers/memory_need.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
 
@@ -19,6 +20,8 @@ struct Answer {
   std::vector<Stage> (*checks)(const ProblemSpec& spec) = nullptr;
   /// In their order; none if the spec does not ask for it. They need the answers before.
   std::vector<Stage> (*stages)(const ProblemSpec& spec) = nullptr;
+  /// What that takes with so many threads, and writing it; nothing if the spec does not ask for it.
+  MemoryNeed (*memory)(const EngineSizes& sizes, int threads) = nullptr;
   /// Its datasets in the results file of a spec; none if the spec does not ask for it.
   Fields (*fields)(const ProblemSpec& spec) = nullptr;
   /// What was found for them.

@@ -30,6 +30,9 @@ class StageTimer {
 /// left. Without effect where the system cannot do that.
 void reset_peak_memory();
 
+/// What this process has in memory now, in bytes; 0 where the system does not tell.
+[[nodiscard]] std::uint64_t resident_bytes();
+
 /// The largest resident set of this process so far, or since reset_peak_memory(), in bytes; 0 where the
 /// system does not tell.
 [[nodiscard]] std::uint64_t peak_memory_bytes();

@@ -7,14 +7,10 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "engine/limits.hpp"
+
 namespace coordreq {
 namespace {
-
-/// Above so many actions in all choices of states groups are found anew for each row.
-constexpr std::int64_t kMaxShared = std::int64_t{1} << 24;
-
-/// With more groups than this, comparing each with each costs more than it saves.
-constexpr std::size_t kMaxCompared = 128;
 
 std::vector<std::int32_t> intersection(const std::vector<std::int32_t>& a,
                                        const std::vector<std::int32_t>& b) {
@@ -121,7 +117,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
   groups.all.resize(size);
   std::iota(groups.all.begin(), groups.all.end(), 0U);
   groups.holders.resize(size);
-  if (size > kMaxCompared) {
+  if (std::ssize(groups.representative) > kMostComparedGroups) {
     groups.minimal = groups.maximal = groups.all;
     return;
   }
@@ -174,26 +170,28 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
     data.state_stride[i] = choices;
     choices *= grid[i].count;
   }
-  const auto compared =
-      static_cast<std::int64_t>(std::min(static_cast<std::size_t>(data.inputs.actions()), kMaxCompared));
-  if (choices > kMaxShared / (data.inputs.actions() + compared * compared / 4)) return;
-  std::vector<ActionGroups> found(static_cast<std::size_t>(choices));
-  team.for_each(choices, 16, [&](ThreadTeam::Range range, int) {
-    for (std::int64_t choice = range.begin; choice < range.end; ++choice) {
-      std::int64_t row = 0;  // any row with these states
-      for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
-        if (data.state_stride[i] == 0) continue;
-        row += choice / data.state_stride[i] % grid[i].count * (grid.stride(i) / grid.row_length());
-      }
-      found[static_cast<std::size_t>(choice)] = find_groups(data, RowPlace(grid, row));
+  if (choices > most_shared_choices(data.inputs.actions())) return;
+  const auto find = [&](std::int64_t choice) {
+    std::int64_t row = 0;  // any row with these states
+    for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
+      if (data.state_stride[i] == 0) continue;
+      row += choice / data.state_stride[i] % grid[i].count * (grid.stride(i) / grid.row_length());
     }
-  });
+    return find_groups(data, RowPlace(grid, row));
+  };
   std::map<std::tuple<std::vector<std::uint32_t>, std::vector<std::uint8_t>>, std::uint32_t> numbers;
-  for (ActionGroups& groups : found) {
-    const auto next = static_cast<std::uint32_t>(numbers.size());
-    const auto [it, is_new] = numbers.try_emplace({groups.group_of, groups.within}, next);
-    data.shared.push_back(it->second);
-    if (is_new) data.distinct.push_back(std::move(groups));
+  for (std::int64_t first = 0; first < choices; first += kGroupsFoundAtOnce) {
+    std::vector<ActionGroups> found(static_cast<std::size_t>(std::min(kGroupsFoundAtOnce, choices - first)));
+    team.for_each(std::ssize(found), 16, [&](ThreadTeam::Range range, int) {
+      for (std::int64_t i = range.begin; i < range.end; ++i)
+        found[static_cast<std::size_t>(i)] = find(first + i);
+    });
+    for (ActionGroups& groups : found) {
+      const auto next = static_cast<std::uint32_t>(numbers.size());
+      const auto [it, is_new] = numbers.try_emplace({groups.group_of, groups.within}, next);
+      data.shared.push_back(it->second);
+      if (is_new) data.distinct.push_back(std::move(groups));
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/limits.hpp"
 #include "engine/row_box.hpp"
 
 namespace coordreq {
@@ -9,8 +10,6 @@ namespace {
 
 using Kind = RowSegment::Kind;
 
-/// So that all shared minima stay in the second-level cache.
-constexpr std::int64_t kSharedBytes = std::int64_t{1} << 20;
 constexpr std::int64_t kMostShared = 1024;
 
 /// Wider windows are taken by doubling.

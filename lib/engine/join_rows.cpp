@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include "engine/level_rows.hpp"
 #include "engine/row_shape.hpp"
@@ -9,38 +10,78 @@
 namespace coordreq {
 namespace {
 
-/// As far as the offsets of a dimension go, either way; nothing if it does not move by offsets alone, or
-/// farther than it is long.
-std::optional<RowMargins> margins(const TransitionTable& table, const GridDimension& dimension) {
-  if (!table.shift || table.is_sum() || dimension.count < 2) return std::nullopt;
-  const RowEnds ends{dimension.below, dimension.above};
-  RowMargins result;
-  for (const IndexRange entry : table.entries) {
-    if (entry.first <= -dimension.count || entry.last >= dimension.count) return std::nullopt;
-    if (std::int64_t{entry.last} - entry.first + 1 >= dimension.count) return std::nullopt;
-    const IndexRange window = fit_window(entry, dimension.count, ends);
-    result.before = std::max<std::int64_t>(result.before, -window.first);
-    result.after = std::max<std::int64_t>(result.after, window.last);
-  }
-  return result;
+/// More cells than this are only ever asked for in estimates, and with gaps could pass 64 bits.
+constexpr std::int64_t kMostCells = std::int64_t{1} << 50;
+
+bool is_shift(const TransitionTable& table) {
+  return table.shift && !table.is_sum();
+}
+bool is_shift(const TableShape& shape) {
+  return shape.shift && !shape.sum;
 }
 
-}  // namespace
+/// As far as offsets go, either way; nothing if that is farther than the dimension is long.
+std::optional<RowMargins> margins(std::span<const IndexRange> offsets, const GridDimension& dimension) {
+  if (dimension.count < 2) return std::nullopt;
+  for (const IndexRange entry : offsets) {
+    if (entry.first <= -dimension.count || entry.last >= dimension.count) return std::nullopt;
+    if (std::int64_t{entry.last} - entry.first + 1 >= dimension.count) return std::nullopt;
+  }
+  return window_margins(offsets, dimension);
+}
 
-UniformGrid join_rows(const Abstraction& abstraction, std::size_t most) {
-  const UniformGrid& grid = abstraction.grid;
-  if (!abstraction.tubes.empty()) return grid;
+/// True if no state depends on one from `i` on, but for itself.
+template <class Table>
+bool are_alone_from(std::size_t i, const std::vector<Table>& tables) {
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    for (const std::int32_t state : tables[t].states) {
+      if (static_cast<std::size_t>(state) >= i && static_cast<std::size_t>(state) != t) return false;
+    }
+  }
+  return true;
+}
+
+/// @param offsets(i) those of dimension i
+template <class Table, class Offsets>
+UniformGrid joined(const UniformGrid& grid, const std::vector<Table>& tables, const Offsets& offsets,
+                   std::size_t most) {
   std::vector<std::int64_t> gaps;  // of all dimensions taken so far, the first one too
   std::int64_t lanes = 1;
   for (std::size_t i = grid.size() - 1; i > 0 && gaps.size() < most; --i) {
-    const auto own = margins(abstraction.tables[i], grid[i]);
-    if (!own || !are_alone_from(i, abstraction.tables) || lanes * grid[i].count > kMostJoinedLanes) break;
+    const auto own = is_shift(tables[i]) ? margins(offsets(i), grid[i]) : std::nullopt;
+    if (!own || !are_alone_from(i, tables) || lanes * grid[i].count > kMostJoinedLanes) break;
     gaps.insert(gaps.begin(), own->before + own->after);
     lanes *= grid[i].count + gaps.front();
   }
   if (gaps.size() < 2) return grid;
   gaps.erase(gaps.begin());
   return grid.in_rows(gaps);
+}
+
+}  // namespace
+
+RowMargins window_margins(std::span<const IndexRange> windows, const GridDimension& dimension) {
+  RowMargins margins;
+  for (const IndexRange window : windows) {
+    const IndexRange fitted = fit_window(window, dimension.count, {dimension.below, dimension.above});
+    margins.before = std::max<std::int64_t>(margins.before, -fitted.first);
+    margins.after = std::max<std::int64_t>(margins.after, fitted.last);
+  }
+  return margins;
+}
+
+UniformGrid join_rows(const Abstraction& abstraction, std::size_t most) {
+  if (!abstraction.tubes.empty()) return abstraction.grid;
+  return joined(
+      abstraction.grid, abstraction.tables,
+      [&](std::size_t i) { return std::span(abstraction.tables[i].entries); }, most);
+}
+
+UniformGrid join_rows(const Model& model, const std::vector<IndexRange>& offsets) {
+  if (model.grid().cells() > kMostCells) return model.grid();
+  return joined(
+      model.grid(), model.arranged_shapes(),
+      [&](std::size_t i) { return std::span(&offsets[model.grid().state(i)], 1); }, model.most_along());
 }
 
 }  // namespace coordreq

@@ -1,24 +1,14 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "model/row_sample.hpp"
+#include "engine/row_shape.hpp"
+#include "model/model.hpp"
 #include "reach/abstraction.hpp"
 
 namespace coordreq {
-
-/// True if no state depends on one from `i` on, but for itself.
-/// @param tables with their `states`: TransitionTable, TableShape
-template <class Tables>
-[[nodiscard]] bool are_alone_from(std::size_t i, const Tables& tables) {
-  for (std::size_t t = 0; t < tables.size(); ++t) {
-    for (const std::int32_t state : tables[t].states) {
-      if (static_cast<std::size_t>(state) >= i && static_cast<std::size_t>(state) != t) return false;
-    }
-  }
-  return true;
-}
 
 /// The grid of an abstraction with rows along as many of the last dimensions as can be: each of them moves by
 /// offsets that depend on none of them, and none of the others depends on them. So do integrators (x' = x +
@@ -31,5 +21,10 @@ template <class Tables>
 /// @param most dimensions to take together, kMostJoinedLanes apart
 /// @returns the grid as it is if nothing can be joined, or if there are tubes
 [[nodiscard]] UniformGrid join_rows(const Abstraction& abstraction, std::size_t most = SIZE_MAX);
+/// The same as far as it can be told before there are tables; for estimates. @param offsets by state
+[[nodiscard]] UniformGrid join_rows(const Model& model, const std::vector<IndexRange>& offsets);
+
+/// As far as windows along a dimension reach beyond its ends, either way.
+[[nodiscard]] RowMargins window_margins(std::span<const IndexRange> windows, const GridDimension& dimension);
 
 }  // namespace coordreq

@@ -62,6 +62,11 @@ class LevelRows {
   /// Levels from one row to the next.
   [[nodiscard]] std::int64_t stride() const { return stride_; }
 
+  /// What is asked for.
+  [[nodiscard]] std::size_t bytes() const {
+    return (static_cast<std::size_t>((rows_ + 1) * stride_) + kLevelBlock / sizeof(Level)) * sizeof(Level);
+  }
+
   [[nodiscard]] bool is_shared() const { return !slots_.empty(); }
   /// First cell of a row; margins().before levels stand before it, margins().after after its last.
   [[nodiscard]] const Level* row(std::int64_t r) const { return at(slot(r)); }

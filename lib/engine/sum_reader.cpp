@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/limits.hpp"
 #include "engine/row_box.hpp"
 
 namespace coordreq {
@@ -9,8 +10,6 @@ namespace {
 
 using Kind = RowSegment::Kind;
 
-/// All slots of a thread together; a unit of the aircraft needs 41 of 0.1 MiB.
-constexpr std::size_t kSlotBytes = std::size_t{1} << 24;
 constexpr std::size_t kMostSlots = 1024;
 
 }  // namespace
@@ -29,7 +28,7 @@ SumReader<Level>::SumReader(const RowEngine& engine, const LevelRows<Level>& lev
   place_.resize(n + kLanes);
   result_.resize(n + kLevelBlock / sizeof(Level));
   const std::size_t bytes = variants_ * static_cast<std::size_t>(block_cells_) * sizeof(Level);
-  slots_.resize(std::clamp<std::size_t>(kSlotBytes / bytes, 2, kMostSlots));
+  slots_.resize(std::clamp<std::size_t>(kBlockBytes / bytes, 2, kMostSlots));
 }
 
 /// Room beyond the domain for the largest box on either side, sizes row-major over the dimensions.

@@ -1,6 +1,7 @@
 #include "results/array_writer.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace coordreq {
 namespace {
@@ -24,6 +25,18 @@ hdf5::Storage storage_of(const ChunkLayout& layout, ElementType type) {
 }
 
 }  // namespace
+
+double ArrayWriter::bytes(double longest, int threads) {
+  constexpr double kUsualPacking = 0.25;
+  constexpr double kCopies = 3.5;  // of a chunk: filled, shuffled, packed, and what filling takes
+  const double chunk = ChunkLayout::largest_chunk(longest);
+  if (chunk == 0) return 0;
+  const double chunks = std::ceil(longest / chunk);
+  const double batch = std::min(chunks, static_cast<double>(kChunksPerThread) * threads);
+  // Of a few chunks each goes to another thread in the next array.
+  const double busy = std::min<double>(threads, 4 * chunks);
+  return busy * (kCopies * chunk + ChunkCodec::kBytes) + kUsualPacking * batch * chunk;
+}
 
 ArrayWriter::ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver)
     : team_(team),

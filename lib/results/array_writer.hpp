@@ -22,6 +22,9 @@ class ArrayWriter {
  public:
   static constexpr std::size_t kChunksPerThread = 4;
 
+  /// What writing arrays of at most so many bytes takes.
+  [[nodiscard]] static double bytes(double longest, int threads);
+
   /// @param driver the one that the files are written with; must outlive the writer
   ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver);
 

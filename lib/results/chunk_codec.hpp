@@ -22,6 +22,9 @@ inline constexpr int kDeflateLevel = 1;
 /// of the last ones are remembered with what became of them.
 class ChunkCodec {
  public:
+  /// Of a compressor, beside its chunks.
+  static constexpr double kBytes = 256.0 * 1024;
+
   ChunkCodec();
 
   /// Replaces `packed` by the zlib stream of `raw`, a whole number of elements.

@@ -28,8 +28,7 @@ ChunkLayout::ChunkLayout(std::vector<std::uint64_t> shape, std::size_t element_s
     : shape_(std::move(shape)), elements_(product(shape_.begin(), shape_.end())) {
   const std::uint64_t bytes = elements_ * element_size;
   if (bytes <= kContiguousBytes) return;
-  const std::uint64_t target =
-      std::clamp(bytes / kWantedChunks, kSmallestChunkBytes, kLargestChunkBytes) / element_size;
+  const auto target = static_cast<std::uint64_t>(largest_chunk(static_cast<double>(bytes))) / element_size;
 
   cut_ = shape_.size() - 1;
   while (cut_ > 0 && inner_ * shape_[cut_] <= target) inner_ *= shape_[cut_--];
@@ -40,6 +39,12 @@ ChunkLayout::ChunkLayout(std::vector<std::uint64_t> shape, std::size_t element_s
   std::fill_n(chunk_shape_.begin(), cut_, 1);
   chunk_shape_[cut_] = divide_up(shape_[cut_], pieces_);  // even pieces waste little padding
   pieces_ = divide_up(shape_[cut_], chunk_shape_[cut_]);
+}
+
+double ChunkLayout::largest_chunk(double bytes) {
+  if (bytes <= static_cast<double>(kContiguousBytes)) return 0;
+  return std::clamp(bytes / static_cast<double>(kWantedChunks), static_cast<double>(kSmallestChunkBytes),
+                    static_cast<double>(kLargestChunkBytes));
 }
 
 std::uint64_t ChunkLayout::chunk_elements() const {

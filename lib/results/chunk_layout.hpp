@@ -21,6 +21,9 @@ class ChunkLayout {
  public:
   ChunkLayout(std::vector<std::uint64_t> shape, std::size_t element_size);
 
+  /// Bytes of a chunk of an array of so many bytes, at the most; 0 if that is not chunked.
+  [[nodiscard]] static double largest_chunk(double bytes);
+
   [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return shape_; }
   /// Product of the shape; 1 for a scalar.
   [[nodiscard]] std::uint64_t elements() const { return elements_; }

@@ -166,6 +166,11 @@ void write_fields(const std::string& path, const FileKind& kind,
   });
 }
 
+double write_results_bytes(const ProblemSpec& spec, double longest, int threads) {
+  constexpr double kCopiesOfText = 2.25;  // HDF5's, and what it allocates for them
+  return ArrayWriter::bytes(longest, threads) + kCopiesOfText * static_cast<double>(spec.text.size());
+}
+
 void check_writable(const std::string& path) {
   const OutputFile probe(path);
 }

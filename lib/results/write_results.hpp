@@ -34,6 +34,9 @@ void write_fields(const std::string& path, const FileKind& kind,
                   const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec,
                   const Fields& fields, const FieldValues& values, ThreadTeam& team);
 
+/// What that takes. @param longest bytes of the longest field, before it is packed
+[[nodiscard]] double write_results_bytes(const ProblemSpec& spec, double longest, int threads);
+
 /// @throws IoError as write_results() would for reasons that are known before the work starts, so that a long
 ///   analysis does not fail at its end. Leaves nothing behind.
 void check_writable(const std::string& path);

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -56,6 +57,9 @@ class OpenFile {
 
   [[nodiscard]] std::string text() {
     std::string text;
+    struct stat status {};
+    if (::fstat(file_, &status) == 0 && S_ISREG(status.st_mode))
+      text.reserve(std::min(kMostBytes, static_cast<std::size_t>(status.st_size)));
     std::array<char, 65'536> block{};
     const auto begin = Clock::now();
     while (true) {

@@ -28,6 +28,12 @@ function(coordreq_precompile target)
   target_precompile_headers(${target} REUSE_FROM coordreq_precompiled)
 endfunction()
 
+# coordreq_unite(<target>): with COORDREQ_UNITY_BUILD ten sources are compiled as one, so that they share what they
+# instantiate of the libraries. Names of two files of one room must then differ.
+function(coordreq_unite target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${COORDREQ_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 10)
+endfunction()
+
 function(coordreq_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   set(target coordreq_${name})
@@ -41,6 +47,7 @@ function(coordreq_module name)
   target_link_libraries(${target} PUBLIC ${ARG_DEPENDS}
                         PRIVATE $<BUILD_INTERFACE:coordreq_options> ${ARG_PRIVATE_DEPENDS})
   coordreq_precompile(${target})
+  coordreq_unite(${target})
   target_compile_features(${target} INTERFACE cxx_std_20)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS ${target} EXPORT coordreq-targets

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/analyze.hpp"
+#include "analysis/estimate_memory.hpp"
 #include "base/error.hpp"
 #include "reach/abstraction.hpp"
 #include "spec/read_spec.hpp"
@@ -20,7 +21,7 @@ ProblemSpec spec_of(const std::string& upper) {
 }
 
 TEST(Inspect, ReportsSizesAndDependencies) {
-  const SpecReport report = inspect(spec_of("99"));
+  const SpecReport report = inspect(spec_of("99"), 1);
   EXPECT_EQ(report.cells, 1000);
   EXPECT_EQ(report.joint_inputs, 6);
   using Names = std::vector<std::string>;
@@ -43,24 +44,25 @@ TEST(Inspect, ReportsSizesAndDependencies) {
 
 TEST(Inspect, SaysWhatAResultWouldGuarantee) {
   ProblemSpec spec = spec_of("99");
-  EXPECT_EQ(inspect(spec).guarantee, "samples");
-  const std::uint64_t memory = inspect(spec).memory_bytes;
+  EXPECT_EQ(inspect(spec, 1).guarantee, "samples");
+  const std::uint64_t memory = inspect(spec, 1).memory_bytes;
   spec.abstraction.between_samples = true;
-  EXPECT_EQ(inspect(spec).guarantee, "continuous");
-  EXPECT_GT(inspect(spec).memory_bytes, memory);
+  EXPECT_EQ(inspect(spec, 1).guarantee, "continuous");
+  EXPECT_GT(inspect(spec, 1).memory_bytes, memory);
   spec.abstraction.safe = Membership::center;
-  EXPECT_EQ(inspect(spec).guarantee, "samples-center");
+  EXPECT_EQ(inspect(spec, 1).guarantee, "samples-center");
 }
 
 TEST(Inspect, MemoryGrowsWithTheCells) {
-  EXPECT_GT(inspect(spec_of("9999999")).memory_bytes, inspect(spec_of("99")).memory_bytes + 1000000 * 80U);
+  EXPECT_GT(inspect(spec_of("9999999"), 1).memory_bytes,
+            inspect(spec_of("99"), 1).memory_bytes + 1000000 * 80U);
 }
 
 TEST(CheckMemory, RefusesWithTheEstimateBeforeAnythingRuns) {
-  EXPECT_NO_THROW(check_memory(spec_of("99"), std::nullopt));
-  EXPECT_NO_THROW(check_memory(spec_of("99"), std::uint64_t{1} << 30));
+  EXPECT_NO_THROW(check_memory(spec_of("99"), std::nullopt, 1));
+  EXPECT_NO_THROW(check_memory(spec_of("99"), std::uint64_t{1} << 30, 1));
   try {
-    check_memory(spec_of("99999999"), std::uint64_t{1} << 30);
+    check_memory(spec_of("99999999"), std::uint64_t{1} << 30, 1);
     FAIL() << "expected a LimitError";
   } catch (const LimitError& error) {
     EXPECT_EQ(std::string(error.what()).substr(0, 22), "1e+09 cells need about");

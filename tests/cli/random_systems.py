@@ -64,6 +64,65 @@ def random_system(seed):
     }  # fmt: skip
 
 
+def random_team(rng, name):
+    """Two to four agents that move by integrators, with whatever can be asked of them."""
+    agents = rng.choice([2, 2, 3, 4])
+    points = rng.choice({2: [20, 60, 150, 301], 3: [9, 20, 41], 4: [5, 9, 13]}[agents])
+    values = rng.choice([[-1, 0, 1], [-2, -1, 0, 1, 2], [0, 1]])
+    names = [f"x{i}" for i in range(agents)]
+    continuous = rng.random() < 0.4
+    step = rng.choice([1, 1, 0.5])
+    spec = {
+        "coordreq": 1,
+        "name": name,
+        "states": [{"name": x, "lower": 0, "upper": points - 1, "step": 1,
+                    "outside": rng.choice(["unsafe", "unsafe", "saturate", "safe"])} for x in names],
+        "inputs": [{"name": f"u{i}", "values": values} for i in range(agents)],
+        "agents": [{"name": f"a{i}", "inputs": [f"u{i}"]} for i in range(agents)],
+        "dynamics": {"time": "continuous" if continuous else "discrete", "period": 1 if continuous else 2,
+                     "equations": {x: f"{step}*u{i}" if continuous else f"{x} + {step}*u{i}"
+                                   for i, x in enumerate(names)}},
+        "safe": " + ".join(f"({x} - {points // 2})^2" for x in names)
+                + f" <= {round(rng.uniform(0.1, 0.4) * points ** 2)}",
+        "abstraction": {"cells": rng.choice(["closed", "half_open"]),
+                        "between_samples": continuous and rng.random() < 0.3},
+        "controller": {"synthesis": rng.choice(["maximal", "maximal", "maximal", "given"])},
+        "coordination": {},
+        "output": {key: rng.random() < 0.3 for key in ("controller", "actions", "layers", "abstraction")},
+    }  # fmt: skip
+    coordination = spec["coordination"]
+    if rng.random() < 0.5:
+        coordination["partitions"] = "all"
+    if rng.random() < 0.3:
+        coordination["horizon"] = rng.randint(1, 5)
+    if rng.random() < 0.3:
+        coordination["convention"] = True
+    if rng.random() < 0.2:
+        coordination["max_delay"] = rng.randint(5, 20)
+    if rng.random() < 0.3:
+        spec["network"] = {"weakly_hard": {"misses": 1, "window": rng.randint(2, 4)}, "resynthesise": rng.random() < 0.5}
+    if rng.random() < 0.3:
+        spec["controller"]["allow"] = f"{names[0]} + u0 >= 0"
+    if rng.random() < 0.4:
+        spec["requirements"] = [
+            {"name": str(r), "where": f"{names[0]} <= {rng.randint(1, points // 2)}", "invariant": True}
+            for r in range(rng.choice([1, 10, 500]))
+        ]
+    return spec
+
+
+def random_analysis(seed):
+    """A spec of any kind: a random system, or a team of agents."""
+    rng = random.Random(seed)
+    if rng.random() < 0.7:
+        return random_team(rng, f"team{seed}")
+    spec = random_system(seed)
+    for state in spec["states"]:
+        half, cells = state["upper"], {1: 20000, 2: 100, 3: 20}[len(spec["states"])]
+        state["step"] = round(2 * half / rng.choice([cells, cells // 2]), 4)
+    return spec
+
+
 def timed(command):
     """What a command said, and the seconds of all processors that it took."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)

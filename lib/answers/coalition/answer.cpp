@@ -74,4 +74,13 @@ void tell_coalition(const ProblemSpec& spec, const FieldSource& source, Json& in
     json["critical_pairs"].push_back({{"name", pairs[i]}, {"cells", critical[i]}});
 }
 
+MemoryNeed coalition_memory(const EngineSizes& sizes, int /*threads*/) {
+  const ProblemSpec& spec = sizes.model().spec();
+  if (!spec.coordination.horizon) return {};
+  const auto pairs = static_cast<double>(agent_pairs(spec.agents.size()).size());
+  const bool is_short = spec.coordination.partitions.size() < LevelRows<std::uint8_t>::kTop;
+  const double width = is_short ? sizeof(std::uint8_t) : sizeof(std::uint32_t);
+  return {.kept = sizes.lanes() * width + pairs * sizes.set(), .array = pairs * sizes.cells()};
+}
+
 }  // namespace coordreq

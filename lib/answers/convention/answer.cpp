@@ -64,4 +64,15 @@ void summarise_convention(const Answers& answers, Json& summary, Json& /*work*/)
   }
 }
 
+MemoryNeed convention_memory(const EngineSizes& sizes, int threads) {
+  const ProblemSpec& spec = sizes.model().spec();
+  if (!spec.coordination.convention) return {};
+  const auto agents = static_cast<double>(spec.agents.size());
+  const double freedom = agents * sizes.lanes() * sizeof(float);
+  return {.kept = sizes.groups(agent_classes(spec, sizes.model().inputs())) + freedom,
+          .work = sizes.readers(threads) + agents * sizes.rows() * sizeof(double),
+          .written = sizes.readers(threads),
+          .array = freedom};
+}
+
 }  // namespace coordreq

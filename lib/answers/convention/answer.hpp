@@ -4,6 +4,7 @@
 
 #include "answers/answers.hpp"
 #include "answers/convention/convention_freedom.hpp"
+#include "answers/memory_need.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
 namespace coordreq {
@@ -16,6 +17,7 @@ struct ConventionAnswer {
 
 /// Adds ConventionAnswer, if the spec asks for one: "convention".
 [[nodiscard]] std::vector<Stage> convention_stages(const ProblemSpec& spec);
+[[nodiscard]] MemoryNeed convention_memory(const EngineSizes& sizes, int threads);
 void summarise_convention(const Answers& answers, Json& summary, Json& work);
 
 }  // namespace coordreq

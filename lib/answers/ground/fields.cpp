@@ -1,6 +1,10 @@
 #include "answers/ground/fields.hpp"
 
+#include <algorithm>
+#include <memory>
+
 #include "answers/field_parts.hpp"
+#include "answers/latest.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/unit_text.hpp"
 
@@ -57,6 +61,21 @@ void add_abstraction(Fields& fields, const ProblemSpec& spec) {
   }
 }
 
+using WrittenOut = Latest<std::size_t, TransitionTable>;
+
+/// One end of all ranges of the table of a state, which is written out when it is asked for.
+ResultArray ends_array(const Answers& answers, std::size_t state, std::int32_t IndexRange::*end,
+                       const std::shared_ptr<WrittenOut>& tables) {
+  return {ElementType::int32,
+          [&answers, state, end, tables](std::uint64_t begin, std::uint64_t count, void* out) {
+            const auto table =
+                tables->get(state, [&] { return written_out(*answers.ground.abstraction, state); });
+            const auto first = table->entries.begin() + static_cast<std::ptrdiff_t>(begin);
+            std::transform(first, first + static_cast<std::ptrdiff_t>(count), static_cast<std::int32_t*>(out),
+                           [end](const IndexRange& range) { return range.*end; });
+          }};
+}
+
 }  // namespace
 
 Fields ground_fields(const ProblemSpec& spec) {
@@ -73,16 +92,11 @@ Fields ground_fields(const ProblemSpec& spec) {
 
 void fill_ground_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const ProblemSpec& spec = answers.ground.spec;
+  const auto table = std::make_shared<WrittenOut>();
   for (std::size_t i = 0; spec.output.abstraction && i < spec.states.size(); ++i) {
-    const TransitionTable table = written_out(*answers.ground.abstraction, i);
-    std::vector<std::int32_t> first, last;
-    for (const IndexRange& range : table.entries) {
-      first.push_back(range.first);
-      last.push_back(range.last);
-    }
     const std::string group = "/abstraction/" + spec.states[i].name;
-    values.entries[group + "/first"].array = owned_array(ElementType::int32, std::move(first));
-    values.entries[group + "/last"].array = owned_array(ElementType::int32, std::move(last));
+    values.entries[group + "/first"].array = ends_array(answers, i, &IndexRange::first, table);
+    values.entries[group + "/last"].array = ends_array(answers, i, &IndexRange::last, table);
   }
 }
 

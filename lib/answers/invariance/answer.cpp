@@ -48,4 +48,15 @@ void tell_invariance(const ProblemSpec& /*spec*/, const FieldSource& source, Jso
   info["invariant"] = source.counted("/invariant").front();
 }
 
+MemoryNeed invariance_memory(const EngineSizes& sizes, int threads) {
+  const InputSpace& inputs = sizes.model().inputs();
+  MemoryNeed need{.kept = sizes.levels() + sizes.set(),
+                  .work = sizes.groups(single_classes(inputs)) + sizes.wave(threads),
+                  .array = sizes.cells() * sizeof(std::int16_t)};
+  if (!sizes.model().spec().output.controller) return need;
+  need.written = sizes.groups({whole_class(inputs)}) + sizes.readers(threads);
+  need.array = std::max(need.array, sizes.packed_pairs(inputs.count()));
+  return need;
+}
+
 }  // namespace coordreq

@@ -7,6 +7,7 @@
 #include "answers/field_source.hpp"
 #include "answers/invariance/controller.hpp"
 #include "answers/invariance/invariance.hpp"
+#include "answers/memory_need.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
 
@@ -17,6 +18,7 @@ namespace coordreq {
 /// What a result of this spec guarantees: "samples", "samples-center" or "continuous" (contract, "What is
 /// guaranteed"). Centres say nothing of the way between the samples, so that they never make it "continuous".
 [[nodiscard]] std::string guarantee_of(const ProblemSpec& spec);
+[[nodiscard]] MemoryNeed invariance_memory(const EngineSizes& sizes, int threads);
 void summarise_invariance(const Answers& answers, Json& summary, Json& work);
 void tell_invariance(const ProblemSpec& spec, const FieldSource& source, Json& info);
 

@@ -1,5 +1,7 @@
 #include "answers/invariance/fields.hpp"
 
+#include <memory>
+
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/invariance/action_bits.hpp"
@@ -63,7 +65,11 @@ void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValue
   if (ground.spec.output.controller) {
     const auto everything = std::make_shared<const ActionGrouping>(
         *ground.engine, std::vector<InputClass>{whole_class(ground.abstraction->inputs)}, team);
-    values.entries[paths::kController].array = action_array(answers, everything, 0);
+    values.entries[paths::kController].array = {
+        ElementType::uint8, [controller = answers.get<Controller>(), everything](
+                                std::uint64_t begin, std::uint64_t count, void* out) {
+          fill_action_bits(controller, *everything, 0, begin, count, out);
+        }};
   }
   if (!ground.listed) return;
   values.entries[paths::kListed] = {
@@ -73,14 +79,6 @@ void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValue
                               static_cast<std::uint8_t*>(out));
                 }},
       .attributes = {{"sha256", ground.listed->sha256}}};
-}
-
-ResultArray action_array(const Answers& answers, std::shared_ptr<const ActionGrouping> grouping,
-                         std::size_t c) {
-  return {ElementType::uint8, [controller = answers.get<Controller>(), grouping = std::move(grouping), c](
-                                  std::uint64_t begin, std::uint64_t count, void* out) {
-            fill_action_bits(controller, *grouping, c, begin, count, out);
-          }};
 }
 
 }  // namespace coordreq

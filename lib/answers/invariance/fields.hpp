@@ -1,11 +1,8 @@
 #pragma once
 
-#include <memory>
-
 #include "answers/answers.hpp"
 #include "answers/field.hpp"
 #include "base/thread_team.hpp"
-#include "engine/action_groups.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -22,9 +19,5 @@ inline constexpr char kListed[] = "/controller:file";
 
 /// What was found for them. The arrays refer to the answers, which must outlive the writing.
 void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
-
-/// The admissible actions of class c, a bit each.
-[[nodiscard]] ResultArray action_array(const Answers& answers, std::shared_ptr<const ActionGrouping> grouping,
-                                       std::size_t c);
 
 }  // namespace coordreq

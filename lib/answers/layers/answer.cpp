@@ -7,6 +7,7 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/fields.hpp"
+#include "answers/layers/projection_bytes.hpp"
 #include "answers/layers/refinement.hpp"
 #include "answers/work_json.hpp"
 #include "spec/partition_names.hpp"
@@ -118,6 +119,28 @@ void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info)
                                   {"layers", partition.layer_sizes},
                                   {"truncated", partition.truncated()}});
   }
+}
+
+/// Only the levels of all partitions are kept; of all else there is that of one at a time.
+MemoryNeed layers_memory(const EngineSizes& sizes, int threads) {
+  const ProblemSpec& spec = sizes.model().spec();
+  const auto partitions = static_cast<double>(spec.coordination.partitions.size());
+  MemoryNeed need{.kept = partitions * sizes.levels(),
+                  .array = partitions * sizes.cells() * sizeof(std::int16_t)};
+  double actions = 0;
+  for (const PartitionSpec& partition : spec.coordination.partitions) {
+    const std::vector<InputClass> classes = input_classes(spec, sizes.model().inputs(), partition);
+    const double groups = sizes.groups(classes);
+    need.work = std::max(need.work, groups + projection_bytes(sizes, classes));
+    if (!spec.output.actions) continue;
+    actions = std::max(actions, groups);
+    for (const InputClass& own : classes)
+      need.array = std::max(need.array, sizes.packed_pairs(own.actions()));
+  }
+  need.work += sizes.wave(threads);
+  if (spec.output.actions) need.written += actions + sizes.readers(threads);
+  if (spec.output.layers) need.written += sizes.cells() * sizeof(std::uint32_t);
+  return need;
 }
 
 }  // namespace coordreq

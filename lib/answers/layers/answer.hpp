@@ -6,6 +6,7 @@
 #include "answers/field_source.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "answers/layers/projections.hpp"
+#include "answers/memory_need.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
 
@@ -30,6 +31,7 @@ struct PartitionActions {
 
 /// Adds PartitionLayers: "layers PARTITION" for each partition, coarser ones before finer ones.
 [[nodiscard]] std::vector<Stage> layers_stages(const ProblemSpec& spec);
+[[nodiscard]] MemoryNeed layers_memory(const EngineSizes& sizes, int threads);
 void summarise_layers(const Answers& answers, Json& summary, Json& work);
 void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info);
 

@@ -1,11 +1,13 @@
 #include "answers/layers/fields.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
+#include "answers/invariance/action_bits.hpp"
 #include "answers/invariance/answer.hpp"
-#include "answers/invariance/fields.hpp"
+#include "answers/latest.hpp"
 #include "answers/layers/answer.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "answers/layers/trigger_table.hpp"
@@ -124,13 +126,30 @@ void fill_sizes(const std::vector<DelayLayers>& partitions, FieldValues& values)
 }
 
 void fill_lists(const Answers& answers, const PartitionSpec& partition, const DelayLayers& layers,
-                FieldValues& values) {
+                const std::shared_ptr<LatestCells>& latest, FieldValues& values) {
   const std::string group = paths::layers(partition);
-  LayerLists lists = layer_lists(layers, *answers.ground.order);
-  values.lengths[group + "/bound"] = lists.start.size();
-  values.lengths[group + "/position"] = lists.start.back();
-  values.entries[group + "/start"].array = owned_array(ElementType::uint64, std::move(lists.start));
-  values.entries[group + "/cell"].array = std::move(lists.cell);
+  std::vector<std::uint64_t> start = layer_starts(layers);
+  values.lengths[group + "/bound"] = start.size();
+  values.lengths[group + "/position"] = start.back();
+  values.entries[group + "/start"].array = owned_array(ElementType::uint64, std::move(start));
+  values.entries[group + "/cell"].array = layer_cells(layers, *answers.ground.order, latest);
+}
+
+using LatestGrouping = Latest<std::size_t, ActionGrouping>;
+
+/// The admissible actions of a class of partition p.
+ResultArray action_array(const Answers& answers, std::size_t p, std::size_t c,
+                         const std::shared_ptr<LatestGrouping>& latest) {
+  return {ElementType::uint8, [&answers, p, c, latest](std::uint64_t begin, std::uint64_t count, void* out) {
+            const Ground& ground = answers.ground;
+            const auto grouping = latest->get(p, [&] {
+              ThreadTeam alone(1);  // the others wait for it, in a loop of theirs
+              const PartitionSpec& partition = ground.spec.coordination.partitions[p];
+              return ActionGrouping(*ground.engine,
+                                    input_classes(ground.spec, ground.abstraction->inputs, partition), alone);
+            });
+            fill_action_bits(answers.get<Controller>(), *grouping, c, begin, count, out);
+          }};
 }
 
 /// The most layers that there can be: each but the last loses a cell.
@@ -169,19 +188,20 @@ Fields layer_fields(const ProblemSpec& spec) {
   return fields;
 }
 
-void fill_layer_fields(const Answers& answers, ThreadTeam& team, FieldValues& values) {
+/// What is large of a partition is there only while it is written: with many of them, all together would take
+/// more memory than all else.
+void fill_layer_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const std::vector<DelayLayers>& partitions = answers.get<PartitionLayers>().partitions;
   fill_steps(answers, partitions, values);
   fill_sizes(partitions, values);
   const ProblemSpec& spec = answers.ground.spec;
+  const auto cells = std::make_shared<LatestCells>();
+  const auto grouping = std::make_shared<LatestGrouping>();
   for (std::size_t p = 0; p < partitions.size(); ++p) {
     const PartitionSpec& partition = spec.coordination.partitions[p];
-    if (spec.output.layers) fill_lists(answers, partition, partitions[p], values);
-    if (!spec.output.actions) continue;
-    const auto grouping = std::make_shared<const ActionGrouping>(
-        *answers.ground.engine, input_classes(spec, answers.ground.abstraction->inputs, partition), team);
-    for (std::size_t c = 0; c < partition.classes.size(); ++c)
-      values.entries[paths::actions(spec, partition, c)].array = action_array(answers, grouping, c);
+    if (spec.output.layers) fill_lists(answers, partition, partitions[p], cells, values);
+    for (std::size_t c = 0; spec.output.actions && c < partition.classes.size(); ++c)
+      values.entries[paths::actions(spec, partition, c)].array = action_array(answers, p, c, grouping);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/network/fields.hpp"
+#include "answers/layers/projection_bytes.hpp"
 #include "answers/network/network_problem.hpp"
 #include "answers/work_json.hpp"
 
@@ -80,6 +81,24 @@ void tell_network(const ProblemSpec& spec, const FieldSource& source, Json& info
   const std::vector<std::uint64_t> cells = source.counted(paths::kNetworkSafe);
   for (std::size_t mode = 0; mode < cells.size(); ++mode)
     info["modes"].push_back({{"name", spec.network->modes[mode].name}, {"cells", cells[mode]}});
+}
+
+/// The sets of all modes, the levels of one target, which rows of each have changed, and the projections of
+/// all partitions.
+MemoryNeed network_memory(const EngineSizes& sizes, int threads) {
+  const ProblemSpec& spec = sizes.model().spec();
+  if (!spec.network) return {};
+  const auto modes = static_cast<double>(spec.network->modes.size());
+  MemoryNeed need{.kept = modes * sizes.set(), .array = modes * sizes.cells()};
+  need.work = modes * (sizes.rows() / 8) + sizes.levels() + sizes.readers(threads);
+  if (spec.network->resynthesise)
+    need.work += modes * sizes.set();  // what is left of the rows that lose cells
+  for (const PartitionSpec* partition : network_partitions(*spec.network)) {
+    const std::vector<InputClass> classes = input_classes(spec, sizes.model().inputs(), *partition);
+    need.work += sizes.groups(classes);
+    if (!spec.network->resynthesise) need.work += projection_bytes(sizes, classes);
+  }
+  return need;
 }
 
 }  // namespace coordreq

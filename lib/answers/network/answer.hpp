@@ -4,6 +4,7 @@
 
 #include "answers/answers.hpp"
 #include "answers/field_source.hpp"
+#include "answers/memory_need.hpp"
 #include "answers/network/network_safety.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
@@ -12,6 +13,7 @@ namespace coordreq {
 
 /// Adds NetworkSafety, if the spec has a network: "network".
 [[nodiscard]] std::vector<Stage> network_stages(const ProblemSpec& spec);
+[[nodiscard]] MemoryNeed network_memory(const EngineSizes& sizes, int threads);
 void summarise_network(const Answers& answers, Json& summary, Json& work);
 void tell_network(const ProblemSpec& spec, const FieldSource& source, Json& info);
 

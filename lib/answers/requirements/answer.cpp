@@ -147,4 +147,17 @@ void tell_requirements(const ProblemSpec& spec, const FieldSource& source, Json&
   }
 }
 
+MemoryNeed requirements_memory(const EngineSizes& sizes, int /*threads*/) {
+  constexpr double kBytesOfFields = 13.0 * 1024;  // measured: those of one requirement, and the file's lists
+  constexpr double kUsualSamples = 16;            // of a counterexample
+  const ProblemSpec& spec = sizes.model().spec();
+  const auto count = static_cast<double>(spec.requirements.size());
+  if (count == 0) return {};
+  const auto numbers = static_cast<double>(spec.states.size() + spec.inputs.size() + 3);
+  const double path = kUsualSamples * numbers * sizeof(double);
+  return {.kept = count * (sizeof(ResultRequirement) + path),
+          .work = 2 * sizes.set(),  // a region, and the table of its condition
+          .written = count * (kBytesOfFields + path)};
+}
+
 }  // namespace coordreq

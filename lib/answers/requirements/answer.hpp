@@ -5,6 +5,7 @@
 
 #include "answers/answers.hpp"
 #include "answers/field_source.hpp"
+#include "answers/memory_need.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
@@ -27,6 +28,7 @@ struct RequirementVerdicts {
 [[nodiscard]] Json delay_json(std::int32_t delay);
 /// "steps", "unbounded", "not_invariant" or "not_safe".
 [[nodiscard]] const char* delay_word(std::int32_t delay);
+[[nodiscard]] MemoryNeed requirements_memory(const EngineSizes& sizes, int threads);
 void summarise_requirements(const Answers& answers, Json& summary, Json& work);
 void tell_requirements(const ProblemSpec& spec, const FieldSource& source, Json& info);
 

@@ -33,6 +33,13 @@ DelayLayers layers(const std::vector<std::int64_t>& delays, bool truncated = fal
   return result;
 }
 
+template <class... Layers>
+std::vector<DelayLayers> several(Layers... layers) {
+  std::vector<DelayLayers> result;
+  (result.push_back(std::move(layers)), ...);
+  return result;
+}
+
 constexpr std::int64_t kForever = DelayLayers::kUnbounded;
 
 struct Case {
@@ -98,10 +105,10 @@ using Words = std::vector<std::string>;
 TEST(CoalitionMap, GivesEachCellTheCheapestPartitionThatIsEnough) {
   const Found found(
       {.partitions = {"a+b+c", "a+b|c", "a|b+c", "a|b|c"},
-       .layers = {layers<std::uint8_t>({kNone, kForever, kForever, kForever, kForever, kForever}),
+       .layers = several(layers<std::uint8_t>({kNone, kForever, kForever, kForever, kForever, kForever}),
                   layers<std::uint16_t>({kNone, kForever, 5, 4, 7, kForever}),
                   layers<std::uint8_t>({kNone, 9, 2, 4, 5, 5}),
-                  layers<std::uint32_t>({kNone, 5, 0, 4, 4, 3})},
+                  layers<std::uint32_t>({kNone, 5, 0, 4, 4, 3})),
        .horizon = 5});
   EXPECT_EQ(found.chosen(), (Words{"-", "a|b|c", "a+b|c", "a+b+c", "a+b|c", "a+b|c"}));
   // Where a|b+c is as cheap and enough too, neither pair must be together.
@@ -114,7 +121,7 @@ TEST(CoalitionMap, GivesEachCellTheCheapestPartitionThatIsEnough) {
 TEST(CoalitionMap, SaysWhereNoListedPartitionIsEnough) {
   const Found found(
       {.partitions = {"a+b|c", "a|b|c"},
-       .layers = {layers<std::uint8_t>({kNone, 3, kForever, 2}), layers<std::uint8_t>({kNone, 3, 1, 0})},
+       .layers = several(layers<std::uint8_t>({kNone, 3, kForever, 2}), layers<std::uint8_t>({kNone, 3, 1, 0})),
        .horizon = 3});
   EXPECT_EQ(found.chosen(), (Words{"-", "a|b|c", "a+b|c", "none"}));
   EXPECT_EQ(found.critical(), (Words{"", "", "ab", ""}));
@@ -124,8 +131,8 @@ TEST(CoalitionMap, SaysWhereNoListedPartitionIsEnough) {
 TEST(CoalitionMap, HasTiesInPairsThoughNotInCosts) {
   // a+b|c+d, a+c|b+d and a+b+c|d cost two links each.
   const Found found({.partitions = {"a+c|b+d", "a+b|c+d", "a+b+c|d"},
-                     .layers = {layers<std::uint8_t>({1, 0, 0, 1}), layers<std::uint8_t>({1, 1, 0, 0}),
-                                layers<std::uint8_t>({1, 1, 1, 1})},
+                     .layers = several(layers<std::uint8_t>({1, 0, 0, 1}), layers<std::uint8_t>({1, 1, 0, 0}),
+                                layers<std::uint8_t>({1, 1, 1, 1})),
                      .horizon = 1,
                      .agents = 4});
   EXPECT_EQ(found.chosen(), (Words{"a+b|c+d", "a+b|c+d", "a+b+c|d", "a+c|b+d"}));
@@ -134,7 +141,7 @@ TEST(CoalitionMap, HasTiesInPairsThoughNotInCosts) {
 
 TEST(CoalitionMap, LinksThatCostMoreMakeOtherPairsCritical) {
   Case one{.partitions = {"a+b|c", "a|b+c"},
-           .layers = {layers<std::uint8_t>({1}), layers<std::uint8_t>({1})},
+           .layers = several(layers<std::uint8_t>({1}), layers<std::uint8_t>({1})),
            .horizon = 1};
   EXPECT_EQ(Found(one).chosen(), Words{"a+b|c"});
   EXPECT_EQ(Found(one).critical(), Words{""});
@@ -148,7 +155,7 @@ TEST(CoalitionMap, LinksThatCostMoreMakeOtherPairsCritical) {
 TEST(CoalitionMap, HorizonsAroundTheEndOfEightBits) {
   for (const std::int64_t horizon : {252, 253, 254, 255, 256}) {
     const Found found({.partitions = {"a|b|c"},
-                       .layers = {layers<std::uint8_t>({252, 253, kForever})},
+                       .layers = several(layers<std::uint8_t>({252, 253, kForever})),
                        .horizon = horizon});
     EXPECT_EQ(found.chosen(),
               (Words{horizon <= 252 ? "a|b|c" : "none", horizon <= 253 ? "a|b|c" : "none", "a|b|c"}));
@@ -157,16 +164,19 @@ TEST(CoalitionMap, HorizonsAroundTheEndOfEightBits) {
 
 TEST(CoalitionMap, CellsThatMaxDelayCutOffHaveShownThatMuchAndNoMore) {
   // Stopped after 5 steps: sizes |Z_0|, ..., |Z_5|.
-  DelayLayers cut = layers<std::uint8_t>({4, kForever}, true);
-  cut.sizes.resize(6);
-  EXPECT_EQ(Found({.partitions = {"a|b|c"}, .layers = {cut}, .horizon = 5}).chosen(),
+  const auto cut = [] {
+    DelayLayers result = layers<std::uint8_t>({4, kForever}, true);
+    result.sizes.resize(6);
+    return result;
+  };
+  EXPECT_EQ(Found({.partitions = {"a|b|c"}, .layers = several(cut()), .horizon = 5}).chosen(),
             (Words{"none", "a|b|c"}));
-  EXPECT_EQ(Found({.partitions = {"a|b|c"}, .layers = {cut}, .horizon = 6}).chosen(),
+  EXPECT_EQ(Found({.partitions = {"a|b|c"}, .layers = several(cut()), .horizon = 6}).chosen(),
             (Words{"none", "none"}));
 }
 
 TEST(CoalitionMap, OneAgentHasNoPairs) {
-  const Found found({.partitions = {"a"}, .layers = {layers<std::uint8_t>({kForever, kNone})}, .agents = 1});
+  const Found found({.partitions = {"a"}, .layers = several(layers<std::uint8_t>({kForever, kNone})), .agents = 1});
   EXPECT_EQ(found.chosen(), (Words{"a", "-"}));
   EXPECT_TRUE(found.map().pairs.empty());
 }

@@ -59,20 +59,5 @@ TEST(PairTable, IsNoneWhereEverythingIsAdmissible) {
   EXPECT_FALSE(allow_table(spec, system, team).has_value());
 }
 
-TEST(ListNumbers, AreTheSameForEqualListsOnly) {
-  ListNumbers<Word> rows;
-  std::vector<std::uint32_t> first;
-  for (Word k = 0; k < 1000; ++k) first.push_back(rows.number(std::vector<Word>{k % 10, k / 10}));
-  for (Word k = 0; k < 1000; ++k) {
-    EXPECT_EQ(first[k], k);
-    EXPECT_EQ(rows.number(std::vector<Word>{k % 10, k / 10}), k);
-    EXPECT_EQ(rows[static_cast<std::uint32_t>(k)][1], k / 10);
-  }
-  EXPECT_EQ(rows.number(std::vector<Word>{0}), 1000U);
-  rows.clear();
-  EXPECT_EQ(rows.size(), 0U);
-  EXPECT_EQ(rows.number(std::vector<Word>{7, 3}), 0U);
-}
-
 }  // namespace
 }  // namespace coordreq

@@ -1,0 +1,64 @@
+#include "analysis/estimate_memory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <thread>
+
+#include "answers/plan.hpp"
+#include "base/error.hpp"
+#include "base/timer.hpp"
+#include "reach/table_shapes.hpp"
+#include "results/write_results.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Parts of the program and its libraries that come into memory only when they are used.
+constexpr double kProgramBytes = 8.5 * 1024 * 1024;
+/// What a thread takes before it does anything: the part of its stack that is touched, and what the allocator
+/// keeps for it.
+constexpr double kThreadBytes = 108.0 * 1024;
+
+std::string in_words(double bytes) {
+  const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB"};
+  std::size_t unit = 0;
+  while (bytes >= 1024 && unit + 1 < std::size(units)) {
+    bytes /= 1024;
+    ++unit;
+  }
+  return fmt::format("{:.1f} {}", bytes, units[unit]);
+}
+
+}  // namespace
+
+double estimate_memory(const Model& model, int threads) {
+  const int team = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const EngineSizes sizes(model);
+  double held = static_cast<double>(resident_bytes()) + kProgramBytes + (team - 1) * kThreadBytes;
+  double most = static_cast<double>(peak_memory_bytes());
+  double written = 0, longest = 0;
+  const auto add = [&](const MemoryNeed& need) {
+    most = std::max(most, held + need.kept + need.work);
+    held += need.kept;
+    written += need.written;
+    longest = std::max(longest, need.array);
+  };
+  for (const Answer& answer : all_answers()) add(answer.memory(sizes, team));
+  return std::max(most, held + written + write_results_bytes(model.spec(), longest, team));
+}
+
+void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit, int threads) {
+  if (!limit) return;
+  const Model model(spec, table_shapes(spec));
+  const double bytes = estimate_memory(model, threads);
+  if (bytes <= static_cast<double>(*limit)) return;
+  throw LimitError(fmt::format("{:.3g} cells need about {} of memory, the limit is {}",
+                               static_cast<double>(model.grid().points()), in_words(bytes),
+                               in_words(static_cast<double>(*limit))),
+                   "--max-memory");
+}
+
+}  // namespace coordreq

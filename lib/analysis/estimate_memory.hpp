@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "model/model.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// About the most that this process will hold at a time if it analyses the problem now, in bytes: what it
+/// holds already, with the spec as it was read, and what the types that will hold the rest tell of
+/// themselves. More rather than less. Counterexamples of usual length and steps that fit 8 bits are taken for
+/// granted.
+/// @param threads that will work, none of which is there yet; 0: all cores
+[[nodiscard]] double estimate_memory(const Model& model, int threads);
+
+/// @throws LimitError with the estimate if that is above the limit
+void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit, int threads);
+
+}  // namespace coordreq

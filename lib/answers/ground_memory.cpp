@@ -1,0 +1,41 @@
+#include <algorithm>
+
+#include "answers/memory_need.hpp"
+#include "base/index.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Of a table written out: an entry for every choice of what the state depends on.
+double entries_in_full(const Model& model, const TableShape& shape) {
+  double entries = 1;
+  for (const std::int32_t j : shape.states) entries *= static_cast<double>(model.grid()[at(j)].count);
+  for (const std::int32_t j : shape.inputs) entries *= static_cast<double>(model.inputs()[at(j)].count());
+  return entries;
+}
+
+}  // namespace
+
+MemoryNeed ground_memory(const EngineSizes& sizes, int /*threads*/) {
+  const Model& model = sizes.model();
+  const ProblemSpec& spec = model.spec();
+  MemoryNeed need{.kept = sizes.set() + sizes.hull(), .work = sizes.set() + sizes.condition(spec.safe)};
+  for (std::size_t t = 0; t < model.grid().size(); ++t) {
+    need.kept += sizes.table(t) + sizes.slices(t);
+    // Tubes are as large, and cut into rows twice where states saturate.
+    if (spec.abstraction.between_samples) need.kept += sizes.table(t) + 2 * sizes.slices(t);
+    if (!spec.output.abstraction) continue;
+    const double entries = entries_in_full(model, model.arranged_shapes()[t]);
+    need.array = std::max(need.array, entries * sizeof(std::int32_t));
+    need.written = std::max(need.written, entries * sizeof(IndexRange));
+  }
+  if (spec.abstraction.between_samples) need.kept += 2 * sizes.levels() + sizes.set();
+  if (spec.controller.allow) {
+    need.work += sizes.condition(*spec.controller.allow);
+    need.kept += sizes.condition(*spec.controller.allow);
+  }
+  if (spec.controller.file) need.kept += sizes.packed_pairs(model.inputs().count()) + sizes.pair_table();
+  return need;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,41 @@
+#include "answers/layers/projection_bytes.hpp"
+
+#include <algorithm>
+
+namespace coordreq {
+namespace {
+
+/// True if no state is moved by two classes, so that projections are kept as boxes of posts.
+bool is_product(const Model& model, const std::vector<InputClass>& classes) {
+  return std::ranges::all_of(model.shapes(), [&](const TableShape& shape) {
+    return std::ranges::count_if(classes, [&](const InputClass& own) {
+             return std::ranges::any_of(shape.inputs, [&](std::int32_t j) { return own.contains(j); });
+           }) <= 1;
+  });
+}
+
+}  // namespace
+
+double projection_bytes(const EngineSizes& sizes, const std::vector<InputClass>& classes) {
+  constexpr double kBytesOfList = 48;  // its vector, and what the allocator keeps
+  constexpr double kBytesOfLabel = 1.45;
+  constexpr double kBytesOfBoxes = 220, kBytesOfMoreBoxes = 100;  // of two classes, and of each more
+  if (classes.size() == 1) return 0;
+  double actions = 0;
+  for (const InputClass& inputs : classes) actions += static_cast<double>(inputs.actions());
+  const double masks = sizes.set() * actions + sizes.rows() * kBytesOfList;
+  const ProblemSpec& spec = sizes.model().spec();
+  const bool is_simple = !spec.abstraction.between_samples && !spec.controller.allow &&
+                         !spec.controller.file && spec.controller.synthesis == Synthesis::maximal;
+  if (!is_simple || !is_product(sizes.model(), classes)) return masks;
+  const UniformGrid& grid = sizes.grid();
+  const bool is_joined = grid.size() - grid.across() > 1;
+  const double boxes =
+      sizes.rows() * (is_joined
+                          ? kBytesOfLabel * static_cast<double>(grid.row_length())
+                          : kBytesOfBoxes + kBytesOfMoreBoxes * static_cast<double>(classes.size() - 2));
+  // The parts that two classes with few actions can have are few, too.
+  return classes.size() > 2 ? boxes : std::min(masks, boxes);
+}
+
+}  // namespace coordreq

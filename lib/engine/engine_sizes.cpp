@@ -1,0 +1,168 @@
+#include "engine/engine_sizes.hpp"
+
+#include <algorithm>
+
+#include "base/index.hpp"
+#include "engine/action_groups.hpp"
+#include "engine/join_rows.hpp"
+#include "engine/level_kernels.hpp"
+#include "engine/limits.hpp"
+#include "reach/usual_offsets.hpp"
+
+namespace coordreq {
+namespace {
+
+double in_double(std::int64_t number) {
+  return static_cast<double>(number);
+}
+
+double row_of_words(std::int64_t cells) {
+  return sizeof(CellSet::Word) * in_double((cells + CellSet::kWordBits - 1) / CellSet::kWordBits);
+}
+
+/// Of ActionGroups, with what tells equal ones while they are looked for.
+double one_grouping(double actions, double groups) {
+  constexpr double kBytesOfAction = 8, kBytesOfGroup = 40, kBytesOfPair = 2.5;
+  const double pairs = groups <= kMostComparedGroups ? groups * groups : 0;
+  return sizeof(ActionGroups) + actions * kBytesOfAction + groups * kBytesOfGroup + pairs * kBytesOfPair;
+}
+
+bool has_common(const std::vector<std::int32_t>& list, const InputClass& inputs) {
+  return std::ranges::any_of(list, [&](std::int32_t j) { return inputs.contains(j); });
+}
+
+}  // namespace
+
+EngineSizes::EngineSizes(const Model& model)
+    : model_(&model), offsets_(usual_offsets(model.spec())), grid_(join_rows(model, offsets_)) {
+  for (std::size_t i = grid_.across(); i < grid_.size(); ++i) {
+    const GridDimension& dimension = grid_[i];
+    const RowMargins margins = window_margins({&offsets_[grid_.state(i)], 1}, dimension);
+    shape_.dimensions.push_back(
+        {dimension.count, grid_.stride(i), margins, {dimension.below, dimension.above}});
+  }
+}
+
+double EngineSizes::set() const {
+  return rows() * row_of_words(grid_.row_length());
+}
+
+double EngineSizes::levels() const {
+  constexpr std::int64_t kAlign = 16;
+  const RowMargins margins = shape_.margins();
+  const std::int64_t row = margins.before + shape_.length() + margins.after;
+  return (rows() + 1) * in_double((row + kAlign - 1) / kAlign * kAlign) + kLevelBlock;
+}
+
+double EngineSizes::slices(std::size_t t) const {
+  constexpr double kUsualSegments = 12;  // that a row is cut into where cells do not move alike
+  constexpr double kBytesOfSlice = 240;  // its list, and where it stands while equal ones are looked for
+  const TableShape& shape = model_->arranged_shapes()[t];
+  if (model_->keeps_sums() && shape.sum) return shape.bytes;  // the same numbers laid out for reading
+  double choices = 1;
+  bool is_cut = false;
+  for (const std::int32_t j : shape.states) {
+    const auto i = at(j);
+    const bool is_along = i >= grid_.across();
+    if (!is_along) choices *= in_double(grid_[i].count);
+    is_cut = is_cut || (is_along && !(i == t && shape.shift && !shape.sum));
+  }
+  for (const std::int32_t j : shape.inputs) choices *= in_double(model_->inputs()[at(j)].count());
+  const double segments = std::min(kUsualSegments, in_double(grid_.row_length()));
+  const double slice = is_cut ? segments * sizeof(RowSegment) + kBytesOfSlice : 0;
+  return choices * (sizeof(std::uint32_t) + slice);
+}
+
+double EngineSizes::hull() const {
+  constexpr double kBytesOfRow = 80;
+  return rows() * kBytesOfRow;
+}
+
+double EngineSizes::condition(const Program& condition) const {
+  const UniformGrid& grid = model_->grid();
+  double choices = 1;
+  for (const std::uint32_t slot : condition.variables()) {
+    if (slot < grid.size() && slot != grid.state(grid.size() - 1))
+      choices *= in_double(grid[grid.dimension_of(slot)].count);
+    if (slot >= grid.size() && slot < grid.size() + model_->inputs().size())
+      choices *= in_double(model_->inputs()[slot - grid.size()].count());
+  }
+  return choices * row_of_words(grid.row_length());
+}
+
+double EngineSizes::packed_pairs(std::int64_t actions) const {
+  return cells() * in_double(PackedPairs::bytes_for(actions));
+}
+
+double EngineSizes::pair_table() const {
+  const UniformGrid& grid = model_->grid();
+  return in_double(grid.rows()) * in_double(model_->inputs().count()) *
+         (row_of_words(grid.row_length()) + sizeof(std::uint32_t));
+}
+
+double EngineSizes::groups(const std::vector<InputClass>& classes) const {
+  double sum = 0;
+  for (const InputClass& inputs : classes) sum += groups_of_class(inputs);
+  return sum;
+}
+
+/// Farther than that posts do not go in dimension i.
+RowMargins EngineSizes::reach_of(std::size_t i) const {
+  const IndexRange offsets = offsets_[grid_.state(i)];
+  return {std::max<std::int64_t>(0, -std::int64_t{offsets.first}), std::max<std::int64_t>(0, offsets.last)};
+}
+
+/// Once for each choice of the states that the class depends on, or for each row anew.
+double EngineSizes::groups_of_class(const InputClass& inputs) const {
+  enum Use : std::uint8_t { none, by_offset, in_full };
+  const ControllerSpec& controller = model_->spec().controller;
+  const double actions = in_double(inputs.actions());
+  std::vector<Use> use(grid_.size(), controller.allow || controller.file ? in_full : none);
+  double groups = 1;
+  for (std::size_t t = 0; t < grid_.size(); ++t) {
+    const TableShape& shape = model_->arranged_shapes()[t];
+    if (!has_common(shape.inputs, inputs)) continue;
+    groups *= shape.shift ? in_double(reach_of(t).before + reach_of(t).after + 1) : actions;
+    for (const std::int32_t j : shape.states) {
+      Use& own = use[at(j)];
+      own = std::max(own, shape.shift ? by_offset : in_full);
+    }
+  }
+  double choices = 1, distinct = 1;
+  for (std::size_t i = 0; i < grid_.across(); ++i) {
+    if (use[i] == none) continue;
+    const double count = in_double(grid_[i].count);
+    choices *= count;
+    // Groups are others where some of them leave the domain.
+    const double near_ends = in_double(reach_of(i).before + reach_of(i).after + 1);
+    distinct *= use[i] == by_offset ? std::min(count, near_ends) : count;
+  }
+  const double offsets = actions * in_double(std::ssize(grid_.dimensions())) * (sizeof(std::int64_t) + 4);
+  if (choices > in_double(most_shared_choices(inputs.actions()))) return offsets;
+  const double at_once = std::min(choices, in_double(kGroupsFoundAtOnce));
+  return offsets + choices * sizeof(std::uint32_t) +
+         (distinct + at_once) * one_grouping(actions, std::min(groups, actions));
+}
+
+double EngineSizes::readers(int threads) const {
+  constexpr double kRows = 8;  // that a reader and its operator work on
+  const double one = kRows * levels() / rows();
+  if (!model_->keeps_sums()) {
+    const double unit = levels() / in_double(grid_[0].count);
+    return threads * (one + std::min(levels(), std::max(2 * unit, in_double(kSharedBytes))));
+  }
+  constexpr double kUsualSlots = 40;
+  constexpr double kUsualSizes = 9;
+  constexpr double kUsualMargins = 6;
+  double block = 1;
+  for (std::size_t i = 0; i < grid_.size(); ++i) {
+    if (model_->arranged_shapes()[i].sum) block *= in_double(grid_[i].count) + kUsualMargins;
+  }
+  return threads * (one + std::min(static_cast<double>(kBlockBytes), kUsualSlots * kUsualSizes * block));
+}
+
+double EngineSizes::wave(int threads) const {
+  return readers(threads) + levels() / in_double(grid_[0].count);  // what has changed in a unit
+}
+
+}  // namespace coordreq

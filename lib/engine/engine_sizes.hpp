@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/row_shape.hpp"
+#include "expression/program.hpp"
+#include "model/input_class.hpp"
+#include "model/model.hpp"
+
+namespace coordreq {
+
+/// What the types of the engine will take for a problem, in bytes, told before there is any of them; maybe
+/// more than this machine has. Rows are those that the engine will make, as far as that is known before
+/// tables are (join_rows()). Where it depends on what is found, on the high side of what is usual.
+class EngineSizes {
+ public:
+  /// REQUIRES: `model` outlives this object.
+  explicit EngineSizes(const Model& model);
+
+  [[nodiscard]] const Model& model() const { return *model_; }
+  [[nodiscard]] double cells() const { return static_cast<double>(grid_.points()); }
+  /// With the gaps in rows.
+  [[nodiscard]] double lanes() const { return static_cast<double>(grid_.cells()); }
+  [[nodiscard]] double rows() const { return static_cast<double>(grid_.rows()); }
+  [[nodiscard]] const UniformGrid& grid() const { return grid_; }
+
+  [[nodiscard]] double set() const;     ///< CellSet
+  [[nodiscard]] double levels() const;  ///< LevelRows of 8 bits
+  /// RowSlices of the table of dimension t; and that table itself.
+  [[nodiscard]] double slices(std::size_t t) const;
+  [[nodiscard]] double table(std::size_t t) const { return model_->arranged_shapes()[t].bytes; }
+  /// RowHull, and what else is kept of each row.
+  [[nodiscard]] double hull() const;
+  [[nodiscard]] double condition(const Program& condition) const;  ///< ConditionTable
+  /// PackedPairs of so many inputs or actions; PairTable of all joint inputs.
+  [[nodiscard]] double packed_pairs(std::int64_t actions) const;
+  [[nodiscard]] double pair_table() const;
+  /// ActionGrouping
+  [[nodiscard]] double groups(const std::vector<InputClass>& classes) const;
+  /// PostReader, one a thread.
+  [[nodiscard]] double readers(int threads) const;
+  /// run_wave() beside its levels.
+  [[nodiscard]] double wave(int threads) const;
+
+ private:
+  [[nodiscard]] double groups_of_class(const InputClass& inputs) const;
+  [[nodiscard]] RowMargins reach_of(std::size_t i) const;
+
+  const Model* model_;
+  std::vector<IndexRange> offsets_;  ///< by state, usual_offsets()
+  UniformGrid grid_;
+  RowShape shape_;  ///< of the rows of posts
+};
+
+}  // namespace coordreq

@@ -1,0 +1,139 @@
+"""--max-memory is a promise: what validate tells, and analyze accepts, is not exceeded.
+
+COORDREQ_MEMORY_SPECS=N tries N random specs instead of a few."""
+
+import json
+import os
+import random
+import subprocess
+import unittest
+
+from program import CONFIGS, PROGRAM, SPEC, Case, spec_with
+from random_systems import random_analysis
+
+MEBI = 2**20
+# What the promise leaves room for.
+PERMITTED = 1.1
+
+
+def uses_sanitiser():
+    libraries = subprocess.run(["ldd", PROGRAM], capture_output=True, check=False).stdout
+    return b"libasan" in libraries or b"libtsan" in libraries
+
+
+def six_agents(**changes):
+    """All 203 partitions of six agents, each of which moves along a line."""
+    numbers = range(changes.pop("agents", 6))
+    return spec_with(
+        states=[{"name": f"x{i}", "lower": -1, "upper": 1, "step": 0.5} for i in numbers],
+        inputs=[{"name": f"u{i}", "values": [-1, 0, 1]} for i in numbers],
+        agents=[{"name": f"a{i}", "inputs": [f"u{i}"]} for i in numbers],
+        dynamics={"time": "discrete", "period": 1, "equations": {f"x{i}": f"x{i} + 0.5*u{i}" for i in numbers}},
+        safe=" and ".join(f"abs(x{i}) <= 0.6" for i in numbers),
+        coordination={"partitions": "all", "horizon": 2},
+        output={"actions": True},
+        **changes,
+    )
+
+
+@unittest.skipIf(uses_sanitiser(), "sanitisers take memory of their own")
+class Cases(Case):
+    def estimate(self, spec, *options):
+        result = self.run_program("validate", spec, "--json", *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)["memory_bytes"]
+
+    def peak(self, *arguments):
+        """Exit code, and the most that the program held in memory."""
+        # Not subprocess, which knows of all children together only.
+        child = os.posix_spawn(
+            PROGRAM,
+            [PROGRAM, *arguments],
+            os.environ,
+            file_actions=[(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)],
+        )
+        _, status, usage = os.wait4(child, 0)
+        return os.waitstatus_to_exitcode(status), usage.ru_maxrss * 1024
+
+    def assert_kept(self, spec, threads):
+        """@returns estimate and peak"""
+        options = ("--threads", str(threads))
+        estimate = self.estimate(spec, *options)
+        code, peak = self.peak("analyze", str(self.folder / spec), "-o", str(self.folder / "o.h5"), "--quiet", *options)
+        self.assertIn(code, (0, 1))
+        self.assertLessEqual(peak, PERMITTED * estimate, f"{spec}, {threads} threads")
+        return estimate, peak
+
+    def test_random_specs(self):
+        for seed in range(int(os.environ.get("COORDREQ_MEMORY_SPECS", "25"))):
+            threads = random.Random(seed).choice([1, 2, 2, 4, 9, 32])
+            with self.subTest(seed=seed, threads=threads):
+                self.write("s.json", random_analysis(seed))
+                self.assert_kept("s.json", threads)
+
+    def test_examples_take_about_what_is_told(self):
+        for name in ("circle_actions", "crossing_convention", "gridworld_coarse", "intersection_network", "platoon"):
+            with self.subTest(name=name):
+                estimate, peak = self.assert_kept(str(CONFIGS / f"{name}.json"), 2)
+                self.assertLessEqual(estimate, max(1.25 * peak, peak + 10 * MEBI))
+
+    def test_many_partitions(self):
+        self.write("s.json", six_agents(agents=5))
+        self.assert_kept("s.json", 2)
+
+    def test_many_requirements(self):
+        region = {"where": "x <= 1", "invariant": True}
+        self.write("s.json", spec_with(requirements=[dict(region, name=str(r)) for r in range(3000)]))
+        self.assert_kept("s.json", 2)
+
+    def test_many_threads(self):
+        self.write("s.json", SPEC)
+        self.assert_kept("s.json", 300)
+
+    def test_a_long_description(self):
+        self.write("s.json", spec_with(description="x" * 20_000_000))
+        estimate, _ = self.assert_kept("s.json", 2)
+        code, peak = self.peak("analyze", str(self.folder / "s.json"), "--max-memory", "60M", "--quiet")
+        self.assertEqual(code, 4)
+        self.assertLess(peak, 60 * MEBI)  # it was not even read
+        self.assertGreater(estimate, 60 * MEBI)
+
+    def test_all_outputs_with_many_threads(self):
+        spec = json.loads((CONFIGS / "platoon.json").read_text().split("\n{", 1)[1].join(["{", ""]))
+        spec["output"] = dict.fromkeys(("controller", "actions", "layers", "abstraction"), True)
+        self.write("s.json", spec)
+        self.assert_kept("s.json", 32)
+
+    def test_what_needs_more_is_refused(self):
+        self.write("s.json", six_agents(agents=4))
+        estimate = self.estimate("s.json", "--threads", "2")
+        output = ("-o", str(self.folder / "o.h5"), "--quiet", "--threads", "2")
+        code, _ = self.peak("analyze", str(self.folder / "s.json"), *output, "--max-memory", str(estimate // 2))
+        self.assertEqual(code, 4)
+        self.assertEqual(self.files(), ["s.json"])
+        limit = round(1.02 * estimate)  # the need is not told to the byte
+        code, peak = self.peak("analyze", str(self.folder / "s.json"), *output, "--max-memory", str(limit))
+        self.assertEqual(code, 0)
+        self.assertLessEqual(peak, PERMITTED * limit)
+
+    def test_what_nobody_could_tell_is_refused_when_it_shows(self):
+        """Collision times that do not fit a byte: they are found out, and only then take more."""
+        line = {"name": "x", "lower": 0, "upper": 12_000_000, "step": 1, "outside": {"below": "saturate"}}
+        spec = spec_with(
+            states=[line],
+            inputs=[{"name": "u", "values": [1]}],
+            agents=[{"name": "a", "inputs": ["u"]}],
+            dynamics={"time": "discrete", "period": 1, "equations": {"x": "x + u"}},
+            safe="true",
+        )
+        self.write("s.json", spec)
+        limit = self.estimate("s.json", "--threads", "1") + MEBI
+        arguments = ("-o", str(self.folder / "o.h5"), "--quiet", "--threads", "1", "--max-memory", str(limit))
+        code, peak = self.peak("analyze", str(self.folder / "s.json"), *arguments)
+        self.assertEqual(code, 4)
+        self.assertLessEqual(peak, PERMITTED * limit)
+        self.assertEqual(self.files(), ["s.json"])
+
+
+if __name__ == "__main__":
+    unittest.main()
