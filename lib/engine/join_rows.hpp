@@ -3,9 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "model/row_sample.hpp"
 #include "engine/row_shape.hpp"
 #include "model/model.hpp"
+#include "model/row_sample.hpp"
 #include "reach/abstraction.hpp"
 
 namespace coordreq {

@@ -55,12 +55,23 @@ Handle property_list(hid_t kind) {
   return {H5Pcreate(kind), H5Pclose, "create a property list"};
 }
 
+/// By itself the library keeps descriptions of objects of up to 32 MiB, which take more than that in memory.
+void limit_kept_objects(const Handle& list) {
+  H5AC_cache_config_t config{};
+  config.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  check(H5Pget_mdc_config(list.get(), &config), "read the limits of its cache");
+  config.set_initial_size = 1;
+  config.initial_size = config.min_size = config.max_size = std::size_t{1} << 20U;
+  check(H5Pset_mdc_config(list.get(), &config), "limit its cache");
+}
+
 /// No locks: the file written has a name that nobody else uses, a results file never changes once it is
 /// there, and on some cluster file systems locks do not work.
 Handle access_properties() {
   Handle list = property_list(H5P_FILE_ACCESS);
   check(H5Pset_libver_bounds(list.get(), H5F_LIBVER_V18, H5F_LIBVER_V18), "set the format version");
   check(H5Pset_file_locking(list.get(), 0, 1), "turn file locking off");
+  limit_kept_objects(list);
   return list;
 }
 

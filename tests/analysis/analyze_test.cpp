@@ -43,7 +43,8 @@ TEST(Analyze, SaysTheSameWithoutAResultsFile) {
   EXPECT_EQ(stages.back(), "writing");
   EXPECT_TRUE(std::filesystem::exists(options.output));
   EXPECT_EQ(with["output"], options.output);
-  for (const char* found : {"safe", "invariant", "partitions", "coalition", "convention", "requirements", "work"})
+  for (const char* found :
+       {"safe", "invariant", "partitions", "coalition", "convention", "requirements", "work"})
     EXPECT_EQ(without[found], with[found]) << found;
   EXPECT_FALSE(with["coalition"]["critical_pairs"].empty());
   EXPECT_EQ(with["convention"].size(), 2U);

@@ -255,7 +255,9 @@ class Cases(Case):
         self.write("spec.json", dict(spec, controller={"file": "c.h5"}))
         needed = json.loads(self.run_program("validate", "spec.json", "--json").stdout)["memory_bytes"]
         # Bytes a cell, and for each joint input a row of 64 bits and its number.
-        self.assertEqual(needed - without, 21609 * 4 + 25 * 1029 * (8 + 4))
+        table = 21609 * 4 + 25 * 1029 * (8 + 4)
+        self.assertGreaterEqual(needed - without, table)
+        self.assertLess(needed - without, table + 2**20)  # pages, and groups of actions that are no longer shared
 
     # Requirements are judged under the controller.
 

@@ -42,6 +42,7 @@ u2         41  m/s
 
 cells              40,401
 joint inputs       1,681
+rows               across x1, along x2; of 64 drawn 14 different
 partitions         horizontal\|vertical
 reachable sets     exact interval hulls
 guarantee          samples-center: at the sampling instants, where the centre of a cell is safe

@@ -196,7 +196,8 @@ class Cases(Case):
 
     def test_files_that_were_found_to_do_harm(self):
         os.mkfifo(self.folder / "fifo")
-        files = sorted((ROOT / "tests/fuzz/corpus/results").glob("*.h5"))
+        files = set((ROOT / "tests/fuzz/corpus/results").glob("*.h5"))
+        files = sorted(file for file in files if file.name != "small.h5")  # an honest one, to begin with
         self.assertGreater(len(files), 4)
         for file in files:
             with self.subTest(file.name):

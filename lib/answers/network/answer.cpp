@@ -4,8 +4,8 @@
 
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
-#include "answers/network/fields.hpp"
 #include "answers/layers/projection_bytes.hpp"
+#include "answers/network/fields.hpp"
 #include "answers/network/network_problem.hpp"
 #include "answers/work_json.hpp"
 

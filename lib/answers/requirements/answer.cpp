@@ -1,5 +1,6 @@
 #include "answers/requirements/answer.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "answers/layers/delay_layers.hpp"
@@ -149,7 +150,9 @@ void tell_requirements(const ProblemSpec& spec, const FieldSource& source, Json&
 
 MemoryNeed requirements_memory(const EngineSizes& sizes, int /*threads*/) {
   constexpr double kBytesOfFields = 13.0 * 1024;  // measured: those of one requirement, and the file's lists
-  constexpr double kUsualSamples = 16;            // of a counterexample
+  // What the writer keeps of objects, as far as it goes; measured with counterexamples for all of them.
+  constexpr double kBytesOfObjects = 72.0 * 1024, kMostOfObjects = 32.0 * 1024 * 1024;
+  constexpr double kUsualSamples = 16;  // of a counterexample
   const ProblemSpec& spec = sizes.model().spec();
   const auto count = static_cast<double>(spec.requirements.size());
   if (count == 0) return {};
@@ -157,7 +160,7 @@ MemoryNeed requirements_memory(const EngineSizes& sizes, int /*threads*/) {
   const double path = kUsualSamples * numbers * sizeof(double);
   return {.kept = count * (sizeof(ResultRequirement) + path),
           .work = 2 * sizes.set(),  // a region, and the table of its condition
-          .written = count * (kBytesOfFields + path)};
+          .written = count * (kBytesOfFields + path) + std::min(count * kBytesOfObjects, kMostOfObjects)};
 }
 
 }  // namespace coordreq

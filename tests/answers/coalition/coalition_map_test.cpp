@@ -106,9 +106,9 @@ TEST(CoalitionMap, GivesEachCellTheCheapestPartitionThatIsEnough) {
   const Found found(
       {.partitions = {"a+b+c", "a+b|c", "a|b+c", "a|b|c"},
        .layers = several(layers<std::uint8_t>({kNone, kForever, kForever, kForever, kForever, kForever}),
-                  layers<std::uint16_t>({kNone, kForever, 5, 4, 7, kForever}),
-                  layers<std::uint8_t>({kNone, 9, 2, 4, 5, 5}),
-                  layers<std::uint32_t>({kNone, 5, 0, 4, 4, 3})),
+                         layers<std::uint16_t>({kNone, kForever, 5, 4, 7, kForever}),
+                         layers<std::uint8_t>({kNone, 9, 2, 4, 5, 5}),
+                         layers<std::uint32_t>({kNone, 5, 0, 4, 4, 3})),
        .horizon = 5});
   EXPECT_EQ(found.chosen(), (Words{"-", "a|b|c", "a+b|c", "a+b+c", "a+b|c", "a+b|c"}));
   // Where a|b+c is as cheap and enough too, neither pair must be together.
@@ -119,10 +119,10 @@ TEST(CoalitionMap, GivesEachCellTheCheapestPartitionThatIsEnough) {
 }
 
 TEST(CoalitionMap, SaysWhereNoListedPartitionIsEnough) {
-  const Found found(
-      {.partitions = {"a+b|c", "a|b|c"},
-       .layers = several(layers<std::uint8_t>({kNone, 3, kForever, 2}), layers<std::uint8_t>({kNone, 3, 1, 0})),
-       .horizon = 3});
+  const Found found({.partitions = {"a+b|c", "a|b|c"},
+                     .layers = several(layers<std::uint8_t>({kNone, 3, kForever, 2}),
+                                       layers<std::uint8_t>({kNone, 3, 1, 0})),
+                     .horizon = 3});
   EXPECT_EQ(found.chosen(), (Words{"-", "a|b|c", "a+b|c", "none"}));
   EXPECT_EQ(found.critical(), (Words{"", "", "ab", ""}));
   EXPECT_EQ(found.map().without, 1);
@@ -132,7 +132,7 @@ TEST(CoalitionMap, HasTiesInPairsThoughNotInCosts) {
   // a+b|c+d, a+c|b+d and a+b+c|d cost two links each.
   const Found found({.partitions = {"a+c|b+d", "a+b|c+d", "a+b+c|d"},
                      .layers = several(layers<std::uint8_t>({1, 0, 0, 1}), layers<std::uint8_t>({1, 1, 0, 0}),
-                                layers<std::uint8_t>({1, 1, 1, 1})),
+                                       layers<std::uint8_t>({1, 1, 1, 1})),
                      .horizon = 1,
                      .agents = 4});
   EXPECT_EQ(found.chosen(), (Words{"a+b|c+d", "a+b|c+d", "a+b+c|d", "a+c|b+d"}));
@@ -176,7 +176,8 @@ TEST(CoalitionMap, CellsThatMaxDelayCutOffHaveShownThatMuchAndNoMore) {
 }
 
 TEST(CoalitionMap, OneAgentHasNoPairs) {
-  const Found found({.partitions = {"a"}, .layers = several(layers<std::uint8_t>({kForever, kNone})), .agents = 1});
+  const Found found(
+      {.partitions = {"a"}, .layers = several(layers<std::uint8_t>({kForever, kNone})), .agents = 1});
   EXPECT_EQ(found.chosen(), (Words{"a", "-"}));
   EXPECT_TRUE(found.map().pairs.empty());
 }
