@@ -9,8 +9,6 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int32_t kOutsideSafe = -2;
-constexpr std::int32_t kOutsideInvariant = -1;
 constexpr std::int32_t kMustBeConnected = -3;
 
 std::string steps(std::int32_t value) {

@@ -7,18 +7,13 @@
 #include <tuple>
 #include <utility>
 
+#include "base/index.hpp"
 #include "verify/cell_place.hpp"
 
 namespace coordreq {
 namespace {
 
 constexpr std::int32_t kNoneSuffices = -3;
-constexpr std::int32_t kOutsideSafe = -2;
-constexpr std::int32_t kOutsideInvariant = -1;
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The class of each agent.
 std::vector<std::size_t> class_of_agents(const PartitionSpec& partition, std::size_t agents) {

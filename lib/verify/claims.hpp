@@ -13,6 +13,9 @@ namespace coordreq {
 
 /// Infinite delays, triggers and collision times, whatever type they are stored as.
 inline constexpr std::int32_t kForever = INT32_MAX;
+/// What a delay says of cells that have none.
+inline constexpr std::int32_t kOutsideSafe = -2;
+inline constexpr std::int32_t kOutsideInvariant = -1;
 
 /// What a results file says about one partition. Arrays over all cells, row-major.
 struct PartitionClaims {

@@ -66,7 +66,7 @@ bool same_integers(const std::vector<std::int64_t>& expected, const std::vector<
                     });
 }
 
-class Comparison {
+class ObjectComparison {
  public:
   void compare(const StoredObject& expected, const StoredObject& found) {
     path_ = expected.path;
@@ -129,7 +129,7 @@ std::vector<StoredObject> expected_objects(const ProblemSpec& spec, const Fields
 }
 
 Finding check_objects(const std::vector<StoredObject>& expected, const std::vector<StoredObject>& found) {
-  Comparison comparison;
+  ObjectComparison comparison;
   for (std::size_t i = 0; i < expected.size(); ++i) comparison.compare(expected[i], found[i]);
   return comparison.finding();
 }

@@ -1,20 +1,13 @@
 #include "verify/path_checker.hpp"
 
+#include "base/index.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace coordreq {
-namespace {
-
-constexpr std::int32_t kOutsideSafe = -2;
-constexpr std::int32_t kOutsideInvariant = -1;
-
-std::size_t at(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 PathChecker::PathChecker(const CellCheck& check, std::optional<std::size_t> partition)
     : check_(check),
