@@ -79,6 +79,8 @@ void ProgressDisplay::update(const Progress& progress) {
     end_stage();
     stage_ = progress.stage;
     stage_begin_ = Clock::now();
+    // A bar that is shown names each stage, also those that take less than a pause.
+    if (mode_ == ProgressMode::bar && stage_begin_ - begin_ > kPauseOfBar) next_ = stage_begin_;
   }
   time_left_.update(progress, seconds_since(begin_));
   const Clock::time_point now = Clock::now();

@@ -82,7 +82,7 @@ class Cases(Case):
         self.assertTrue(any(re.search(r"running: \d+ %", line) for line in lines))
 
     def test_bar_on_a_terminal_only(self):
-        spec = self.fine_circle()
+        spec = self.fine_circle(0.001)
         result = self.run_program("analyze", spec, "--progress", "bar")
         self.assertEqual((result.returncode, result.stderr), (0, b""))
         for options in ([], ["--progress", "bar", "--quiet"], ["--progress", "auto"]):
