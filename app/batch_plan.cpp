@@ -52,7 +52,7 @@ std::string file_part(const std::string& text) {
 }
 
 /// "circle.h5", "circle_constants.R=0.7.h5"
-std::string file_name(const PlannedRun& run) {
+std::string results_name(const PlannedRun& run) {
   std::string name = run.spec->name;
   for (const SpecSetting& value : run.values) name += "_" + file_part(value.path + "=" + value.value);
   return name + ".h5";
@@ -102,7 +102,7 @@ std::vector<PlannedRun> plan_runs(const AnalyzeOptions& asked) {
   for (const std::string& path : asked.specs) add_runs(asked, path, values, runs);
   const bool writes = asked.output || asked.sweeps.empty();
   for (PlannedRun& run : runs) {
-    if (writes && run.spec) run.output = (fs::path(asked.output.value_or("")) / file_name(run)).string();
+    if (writes && run.spec) run.output = (fs::path(asked.output.value_or("")) / results_name(run)).string();
   }
   check_files(runs, asked);
   return runs;

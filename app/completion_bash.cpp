@@ -6,7 +6,7 @@ namespace coordreq {
 namespace {
 
 /// The part that does not depend on the options. COMP_WORDS takes `--option=value` for three words.
-constexpr const char* kFunctions = R"sh(
+constexpr const char* kBashFunctions = R"sh(
 _coordreq_offer() {  # KIND of a value: words or files
   local word=$word
   case $1 in
@@ -117,7 +117,7 @@ std::string bash_completion(const ProgramHelp& help) {
   return fmt::format("# Completion of {} in bash. In ~/.bashrc: source <({} completion bash)\n", help.name,
                      help.name) +
          fmt::format("\n_coordreq_commands='{}'\n", commands) + option_function(help) +
-         options_function(help) + argument_function(help) + kFunctions;
+         options_function(help) + argument_function(help) + kBashFunctions;
 }
 
 }  // namespace coordreq

@@ -5,7 +5,7 @@
 namespace coordreq {
 namespace {
 
-constexpr const char* kFunctions = R"fish(
+constexpr const char* kFishFunctions = R"fish(
 complete -c coordreq -f
 
 function __coordreq_no_command
@@ -99,7 +99,7 @@ std::string fish_completion(const ProgramHelp& help) {
   std::string text =
       fmt::format("# Completion of {0} in fish: {0} completion fish > ~/.config/fish/completions/{0}.fish\n",
                   help.name) +
-      kFunctions;
+      kFishFunctions;
   for (const OptionHelp& option : help.options) text += option_line("__coordreq_no_command", option);
   for (const CommandHelp& command : help.commands) {
     text += fmt::format("\ncomplete -c coordreq -n __coordreq_no_command -a {} -d '{}'\n", command.name,

@@ -45,7 +45,7 @@ std::string axes_text(const Json& info) {
   return table.text();
 }
 
-std::string partitions_text(const Json& partitions) {
+std::string described_partitions(const Json& partitions) {
   return table_text(partitions,
                     {{"partition", Align::left, [](const Json& own) { return line_of(own["name"]); }},
                      {"F", Align::right,
@@ -92,7 +92,7 @@ std::string requirements_text(const Json& info) {
 }
 
 std::string info_text(const Json& info) {
-  std::string text = head_text(info) + "\n" + axes_text(info) + "\n" + partitions_text(info["partitions"]) +
+  std::string text = head_text(info) + "\n" + axes_text(info) + "\n" + described_partitions(info["partitions"]) +
                      coalition_text(info) + requirements_text(info);
   if (info.contains("modes")) text += "\n" + modes_text(info["modes"]);
   text += others_text(info, {"coalition"});

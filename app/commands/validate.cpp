@@ -98,7 +98,7 @@ std::string inputs_table(const Json& inputs) {
 }
 
 /// All of a few, else how many and the first and last of them.
-std::string partitions_text(const Json& names) {
+std::string partition_names(const Json& names) {
   constexpr std::size_t kMost = 15;
   if (names.size() <= kMost) return fmt::format("{}", fmt::join(names.get<std::vector<std::string>>(), ", "));
   return fmt::format("{}: {}, {}, ... {}", grouped(std::uint64_t{names.size()}), text_of(names[0]),
@@ -118,7 +118,7 @@ std::string totals_table(const Json& report) {
   Facts facts = {{"cells", grouped(report["cells"])},
                  {"joint inputs", grouped(report["joint_inputs"])},
                  {"rows", rows_text(report["rows"])},
-                 {"partitions", partitions_text(report["partitions"])}};
+                 {"partitions", partition_names(report["partitions"])}};
   if (report.contains("modes"))
     facts.emplace_back("modes of the network", grouped(std::uint64_t{report["modes"].size()}));
   facts.insert(facts.end(),

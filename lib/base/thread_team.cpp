@@ -11,7 +11,6 @@
 #include <vector>
 
 namespace coordreq {
-namespace {
 
 /// Waits a little while for what is about to happen: loops often follow one another within microseconds, and
 /// waking a thread that sleeps takes longer than that. Then gives up, to leave the core to others; the
@@ -38,8 +37,6 @@ class ShortWait {
   static constexpr int kMostLooks = 1024;
   int looks_ = kMostLooks;
 };
-
-}  // namespace
 
 struct ThreadTeam::State {
   std::mutex mutex;

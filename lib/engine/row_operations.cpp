@@ -5,14 +5,14 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int64_t kBits = CellSet::kWordBits;
+constexpr std::int64_t kWordBits = CellSet::kWordBits;
 
 /// Ones at [begin, end) of word w.
 Word mask_within(std::int64_t w, std::int64_t begin, std::int64_t end) {
-  const std::int64_t low = std::clamp<std::int64_t>(begin - w * kBits, 0, kBits);
-  const std::int64_t high = std::clamp<std::int64_t>(end - w * kBits, 0, kBits);
+  const std::int64_t low = std::clamp<std::int64_t>(begin - w * kWordBits, 0, kWordBits);
+  const std::int64_t high = std::clamp<std::int64_t>(end - w * kWordBits, 0, kWordBits);
   if (low >= high) return 0;
-  const Word up_to_high = high == kBits ? ~Word{0} : (Word{1} << high) - 1;
+  const Word up_to_high = high == kWordBits ? ~Word{0} : (Word{1} << high) - 1;
   return up_to_high & (~Word{0} << low);
 }
 
@@ -20,21 +20,21 @@ Word mask_within(std::int64_t w, std::int64_t begin, std::int64_t end) {
 
 void set_bits(MutableRow row, std::int64_t begin, std::int64_t end) {
   if (begin >= end) return;
-  for (std::int64_t w = begin / kBits; w <= (end - 1) / kBits; ++w) {
+  for (std::int64_t w = begin / kWordBits; w <= (end - 1) / kWordBits; ++w) {
     row[static_cast<std::size_t>(w)] |= mask_within(w, begin, end);
   }
 }
 
 void add_bits(ConstRow source, std::int64_t offset, MutableRow target) {
-  const auto shift = static_cast<unsigned>(offset % kBits);
-  auto at = static_cast<std::size_t>(offset / kBits);
+  const auto shift = static_cast<unsigned>(offset % kWordBits);
+  auto at = static_cast<std::size_t>(offset / kWordBits);
   for (const Word word : source) {
     if (word == 0) {
       ++at;
       continue;
     }
     target[at++] |= word << shift;
-    if (shift != 0 && word >> (kBits - shift) != 0) target[at] |= word >> (kBits - shift);
+    if (shift != 0 && word >> (kWordBits - shift) != 0) target[at] |= word >> (kWordBits - shift);
   }
 }
 

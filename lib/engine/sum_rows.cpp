@@ -7,18 +7,9 @@
 #include "model/odometer.hpp"
 
 namespace coordreq {
-namespace {
-
-/// Cells of a run are read in blocks of this many.
-constexpr std::int64_t kRunBlock = kLevelBlock / sizeof(std::int32_t);
-
-constexpr int kBits = TransitionTable::kFractionBits;
-
-/// More numbers than this in the runs are no small table any more.
-constexpr std::int64_t kMostRunNumbers = std::int64_t{1} << 22;
 
 /// One part of a sum as the table stores it.
-struct Source {
+struct SumSource {
   const std::int64_t* lower;
   const std::int64_t* upper;
   std::size_t size;
@@ -26,8 +17,18 @@ struct Source {
   const std::vector<std::int64_t>* input_stride;
 };
 
-std::vector<Source> sources(const TransitionTable& table) {
-  std::vector<Source> result{{table.base_lower.data(), table.base_upper.data(), table.base_lower.size(),
+namespace {
+
+/// Cells of a run are read in blocks of this many.
+constexpr std::int64_t kRunBlock = kLevelBlock / sizeof(std::int32_t);
+
+constexpr int kFractionBits = TransitionTable::kFractionBits;
+
+/// More numbers than this in the runs are no small table any more.
+constexpr std::int64_t kMostRunNumbers = std::int64_t{1} << 22;
+
+std::vector<SumSource> sources(const TransitionTable& table) {
+  std::vector<SumSource> result{{table.base_lower.data(), table.base_upper.data(), table.base_lower.size(),
                               &table.state_stride, &table.input_stride}};
   for (const TransitionTerm& term : table.terms) {
     result.push_back(
@@ -43,7 +44,7 @@ class SumRows::Builder {
  public:
   Builder(const Abstraction& abstraction, const TransitionTable& table, std::size_t state)
       : grid_(abstraction.grid), inputs_(abstraction.inputs), table_(table), state_(state) {
-    for (const Source& source : sources(table))
+    for (const SumSource& source : sources(table))
       ((*source.state_stride)[last()] != 0 ? along_ : apart_).push_back(source);
   }
 
@@ -57,7 +58,7 @@ class SumRows::Builder {
       return std::nullopt;
     add_up_runs();
     rows_.run_strides_ = strides(run_state_stride_, run_input_stride_);
-    for (const Source& source : apart_) {
+    for (const SumSource& source : apart_) {
       rows_.parts_.push_back(
           {source.lower, source.upper, strides(*source.state_stride, *source.input_stride)});
     }
@@ -85,15 +86,15 @@ class SumRows::Builder {
     std::vector<std::int64_t> counts;
     const auto is_used = [&](std::size_t i, auto strides) {
       return std::any_of(along_.begin(), along_.end(),
-                         [&](const Source& s) { return (*(s.*strides))[i] != 0; });
+                         [&](const SumSource& s) { return (*(s.*strides))[i] != 0; });
     };
     for (const std::int32_t j : table_.states) {
-      if (at(j) == last() || !is_used(at(j), &Source::state_stride)) continue;
+      if (at(j) == last() || !is_used(at(j), &SumSource::state_stride)) continue;
       run_states_.push_back(at(j));
       counts.push_back(grid_[at(j)].count);
     }
     for (const std::int32_t j : table_.inputs) {
-      if (!is_used(at(j), &Source::input_stride)) continue;
+      if (!is_used(at(j), &SumSource::input_stride)) continue;
       run_inputs_.push_back(at(j));
       counts.push_back(inputs_[at(j)].count());
     }
@@ -117,10 +118,10 @@ class SumRows::Builder {
   }
 
   void add_up_cell(std::int64_t cell) {
-    const std::int64_t own = table_.shift && state_ == last() ? cell << kBits : 0;
+    const std::int64_t own = table_.shift && state_ == last() ? cell << kFractionBits : 0;
     std::int64_t lower = own;
     std::int64_t upper = own;
-    for (const Source& source : along_) {
+    for (const SumSource& source : along_) {
       std::int64_t place = cell * (*source.state_stride)[last()];
       std::size_t v = 0;
       for (const std::size_t j : run_states_) place += runs_.indices()[v++] * (*source.state_stride)[j];
@@ -155,7 +156,7 @@ class SumRows::Builder {
   const InputSpace& inputs_;
   const TransitionTable& table_;
   std::size_t state_;
-  std::vector<Source> along_, apart_;
+  std::vector<SumSource> along_, apart_;
   std::vector<std::size_t> run_states_, run_inputs_;
   std::vector<std::int64_t> run_state_stride_, run_input_stride_;
   Odometer runs_{{}};
@@ -169,12 +170,12 @@ std::optional<SumRows> SumRows::make(const Abstraction& abstraction, const Trans
 }
 
 void SumRows::SplitRuns::add(std::int64_t number) {
-  whole.push_back(static_cast<std::int32_t>(number >> kBits));
+  whole.push_back(static_cast<std::int32_t>(number >> kFractionBits));
   fraction.push_back(static_cast<std::uint32_t>(static_cast<std::uint64_t>(number)));
 }
 
 std::int64_t SumRows::SplitRuns::operator[](std::size_t i) const {
-  return (std::int64_t{whole[i]} << kBits) + fraction[i];
+  return (std::int64_t{whole[i]} << kFractionBits) + fraction[i];
 }
 
 void SumRows::find_bounds() {
@@ -185,8 +186,8 @@ void SumRows::find_bounds() {
       const std::int64_t upper = upper_[first + static_cast<std::size_t>(c)];
       bounds.least = std::min(bounds.least, lower);
       bounds.greatest = std::max(bounds.greatest, upper);
-      bounds.least_offset = std::min(bounds.least_offset, lower - (c << kBits));
-      bounds.greatest_offset = std::max(bounds.greatest_offset, upper - (c << kBits));
+      bounds.least_offset = std::min(bounds.least_offset, lower - (c << kFractionBits));
+      bounds.greatest_offset = std::max(bounds.greatest_offset, upper - (c << kFractionBits));
     }
   }
 }
@@ -195,7 +196,7 @@ void SumRows::find_bounds() {
 void SumRows::find_widths(const TransitionTable& table) {
   std::int64_t least = 0;
   std::int64_t greatest = 0;
-  for (const Source& source : sources(table)) {
+  for (const SumSource& source : sources(table)) {
     std::int64_t low = INT64_MAX;
     std::int64_t high = 0;
     for (std::size_t i = 0; i < source.size; ++i) {
@@ -239,7 +240,7 @@ SumRows::Row SumRows::Reader::row(std::uint32_t number) {
       rest /= rows_->counts_[v];
       for (std::size_t p = 0; p < base_.size(); ++p) base_[p] += index * rows_->parts_[p].strides.state[v];
       run_base_ += index * rows_->run_strides_.state[v];
-      if (v == rows_->own_) own_ = index << kBits;
+      if (v == rows_->own_) own_ = index << kFractionBits;
     }
   }
   Row row{.lower = own_, .upper = own_};

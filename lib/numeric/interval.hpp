@@ -52,6 +52,11 @@ struct Interval {
   return {lower_double(lower), upper_double(upper)};
 }
 
+/// The end on a side, as a number that grows outward: the upper one, or the lower one with its sign changed.
+[[nodiscard]] inline double outward_end(const Interval& a, bool upper) {
+  return upper ? a.upper : -a.lower;
+}
+
 /// The smallest interval that contains both.
 [[nodiscard]] inline Interval hull(const Interval& a, const Interval& b) {
   return {std::min(a.lower, b.lower), std::max(a.upper, b.upper), a.total && b.total};

@@ -11,16 +11,16 @@ using outward::kInfinity;
 using outward::multiply_up;
 
 /// The period is divided into at most so many parts, and never more than into kMostSteps.
-constexpr std::uint64_t kParts = std::uint64_t{1} << 40U;
-constexpr std::uint64_t kLongest = kParts / 16;
+constexpr std::uint64_t kFaceParts = std::uint64_t{1} << 40U;
+constexpr std::uint64_t kLongest = kFaceParts / 16;
 /// Steps are not made shorter than this for the sake of a tighter result.
-constexpr std::uint64_t kFine = kParts / 256;
-constexpr int kMostTries = 3000;
-constexpr int kPatience = 3;
+constexpr std::uint64_t kFine = kFaceParts / 256;
+constexpr int kFaceMostTries = 3000;
+constexpr int kFacePatience = 3;
 /// What derivatives of unknown size may add in a period, as a part of the width of the initial box.
-constexpr double kTolerance = 0.1;
+constexpr double kFaceTolerance = 0.1;
 /// A state that decays by more than this within a step is bounded by where it settles.
-constexpr double kStrongDecay = 1.0;
+constexpr double kFaceStrongDecay = 1.0;
 
 constexpr int kLevelRounds = 14;
 constexpr int kModestRounds = 4;
@@ -34,21 +34,13 @@ double margin(double x) {
   return 1e-14 * std::fabs(x) + 1e-290;
 }
 
-Interval point(double value) {
-  return {value, value};
-}
-
-double outward_end(const Interval& a, bool upper) {
-  return upper ? a.upper : -a.lower;
-}
-
 void set_end(Interval& a, bool upper, double value) {
   (upper ? a.upper : a.lower) = upper ? value : -value;
 }
 
 /// The largest value of start + h slope for h in `duration`.
 double moved_by(double start, const Interval& duration, double slope) {
-  return (point(start) + duration * point(slope)).upper;
+  return (Interval(start) + duration * Interval(slope)).upper;
 }
 
 }  // namespace
@@ -75,7 +67,7 @@ std::optional<FlowFailure> FaceFlow::enclose(std::span<const Interval> slots, co
   begin(slots, field, period);
   result.tube = now_;
   result.drift.assign(n_, Interval{});
-  std::uint64_t left = kParts;
+  std::uint64_t left = kFaceParts;
   // Of a state that starts from a point nothing says how exact it should be.
   const bool any_point =
       std::any_of(now_.begin(), now_.end(), [](const Interval& a) { return a.is_point(); });
@@ -85,12 +77,12 @@ std::optional<FlowFailure> FaceFlow::enclose(std::span<const Interval> slots, co
   for (int tries = 0; left > 0; ++tries) {
     parts = std::min(parts, left);
     if (settles_) parts = std::min(parts, std::max(left / 2, kFine / 16));
-    const double share = static_cast<double>(parts) / static_cast<double>(kParts);
-    if (tries == kMostTries) return FlowFailure{false, worst_};
-    if (try_step(period * point(share), parts > kFine)) {
+    const double share = static_cast<double>(parts) / static_cast<double>(kFaceParts);
+    if (tries == kFaceMostTries) return FlowFailure{false, worst_};
+    if (try_step(period * Interval(share), parts > kFine)) {
       left -= parts;
-      finish_step(period * point(share), result);
-      if (++successes % kPatience == 0) parts = std::min(2 * parts, longest);
+      finish_step(period * Interval(share), result);
+      if (++successes % kFacePatience == 0) parts = std::min(2 * parts, longest);
     } else if (parts > 1) {
       parts /= 2;
       successes = 0;
@@ -110,7 +102,7 @@ void FaceFlow::begin(std::span<const Interval> slots, const VectorField& field, 
   settles_ = false;
   for (std::size_t i = 0; i < n_; ++i) {
     now_[i] = field.clipped(i, slots[state_slots_[i]]);
-    tolerance_[i] = kTolerance * (now_[i].upper - now_[i].lower);
+    tolerance_[i] = kFaceTolerance * (now_[i].upper - now_[i].lower);
     slopes_[i].begin(slots);
   }
 }
@@ -241,9 +233,9 @@ bool FaceFlow::find_rates(const Interval& duration) {
 /// By what the equation is at the start.
 Interval FaceFlow::first_rate(std::size_t i, bool upper) {
   face_ = now_;
-  face_[i] = point(upper ? now_[i].upper : now_[i].lower);
+  face_[i] = Interval(upper ? now_[i].upper : now_[i].lower);
   const Interval value = slopes_[i].over(face_);
-  return point(std::clamp(upper ? value.upper : value.lower, -1e100, 1e100));
+  return Interval(std::clamp(upper ? value.upper : value.lower, -1e100, 1e100));
 }
 
 /// @returns whether the end moves as was assumed
@@ -262,7 +254,7 @@ bool FaceFlow::update_rate(std::size_t i, bool upper, const Interval& duration, 
   // Where the state may be stopped on the way inward, its end does not go on from beyond the limit.
   const double innermost = moved_by(start(i, upper), duration, std::min(rate.lower, 0.0));
   const bool stopped = rate.lower < 0.0 && innermost <= innermost_level(i, upper);
-  const bool followed = bound.found && bound.decay * duration.upper >= -kStrongDecay && !stopped;
+  const bool followed = bound.found && bound.decay * duration.upper >= -kFaceStrongDecay && !stopped;
   if (followed && assumes(rate)) {
     set_end(next_[i], upper, end_of_step(start(i, upper), duration, bound));
     return true;

@@ -13,10 +13,6 @@ constexpr int kRounds = 3;
 /// Solutions may leave the bounds by no more than this before a contradiction is found.
 constexpr double kMargin = 1e-12;
 
-Interval point(double value) {
-  return {value, value};
-}
-
 bool is_bounded(const Interval& a) {
   return a.lower >= -outward::kLargest && a.upper <= outward::kLargest;
 }
@@ -24,10 +20,6 @@ bool is_bounded(const Interval& a) {
 Interval widened(const Interval& a) {
   const double more = kMargin * std::max(std::fabs(a.lower), std::fabs(a.upper)) + 1e-280;
   return {a.lower - more, a.upper + more, a.total};
-}
-
-double outward_end(const Interval& a, bool upper) {
-  return upper ? a.upper : -a.lower;
 }
 
 std::vector<std::size_t> mentioned(const Program& equation, const std::vector<std::uint32_t>& slots) {
@@ -144,7 +136,7 @@ void FaceSlope::place_states(const MovingBounds& bounds, bool upper, bool at_sta
     Interval& slot = slots_[system_->state_slots[j]];
     if (at_upper || at_lower) {
       const MovingEnd& end = at_upper ? bounds.upper[j] : bounds.lower[j];
-      slot = at_start ? point(end.start) : widened(end.during(bounds.duration));
+      slot = at_start ? Interval(end.start) : widened(end.during(bounds.duration));
     } else {
       slot = at_start ? Interval{bounds.lower[j].start, bounds.upper[j].start} : bounds.box[j];
     }
@@ -187,7 +179,7 @@ bool FaceSlope::use_signs(bool upper, Part& part) {
     const Interval& gradient = gradient_[states_.size() + l];
     Interval& range = part.disturbance[l];
     if (range.is_point() || !keeps_sign(gradient)) continue;
-    range = point((gradient.lower >= 0.0) == upper ? range.upper : range.lower);
+    range = Interval((gradient.lower >= 0.0) == upper ? range.upper : range.lower);
     any = true;
   }
   return any;
@@ -205,7 +197,7 @@ Interval FaceSlope::value_at_start(const MovingBounds& bounds, bool upper) {
   for (std::size_t k = 0; k < gradient_.size(); ++k) {
     Interval& slot = slots_[slot_of(k)];
     if (slot.is_point()) continue;
-    const Interval middle = point(midpoint(slot));
+    const Interval middle = Interval(midpoint(slot));
     spread = spread + gradient_[k] * (slot - middle);
     slot = middle;
   }

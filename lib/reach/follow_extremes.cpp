@@ -7,10 +7,6 @@ namespace {
 
 using End = FollowedSolution::End;
 
-Interval point(double value) {
-  return {value, value};
-}
-
 bool is_zero(const Interval& a) {
   return a.lower == 0.0 && a.upper == 0.0;
 }
@@ -31,7 +27,7 @@ End extreme_end(const Interval& range, const Interval& sensitivity, double toler
 /// What lies in the range, seen from where the solution starts.
 Interval around(const Interval& range, End end) {
   const double value = end == End::lower ? range.lower : end == End::upper ? range.upper : midpoint(range);
-  return range - point(value);
+  return range - Interval(value);
 }
 
 bool keeps_sign(const Interval& a) {
@@ -64,7 +60,7 @@ struct StartValue {
 StartValue start_value(const FlowSystem::Limit& limit, double value) {
   if (limit.above && value >= limit.upper.lower) return {limit.upper, true};
   if (limit.below && value <= limit.lower.upper) return {limit.lower, true};
-  return {point(value), false};
+  return {Interval(value), false};
 }
 
 }  // namespace
@@ -81,7 +77,7 @@ void ValidatedFlow::Solver::set_start(FollowedSolution& solution) const {
 
 void ValidatedFlow::Solver::set_disturbances(const std::vector<End>& ends) {
   for (std::size_t l = 0; l < m_; ++l) {
-    field_.set_disturbance(l, point(value_at(disturbance_[l], ends[n_ + l])));
+    field_.set_disturbance(l, Interval(value_at(disturbance_[l], ends[n_ + l])));
   }
 }
 
@@ -101,7 +97,7 @@ bool ValidatedFlow::Solver::advance(const FlowStep& step, NominalFlow::State& st
 void ValidatedFlow::Solver::advance_smoothly(const FlowStep& step, std::vector<Interval>& state) {
   bool wide = false;
   for (std::size_t i = 0; i < n_; ++i) {
-    const Interval middle = point(midpoint(state[i]));
+    const Interval middle = Interval(midpoint(state[i]));
     Interval& deviation = deviation_(static_cast<Eigen::Index>(i));
     deviation = state[i] - middle;
     state[i] = middle;
@@ -138,7 +134,7 @@ double ValidatedFlow::Solver::deviation(std::size_t i, bool upper, const std::ve
     const End end = ends[n_ + l];
     if (end == End::any || keeps_sign(kernel)) continue;
     const Interval weight =
-        end == End::middle ? point(sensitivity_.weight(i, l)) * Interval{-1.0, 1.0} : period_ * kernel;
+        end == End::middle ? Interval(sensitivity_.weight(i, l)) * Interval{-1.0, 1.0} : period_ * kernel;
     sum = sum + weight * around(disturbance_[l], end);
   }
   return upper ? sum.upper : sum.lower;
@@ -219,7 +215,7 @@ void ValidatedFlow::Solver::note_attained(const FollowedSolution& solution) {
 /// Moves one end of `next_` to what the solution that was followed says.
 void ValidatedFlow::Solver::use_extreme(std::size_t i, bool upper, const FollowedSolution& solution,
                                         const std::vector<End>& ends) {
-  const Interval found = field_.clipped(i, solution.state.value[i] + point(deviation(i, upper, ends)));
+  const Interval found = field_.clipped(i, solution.state.value[i] + Interval(deviation(i, upper, ends)));
   if (upper && found.upper >= next_[i].lower) next_[i].upper = std::min(next_[i].upper, found.upper);
   if (!upper && found.lower <= next_[i].upper) next_[i].lower = std::max(next_[i].lower, found.lower);
 }

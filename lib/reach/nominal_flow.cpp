@@ -11,7 +11,7 @@ constexpr std::uint32_t kParts = 256;
 /// Longer sub-steps are tried again after so many that went well.
 constexpr int kPatience = 3;
 /// Relative to the magnitude: what a step's remainder may add.
-constexpr double kTolerance = 1e-14;
+constexpr double kNominalTolerance = 1e-14;
 
 Interval part(const Interval& duration, std::uint32_t parts) {
   return duration * Interval{static_cast<double>(parts) / kParts, static_cast<double>(parts) / kParts};
@@ -90,7 +90,7 @@ bool NominalFlow::try_step(const Interval& duration, bool smallest, std::span<co
   const bool phases_known = find_phases(duration, state);
   if (decide_kinks(*tape_, field_->values(), choices_) && phases_known) {
     for (std::size_t i = 0; i < box_.size(); ++i) {
-      tolerance_[i] = std::max(tolerance[i], kTolerance * magnitude(box_[i]));
+      tolerance_[i] = std::max(tolerance[i], kNominalTolerance * magnitude(box_[i]));
     }
     taylor_.find_remainder(*field_, duration, choices_, held_, tolerance_, remainder_);
     if (remainder_.order > 0) {

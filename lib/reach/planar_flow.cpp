@@ -16,8 +16,8 @@ constexpr double kMostSteps = 400.0;
 constexpr double kLeastSteps = 8.0;
 /// What sides that are left out may add in a period, as a part of the width of the initial box, or of all
 /// that is reached where that is a point.
-constexpr double kTolerance = 0.1;
-constexpr double kToleranceOfPoint = 0.01;
+constexpr double kPlanarTolerance = 0.1;
+constexpr double kPlanarToleranceOfPoint = 0.01;
 
 double width(const Interval& a) {
   return a.upper - a.lower;
@@ -244,7 +244,7 @@ void PlanarFlow::begin(const std::array<Interval, 2>& start, double steps) {
   TurningPolygon::Vector tolerance{};
   for (const std::size_t i : {0U, 1U}) {
     const bool is_point = start[i].is_point();
-    tolerance[i] = (is_point ? kToleranceOfPoint * width(tube_[i]) : kTolerance * width(start[i])) / steps;
+    tolerance[i] = (is_point ? kPlanarToleranceOfPoint * width(tube_[i]) : kPlanarTolerance * width(start[i])) / steps;
   }
   polygon_.begin(corners, bounds_, start, tolerance);
 }

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "numeric/outward.hpp"
 
 namespace coordreq {
 namespace {
 
-constexpr double kTolerance = 1e-12;
+using outward::kInfinity;
+
+constexpr double kPointTolerance = 1e-12;
 /// Shares of the period: sub-steps are no shorter, after kPatience of them no shorter than the second.
 constexpr double kSmallestStep = 0x1p-36;
 constexpr double kSlidingStep = 0x1p-10;
@@ -20,7 +23,6 @@ constexpr double kEventShare = 0x1p-50;
 constexpr int kShortEvents = 50;
 constexpr double kDwell = 0x1p-12;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What the error estimate says of the next sub-step, relative to this one.
 double growth(double error, double largest) {
@@ -116,7 +118,7 @@ double PointFlow::relative_error() const {
   double worst = 0.0;
   for (Eigen::Index i = 0; i < error.size(); ++i) {
     const double scale = std::max(std::fabs(x_(i)), scale_[static_cast<std::size_t>(i)]);
-    const double ratio = std::fabs(error(i)) / (kTolerance * scale);
+    const double ratio = std::fabs(error(i)) / (kPointTolerance * scale);
     if (!std::isfinite(pair_.end()(i)) || !std::isfinite(ratio)) return kInfinity;
     worst = std::max(worst, ratio);
   }
