@@ -286,7 +286,7 @@ constexpr std::size_t place_of(Operator op) {
 }
 
 /// Whether a row has all of its columns.
-constexpr bool is_complete(const NumberFunction& f) {
+[[maybe_unused]] constexpr bool is_complete(const NumberFunction& f) {
   const bool has_factor = f.series.rule == SeriesRule::chain || f.series.rule == SeriesRule::inverse_chain;
   return !f.spelling.empty() && f.fewest > 0 && f.most >= f.fewest && f.at_point != nullptr &&
          f.over_interval != nullptr && f.over_rationals != nullptr && f.over_dual != nullptr &&
@@ -301,7 +301,10 @@ constexpr bool is_in_order() {
   return kFunctions.size() == place_of(Operator::sign) + 1;
 }
 static_assert(is_in_order());
+// With its sanitisers g++ 12 takes no address of a function for a constant.
+#if !defined(__SANITIZE_ADDRESS__)
 static_assert(std::all_of(kFunctions.begin(), kFunctions.end(), is_complete));
+#endif
 
 }  // namespace
 
