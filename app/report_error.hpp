@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace coordreq {
 
@@ -11,10 +12,15 @@ constexpr int kInternalError = 70;
 /// REQUIRES: called from within a catch block. @returns the exit code
 [[nodiscard]] int report_current_exception() noexcept;
 
-/// What an exception says, where the program goes on.
+/// What to do about a bug of this program: "please report it ...", with the address for it if the build was
+/// told one (COORDREQ_ISSUES).
+[[nodiscard]] std::string report_request();
+
+/// What an exception says, where the program continues.
 struct Failure {
   std::string what;  ///< WHAT (WHERE), on one line
   int exit_code = 0;
+  std::vector<std::string> more;  ///< lines like it, of a spec with several errors
 };
 
 /// The exception under way. REQUIRES: called from within a catch block.

@@ -1,19 +1,23 @@
 """What the pages of docs show is what happens."""
 
 import json
+import os
+import pathlib
 import re
+import subprocess
 import unittest
 
 import h5py
 import numpy as np
 from pages import DOCS, PAGES, PageCase, blocks
-from program import CONFIGS, ROOT, without_comments
+from program import CONFIGS, PROGRAM, ROOT, without_comments
 
 GRIDS = (DOCS / "grids.md").read_text()
 # How many sessions each page has, and the examples whose results they start from.
 SESSIONS = {
     "coalitions.md": (2, []),
     "commands.md": (1, []),
+    "grids.md": (1, []),
     "networks.md": (1, []),
     "outputs.md": (7, []),
     "queries.md": (1, ["circle.json"]),
@@ -43,6 +47,13 @@ class Cases(PageCase):
 
     def test_sessions_of_commands(self):
         self.assert_sessions("commands.md")
+
+    def test_sessions_of_grids(self):
+        spec = json.loads(without_comments(example(2)))
+        for part in blocks(DOCS / "grids.md", "json"):
+            spec.update(json.loads("{" + part + "}"))
+        self.write("spec.json", dict(spec, name="spec"))
+        self.assert_sessions("grids.md")
 
     def test_sessions_of_networks(self):
         self.assert_sessions("networks.md")
@@ -93,6 +104,37 @@ class Cases(PageCase):
     def test_python_of_results(self):
         self.analyze(str(CONFIGS / "circle.json"))
         self.assert_programs_print(DOCS / "results.md", "(1, 201, 201) m\n")
+
+    def test_notebook(self):
+        self.analyze(str(CONFIGS / "tutorial/corridor_5.json"))
+        self.assert_notebook_prints(DOCS / "analysis.md")
+        self.assertTrue((self.folder / "silence.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_lines_for_a_shell(self):
+        """Those for the program and for scripts/plot run, on coarser grids where the page has a large one."""
+        (self.folder / "configs").symlink_to(CONFIGS)
+        (self.folder / "scripts").symlink_to(ROOT / "scripts")
+        (self.folder / "intersection.json").symlink_to(CONFIGS / "intersection_coarse.json")
+        self.analyze("intersection.json", "-o", "intersection.h5")
+        self.analyze("configs/platoon_coalition.json")
+        environment = dict(os.environ, PATH=f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}")
+        lines = []
+        for page in sorted(DOCS.glob("**/*.md")):
+            text = re.sub(r"(?m)^ +", "", page.read_text())
+            for block in re.findall(r"(?ms)^```sh\n(.*?)^```$", text):
+                lines += re.findall(r"(?m)^(?:coordreq|scripts/plot) .*$", block)
+        self.assertGreaterEqual(len(lines), 12)
+        for line in lines:
+            with self.subTest(line=line):
+                line = line.replace("configs/intersection.json", "intersection.json -o intersection.h5")
+                result = subprocess.run(
+                    line, shell=True, cwd=self.folder, env=environment, capture_output=True, text=True
+                )
+                # The one with a JUnit report is about a requirement that fails.
+                self.assertEqual(result.returncode, 1 if "--junit" in line else 0, result.stderr)
+                self.assertNotIn("error", result.stderr)
+                for name in re.findall(r" (?:-o|--junit) (\S+)", line):
+                    self.assertGreater((self.folder / name).stat().st_size, 0)
 
     def test_every_page_is_in_the_index(self):
         index = (DOCS / "README.md").read_text()
@@ -180,8 +222,7 @@ class Cases(PageCase):
             spec = json.loads(without_comments(example(2)))
             spec["dynamics"]["period"] = period
             self.assertEqual(self.longest(spec)[1], expected)
-        self.assertIn("4.5 s with a period of 0.25 s,\n   6 s with 0.5 s and 7 s with 1 s".replace("\n   ", " "),
-                      " ".join(GRIDS.split()))
+        self.assertIn("4.5 s with a period of 0.25 s, 6 s with 0.5 s and 7 s with 1 s", " ".join(GRIDS.split()))
 
     def test_files_that_they_name(self):
         for page in PAGES:
