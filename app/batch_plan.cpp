@@ -77,7 +77,7 @@ void check_files(const std::vector<PlannedRun>& runs, const AnalyzeOptions& aske
   if (asked.junit) files.writes(*asked.junit, "the JUnit report", "--junit");
 }
 
-std::string values_text(const PlannedRun& run) {
+std::string swept_values(const PlannedRun& run) {
   std::string text;
   for (const SpecSetting& value : run.values) text += fmt::format(" {}={}", value.path, value.value);
   return text;
@@ -86,11 +86,11 @@ std::string values_text(const PlannedRun& run) {
 }  // namespace
 
 std::string run_label(const PlannedRun& run) {
-  return run.path + values_text(run);
+  return run.path + swept_values(run);
 }
 
 std::string run_name(const PlannedRun& run) {
-  return (run.spec ? run.spec->name : run.path) + values_text(run);
+  return (run.spec ? run.spec->name : run.path) + swept_values(run);
 }
 
 std::vector<PlannedRun> plan_runs(const AnalyzeOptions& asked) {

@@ -45,7 +45,7 @@ end
 )fish";
 
 /// As the inside of single quotes.
-std::string quoted(const std::string& text) {
+std::string fish_quoted(const std::string& text) {
   std::string result;
   for (const char c : text) {
     if (c == '\'' || c == '\\') result += '\\';
@@ -70,7 +70,7 @@ std::string option_line(const std::string& condition, const OptionHelp& option) 
   }
   return fmt::format("complete -c coordreq -n '{}'{}{} -d '{}'\n", condition, names,
                      option.value.text.empty() ? "" : " " + value_source(option.value),
-                     quoted(option.description));
+                     fish_quoted(option.description));
 }
 
 /// The names of all options that take a value.
@@ -103,7 +103,7 @@ std::string fish_completion(const ProgramHelp& help) {
   for (const OptionHelp& option : help.options) text += option_line("__coordreq_no_command", option);
   for (const CommandHelp& command : help.commands) {
     text += fmt::format("\ncomplete -c coordreq -n __coordreq_no_command -a {} -d '{}'\n", command.name,
-                        quoted(command.description));
+                        fish_quoted(command.description));
     text += argument_lines(command);
     for (const OptionHelp& option : command.options) {
       text += option_line("__coordreq_in " + command.name, option);

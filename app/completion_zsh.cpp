@@ -6,7 +6,7 @@ namespace coordreq {
 namespace {
 
 /// As the inside of single quotes.
-std::string quoted(const std::string& text) {
+std::string zsh_quoted(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
   return result;
@@ -19,7 +19,7 @@ std::string escaped(const std::string& text, const std::string& special) {
     if (special.find(c) != std::string::npos) result += '\\';
     result += c;
   }
-  return quoted(result);
+  return zsh_quoted(result);
 }
 
 /// ":MESSAGE:ACTION" of _arguments.

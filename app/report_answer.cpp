@@ -12,7 +12,7 @@ namespace coordreq {
 namespace {
 
 /// With more partitions than this each gets one line of a table.
-constexpr std::size_t kMostInFull = 3;
+constexpr std::size_t kMostPartitionsInFull = 3;
 
 /// "0.28 s (28 steps)": time first, for people who do not think in steps.
 std::string time_text(std::int64_t steps, const ResultsReader& results) {
@@ -198,7 +198,7 @@ std::string partition_answers(const ResultsReader& results, const ReportData& da
                     ? "There is no state from which every allowed action keeps the system safe."
                     : "No state can be kept safe, even if all agents always coordinate.");
   }
-  return results.partitions().size() > kMostInFull ? as_table(results, data) : in_full(results, data);
+  return results.partitions().size() > kMostPartitionsInFull ? as_table(results, data) : in_full(results, data);
 }
 
 /// What the numbers count, and how far they can be trusted.

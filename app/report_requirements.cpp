@@ -18,7 +18,7 @@ std::string capital(std::string text) {
   return text;
 }
 
-std::string verdict(const Json& own) {
+std::string requirement_verdict(const Json& own) {
   const auto cells = own["cells"].get<std::uint64_t>();
   if (own["holds"]) return fmt::format("<span class=\"good\">met</span> by all {}", states_text(cells));
   const char* const failed = "<span class=\"bad\">failed</span>";
@@ -40,7 +40,7 @@ std::string worst(const Json& own, const ProblemSpec& spec) {
 std::string summary_table(const std::vector<Json>& all, const ProblemSpec& spec) {
   std::string rows;
   for (std::size_t r = 0; r < all.size(); ++r) {
-    rows += html_row({html_line(all[r]["name"].get<std::string>()), verdict(all[r]),
+    rows += html_row({html_line(all[r]["name"].get<std::string>()), requirement_verdict(all[r]),
                       html_line(capital(claim_text(all[r], spec))),
                       html_code(spec.requirements[r].where.text), html_line(worst(all[r], spec))});
   }

@@ -93,7 +93,7 @@ std::string basis_text(const Json& result) {
   return text + "\n";
 }
 
-std::string verdict(const Json& result) {
+std::string verdict_cell(const Json& result) {
   const std::string name = line_of(result["file"]);
   if (!result["holds"].get<bool>()) return name + " does not hold";
   const bool sampled = result["cells_checked"] < result["cells"];
@@ -129,7 +129,7 @@ std::string verification_text(const Json& result) {
   const std::int64_t threads = number_of(result["threads"]);
   return fmt::format("{}\n{}{}{}{}\n{} ({:.2f} s on {} thread{})\n", findings_table(findings),
                      basis_text(result), tubes_text(result["between_samples"]),
-                     confirmed_text(result["confirmed"]), examples(findings), verdict(result),
+                     confirmed_text(result["confirmed"]), examples(findings), verdict_cell(result),
                      result["seconds"].get<double>(), threads, threads == 1 ? "" : "s");
 }
 

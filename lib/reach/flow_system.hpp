@@ -21,6 +21,8 @@ struct FlowSystem {
 
   std::vector<const Program*> equations;  ///< one a state; they outlive whoever uses the system
   std::vector<std::uint32_t> state_slots;
+  /// Steps of the grid, one a state: what is much shorter makes no difference to a post. Empty: nothing is too short.
+  std::vector<double> steps;
   std::vector<std::uint32_t> disturbance_slots;
   std::size_t slot_count = 0;
   std::vector<Limit> stops;  ///< one a state, or none at all

@@ -16,6 +16,8 @@ constexpr double kTooStiff = 1e7;
 /// What may lie beyond solutions that were followed, as a part of the initial box or of the value itself.
 constexpr double kTight = 0.2;
 constexpr double kTightMagnitude = 1e-6;
+/// The same of a state that starts from a point, as a part of a step of the grid.
+constexpr double kTightStep = 0.1;
 /// A part of what is allowed that is not worth a thought.
 constexpr double kHardly = 0.1;
 /// A box of initial states is halved so often at most.
@@ -37,7 +39,10 @@ void combine(FlowEnclosure& a, const FlowEnclosure& b, Combine both) {
 }  // namespace
 
 const FlowEnclosure& ValidatedFlow::Solver::flow(std::span<const Interval> slots) {
-  for (std::size_t i = 0; i < n_; ++i) allowed_excess_[i] = kTight * width(slots[system_.state_slots[i]]);
+  for (std::size_t i = 0; i < n_; ++i) {
+    const double start = width(slots[system_.state_slots[i]]);
+    allowed_excess_[i] = start > 0.0 || system_.steps.empty() ? kTight * start : kTightStep * system_.steps[i];
+  }
   enclose(slots, kMostHalvings);
   return result_;
 }

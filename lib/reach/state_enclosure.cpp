@@ -79,6 +79,7 @@ void StateEnclosure::prepare_flow() {
   for (const std::int32_t j : dependencies_.moving) {
     system.equations.push_back(&spec_->dynamics.equations[at(j)]);
     system.state_slots.push_back(spec_->state_slot(at(j)));
+    system.steps.push_back(nearest_double(spec_->states[at(j)].grid.step));
     system.stops.push_back(limit_of(spec_->states[at(j)]));
     rings.push_back(ring_of(spec_->states[at(j)]));
   }
