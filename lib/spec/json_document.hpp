@@ -20,8 +20,8 @@ class JsonDocument {
   /// Parses JSON with comments.
   /// @param source the file name for messages
   /// @throws SpecError naming line and column for broken syntax, the JSON pointer for a repeated key; also
-  /// for
-  ///   nesting deeper than 200, keys longer than 200 bytes, numbers beyond a double, and U+0000 in a string.
+  ///   for nesting deeper than 200, keys longer than 200 bytes, numbers beyond a double, and U+0000 in a
+  ///   string.
   [[nodiscard]] static JsonDocument parse(std::string_view text, std::string_view source);
 
   [[nodiscard]] const nlohmann::json& value() const { return value_; }
