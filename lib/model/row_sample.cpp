@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "base/index.hpp"
 #include "expression/condition.hpp"
 #include "numeric/rational.hpp"
 
@@ -30,10 +31,6 @@ class Draw {
  private:
   std::uint64_t state_ = 1;
 };
-
-bool contains(const std::vector<std::size_t>& list, std::size_t i) {
-  return std::find(list.begin(), list.end(), i) != list.end();
-}
 
 std::int64_t cells_of(const ProblemSpec& spec, const std::vector<std::size_t>& states) {
   std::int64_t product = 1;

@@ -12,10 +12,6 @@
 namespace coordreq {
 namespace {
 
-bool contains(const std::vector<std::int32_t>& list, std::size_t state) {
-  return std::find(list.begin(), list.end(), static_cast<std::int32_t>(state)) != list.end();
-}
-
 bool mentions(const Program& program, std::uint32_t slot) {
   const auto used = program.variables();
   return std::binary_search(used.begin(), used.end(), slot);

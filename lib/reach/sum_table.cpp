@@ -16,10 +16,6 @@ namespace {
 /// So many terms of at most kLargestTerm steps each stay below the 2^30 that TransitionTable promises.
 constexpr std::size_t kMostTerms = 14;
 
-bool contains(const std::vector<std::int32_t>& list, std::int32_t value) {
-  return std::find(list.begin(), list.end(), value) != list.end();
-}
-
 /// The table of one state of a group.
 class SumTable {
  public:

@@ -16,10 +16,6 @@
 namespace coordreq {
 namespace {
 
-bool contains(const std::vector<std::int32_t>& list, std::int32_t value) {
-  return std::find(list.begin(), list.end(), value) != list.end();
-}
-
 /// Calls `visit` with the exact row of a state for each choice of its parameters and inputs, until it returns
 /// false.
 template <class Visit>

@@ -1,19 +1,15 @@
 #include "answers/one_cell/cell_posts.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "answers/one_cell/cell_members.hpp"
+#include "base/index.hpp"
 #include "reach/affine_table.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/enclosure_table.hpp"
 
 namespace coordreq {
 namespace {
-
-bool contains(const std::vector<std::int32_t>& list, std::size_t value) {
-  return std::find(list.begin(), list.end(), static_cast<std::int32_t>(value)) != list.end();
-}
 
 /// Entries to compute from which on all are computed. Sums have few, and no others hold the same ranges.
 double most_entries(const ProblemSpec& spec) {
