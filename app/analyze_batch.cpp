@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/analyze_run.hpp"
@@ -20,8 +19,7 @@ namespace {
 void analyze_into(FinishedRun& run, const AnalyzeOptions& asked, const std::string& prefix) {
   reset_peak_memory();
   try {
-    run.summary =
-        std::make_shared<Json>(analyze_with_progress(*run.plan.spec, run.plan.output, asked, prefix));
+    run.summary = analyze_with_progress(*run.plan.spec, run.plan.output, asked, prefix);
     run.exit_code = static_cast<int>(verdict(*run.summary));
   } catch (...) {
     run.failure = describe_current_exception();

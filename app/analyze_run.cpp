@@ -33,8 +33,8 @@ class InterruptPolicy {
 
 }  // namespace
 
-Json analyze_with_progress(const ProblemSpec& spec, const std::string& output, const AnalyzeOptions& asked,
-                           const std::string& prefix) {
+std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const std::string& output,
+                                                  const AnalyzeOptions& asked, const std::string& prefix) {
   check_memory(spec, asked.memory(), asked.threads);
   ThreadTeam team(asked.threads);
   InterruptPolicy interrupts;
@@ -51,7 +51,7 @@ Json analyze_with_progress(const ProblemSpec& spec, const std::string& output, c
   options.notice = [&](const std::string& text) {
     if (!asked.quiet) shown.notice(text);
   };
-  Json summary = analyze(spec, options, team);
+  auto summary = std::make_shared<const Json>(analyze(spec, options, team));
   shown.finish();
   return summary;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "app/analyze_options.hpp"
@@ -12,10 +13,11 @@ namespace coordreq {
 /// @returns its summary. @param output path of the results file; empty: none
 /// @param prefix of the progress line: "2 of 5, "
 /// @throws LimitError if it needs more memory than there may be, before threads or anything else are there;
-/// as
-///   analyze(); Error if the program was interrupted
-[[nodiscard]] Json analyze_with_progress(const ProblemSpec& spec, const std::string& output,
-                                         const AnalyzeOptions& asked, const std::string& prefix);
+///   as analyze(); Error if the program was interrupted
+[[nodiscard]] std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec,
+                                                                const std::string& output,
+                                                                const AnalyzeOptions& asked,
+                                                                const std::string& prefix);
 
 /// @throws Error if a signal waits. @param place what is complete nevertheless
 void check_interrupted(const std::string& place);

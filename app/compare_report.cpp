@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/print_answer.hpp"
 #include "app/render.hpp"
 #include "cell/state_query.hpp"
 #include "numeric/rational.hpp"
@@ -212,8 +213,6 @@ std::string verdict_text(const Json& comparison, const std::vector<Compared>& va
   return "\nWorse: a requirement no longer holds.\n";
 }
 
-}  // namespace
-
 Json comparison_json(const ResultsComparison& comparison, const ResultsReader& before,
                      const ResultsReader& after, const CompareOptions& options) {
   const Files files{before, after};
@@ -251,6 +250,15 @@ std::string comparison_text(const Json& comparison, const ResultsReader& before,
       text += worst_text(own, one.field, files) + cut_off_text(own["cut_off"]);
   }
   return text + only_text(comparison) + verdict_text(comparison, values);
+}
+
+}  // namespace
+
+void print_comparison(const CommonOptions& asked, const ResultsComparison& comparison,
+                      const ResultsReader& before, const ResultsReader& after,
+                      const CompareOptions& options) {
+  print_answer(asked, comparison_json(comparison, before, after, options),
+               [&](const Json& found) { return comparison_text(found, before, after); });
 }
 
 }  // namespace coordreq

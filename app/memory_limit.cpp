@@ -4,11 +4,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <thread>
+
+#include "base/timer.hpp"
 
 namespace coordreq {
 namespace {
@@ -41,17 +42,6 @@ void lower_by_groups(std::optional<std::uint64_t>& limit, const fs::path& mount,
     lower(limit, read_limit(mount / path / file));
     if (path.empty()) return;
   }
-}
-
-/// Of /proc/self/status, in bytes: "VmData", what the limit is about; "RssAnon", "RssFile", what is in
-/// memory.
-std::uint64_t status_bytes(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.compare(0, key.size() + 1, key + ":") == 0)
-      return std::strtoull(line.c_str() + key.size() + 1, nullptr, 10) * 1024;
-  }
-  return 0;
 }
 
 }  // namespace

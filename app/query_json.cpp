@@ -4,6 +4,7 @@
 #include "answers/field_parts.hpp"
 #include "app/json_text.hpp"
 #include "app/network_report.hpp"
+#include "app/print_answer.hpp"
 #include "app/query_report.hpp"
 #include "app/query_values.hpp"
 
@@ -164,6 +165,15 @@ std::vector<Rational> values_of(const ProblemSpec& spec, const std::vector<std::
     action /= choices.size();
   }
   return values;
+}
+
+std::string answer_json_line(const StateAnswer& answer, const ResultsReader& results) {
+  return json_line(answer_json(answer, results));
+}
+
+void print_state(const CommonOptions& asked, const StateAnswer& answer, const ResultsReader& results) {
+  print_answer(asked, answer_json(answer, results),
+               [&](const Json& found) { return answer_text(found, answer.state, results); });
 }
 
 }  // namespace coordreq

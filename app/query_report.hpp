@@ -4,14 +4,18 @@
 #include <vector>
 
 #include "app/json_text.hpp"
+#include "app/options.hpp"
 #include "cell/state_query.hpp"
 #include "results/results_reader.hpp"
 
 namespace coordreq {
 
-/// What `query` has found.
+/// Prints what `query` has found of a state.
+void print_state(const CommonOptions& asked, const StateAnswer& answer, const ResultsReader& results);
+
+/// The same as a document, on one line, in words. @param state that was asked for
 [[nodiscard]] Json answer_json(const StateAnswer& answer, const ResultsReader& results);
-/// The same in words. @param state that was asked for
+[[nodiscard]] std::string answer_json_line(const StateAnswer& answer, const ResultsReader& results);
 [[nodiscard]] std::string answer_text(const Json& answer, const std::vector<Rational>& state,
                                       const ResultsReader& results);
 

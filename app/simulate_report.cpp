@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/print_answer.hpp"
 #include "app/render.hpp"
 #include "app/report_error.hpp"
 
@@ -87,8 +88,6 @@ Json trace_json(const RunTrace& trace, std::size_t run, const ProblemSpec& spec)
           {"end", state_json(trace.samples.back().state, spec)}};
 }
 
-}  // namespace
-
 std::string simulation_text(const Json& simulation, const ProblemSpec& spec) {
   const Json& traces = simulation["traces"];
   Facts facts = {{"outcome", outcomes_text(simulation)},
@@ -133,6 +132,14 @@ Json simulation_json(const Simulation& simulation, const ResultsReader& results,
   for (std::size_t r = 0; r < simulation.traces.size(); ++r)
     json["traces"].push_back(trace_json(simulation.traces[r], r, spec));
   return json;
+}
+
+}  // namespace
+
+void print_simulation(const CommonOptions& asked, const Simulation& simulation, const ResultsReader& results,
+                      const SimulationOptions& options) {
+  print_answer(asked, simulation_json(simulation, results, options),
+               [&results](const Json& found) { return simulation_text(found, results.spec()); });
 }
 
 }  // namespace coordreq

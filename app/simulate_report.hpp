@@ -1,16 +1,12 @@
 #pragma once
 
-#include <string>
-
-#include "app/json_text.hpp"
+#include "app/options.hpp"
 #include "cell/simulate.hpp"
 
 namespace coordreq {
 
-/// What `simulate` has found.
-[[nodiscard]] Json simulation_json(const Simulation& simulation, const ResultsReader& results,
-                                   const SimulationOptions& options);
-/// The same in words. @param spec of the results
-[[nodiscard]] std::string simulation_text(const Json& simulation, const ProblemSpec& spec);
+/// Prints what `simulate` has found.
+void print_simulation(const CommonOptions& asked, const Simulation& simulation, const ResultsReader& results,
+                      const SimulationOptions& options);
 
 }  // namespace coordreq

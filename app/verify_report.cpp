@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/print_answer.hpp"
 #include "app/render.hpp"
+#include "app/standard_streams.hpp"
 
 namespace coordreq {
 namespace {
@@ -103,8 +105,6 @@ std::string verdict_cell(const Json& result) {
   return what + (result["verdict"] == "holds" ? " holds" : " holds, apart from what is not confirmed");
 }
 
-}  // namespace
-
 Json verification_json(const Verification& result, const std::string& path, double seconds, int threads) {
   Json json;
   json["file"] = path;
@@ -141,6 +141,15 @@ std::string not_confirmed_line(const Json& result) {
                           grouped(finding["checked"]), line_of(finding["check"]));
   }
   return fmt::format("coordreq: warning: not confirmed: {} ({})\n", checks, line_of(result["file"]));
+}
+
+}  // namespace
+
+void print_verification(const CommonOptions& asked, const Verification& result, const std::string& path,
+                        double seconds, int threads) {
+  const Json found = verification_json(result, path, seconds, threads);
+  print_answer(asked, found, verification_text);
+  if (result.verdict() == Verdict::not_confirmed) write_diagnostics(not_confirmed_line(found));
 }
 
 }  // namespace coordreq

@@ -1,5 +1,4 @@
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/analysis_text.hpp"
 #include "app/analyze_batch.hpp"
@@ -26,13 +25,13 @@ void check_files(const ProblemSpec& spec, const std::string& output, const Analy
   if (own.checkpoint) files.writes(own.checkpoint->file, "the checkpoint", "--checkpoint");
 }
 
-Json analyze_and_write(const ProblemSpec& spec, const AnalyzeOptions& own) {
+std::shared_ptr<const Json> analyze_and_write(const ProblemSpec& spec, const AnalyzeOptions& own) {
   const std::string output = own.output.value_or(spec.name + ".h5");
   check_files(spec, output, own);
   if (own.junit) try_to_write(*own.junit);
-  Json summary = analyze_with_progress(spec, output, own, "");
+  std::shared_ptr<const Json> summary = analyze_with_progress(spec, output, own, "");
   const InterruptDelay delay;
-  if (own.junit) write_junit(*own.junit, {{.name = spec.name, .spec = &spec, .summary = &summary}});
+  if (own.junit) write_junit(*own.junit, {{.name = spec.name, .spec = &spec, .summary = summary.get()}});
   check_interrupted(output);
   return summary;
 }
@@ -41,9 +40,9 @@ ExitCode run(const AnalyzeOptions& own) {
   if (own.max_memory) hold_to_memory(*own.max_memory, own.threads);
   if (own.is_batch()) return run_analyze_batch(own);
   const ProblemSpec spec = load_spec(own.specs.front(), own.settings, own.memory());
-  const Json summary = analyze_and_write(spec, own);
-  print_answer(own, summary, [&spec](const Json& found) { return summary_text(found, spec); });
-  return verdict(summary);
+  const std::shared_ptr<const Json> summary = analyze_and_write(spec, own);
+  print_answer(own, *summary, [&spec](const Json& found) { return summary_text(found, spec); });
+  return verdict(*summary);
 }
 
 /// The other two come after it, so that they can ask whether it was given.

@@ -1,10 +1,8 @@
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/all.hpp"
 #include "app/compare_report.hpp"
 #include "app/option_values.hpp"
-#include "app/print_answer.hpp"
 #include "app/progress_display.hpp"
 
 namespace coordreq {
@@ -32,8 +30,7 @@ ExitCode run(const CompareArguments& own) {
   const ResultsReader before(own.before, own.max_memory);
   const ResultsReader after(own.after, own.max_memory);
   const ResultsComparison comparison = compare_with_progress(before, after, own);
-  print_answer(own, comparison_json(comparison, before, after, own.compare),
-               [&](const Json& found) { return comparison_text(found, before, after); });
+  print_comparison(own, comparison, before, after, own.compare);
   return comparison.is_worse() ? ExitCode::requirement_failed : ExitCode::success;
 }
 

@@ -1,11 +1,9 @@
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/commands/all.hpp"
 #include "app/option_values.hpp"
-#include "app/print_answer.hpp"
 #include "app/query_report.hpp"
 #include "app/standard_streams.hpp"
 #include "cell/state_query.hpp"
@@ -34,7 +32,7 @@ void answer_standard_input(const ResultsReader& results, StateQuery& query, bool
   if (!json) write_output(answer_csv_header(results));
   while (std::optional<std::vector<Rational>> state = states.next()) {
     const StateAnswer answer = query.at(std::move(*state));
-    write_output(json ? json_line(answer_json(answer, results)) : answer_csv_line(answer, results));
+    write_output(json ? answer_json_line(answer, results) : answer_csv_line(answer, results));
   }
 }
 
@@ -47,8 +45,7 @@ ExitCode run(const QueryOptions& own) {
     return ExitCode::success;
   }
   const StateAnswer answer = query.at(parse_state(*own.at, state_names(results), "--at"));
-  print_answer(own, answer_json(answer, results),
-               [&](const Json& found) { return answer_text(found, answer.state, results); });
+  print_state(own, answer, results);
   return ExitCode::success;
 }
 

@@ -1,14 +1,12 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/commands/all.hpp"
 #include "app/files_in_use.hpp"
 #include "app/interrupt.hpp"
 #include "app/option_values.hpp"
-#include "app/print_answer.hpp"
 #include "app/progress_display.hpp"
 #include "app/simulate_report.hpp"
 
@@ -86,8 +84,7 @@ ExitCode run(const SimulateOptions& own) {
   options.max_memory = own.memory();
   const ResultsReader results(own.results, own.max_memory);
   const Simulation simulation = simulate_with_care(results, options, own);
-  print_answer(own, simulation_json(simulation, results, options),
-               [&results](const Json& found) { return simulation_text(found, results.spec()); });
+  print_simulation(own, simulation, results, options);
   return simulation.violation() ? ExitCode::requirement_failed : ExitCode::success;
 }
 

@@ -1,12 +1,9 @@
 #include <chrono>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/all.hpp"
 #include "app/option_values.hpp"
-#include "app/print_answer.hpp"
 #include "app/progress_display.hpp"
-#include "app/standard_streams.hpp"
 #include "app/verify_report.hpp"
 #include "verify/verify_file.hpp"
 
@@ -44,9 +41,7 @@ ExitCode run(const VerifyArguments& own) {
   const ClaimedFile file = read_claims(own.results, own.memory());
   ThreadTeam team(own.threads);
   const Verification result = verify_with_progress(file, own, team);
-  const Json found = verification_json(result, own.results, seconds_since(start), team.size());
-  print_answer(own, found, verification_text);
-  if (result.verdict() == Verdict::not_confirmed) write_diagnostics(not_confirmed_line(found));
+  print_verification(own, result, own.results, seconds_since(start), team.size());
   const bool passes = result.verdict() == Verdict::holds || (result.holds() && !own.strict);
   return passes ? ExitCode::success : ExitCode::requirement_failed;
 }

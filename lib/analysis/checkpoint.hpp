@@ -39,8 +39,7 @@ class Checkpoint : public StageStore {
   /// Goes through the file if there is one, else makes one in which nothing is saved yet.
   /// REQUIRES: check_checkpoint(options) has passed.
   /// @throws IoError if the file cannot be read, or another process has it; ResultsError if it is damaged,
-  /// none
-  ///   of ours, or of something else
+  ///   none of ours, or of something else
   Checkpoint(CheckpointOptions options, const ProblemSpec& spec, Listener listener);
 
   /// From now on the stage under way is this one. @returns this object

@@ -25,8 +25,7 @@ struct ListedController {
 /// What all answers to a problem stand on: its abstraction, S, and the engine that reads them.
 ///
 /// 1. Rows, columns and dimensions are those of the grid of the abstraction, with the states in the order of
-/// the
-///    model; `order` maps cells of the spec's grid to them. Inputs and agents are the spec's.
+///    the model; `order` maps cells of the spec's grid to them. Inputs and agents are the spec's.
 /// 2. Neither copied nor moved: its parts refer to one another. What stages make is there after them.
 struct Ground {
   explicit Ground(const ProblemSpec& problem) : spec(problem) {}

@@ -13,10 +13,10 @@ namespace coordreq {
   return static_cast<std::size_t>(i);
 }
 
-/// Whether a list of indices has one.
-template <class Index, class Value>
-[[nodiscard]] bool contains(const std::vector<Index>& list, Value value) {
-  return std::find(list.begin(), list.end(), static_cast<Index>(value)) != list.end();
+/// Whether a list of indices has this one.
+template <class Index, class Number>
+[[nodiscard]] bool contains(const std::vector<Index>& list, Number index) {
+  return std::find(list.begin(), list.end(), static_cast<Index>(index)) != list.end();
 }
 
 }  // namespace coordreq

@@ -36,14 +36,18 @@ std::uint64_t resident_bytes() {
   return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-std::uint64_t peak_memory_bytes() {
-  // Not getrusage(): that counts what stood in this process before the program was started in it.
+std::uint64_t status_bytes(const std::string& key) {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
     std::uint64_t kib = 0;
-    if (word == "VmHWM:" && status >> kib) return kib * 1024;
+    if (word == key + ":" && status >> kib) return kib * 1024;
   }
   return 0;
+}
+
+std::uint64_t peak_memory_bytes() {
+  // Not getrusage(): that counts what stood in this process before the program was started in it.
+  return status_bytes("VmHWM");
 }
 
 }  // namespace coordreq

@@ -33,6 +33,10 @@ void reset_peak_memory();
 /// What this process has in memory now, in bytes; 0 where the system does not tell.
 [[nodiscard]] std::uint64_t resident_bytes();
 
+/// What /proc/self/status says of this process, in bytes: "VmData" has what a limit of data is about,
+/// "RssAnon" and "RssFile" what is in memory; 0 where the system does not tell.
+[[nodiscard]] std::uint64_t status_bytes(const std::string& key);
+
 /// The largest resident set of this process so far, or since reset_peak_memory(), in bytes; 0 where the
 /// system does not tell.
 [[nodiscard]] std::uint64_t peak_memory_bytes();

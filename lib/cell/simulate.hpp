@@ -56,8 +56,7 @@ struct Simulation {
 /// which is built again unless it is stored. Writes them to `options.output`, also runs that contradict the
 /// analysis.
 /// @throws UsageError naming the option whose value does not fit the results; SpecError if the spec holds
-/// what
-///   this version cannot do; LimitError, ResultsError, IoError
+///   what this version cannot do; LimitError, ResultsError, IoError
 [[nodiscard]] Simulation simulate(const ResultsReader& results, const SimulationOptions& options,
                                   ThreadTeam& team);
 

@@ -98,16 +98,16 @@ std::vector<Rational> StateReader::json_state() const {
   try {
     const JsonDocument document = JsonDocument::parse(line_, source_);
     const JsonDocument::Node root = document.root();
-    if (!root.value().is_object()) throw UsageError("expected a JSON object a line", place());
+    if (!root.is_object()) throw UsageError("expected a JSON object a line", place());
     for (const std::string& key : root.keys()) static_cast<void>(state_number(key, names_, place()));
     std::vector<Rational> state;
     for (const std::string& name : names_) {
       if (!root.has(name)) throw UsageError(fmt::format("no value for the state '{}'", name), place());
       const JsonDocument::Node node = root[name];
-      if (!node.value().is_number() && !node.value().is_string()) {
+      if (!node.is_number() && !node.is_text()) {
         throw UsageError("expected a number or a string", place() + ", " + name);
       }
-      const std::string text = node.value().is_number() ? node.token() : node.text();
+      const std::string text = node.is_number() ? node.token() : node.text();
       state.push_back(parse_value(text, place() + ", " + name));
     }
     return state;

@@ -17,9 +17,9 @@ std::vector<ActionSource> action_sources(const RowEngine& engine) {
   if (allow == nullptr) return sources;
   ActionSource& source = sources.emplace_back();
   source.ids = &allow->ids();
-  source.state_stride = allow->state_stride();
-  source.input_stride = allow->input_stride();
-  source.inputs = allow->inputs();
+  source.state_stride = allow->positions().state_stride;
+  source.input_stride = allow->positions().input_stride;
+  source.inputs = allow->positions().inputs;
   for (const std::int32_t i : source.inputs) {
     source.input_combinations *= engine.abstraction().inputs[static_cast<std::size_t>(i)].count();
   }

@@ -43,26 +43,20 @@ void turn_row(const std::uint8_t* cells, std::int64_t row_length, std::int64_t b
 
 }  // namespace
 
-PairTable::PairTable(const ConditionTable& allow)
-    : grid_(&allow.grid()),
-      input_space_(&allow.input_space()),
-      inputs_(allow.inputs()),
-      state_stride_(allow.state_stride()),
-      input_stride_(allow.input_stride()) {
+PairTable::PairTable(const ConditionTable& allow) : positions_(allow.positions()) {
   for (std::int64_t r = 0; r < allow.table().rows(); ++r) ids_.push_back(rows_.number(allow.table().row(r)));
 }
 
 PairTable::PairTable(const UniformGrid& grid, const InputSpace& inputs, const PackedPairs& listed,
                      const ConditionTable* allow, ThreadTeam& team)
-    : grid_(&grid),
-      input_space_(&inputs),
-      inputs_(inputs.size()),
-      state_stride_(grid.size(), 0),
-      input_stride_(inputs.size()) {
-  std::iota(inputs_.begin(), inputs_.end(), 0);
-  for (std::size_t i = 0; i < inputs.size(); ++i) input_stride_[i] = inputs.stride(i);
+    : positions_{.grid = &grid,
+                 .input_space = &inputs,
+                 .inputs = std::vector<std::int32_t>(inputs.size()),
+                 .state_stride = std::vector<std::int64_t>(grid.size(), 0)} {
+  std::iota(positions_.inputs.begin(), positions_.inputs.end(), 0);
+  for (std::size_t i = 0; i < inputs.size(); ++i) positions_.input_stride.push_back(inputs.stride(i));
   for (std::size_t i = 0; i + 1 < grid.size(); ++i)
-    state_stride_[i] = grid.stride(i) / grid.row_length() * inputs.count();
+    positions_.state_stride[i] = grid.stride(i) / grid.row_length() * inputs.count();
   ids_.reserve(static_cast<std::size_t>(grid.rows() * inputs.count()));
 
   const std::size_t words = words_for(grid);
@@ -89,18 +83,6 @@ PairTable::PairTable(const UniformGrid& grid, const InputSpace& inputs, const Pa
         ids_.push_back(rows_.number({own, words}));
     }
   }
-}
-
-ConstRow PairTable::row(std::int64_t row, std::int64_t u) const {
-  std::int64_t position = 0;
-  for (std::size_t i = 0; i + 1 < grid_->size(); ++i) {
-    if (state_stride_[i] != 0) position += grid_->index(row * grid_->row_length(), i) * state_stride_[i];
-  }
-  for (const std::int32_t i : inputs_) {
-    const auto input = static_cast<std::size_t>(i);
-    position += input_space_->index(u, input) * input_stride_[input];
-  }
-  return this->row(position);
 }
 
 }  // namespace coordreq

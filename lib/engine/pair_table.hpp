@@ -29,20 +29,16 @@ class PairTable {
     return rows_[ids_[static_cast<std::size_t>(position)]];
   }
   /// The bits of all cells of grid row `row` under joint input `u`.
-  [[nodiscard]] ConstRow row(std::int64_t row, std::int64_t u) const;
+  [[nodiscard]] ConstRow row(std::int64_t row, std::int64_t u) const {
+    return this->row(positions_.of(row, u));
+  }
 
   /// [position]: equal numbers mean equal bits.
   [[nodiscard]] const std::vector<std::uint32_t>& ids() const { return ids_; }
-  [[nodiscard]] const std::vector<std::int32_t>& inputs() const { return inputs_; }  ///< in use, ascending
-  [[nodiscard]] const std::vector<std::int64_t>& state_stride() const { return state_stride_; }
-  [[nodiscard]] const std::vector<std::int64_t>& input_stride() const { return input_stride_; }
+  [[nodiscard]] const RowPositions& positions() const { return positions_; }
 
  private:
-  const UniformGrid* grid_;
-  const InputSpace* input_space_;
-  std::vector<std::int32_t> inputs_;
-  std::vector<std::int64_t> state_stride_;  ///< in positions; 0 where not in use
-  std::vector<std::int64_t> input_stride_;
+  RowPositions positions_;
   ListNumbers<Word> rows_;
   std::vector<std::uint32_t> ids_;
 };

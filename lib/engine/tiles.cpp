@@ -54,9 +54,9 @@ Tiles::Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading)
   const PairTable* const allow = engine.allow();
   if (allow == nullptr) return;
   std::int64_t combinations = 1;
-  for (const std::int32_t i : allow->inputs())
+  for (const std::int32_t i : allow->positions().inputs)
     combinations *= engine.abstraction().inputs[static_cast<std::size_t>(i)].count();
-  add_source(allow->state_stride(), combinations, number_lists(allow->ids(), combinations));
+  add_source(allow->positions().state_stride, combinations, number_lists(allow->ids(), combinations));
 }
 
 void Tiles::add_source(const std::vector<std::int64_t>& state_stride, std::int64_t combinations,

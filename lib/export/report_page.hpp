@@ -5,7 +5,7 @@
 
 namespace coordreq {
 
-/// `text` as HTML text or attribute value: & < > " ' as entities.
+/// `text` as HTML or XML text or attribute value: & < > " ' as entities.
 [[nodiscard]] std::string html_text(std::string_view text);
 
 /// What a page is made of.

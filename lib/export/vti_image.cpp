@@ -8,6 +8,7 @@
 #include <iterator>
 #include <span>
 
+#include "export/report_page.hpp"
 #include "results/chunk_codec.hpp"
 
 namespace coordreq {
@@ -16,29 +17,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the file says that it is little-endian");
 
 constexpr std::uint64_t kBlockElements = 1 << 17;
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 /// An array of texts, each as the numbers of its bytes and a 0 at the end, which is how VTK has them.
 std::string text_field(const std::string& name, const std::vector<std::string>& texts) {
@@ -94,7 +72,7 @@ void export_vti(const ImageContent& image, const TextSink& sink) {
   std::uint64_t offset = 0;
   for (const ImageContent::Array& array : image.arrays) {
     sink(fmt::format("        <DataArray type=\"Float64\" Name=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-                     escaped(array.name), offset));
+                     html_text(array.name), offset));
     data.push_back(packed(array.values, cells));
     offset += data.back().size();
   }

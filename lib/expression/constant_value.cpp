@@ -7,8 +7,7 @@
 #include "expression/domains.hpp"
 #include "expression/functions.hpp"
 #include "expression/place.hpp"
-#include "expression/program.hpp"
-#include "numeric/truth.hpp"
+#include "expression/truth_of.hpp"
 
 namespace coordreq {
 namespace {
@@ -28,24 +27,6 @@ Truth comparison(Operator op, const Constant& a, const Constant& b) {
   return compare(op, a.value, b.value);
 }
 
-Truth condition(const Program::Node& node, const std::vector<Constant>& numbers,
-                const std::vector<Truth>& truths) {
-  switch (node.op) {
-    case Operator::logical_and:
-      return truth_and(truths[node.a], truths[node.b]);
-    case Operator::logical_or:
-      return truth_or(truths[node.a], truths[node.b]);
-    case Operator::logical_not:
-      return !truths[node.a];
-    case Operator::literal_true:
-      return Truth::yes;
-    case Operator::literal_false:
-      return Truth::no;
-    default:
-      return comparison(node.op, numbers[node.a], numbers[node.b]);
-  }
-}
-
 Constant number(const Program& program, const Program::Node& node, const std::vector<Constant>& numbers,
                 const std::vector<Truth>& truths) {
   if (node.op == Operator::constant) return {Outcome::value, program.constants[node.a]};
@@ -63,7 +44,8 @@ Constant evaluate(const Program& program) {
   for (std::size_t i = 0; i < size; ++i) {
     const Program::Node& node = program.nodes[i];
     if (is_condition(node.op)) {
-      truths[i] = condition(node, numbers, truths);
+      truths[i] =
+          truth_of(node, truths, [&] { return comparison(node.op, numbers[node.a], numbers[node.b]); });
     } else {
       numbers[i] = number(program, node, numbers, truths);
     }

@@ -12,16 +12,12 @@ namespace {
 constexpr Interval kZero{0.0, 0.0};
 constexpr Interval kOne{1.0, 1.0};
 
-bool is_zero(const Interval& a) {
-  return a.lower == 0.0 && a.upper == 0.0;
-}
-
 bool is_constant(const Dual& a) {
-  return a.directions == 0 && is_zero(a.jump);
+  return a.directions == 0 && a.jump.is_zero();
 }
 
 Interval scaled(const Interval& factor, const Interval& a) {
-  if (is_zero(a)) return kZero;
+  if (a.is_zero()) return kZero;
   return factor.lower == 1.0 && factor.upper == 1.0 ? a : factor * a;
 }
 
@@ -158,9 +154,9 @@ Dual operator/(const Dual& a, const Dual& b) {
   const Interval value = a.value / b.value;
   Dual result = combined(a, kOne, b, -value, value);
   for (std::size_t j = 0; j < result.directions; ++j) {
-    if (!is_zero(result.gradient[j])) result.gradient[j] = result.gradient[j] / b.value;
+    if (!result.gradient[j].is_zero()) result.gradient[j] = result.gradient[j] / b.value;
   }
-  if (!is_zero(result.jump)) result.jump = result.jump / b.value;
+  if (!result.jump.is_zero()) result.jump = result.jump / b.value;
   return result;
 }
 

@@ -10,6 +10,44 @@
 
 namespace coordreq {
 
+/// The value of a condition.
+struct ConditionValue {
+  Truth value = Truth::undecided;
+  bool total = true;  ///< false if it is undecided and perhaps undefined
+};
+
+/// Of a node that is a condition, from the values of the nodes that it refers to.
+template <class Node, class T>
+[[nodiscard]] ConditionValue condition_of(const Node& node, const std::vector<T>& numbers,
+                                          const std::vector<ConditionValue>& truths) {
+  // What is decided is so whatever part of it is undefined.
+  const auto made = [](Truth value, bool total) {
+    return ConditionValue{value, total || value != Truth::undecided};
+  };
+  const auto both = [&](Truth value) { return made(value, truths[node.a].total && truths[node.b].total); };
+  const auto is_total = [](const T& number) {
+    if constexpr (requires { number.total; }) return number.total;
+    return true;
+  };
+  switch (node.op) {
+    case Operator::logical_and:
+      return both(truth_and(truths[node.a].value, truths[node.b].value));
+    case Operator::logical_or:
+      return both(truth_or(truths[node.a].value, truths[node.b].value));
+    case Operator::logical_not:
+      return {!truths[node.a].value, truths[node.a].total};
+    case Operator::literal_true:
+      return {Truth::yes, true};
+    case Operator::literal_false:
+      return {Truth::no, true};
+    default:
+      break;
+  }
+  const T& a = numbers[node.a];
+  const T& b = numbers[node.b];
+  return made(compare(node.op, a, b), is_total(a) && is_total(b));
+}
+
 /// Runs a program over any number type T ("abstract domain"). T must provide, found by argument-dependent
 /// lookup: `T from_rational(const T* tag, const Rational&)`, `T apply(Operator, const T&)` for the unary
 /// functions, `T apply(Operator, const T&, const T&)` for the binary ones, `Truth compare(Operator, const T&,
@@ -48,23 +86,11 @@ class Evaluator {
   [[nodiscard]] Truth truth_at(std::uint32_t node) const { return truths_[node].value; }
 
  private:
-  struct Condition {
-    Truth value = Truth::undecided;
-    bool total = true;  ///< false if it is undecided and perhaps undefined
-  };
-
-  static Condition made(Truth value, bool total) { return {value, total || value != Truth::undecided}; }
-
-  static bool is_total(const T& number) {
-    if constexpr (requires { number.total; }) return number.total;
-    return true;
-  }
-
   void run(std::span<const T> slots) {
     const auto& nodes = program_->nodes;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (is_condition(nodes[i].op)) {
-        truths_[i] = condition_of(nodes[i]);
+        truths_[i] = condition_of(nodes[i], numbers_, truths_);
       } else {
         number_of(nodes[i], slots, numbers_[i]);
       }
@@ -93,41 +119,17 @@ class Evaluator {
   }
 
   void choose(const Program::Node& node, T& result) const {
-    const Condition& condition = truths_[node.a];
+    const ConditionValue& condition = truths_[node.a];
     result = select(condition.value, numbers_[node.b], numbers_[node.c]);
     if constexpr (requires { result.total = false; }) {
       if (!condition.total) result.total = false;
     }
   }
 
-  Condition condition_of(const Program::Node& node) const {
-    switch (node.op) {
-      case Operator::logical_and:
-        return both(node, truth_and(truths_[node.a].value, truths_[node.b].value));
-      case Operator::logical_or:
-        return both(node, truth_or(truths_[node.a].value, truths_[node.b].value));
-      case Operator::logical_not:
-        return {!truths_[node.a].value, truths_[node.a].total};
-      case Operator::literal_true:
-        return {Truth::yes, true};
-      case Operator::literal_false:
-        return {Truth::no, true};
-      default:
-        break;
-    }
-    const T& a = numbers_[node.a];
-    const T& b = numbers_[node.b];
-    return made(compare(node.op, a, b), is_total(a) && is_total(b));
-  }
-
-  Condition both(const Program::Node& node, Truth value) const {
-    return made(value, truths_[node.a].total && truths_[node.b].total);
-  }
-
   const Program* program_;
   std::vector<T> constants_;
   std::vector<T> numbers_;
-  std::vector<Condition> truths_;
+  std::vector<ConditionValue> truths_;
 };
 
 }  // namespace coordreq

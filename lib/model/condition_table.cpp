@@ -40,28 +40,15 @@ std::vector<ConditionAxis> axes_of(const UniformGrid& grid, const InputSpace& in
 ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid, const InputSpace& inputs,
                                Sampling sampling, const Undecided& undecided, ThreadTeam& team,
                                Question question)
-    : grid_(&grid),
-      input_space_(&inputs),
-      table_(condition, axes_of(grid, inputs, sampling),
+    : table_(condition, axes_of(grid, inputs, sampling),
              static_cast<std::uint32_t>(grid.state(grid.size() - 1)), undecided, team, question),
-      input_stride_(table_.strides().begin() + static_cast<std::ptrdiff_t>(grid.size()),
-                    table_.strides().end()) {
-  for (std::size_t i = 0; i < grid.size(); ++i) state_stride_.push_back(table_.strides()[grid.state(i)]);
+      positions_{.grid = &grid, .input_space = &inputs} {
+  const std::vector<std::int64_t>& strides = table_.strides();
+  for (std::size_t i = 0; i < grid.size(); ++i) positions_.state_stride.push_back(strides[grid.state(i)]);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (input_stride_[i] != 0) inputs_.push_back(static_cast<std::int32_t>(i));
+    positions_.input_stride.push_back(strides[grid.size() + i]);
+    if (positions_.input_stride[i] != 0) positions_.inputs.push_back(static_cast<std::int32_t>(i));
   }
-}
-
-std::int64_t ConditionTable::position(std::int64_t row, std::int64_t u) const {
-  std::int64_t position = 0;
-  for (std::size_t i = 0; i + 1 < grid_->size(); ++i) {
-    if (state_stride_[i] != 0) position += grid_->index(row * grid_->row_length(), i) * state_stride_[i];
-  }
-  for (const std::int32_t i : inputs_) {
-    const auto input = static_cast<std::size_t>(i);
-    position += input_space_->index(u, input) * input_stride_[input];
-  }
-  return position;
 }
 
 }  // namespace coordreq

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "expression/truth_table.hpp"
-#include "model/input_space.hpp"
-#include "model/uniform_grid.hpp"
+#include "model/row_positions.hpp"
 
 namespace coordreq {
 
@@ -37,28 +36,15 @@ class ConditionTable {
 
   /// The bits of all cells of grid row `row` under joint input `u` (any u if no input is in use).
   [[nodiscard]] std::span<const TruthTable::Word> row(std::int64_t row, std::int64_t u) const {
-    return table_.row(position(row, u));
+    return table_.row(positions_.of(row, u));
   }
-  /// Position of that row in the table: equal positions mean equal bits.
-  [[nodiscard]] std::int64_t position(std::int64_t row, std::int64_t u) const;
+  [[nodiscard]] const RowPositions& positions() const { return positions_; }
   /// The rows by position.
   [[nodiscard]] const TruthTable& table() const { return table_; }
 
-  [[nodiscard]] const UniformGrid& grid() const { return *grid_; }
-  [[nodiscard]] const InputSpace& input_space() const { return *input_space_; }
-  /// Numbers of the inputs in use, ascending.
-  [[nodiscard]] const std::vector<std::int32_t>& inputs() const { return inputs_; }
-  /// By dimension and by input: what one index adds to the position; 0 where not in use.
-  [[nodiscard]] const std::vector<std::int64_t>& state_stride() const { return state_stride_; }
-  [[nodiscard]] const std::vector<std::int64_t>& input_stride() const { return input_stride_; }
-
  private:
-  const UniformGrid* grid_;
-  const InputSpace* input_space_;
   TruthTable table_;
-  std::vector<std::int32_t> inputs_;
-  std::vector<std::int64_t> state_stride_;
-  std::vector<std::int64_t> input_stride_;
+  RowPositions positions_;
 };
 
 }  // namespace coordreq

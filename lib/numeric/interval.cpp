@@ -82,19 +82,12 @@ Interval power_at(double x, double y) {
 }
 
 /// x^n by multiplication, which keeps exact results exact. REQUIRES: x >= 0, n >= 1.
-double multiplied_down(double x, unsigned n) {
+template <double (*multiply)(double, double)>
+double multiplied(double x, unsigned n) {
   double result = 1.0;
   for (; n > 0; n /= 2) {
-    if (n % 2 == 1) result = outward::multiply_down(result, x);
-    if (n > 1) x = outward::multiply_down(x, x);
-  }
-  return result;
-}
-double multiplied_up(double x, unsigned n) {
-  double result = 1.0;
-  for (; n > 0; n /= 2) {
-    if (n % 2 == 1) result = outward::multiply_up(result, x);
-    if (n > 1) x = outward::multiply_up(x, x);
+    if (n % 2 == 1) result = multiply(result, x);
+    if (n > 1) x = multiply(x, x);
   }
   return result;
 }
@@ -105,12 +98,12 @@ constexpr double kMostTight = 8;
 
 double power_down(double x, double n) {
   if (n > kMostMultiplied) return power_at(x, n).lower;
-  const double product = multiplied_down(x, static_cast<unsigned>(n));
+  const double product = multiplied<outward::multiply_down>(x, static_cast<unsigned>(n));
   return n <= kMostTight ? product : std::max(product, power_at(x, n).lower);
 }
 double power_up(double x, double n) {
   if (n > kMostMultiplied) return power_at(x, n).upper;
-  const double product = multiplied_up(x, static_cast<unsigned>(n));
+  const double product = multiplied<outward::multiply_up>(x, static_cast<unsigned>(n));
   return n <= kMostTight ? product : std::min(product, power_at(x, n).upper);
 }
 

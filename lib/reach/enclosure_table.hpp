@@ -16,9 +16,8 @@ namespace coordreq {
 /// other states, and the table is filled by shifting. Cells from which no state comes to a limit that would
 /// stop it have their exact posts, where that is what makes the system not exactly solvable.
 /// @throws SpecError naming the state and a place if the state may be undefined there, may escape to infinity
-/// within a
-///   period (unless it has left through an unsafe side of its own before: then the pair is blocked), or if a
-///   discrete state may be off its grid
+///   within a period (unless it has left through an unsafe side of its own before: then the pair is blocked),
+///   or if a discrete state may be off its grid
 void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
                             const std::vector<std::size_t>& states, ThreadTeam& team);
 

@@ -28,10 +28,6 @@ constexpr double kLeastTolerance = 1e-290;
 /// A state that decays faster than this within the step counts as damped without bound.
 constexpr double kStrongDecay = 8.0;
 
-double magnitude(const Interval& a) {
-  return std::max(std::fabs(a.lower), std::fabs(a.upper));
-}
-
 }  // namespace
 
 ValidatedFlow::Solver::Solver(FlowSystem system, const Interval& period)
@@ -122,7 +118,7 @@ bool ValidatedFlow::Solver::run_steps(std::size_t most_steps, bool patient) {
 
 /// The state that changes most in the last step.
 std::size_t ValidatedFlow::Solver::fastest() const {
-  const auto slower = [](const Interval& a, const Interval& b) { return magnitude(a) < magnitude(b); };
+  const auto slower = [](const Interval& a, const Interval& b) { return a.magnitude() < b.magnitude(); };
   const auto found = std::max_element(derivative_.begin(), derivative_.end(), slower);
   return static_cast<std::size_t>(found - derivative_.begin());
 }
@@ -196,8 +192,8 @@ std::optional<FlowFailure> ValidatedFlow::Solver::try_step_on_seam(const Interva
 void ValidatedFlow::Solver::set_tolerance() {
   for (std::size_t i = 0; i < n_; ++i) {
     tolerance_[i] = std::max(kWidthTolerance * (initial_[i].upper - initial_[i].lower),
-                             kMagnitudeTolerance * magnitude(box_[i]) + kLeastTolerance);
-    if (tape_.affine) tolerance_[i] = kMagnitudeTolerance * magnitude(box_[i]) + kLeastTolerance;
+                             kMagnitudeTolerance * box_[i].magnitude() + kLeastTolerance);
+    if (tape_.affine) tolerance_[i] = kMagnitudeTolerance * box_[i].magnitude() + kLeastTolerance;
   }
 }
 

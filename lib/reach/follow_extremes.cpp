@@ -7,14 +7,10 @@ namespace {
 
 using End = FollowedSolution::End;
 
-bool is_zero(const Interval& a) {
-  return a.lower == 0.0 && a.upper == 0.0;
-}
-
 /// Where to start for the extreme of something that depends on a variable with this sensitivity.
 /// @param tolerated a part of the sensitivity that may have the other sign
 End extreme_end(const Interval& range, const Interval& sensitivity, double tolerated, bool upper) {
-  if (range.is_point() || is_zero(sensitivity)) return End::any;
+  if (range.is_point() || sensitivity.is_zero()) return End::any;
   const End if_rising = upper ? End::upper : End::lower;
   const End if_falling = upper ? End::lower : End::upper;
   if (sensitivity.lower >= 0.0) return if_rising;

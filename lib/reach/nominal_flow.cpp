@@ -17,10 +17,6 @@ Interval part(const Interval& duration, std::uint32_t parts) {
   return duration * Interval{static_cast<double>(parts) / kParts, static_cast<double>(parts) / kParts};
 }
 
-double magnitude(const Interval& a) {
-  return std::max(std::fabs(a.lower), std::fabs(a.upper));
-}
-
 /// Whether the limit that `derivative` points out of is reached within the duration for sure.
 bool reaches(const FlowSystem::Limit& limit, const Interval& start, const Interval& derivative,
              const Interval& duration) {
@@ -90,7 +86,7 @@ bool NominalFlow::try_step(const Interval& duration, bool smallest, std::span<co
   const bool phases_known = find_phases(duration, state);
   if (decide_kinks(*tape_, field_->values(), choices_) && phases_known) {
     for (std::size_t i = 0; i < box_.size(); ++i) {
-      tolerance_[i] = std::max(tolerance[i], kNominalTolerance * magnitude(box_[i]));
+      tolerance_[i] = std::max(tolerance[i], kNominalTolerance * box_[i].magnitude());
     }
     taylor_.find_remainder(*field_, duration, choices_, held_, tolerance_, remainder_);
     if (remainder_.order > 0) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "expression/domains.hpp"
+#include "expression/truth_of.hpp"
 
 namespace coordreq {
 namespace {
@@ -63,7 +64,9 @@ double SwitchedEquation::run(std::span<const double> slots, bool keep, bool move
       if (keep && side != kUndefined) side = sides_[i];
     }
     if (is_condition(node.op)) {
-      truths_[i] = truth_of(node, side);
+      truths_[i] = truth_of(node, truths_, [&] {
+        return side == kUndefined ? Truth::undecided : to_truth(holds(node.op, side));
+      });
     } else {
       numbers_[i] = number_of(node, slots, side);
     }
@@ -93,23 +96,6 @@ double SwitchedEquation::number_of(const Program::Node& node, std::span<const do
   }
   if (is_unary_function(node.op)) return apply(node.op, numbers_[node.a]);
   return apply(node.op, numbers_[node.a], numbers_[node.b]);
-}
-
-Truth SwitchedEquation::truth_of(const Program::Node& node, int side) const {
-  switch (node.op) {
-    case Operator::logical_and:
-      return truth_and(truths_[node.a], truths_[node.b]);
-    case Operator::logical_or:
-      return truth_or(truths_[node.a], truths_[node.b]);
-    case Operator::logical_not:
-      return !truths_[node.a];
-    case Operator::literal_true:
-      return Truth::yes;
-    case Operator::literal_false:
-      return Truth::no;
-    default:
-      return side == kUndefined ? Truth::undecided : to_truth(holds(node.op, side));
-  }
 }
 
 }  // namespace coordreq

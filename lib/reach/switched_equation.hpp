@@ -34,7 +34,6 @@ class SwitchedEquation {
  private:
   double run(std::span<const double> slots, bool keep, bool move);
   [[nodiscard]] double number_of(const Program::Node& node, std::span<const double> slots, int side) const;
-  [[nodiscard]] Truth truth_of(const Program::Node& node, int side) const;
 
   const Program* program_;
   bool has_switches_ = false;

@@ -6,6 +6,7 @@
 
 #include "expression/domains.hpp"
 #include "expression/dual.hpp"
+#include "expression/evaluate.hpp"
 #include "reach/flow_tape.hpp"
 
 namespace coordreq {
@@ -62,15 +63,10 @@ class TapeValues {
   [[nodiscard]] Truth truth(std::uint32_t node) const { return truths_[node].value; }
 
  private:
-  struct Condition {
-    Truth value = Truth::undecided;
-    bool total = true;
-  };
-
   void run_node(std::uint32_t i, std::span<const T> slots) {
     const FlowTape::Node& node = tape_->nodes[i];
     if (is_condition(node.op)) {
-      truths_[i] = condition_of(node);
+      truths_[i] = condition_of(node, numbers_, truths_);
     } else if (node.op == Operator::variable) {
       numbers_[i] = slots[node.a];
     } else if (node.op == Operator::constant) {
@@ -85,35 +81,10 @@ class TapeValues {
     }
   }
 
-  /// A condition that is decided is so whatever part of it is undefined.
-  static Condition made(Truth value, bool total) { return {value, total || value != Truth::undecided}; }
-
-  Condition condition_of(const FlowTape::Node& node) const {
-    switch (node.op) {
-      case Operator::logical_and:
-        return made(truth_and(truths_[node.a].value, truths_[node.b].value), both_total(node));
-      case Operator::logical_or:
-        return made(truth_or(truths_[node.a].value, truths_[node.b].value), both_total(node));
-      case Operator::logical_not:
-        return {!truths_[node.a].value, truths_[node.a].total};
-      case Operator::literal_true:
-        return {Truth::yes, true};
-      case Operator::literal_false:
-        return {Truth::no, true};
-      default:
-        break;
-    }
-    const T& a = numbers_[node.a];
-    const T& b = numbers_[node.b];
-    return made(compare(node.op, a, b), a.total && b.total);
-  }
-
-  bool both_total(const FlowTape::Node& node) const { return truths_[node.a].total && truths_[node.b].total; }
-
   const FlowTape* tape_;
   std::vector<T> constants_;
   std::vector<T> numbers_;
-  std::vector<Condition> truths_;
+  std::vector<ConditionValue> truths_;
 };
 
 /// Decides the `pick` nodes by the values over a box. Discontinuities that stay open are pinned to the middle

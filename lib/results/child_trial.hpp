@@ -16,8 +16,7 @@ namespace coordreq {
 /// REQUIRES: `read` starts no thread and writes nothing.
 /// @param path of the file that is read, for the message
 /// @throws what `read` threw in the child if that is an Error (IoError, ResultsError, or an Error with the
-/// same
-///   exit code and text); ResultsError if the child came to another end
+///   same exit code and text); ResultsError if the child came to another end
 void try_in_child(const std::string& path, const std::function<void()>& read);
 
 }  // namespace coordreq

@@ -15,8 +15,7 @@ namespace coordreq {
 /// controller (see read_scots_controller()); its first bytes tell which.
 /// REQUIRES: the spec has one.
 /// @throws IoError if it cannot be read; ControllerError if it is neither, damaged, or on another grid,
-/// naming
-///   the place in it, what was found and what was expected
+///   naming the place in it, what was found and what was expected
 [[nodiscard]] ListedController read_controller_file(const ProblemSpec& spec);
 
 /// Checks its kind and its grids only.

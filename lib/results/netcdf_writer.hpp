@@ -18,8 +18,7 @@ namespace coordreq {
 /// 1. A *dimension* is a dataset that is a scale; "with coordinates" if it holds the axis' values, else only
 ///    its length means something and nothing is stored.
 /// 2. All paths start with "/"; the groups in them are made as needed. A dataset may use the dimensions of
-/// its own
-///    group and of those around it.
+///    its own group and of those around it.
 /// 3. The file is complete after finish(), and only then.
 ///
 /// The lists that tie datasets and scales together are written here and not by the high-level HDF5 library:

@@ -18,8 +18,7 @@ class OutputFile {
   /// Empty:
   ///   any name
   /// @throws IoError if the folder is missing or no file can be made in it, or `path` is a folder, a device,
-  /// a pipe
-  ///   or a file without write permission
+  ///   a pipe or a file without write permission
   explicit OutputFile(const std::string& path, std::string what = "the results",
                       const std::string& suffix = "");
   ~OutputFile();

@@ -20,8 +20,7 @@ class ResultsFile {
  public:
   /// @param cache_bytes of unpacked chunks
   /// @throws IoError if the file is not there or cannot be read; ResultsError if it is not a results file of
-  /// a
-  ///   version that this program reads
+  ///   a version that this program reads
   explicit ResultsFile(const std::string& path, std::size_t cache_bytes = std::size_t{32} << 20U);
 
   /// Attributes of the object at `path`; "/" for the file's own.

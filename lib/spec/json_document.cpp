@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 #include "spec/json_text.hpp"
@@ -182,8 +183,10 @@ class Builder : public nlohmann::json_sax<Json> {
 JsonDocument JsonDocument::parse(std::string_view text, std::string_view source) {
   const JsonText json{without_byte_order_mark(text), source};
   check_encoding(json);
+  const auto value = std::make_shared<Json>();
   JsonDocument document;
-  Builder builder(json, document.value_, document.number_tokens_);
+  document.value_ = value;
+  Builder builder(json, *value, document.number_tokens_);
   constexpr bool kStrict = true;
   constexpr bool kIgnoreComments = true;
   // The builder throws on every error, so the result says nothing new.
@@ -193,7 +196,39 @@ JsonDocument JsonDocument::parse(std::string_view text, std::string_view source)
 }
 
 JsonDocument::Node JsonDocument::root() const {
-  return {*this, value_, ""};
+  return {*this, *value_, ""};
+}
+
+bool JsonDocument::Node::is_null() const {
+  return value_->is_null();
+}
+
+bool JsonDocument::Node::is_object() const {
+  return value_->is_object();
+}
+
+bool JsonDocument::Node::is_number() const {
+  return value_->is_number();
+}
+
+bool JsonDocument::Node::is_text() const {
+  return value_->is_string();
+}
+
+bool JsonDocument::Node::has(const std::string& key) const {
+  return value_->contains(key);
+}
+
+std::size_t JsonDocument::Node::size() const {
+  return value_->size();
+}
+
+const std::string& JsonDocument::Node::text() const {
+  return value_->get_ref<const std::string&>();
+}
+
+std::int64_t JsonDocument::Node::integer() const {
+  return value_->get<std::int64_t>();
 }
 
 JsonDocument::Node JsonDocument::Node::operator[](const std::string& key) const {
@@ -225,7 +260,7 @@ std::string JsonDocument::Node::text_or(const std::string& key, std::string_view
 }
 
 bool JsonDocument::Node::flag(const std::string& key) const {
-  return has(key) && (*this)[key].value().get<bool>();
+  return has(key) && (*this)[key].value_->get<bool>();
 }
 
 std::string JsonDocument::Node::token() const {

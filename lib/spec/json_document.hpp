@@ -1,6 +1,8 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -20,15 +22,15 @@ class JsonDocument {
   /// Parses JSON with comments.
   /// @param source the file name for messages
   /// @throws SpecError naming line and column for broken syntax, the JSON pointer for a repeated key; also
-  /// for
-  ///   nesting deeper than 200, keys longer than 200 bytes, numbers beyond a double, and U+0000 in a string.
+  ///   for nesting deeper than 200, keys longer than 200 bytes, numbers beyond a double, and U+0000 in a
+  ///   string.
   [[nodiscard]] static JsonDocument parse(std::string_view text, std::string_view source);
 
-  [[nodiscard]] const nlohmann::json& value() const { return value_; }
+  [[nodiscard]] const nlohmann::json& value() const { return *value_; }
   [[nodiscard]] Node root() const;
 
  private:
-  nlohmann::json value_;
+  std::shared_ptr<const nlohmann::json> value_;
   std::unordered_map<std::string, std::string> number_tokens_;  // by JSON pointer; integers need none
 };
 
@@ -39,14 +41,18 @@ class JsonDocument::Node {
       : document_(&document), value_(&value), pointer_(std::move(pointer)) {}
 
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
-  [[nodiscard]] const nlohmann::json& value() const { return *value_; }
 
-  [[nodiscard]] bool has(const std::string& key) const { return value_->contains(key); }
+  [[nodiscard]] bool is_null() const;
+  [[nodiscard]] bool is_object() const;
+  [[nodiscard]] bool is_number() const;
+  [[nodiscard]] bool is_text() const;
+
+  [[nodiscard]] bool has(const std::string& key) const;
   /// REQUIRES: an object that has the key.
   [[nodiscard]] Node operator[](const std::string& key) const;
   /// REQUIRES: an array with more than `index` elements.
   [[nodiscard]] Node operator[](std::size_t index) const;
-  [[nodiscard]] std::size_t size() const { return value_->size(); }
+  [[nodiscard]] std::size_t size() const;
   /// Elements of the array under `key`; none if there is no such key.
   [[nodiscard]] std::vector<Node> elements(const std::string& key) const;
   /// Elements of this array. REQUIRES: an array.
@@ -55,11 +61,13 @@ class JsonDocument::Node {
   [[nodiscard]] std::vector<std::string> keys() const;
 
   /// REQUIRES: a string.
-  [[nodiscard]] const std::string& text() const { return value_->get_ref<const std::string&>(); }
+  [[nodiscard]] const std::string& text() const;
   /// The string under `key`, `fallback` if there is none.
   [[nodiscard]] std::string text_or(const std::string& key, std::string_view fallback) const;
   /// The boolean under `key`, false if there is none.
   [[nodiscard]] bool flag(const std::string& key) const;
+  /// REQUIRES: a whole number.
+  [[nodiscard]] std::int64_t integer() const;
   /// The number as it was typed. REQUIRES: a number.
   [[nodiscard]] std::string token() const;
 

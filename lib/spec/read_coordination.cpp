@@ -135,11 +135,11 @@ CoordinationSpec read_coordination(const Scope& scope, const Node& root, const s
   const Node object = root["coordination"];
   if (object.has("partitions")) {
     const Node partitions = object["partitions"];
-    coordination.all_partitions = partitions.value().is_string();
+    coordination.all_partitions = partitions.is_text();
     coordination.partitions = coordination.all_partitions ? all_partitions(partitions, agents)
                                                           : read_partitions(partitions, agents);
   }
-  if (object.has("max_delay") && !object["max_delay"].value().is_null()) {
+  if (object.has("max_delay") && !object["max_delay"].is_null()) {
     coordination.max_delay = read_integer(object["max_delay"]);
   }
   if (object.has("connection_delay"))

@@ -16,8 +16,7 @@ struct GridReading {
 /// With `step`: {origin + k*step : k integer} inside [lower, upper], both ends included. With `count`: that
 /// many points, evenly from lower to upper, both included; upper left out if periodic.
 /// @throws SpecError if there is no grid point, step <= 0, lower > upper, a periodic dimension has no count,
-/// or
-///   points lie closer than doubles can tell apart; LimitError beyond 2^31 - 2 points
+///   or points lie closer than doubles can tell apart; LimitError beyond 2^31 - 2 points
 [[nodiscard]] GridReading read_grid(const Scope& scope, const JsonDocument::Node& object, bool is_periodic);
 
 }  // namespace coordreq

@@ -20,17 +20,16 @@ using Node = JsonDocument::Node;
 
 /// Before the schema: what another format means by its keys is not for this program to say.
 void check_format(const Node& root) {
-  if (!root.value().is_object() || !root.has("coordreq")) return;
+  if (!root.is_object() || !root.has("coordreq")) return;
   const Node format = root["coordreq"];
-  if (!format.value().is_number() || format.token() == "1") return;
+  if (!format.is_number() || format.token() == "1") return;
   throw SpecError("this program reads spec format 1, found " + format.token(), format.pointer());
 }
 
 /// Validates with the schema that is printed. @throws SpecError, SpecErrors naming place, found and expected
 void check_schema(const JsonDocument& document) {
   ErrorList errors;
-  const nlohmann::json schema = nlohmann::json::parse(spec_schema());
-  for (const SchemaViolation& violation : find_violations(schema, document.value(), ErrorList::kMost))
+  for (const SchemaViolation& violation : find_spec_violations(document.value(), ErrorList::kMost))
     errors.attempt([&] { throw SpecError(violation.what, shown_pointer(violation.pointer)); });
   errors.raise();
 }
@@ -92,7 +91,7 @@ std::string read_unit(const Node& object) {
 }
 
 std::int64_t read_integer(const Node& node) {
-  return node.value().get<std::int64_t>();
+  return node.integer();
 }
 
 std::int64_t read_steps_of_time(const Scope& scope, const Node& time, const Rational& period) {

@@ -35,7 +35,7 @@ Outside read_side(const Node& node, Time time) {
 void read_outside(const Node& object, Time time, StateSpec& state) {
   if (!object.has("outside")) return;
   const Node outside = object["outside"];
-  if (outside.value().is_string()) {
+  if (outside.is_text()) {
     state.below = state.above = read_side(outside, time);
     return;
   }

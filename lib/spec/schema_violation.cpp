@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "spec/read_spec.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -252,6 +253,10 @@ std::vector<SchemaViolation> find_violations(const nlohmann::json& schema, const
   Walk walk(schema, most);
   walk.value(schema, document, "");
   return walk.violations;
+}
+
+std::vector<SchemaViolation> find_spec_violations(const Json& document, std::size_t most) {
+  return find_violations(Json::parse(spec_schema()), document, most);
 }
 
 }  // namespace coordreq

@@ -41,7 +41,7 @@ struct MentionGraph {
 
   [[nodiscard]] std::vector<std::size_t> mentioned_in(const Node& node) const {
     std::vector<std::size_t> found;
-    if (!node.value().is_string()) return found;
+    if (!node.is_text()) return found;
     for (const std::string& name : mentioned_names(node.text(), node.pointer())) {
       const auto known = index_of.find(name);
       if (known != index_of.end()) found.push_back(known->second);
@@ -112,7 +112,7 @@ void Scope::link_definitions(const Node& object) {
 }
 
 Rational Scope::number(const Node& node) const {
-  if (node.value().is_string()) return constant_expression(node);
+  if (node.is_text()) return constant_expression(node);
   const std::optional<Rational> value = parse_decimal(node.token());
   if (!value)
     throw SpecError("number with an exponent beyond 5000: " + quote_text(node.token()), node.pointer());

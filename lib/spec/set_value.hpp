@@ -19,8 +19,7 @@ struct SpecSetting {
 /// refer to them.
 /// @param source the file name for messages
 /// @throws SpecError if `text` or a value in JSON is none, or nested too deep; UsageError with the path as
-/// the
-///   place if the path leads nowhere, the value starts like JSON and is none, or one of them is not UTF-8
+///   the place if the path leads nowhere, the value starts like JSON and is none, or one of them is not UTF-8
 [[nodiscard]] std::string with_setting(const std::string& text, const std::string& source,
                                        const SpecSetting& setting);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "expression/domains.hpp"
+#include "expression/truth_of.hpp"
 #include "verify/flint_rational.hpp"
 
 namespace coordreq {
@@ -74,7 +75,7 @@ class Multiplier {
     for (std::size_t n = 0; n < program_.nodes.size(); ++n) {
       const Program::Node& node = program_.nodes[n];
       if (is_condition(node.op)) {
-        truths_[n] = condition(node);
+        truths_[n] = truth_of(node, truths_, [&] { return comparison(node); });
       } else {
         forms_[n] = number(node);
         if (forms_[n] && fmpq_mpoly_length(forms_[n]->get(), context_.get()) > kMostTerms) forms_[n].reset();
@@ -167,22 +168,6 @@ class Multiplier {
     if (truths_[node.a] != Truth::undecided) return truths_[node.a] == Truth::yes ? yes : no;
     const bool same = yes && no && fmpq_mpoly_equal(yes->get(), no->get(), context_.get()) != 0;
     return same ? yes : std::nullopt;
-  }
-
-  [[nodiscard]] Truth condition(const Program::Node& node) const {
-    switch (node.op) {
-      case Operator::logical_and:
-        return truth_and(truths_[node.a], truths_[node.b]);
-      case Operator::logical_or:
-        return truth_or(truths_[node.a], truths_[node.b]);
-      case Operator::logical_not:
-        return !truths_[node.a];
-      case Operator::literal_true:
-      case Operator::literal_false:
-        return to_truth(node.op == Operator::literal_true);
-      default:
-        return comparison(node);
-    }
   }
 
   /// Decided where the difference is constant.

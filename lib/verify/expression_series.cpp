@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "expression/truth_of.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -166,7 +168,10 @@ const ArbSeries& ExpressionSeries::operator()(std::span<const ArbSeries> slots, 
   smoothness_ = Smoothness::analytic;
   for (std::size_t n = 0; n < values_.size(); ++n) {
     if (is_condition(program_->nodes[n].op)) {
-      truths_[n] = condition(n);
+      const Program::Node& node = program_->nodes[n];
+      truths_[n] = truth_of(node, truths_, [&] {
+        return compare(node.op, constant_term(values_[node.a]), constant_term(values_[node.b]));
+      });
     } else {
       run_number(n, slots, length);
     }
@@ -356,23 +361,6 @@ void ExpressionSeries::run_if(std::size_t n, slong length) {
   ArbSeries both;
   for (slong k = 0; k < length; ++k) both.set(k, hull(yes[k], no[k]));
   values_[n] = both;
-}
-
-Truth ExpressionSeries::condition(std::size_t n) const {
-  const Program::Node& node = program_->nodes[n];
-  switch (node.op) {
-    case Operator::logical_and:
-      return truth_and(truths_[node.a], truths_[node.b]);
-    case Operator::logical_or:
-      return truth_or(truths_[node.a], truths_[node.b]);
-    case Operator::logical_not:
-      return !truths_[node.a];
-    case Operator::literal_true:
-    case Operator::literal_false:
-      return to_truth(node.op == Operator::literal_true);
-    default:
-      return compare(node.op, constant_term(values_[node.a]), constant_term(values_[node.b]));
-  }
 }
 
 }  // namespace coordreq

@@ -40,7 +40,6 @@ class ExpressionSeries {
   void run_sign(std::size_t n);
   void run_choice(std::size_t n, bool minimum, slong length);
   void run_if(std::size_t n, slong length);
-  [[nodiscard]] Truth condition(std::size_t n) const;
   [[nodiscard]] bool is_same(std::size_t a, std::size_t b) const;
   [[nodiscard]] bool is_constant(std::size_t n) const;
   void lose(Smoothness smoothness);

@@ -98,8 +98,8 @@ TEST(ConditionTable, ComparisonsSettleTheSameCasesAsTheWhole) {
     RC_CLASSIFY(more, "comparisons prove more than the whole");
     // Only what is open after both is asked for.
     for (const auto& indices : open) {
-      const std::size_t u = table.inputs().empty() ? 0 : static_cast<std::size_t>(indices[2]);
-      const bool in_use = table.state_stride()[0] != 0;
+      const std::size_t u = table.positions().inputs.empty() ? 0 : static_cast<std::size_t>(indices[2]);
+      const bool in_use = table.positions().state_stride[0] != 0;
       const auto parts = boxes(grid, inputs[0].values[u], in_use ? indices[0] : 0, indices[1], sampling);
       RC_ASSERT(decide_alone(condition, parts) == Truth::undecided);
     }

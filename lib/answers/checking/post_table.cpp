@@ -11,8 +11,7 @@ std::vector<bool> entries_of(const UniformGrid& grid, const InputSpace& inputs, 
   for (const std::size_t j : table.inputs) counts.push_back(inputs[j].count());
   std::vector<bool> asked(table.entries.size());
   for (const std::int64_t cell : cells) {
-    std::int64_t first = 0;
-    for (const std::size_t j : table.states) first += grid.index(cell, j) * table.state_stride[j];
+    const std::int64_t first = table.first_entry(grid, cell);
     Odometer choice(counts);
     do {
       std::int64_t entry = first;

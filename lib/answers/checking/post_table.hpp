@@ -18,6 +18,13 @@ struct PostTable {
   std::vector<std::int64_t> state_stride;  ///< one for each state of the spec; 0 if it has no influence
   std::vector<std::int64_t> input_stride;
   bool exact = true;  ///< the ranges are those of the contract, not only enclosures of them
+
+  /// The entries of a cell begin here.
+  [[nodiscard]] std::int64_t first_entry(const UniformGrid& grid, std::int64_t cell) const {
+    std::int64_t entry = 0;
+    for (const std::size_t j : states) entry += grid.index(cell, j) * state_stride[j];
+    return entry;
+  }
 };
 
 /// Which entries some cells have, with all inputs; empty if `cells` is: all of them.

@@ -90,8 +90,7 @@ void PostMinima::go_to(std::int64_t cell) {
 
 void PostMinima::find_ranges(std::size_t i, std::int64_t cell) {
   const PostTable& table = *posts_->tables[i];
-  std::int64_t first = 0;
-  for (const std::size_t j : table.states) first += grid_->index(cell, j) * table.state_stride[j];
+  const std::int64_t first = table.first_entry(*grid_, cell);
   std::vector<ResolvedRange>& different = different_[i];
   different.clear();
   window_[i] = {INT32_MAX, INT32_MIN};

@@ -1,6 +1,5 @@
 #include "answers/one_cell/cell_posts.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "answers/one_cell/cell_members.hpp"

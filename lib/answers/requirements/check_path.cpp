@@ -152,16 +152,8 @@ bool PathChecker::is_choice(std::int64_t u) const {
   });
 }
 
-std::int64_t PathChecker::entry(std::size_t i, std::int64_t u) const {
-  const PostTable& table = *ground_.posts->tables[i];
-  std::int64_t place = ground_.posts->input_part[i][at(u)];
-  for (const std::size_t j : table.states)
-    place += ground_.grid->index(cell_.number(), j) * table.state_stride[j];
-  return place;
-}
-
 const ResolvedRange& PathChecker::range(std::size_t i, std::int64_t u) const {
-  return ground_.posts->resolved[i][at(entry(i, u))];
+  return ground_.posts->resolved[i][ground_.posts->entry(i, cell_.number(), u)];
 }
 
 bool PathChecker::is_blocked(std::int64_t u) const {
@@ -191,11 +183,7 @@ bool PathChecker::leaves_domain(std::int64_t u, const ResultSide& side) const {
     return side.above ? raw.last >= dimension.count : raw.first < 0;
   };
   const auto raw_of = [&](const Posts& posts) {
-    const PostTable& table = *posts.tables[side.state];
-    std::int64_t place = posts.input_part[side.state][at(u)];
-    for (const std::size_t j : table.states)
-      place += ground_.grid->index(cell_.number(), j) * table.state_stride[j];
-    return table.entries[at(place)];
+    return posts.tables[side.state]->entries[posts.entry(side.state, cell_.number(), u)];
   };
   return passes(raw_of(*ground_.posts)) ||
          (ground_.tubes != nullptr && passes(raw_of(ground_.tubes->covering)));
