@@ -1,6 +1,8 @@
 #include "app/report_error.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <exception>
 #include <new>
 #include <string>
 #include <string_view>
@@ -94,6 +96,13 @@ Failure describe_current_exception() {
 
 void report_failure(const std::string& subject, const Failure& failure) {
   print(shortened(printable(subject), kMostEchoed, kKeptAtItsEnd) + ": " + failure.what);
+}
+
+void report_what_terminates() {
+  std::set_terminate([] {
+    if (std::current_exception()) std::_Exit(report_current_exception());
+    std::abort();
+  });
 }
 
 int report_current_exception() noexcept {

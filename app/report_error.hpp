@@ -11,6 +11,10 @@ constexpr int kInternalError = 70;
 /// REQUIRES: called from within a catch block. @returns the exit code
 [[nodiscard]] int report_current_exception() noexcept;
 
+/// From now on an exception that nothing can catch is reported so as well, and ends the program: one that is
+/// thrown while another is under way, as where memory runs out and clearing up takes more of it.
+void report_what_terminates();
+
 /// What an exception says, where the program goes on.
 struct Failure {
   std::string what;  ///< WHAT (WHERE), on one line

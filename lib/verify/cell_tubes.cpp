@@ -30,9 +30,7 @@ void CellTubes::go_to(std::int64_t cell) {
   first_.clear();
   may_pass_ = false;
   for (std::size_t i = 0; i < posts.tables.size(); ++i) {
-    std::int64_t first = 0;
-    for (const std::size_t j : posts.tables[i]->states)
-      first += posts.grid->index(cell, j) * posts.tables[i]->state_stride[j];
+    const auto first = static_cast<std::int64_t>(posts.tables[i]->entry_of(*posts.grid, cell));
     first_.push_back(first);
     const auto begin = tubes_->passes[i].begin() + first;
     may_pass_ =

@@ -7,8 +7,6 @@
 #include <algorithm>
 
 namespace coordreq {
-namespace {}  // namespace
-
 PathChecker::PathChecker(const CellCheck& check, std::optional<std::size_t> partition)
     : check_(check),
       partition_(partition),
@@ -178,15 +176,12 @@ bool PathChecker::is_choice(std::int64_t u) {
   return std::all_of(found.begin(), found.end(), [](bool b) { return b; });
 }
 
-std::int64_t PathChecker::entry(std::size_t i, std::int64_t u) const {
-  const PostTable& table = *check_.posts->tables[i];
-  std::int64_t place = check_.posts->input_part[i][at(u)];
-  for (const std::size_t j : table.states) place += check_.grid->index(cell_, j) * table.state_stride[j];
-  return place;
+std::size_t PathChecker::entry(const Posts& posts, std::size_t i, std::int64_t u) const {
+  return posts.tables[i]->entry_of(*check_.grid, cell_) + at(posts.input_part[i][at(u)]);
 }
 
 const ResolvedRange& PathChecker::range(std::size_t i, std::int64_t u) const {
-  return check_.posts->resolved[i][at(entry(i, u))];
+  return check_.posts->resolved[i][entry(*check_.posts, i, u)];
 }
 
 bool PathChecker::is_blocked(std::int64_t u) const {
@@ -216,10 +211,7 @@ bool PathChecker::leaves_domain(std::int64_t u, const ResultSide& side) const {
     return side.above ? raw.last >= dimension.count : raw.first < 0;
   };
   const auto raw_of = [&](const Posts& posts) {
-    const PostTable& table = *posts.tables[side.state];
-    std::int64_t place = posts.input_part[side.state][at(u)];
-    for (const std::size_t j : table.states) place += check_.grid->index(cell_, j) * table.state_stride[j];
-    return table.entries[at(place)];
+    return posts.tables[side.state]->entries[entry(posts, side.state, u)];
   };
   return passes(raw_of(*check_.posts)) || (check_.tubes != nullptr && passes(raw_of(check_.tubes->covering)));
 }

@@ -40,7 +40,7 @@ class PathChecker {
   [[nodiscard]] bool is_in_post(std::int64_t u, std::int64_t next) const;
   [[nodiscard]] bool leaves_domain(std::int64_t u, const ResultSide& side) const;
   [[nodiscard]] const ResolvedRange& range(std::size_t i, std::int64_t u) const;
-  [[nodiscard]] std::int64_t entry(std::size_t i, std::int64_t u) const;
+  [[nodiscard]] std::size_t entry(const Posts& posts, std::size_t i, std::int64_t u) const;
   [[nodiscard]] bool is_blocked(std::int64_t u) const;
   [[nodiscard]] bool is_way_safe(std::int64_t u) { return !tubes_ || tubes_->is_safe(u); }
   [[nodiscard]] std::int32_t least(std::int64_t u, const std::vector<std::int32_t>& values,
