@@ -69,7 +69,7 @@ std::string connection_text(const Json& partition, const Json& summary) {
   const std::int64_t delay = number_of(summary["connection_delay"]);
   const bool unknown =
       partition["truncated"].get<bool>() && delay >= static_cast<std::int64_t>(partition["layers"].size());
-  return fmt::format("{}{} may never be without one, which takes {} to stand", unknown ? "at most " : "",
+  return fmt::format("{}{} may never be without one, which takes {} to establish", unknown ? "at most " : "",
                      cells(partition["never_without_connection"]), duration(delay, summary));
 }
 
@@ -102,7 +102,7 @@ std::string partitions_table(const Json& summary) {
                        [](const Json& own) { return cells(own["never_without_connection"]); }});
   }
   const std::string connection =
-      delay > 0 ? fmt::format("A connection takes {} to stand.\n", duration(delay, summary)) : "";
+      delay > 0 ? fmt::format("A connection takes {} to establish.\n", duration(delay, summary)) : "";
   return "\n" + table_text(summary["partitions"], columns) + connection;
 }
 

@@ -61,9 +61,10 @@ std::string file_name(const PlannedRun& run) {
 void check_folder(const std::string& path) {
   std::error_code ignored;  // what cannot be examined is no folder that could be written to
   if (fs::is_directory(path, ignored)) return;
-  throw UsageError(fmt::format("expected a folder that is there, for the results are several files, found {}",
-                               echoed(path)),
-                   "--output");
+  throw UsageError(
+      fmt::format("expected a folder that exists, because there are several results files, found {}",
+                  echoed(path)),
+      "--output");
 }
 
 /// @throws UsageError if a file would take the place of another

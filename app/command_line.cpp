@@ -5,22 +5,27 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <list>
+#include <optional>
 #include <utility>
 
+#include "app/file_beside_program.hpp"
 #include "app/program_help.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
 #include "results/version.hpp"
+#include "spec/wording.hpp"
 
 namespace coordreq {
 namespace {
 
 constexpr const char* kProgram = "coordreq";
 
-std::string exit_codes() {
-  std::string text = "Exit codes:";
-  for (const ExitCodeHelp& code : kExitCodes) text += fmt::format("\n  {:<3} {}", code.code, code.meaning);
-  return text;
+/// The end of a help.
+std::string examples_text(const std::array<const char*, 2>& examples) {
+  const std::optional<std::string> page =
+      file_beside_program("share/doc/coordreq/docs/README.md", "docs/README.md");
+  return fmt::format("Examples:\n  {}\n\nDocumentation: {}", fmt::join(examples, "\n  "),
+                     page ? printable(*page) : "man coordreq");
 }
 
 struct Command {
@@ -39,9 +44,12 @@ struct Parser {
     app.add_flag("--version", version, "Print the version")->disable_flag_override();
     app.require_subcommand(0, 1);
     app.allow_extras();
-    app.footer(exit_codes());
-    for (const CommandInfo& info : kCommands)
-      commands.emplace_back(*app.add_subcommand(info.name, info.description)->allow_extras(), info);
+    app.footer(examples_text({"coordreq init first.json", "coordreq analyze first.json"}));
+    for (const CommandInfo& info : kCommands) {
+      CLI::App& own = *app.add_subcommand(info.name, info.description)->allow_extras();
+      own.footer(examples_text(info.examples));
+      commands.emplace_back(own, info);
+    }
   }
 
   CLI::App app{"When must agents that share a safety task communicate?", kProgram};
@@ -49,18 +57,34 @@ struct Parser {
   std::list<Command> commands;
 };
 
-std::string command_names() {
-  std::string names;
-  for (const CommandInfo& info : kCommands) names += (names.empty() ? "" : ", ") + std::string(info.name);
+std::vector<std::string> command_names() {
+  std::vector<std::string> names;
+  for (const CommandInfo& info : kCommands) names.emplace_back(info.name);
   return names;
 }
 
-std::string option_names(const CLI::App& app) {
+std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
     if (!option->get_positional()) names.push_back("--" + option->get_lnames().front());
   }
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names;
+}
+
+/// ", did you mean ...?", or what there is.
+std::string hint(const std::string& typed, const std::vector<std::string>& known) {
+  const std::string nearest = suggestion(typed, known);
+  return nearest.empty() ? fmt::format(", expected one of {}", fmt::join(known, ", ")) : nearest;
+}
+
+[[noreturn]] void fail_command(const std::string& typed) {
+  throw UsageError(fmt::format("unknown command {}{}", echoed(typed), hint(typed, command_names())));
+}
+
+/// @param typed perhaps "--option=value"
+[[noreturn]] void fail_option(const CLI::App& command, const std::string& typed) {
+  throw UsageError(fmt::format("unknown option {} of {}{}", echoed(typed), command.get_name(),
+                               hint(typed.substr(0, typed.find('=')), option_names(command))));
 }
 
 bool looks_like_option(const std::string& argument) {
@@ -69,20 +93,22 @@ bool looks_like_option(const std::string& argument) {
 
 [[noreturn]] void fail_without_command(const CLI::App& app) {
   const std::vector<std::string> extra = app.remaining();
-  if (extra.empty()) throw UsageError(fmt::format("no command, expected one of {}", command_names()));
+  if (extra.empty())
+    throw UsageError(fmt::format("no command, expected one of {}", fmt::join(command_names(), ", ")));
   if (looks_like_option(extra.front())) {
     throw UsageError(fmt::format("unknown option {}, expected a command ({}) or {}", echoed(extra.front()),
-                                 command_names(), option_names(app)));
+                                 fmt::join(command_names(), ", "), fmt::join(option_names(app), ", ")));
   }
-  throw UsageError(
-      fmt::format("unknown command {}, expected one of {}", echoed(extra.front()), command_names()));
+  fail_command(extra.front());
 }
 
 /// "compare A B"
 std::string usage(const Command& command) {
   std::string text = command.name;
-  for (const Options::Argument& argument : command.options.argument_list())
-    text += " " + argument.name + (argument.all != nullptr ? "..." : "");
+  for (const Options::Argument& argument : command.options.argument_list()) {
+    const std::string name = argument.name + (argument.all != nullptr ? "..." : "");
+    text += " " + (argument.is_required ? name : "[" + name + "]");
+  }
   return text;
 }
 
@@ -90,7 +116,10 @@ std::string usage(const Command& command) {
 std::string taken(const Command& command) {
   const std::list<Options::Argument>& arguments = command.options.argument_list();
   if (arguments.empty()) return "takes no argument";
-  if (arguments.size() == 1) return "takes one argument, " + arguments.front().name;
+  if (arguments.size() == 1) {
+    const Options::Argument& only = arguments.front();
+    return fmt::format("takes {}one argument, {}", only.is_required ? "" : "at most ", only.name);
+  }
   return fmt::format("takes two arguments, {} and {}", arguments.front().name, arguments.back().name);
 }
 
@@ -100,7 +129,7 @@ void check_arguments_are_there(const Command& command) {
                                                   : !argument.all->empty() &&
                                                         std::find(argument.all->begin(), argument.all->end(),
                                                                   "") == argument.all->end();
-    if (is_there) continue;
+    if (is_there || !argument.is_required) continue;
     const bool is_file = argument.takes.find('|') == std::string::npos;
     throw UsageError(fmt::format("no {}, expected {}: {} {}", argument.name,
                                  is_file ? "the name of a file" : "one of " + argument.takes, kProgram,
@@ -115,10 +144,7 @@ void check_arguments(const CLI::App& root, const Command& command) {
   }
   const std::vector<std::string> extra = command.app.remaining();
   const auto unknown = std::find_if(extra.begin(), extra.end(), looks_like_option);
-  if (unknown != extra.end()) {
-    throw UsageError(fmt::format("unknown option {} of {}, expected one of {}", echoed(*unknown),
-                                 command.name, option_names(command.app)));
-  }
+  if (unknown != extra.end()) fail_option(command.app, *unknown);
   if (!extra.empty()) {
     throw UsageError(
         fmt::format("unexpected argument {}, {} {}", echoed(extra.front()), command.name, taken(command)));
@@ -166,6 +192,15 @@ Run parse_command_line(int argc, const char* const* argv) {
     return command.run;
   }
   fail_without_command(parser.app);
+}
+
+std::string help_text(const std::string& command) {
+  const Parser parser;
+  if (command.empty()) return parser.app.help();
+  for (const Command& own : parser.commands) {
+    if (own.name == command) return own.app.help("coordreq");
+  }
+  fail_command(command);
 }
 
 ProgramHelp program_help() {

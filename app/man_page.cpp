@@ -21,6 +21,15 @@ expected.
 )";
 
 constexpr const char* kExamples = R"(.PP
+A spec to begin with, and its analysis:
+.PP
+.RS 4
+.nf
+coordreq init first.json
+coordreq analyze first.json
+.fi
+.RE
+.PP
 The whole analysis of a spec, written to circle.h5; what is known at a state; and a check of the file by an
 independent method:
 .PP
@@ -93,8 +102,10 @@ std::string option_entry(const OptionHelp& option) {
 
 std::string command_heading(const std::string& program, const CommandHelp& command) {
   std::string heading = bold(program + " " + command.name);
-  for (const ArgumentHelp& argument : command.arguments)
-    heading += " " + italic(argument.name) + (argument.many ? "..." : "");
+  for (const ArgumentHelp& argument : command.arguments) {
+    const std::string name = italic(argument.name) + (argument.many ? "..." : "");
+    heading += " " + (argument.required ? name : "[" + name + "]");
+  }
   return heading;
 }
 

@@ -12,6 +12,12 @@ void Options::argument(std::string& target, const char* name, const char* descri
   command_.add_option(name, target, description)->required()->type_name(own.takes);
 }
 
+void Options::optional_argument(std::string& target, const char* name, const char* description,
+                                const std::string& takes) {
+  arguments_.emplace_back(Argument{.name = name, .takes = takes, .is_required = false, .one = &target});
+  command_.add_option(name, target, description)->type_name(takes);
+}
+
 void Options::arguments(std::vector<std::string>& target, const char* name, const char* description) {
   arguments_.emplace_back(Argument{.name = name, .all = &target});
   command_.add_option(name, target, description)->required()->type_name("");

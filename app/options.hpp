@@ -27,8 +27,9 @@ class Options {
 
   /// An argument without the name of an option.
   struct Argument {
-    std::string name;                         ///< "SPEC"
-    std::string takes;                        ///< words, or the kind of file; empty: the kind is the name
+    std::string name;   ///< "SPEC"
+    std::string takes;  ///< words, or the kind of file; empty: the kind is the name
+    bool is_required = true;
     std::vector<std::string>* all = nullptr;  ///< where they go: one or more of them,
     std::string* one = nullptr;               ///< or one
   };
@@ -37,8 +38,10 @@ class Options {
   Options(const Options&) = delete;
   Options& operator=(const Options&) = delete;
 
-  /// Required, like all arguments.
   void argument(std::string& target, const char* name, const char* description, const char* takes = "");
+  /// May be left out; the last argument then.
+  void optional_argument(std::string& target, const char* name, const char* description,
+                         const std::string& takes = "");
   /// One or more; the last argument then.
   void arguments(std::vector<std::string>& target, const char* name, const char* description);
 

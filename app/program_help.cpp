@@ -42,8 +42,11 @@ CommandHelp read_command(const CLI::App& command) {
     if (!option->get_positional()) continue;
     const std::string name = option->get_name(true);
     const std::string takes = option->get_type_name();
-    help.arguments.push_back(
-        {name, {takes.empty() ? name : takes}, option->get_description(), takes_many(*option)});
+    help.arguments.push_back({name,
+                              {takes.empty() ? name : takes},
+                              option->get_description(),
+                              takes_many(*option),
+                              option->get_required()});
   }
   return help;
 }

@@ -38,6 +38,7 @@ struct ArgumentHelp {
   ValueHelp value;
   std::string description;
   bool many = false;  ///< one or more of them
+  bool required = true;
 };
 
 struct CommandHelp {

@@ -131,7 +131,7 @@ class AnswerText {
 
   [[nodiscard]] std::string countdown_text(const Json& partition) const {
     const Json& status = partition["countdown_status"];
-    if (status == "connection_must_stand_already") return "a connection must stand already";
+    if (status == "connection_must_stand_already") return "a connection must exist already";
     if (status == "never") return "never need to connect";
     if (status != "steps") return "none";
     if (partition["countdown"] == 0) {

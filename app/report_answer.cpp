@@ -68,8 +68,9 @@ class PartitionAnswer {
                          count == 0 ? "s" : "");
     }
     return fmt::format(
-        "A connection takes {} to stand: in {} of the states that can be kept safe it must be asked for at "
-        "once, or stand already.",
+        "A connection takes {} to establish: in {} of the states that can be kept safe it must be asked for "
+        "at "
+        "once, or exist already.",
         time_text(delay, results_),
         count == 0        ? "none"
         : count == kept() ? "all"

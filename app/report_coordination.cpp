@@ -55,7 +55,7 @@ std::string report_coalitions(const ResultsReader& results) {
   return fmt::format(
              "<section aria-labelledby=\"coalition-title\">\n<h2 id=\"coalition-title\">Who must talk to "
              "whom?</h2>\n<p>For {} without further contact between them, these groups of agents must be "
-             "connected: <code>a+b|c</code> means that <em>a</em> and <em>b</em> go on agreeing, and "
+             "connected: <code>a+b|c</code> means that <em>a</em> and <em>b</em> keep agreeing, and "
              "<em>c</em> is alone. Each state has the cheapest partition that is enough.</p>\n",
              html_line(steps_text(*results.spec().coordination.horizon, results.spec()))) +
          choices(results) +

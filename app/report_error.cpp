@@ -1,5 +1,7 @@
 #include "app/report_error.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
@@ -11,6 +13,7 @@
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
 #include "base/error.hpp"
+#include "spec/spec_errors.hpp"
 
 namespace coordreq {
 namespace {
@@ -74,28 +77,46 @@ int report() {
   } catch (...) {
     const Failure failure = describe_current_exception();
     print(failure.what);
+    for (const std::string& line : failure.more) print(line);
     return failure.exit_code;
   }
 }
 
 }  // namespace
 
+std::string report_request() {
+  constexpr std::string_view kAddress = COORDREQ_ISSUES;
+  return kAddress.empty() ? "please report it with `coordreq --version`"
+                          : fmt::format("please report it with `coordreq --version` to {}", kAddress);
+}
+
 Failure describe_current_exception() {
   try {
     throw;
+  } catch (const SpecErrors& errors) {
+    Failure failure{error_text(errors.what()), static_cast<int>(errors.exit_code()), {}};
+    for (std::size_t i = 1; i < errors.lines().size(); ++i)
+      failure.more.push_back(error_text(errors.lines()[i]));
+    return failure;
   } catch (const Error& error) {
-    return {error_text(error.what()), static_cast<int>(error.exit_code())};
+    return {error_text(error.what()), static_cast<int>(error.exit_code()), {}};
   } catch (const std::bad_alloc&) {
-    return {no_memory(), static_cast<int>(ExitCode::limit)};
+    return {no_memory(), static_cast<int>(ExitCode::limit), {}};
   } catch (const std::exception& error) {
-    return {std::string("internal error, please report it: ") + error_text(error.what()), kInternalError};
+    return {fmt::format("internal error, {}: {}", report_request(), error_text(error.what())),
+            kInternalError,
+            {}};
   } catch (...) {
-    return {"internal error, please report it: an exception of unknown type", kInternalError};
+    return {fmt::format("internal error, {}: an exception of unknown type", report_request()),
+            kInternalError,
+            {}};
   }
 }
 
 void report_failure(const std::string& subject, const Failure& failure) {
-  print(shortened(printable(subject), kMostEchoed, kKeptAtItsEnd) + ": " + failure.what);
+  const std::string start = shortened(printable(subject), kMostEchoed, kKeptAtItsEnd) + ": ";
+  print(start + failure.what);
+  for (const std::string& line : failure.more) print(start + line);
 }
 
 void report_what_terminates() {

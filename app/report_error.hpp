@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace coordreq {
 
@@ -15,10 +16,15 @@ constexpr int kInternalError = 70;
 /// thrown while another is under way, as where memory runs out and clearing up takes more of it.
 void report_what_terminates();
 
-/// What an exception says, where the program goes on.
+/// What to do about a bug of this program: "please report it ...", with the address for it if the build was
+/// told one (COORDREQ_ISSUES).
+[[nodiscard]] std::string report_request();
+
+/// What an exception says, where the program continues.
 struct Failure {
   std::string what;  ///< WHAT (WHERE), on one line
   int exit_code = 0;
+  std::vector<std::string> more;  ///< lines like it, of a spec with several errors
 };
 
 /// The exception under way. REQUIRES: called from within a catch block.

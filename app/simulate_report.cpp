@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/render.hpp"
+#include "app/report_error.hpp"
 
 namespace coordreq {
 namespace {
@@ -64,9 +65,9 @@ std::string violation_text(const Json& traces) {
   };
   const auto first = std::find_if(traces.begin(), traces.end(), violates);
   if (first == traces.end()) return {};
-  return fmt::format("\nRun {} {} at step {}, at {}.\nThat contradicts the analysis: please report it.\n",
+  return fmt::format("\nRun {} {} at step {}, at {}.\nThat contradicts the analysis: {}.\n",
                      number_of((*first)["run"]), outcome_text(text_of((*first)["outcome"])),
-                     grouped((*first)["steps"]), values_text((*first)["end"]));
+                     grouped((*first)["steps"]), values_text((*first)["end"]), report_request());
 }
 
 Json state_json(const std::vector<double>& state, const ProblemSpec& spec) {

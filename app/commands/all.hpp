@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "app/options.hpp"
@@ -12,6 +13,7 @@ namespace coordreq {
 using Run = std::function<ExitCode()>;
 
 /// Each declares the options of its command. The options live as long as what is returned.
+Run declare_init(Options& options);
 Run declare_analyze(Options& options);
 Run declare_validate(Options& options);
 Run declare_info(Options& options);
@@ -23,29 +25,72 @@ Run declare_export(Options& options);
 Run declare_report(Options& options);
 Run declare_schema(Options& options);
 Run declare_completion(Options& options);
+Run declare_help(Options& options);
 
 struct CommandInfo {
   const char* name;
   const char* description;
   Run (*declare)(Options&);
+  std::array<const char*, 2> examples;  ///< lines for a shell
 };
 
 /// In the order of the help.
 inline constexpr CommandInfo kCommands[] = {
-    {"analyze", "Run the whole analysis and write a results file, or one for each of several specs",
-     declare_analyze},
-    {"validate", "Check a spec; print sizes, which state depends on what, and a memory estimate",
-     declare_validate},
-    {"info", "Print what a results file holds", declare_info},
-    {"query", "Tell everything that is known at a state: delay, countdown, allowed actions", declare_query},
-    {"simulate", "Run the self-triggered closed loop on the system itself", declare_simulate},
-    {"verify", "Check a results file by an independent method", declare_verify},
-    {"compare", "Tell which cells have lost delay from one results file to another of the same grid",
-     declare_compare},
-    {"export", "Write the result in the format of another tool", declare_export},
-    {"report", "Write one page for a browser: the answer, and pictures to look around in", declare_report},
-    {"schema", "Print the JSON Schema of specs", declare_schema},
-    {"completion", "Print what makes a shell complete commands, options and files", declare_completion},
+    {"init",
+     "Write a spec to begin with: small, commented, ready to be analysed",
+     declare_init,
+     {"coordreq init", "coordreq init platoon.json"}},
+    {"analyze",
+     "Run the whole analysis and write a results file, or one for each of several specs",
+     declare_analyze,
+     {"coordreq analyze circle.json", "coordreq analyze circle.json --sweep constants.R=0.8,0.6"}},
+    {"validate",
+     "Check a spec; print sizes, which state depends on what, and a memory estimate",
+     declare_validate,
+     {"coordreq validate circle.json", "coordreq validate circle.json --set states.x1.step=0.005"}},
+    {"info",
+     "Print what a results file holds",
+     declare_info,
+     {"coordreq info circle.h5", "coordreq info circle.h5 --json"}},
+    {"query",
+     "Print everything that is known at a state: delay, countdown, allowed actions",
+     declare_query,
+     {"coordreq query circle.h5 --at x1=0.1,x2=0", "coordreq query circle.h5 < states.csv"}},
+    {"simulate",
+     "Run the self-triggered closed loop on the system itself",
+     declare_simulate,
+     {"coordreq simulate circle.h5 --from x1=0.1,x2=0 --steps 200",
+      "coordreq simulate circle.h5 --start random --runs 100 --steps 200 -o runs.h5"}},
+    {"verify",
+     "Check a results file by an independent method",
+     declare_verify,
+     {"coordreq verify circle.h5", "coordreq verify circle.h5 --sample 1000"}},
+    {"compare",
+     "Print which cells have lost delay from one results file to another of the same grid",
+     declare_compare,
+     {"coordreq compare before.h5 after.h5", "coordreq compare before.h5 after.h5 --tolerance 2"}},
+    {"export",
+     "Write the result in the format of another tool",
+     declare_export,
+     {"coordreq export circle.h5 --format csv --slice x2=0",
+      "coordreq export circle.h5 --format c-header -o circle.h"}},
+    {"report",
+     "Write one page for a browser: the answer, and pictures to look around in",
+     declare_report,
+     {"coordreq report circle.h5", "coordreq report circle.h5 -o answer.html"}},
+    {"schema",
+     "Print the JSON Schema of specs",
+     declare_schema,
+     {"coordreq schema", "coordreq schema > schema.json"}},
+    {"completion",
+     "Print what makes a shell complete commands, options and files",
+     declare_completion,
+     {"source <(coordreq completion bash)",
+      "coordreq completion fish > ~/.config/fish/completions/coordreq.fish"}},
+    {"help",
+     "Print the help of a command, or of the program",
+     declare_help,
+     {"coordreq help", "coordreq help analyze"}},
 };
 
 }  // namespace coordreq

@@ -58,7 +58,7 @@ void declare_checkpoint(Options& options, std::optional<CheckpointOptions>& chec
                    if (!checkpoint) throw UsageError("save where? expected --checkpoint FILE", option);
                    checkpoint->every_seconds = seconds(text, option);
                  });
-  options.flag("--resume", "Go on from the checkpoint, if there is one", [&checkpoint] {
+  options.flag("--resume", "Continue from the checkpoint, if there is one", [&checkpoint] {
     if (!checkpoint) throw UsageError("resume from what? expected --checkpoint FILE", "--resume");
     checkpoint->resume = true;
   });

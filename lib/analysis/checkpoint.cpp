@@ -80,9 +80,9 @@ Checkpoint::Checkpoint(CheckpointOptions options, const ProblemSpec& spec, Liste
   is_there ? open() : make_first();
   remove_unfinished(options_.file, kSuffix);
   if (!options_.resume) return;
-  listener_.notice(fmt::format("{} ({})",
-                               is_there ? "going on from the checkpoint" : "no checkpoint yet, starting anew",
-                               options_.file));
+  listener_.notice(
+      fmt::format("{} ({})", is_there ? "continuing from the checkpoint" : "no checkpoint yet, starting anew",
+                  options_.file));
 }
 
 /// Two processes that begin at once must not both take it for theirs.
@@ -94,7 +94,7 @@ void Checkpoint::make_first() {
     std::optional<FileLock> lock = FileLock::take(output.temporary(), kWhat);
     if (output.commit_new()) lock_ = std::move(lock);
   } catch (const IoError& error) {
-    listener_.notice(fmt::format("warning: going on without a new checkpoint: {}", error.what()));
+    listener_.notice(fmt::format("warning: continuing without a new checkpoint: {}", error.what()));
     is_failing_ = true;
   }
   listener_.progress(false);
@@ -147,7 +147,8 @@ StageStore::Kept Checkpoint::take(const Serialise& load) {
   load(archive);
   // What was under way is the last that the file has.
   if (!next_record()) reader_.reset();
-  if (!is_finished && reader_) refuse(fmt::format("goes on after the stage '{}', which is not over", stage_));
+  if (!is_finished && reader_)
+    refuse(fmt::format("continues after the stage '{}', which is not finished", stage_));
   return is_finished ? Kept::finished : Kept::unfinished;
 }
 
@@ -178,7 +179,7 @@ void Checkpoint::save(const Record* under_way) {
     is_failing_ = false;
   } catch (const IoError& error) {
     if (!is_failing_)
-      listener_.notice(fmt::format("warning: going on without a new checkpoint: {}", error.what()));
+      listener_.notice(fmt::format("warning: continuing without a new checkpoint: {}", error.what()));
     is_failing_ = true;
   }
   listener_.progress(false);
@@ -226,7 +227,7 @@ void Checkpoint::remove() {
 void check_checkpoint(const CheckpointOptions& options) {
   const OutputFile probe(options.file, kWhat, kSuffix);
   if (options.resume || !std::filesystem::exists(options.file)) return;
-  throw UsageError("the checkpoint is there already, expected --resume to go on from it, or another file",
+  throw UsageError("the checkpoint is there already, expected --resume to continue from it, or another file",
                    options.file);
 }
 

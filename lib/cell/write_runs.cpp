@@ -149,7 +149,7 @@ class RunFields {
   void add_coordination() {
     const FieldFlag no_sample{kNoSample, "no_sample"};
     add_list<std::int32_t>("/countdown", ElementType::int32,
-                           described("steps that the agents still go on without coordination") +
+                           described("steps that the agents still act without coordination") +
                                std::vector<FieldAttribute>{flags({no_sample, {kLargestValue, "never"}})},
                            of_sample(kNoSample, [](const Sample& s, std::size_t) { return s.countdown; }));
     add_list<std::int32_t>(

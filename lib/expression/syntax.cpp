@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
+#include "expression/functions.hpp"
 #include "expression/token.hpp"
 
 namespace coordreq {
@@ -121,7 +123,7 @@ class Parser {
       case TokenKind::op:
         return prefix(loosest);
       default:
-        fail_expected("a number, a name or '('");
+        fail_operand();
     }
   }
 
@@ -129,7 +131,7 @@ class Parser {
     const Token op = token_;
     const bool is_not = op.op == Operator::logical_not && loosest <= kNot;
     if (!is_not && op.op != Operator::subtract && op.op != Operator::add) {
-      fail_expected("a number, a name or '('");
+      fail_operand();
     }
     const Level level(*this);
     advance();
@@ -196,6 +198,23 @@ class Parser {
     place_.fail(fmt::format("the expression is nested deeper than {} levels", kDeepest), token_.offset);
   }
 
+  [[noreturn, gnu::noinline]] void fail_operand() const {
+    place_.fail(fmt::format("expected a number, a name or '(', found {}{}", shown(token_), operand_hint()),
+                token_.offset);
+  }
+
+  /// For those who write |v| as in mathematics.
+  [[nodiscard]] std::string operand_hint() const {
+    if (token_.text != "|" && token_.text != "||") return std::string(hint());
+    const std::size_t start = token_.offset + 1;
+    const std::size_t end = place_.text.find('|', start);
+    const std::string_view inside = place_.text.substr(start, std::min(end, place_.text.size()) - start);
+    const bool is_plain =
+        end != std::string_view::npos && !inside.empty() &&
+        std::all_of(inside.begin(), inside.end(), [](char c) { return c >= ' ' && c <= '~'; });
+    return fmt::format(", did you mean {}?", quoted(is_plain ? fmt::format("abs({})", inside) : "abs(...)"));
+  }
+
   [[noreturn, gnu::noinline]] void fail_expected(std::string_view expected) const {
     place_.fail(fmt::format("expected {}, found {}{}", expected, shown(token_), hint()), token_.offset);
   }
@@ -215,7 +234,12 @@ class Parser {
   }
 
   [[noreturn, gnu::noinline]] void fail_function(const Token& word) const {
-    place_.fail(fmt::format("{} is not a function", quoted(word.text)), word.offset);
+    std::string known(spelling(Operator::if_else));
+    for (const NumberFunction& function : number_functions()) {
+      if (!function.call.empty()) known += fmt::format(", {}", function.call);
+    }
+    place_.fail(fmt::format("{} is not a function, expected one of {}", quoted(word.text), known),
+                word.offset);
   }
 
   [[noreturn, gnu::noinline]] void fail_count(const Function& function, std::size_t found,

@@ -53,6 +53,10 @@ std::size_t token_start(std::string_view text, std::size_t end, std::size_t toke
   return start;
 }
 
+bool is_closing(std::string_view text, std::size_t offset) {
+  return offset < text.size() && (text[offset] == ']' || text[offset] == '}');
+}
+
 /// Turns the parser's position and message into one line for the author of the text.
 [[noreturn]] void fail_syntax(const JsonText& json, std::size_t end, std::size_t token_size,
                               std::string_view message) {
@@ -63,6 +67,10 @@ std::size_t token_start(std::string_view text, std::size_t end, std::size_t toke
     json.fail(complaint, end > json.text.size() ? json.text.size() : end - 1);
   }
   const std::size_t start = token_start(json.text, end, token_size, message);
+  const std::size_t before = is_closing(json.text, start) ? json.token_before(start) : json.text.size();
+  if (before < json.text.size() && json.text[before] == ',') {
+    json.fail(fmt::format("expected no comma before {}, found a trailing one", json.found_at(start)), before);
+  }
   json.fail(fmt::format("expected {}, found {}", expected_words(message), json.found_at(start)), start);
 }
 

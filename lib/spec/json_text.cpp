@@ -52,7 +52,20 @@ std::size_t string_end(std::string_view text, std::size_t offset) {
   return std::min(text.find('\n', offset), text.size());
 }
 
+/// Behind the comments that start at `offset`, one right after the other.
+std::size_t after_comments(std::string_view text, std::size_t offset) {
+  while (true) {
+    const std::string_view start = text.substr(offset, 2);
+    if (start != "//" && start != "/*") return offset;
+    const bool is_line = start == "//";
+    const std::size_t end = is_line ? text.find('\n', offset) : text.find("*/", offset + 2);
+    if (end == std::string_view::npos) return text.size();
+    offset = is_line ? end : end + 2;
+  }
+}
+
 std::size_t token_end(std::string_view text, std::size_t offset) {
+  if (offset >= text.size()) return text.size();
   if (text[offset] == '"') return string_end(text, offset);
   const auto* const end =
       std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(offset), text.end(), is_word_part);
@@ -78,11 +91,18 @@ std::string JsonText::found_at(std::size_t offset) const {
 
 std::size_t JsonText::bracket(std::size_t number) const {
   for (std::size_t i = 0; i < text.size(); i = token_end(text, i)) {
-    if (text.substr(i, 2) == "//") i = std::min(text.find('\n', i), text.size() - 1);
-    if (text.substr(i, 2) == "/*") i = std::min(text.find("*/", i + 2), text.size() - 2) + 1;
-    if ((text[i] == '[' || text[i] == '{') && --number == 0) return i;
+    i = after_comments(text, i);
+    if (i < text.size() && (text[i] == '[' || text[i] == '{') && --number == 0) return i;
   }
   return text.size();
+}
+
+std::size_t JsonText::token_before(std::size_t offset) const {
+  std::size_t last = text.size();
+  for (std::size_t i = after_comments(text, 0); i < offset; i = after_comments(text, token_end(text, i))) {
+    if (!is_space(text[i])) last = i;
+  }
+  return last;
 }
 
 void JsonText::fail(std::string_view what, std::size_t offset) const {

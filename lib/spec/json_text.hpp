@@ -22,6 +22,10 @@ struct JsonText {
   /// REQUIRES: the text is well-formed up to there.
   [[nodiscard]] std::size_t bracket(std::size_t number) const;
 
+  /// Where the last token before `offset` starts, comments left out; behind the text if there is none.
+  /// REQUIRES: the text is well-formed up to there.
+  [[nodiscard]] std::size_t token_before(std::size_t offset) const;
+
   /// @throws SpecError with the place
   [[noreturn]] void fail(std::string_view what, std::size_t offset) const;
 };

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "spec/partition_names.hpp"
+#include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/wording.hpp"
 
@@ -45,6 +46,25 @@ void check_decidable(const Node& object, const RequirementSpec& requirement,
       object[object.has("min_delay") ? "min_delay" : "min_delay_time"].pointer());
 }
 
+RequirementSpec read_requirement(const Scope& scope, const Node& object, const std::vector<AgentSpec>& agents,
+                                 const CoordinationSpec& coordination, const Rational& period) {
+  RequirementSpec requirement;
+  requirement.name = object["name"].text();
+  requirement.where = scope.expression(object["where"], ExpectedType::condition, Over::states);
+  requirement.invariant = object.has("invariant");
+  if (requirement.invariant && object.has("partition")) {
+    throw SpecError("'invariant' is about all partitions, found 'partition' too",
+                    object["partition"].pointer());
+  }
+  if (!requirement.invariant) requirement.partition = read_partition(object, agents, coordination);
+  if (object.has("min_delay")) requirement.min_delay = read_integer(object["min_delay"]);
+  if (object.has("min_delay_time")) {
+    requirement.min_delay = read_steps_of_time(scope, object["min_delay_time"], period);
+  }
+  check_decidable(object, requirement, coordination);
+  return requirement;
+}
+
 }  // namespace
 
 std::vector<RequirementSpec> read_requirements(const Scope& scope, const Node& root,
@@ -52,25 +72,14 @@ std::vector<RequirementSpec> read_requirements(const Scope& scope, const Node& r
                                                const CoordinationSpec& coordination, const Rational& period) {
   std::vector<RequirementSpec> requirements;
   std::vector<std::string> names;
+  ErrorList errors;
   for (const Node& object : root.elements("requirements")) {
-    check_new_name(object["name"], names, "requirement");
+    errors.attempt([&] { check_new_name(object["name"], names, "requirement"); });
     names.push_back(object["name"].text());
-    RequirementSpec requirement;
-    requirement.name = names.back();
-    requirement.where = scope.expression(object["where"], ExpectedType::condition, Over::states);
-    requirement.invariant = object.has("invariant");
-    if (requirement.invariant && object.has("partition")) {
-      throw SpecError("'invariant' is about all partitions, found 'partition' too",
-                      object["partition"].pointer());
-    }
-    if (!requirement.invariant) requirement.partition = read_partition(object, agents, coordination);
-    if (object.has("min_delay")) requirement.min_delay = read_integer(object["min_delay"]);
-    if (object.has("min_delay_time")) {
-      requirement.min_delay = read_steps_of_time(scope, object["min_delay_time"], period);
-    }
-    check_decidable(object, requirement, coordination);
-    requirements.push_back(std::move(requirement));
+    errors.attempt(
+        [&] { requirements.push_back(read_requirement(scope, object, agents, coordination, period)); });
   }
+  errors.raise();
   return requirements;
 }
 

@@ -9,6 +9,7 @@
 #include "spec/json_document.hpp"
 #include "spec/schema_violation.hpp"
 #include "spec/scope.hpp"
+#include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/wording.hpp"
 
@@ -25,10 +26,13 @@ void check_format(const Node& root) {
   throw SpecError("this program reads spec format 1, found " + format.token(), format.pointer());
 }
 
-/// Validates with the schema that is printed. @throws SpecError that names place, found and expected
+/// Validates with the schema that is printed. @throws SpecError, SpecErrors naming place, found and expected
 void check_schema(const JsonDocument& document) {
-  const auto violation = find_violation(nlohmann::json::parse(spec_schema()), document.value());
-  if (violation) throw SpecError(violation->what, shown_pointer(violation->pointer));
+  ErrorList errors;
+  const nlohmann::json schema = nlohmann::json::parse(spec_schema());
+  for (const SchemaViolation& violation : find_violations(schema, document.value(), ErrorList::kMost))
+    errors.attempt([&] { throw SpecError(violation.what, shown_pointer(violation.pointer)); });
+  errors.raise();
 }
 
 bool is_letter(char c) {
@@ -45,6 +49,33 @@ bool contains_word(std::string text, std::string_view word) {
     if ((at == 0 || !is_letter(text[at - 1])) && (end == text.size() || !is_letter(text[end]))) return true;
   }
   return false;
+}
+
+/// All parts but the first few; a part that rests on another one is only read if that one is right.
+void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
+  ErrorList errors;
+  errors.attempt([&] { spec.states = read_states(scope, root); });
+  const bool has_inputs = errors.attempt([&] { spec.inputs = read_inputs(scope, root); });
+  errors.attempt([&] { spec.disturbances = read_disturbances(scope, root); });
+  const bool has_agents =
+      has_inputs && errors.attempt([&] { spec.agents = read_agents(scope, root, spec.inputs); });
+  Rational period;
+  const bool has_period = errors.attempt([&] { period = read_period(scope, root); });
+  errors.attempt([&] { spec.dynamics = read_dynamics(scope, root, period); });
+  errors.attempt([&] { spec.safe = scope.expression(root["safe"], ExpectedType::condition, Over::states); });
+  errors.attempt([&] { spec.abstraction = read_abstraction(root); });
+  errors.attempt([&] { spec.controller = read_controller(scope, root); });
+  const bool is_coordinated = has_agents && has_period && errors.attempt([&] {
+    spec.coordination = read_coordination(scope, root, spec.agents, period);
+  });
+  if (is_coordinated) {
+    errors.attempt([&] {
+      if (root.has("network")) spec.network = read_network(root, spec.agents, spec.coordination);
+    });
+    errors.attempt(
+        [&] { spec.requirements = read_requirements(scope, root, spec.agents, spec.coordination, period); });
+  }
+  errors.raise();
 }
 
 }  // namespace
@@ -100,18 +131,8 @@ ProblemSpec read_spec(std::string text, std::string_view source) {
   spec.text = std::move(text);
   spec.name = root["name"].text();
   spec.description = root.text_or("description", "");
-  spec.states = read_states(scope, root);
-  spec.inputs = read_inputs(scope, root);
-  spec.disturbances = read_disturbances(scope, root);
-  spec.agents = read_agents(scope, root, spec.inputs);
-  spec.dynamics = read_dynamics(scope, root, spec.states);
-  spec.safe = scope.expression(root["safe"], ExpectedType::condition, Over::states);
-  spec.abstraction = read_abstraction(root);
-  spec.controller = read_controller(scope, root);
-  spec.coordination = read_coordination(scope, root, spec.agents, spec.dynamics.period);
-  if (root.has("network")) spec.network = read_network(root, spec.agents, spec.coordination);
-  spec.requirements = read_requirements(scope, root, spec.agents, spec.coordination, spec.dynamics.period);
   spec.output = read_output(root);
+  read_parts(scope, root, spec);
   return spec;
 }
 

@@ -11,7 +11,7 @@ namespace coordreq {
 /// Reads and checks a problem spec, contract section 2, all of it.
 /// @param source the file name for messages, "standard input" for "-"
 /// @throws SpecError naming the line and column (syntax), the JSON pointer (everything else) and the place in
-///   an expression, with what was found and what was expected.
+///   an expression, with what was found and what was expected; SpecErrors if several parts are wrong.
 [[nodiscard]] ProblemSpec read_spec(std::string text, std::string_view source);
 
 /// The text of a spec that is still to be read, and where it comes from.

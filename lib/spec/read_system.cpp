@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/wording.hpp"
 
@@ -44,6 +45,12 @@ void check_equation_names(const Node& equations, const std::vector<std::string>&
   }
 }
 
+Program read_equation(const Scope& scope, const Node& equations, const std::string& state) {
+  if (!equations.has(state))
+    throw SpecError("missing equation for the state " + quote_text(state), equations.pointer());
+  return scope.expression(equations[state], ExpectedType::number, Over::everything);
+}
+
 }  // namespace
 
 Time read_time(const Node& root) {
@@ -77,24 +84,27 @@ std::vector<AgentSpec> read_agents(const Scope& scope, const Node& root,
   return agents;
 }
 
-DynamicsSpec read_dynamics(const Scope& scope, const Node& root, const std::vector<StateSpec>& states) {
+Rational read_period(const Scope& scope, const Node& root) {
+  const Node node = root["dynamics"]["period"];
+  Rational period = scope.number(node);
+  if (period <= 0) throw SpecError("expected a period > 0, found " + to_text(period), node.pointer());
+  return period;
+}
+
+DynamicsSpec read_dynamics(const Scope& scope, const Node& root, const Rational& period) {
   const Node object = root["dynamics"];
-  DynamicsSpec dynamics;
-  dynamics.time = read_time(root);
-  dynamics.period = scope.number(object["period"]);
-  if (dynamics.period <= 0) {
-    throw SpecError("expected a period > 0, found " + to_text(dynamics.period), object["period"].pointer());
-  }
-  dynamics.unit = read_unit(object);
+  DynamicsSpec dynamics{.time = read_time(root), .period = period};
+  ErrorList errors;
+  errors.attempt([&] { dynamics.unit = read_unit(object); });
   const Node equations = object["equations"];
-  check_equation_names(equations, names_of(states));
-  for (const StateSpec& state : states) {
-    if (!equations.has(state.name)) {
-      throw SpecError("missing equation for the state " + quote_text(state.name), equations.pointer());
-    }
-    dynamics.equations.push_back(
-        scope.expression(equations[state.name], ExpectedType::number, Over::everything));
+  std::vector<std::string> states;
+  for (const Node& state : root.elements("states")) states.push_back(state["name"].text());
+  const bool are_known = errors.attempt([&] { check_equation_names(equations, states); });
+  for (const std::string& state : states) {
+    if (!are_known && !equations.has(state)) continue;  // most likely the one that is spelt differently
+    errors.attempt([&] { dynamics.equations.push_back(read_equation(scope, equations, state)); });
   }
+  errors.raise();
   return dynamics;
 }
 

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "spec/check_limits.hpp"
 #include "spec/read_grid.hpp"
+#include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/wording.hpp"
 
@@ -111,19 +112,23 @@ InputSpec read_input(const Scope& scope, const Node& object) {
 std::vector<StateSpec> read_states(const Scope& scope, const Node& root) {
   const Time time = read_time(root);
   std::vector<StateSpec> states;
-  for (const Node& object : root.elements("states")) states.push_back(read_state(scope, object, time));
+  ErrorList errors;
+  for (const Node& object : root.elements("states"))
+    errors.attempt([&] { states.push_back(read_state(scope, object, time)); });
+  errors.raise();
   check_cell_count(states);
   return states;
 }
 
 std::vector<InputSpec> read_inputs(const Scope& scope, const Node& root) {
   std::vector<InputSpec> inputs;
+  ErrorList errors;
+  for (const Node& object : root.elements("inputs"))
+    errors.attempt([&] { inputs.push_back(read_input(scope, object)); });
+  errors.raise();
   std::vector<std::int64_t> counts;
-  for (const Node& object : root.elements("inputs")) {
-    inputs.push_back(read_input(scope, object));
-    const InputSpec& input = inputs.back();
+  for (const InputSpec& input : inputs)
     counts.push_back(input.grid ? input.grid->count : static_cast<std::int64_t>(input.values.size()));
-  }
   check_joint_input_count(counts);
   for (InputSpec& input : inputs) {
     if (input.grid) input.values = grid_values(*input.grid);

@@ -14,7 +14,6 @@ namespace coordreq {
 namespace {
 
 using Json = nlohmann::json;
-using Found = std::optional<SchemaViolation>;
 
 bool has_type(const Json& value, const std::string& type) {
   if (type == "object") return value.is_object();
@@ -109,151 +108,150 @@ std::vector<std::string> keys_of(const Json& object) {
   return keys;
 }
 
+/// Notes violations while it walks, until there are as many as are wanted.
 class Walk {
  public:
-  explicit Walk(const Json& root) : root_(root) {}
+  Walk(const Json& root, std::size_t most) : root_(root), most_(most) {}
 
-  Found value(const Json& schema_or_reference, const Json& value, const std::string& pointer) const {
+  void value(const Json& schema_or_reference, const Json& value, const std::string& pointer) {
+    if (is_full()) return;
     const Json& schema = resolve(schema_or_reference);
     if (schema.contains("anyOf")) return alternatives(schema, value, pointer);
     if (!value_matches(schema, value)) return mismatch(schema, value, pointer);
     if (value.is_object()) return object(schema, value, pointer);
     if (value.is_array()) return array(schema, value, pointer);
-    return std::nullopt;
   }
 
+  std::vector<SchemaViolation> violations;
+
  private:
+  [[nodiscard]] bool is_full() const { return violations.size() >= most_; }
+  void add(std::string what, const std::string& pointer) {
+    if (!is_full()) violations.push_back({std::move(what), pointer});
+  }
+
   const Json& resolve(const Json& schema) const {
     if (!schema.contains("$ref")) return schema;
     // All references are "#/...".
     return root_.at(Json::json_pointer(schema["$ref"].get<std::string>().substr(1)));
   }
 
-  static SchemaViolation mismatch(const Json& schema, const Json& value, const std::string& pointer) {
-    return {fmt::format("expected {}, found {}", wanted(schema), shown(value)), pointer};
+  void mismatch(const Json& schema, const Json& value, const std::string& pointer) {
+    add(fmt::format("expected {}, found {}", wanted(schema), shown(value)), pointer);
   }
 
   /// The alternative of the value's own type is the one the author meant.
-  Found alternatives(const Json& schema, const Json& value, const std::string& pointer) const {
+  void alternatives(const Json& schema, const Json& value, const std::string& pointer) {
     for (const Json& branch : schema["anyOf"]) {
       const Json& alternative = resolve(branch);
       const bool is_meant =
           alternative.contains("type") ? type_matches(alternative, value) : value_matches(alternative, value);
       if (is_meant) return this->value(alternative, value, pointer);
     }
-    return mismatch(schema, value, pointer);
+    mismatch(schema, value, pointer);
   }
 
-  Found array(const Json& schema, const Json& value, const std::string& pointer) const {
-    if (!schema.contains("items")) return std::nullopt;
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      if (Found found = this->value(schema["items"], value[i], pointer + "/" + std::to_string(i)))
-        return found;
-    }
-    return std::nullopt;
+  void array(const Json& schema, const Json& value, const std::string& pointer) {
+    if (!schema.contains("items")) return;
+    for (std::size_t i = 0; i < value.size(); ++i)
+      this->value(schema["items"], value[i], pointer + "/" + std::to_string(i));
   }
 
-  Found object(const Json& schema, const Json& value, const std::string& pointer) const {
-    if (Found found = unknown_key(schema, value, pointer)) return found;
-    if (Found found = key_name(schema, value, pointer)) return found;
-    if (Found found = missing_key(schema, value, pointer)) return found;
-    if (Found found = key_combination(schema, value, pointer)) return found;
-    return members(schema, value, pointer);
+  /// Where a key is not known, the one that it was meant to be is missing: that is not said as well.
+  void object(const Json& schema, const Json& value, const std::string& pointer) {
+    const std::size_t before = violations.size();
+    unknown_keys(schema, value, pointer);
+    key_names(schema, value, pointer);
+    if (violations.size() == before) missing_keys(schema, value, pointer);
+    if (violations.size() == before) key_combination(schema, value, pointer);
+    members(schema, value, pointer);
   }
 
-  Found unknown_key(const Json& schema, const Json& value, const std::string& pointer) const {
+  void unknown_keys(const Json& schema, const Json& value, const std::string& pointer) {
     const Json closed = false;
-    if (!schema.contains("additionalProperties") || schema["additionalProperties"] != closed)
-      return std::nullopt;
+    if (!schema.contains("additionalProperties") || schema["additionalProperties"] != closed) return;
     const std::vector<std::string> known = keys_of(schema["properties"]);
     for (const auto& [key, member] : value.items()) {
-      if (schema["properties"].contains(key)) continue;
+      if (schema["properties"].contains(key) || is_full()) continue;
       std::string hint = suggestion(key, known);
       if (hint.empty()) hint = ", expected " + quote_list(known, "or");
-      return SchemaViolation{"unknown key " + quote_text(key) + hint, pointer};
+      add("unknown key " + quote_text(key) + hint, pointer);
     }
-    return std::nullopt;
   }
 
-  Found key_name(const Json& schema, const Json& value, const std::string& pointer) const {
-    if (!schema.contains("propertyNames")) return std::nullopt;
+  void key_names(const Json& schema, const Json& value, const std::string& pointer) {
+    if (!schema.contains("propertyNames")) return;
     const Json& names = resolve(schema["propertyNames"]);
     for (const auto& [key, member] : value.items()) {
-      if (!string_matches(names, key)) {
-        return SchemaViolation{fmt::format("expected {}, found the key {}", wanted(names), quote_text(key)),
-                               pointer};
-      }
+      if (string_matches(names, key)) continue;
+      add(fmt::format("expected {}, found the key {}", wanted(names), quote_text(key)), pointer);
     }
-    return std::nullopt;
   }
 
-  static Found missing_key(const Json& schema, const Json& value, const std::string& pointer) {
+  void missing_keys(const Json& schema, const Json& value, const std::string& pointer) {
     if (schema.contains("required")) {
       for (const std::string& key : texts(schema["required"])) {
-        if (!value.contains(key)) return SchemaViolation{"missing key " + quote_text(key), pointer};
+        if (!value.contains(key)) add("missing key " + quote_text(key), pointer);
       }
     }
-    if (!schema.contains("dependencies")) return std::nullopt;
+    if (!schema.contains("dependencies")) return;
     for (const auto& [key, needed] : schema["dependencies"].items()) {
       for (const std::string& other : texts(needed)) {
         if (!value.contains(key) || value.contains(other)) continue;
-        return SchemaViolation{fmt::format("{} needs {}", quote_text(key), quote_text(other)), pointer};
+        add(fmt::format("{} needs {}", quote_text(key), quote_text(other)), pointer);
       }
     }
-    return std::nullopt;
   }
 
   /// `oneOf` and `not` are used for keys that exclude each other.
-  static Found key_combination(const Json& schema, const Json& value, const std::string& pointer) {
-    if (schema.contains("not")) {
-      if (Found found = excluded_keys(schema["not"], value, pointer)) return found;
-    }
+  void key_combination(const Json& schema, const Json& value, const std::string& pointer) {
+    if (schema.contains("not")) excluded_keys(schema["not"], value, pointer);
     if (schema.contains("allOf")) {
-      for (const Json& part : schema["allOf"]) {
-        if (Found found = key_combination(part, value, pointer)) return found;
-      }
+      for (const Json& part : schema["allOf"]) key_combination(part, value, pointer);
     }
-    return schema.contains("oneOf") ? choice_of_keys(schema["oneOf"], value, pointer) : std::nullopt;
+    if (schema.contains("oneOf")) choice_of_keys(schema["oneOf"], value, pointer);
   }
 
-  static Found excluded_keys(const Json& excluded, const Json& value, const std::string& pointer) {
+  void excluded_keys(const Json& excluded, const Json& value, const std::string& pointer) {
     const std::vector<std::string> keys = texts(excluded["required"]);
     const bool has_all =
         std::all_of(keys.begin(), keys.end(), [&](const auto& key) { return value.contains(key); });
-    if (!has_all) return std::nullopt;
-    return SchemaViolation{fmt::format("{} exclude each other", quote_list(keys, "and")), pointer};
+    if (has_all) add(fmt::format("{} exclude each other", quote_list(keys, "and")), pointer);
   }
 
-  static Found choice_of_keys(const Json& branches, const Json& value, const std::string& pointer) {
+  void choice_of_keys(const Json& branches, const Json& value, const std::string& pointer) {
     std::vector<std::string> choices;
     std::vector<std::string> present;
     for (const Json& branch : branches) {
       choices.push_back(branch["required"][0].get<std::string>());
       if (value.contains(choices.back())) present.push_back(choices.back());
     }
-    if (present.size() == 1) return std::nullopt;
-    if (present.empty()) return SchemaViolation{"missing key: one of " + quote_list(choices, "or"), pointer};
-    return SchemaViolation{fmt::format("{} exclude each other", quote_list(present, "and")), pointer};
+    if (present.empty()) add("missing key: one of " + quote_list(choices, "or"), pointer);
+    if (present.size() > 1) add(fmt::format("{} exclude each other", quote_list(present, "and")), pointer);
   }
 
-  Found members(const Json& schema, const Json& value, const std::string& pointer) const {
+  void members(const Json& schema, const Json& value, const std::string& pointer) {
     const Json none = Json::object();
     const Json& properties = schema.contains("properties") ? schema["properties"] : none;
+    const auto others = schema.find("additionalProperties");
     for (const auto& [key, member] : value.items()) {
-      const std::string where = member_pointer(pointer, key);
-      const Json& of_member = properties.contains(key) ? properties[key] : schema["additionalProperties"];
-      if (Found found = this->value(of_member, member, where)) return found;
+      const bool is_known = properties.contains(key);
+      if (!is_known && (others == schema.end() || !others->is_object())) continue;  // noted already
+      this->value(is_known ? properties[key] : *others, member, member_pointer(pointer, key));
     }
-    return std::nullopt;
   }
 
   const Json& root_;
+  std::size_t most_;
 };
 
 }  // namespace
 
-std::optional<SchemaViolation> find_violation(const nlohmann::json& schema, const nlohmann::json& document) {
-  return Walk(schema).value(schema, document, "");
+std::vector<SchemaViolation> find_violations(const nlohmann::json& schema, const nlohmann::json& document,
+                                             std::size_t most) {
+  Walk walk(schema, most);
+  walk.value(schema, document, "");
+  return walk.violations;
 }
 
 }  // namespace coordreq

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "base/error.hpp"
 #include "spec/dependency_order.hpp"
+#include "spec/spec_errors.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -29,7 +33,10 @@ struct MentionGraph {
 
   explicit MentionGraph(const Node& object) : names(object.keys()) {
     for (std::size_t i = 0; i < names.size(); ++i) index_of[names[i]] = i;
-    for (const std::string& name : names) mentions.push_back(mentioned_in(object[name]));
+    ErrorList errors;
+    for (const std::string& name : names)
+      errors.attempt([&] { mentions.push_back(mentioned_in(object[name])); });
+    errors.raise();
   }
 
   [[nodiscard]] std::vector<std::size_t> mentioned_in(const Node& node) const {
@@ -43,6 +50,20 @@ struct MentionGraph {
   }
 };
 
+/// Adds each name after those that it mentions. What mentions one that is wrong is left alone: nothing can be
+/// said of it.
+template <class Add>
+void add_in_order(const MentionGraph& graph, const std::vector<std::size_t>& order, const Add& add) {
+  ErrorList errors;
+  std::vector<bool> is_known(graph.names.size(), false);
+  for (const std::size_t i : order) {
+    const bool can_be_read = std::all_of(graph.mentions[i].begin(), graph.mentions[i].end(),
+                                         [&](std::size_t mentioned) { return is_known[mentioned]; });
+    is_known[i] = can_be_read && errors.attempt([&] { add(graph.names[i]); });
+  }
+  errors.raise();
+}
+
 }  // namespace
 
 Scope::Scope(const Node& root) {
@@ -53,15 +74,19 @@ Scope::Scope(const Node& root) {
 }
 
 void Scope::add_names(const Node& root) {
-  add_variables(root, "states", NameKind::state);
-  add_variables(root, "inputs", NameKind::input);
-  add_variables(root, "disturbances", NameKind::disturbance);
+  ErrorList errors;
+  for (const auto& [list, kind] : {std::pair("states", NameKind::state), std::pair("inputs", NameKind::input),
+                                   std::pair("disturbances", NameKind::disturbance)}) {
+    errors.attempt([&, list = list, kind = kind] { add_variables(root, list, kind); });
+  }
   const auto add_keys = [&](const std::string& object, NameKind kind) {
     if (!root.has(object)) return;
-    for (const std::string& key : root[object].keys()) names_.add(key, kind, root[object][key].pointer());
+    for (const std::string& key : root[object].keys())
+      errors.attempt([&] { names_.add(key, kind, root[object][key].pointer()); });
   };
   add_keys("constants", NameKind::constant);
   add_keys("definitions", NameKind::definition);
+  errors.raise();
 }
 
 void Scope::add_variables(const Node& root, const std::string& list, NameKind kind) {
@@ -75,19 +100,18 @@ void Scope::add_variables(const Node& root, const std::string& list, NameKind ki
 
 void Scope::evaluate_constants(const Node& constants) {
   const MentionGraph graph(constants);
-  for (const std::size_t i :
-       dependency_order(graph.mentions, graph.names, "constants", constants.pointer())) {
-    constants_[graph.names[i]] = number(constants[graph.names[i]]);
-  }
+  add_in_order(graph, dependency_order(graph.mentions, graph.names, "constants", constants.pointer()),
+               [&](const std::string& name) { constants_[name] = number(constants[name]); });
 }
 
 void Scope::link_definitions(const Node& object) {
   const MentionGraph graph(object);
   const auto lookup = [this](std::string_view name) { return find(name); };
-  for (const std::size_t i : dependency_order(graph.mentions, graph.names, "definitions", object.pointer())) {
-    const Node node = object[graph.names[i]];
-    definitions_.add(graph.names[i], link(node.text(), lookup, ExpectedType::any, node.pointer()));
-  }
+  add_in_order(graph, dependency_order(graph.mentions, graph.names, "definitions", object.pointer()),
+               [&](const std::string& name) {
+                 const Node node = object[name];
+                 definitions_.add(name, link(node.text(), lookup, ExpectedType::any, node.pointer()));
+               });
 }
 
 Rational Scope::number(const Node& node) const {

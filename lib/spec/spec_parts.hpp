@@ -8,7 +8,8 @@
 #include "spec/scope.hpp"
 
 // The readers of the parts of a spec. All REQUIRE a document that follows the schema, take `root`, the whole
-// document, and throw SpecError naming the JSON pointer; sizes beyond all bounds are LimitErrors.
+// document, and throw SpecError naming the JSON pointer, or SpecErrors; sizes beyond all bounds are
+// LimitErrors.
 namespace coordreq {
 
 [[nodiscard]] Time read_time(const JsonDocument::Node& root);
@@ -20,8 +21,9 @@ namespace coordreq {
 
 [[nodiscard]] std::vector<AgentSpec> read_agents(const Scope& scope, const JsonDocument::Node& root,
                                                  const std::vector<InputSpec>& inputs);
+[[nodiscard]] Rational read_period(const Scope& scope, const JsonDocument::Node& root);
 [[nodiscard]] DynamicsSpec read_dynamics(const Scope& scope, const JsonDocument::Node& root,
-                                         const std::vector<StateSpec>& states);
+                                         const Rational& period);
 [[nodiscard]] AbstractionSpec read_abstraction(const JsonDocument::Node& root);
 [[nodiscard]] ControllerSpec read_controller(const Scope& scope, const JsonDocument::Node& root);
 [[nodiscard]] OutputSpec read_output(const JsonDocument::Node& root);

@@ -5,6 +5,8 @@ import unittest
 
 from program import SPEC, Case, spec_with
 
+FUNCTIONS = "if, pow, min, max, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, log, sqrt, abs, sign"
+
 
 def state(**changes):
     """A list of SPEC's states, the first one changed; a key set to None is left out."""
@@ -99,6 +101,92 @@ class Cases(Case):
         self.assert_rejected(
             "'w' is not an input (/agents/2/inputs/0)",
             spec_with(agents=SPEC["agents"] + [{"name": "c", "inputs": ["w"]}]),
+        )
+
+    def assert_all_are_told(self, messages, spec):
+        """One line each, in this order."""
+        self.write("spec.json", spec)
+        for command in ("validate", "analyze"):
+            result = self.run_program(command, "spec.json")
+            self.assertEqual(result.stderr.decode().splitlines(), [f"coordreq: error: {text}" for text in messages])
+            self.assertEqual((result.returncode, result.stdout), (3, b""))
+
+    def test_several_errors_of_form(self):
+        agents = [{"name": "a", "inputs": ["u"], "prefers": "0"}, {"nam": "b", "inputs": ["v"]}]
+        self.assert_all_are_told(
+            [
+                "missing key 'dynamics' (top level)",
+                "missing key 'safe' (top level)",
+                "unknown key 'prefers', did you mean 'prefer'? (/agents/0)",
+                "unknown key 'nam', did you mean 'name'? (/agents/1)",
+                "expected a string, found 7 (/description)",
+            ],
+            spec_with(agents=agents, safe=None, dynamics=None, description=7),
+        )
+
+    def test_several_errors_of_meaning(self):
+        equations = {"x": "x + w", "y": "atan2(y, v)"}
+        requirements = [
+            {"name": "near", "where": "x <", "invariant": True},
+            {"name": "near", "where": "z < 1", "invariant": True},
+        ]
+        self.assert_all_are_told(
+            [
+                "expected a step > 0, found 0 (/states/0/step)",
+                "expected upper >= lower = 1, found 0 (/disturbances/0/upper)",
+                "'w' is not defined (/dynamics/equations/x, column 5)",
+                f"'atan2' is not a function, expected one of {FUNCTIONS} (/dynamics/equations/y, column 1)",
+                "expected a condition, found a number (/safe, column 1)",
+                "expected a number, a name or '(', found the end (/requirements/0/where, column 4)",
+                "the requirement 'near' is listed twice (/requirements/1/name)",
+                "'z' is not defined (/requirements/1/where, column 1)",
+            ],
+            spec_with(
+                states=state(step=0),
+                disturbances=[{"name": "d", "lower": 1, "upper": 0}],
+                dynamics={"time": "discrete", "period": 1, "equations": equations},
+                safe="x + y",
+                requirements=requirements,
+            ),
+        )
+
+    def test_what_rests_on_an_error_is_not_told(self):
+        self.assert_all_are_told(
+            ["'q' is not defined (/definitions/a, column 1)", "'r' is not defined (/definitions/c, column 1)"],
+            spec_with(definitions={"a": "q", "b": "a + 1", "c": "r"}, safe="b + c <= 6"),
+        )
+
+    def test_ten_errors_are_enough(self):
+        requirements = [{"name": f"n{i}", "where": f"z{i} < 1", "invariant": True} for i in range(20)]
+        self.assert_all_are_told(
+            [f"'z{i}' is not defined (/requirements/{i}/where, column 1)" for i in range(10)],
+            spec_with(requirements=requirements),
+        )
+
+    def test_several_errors_in_one_of_several_specs(self):
+        self.write("good.json", SPEC)
+        self.write("bad.json", spec_with(safe="z < 1", description=7, name=8))
+        result = self.run_program("analyze", "good.json", "bad.json")
+        name = "a name of at most 200 letters, digits, '_', '.' and '-' that starts with none of '.' and '-'"
+        lines = ("expected a string, found 7 (/description)", f"expected {name}, found 8 (/name)")
+        self.assertEqual(result.stderr.decode(), "".join(f"coordreq: error: bad.json: {line}\n" for line in lines))
+        self.assertEqual(result.returncode, 3)
+
+    def test_trailing_comma(self):
+        text = '{\n  "coordreq": 1, // one\n  "name": "x", /* two */ // three\n}\n'
+        self.assert_rejected("expected no comma before '}', found a trailing one (spec.json, line 3, column 14)", text)
+        text = '{"states": [1, 2 , ]}'
+        self.assert_rejected("expected no comma before ']', found a trailing one (spec.json, line 1, column 18)", text)
+        text = '{"states": [,]}'
+        self.assert_rejected("expected a value, found ',' (spec.json, line 1, column 13)", text)
+
+    def test_bars_of_an_absolute_value(self):
+        found = "expected a number, a name or '(', found"
+        self.assert_rejected(f"{found} '|', did you mean 'abs(x - y)'? (/safe, column 1)", spec_with(safe="|x - y| <= 6"))
+        self.assert_rejected(f"{found} '||', did you mean 'abs(...)'? (/safe, column 5)", spec_with(safe="1 + ||x| - 1| <= 6"))
+        self.assert_rejected(
+            "expected an operator or the end, found '|', did you mean '||'? (/safe, column 7)",
+            spec_with(safe="x < 1 | y < 1"),
         )
 
     def test_undefined_name(self):

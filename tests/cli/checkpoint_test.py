@@ -72,7 +72,7 @@ class Cases(Case):
         self.assertIn(result.returncode, (0, 1))
         self.assertRegex(
             result.stderr.decode(),
-            r"^coordreq: (going on from the checkpoint|no checkpoint yet, starting anew) \(run.ckpt\)\n$",
+            r"^coordreq: (continuing from the checkpoint|no checkpoint yet, starting anew) \(run.ckpt\)\n$",
         )
         self.assertEqual((self.folder / "out.h5").read_bytes(), expected)
         self.assertNotIn("run.ckpt", self.files())
@@ -180,7 +180,7 @@ class Cases(Case):
                 break
         self.assertNotIn("out.h5", self.files())
         result = self.run_program("analyze", spec, "-o", "out.h5", *RESUME)
-        self.assertEqual(result.stderr, b"coordreq: going on from the checkpoint (run.ckpt)\n")
+        self.assertEqual(result.stderr, b"coordreq: continuing from the checkpoint (run.ckpt)\n")
         self.assertEqual((self.folder / "out.h5").read_bytes(), expected)
 
     def test_nothing_is_left_of_a_run_that_ends(self):
@@ -221,7 +221,7 @@ class Cases(Case):
     def test_a_checkpoint_is_not_overwritten(self):
         before = self.saved_checkpoint()
         message = (
-            "the checkpoint is there already, expected --resume to go on from it, or another file (run.ckpt)"
+            "the checkpoint is there already, expected --resume to continue from it, or another file (run.ckpt)"
         )
         self.assert_fails(2, message, "analyze", "spec.json", *CHECKPOINT)
         self.assertEqual((self.folder / "run.ckpt").read_bytes(), before)
@@ -356,7 +356,7 @@ class Cases(Case):
             shutil.rmtree(self.folder / "disk", ignore_errors=True)
             errors = process.stderr.read().decode()
         self.assertEqual(process.returncode, 0)
-        self.assertRegex(errors, r"^coordreq: warning: going on without a new checkpoint: .*\n$")
+        self.assertRegex(errors, r"^coordreq: warning: continuing without a new checkpoint: .*\n$")
         self.assertEqual((self.folder / "out.h5").read_bytes(), expected)
 
 

@@ -279,8 +279,8 @@ class Cases(Case):
         self.assertTrue(lines[2].endswith(",-3,"))
 
     def test_connection_delay(self):
-        alone = r"  connection   {} cells may never be without one, which takes 2 steps \(1 s\) to stand\n"
-        table = r"a\|b\|c .* {} cells\nA connection takes 2 steps \(1 s\) to stand\.\n"
+        alone = r"  connection   {} cells may never be without one, which takes 2 steps \(1 s\) to establish\n"
+        table = r"a\|b\|c .* {} cells\nA connection takes 2 steps \(1 s\) to establish\.\n"
         for partitions, shown in (([{"classes": []}], alone), ("all", table)):
             summary = self.results(corridors(partitions=partitions, connection_delay=2))
             self.assertEqual(summary["connection_delay"], 2)

@@ -1,13 +1,17 @@
 """Wrong usage is exit code 2 and one line; help and version go to standard output."""
 
+import os
+import pathlib
 import re
+import shutil
+import subprocess
 import unittest
 
-from program import SPEC, Case
+from program import CONFIGS, PROGRAM, ROOT, SPEC, Case
 
 COMMANDS = (
-    *("analyze", "validate", "info", "query", "simulate", "verify", "compare", "export", "report"),
-    *("schema", "completion"),
+    *("init", "analyze", "validate", "info", "query", "simulate", "verify", "compare", "export", "report"),
+    *("schema", "completion", "help"),
 )
 LISTED = ", ".join(COMMANDS)
 
@@ -18,6 +22,15 @@ class Cases(Case):
 
     def test_unknown_command(self):
         self.assert_fails(2, f"unknown command 'solve', expected one of {LISTED}", "solve")
+
+    def test_command_that_is_almost_one(self):
+        self.assert_fails(2, "unknown command 'analyse', did you mean 'analyze'?", "analyse", "spec.json")
+        self.assert_fails(2, "unknown command 'vaildate', did you mean 'validate'?", "help", "vaildate")
+
+    def test_option_that_is_almost_one(self):
+        for typed in ("--thread", "--thread=2", "--treads"):
+            message = f"unknown option '{typed}' of analyze, did you mean '--threads'?"
+            self.assert_fails(2, message, "analyze", "spec.json", typed)
 
     def test_unknown_global_option(self):
         self.assert_fails(
@@ -131,6 +144,44 @@ class Cases(Case):
                 self.assertIn(f"Usage: coordreq {command} [OPTIONS]", result.stdout.decode())
                 for option in ("--threads N", "--max-memory SIZE", "--json", "--quiet"):
                     self.assertIn(option, result.stdout.decode())
+                self.assertEqual(self.run_program("help", command).stdout, result.stdout)
+
+    def test_help_of_the_program(self):
+        result = self.run_program("help")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        self.assertEqual(result.stdout, self.run_program("--help").stdout)
+        self.assert_fails(2, f"unknown command 'solve', expected one of {LISTED}", "help", "solve")
+        self.assert_fails(2, "unexpected argument 'info', help takes at most one argument, COMMAND", "help", "analyze", "info")
+
+    def test_examples_of_every_help_run(self):
+        self.analyze(str(CONFIGS / "circle.json"))
+        (self.folder / "circle.json").symlink_to(CONFIGS / "circle.json")
+        for copy in ("before.h5", "after.h5"):
+            shutil.copy(self.folder / "circle.h5", self.folder / copy)
+        self.write("states.csv", "x1,x2\n0.1,0\n")
+        (self.folder / ".config/fish/completions").mkdir(parents=True)
+        path = f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}"
+        environment = dict(os.environ, PATH=path, HOME=str(self.folder))
+        for command in ((), *((command,) for command in COMMANDS)):
+            text = self.run_program(*command, "--help").stdout.decode()
+            examples = re.findall(r"(?m)^  (.*)$", text.split("\nExamples:\n")[1].split("\n\n")[0])
+            self.assertEqual(len(examples), 2)
+            for example in examples:
+                with self.subTest(example=example):
+                    self.assertIn(" ".join(["coordreq", *command]), example)
+                    result = subprocess.run(["bash", "-c", example], cwd=self.folder, env=environment, capture_output=True)
+                    self.assertEqual((result.returncode, result.stderr), (0, b""))
+
+    def test_help_names_the_pages(self):
+        for command in ((), ("analyze",)):
+            text = self.run_program(*command, "--help").stdout.decode()
+            page = pathlib.Path(text.rstrip().rpartition("\nDocumentation: ")[2])
+            self.assertTrue(page.samefile(ROOT / "docs/README.md"))
+
+    def test_help_of_a_program_that_stands_alone(self):
+        shutil.copy(PROGRAM, self.folder / "alone")
+        result = subprocess.run([self.folder / "alone", "--help"], capture_output=True, text=True)
+        self.assertTrue(result.stdout.endswith("\nDocumentation: man coordreq\n"))
 
     def test_version(self):
         result = self.run_program("--version")

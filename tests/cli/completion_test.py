@@ -57,9 +57,11 @@ class Cases(Case):
     def check_arguments(self, offers, command):
         specs, results = ["a.json", "sub"], ["b.h5", "sub", "with space.h5"]
         kinds = {"SPEC": specs, "RESULTS": results, "A": results, "B": results, "SHELL": ["bash", "fish", "zsh"]}
+        kinds["FILE"] = ["a.json", "b.h5", "c.txt", "sub", "with space.h5"]
+        kinds["COMMAND"] = sorted(program_help.commands(self.help_of()))
         arguments = program_help.arguments(self.help_of(command))
         words = [command]
-        for name, many, _ in arguments:
+        for name, many, *_ in arguments:
             for _ in range(3 if many else 1):
                 self.assertEqual(offers([*words, ""]), kinds[name])
                 words.append(kinds[name][0])

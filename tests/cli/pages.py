@@ -51,6 +51,16 @@ class PageCase(Case):
             result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=True)
             self.assertEqual(result.stdout, text)
 
+    def assert_notebook_prints(self, page):
+        """The Python blocks of a page, one after the other in one process, print the text blocks that follow them."""
+        parts = re.findall(r"(?ms)^```python\n(.*?)^```$(?:\s+```text\n(.*?)^```$)?", page.read_text())
+        self.assertGreater(len(parts), 1)
+        mark = "== end of a block\n"
+        program = "".join(f"{code}print({mark.strip()!r})\n" for code, _ in parts)
+        result = subprocess.run(["/usr/bin/python3", "-c", program], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual(result.stdout, "".join(text + mark for _, text in parts))
+
     def assert_files_exist(self, page):
         """Links lead somewhere, and so do paths in the project that are named."""
         text = page.read_text()

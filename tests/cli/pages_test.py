@@ -2,6 +2,7 @@
 
 import json
 import re
+import subprocess
 import unittest
 
 import h5py
@@ -14,6 +15,7 @@ GRIDS = (DOCS / "grids.md").read_text()
 SESSIONS = {
     "coalitions.md": (2, []),
     "commands.md": (1, []),
+    "grids.md": (1, []),
     "networks.md": (1, []),
     "outputs.md": (7, []),
     "queries.md": (1, ["circle.json"]),
@@ -43,6 +45,13 @@ class Cases(PageCase):
 
     def test_sessions_of_commands(self):
         self.assert_sessions("commands.md")
+
+    def test_sessions_of_grids(self):
+        spec = json.loads(without_comments(example(2)))
+        for part in blocks(DOCS / "grids.md", "json"):
+            spec.update(json.loads("{" + part + "}"))
+        self.write("spec.json", dict(spec, name="spec"))
+        self.assert_sessions("grids.md")
 
     def test_sessions_of_networks(self):
         self.assert_sessions("networks.md")
@@ -93,6 +102,31 @@ class Cases(PageCase):
     def test_python_of_results(self):
         self.analyze(str(CONFIGS / "circle.json"))
         self.assert_programs_print(DOCS / "results.md", "(1, 201, 201) m\n")
+
+    def test_notebook(self):
+        self.analyze(str(CONFIGS / "tutorial/corridor_5.json"))
+        self.assert_notebook_prints(DOCS / "analysis.md")
+        self.assertTrue((self.folder / "silence.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_pictures_that_the_pages_draw(self):
+        """Every line for scripts/plot on the pages, with the results that the lines before it write."""
+        lines = [
+            line
+            for page in sorted(DOCS.glob("**/*.md"))
+            for block in blocks(page, "sh")
+            for line in block.splitlines()
+            if line.startswith("scripts/plot ")
+        ]
+        self.assertGreaterEqual(len(lines), 5)
+        for name in ("circle", "circle_actions", "intersection_coarse", "platoon_coalition"):
+            self.analyze(str(CONFIGS / f"{name}.json"))
+        (self.folder / "intersection_coarse.h5").rename(self.folder / "intersection.h5")
+        (self.folder / "scripts").symlink_to(ROOT / "scripts")
+        for line in lines:
+            with self.subTest(line=line):
+                result = subprocess.run(line, shell=True, cwd=self.folder, capture_output=True, text=True)
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                self.assertTrue((self.folder / line.rpartition(" -o ")[2]).stat().st_size > 0)
 
     def test_every_page_is_in_the_index(self):
         index = (DOCS / "README.md").read_text()
@@ -180,8 +214,7 @@ class Cases(PageCase):
             spec = json.loads(without_comments(example(2)))
             spec["dynamics"]["period"] = period
             self.assertEqual(self.longest(spec)[1], expected)
-        self.assertIn("4.5 s with a period of 0.25 s,\n   6 s with 0.5 s and 7 s with 1 s".replace("\n   ", " "),
-                      " ".join(GRIDS.split()))
+        self.assertIn("4.5 s with a period of 0.25 s, 6 s with 0.5 s and 7 s with 1 s", " ".join(GRIDS.split()))
 
     def test_files_that_they_name(self):
         for page in PAGES:

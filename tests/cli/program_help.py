@@ -18,10 +18,10 @@ def options(help_text):
 
 
 def arguments(help_text):
-    """[(name, whether there may be many, description)] of the positional arguments."""
+    """[(name, whether there may be many, whether there must be one, description)] of the positional arguments."""
     if "\nPositionals:\n" not in help_text:
         return []
     listed = help_text.split("\nPositionals:\n")[1].split("\n\n")[0]
     listed = re.sub(r"\n {20,}", "  ", listed)
-    found = re.findall(r"(?m)^  (\S+)( \.\.\.)?(?: \S+)? REQUIRED\s+(.*)$", listed)
-    return [(name, bool(many), description) for name, many, description in found]
+    found = re.findall(r"(?m)^  (\S+)( \.\.\.)?(?: (?!REQUIRED)\S+)?( REQUIRED)?\s{2,}(.*)$", listed)
+    return [(name, bool(many), bool(required), description) for name, many, required, description in found]

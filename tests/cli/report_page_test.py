@@ -68,7 +68,7 @@ class Cases(PageCase):
                 seen.setdefault(cell["Countdown"], cell)
         for cell in seen.values():
             self.assert_is_answer(cell, "alone")
-        self.assertLessEqual({"a connection must stand already", "start to connect now", "none"}, set(seen))
+        self.assertLessEqual({"a connection must exist already", "start to connect now", "none"}, set(seen))
         self.select("partition", 1)
         self.assert_is_answer(self.cell(), "together")
         self.assertIn("(100 %) tolerate this much silence.", self.browser.run("document.getElementById('chart-reading').innerText"))

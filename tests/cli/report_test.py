@@ -50,7 +50,7 @@ class Cases(ReportCase):
         text = self.text_of(self.report(FOUR))
         self.assertRegex(text, r"Partition alone\nFrom [0-9.]+ % of the states the agents never need to talk to each other; "
                                r"from the best of the others \(p = .* m\) they may be silent for [0-9.]+ s")  # fmt: skip
-        self.assertRegex(text, r"A connection takes 0.5 s \(1 step\) to stand: in [0-9.]+ % of the states")
+        self.assertRegex(text, r"A connection takes 0.5 s \(1 step\) to establish: in [0-9.]+ % of the states")
         self.assertIn("Partition together\nAll agents coordinate within every step, so there is no silence to tolerate.", text)
 
     def test_answers_that_are_no_times(self):

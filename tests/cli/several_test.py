@@ -150,7 +150,7 @@ class Cases(Case):
         for name in ("file.h5", "none"):
             with self.subTest(name=name):
                 message = (
-                    "expected a folder that is there, for the results are several files, "
+                    "expected a folder that exists, because there are several results files, "
                     f"found '{name}' (--output)"
                 )
                 self.assert_fails(2, message, "analyze", "good.json", "bad.json", "-o", name)

@@ -126,7 +126,7 @@ $""",
         self.assertIn("outcome          left the invariance set\n", text)
         self.assertIn(
             "\nRun 0 left the invariance set at step 1, at x = 4, y = 4.\n"
-            "That contradicts the analysis: please report it.\n\nruns in runs.h5\n",
+            "That contradicts the analysis: please report it with `coordreq --version`.\n\nruns in runs.h5\n",
             text,
         )
         with h5py.File(self.folder / "runs.h5") as file:

@@ -40,13 +40,22 @@ INSTANTIATE_TEST_SUITE_P(
                   "expected an operator or the end, found '&', did you mean '&&'? (/safe, column 3)"},
         ErrorCase{"x | y",
                   "expected an operator or the end, found '|', did you mean '||'? (/safe, column 3)"},
+        ErrorCase{
+            "|x - y| + 1",
+            "expected a number, a name or '(', found '|', did you mean 'abs(x - y)'? (/safe, column 1)"},
+        ErrorCase{"1 + |x",
+                  "expected a number, a name or '(', found '|', did you mean 'abs(...)'? (/safe, column 5)"},
         ErrorCase{"x ** 2",
                   "expected a number, a name or '(', found '*', did you mean '^'? (/safe, column 4)"},
         ErrorCase{"*x", "expected a number, a name or '(', found '*' (/safe, column 1)"},
         ErrorCase{"x + not y", "expected a number, a name or '(', found 'not' (/safe, column 5)"},
         ErrorCase{"x < !y", "expected a number, a name or '(', found '!' (/safe, column 5)"},
-        ErrorCase{"foo(2)", "'foo' is not a function (/safe, column 1)"},
-        ErrorCase{"x(2)", "'x' is not a function (/safe, column 1)"},
+        ErrorCase{"foo(2)",
+                  "'foo' is not a function, expected one of if, pow, min, max, sin, cos, tan, asin, "
+                  "acos, atan, sinh, cosh, tanh, exp, log, sqrt, abs, sign (/safe, column 1)"},
+        ErrorCase{"x(2)",
+                  "'x' is not a function, expected one of if, pow, min, max, sin, cos, tan, asin, "
+                  "acos, atan, sinh, cosh, tanh, exp, log, sqrt, abs, sign (/safe, column 1)"},
         ErrorCase{"1e6000", "the number '1e6000' is out of range (/safe, column 1)"}));
 
 INSTANTIATE_TEST_SUITE_P(

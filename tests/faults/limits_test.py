@@ -65,7 +65,7 @@ class Cases(Case):
             *("analyze", "s.json", "--checkpoint", "c", "--checkpoint-every", "0"),
         )
         lines = result.stderr.decode().splitlines()
-        self.assertIn("warning: going on without a new checkpoint: cannot write: File too large (c)", lines[0])
+        self.assertIn("warning: continuing without a new checkpoint: cannot write: File too large (c)", lines[0])
         self.assertRegex(lines[-1], r"^coordreq: error: cannot write the results: .*File too large \(small\.h5\)$")
         self.assertEqual((result.returncode, self.files()), (5, ["s.json"]))
 

@@ -43,6 +43,7 @@ class Cases(unittest.TestCase):
             "share/bash-completion/completions/coordreq",
             "share/fish/vendor_completions.d/coordreq.fish",
             "share/zsh/site-functions/_coordreq",
+            "share/coordreq/schema.json",
             "share/doc/coordreq/README.md",
             "share/doc/coordreq/CHANGELOG.md",
             "share/doc/coordreq/LICENSE",
@@ -57,10 +58,30 @@ class Cases(unittest.TestCase):
     def test_pages_link_to_each_other(self):
         for page in ("share/doc/coordreq/README.md", "share/doc/coordreq/docs/README.md", "share/doc/coordreq/docs/tutorial/README.md"):
             path = self.prefix / page
-            links = re.findall(r"[^!]\[[^]]*\]\(((?:configs/|\.\.)[^)#]*)", path.read_text(encoding="utf-8"))
+            links = re.findall(r"\]\(((?:configs/|\.\.)[^)#]*)", path.read_text(encoding="utf-8"))
             self.assertTrue(links, page)
             for link in links:
                 self.assertTrue((path.parent / link).exists(), f"{page}: {link}")
+
+    def test_pages_have_their_pictures(self):
+        documents = self.prefix / "share/doc/coordreq"
+        pictures = [
+            (page, picture)
+            for page in documents.glob("**/*.md")
+            for picture in re.findall(r"!\[[^]]*\]\(([^)]*)\)", page.read_text(encoding="utf-8"))
+        ]
+        self.assertGreater(len(pictures), 5)
+        for page, picture in pictures:
+            self.assertTrue((page.parent / picture).is_file(), f"{page}: {picture}")
+
+    def test_help_names_the_installed_pages(self):
+        page = run(self.program, "--help").rstrip().rpartition("\nDocumentation: ")[2]
+        self.assertTrue((self.prefix / "share/doc/coordreq/docs/README.md").samefile(page))
+
+    def test_new_specs_name_the_installed_schema(self):
+        run(self.program, "init", self.folder / "first.json")
+        (schema,) = re.findall(r'"\$schema": "file://([^"]*)"', (self.folder / "first.json").read_text(encoding="utf-8"))
+        self.assertTrue((self.prefix / "share/coordreq/schema.json").samefile(schema))
 
     def test_nothing_names_the_prefix_or_the_sources(self):
         names = [str(self.folder / "first").encode(), str(ROOT).encode()]

@@ -48,7 +48,7 @@ function countdownText(delay) {
   if (delay < 0) return "none";
   if (delay === Infinity) return "never need to connect";
   const steps = delay - data.connection_delay;
-  if (steps < 0) return "a connection must stand already";
+  if (steps < 0) return "a connection must exist already";
   if (steps > 0) return stepsText(steps);
   return data.connection_delay > 0 ? "start to connect now" : "coordinate now";
 }
