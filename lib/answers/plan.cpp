@@ -3,18 +3,24 @@
 #include <utility>
 
 #include "answers/coalition/answer.hpp"
+#include "answers/coalition/check.hpp"
 #include "answers/coalition/fields.hpp"
 #include "answers/convention/answer.hpp"
+#include "answers/convention/check.hpp"
 #include "answers/convention/fields.hpp"
 #include "answers/ground/answer.hpp"
 #include "answers/ground/fields.hpp"
 #include "answers/invariance/answer.hpp"
+#include "answers/invariance/check.hpp"
 #include "answers/invariance/fields.hpp"
 #include "answers/layers/answer.hpp"
+#include "answers/layers/check.hpp"
 #include "answers/layers/fields.hpp"
 #include "answers/network/answer.hpp"
+#include "answers/network/check.hpp"
 #include "answers/network/fields.hpp"
 #include "answers/requirements/answer.hpp"
+#include "answers/requirements/check.hpp"
 #include "answers/requirements/fields.hpp"
 
 namespace coordreq {
@@ -31,37 +37,43 @@ const std::vector<Answer>& all_answers() {
        .fields = invariance_fields,
        .fill = fill_invariance_fields,
        .summarise = summarise_invariance,
-       .tell = tell_invariance},
+       .tell = tell_invariance,
+       .check = check_invariance},
       {.stages = layers_stages,
        .memory = layers_memory,
        .fields = layer_fields,
        .fill = fill_layer_fields,
        .summarise = summarise_layers,
-       .tell = tell_layers},
+       .tell = tell_layers,
+       .check = check_layers},
       {.stages = coalition_stages,
        .memory = coalition_memory,
        .fields = coalition_fields,
        .fill = fill_coalition_fields,
        .summarise = summarise_coalition,
-       .tell = tell_coalition},
+       .tell = tell_coalition,
+       .check = check_coalition},
       {.stages = network_stages,
        .memory = network_memory,
        .fields = network_fields,
        .fill = fill_network_fields,
        .summarise = summarise_network,
-       .tell = tell_network},
+       .tell = tell_network,
+       .check = check_network},
       {.stages = convention_stages,
        .memory = convention_memory,
        .fields = convention_fields,
        .fill = fill_convention_fields,
-       .summarise = summarise_convention},
+       .summarise = summarise_convention,
+       .check = check_convention},
       {.checks = requirements_checks,
        .stages = requirements_stages,
        .memory = requirements_memory,
        .fields = requirement_fields,
        .fill = fill_requirement_fields,
        .summarise = summarise_requirements,
-       .tell = tell_requirements},
+       .tell = tell_requirements,
+       .check = check_requirements},
   };
   return plan;
 }

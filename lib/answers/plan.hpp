@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,11 @@
 
 namespace coordreq {
 
-/// One thing that an analysis can answer, in a folder of its own: what it takes to find it and what to say of
-/// it. Whoever works on answers goes over all_answers() and knows none by name.
+class AnswerCheck;
+struct CheckGround;
+
+/// One thing that an analysis can answer, in a folder of its own: what it takes to find it, what to say of it
+/// and how to check that. Whoever works on answers goes over all_answers() and knows none by name.
 struct Answer {
   /// What can be refused before any work is done, for the spec alone; null: nothing.
   std::vector<Stage> (*checks)(const ProblemSpec& spec) = nullptr;
@@ -32,6 +36,8 @@ struct Answer {
   /// Adds to what `info` says of a file: the same keys, as far as the file tells them. Called whether or not
   /// it was asked for; null: nothing.
   void (*tell)(const ProblemSpec& spec, const FieldSource& source, Json& info) = nullptr;
+  /// What it says in a file, to be checked by its definition; null, or a null result: nothing is.
+  std::unique_ptr<AnswerCheck> (*check)(const CheckGround& ground) = nullptr;
 };
 
 /// In the order of need; the first is the ground, on which all others stand.

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "verify/cell_place.hpp"
-#include "verify/posts.hpp"
+#include "answers/checking/cell_place.hpp"
+#include "answers/checking/posts.hpp"
 
 namespace coordreq {
 bool holds(const GridDimension& dimension, IndexRange outer, IndexRange inner) {

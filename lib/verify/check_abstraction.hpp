@@ -2,10 +2,10 @@
 
 #include <string>
 
+#include "answers/checking/post_table.hpp"
+#include "answers/checking/tally.hpp"
 #include "model/uniform_grid.hpp"
 #include "spec/problem_spec.hpp"
-#include "verify/post_table.hpp"
-#include "verify/tally.hpp"
 
 namespace coordreq {
 

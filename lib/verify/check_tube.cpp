@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "answers/checking/cell_place.hpp"
 #include "model/pieces.hpp"
-#include "verify/cell_place.hpp"
 #include "verify/check_abstraction.hpp"
 
 namespace coordreq {

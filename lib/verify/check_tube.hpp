@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "answers/checking/post_table.hpp"
+#include "answers/checking/tally.hpp"
 #include "base/thread_team.hpp"
 #include "model/input_space.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/outward_posts.hpp"
-#include "verify/post_table.hpp"
-#include "verify/tally.hpp"
 
 namespace coordreq {
 

@@ -6,6 +6,7 @@
 
 #include "answers/invariance/safe_tubes.hpp"
 #include "verify/check_tube.hpp"
+#include "verify/own_posts.hpp"
 #include "verify/safe_beyond.hpp"
 
 namespace coordreq {

@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "answers/checking/post_table.hpp"
+#include "answers/checking/tally.hpp"
 #include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/analysis_tables.hpp"
 #include "verify/budget.hpp"
-#include "verify/post_table.hpp"
-#include "verify/tally.hpp"
 
 namespace coordreq {
 

@@ -6,8 +6,8 @@
 #include "base/error.hpp"
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
+#include "verify/own_posts.hpp"
 #include "verify/parameter_choices.hpp"
-#include "verify/post_table.hpp"
 
 namespace coordreq {
 namespace {

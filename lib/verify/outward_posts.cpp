@@ -8,12 +8,12 @@
 #include <memory>
 #include <utility>
 
+#include "answers/checking/cell_place.hpp"
+#include "answers/checking/posts.hpp"
 #include "model/odometer.hpp"
-#include "verify/cell_place.hpp"
 #include "verify/map_extremes.hpp"
 #include "verify/piece_choices.hpp"
 #include "verify/post_proof.hpp"
-#include "verify/posts.hpp"
 
 namespace coordreq {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "answers/checking/post_table.hpp"
+#include "answers/checking/tally.hpp"
 #include "base/thread_team.hpp"
 #include "verify/budget.hpp"
-#include "verify/post_table.hpp"
-#include "verify/tally.hpp"
 
 namespace coordreq {
 

@@ -11,7 +11,7 @@
 #include "model/odometer.hpp"
 #include "model/uniform_grid.hpp"
 #include "spec/problem_spec.hpp"
-#include "verify/post_table.hpp"
+#include "verify/own_posts.hpp"
 
 namespace coordreq {
 

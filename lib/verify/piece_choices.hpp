@@ -7,7 +7,7 @@
 #include "model/odometer.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/next_value.hpp"
-#include "verify/post_table.hpp"
+#include "verify/own_posts.hpp"
 
 namespace coordreq {
 

@@ -6,10 +6,11 @@
 #include <numeric>
 #include <utility>
 
-#include "verify/cell_place.hpp"
+#include "answers/checking/cell_place.hpp"
 #include "verify/check_abstraction.hpp"
 #include "verify/flow_extremes.hpp"
 #include "verify/map_extremes.hpp"
+#include "verify/own_posts.hpp"
 
 namespace coordreq {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "answers/checking/post_table.hpp"
 #include "model/uniform_grid.hpp"
 #include "verify/budget.hpp"
 #include "verify/next_value.hpp"
-#include "verify/post_table.hpp"
 #include "verify/sampled_map.hpp"
 
 namespace coordreq {

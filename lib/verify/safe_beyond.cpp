@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "verify/posts.hpp"
-#include "verify/safe_judge.hpp"
+#include "answers/checking/posts.hpp"
+#include "answers/invariance/check_safe.hpp"
 
 namespace coordreq {
 

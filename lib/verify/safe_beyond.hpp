@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include "answers/checking/post_table.hpp"
+#include "answers/checking/tally.hpp"
 #include "base/thread_team.hpp"
 #include "model/uniform_grid.hpp"
 #include "spec/problem_spec.hpp"
-#include "verify/post_table.hpp"
-#include "verify/tally.hpp"
 
 namespace coordreq {
 

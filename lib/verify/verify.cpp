@@ -1,20 +1,19 @@
 #include "verify/verify.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <random>
 #include <set>
 #include <utility>
 
-#include "base/error.hpp"
+#include "answers/checking/answer_check.hpp"
+#include "answers/plan.hpp"
 #include "verify/analysis_tables.hpp"
 #include "verify/check_abstraction.hpp"
 #include "verify/check_cells.hpp"
-#include "verify/check_coalition.hpp"
-#include "verify/check_network.hpp"
-#include "verify/check_requirements.hpp"
-#include "verify/check_summary.hpp"
 #include "verify/check_tubes.hpp"
 #include "verify/outward_posts.hpp"
+#include "verify/own_posts.hpp"
 
 namespace coordreq {
 namespace {
@@ -40,7 +39,14 @@ class Verifier {
         options_(options),
         team_(team),
         grid_(make_grid(spec)),
-        inputs_(make_input_space(spec)) {
+        inputs_(make_input_space(spec)),
+        ground_{.spec = &spec, .grid = &grid_, .inputs = &inputs_, .claims = &claims} {
+    for (const Answer& answer : all_answers()) {
+      if (answer.check == nullptr) continue;
+      if (std::unique_ptr<AnswerCheck> check = answer.check(ground_)) checks_.push_back(std::move(check));
+    }
+    std::stable_sort(checks_.begin(), checks_.end(),
+                     [](const auto& a, const auto& b) { return a->section() < b->section(); });
     if (options.sample && *options.sample < grid_.cells())
       sample_ = drawn_cells(grid_.cells(), *options.sample);
     if (!sample_.empty()) cells_of_posts_ = with_paths(sample_);
@@ -49,13 +55,12 @@ class Verifier {
   Verification run() {
     result_.name = spec_.name;
     result_.cells = grid_.cells();
-    append(result_.findings, check_summary(spec_, claims_));
+    compare_sizes();
     report({.stage = "posts"});
     find_posts();
     if (spec_.abstraction.between_samples) find_tubes();
-    append(result_.findings, check_cells_against(make_posts(grid_, inputs_, tables_)));
     if (analysis_) result_.posts_computed = analysis_->entries_built();
-    if (spec_.coordination.horizon) append(result_.findings, check_coalition(spec_, grid_, claims_, team_));
+    check_answers(make_posts(grid_, inputs_, tables_));
     return std::move(result_);
   }
 
@@ -74,6 +79,14 @@ class Verifier {
       }
     }
     return {all.begin(), all.end()};
+  }
+
+  void compare_sizes() {
+    Comparison sizes("sizes");
+    std::vector<Finding> others;
+    for (const std::unique_ptr<AnswerCheck>& check : checks_) append(others, check->compare_sizes(sizes));
+    result_.findings.push_back(sizes.finding());
+    append(result_.findings, std::move(others));
   }
 
   void find_posts() {
@@ -146,26 +159,22 @@ class Verifier {
     return *analysis_;
   }
 
-  std::vector<Finding> check_cells_against(const Posts& posts) {
+  void check_answers(const Posts& posts) {
     // No file stores tubes, and the contract does not say how narrow they are.
     const bool stored = result_.basis != PostBasis::computed && !result_.tubes;
-    const bool certain = stored || claims_.same_version;
-    CellCheck check{.spec = &spec_,
-                    .grid = &grid_,
-                    .inputs = &inputs_,
-                    .claims = &claims_,
-                    .posts = &posts,
-                    .tubes = tubes_ ? &*tubes_ : nullptr,
-                    .posts_are = certain ? PostsAre::those_of_the_result : PostsAre::perhaps_others};
-    check.cells = sample_;
+    ground_.posts_are =
+        stored || claims_.same_version ? PostsAre::those_of_the_result : PostsAre::perhaps_others;
+    ground_.posts = &posts;
+    ground_.tubes = tubes_ ? &*tubes_ : nullptr;
     result_.cells_checked = sample_.empty() ? grid_.cells() : static_cast<std::int64_t>(sample_.size());
-    check.progress = [this](std::int64_t done, std::int64_t all) {
-      report({.stage = "cells", .done = done, .all = all});
-    };
-    std::vector<Finding> findings = check_cells(check, team_);
-    if (spec_.network) findings.push_back(check_network(check, team_));
-    append(findings, check_requirements(check, team_));
-    return findings;
+    check_cells(
+        ground_, checks_, sample_,
+        [this](std::int64_t done, std::int64_t all) { report({.stage = "cells", .done = done, .all = all}); },
+        team_);
+    for (const std::unique_ptr<AnswerCheck>& check : checks_) {
+      check->check_all(team_);
+      append(result_.findings, check->findings());
+    }
   }
 
   const ProblemSpec& spec_;
@@ -174,9 +183,11 @@ class Verifier {
   ThreadTeam& team_;
   UniformGrid grid_;
   InputSpace inputs_;
-  std::optional<Budget> budget_;              ///< begins after the analysis
-  std::vector<std::int64_t> sample_;          ///< cells to be checked; all if empty
-  std::vector<std::int64_t> cells_of_posts_;  ///< and those whose posts are; all if empty
+  CheckGround ground_;
+  std::vector<std::unique_ptr<AnswerCheck>> checks_;  ///< in the order of the report
+  std::optional<Budget> budget_;                      ///< begins after the analysis
+  std::vector<std::int64_t> sample_;                  ///< cells to be checked; all if empty
+  std::vector<std::int64_t> cells_of_posts_;          ///< and those whose posts are; all if empty
   std::vector<PostTable> tables_;
   std::vector<PostTable> tube_tables_;
   std::optional<Tubes> tubes_;

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "answers/checking/claims.hpp"
+#include "answers/checking/tally.hpp"
 #include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
-#include "verify/claims.hpp"
-#include "verify/tally.hpp"
 
 namespace coordreq {
 
@@ -63,10 +63,11 @@ struct Verification {
   [[nodiscard]] bool holds() const { return verdict() != Verdict::wrong; }
 };
 
-/// Checks the claims of a results file against its spec by another route than the analysis took (see
-/// check_cells.hpp): posts from corners of cells in rational arithmetic where that is exact. Else
-/// the abstraction in the file, or one that is computed anew, after enclosures of its own have shown it to be
-/// sound. The ways between the samples are always those of the analysis, after the same.
+/// Checks the claims of a results file against its spec by another route than the analysis took: by the
+/// definitions that the checks of all answers tell, on posts from corners of cells in rational arithmetic
+/// where that is exact. Else the abstraction in the file, or one that is computed anew, after enclosures of
+/// its own have shown it to be sound. The ways between the samples are always those of the analysis, after
+/// the same.
 /// @throws SpecError if the spec is beyond what it can be asked
 [[nodiscard]] Verification verify_claims(const ProblemSpec& spec, const Claims& claims,
                                          const VerifyOptions& options, ThreadTeam& team);

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <utility>
 
 #include "answers/coalition/fields.hpp"
 #include "answers/convention/fields.hpp"
+#include "answers/field_parts.hpp"
 #include "answers/network/fields.hpp"
 #include "base/error.hpp"
 #include "results/results_reader.hpp"
@@ -54,7 +56,6 @@ PartitionClaims read_partition(const ResultsReader& results, std::size_t p, cons
 }
 
 void read_coalition(const ResultsReader& results, const CellBlock& all, Claims& claims) {
-  claims.coalition = results.coalition(all);
   const std::vector<std::uint64_t> given = results.counted(paths::kCoalition);
   const std::vector<std::uint64_t> critical = results.counted(paths::kCriticalPair);
   claims.coalition_cells.assign(given.begin(), given.end());
@@ -62,6 +63,18 @@ void read_coalition(const ResultsReader& results, const CellBlock& all, Claims& 
   claims.critical_pair_cells.assign(critical.begin(), critical.end());
   for (std::size_t pair = 0; pair < results.pairs().size(); ++pair)
     claims.critical_pairs.push_back(results.critical_pair(pair, all));
+}
+
+/// Fields of numbers over cells alone that have no member in Claims.
+std::vector<const Field*> plain_numbers(const ResultsReader& results) {
+  const std::set<std::string> known = {"/safe", "/invariant", "/collision_time"};
+  const std::vector<std::string> axes = cell_axes(results.spec());
+  std::vector<const Field*> fields;
+  for (const Field& field : results.fields()) {
+    const bool integers = !field.types.empty() && field.types.front() != ElementType::float32;
+    if (integers && field.axes == axes && !known.contains(field.path)) fields.push_back(&field);
+  }
+  return fields;
 }
 
 Claims read_all(const ResultsReader& results) {
@@ -76,6 +89,8 @@ Claims read_all(const ResultsReader& results) {
                 .iterations = results.attributes().iterations};
   for (std::size_t p = 0; p < results.partitions().size(); ++p)
     claims.partitions.push_back(read_partition(results, p, all));
+  for (const Field* const field : plain_numbers(results))
+    claims.numbers[field->path] = results.values(*field, std::nullopt, all);
   const std::size_t modes = results.spec().network ? results.spec().network->modes.size() : 0;
   for (std::size_t mode = 0; mode < modes; ++mode)
     claims.network.push_back(results.network_safe(mode, 1, all));
@@ -111,7 +126,8 @@ std::uint64_t memory_need(const ResultsReader& results) {
       bytes_of_cell += results.has_actions(p) ? static_cast<std::uint64_t>((actions + 7) / 8) : 0;
   }
   if (results.spec().network) bytes_of_cell += 2 * results.spec().network->modes.size();  // and targets
-  if (results.has_coalition()) bytes_of_cell += 2 * sizeof(std::int32_t) + results.pairs().size();
+  bytes_of_cell += plain_numbers(results).size() * 2 * sizeof(std::int32_t);
+  if (results.has_coalition()) bytes_of_cell += results.pairs().size();
   if (!results.requirements().empty()) bytes_of_cell += 1;  // what is found about a region
   const int joint = (results.has_controller() ? 1 : 0) + (results.spec().controller.file ? 1 : 0);
   for (int i = 0; i < joint; ++i)

@@ -7,7 +7,8 @@ set(COORDREQ_PUBLIC_HEADERS
   model/uniform_grid.hpp model/input_space.hpp model/cell_block.hpp model/locate.hpp
   results/read_info.hpp results/results_reader.hpp results/version.hpp
   cell/state_query.hpp cell/state_text.hpp
-  verify/verify.hpp verify/verify_file.hpp verify/tally.hpp
+  answers/checking/tally.hpp
+  verify/verify.hpp verify/verify_file.hpp
   export/csv_table.hpp export/c_header.hpp export/scots_controller.hpp export/parse_selection.hpp export/text_sink.hpp
   analysis/analyze.hpp cell/simulate.hpp
   cell/simulate_runs.hpp)

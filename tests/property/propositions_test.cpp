@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "model/input_class.hpp"
 #include "reach/build_abstraction.hpp"
 #include "support/analysed_file.hpp"
 #include "support/random_problem.hpp"

@@ -65,7 +65,7 @@ TEST(Verify, AResultWithoutTubesIsFoundUnlessItIsTheSame) {
 void corrupt_coalition(Claims& claims) {
   switch (draw(0, 3)) {
     case 0: {
-      std::int32_t& chosen = pick(claims.coalition);
+      std::int32_t& chosen = pick(claims.numbers.at("/coalition"));
       chosen = chosen == 0 ? -3 : chosen - 1;
       return;
     }

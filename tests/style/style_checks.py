@@ -56,6 +56,26 @@ def includes_point_left(root):
     return findings
 
 
+# What a check may know of answers and of the engine: what is claimed, not how it is found.
+CLAIMED = ("engine/packed_pairs.hpp", "answers/requirements/result_requirement.hpp")
+ROOMS_OF_CHECKS = ("base", "numeric", "expression", "spec", "model")
+
+
+def is_check(name):
+    return re.match(r"answers/(checking/|[^/]+/check)", name) is not None
+
+
+def checks_stand_alone(root):
+    """Checks by definition include nothing that computes an answer, nor what includes that."""
+    return [
+        f"{path}:{number}: a check may not include {name}"
+        for path, number, name in includes(root, "lib")
+        if is_check("/".join(path.parts[1:])) or "/".join(path.parts[1:]) in CLAIMED
+        if name.split("/")[0] in module_order(root)
+        if not (name.split("/")[0] in ROOMS_OF_CHECKS or is_check(name) or name in CLAIMED)
+    ]
+
+
 def only_results_uses_hdf5(root):
     return [
         f"{path}:{number}: only lib/results may include {name}"
@@ -83,7 +103,13 @@ def files_are_short(root):
 
 RULES = {
     rule.__name__: rule
-    for rule in (includes_point_left, only_results_uses_hdf5, library_never_prints, files_are_short)
+    for rule in (
+        includes_point_left,
+        checks_stand_alone,
+        only_results_uses_hdf5,
+        library_never_prints,
+        files_are_short,
+    )
 }
 
 

@@ -48,6 +48,41 @@ class StyleChecks(unittest.TestCase):
             ["lib/extra/a.cpp: module extra is not in lib/CMakeLists.txt"],
         )
 
+    def write_rooms_of_answers(self):
+        self.write("lib/CMakeLists.txt", "foreach(module base model reach engine answers)\nendforeach()\n")
+
+    def test_check_on_what_is_claimed_passes(self):
+        self.write_rooms_of_answers()
+        self.write(
+            "lib/answers/layers/check.cpp",
+            '#include "answers/layers/check.hpp"\n#include <vector>\n#include "model/uniform_grid.hpp"\n'
+            '#include "answers/checking/tally.hpp"\n#include "answers/invariance/check_safe.hpp"\n',
+        )
+        self.write(
+            "lib/answers/checking/claims.hpp",
+            '#include "answers/requirements/result_requirement.hpp"\n#include "engine/packed_pairs.hpp"\n',
+        )
+        self.write("lib/answers/layers/answer.cpp", '#include "answers/layers/delay_layers.hpp"\n')
+        self.assertEqual(style_checks.checks_stand_alone(self.root), [])
+
+    def test_check_that_includes_what_computes_is_found(self):
+        self.write_rooms_of_answers()
+        self.write(
+            "lib/answers/layers/check.cpp",
+            '#include "answers/layers/delay_layers.hpp"\n#include "engine/wave.hpp"\n',
+        )
+        self.write("lib/answers/checking/posts.hpp", '#include "reach/abstraction.hpp"\n')
+        self.write("lib/engine/packed_pairs.hpp", '#include "engine/row_engine.hpp"\n')
+        self.assertEqual(
+            style_checks.checks_stand_alone(self.root),
+            [
+                "lib/answers/checking/posts.hpp:1: a check may not include reach/abstraction.hpp",
+                "lib/answers/layers/check.cpp:1: a check may not include answers/layers/delay_layers.hpp",
+                "lib/answers/layers/check.cpp:2: a check may not include engine/wave.hpp",
+                "lib/engine/packed_pairs.hpp:1: a check may not include engine/row_engine.hpp",
+            ],
+        )
+
     def test_hdf5_outside_results_is_found(self):
         self.write("lib/results/a.cpp", "#include <hdf5.h>\n")
         self.write("lib/analysis/a.cpp", "#include <hdf5.h>\n#include <H5Cpp.h>\n")

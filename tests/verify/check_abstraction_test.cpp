@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "verify/posts.hpp"
+#include "answers/checking/posts.hpp"
 
 namespace coordreq {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "answers/checking/sloped.hpp"
 #include "expression/domains.hpp"
 #include "expression/functions.hpp"
-#include "verify/sloped.hpp"
 
 namespace coordreq {
 namespace {

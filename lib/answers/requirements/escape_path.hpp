@@ -6,25 +6,10 @@
 #include "answers/ground.hpp"
 #include "answers/invariance/invariance.hpp"
 #include "answers/one_cell/cell_posts.hpp"
+#include "answers/requirements/result_requirement.hpp"
 #include "model/input_class.hpp"
 
 namespace coordreq {
-
-/// What the agents do at a step of an escape.
-enum class EscapePhase : std::uint8_t {
-  independent,  ///< in K: each class picks from its projection of C(x), so that u is in IND_C(x)
-  /// Outside K: the allowed joint action that puts off the collision longest; if the controller is `given`,
-  /// one that it may choose, the one that does so least.
-  evasive,
-};
-
-/// How an escape ends.
-enum class EscapeEnd : std::uint8_t {
-  outside_safe_set,        ///< the last cell is not in S
-  left_domain,             ///< the last action leads out of the domain through an unsafe side
-  unsafe_between_samples,  ///< the last action's way between the samples is not safe
-  no_allowed_action,       ///< in the last cell, outside K, nothing is allowed
-};
 
 /// How the system can get from a cell out of S although all agents do what is reasonable to them.
 struct EscapePath {

@@ -7,6 +7,7 @@
 
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"
+#include "answers/requirements/escape_path.hpp"
 #include "answers/requirements/requirement.hpp"
 #include "base/error.hpp"
 

@@ -1,0 +1,47 @@
+#include "answers/checking/checked_cell.hpp"
+
+#include <algorithm>
+
+#include "answers/checking/cell_place.hpp"
+
+namespace coordreq {
+
+CheckedCell::CheckedCell(const CheckGround& ground)
+    : ground_(ground),
+      posts_(*ground.posts),
+      allowed_(*ground.spec, *ground.grid, *ground.inputs, ground.claims->listed),
+      admitted_(static_cast<std::size_t>(ground.inputs->count())) {
+  if (ground.tubes != nullptr) tubes_.emplace(*ground.tubes);
+}
+
+void CheckedCell::go_to(std::int64_t cell) {
+  cell_ = cell;
+  remembered_ = nullptr;
+  std::fill(admitted_.begin(), admitted_.end(), 0);
+  if (!is_safe()) return;
+  posts_.go_to(cell);
+  if (tubes_) tubes_->go_to(cell);
+  allowed_.go_to(cell);
+  if (is_invariant()) find_admitted();
+}
+
+/// Asks the delays of the first partition, which are negative outside K and nowhere else: so their minima are
+/// at hand for the check of delays.
+void CheckedCell::find_admitted() {
+  const bool given = ground_.spec->controller.synthesis == Synthesis::given;
+  all_stay_ = true;
+  for (std::size_t u = 0; u < admitted_.size(); ++u) {
+    const auto input = static_cast<std::int64_t>(u);
+    if (!is_allowed(input)) continue;
+    const bool stays =
+        least(input, ground_.claims->partitions.front().delay, kOutsideInvariant) > kOutsideInvariant;
+    all_stay_ = all_stay_ && stays;
+    admitted_[u] = given || stays ? 1 : 0;
+  }
+}
+
+std::string CheckedCell::place() const {
+  return place_of(*ground_.grid, cell_);
+}
+
+}  // namespace coordreq

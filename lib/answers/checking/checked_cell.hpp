@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "answers/checking/allowed_pairs.hpp"
+#include "answers/checking/check_ground.hpp"
+
+namespace coordreq {
+
+/// One cell after the other, with what every check asks of it: its posts and C(x), straight from the
+/// definitions, one joint input at a time. A pair whose tube is not safe has no post. One object a thread.
+class CheckedCell {
+ public:
+  /// REQUIRES: `ground` outlives this object.
+  explicit CheckedCell(const CheckGround& ground);
+
+  void go_to(std::int64_t cell);
+
+  [[nodiscard]] std::int64_t number() const { return cell_; }
+  [[nodiscard]] std::size_t at() const { return static_cast<std::size_t>(cell_); }
+  /// "x1 = 0.1, x2 = 0".
+  [[nodiscard]] std::string place() const;
+  /// As claimed.
+  [[nodiscard]] bool is_safe() const { return ground_.claims->safe[at()] != 0; }
+  /// As claimed; what is not safe is not invariant.
+  [[nodiscard]] bool is_invariant() const { return is_safe() && ground_.claims->invariant[at()] != 0; }
+
+  /// C(x): [joint input] 1 or 0; none outside K.
+  [[nodiscard]] const std::vector<std::uint8_t>& admitted() const { return admitted_; }
+  /// Every allowed joint input keeps the cell in K. REQUIRES: is_invariant().
+  [[nodiscard]] bool all_stay() const { return all_stay_; }
+
+  // REQUIRES, for what follows: is_safe().
+  [[nodiscard]] bool is_allowed(std::int64_t u) const { return allowed_(u); }
+  /// The way to the next sample is safe, if that counts.
+  [[nodiscard]] bool is_way_safe(std::int64_t u) { return !tubes_ || tubes_->is_safe(u); }
+  /// min over y in f(x, u) of values[y]; `forever` where all has left safely, `blocked` if there is no post.
+  /// @param values over all cells; minima are remembered by where they lie
+  /// REQUIRES: for the same values the same `blocked` and `forever`.
+  template <class Value>
+  [[nodiscard]] std::int32_t least(std::int64_t u, const std::vector<Value>& values, std::int32_t blocked,
+                                   std::int32_t forever = kForever) {
+    if (remembered_ != values.data()) {
+      remembered_ = values.data();
+      memory_.assign(posts_.memory_size(), PostMinima::kNotKnown);
+    }
+    const std::int32_t value = posts_.least(u, values, blocked, forever, memory_);
+    return value != blocked && !is_way_safe(u) ? blocked : value;
+  }
+
+ private:
+  void find_admitted();
+
+  const CheckGround& ground_;
+  PostMinima posts_;
+  std::optional<CellTubes> tubes_;  ///< if the ways between the samples count
+  AllowedPairs allowed_;
+  std::int64_t cell_ = 0;
+  bool all_stay_ = false;
+  std::vector<std::uint8_t> admitted_;
+  std::vector<std::int32_t> memory_;  ///< of posts_
+  const void* remembered_ = nullptr;  ///< the values that it is about
+};
+
+}  // namespace coordreq

@@ -1,0 +1,182 @@
+#include "answers/convention/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/input_class.hpp"
+
+namespace coordreq {
+namespace {
+
+/// What all threads share.
+struct ConventionTallies {
+  Tally freedom{"convention"};
+  Tally actions{"convention actions"};
+};
+
+class ConventionChecker : public CellChecker {
+ public:
+  ConventionChecker(const CheckGround& ground, ConventionTallies& tallies);
+
+  void check(CheckedCell& cell) override {
+    find(cell.admitted());
+    check_freedom(cell);
+    if (!claims_.convention.empty()) check_actions(cell);
+  }
+
+ private:
+  using Sets = std::vector<std::vector<std::uint8_t>>;  ///< [agent][action]
+
+  void find(const std::vector<std::uint8_t>& admitted);
+  [[nodiscard]] bool can_add(std::size_t agent, std::size_t action,
+                             const std::vector<std::uint8_t>& admitted) const;
+  [[nodiscard]] bool is_product_in(const Sets& sets, const std::vector<std::uint8_t>& admitted) const;
+  [[nodiscard]] Sets claimed_sets(std::size_t cell) const;
+  void check_actions(const CheckedCell& cell);
+  void check_freedom(const CheckedCell& cell);
+
+  const CheckGround& ground_;
+  const Claims& claims_;
+  ConventionTallies& tallies_;
+  std::vector<InputClass> agents_;
+  /// [agent][action]: the joint inputs with it.
+  std::vector<std::vector<std::vector<std::int32_t>>> joint_;
+  Sets sets_;  ///< of the cell at work
+};
+
+ConventionChecker::ConventionChecker(const CheckGround& ground, ConventionTallies& tallies)
+    : ground_(ground), claims_(*ground.claims), tallies_(tallies) {
+  for (std::size_t a = 0; a < ground.spec->agents.size(); ++a) {
+    InputClass& own =
+        agents_.emplace_back(class_of(*ground.spec, *ground.inputs, {static_cast<std::int32_t>(a)}));
+    own.tabulate();
+    auto& joint = joint_.emplace_back(static_cast<std::size_t>(own.actions()));
+    for (std::int64_t u = 0; u < ground.inputs->count(); ++u)
+      joint[static_cast<std::size_t>(own.action(u))].push_back(static_cast<std::int32_t>(u));
+  }
+}
+
+/// Whether the product stays in C(x) with one more action of one agent.
+bool ConventionChecker::can_add(std::size_t agent, std::size_t action,
+                                const std::vector<std::uint8_t>& admitted) const {
+  const std::vector<std::int32_t>& joint = joint_[agent][action];
+  return std::all_of(joint.begin(), joint.end(), [&](std::int32_t u) {
+    if (admitted[static_cast<std::size_t>(u)] != 0) return true;
+    for (std::size_t j = 0; j < agents_.size(); ++j) {
+      const auto other = static_cast<std::size_t>(agents_[j].action(u));
+      if (j != agent && sets_[j][other] == 0) return true;  // not in the product
+    }
+    return false;
+  });
+}
+
+void ConventionChecker::find(const std::vector<std::uint8_t>& admitted) {
+  sets_.clear();
+  for (const InputClass& agent : agents_) sets_.emplace_back(static_cast<std::size_t>(agent.actions()), 0);
+  const auto lowest = std::find(admitted.begin(), admitted.end(), 1);
+  if (lowest == admitted.end()) return;
+  const auto seed = static_cast<std::size_t>(lowest - admitted.begin());
+  for (std::size_t i = 0; i < agents_.size(); ++i)
+    sets_[i][static_cast<std::size_t>(agents_[i].action(static_cast<std::int64_t>(seed)))] = 1;
+  for (std::size_t i = 0; i < agents_.size(); ++i) {
+    for (std::size_t a = 0; a < sets_[i].size(); ++a) {
+      if (sets_[i][a] == 0 && can_add(i, a, admitted)) sets_[i][a] = 1;
+    }
+  }
+}
+
+bool ConventionChecker::is_product_in(const Sets& sets, const std::vector<std::uint8_t>& admitted) const {
+  for (const std::vector<std::uint8_t>& own : sets) {
+    if (std::find(own.begin(), own.end(), 1) == own.end()) return false;
+  }
+  for (std::size_t u = 0; u < admitted.size(); ++u) {
+    bool chosen = admitted[u] == 0;
+    for (std::size_t i = 0; chosen && i < agents_.size(); ++i)
+      chosen = sets[i][static_cast<std::size_t>(agents_[i].action(static_cast<std::int64_t>(u)))] != 0;
+    if (chosen) return false;
+  }
+  return true;
+}
+
+ConventionChecker::Sets ConventionChecker::claimed_sets(std::size_t cell) const {
+  Sets sets;
+  for (std::size_t i = 0; i < agents_.size(); ++i) {
+    const auto bytes = static_cast<std::size_t>(agents_[i].bytes());
+    const std::uint8_t* const own = claims_.convention[i].data() + cell * bytes;
+    // Bits beyond the last action have to be 0; one that is not makes the sets differ.
+    std::vector<std::uint8_t>& set = sets.emplace_back(bytes * 8);
+    for (std::size_t a = 0; a < set.size(); ++a) set[a] = own[a / 8] >> (a % 8) & 1U;
+    const auto count = static_cast<std::size_t>(agents_[i].actions());
+    if (std::find(set.begin() + static_cast<std::ptrdiff_t>(count), set.end(), 1) == set.end())
+      set.resize(count);
+  }
+  return sets;
+}
+
+void ConventionChecker::check_actions(const CheckedCell& cell) {
+  tallies_.actions.add_checked(1);
+  const Sets claimed = claimed_sets(cell.at());
+  if (claimed == sets_) return;
+  if (ground_.sound_only() && is_product_in(claimed, cell.admitted())) {
+    tallies_.actions.add_unproven();
+    return;
+  }
+  tallies_.actions.add_wrong(cell.number(),
+                             [&] { return cell.place() + ": not the actions of the convention"; });
+}
+
+void ConventionChecker::check_freedom(const CheckedCell& cell) {
+  tallies_.freedom.add_checked(1);
+  for (std::size_t i = 0; i < agents_.size(); ++i) {
+    const auto kept = std::count(sets_[i].begin(), sets_[i].end(), 1);
+    std::int64_t all = 0;
+    for (const std::vector<std::int32_t>& joint : joint_[i]) {
+      all += std::any_of(joint.begin(), joint.end(),
+                         [&](std::int32_t u) { return cell.admitted()[static_cast<std::size_t>(u)] != 0; })
+                 ? 1
+                 : 0;
+    }
+    const float claimed = claims_.convention_freedom[i][cell.at()];
+    if (all == 0 && std::isnan(claimed)) continue;
+    const auto expected = static_cast<float>(static_cast<double>(kept) / static_cast<double>(all));
+    if (all > 0 && claimed == expected) continue;
+    if (ground_.sound_only() && all > 0 && claimed > 0 && claimed <= 1) {
+      tallies_.freedom.add_unproven();
+    } else {
+      tallies_.freedom.add_wrong(cell.number(), [&] {
+        return fmt::format("{}: {} keeps {}, expected {} of {} actions", cell.place(),
+                           ground_.spec->agents[i].name, claimed, kept, all);
+      });
+    }
+    return;
+  }
+}
+
+class ConventionCheck : public AnswerCheck {
+ public:
+  explicit ConventionCheck(const CheckGround& ground) : AnswerCheck(CheckSection::choices), ground_(ground) {}
+
+  std::unique_ptr<CellChecker> cell_checker() override {
+    return std::make_unique<ConventionChecker>(ground_, tallies_);
+  }
+  [[nodiscard]] std::vector<Finding> findings() const override {
+    std::vector<Finding> result = {tallies_.freedom.finding()};
+    if (!ground_.claims->convention.empty()) result.push_back(tallies_.actions.finding());
+    return result;
+  }
+
+ private:
+  const CheckGround& ground_;
+  ConventionTallies tallies_;
+};
+
+}  // namespace
+
+std::unique_ptr<AnswerCheck> check_convention(const CheckGround& ground) {
+  if (!ground.spec->coordination.convention) return nullptr;
+  return std::make_unique<ConventionCheck>(ground);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,167 @@
+#include "answers/invariance/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "answers/checking/claimed_values.hpp"
+#include "answers/invariance/check_safe.hpp"
+
+namespace coordreq {
+namespace {
+
+/// What all threads share.
+struct SetTallies {
+  Tally safe{"S"};
+  Tally invariant{"K"};
+  Tally collision_time{"collision time"};
+  Tally controller{"controller"};
+};
+
+class SetChecker : public CellChecker {
+ public:
+  SetChecker(const CheckGround& ground, SetTallies& tallies, SafeMemory& memory)
+      : ground_(ground),
+        claims_(*ground.claims),
+        tallies_(tallies),
+        judge_(*ground.spec, *ground.grid, memory) {}
+
+  void check(CheckedCell& cell) override {
+    check_safe(cell);
+    if (!cell.is_safe()) {
+      check_outside(cell);
+    } else if (!cell.is_invariant()) {
+      check_escape(cell);
+    } else {
+      check_stay(cell);
+    }
+    if (claims_.has_controller) check_controller(cell);
+  }
+
+ private:
+  void check_safe(const CheckedCell& cell) {
+    tallies_.safe.add_checked(1);
+    const SafeVerdict verdict = judge_.judge(cell.number(), cell.is_safe());
+    if (!cell.is_safe() && verdict == SafeVerdict::safe) {
+      wrong(tallies_.safe, cell, "not in S, but it is safe");
+    } else if (cell.is_safe() && verdict == SafeVerdict::unsafe) {
+      wrong(tallies_.safe, cell, "in S, but it is not safe");
+    } else if (cell.is_safe() && verdict == SafeVerdict::open) {
+      tallies_.safe.add_unproven();
+    }
+  }
+
+  void check_outside(const CheckedCell& cell) {
+    tallies_.invariant.add_checked(1);
+    if (claims_.invariant[cell.at()] != 0) wrong(tallies_.invariant, cell, "in K, but not in S");
+    check_collision_time(cell, 0);
+  }
+
+  /// A cell of S outside K: why no coordination helps.
+  void check_escape(CheckedCell& cell) {
+    const bool maximal = ground_.spec->controller.synthesis == Synthesis::maximal;
+    bool any = false;
+    std::int32_t best = maximal ? 0 : kForever;
+    for (std::int64_t u = 0; u < ground_.inputs->count(); ++u) {
+      if (!cell.is_allowed(u)) continue;
+      any = true;
+      const std::int32_t time = cell.least(u, claims_.collision_time, 0);
+      best = maximal ? std::max(best, time) : std::min(best, time);
+    }
+    tallies_.invariant.add_checked(1);
+    if (any && best == kForever) {
+      if (ground_.sound_only()) {
+        tallies_.invariant.add_unproven();
+      } else {
+        wrong(tallies_.invariant, cell, "not in K, but agents that coordinate stay in K for ever");
+      }
+    }
+    check_collision_time(cell, any ? one_more(best) : 1);
+  }
+
+  /// A cell of K: that it can be kept there.
+  void check_stay(const CheckedCell& cell) {
+    check_collision_time(cell, kForever);
+    tallies_.invariant.add_checked(1);
+    if (ground_.spec->controller.synthesis == Synthesis::given && !cell.all_stay())
+      wrong(tallies_.invariant, cell, "in K, but an allowed input leads out of it");
+    if (std::find(cell.admitted().begin(), cell.admitted().end(), 1) == cell.admitted().end())
+      wrong(tallies_.invariant, cell, "in K, but no allowed input keeps it there");
+  }
+
+  void check_collision_time(const CheckedCell& cell, std::int32_t expected) {
+    tallies_.collision_time.add_checked(1);
+    const std::int32_t claimed = claims_.collision_time[cell.at()];
+    if (claimed == expected) return;
+    if (ground_.sound_only() && claimed < expected && claimed > 0) {
+      tallies_.collision_time.add_unproven();
+      return;
+    }
+    tallies_.collision_time.add_wrong(cell.number(), [&] {
+      return fmt::format("{}: {}, expected {}", cell.place(), step_words(claimed), step_words(expected));
+    });
+  }
+
+  void check_controller(const CheckedCell& cell) {
+    tallies_.controller.add_checked(1);
+    const BitDifference found = compare_bits(claims_.controller, cell.at(), cell.admitted());
+    if (found.extra > 0) {
+      tallies_.controller.add_wrong(cell.number(), [&] {
+        return fmt::format("{}: {} joint inputs too many", cell.place(), found.extra);
+      });
+    } else if (found.fewer && ground_.sound_only()) {
+      tallies_.controller.add_unproven();
+    } else if (found.fewer) {
+      wrong(tallies_.controller, cell, "joint inputs are missing");
+    }
+  }
+
+  static void wrong(Tally& tally, const CheckedCell& cell, const char* what) {
+    tally.add_wrong(cell.number(), [&] { return fmt::format("{}: {}", cell.place(), what); });
+  }
+
+  const CheckGround& ground_;
+  const Claims& claims_;
+  SetTallies& tallies_;
+  SafeJudge judge_;
+};
+
+class InvarianceCheck : public AnswerCheck {
+ public:
+  explicit InvarianceCheck(const CheckGround& ground)
+      : AnswerCheck(CheckSection::sets), ground_(ground), memory_(*ground.spec, *ground.grid) {}
+
+  std::vector<Finding> compare_sizes(Comparison& sizes) override {
+    const Claims& claims = *ground_.claims;
+    sizes.expect("|S|", claims.safe_cells, count_members(claims.safe));
+    sizes.expect("|K|", claims.invariant_cells, count_members(claims.invariant));
+    std::int64_t last = 0;
+    for (const std::int32_t time : claims.collision_time) {
+      if (time != kForever) last = std::max(last, std::int64_t{time});
+    }
+    sizes.expect("iterations", claims.iterations, last + 1);  // the last sweep removes nothing
+    return {};
+  }
+  std::unique_ptr<CellChecker> cell_checker() override {
+    return std::make_unique<SetChecker>(ground_, tallies_, memory_);
+  }
+  [[nodiscard]] std::vector<Finding> findings() const override {
+    std::vector<Finding> result = {tallies_.safe.finding(), tallies_.invariant.finding(),
+                                   tallies_.collision_time.finding()};
+    if (ground_.claims->has_controller) result.push_back(tallies_.controller.finding());
+    return result;
+  }
+
+ private:
+  const CheckGround& ground_;
+  SafeMemory memory_;
+  SetTallies tallies_;
+};
+
+}  // namespace
+
+std::unique_ptr<AnswerCheck> check_invariance(const CheckGround& ground) {
+  return std::make_unique<InvarianceCheck>(ground);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "answers/checking/corner_truth.hpp"
+#include "expression/evaluate.hpp"
+#include "model/uniform_grid.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// What is found about a cell and `safe`.
+enum class SafeVerdict : std::uint8_t {
+  unknown,  ///< not looked at
+  safe,     ///< natural interval evaluation proves it: the cell has to be in S
+  proven,   ///< all of it is safe, but that takes more: the cell may be in S
+  unsafe,   ///< it holds a point that is not: the cell must not be in S
+  open,     ///< neither proven nor refuted; as good as unsafe
+};
+
+/// Verdicts that cells share which differ only in states that `safe` does not mention.
+class SafeMemory {
+ public:
+  SafeMemory(const ProblemSpec& spec, const UniformGrid& grid);
+  [[nodiscard]] std::atomic<SafeVerdict>& of(std::int64_t cell);
+  [[nodiscard]] const std::vector<std::size_t>& states() const { return states_; }
+
+ private:
+  const UniformGrid& grid_;
+  std::vector<std::size_t> states_;  ///< mentioned
+  std::vector<std::atomic<SafeVerdict>> verdicts_;
+};
+
+/// Decides whether a cell belongs to S (contract, "Safe set"). One object a thread; all share the memory.
+class SafeJudge {
+ public:
+  SafeJudge(const ProblemSpec& spec, const UniformGrid& grid, SafeMemory& memory);
+
+  /// @param claimed whether the file has the cell in S: only then it matters what natural evaluation leaves
+  /// open
+  [[nodiscard]] SafeVerdict judge(std::int64_t cell, bool claimed);
+
+ private:
+  using Box = std::vector<RationalInterval>;
+
+  [[nodiscard]] bool proven_naturally(std::int64_t cell);
+  [[nodiscard]] SafeVerdict look_closer(std::int64_t cell);
+  [[nodiscard]] Truth natural(const Box& box);
+  template <class Visit>
+  void for_each_piece(std::int64_t cell, const Visit& visit) const;
+
+  const UniformGrid& grid_;
+  SafeMemory& memory_;
+  std::size_t slots_;
+  std::vector<std::vector<std::vector<RationalInterval>>> pieces_;  ///< [position in states()][index][piece]
+  Evaluator<Interval> rough_;
+  Evaluator<RationalInterval> exact_;
+  CornerTruth corner_truth_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,193 @@
+#include "answers/layers/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+
+#include "answers/checking/claimed_values.hpp"
+#include "answers/layers/check_sizes.hpp"
+#include "model/input_class.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr std::int32_t kMustBeConnected = -3;
+
+std::int32_t trigger_of(std::int32_t delay, std::int64_t connection_delay) {
+  if (delay < 0 || delay == kForever) return delay;
+  return delay < connection_delay ? kMustBeConnected : static_cast<std::int32_t>(delay - connection_delay);
+}
+
+/// What all threads share about one partition.
+struct PartitionTallies {
+  explicit PartitionTallies(const PartitionClaims& claims)
+      : delay("delay " + claims.name), trigger("trigger " + claims.name), actions("actions " + claims.name) {}
+
+  Tally delay, trigger, actions;
+};
+
+class PartitionChecker {
+ public:
+  PartitionChecker(const CheckGround& ground, std::size_t p, PartitionTallies& tallies)
+      : ground_(ground), claims_(ground.claims->partitions[p]), tallies_(tallies) {
+    for (const auto& agents : ground.spec->coordination.partitions[p].classes) {
+      classes_.push_back(class_of(*ground.spec, *ground.inputs, agents));
+      classes_.back().tabulate();
+      projection_.emplace_back(static_cast<std::size_t>(classes_.back().actions()));
+    }
+  }
+
+  void check(CheckedCell& cell) {
+    project(cell.admitted());
+    if (!claims_.actions.empty()) check_actions(cell);
+    std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
+    if (cell.is_invariant()) expected = delay_by_definition(cell);
+    check_delay(cell, expected);
+    check_trigger(cell);
+  }
+
+ private:
+  void project(const std::vector<std::uint8_t>& admitted) {
+    for (std::size_t c = 0; c < classes_.size(); ++c) {
+      std::fill(projection_[c].begin(), projection_[c].end(), 0);
+      for (std::size_t u = 0; u < admitted.size(); ++u) {
+        if (admitted[u] != 0)
+          projection_[c][static_cast<std::size_t>(classes_[c].action(static_cast<std::int64_t>(u)))] = 1;
+      }
+    }
+  }
+
+  /// Where posts are only enclosures, the actions of the file are the ones to go on with.
+  void check_actions(const CheckedCell& cell) {
+    tallies_.actions.add_checked(1);
+    BitDifference found;
+    for (std::size_t c = 0; c < classes_.size(); ++c) {
+      const std::vector<std::uint8_t>& bytes = claims_.actions[c];
+      std::vector<std::uint8_t>& projection = projection_[c];
+      const BitDifference own = compare_bits(bytes, cell.at(), projection);
+      found = {.extra = found.extra + own.extra, .fewer = found.fewer || own.fewer};
+      const std::size_t length = (projection.size() + 7) / 8;
+      for (std::size_t a = 0; ground_.sound_only() && a < projection.size(); ++a) {
+        if ((bytes[cell.at() * length + a / 8] >> (a % 8) & 1U) == 0) projection[a] = 0;
+      }
+    }
+    if (found.extra > 0) {
+      tallies_.actions.add_wrong(
+          cell.number(), [&] { return fmt::format("{}: {} actions too many", cell.place(), found.extra); });
+    } else if (found.fewer && ground_.sound_only()) {
+      tallies_.actions.add_unproven();
+    } else if (found.fewer) {
+      tallies_.actions.add_wrong(cell.number(), [&] { return cell.place() + ": actions are missing"; });
+    }
+  }
+
+  [[nodiscard]] bool is_choice(std::int64_t u) const {
+    for (std::size_t c = 0; c < classes_.size(); ++c) {
+      if (projection_[c][static_cast<std::size_t>(classes_[c].action(u))] == 0) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::int32_t delay_by_definition(CheckedCell& cell) const {
+    bool any = false;
+    std::int32_t worst = kForever;
+    for (std::int64_t u = 0; u < ground_.inputs->count() && worst > kOutsideInvariant; ++u) {
+      if (!is_choice(u)) continue;
+      any = true;
+      worst = std::min(worst, std::max(cell.least(u, claims_.delay, kOutsideInvariant), kOutsideInvariant));
+    }
+    const std::int32_t delay = any ? one_more(worst) : 0;
+    const std::optional<std::int64_t> most = ground_.spec->coordination.max_delay;
+    const bool truncated = claims_.fixed_point_index < 0 && most.has_value();
+    return truncated ? std::min(delay, static_cast<std::int32_t>(*most)) : delay;
+  }
+
+  void check_delay(const CheckedCell& cell, std::int32_t expected) {
+    tallies_.delay.add_checked(1);
+    const std::int32_t claimed = claims_.delay[cell.at()];
+    if (claimed == expected) return;
+    const bool other_choices = claims_.actions.empty();  // perhaps: the file does not say which there are
+    if (ground_.sound_only() && expected >= 0 && claimed >= 0 && (claimed < expected || other_choices)) {
+      tallies_.delay.add_unproven();
+    } else {
+      wrong_steps(tallies_.delay, cell, claimed, expected);
+    }
+  }
+
+  void check_trigger(const CheckedCell& cell) {
+    tallies_.trigger.add_checked(1);
+    const std::int32_t expected =
+        trigger_of(claims_.delay[cell.at()], ground_.spec->coordination.connection_delay);
+    const std::int32_t claimed = claims_.trigger[cell.at()];
+    if (claimed != expected) wrong_steps(tallies_.trigger, cell, claimed, expected);
+  }
+
+  static void wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed,
+                          std::int32_t expected) {
+    tally.add_wrong(cell.number(), [&] {
+      return fmt::format("{}: {}, expected {}", cell.place(), step_words(claimed), step_words(expected));
+    });
+  }
+
+  const CheckGround& ground_;
+  const PartitionClaims& claims_;
+  PartitionTallies& tallies_;
+  std::vector<InputClass> classes_;
+  std::vector<std::vector<std::uint8_t>> projection_;  ///< [class][action], of the cell at work
+};
+
+class DelayChecker : public CellChecker {
+ public:
+  DelayChecker(const CheckGround& ground, std::deque<PartitionTallies>& tallies) {
+    for (std::size_t p = 0; p < tallies.size(); ++p) partitions_.emplace_back(ground, p, tallies[p]);
+  }
+  void check(CheckedCell& cell) override {
+    for (PartitionChecker& partition : partitions_) partition.check(cell);
+  }
+
+ private:
+  std::vector<PartitionChecker> partitions_;
+};
+
+class LayersCheck : public AnswerCheck {
+ public:
+  explicit LayersCheck(const CheckGround& ground) : AnswerCheck(CheckSection::steps), ground_(ground) {
+    for (const PartitionClaims& claims : ground.claims->partitions) tallies_.emplace_back(claims);
+  }
+
+  std::vector<Finding> compare_sizes(Comparison& sizes) override {
+    std::vector<Finding> findings;
+    std::size_t longest = 1;
+    const std::vector<PartitionClaims>& partitions = ground_.claims->partitions;
+    for (const PartitionClaims& partition : partitions)
+      findings.push_back(compare_layers(*ground_.spec, partition, longest));
+    const std::size_t row = partitions.empty() ? longest : partitions.front().layer_sizes.size();
+    sizes.expect("length of /layer", row, longest);
+    return findings;
+  }
+  std::unique_ptr<CellChecker> cell_checker() override {
+    return std::make_unique<DelayChecker>(ground_, tallies_);
+  }
+  [[nodiscard]] std::vector<Finding> findings() const override {
+    std::vector<Finding> result;
+    for (std::size_t p = 0; p < tallies_.size(); ++p) {
+      if (!ground_.claims->partitions[p].actions.empty()) result.push_back(tallies_[p].actions.finding());
+      result.push_back(tallies_[p].delay.finding());
+      result.push_back(tallies_[p].trigger.finding());
+    }
+    return result;
+  }
+
+ private:
+  const CheckGround& ground_;
+  std::deque<PartitionTallies> tallies_;  ///< by partition; they cannot be moved
+};
+
+}  // namespace
+
+std::unique_ptr<AnswerCheck> check_layers(const CheckGround& ground) {
+  return std::make_unique<LayersCheck>(ground);
+}
+
+}  // namespace coordreq

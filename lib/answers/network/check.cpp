@@ -1,0 +1,176 @@
+#include "answers/network/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "answers/checking/claimed_values.hpp"
+#include "model/input_class.hpp"
+
+namespace coordreq {
+namespace {
+
+using Members = std::vector<std::uint8_t>;
+
+/// What all threads read.
+struct Network {
+  explicit Network(const CheckGround& ground) : spec(*ground.spec->network) {
+    for (const NetworkModeSpec& mode : spec.modes) {
+      const auto known = std::find(partitions.begin(), partitions.end(), mode.partition.classes);
+      partition_of.push_back(static_cast<std::size_t>(known - partitions.begin()));
+      if (known == partitions.end()) partitions.push_back(mode.partition.classes);
+    }
+    target.assign(spec.modes.size(), Members(static_cast<std::size_t>(ground.grid->cells()), 1));
+    for (const auto& [from, to] : spec.transitions) {
+      Members& own = target[static_cast<std::size_t>(from)];
+      const Members& next = ground.claims->network[static_cast<std::size_t>(to)];
+      for (std::size_t x = 0; x < own.size(); ++x) own[x] = own[x] & next[x];
+    }
+  }
+
+  const NetworkSpec& spec;
+  std::vector<std::vector<std::vector<std::int32_t>>> partitions;  ///< different ones
+  std::vector<std::size_t> partition_of;                           ///< by mode
+  std::vector<Members> target;                                     ///< T(q)
+};
+
+class NetworkChecker : public CellChecker {
+ public:
+  NetworkChecker(const CheckGround& ground, const Network& network, Tally& tally)
+      : ground_(ground),
+        network_(network),
+        tally_(tally),
+        inputs_(static_cast<std::size_t>(ground.inputs->count())),
+        choices_(network.partitions.size()) {
+    for (const auto& partition : network.partitions) {
+      auto& classes = classes_.emplace_back();
+      for (const auto& agents : partition)
+        classes.emplace_back(class_of(*ground.spec, *ground.inputs, agents)).tabulate();
+    }
+  }
+
+  void check(CheckedCell& cell) override {
+    cell_ = &cell;
+    if (cell.is_invariant() && !network_.spec.resynthesise) {
+      for (std::size_t p = 0; p < choices_.size(); ++p) choices_[p] = independent(cell.admitted(), p);
+    }
+    for (std::size_t mode = 0; mode < network_.spec.modes.size(); ++mode) {
+      const bool claimed = ground_.claims->network[mode][cell.at()] != 0;
+      tally_.add_checked(1);
+      if (!cell.is_invariant()) {
+        if (claimed) complain(mode, "safe, but not in K");
+      } else if (network_.spec.resynthesise) {
+        if (claimed && !can_take_care(mode)) doubt(mode, "safe, but agents that take care may leave");
+      } else {
+        compare(mode, claimed);
+      }
+    }
+  }
+
+ private:
+  void compare(std::size_t mode, bool claimed) {
+    const std::vector<std::int64_t>& choices = choices_[network_.partition_of[mode]];
+    const bool expected =
+        !choices.empty() && std::all_of(choices.begin(), choices.end(),
+                                        [&](std::int64_t u) { return is_inside(u, network_.target[mode]); });
+    if (claimed == expected) return;
+    doubt(mode, claimed ? "safe, but agents may leave" : "not safe, but agents cannot leave");
+  }
+
+  [[nodiscard]] bool can_take_care(std::size_t mode) {
+    const std::vector<std::uint8_t> good = allowed_into(network_.target[mode]);
+    const std::vector<std::int64_t> mixed = independent(good, network_.partition_of[mode]);
+    return !mixed.empty() && std::all_of(mixed.begin(), mixed.end(), [&good](std::int64_t u) {
+      return good[static_cast<std::size_t>(u)] != 0;
+    });
+  }
+
+  [[nodiscard]] std::vector<std::uint8_t> allowed_into(const Members& set) {
+    std::vector<std::uint8_t> result(inputs_, 0);
+    for (std::size_t u = 0; u < inputs_; ++u) {
+      const auto input = static_cast<std::int64_t>(u);
+      result[u] = cell_->is_allowed(input) && is_inside(input, set) ? 1 : 0;
+    }
+    return result;
+  }
+
+  /// The joint inputs of which each class's part is that of some of `joint`.
+  [[nodiscard]] std::vector<std::int64_t> independent(const std::vector<std::uint8_t>& joint,
+                                                      std::size_t partition) const {
+    std::vector<std::uint8_t> is_choice(inputs_, 1);
+    for (const InputClass& own : classes_[partition]) {
+      std::vector<std::uint8_t> projection(static_cast<std::size_t>(own.actions()), 0);
+      for (std::size_t u = 0; u < inputs_; ++u)
+        projection[static_cast<std::size_t>(own.action(static_cast<std::int64_t>(u)))] |= joint[u];
+      for (std::size_t u = 0; u < inputs_; ++u)
+        is_choice[u] &= projection[static_cast<std::size_t>(own.action(static_cast<std::int64_t>(u)))];
+    }
+    std::vector<std::int64_t> result;
+    for (std::size_t u = 0; u < inputs_; ++u) {
+      if (is_choice[u] != 0) result.push_back(static_cast<std::int64_t>(u));
+    }
+    return result;
+  }
+
+  /// empty != f(x, u) subset of the set.
+  [[nodiscard]] bool is_inside(std::int64_t u, const Members& set) { return cell_->least(u, set, 0, 1) != 0; }
+
+  /// Where posts are perhaps others, so are the choices of agents.
+  void doubt(std::size_t mode, const char* what) {
+    if (ground_.sound_only()) {
+      tally_.add_unproven();
+    } else {
+      complain(mode, what);
+    }
+  }
+  void complain(std::size_t mode, const char* what) {
+    const auto modes = static_cast<std::int64_t>(network_.spec.modes.size());
+    tally_.add_wrong(cell_->number() * modes + static_cast<std::int64_t>(mode), [&] {
+      return fmt::format("{}, mode {}: {}", cell_->place(), network_.spec.modes[mode].name, what);
+    });
+  }
+
+  const CheckGround& ground_;
+  const Network& network_;
+  Tally& tally_;
+  std::size_t inputs_;
+  std::vector<std::vector<InputClass>> classes_;    ///< [partition]
+  std::vector<std::vector<std::int64_t>> choices_;  ///< [partition] IND_C of this cell
+  CheckedCell* cell_ = nullptr;                     ///< at work
+};
+
+class NetworkCheck : public AnswerCheck {
+ public:
+  explicit NetworkCheck(const CheckGround& ground)
+      : AnswerCheck(CheckSection::modes), ground_(ground), network_(ground) {
+    tally_.set_note(network_.spec.resynthesise ? "safe, and perhaps less than what the iteration gives"
+                                               : "a fixed point, not compared with others");
+  }
+
+  std::vector<Finding> compare_sizes(Comparison& sizes) override {
+    const Claims& claims = *ground_.claims;
+    for (std::size_t mode = 0; mode < claims.network.size(); ++mode) {
+      sizes.expect("cells of mode " + network_.spec.modes[mode].name, claims.network_cells[mode],
+                   count_members(claims.network[mode]));
+    }
+    return {};
+  }
+  std::unique_ptr<CellChecker> cell_checker() override {
+    return std::make_unique<NetworkChecker>(ground_, network_, tally_);
+  }
+  [[nodiscard]] std::vector<Finding> findings() const override { return {tally_.finding()}; }
+
+ private:
+  const CheckGround& ground_;
+  Network network_;
+  Tally tally_{"network"};
+};
+
+}  // namespace
+
+std::unique_ptr<AnswerCheck> check_network(const CheckGround& ground) {
+  if (!ground.spec->network) return nullptr;
+  return std::make_unique<NetworkCheck>(ground);
+}
+
+}  // namespace coordreq

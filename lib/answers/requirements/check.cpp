@@ -1,0 +1,182 @@
+#include "answers/requirements/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+#include <tuple>
+
+#include "answers/checking/claimed_values.hpp"
+#include "answers/requirements/check_path.hpp"
+#include "answers/requirements/check_region.hpp"
+
+namespace coordreq {
+namespace {
+
+using Rank = std::tuple<std::int32_t, std::int32_t, std::int64_t>;  // delay, collision time, number
+
+/// What can be said of the cells of a region: of those that surely meet it, and of those that may be counted.
+struct Bounds {
+  std::uint64_t sure = 0, possible = 0;
+  std::uint64_t sure_failing = 0, possible_failing = 0;
+  std::uint64_t open_failing = 0;  ///< neither sure nor shown to be apart
+  Rank sure_worst{kForever, kForever, INT64_MAX};
+  std::int32_t sure_least = kForever, possible_least = kForever;
+
+  void add(const Bounds& other) {
+    sure += other.sure;
+    possible += other.possible;
+    sure_failing += other.sure_failing;
+    possible_failing += other.possible_failing;
+    open_failing += other.open_failing;
+    sure_worst = std::min(sure_worst, other.sure_worst);
+    sure_least = std::min(sure_least, other.sure_least);
+    possible_least = std::min(possible_least, other.possible_least);
+  }
+};
+
+class RequirementChecker {
+ public:
+  RequirementChecker(const CheckGround& ground, std::size_t number, ThreadTeam& team)
+      : ground_(ground),
+        asked_(ground.spec->requirements[number]),
+        claim_(ground.claims->requirements[number]),
+        region_(*ground.spec, asked_.where, *ground.grid, team),
+        tally_("requirement " + asked_.name) {
+    if (!asked_.invariant) partition_ = static_cast<std::size_t>(*asked_.partition);
+  }
+
+  Finding run(ThreadTeam& team) {
+    const Bounds bounds = find_bounds(team);
+    tally_.add_checked(static_cast<std::int64_t>(bounds.possible));
+    check_counts(bounds);
+    check_reach();
+    const bool holds = claim_.failing == 0 && !claim_.reached_side;
+    if (claim_.holds != holds) wrong("the verdict does not follow from what is said");
+    // The analysis had to show that such a cell does not meet the region, which is not shown here.
+    if (claim_.failing == 0 && bounds.open_failing > 0) tally_.add_unproven();
+    if (claim_.path.has_value() != (claim_.failing > 0)) wrong("a counterexample without a failing cell");
+    if (claim_.path) check_path(*claim_.path, bounds);
+    return tally_.finding();
+  }
+
+ private:
+  void wrong(const std::string& what) {
+    tally_.add_wrong(number_++, [&what] { return what; });
+  }
+
+  [[nodiscard]] std::int32_t delay_at(std::size_t cell) const {
+    return claimed_delay(*ground_.claims, partition_, cell);
+  }
+  [[nodiscard]] bool fails(std::int32_t delay) const {
+    return delay < 0 || delay < asked_.min_delay.value_or(0);
+  }
+
+  [[nodiscard]] Bounds find_bounds(ThreadTeam& team) const {
+    Bounds all;
+    std::mutex mutex;
+    team.for_each(ground_.grid->cells(), 4096, [&](ThreadTeam::Range range, int) {
+      Bounds part;
+      for (std::int64_t x = range.begin; x < range.end; ++x) add(x, part);
+      const std::lock_guard lock(mutex);
+      all.add(part);
+    });
+    return all;
+  }
+
+  void add(std::int64_t cell, Bounds& bounds) const {
+    const Meeting meeting = region_.of(cell);
+    if (meeting == Meeting::off) return;
+    const auto x = static_cast<std::size_t>(cell);
+    const std::int32_t delay = delay_at(x);
+    const bool failing = fails(delay);
+    ++bounds.possible;
+    bounds.possible_failing += failing ? 1 : 0;
+    bounds.possible_least = std::min(bounds.possible_least, delay);
+    if (meeting == Meeting::open && failing) ++bounds.open_failing;
+    if (meeting != Meeting::common) return;
+    ++bounds.sure;
+    bounds.sure_least = std::min(bounds.sure_least, delay);
+    if (!failing) return;
+    ++bounds.sure_failing;
+    bounds.sure_worst = std::min(bounds.sure_worst, {delay, ground_.claims->collision_time[x], cell});
+  }
+
+  void check_counts(const Bounds& bounds) {
+    expect("cells", claim_.cells, bounds.sure, bounds.possible);
+    expect("failing cells", claim_.failing, bounds.sure_failing, bounds.possible_failing);
+    if (claim_.failing > claim_.cells) wrong("more cells fail than there are");
+    expect("least delay", claim_.least_delay, bounds.possible_least, bounds.sure_least);
+  }
+
+  template <class Number>
+  void expect(const char* what, Number found, Number least, Number most) {
+    if (found >= least && found <= most) return;
+    wrong(fmt::format("{}: {}, expected {}", what, found,
+                      least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most)));
+  }
+
+  /// The first side beyond which the region reaches.
+  void check_reach() {
+    const auto is_unsafe = [this](const ResultSide& side) {
+      const StateSpec& state = ground_.spec->states[side.state];
+      return (side.above ? state.above : state.below) == Outside::unsafe;
+    };
+    for (std::size_t i = 0; i < ground_.grid->size(); ++i) {
+      for (const bool above : {false, true}) {
+        const ResultSide side{.state = i, .above = above};
+        const bool claimed = claim_.reached_side == side;
+        const Reach reach =
+            is_unsafe(side) ? reach_beyond(*ground_.spec, asked_.where, *ground_.grid, side) : Reach::never;
+        if (claimed && reach == Reach::never) wrong("the region does not reach beyond the side named");
+        if (claimed) return;
+        if (reach == Reach::reached) wrong("the region reaches beyond a side that is not named");
+        if (reach == Reach::open) tally_.add_unproven();
+      }
+    }
+  }
+
+  void check_path(const ResultPath& path, const Bounds& bounds) {
+    const std::uint64_t first = path.cell.front();
+    const auto cell = static_cast<std::int64_t>(first);
+    const std::int32_t delay = delay_at(first);
+    if (region_.of(cell) == Meeting::off) wrong("the counterexample begins outside the region");
+    if (!fails(delay)) wrong("the counterexample begins in a cell that does not fail");
+    if (delay != claim_.least_delay) wrong("the counterexample begins with another delay than the least");
+    if (Rank(delay, ground_.claims->collision_time[first], cell) > bounds.sure_worst)
+      wrong("the counterexample does not begin in the worst cell");
+    PathChecker(ground_, partition_).check(path, tally_);
+  }
+
+  const CheckGround& ground_;
+  const RequirementSpec& asked_;
+  const ResultRequirement& claim_;
+  RegionJudge region_;
+  Tally tally_;
+  std::optional<std::size_t> partition_;
+  std::int64_t number_ = -1000;  // before the steps of the counterexample
+};
+
+class RequirementsCheck : public AnswerCheck {
+ public:
+  explicit RequirementsCheck(const CheckGround& ground)
+      : AnswerCheck(CheckSection::requirements), ground_(ground) {}
+
+  void check_all(ThreadTeam& team) override {
+    for (std::size_t r = 0; r < ground_.claims->requirements.size(); ++r)
+      findings_.push_back(RequirementChecker(ground_, r, team).run(team));
+  }
+  [[nodiscard]] std::vector<Finding> findings() const override { return findings_; }
+
+ private:
+  const CheckGround& ground_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::unique_ptr<AnswerCheck> check_requirements(const CheckGround& ground) {
+  return std::make_unique<RequirementsCheck>(ground);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "answers/checking/checked_cell.hpp"
+#include "answers/checking/tally.hpp"
+#include "answers/requirements/result_requirement.hpp"
+#include "model/input_class.hpp"
+
+namespace coordreq {
+
+/// Follows a counterexample step by step: each joint input is in IND_C of its cell (outside K: is allowed,
+/// and the collision time falls by one), each next cell is in its post, the delay falls by one down to 0, and
+/// the end is what it is said to be. With the delays and collision times of the file, which are checked
+/// elsewhere, that makes the path a shortest one.
+class PathChecker {
+ public:
+  /// @param partition position of the partition; none for `invariant`
+  PathChecker(const CheckGround& ground, std::optional<std::size_t> partition);
+
+  /// @param tally of one requirement; counts samples and steps
+  void check(const ResultPath& path, Tally& tally);
+
+ private:
+  void check_sample(std::size_t sample);
+  void check_step(std::size_t step);
+  void check_independent(std::size_t step, std::int64_t u);
+  void check_evasive(std::size_t step, std::int64_t u);
+  void check_next(std::size_t step, std::int64_t u);
+  void check_last_step(std::int64_t u);
+  void check_end();
+
+  [[nodiscard]] std::optional<std::int64_t> input_of(std::size_t step) const;
+  [[nodiscard]] bool is_choice(std::int64_t u) const;
+  [[nodiscard]] bool is_in_post(std::int64_t u, std::int64_t next) const;
+  [[nodiscard]] bool leaves_domain(std::int64_t u, const ResultSide& side) const;
+  [[nodiscard]] const ResolvedRange& range(std::size_t i, std::int64_t u) const;
+  [[nodiscard]] std::size_t entry(const Posts& posts, std::size_t i, std::int64_t u) const;
+  [[nodiscard]] bool is_blocked(std::int64_t u) const;
+  void wrong(std::size_t number, const std::string& what);
+  /// Wrong, unless the posts may be others than those of the analysis.
+  void differs(std::size_t number, const std::string& what);
+
+  const CheckGround& ground_;
+  std::optional<std::size_t> partition_;
+  std::vector<InputClass> classes_;
+  CheckedCell cell_;  ///< at work
+  const ResultPath* path_ = nullptr;
+  Tally* tally_ = nullptr;
+};
+
+}  // namespace coordreq

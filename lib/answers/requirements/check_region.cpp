@@ -1,0 +1,235 @@
+#include "answers/requirements/check_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "answers/checking/corner_truth.hpp"
+#include "expression/evaluate.hpp"
+#include "model/odometer.hpp"
+#include "model/pieces.hpp"
+
+namespace coordreq {
+namespace {
+
+using Box = std::vector<RationalInterval>;
+
+Program negation_of(const Program& condition) {
+  Program result = condition;
+  const auto last = static_cast<std::uint32_t>(result.nodes.size() - 1);
+  result.nodes.push_back({.op = Operator::logical_not, .a = last});
+  return result;
+}
+
+/// Looks at one box after the other; scratch of one thread.
+class BoxJudge {
+ public:
+  BoxJudge(const Program& where, const Program& negation, const std::vector<std::size_t>& states)
+      : rough_(where), exact_(where), nowhere_(negation, states) {}
+
+  [[nodiscard]] Meeting judge(const Box& box) {
+    std::vector<Interval> rough;
+    for (const RationalInterval& range : box) rough.push_back(enclose(range));
+    Truth truth = rough_.condition(rough);
+    if (truth == Truth::undecided) truth = exact_.condition(box);
+    if (truth != Truth::undecided) return truth == Truth::yes ? Meeting::common : Meeting::off;
+    switch (nowhere_.everywhere(box)) {
+      case Truth::yes:
+        return Meeting::apart;
+      case Truth::no:
+        return Meeting::common;
+      default:
+        return Meeting::open;
+    }
+  }
+
+ private:
+  Evaluator<Interval> rough_;
+  Evaluator<RationalInterval> exact_;
+  CornerTruth nowhere_;
+};
+
+/// Halves a box in the coordinates t of x = t / (1 - |t|), which make the whole line finite.
+class CompactSearch {
+ public:
+  static constexpr int kMostBoxes = 4096;
+
+  explicit CompactSearch(const Program& where) : evaluator_(where), variables_(where.variables()) {}
+
+  [[nodiscard]] bool is_empty(const std::vector<Interval>& box) {
+    boxes_left_ = kMostBoxes;
+    std::vector<Interval> compact;
+    for (const Interval& range : box) compact.push_back({to_compact(range.lower), to_compact(range.upper)});
+    return visit(box, compact, 0);
+  }
+
+ private:
+  static double to_compact(double x) {
+    if (x == outward::kInfinity) return 1.0;
+    if (x == -outward::kInfinity) return -1.0;
+    return x / (1.0 + std::abs(x));
+  }
+  static double from_compact(double t) { return t / (1.0 - std::abs(t)); }
+
+  bool visit(std::vector<Interval> box, std::vector<Interval> compact, std::size_t depth) {
+    const Truth truth = evaluator_.condition(box);
+    if (truth != Truth::undecided) return truth == Truth::no;
+    if (--boxes_left_ <= 0 || variables_.empty()) return false;
+    const std::uint32_t slot = variables_[depth % variables_.size()];
+    const double middle = (compact[slot].lower + compact[slot].upper) / 2;
+    const double cut = from_compact(middle);
+    const Interval range = box[slot];
+    const Interval compact_range = compact[slot];
+    if (!(range.lower < cut && cut < range.upper))
+      return range.is_point() && visit_others(box, compact, depth);
+    box[slot].upper = cut;
+    compact[slot].upper = middle;
+    if (!visit(box, compact, depth + 1)) return false;
+    box[slot] = {cut, range.upper};
+    compact[slot] = {middle, compact_range.upper};
+    return visit(box, compact, depth + 1);
+  }
+
+  /// A variable that is a point cannot be halved; the next one may.
+  bool visit_others(const std::vector<Interval>& box, const std::vector<Interval>& compact,
+                    std::size_t depth) {
+    const bool all_points = std::all_of(variables_.begin(), variables_.end(),
+                                        [&box](std::uint32_t slot) { return box[slot].is_point(); });
+    return !all_points && visit(box, compact, depth + 1);
+  }
+
+  Evaluator<Interval> evaluator_;
+  std::vector<std::uint32_t> variables_;
+  int boxes_left_ = 0;
+};
+
+bool ends_at_limit(Outside side) {
+  return side == Outside::saturate || side == Outside::stop || side == Outside::periodic;
+}
+
+/// Where a state can be while another one is outside; without an end where it is not bounded.
+struct Extent {
+  std::optional<Rational> lower, upper;
+};
+
+Extent extent_of(const GridDimension& dimension) {
+  if (dimension.periodic()) return {dimension.lower, dimension.upper};
+  Extent extent;
+  if (ends_at_limit(dimension.below)) extent.lower = pieces(dimension, 0).front().lower;
+  if (ends_at_limit(dimension.above)) extent.upper = pieces(dimension, dimension.count - 1).back().upper;
+  return extent;
+}
+
+/// What may be measured beyond a side, its end included.
+Extent outside_of(const GridDimension& dimension, bool above) {
+  const Rational last = dimension.point(above ? dimension.count - 1 : 0);
+  Rational reach = dimension.radius() - dimension.measurement_error;
+  if (dimension.discrete && dimension.measurement_error == 0) reach = dimension.step;
+  if (above) return {last + reach, std::nullopt};
+  return {std::nullopt, last - reach};
+}
+
+/// A few places of an extent: its ends, what lies next to them and far away.
+std::vector<Rational> samples_of(const Extent& extent, const GridDimension& dimension) {
+  std::vector<Rational> samples;
+  const Rational first = extent.lower ? *extent.lower : dimension.point(0);
+  const Rational last = extent.upper ? *extent.upper : dimension.point(dimension.count - 1);
+  for (int k = 0; k <= 4; ++k) samples.push_back(first + (last - first) * k / 4);
+  for (const long far : {1L, 100L, 1000000L}) {
+    if (!extent.upper) samples.push_back(last + dimension.step * far);
+    if (!extent.lower) samples.push_back(first - dimension.step * far);
+  }
+  return samples;
+}
+
+/// Between the end of an extent and a multiple of the step there; a discrete state has no others.
+void keep_inside(std::vector<Rational>& samples, const Extent& extent) {
+  std::erase_if(samples, [&extent](const Rational& value) {
+    return (extent.lower && value < *extent.lower) || (extent.upper && value > *extent.upper);
+  });
+}
+
+/// Whether the region holds one of some points outside; the end of a closed face is not one of them.
+bool reaches_a_sample(const Program& where, const UniformGrid& grid, const std::vector<Extent>& extents) {
+  std::vector<std::vector<Rational>> samples;
+  std::vector<std::int64_t> counts;
+  const std::vector<std::uint32_t> variables = where.variables();
+  for (const std::uint32_t slot : variables) {
+    samples.push_back(samples_of(extents[slot], grid[slot]));
+    keep_inside(samples.back(), extents[slot]);
+    counts.push_back(static_cast<std::int64_t>(samples.back().size()));
+  }
+  constexpr int kMostPoints = 20000;
+  Evaluator<RationalInterval> exact(where);
+  std::vector<RationalInterval> point(grid.size());
+  Odometer choice(counts);
+  for (int looked_at = 0; looked_at < kMostPoints; ++looked_at) {
+    for (std::size_t v = 0; v < variables.size(); ++v) {
+      const Rational& value = samples[v][static_cast<std::size_t>(choice[v])];
+      point[variables[v]] = {.lower = value, .upper = value};
+    }
+    if (exact.condition(point) == Truth::yes) return true;
+    if (!choice.advance()) break;
+  }
+  return false;
+}
+
+}  // namespace
+
+RegionJudge::RegionJudge(const ProblemSpec& spec, const Program& where, const UniformGrid& grid,
+                         ThreadTeam& team)
+    : grid_(&grid) {
+  std::vector<std::vector<std::vector<RationalInterval>>> places;  // [state mentioned][index][piece]
+  std::vector<std::int64_t> counts;
+  std::int64_t choices = 1;
+  for (const std::uint32_t slot : where.variables()) {
+    states_.push_back(slot);
+    counts.push_back(grid[slot].count);
+    choices *= grid[slot].count;
+    auto& indices = places.emplace_back();
+    for (std::int64_t k = 0; k < grid[slot].count; ++k) {
+      auto& parts = indices.emplace_back();
+      for (const Piece& piece : pieces(grid[slot], k))
+        parts.push_back({.lower = piece.lower, .upper = piece.upper});
+    }
+  }
+  meetings_.assign(static_cast<std::size_t>(choices), Meeting::off);
+  const Program negation = negation_of(where);
+  team.for_each(choices, 256, [&](ThreadTeam::Range range, int) {
+    BoxJudge judge(where, negation, states_);
+    Box box(spec.slot_count());
+    Odometer choice(counts, range.begin);
+    for (std::int64_t c = range.begin; c < range.end; ++c, choice.advance()) {
+      std::vector<std::int64_t> parts;
+      for (std::size_t s = 0; s < states_.size(); ++s)
+        parts.push_back(static_cast<std::int64_t>(places[s][static_cast<std::size_t>(choice[s])].size()));
+      Odometer part(parts);
+      Meeting most = Meeting::off;
+      do {
+        for (std::size_t s = 0; s < states_.size(); ++s) {
+          box[states_[s]] = places[s][static_cast<std::size_t>(choice[s])][static_cast<std::size_t>(part[s])];
+        }
+        most = std::max(most, judge.judge(box));
+      } while (most != Meeting::common && part.advance());
+      meetings_[static_cast<std::size_t>(c)] = most;
+    }
+  });
+}
+
+Reach reach_beyond(const ProblemSpec& spec, const Program& where, const UniformGrid& grid,
+                   const ResultSide& side) {
+  std::vector<Extent> extents;
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    extents.push_back(i == side.state ? outside_of(grid[i], side.above) : extent_of(grid[i]));
+  std::vector<Interval> box(spec.slot_count());
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    box[i].lower = extents[i].lower ? lower_double(*extents[i].lower) : -outward::kInfinity;
+    box[i].upper = extents[i].upper ? upper_double(*extents[i].upper) : outward::kInfinity;
+  }
+  const Truth whole = Evaluator<Interval>(where).condition(box);
+  if (whole != Truth::undecided) return whole == Truth::yes ? Reach::reached : Reach::never;
+  if (reaches_a_sample(where, grid, extents)) return Reach::reached;
+  return CompactSearch(where).is_empty(box) ? Reach::not_far : Reach::open;
+}
+
+}  // namespace coordreq
