@@ -78,6 +78,11 @@ std::string hint(const std::string& typed, const std::vector<std::string>& known
 }
 
 [[noreturn]] void fail_command(const std::string& typed) {
+  for (const auto& [ending, command] : {std::pair(".json", "analyze"), std::pair(".h5", "info")}) {
+    if (!typed.ends_with(ending)) continue;
+    const std::string line = fmt::format("{} {} {}", kProgram, command, typed);
+    throw UsageError(fmt::format("no command before {}, did you mean {}?", echoed(typed), echoed(line)));
+  }
   throw UsageError(fmt::format("unknown command {}{}", echoed(typed), hint(typed, command_names())));
 }
 

@@ -167,7 +167,8 @@ std::string requirements_text(const Json& requirements, const ProblemSpec& spec)
   std::string text;
   for (const Json& own : requirements) {
     text += fmt::format("\nrequirement {}: {}\n", line_of(own["name"]), claim_text(own, spec));
-    text += own["holds"] ? fmt::format("  holds: for all {} that may meet the region\n", cells(own["cells"]))
+    const std::string region = own["cells"] == 1 ? "the one cell" : "all " + cells(own["cells"]);
+    text += own["holds"] ? fmt::format("  holds: for {} that may meet the region\n", region)
                          : failure_text(own, spec);
   }
   return text;

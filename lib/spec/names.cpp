@@ -69,4 +69,10 @@ std::optional<NameKind> NameTable::find(const std::string& name) const {
   return entry == entries_.end() ? std::nullopt : std::optional(entry->second.kind);
 }
 
+std::vector<std::string> NameTable::all() const {
+  std::vector<std::string> names;
+  for (const auto& [name, entry] : entries_) names.push_back(name);
+  return names;
+}
+
 }  // namespace coordreq

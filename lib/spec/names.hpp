@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace coordreq {
 
@@ -22,6 +23,7 @@ class NameTable {
   void add(const std::string& name, NameKind kind, const std::string& pointer);
 
   [[nodiscard]] std::optional<NameKind> find(const std::string& name) const;
+  [[nodiscard]] std::vector<std::string> all() const;
 
  private:
   struct Entry {

@@ -106,12 +106,9 @@ void Scope::evaluate_constants(const Node& constants) {
 
 void Scope::link_definitions(const Node& object) {
   const MentionGraph graph(object);
-  const auto lookup = [this](std::string_view name) { return find(name); };
-  add_in_order(graph, dependency_order(graph.mentions, graph.names, "definitions", object.pointer()),
-               [&](const std::string& name) {
-                 const Node node = object[name];
-                 definitions_.add(name, link(node.text(), lookup, ExpectedType::any, node.pointer()));
-               });
+  add_in_order(
+      graph, dependency_order(graph.mentions, graph.names, "definitions", object.pointer()),
+      [&](const std::string& name) { definitions_.add(name, link_text(object[name], ExpectedType::any)); });
 }
 
 Rational Scope::number(const Node& node) const {
@@ -132,18 +129,35 @@ Rational Scope::constant_expression(const Node& node) const {
           node.pointer());
     }
   }
-  const auto lookup = [this](std::string_view name) { return find(name); };
-  const Program program = link(node.text(), lookup, ExpectedType::number, node.pointer());
+  const Program program = link_text(node, ExpectedType::number);
   const Rational value = constant_value(program, node.pointer());
   check_size(value, node.pointer());
   return value;
 }
 
 Program Scope::expression(const Node& node, ExpectedType expected, Over over) const {
-  const auto lookup = [this](std::string_view name) { return find(name); };
-  Program program = definitions_.expand(link(node.text(), lookup, expected, node.pointer()));
+  Program program = definitions_.expand(link_text(node, expected));
   check_dependence(program, over, node.pointer());
   return program;
+}
+
+Program Scope::link_text(const Node& node, ExpectedType expected) const {
+  constexpr std::size_t kTooShort = 2;  // such names differ by a letter anyway
+  std::string hint;
+  const auto lookup = [&](std::string_view name) {
+    Binding binding = find(name);
+    if (std::holds_alternative<std::monostate>(binding) && name.size() > kTooShort)
+      hint = suggestion(name, names_.all());
+    return binding;
+  };
+  try {
+    return link(node.text(), lookup, expected, node.pointer());
+  } catch (const SpecError& error) {
+    // "WHAT (WHERE)", about the name that was not found if there is one: nothing is read after it.
+    const std::string line = error.what();
+    const std::size_t place = std::min(line.rfind(" ("), line.size());
+    throw SpecError(line.substr(0, place) + hint + line.substr(place));
+  }
 }
 
 void Scope::check_dependence(const Program& program, Over over, const std::string& pointer) const {

@@ -40,6 +40,7 @@ class Scope {
   void link_definitions(const JsonDocument::Node& object);
   void check_dependence(const Program& program, Over over, const std::string& pointer) const;
   [[nodiscard]] Rational constant_expression(const JsonDocument::Node& node) const;
+  [[nodiscard]] Program link_text(const JsonDocument::Node& node, ExpectedType expected) const;
   [[nodiscard]] Binding find(std::string_view name) const;
 
   NameTable names_;

@@ -11,7 +11,7 @@
 namespace coordreq {
 namespace {
 
-constexpr long kMostPower = 16;
+constexpr long kMostFormPower = 16;
 constexpr slong kMostTerms = 4096;
 
 class Context {
@@ -153,7 +153,7 @@ class Multiplier {
         fmpq_mpoly_scalar_div_fmpq(result.get(), a.get(), FlintRational(*right).get(), context_.get());
         return result;
       case Operator::power:
-        if (!right || !is_integer(*right) || *right < 0 || *right > kMostPower) return std::nullopt;
+        if (!right || !is_integer(*right) || *right < 0 || *right > kMostFormPower) return std::nullopt;
         fmpq_mpoly_pow_ui(result.get(), a.get(), right->get_num().get_ui(), context_.get());
         return result;
       default:

@@ -192,6 +192,18 @@ class Cases(Case):
     def test_undefined_name(self):
         self.assert_rejected("'z' is not defined (/safe, column 5)", spec_with(safe="x + z <= 6"))
 
+    def test_name_that_is_almost_one(self):
+        definitions = {"distance": "x - y", "far": "distence > 3"}
+        self.assert_all_are_told(
+            ["'distence' is not defined, did you mean 'distance'? (/definitions/far, column 1)"],
+            spec_with(definitions=definitions),
+        )
+        self.assert_rejected(
+            "'faster' is not defined, did you mean 'fastest'? (/states/0/upper, column 3)",
+            spec_with(constants={"fastest": 2}, states=state(upper="2*faster")),
+        )
+        self.assert_rejected("'x1' is not defined (/safe, column 1)", spec_with(safe="x1 <= 6"))
+
     def test_cyclic_definition(self):
         self.assert_rejected(
             "cycle of definitions: p -> q -> p (/definitions/p)",

@@ -27,6 +27,11 @@ class Cases(Case):
         self.assert_fails(2, "unknown command 'analyse', did you mean 'analyze'?", "analyse", "spec.json")
         self.assert_fails(2, "unknown command 'vaildate', did you mean 'validate'?", "help", "vaildate")
 
+    def test_file_without_a_command(self):
+        message = "no command before 'spec.json', did you mean 'coordreq analyze spec.json'?"
+        self.assert_fails(2, message, "spec.json")
+        self.assert_fails(2, "no command before 'a.h5', did you mean 'coordreq info a.h5'?", "a.h5", "b.h5")
+
     def test_option_that_is_almost_one(self):
         for typed in ("--thread", "--thread=2", "--treads"):
             message = f"unknown option '{typed}' of analyze, did you mean '--threads'?"
