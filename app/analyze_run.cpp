@@ -35,7 +35,7 @@ class InterruptPolicy {
 
 std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const std::string& output,
                                                   const AnalyzeOptions& asked, const std::string& prefix) {
-  check_memory(spec, asked.memory(), asked.threads);
+  check_memory(spec, asked.memory(), asked.threads, asked.checkpoint.has_value());
   ThreadTeam team(asked.threads);
   InterruptPolicy interrupts;
   ProgressDisplay shown(asked.progress, asked.quiet);

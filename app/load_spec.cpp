@@ -17,12 +17,15 @@ namespace coordreq {
 namespace {
 
 /// A text takes so many times its length while it is read, as one long string; short values take more.
-constexpr std::uint64_t kBytesOfByte = 5;
+constexpr double kBytesOfByte = 4.75;
 
-void check_length(std::uintmax_t bytes, const std::string& name, std::optional<std::uint64_t> memory) {
+/// @param held bytes of it that are in memory already
+void check_length(std::uintmax_t bytes, std::uintmax_t held, const std::string& name,
+                  std::optional<std::uint64_t> memory) {
   constexpr std::uintmax_t kShort = std::uintmax_t{1} << 20U;  // no matter
   if (!memory || bytes < kShort) return;
-  const std::uint64_t need = resident_bytes() + kBytesOfByte * bytes;
+  const std::uint64_t need =
+      resident_bytes() + static_cast<std::uint64_t>(kBytesOfByte * static_cast<double>(bytes)) - held;
   if (need <= *memory) return;
   throw LimitError(fmt::format("reading {} of spec needs about {} of memory, the limit of --max-memory is {}",
                                byte_size(bytes), byte_size(need), byte_size(*memory)),
@@ -51,9 +54,9 @@ void add_read_files(const std::string& path, const ProblemSpec* spec, FilesInUse
 SpecSource load_source(const std::string& path, std::optional<std::uint64_t> memory) {
   std::error_code not_a_file;
   const std::uintmax_t size = path == "-" ? 0 : std::filesystem::file_size(path, not_a_file);
-  if (!not_a_file) check_length(size, path, memory);
+  if (!not_a_file) check_length(size, 0, path, memory);
   SpecSource source = read_spec_source(path, std::cin);
-  check_length(source.text.size(), source.name, memory);
+  check_length(source.text.size(), source.text.size(), source.name, memory);
   return source;
 }
 

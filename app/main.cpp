@@ -7,6 +7,7 @@ int main(int argc, char** argv) {
   try {
     coordreq::hold_standard_streams();
     coordreq::install_interrupt_handlers();
+    coordreq::report_what_terminates();
     const coordreq::Run run = coordreq::parse_command_line(argc, argv);
     return static_cast<int>(run());
   } catch (const coordreq::ClosedPipe&) {

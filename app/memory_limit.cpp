@@ -57,13 +57,16 @@ void hold_to_memory(std::uint64_t bytes, int threads) {
   rlimit stack{};
   if (getrlimit(RLIMIT_STACK, &stack) != 0) return;
   constexpr std::uint64_t kUsualStack = std::uint64_t{8} << 20U;
-  const std::uint64_t of_thread = stack.rlim_cur == RLIM_INFINITY ? kUsualStack : stack.rlim_cur;
+  constexpr std::uint64_t kArena = std::uint64_t{256} << 10U;  // what the allocator sets aside for a thread
+  const std::uint64_t of_thread = (stack.rlim_cur == RLIM_INFINITY ? kUsualStack : stack.rlim_cur) + kArena;
   const auto stacks =
       std::uint64_t{threads > 0 ? static_cast<unsigned>(threads) : std::thread::hardware_concurrency()} *
       of_thread;
   rlimit limit{};
   if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
-  const rlim_t wanted = std::max(bytes - program + untouched, data + kAlwaysGranted) + stacks;
+  const std::uint64_t counted = std::min(bytes, std::uint64_t{1} << 62U);
+  const std::uint64_t accepted = counted + counted / 10;  // estimates are no closer
+  const rlim_t wanted = std::max(accepted - program + untouched, data + kAlwaysGranted) + stacks;
   limit.rlim_cur = std::min(limit.rlim_max, wanted);
   static_cast<void>(setrlimit(RLIMIT_DATA, &limit));
 #else

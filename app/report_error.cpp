@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <exception>
 #include <new>
 #include <string>
 #include <string_view>
@@ -115,6 +117,13 @@ void report_failure(const std::string& subject, const Failure& failure) {
   const std::string start = shortened(printable(subject), kMostEchoed, kKeptAtItsEnd) + ": ";
   print(start + failure.what);
   for (const std::string& line : failure.more) print(start + line);
+}
+
+void report_what_terminates() {
+  std::set_terminate([] {
+    if (std::current_exception()) std::_Exit(report_current_exception());
+    std::abort();
+  });
 }
 
 int report_current_exception() noexcept {

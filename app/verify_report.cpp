@@ -117,6 +117,7 @@ Json verification_json(const Verification& result, const std::string& path, doub
   json["between_samples"] = result.tubes ? Json(basis_word(*result.tubes)) : Json(nullptr);
   json["not_independent"] = result.borrowed;
   json["confirmed"] = {{"reachable_sets", result.confirmed}, {"of", result.enclosed}};
+  json["posts_computed"] = result.posts_computed;
   json["checks"] = Json::array();
   for (const Finding& finding : result.findings) json["checks"].push_back(finding_json(finding));
   json["threads"] = threads;

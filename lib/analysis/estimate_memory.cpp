@@ -21,6 +21,8 @@ constexpr double kProgramBytes = 8.5 * 1024 * 1024;
 /// What a thread takes before it does anything: the part of its stack that is touched, and what the allocator
 /// keeps for it.
 constexpr double kThreadBytes = 108.0 * 1024;
+/// What stands in the buffers of a checkpoint: a part of a list, and what the library keeps of its chunks.
+constexpr double kCheckpointBytes = 4.5 * 1024 * 1024;
 
 std::string in_words(double bytes) {
   const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB"};
@@ -50,10 +52,10 @@ double estimate_memory(const Model& model, int threads) {
   return std::max(most, held + written + write_results_bytes(model.spec(), longest, team));
 }
 
-void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit, int threads) {
+void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit, int threads, bool saves) {
   if (!limit) return;
   const Model model(spec, table_shapes(spec));
-  const double bytes = estimate_memory(model, threads);
+  const double bytes = estimate_memory(model, threads) + (saves ? kCheckpointBytes : 0);
   if (bytes <= static_cast<double>(*limit)) return;
   throw LimitError(fmt::format("{:.3g} cells need about {} of memory, the limit is {}",
                                static_cast<double>(model.grid().points()), in_words(bytes),

@@ -15,7 +15,8 @@ namespace coordreq {
 /// @param threads that will work, none of which is there yet; 0: all cores
 [[nodiscard]] double estimate_memory(const Model& model, int threads);
 
+/// @param saves whether the work will be saved in a checkpoint now and then
 /// @throws LimitError with the estimate if that is above the limit
-void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit, int threads);
+void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit, int threads, bool saves);
 
 }  // namespace coordreq

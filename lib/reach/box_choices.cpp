@@ -6,11 +6,12 @@
 
 namespace coordreq {
 
-void BoxChoices::add_state(const GridDimension& dimension, std::uint32_t slot, std::int64_t count) {
+void BoxChoices::add_state(const GridDimension& dimension, std::uint32_t slot, std::int64_t count,
+                           std::int64_t first) {
   Variable& variable = variables_.emplace_back();
   variable.slot = slot;
   variable.name = dimension.name;
-  for (std::int64_t k = 0; k < count; ++k) {
+  for (std::int64_t k = first; k < first + count; ++k) {
     variable.points.push_back(dimension.point(k));
     std::vector<Interval>& boxes = variable.pieces.emplace_back();
     for (const Piece& piece : pieces(dimension, k)) boxes.push_back(enclose(piece.lower, piece.upper));

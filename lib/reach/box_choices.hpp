@@ -15,8 +15,9 @@ namespace coordreq {
 /// cell on the seam of a periodic state has two.
 class BoxChoices {
  public:
-  /// @param count its first so many indices
-  void add_state(const GridDimension& dimension, std::uint32_t slot, std::int64_t count);
+  /// @param count so many indices, from `first` on
+  void add_state(const GridDimension& dimension, std::uint32_t slot, std::int64_t count,
+                 std::int64_t first = 0);
   void add_input(const InputSpace::Dimension& input, std::uint32_t slot);
 
   /// Counts through the indices, in the order in which they were added.

@@ -13,22 +13,6 @@
 namespace coordreq {
 namespace {
 
-/// What saturates is at the last (first) grid point when it is measured, however far out the post lies; an
-/// error of half a cell or more then shows it in another cell than the boundary one.
-void include_measurements_of_saturated(const GridDimension& dimension, Cells cells, TransitionTable& table) {
-  const Rational& error = dimension.measurement_error;
-  if (error == 0) return;
-  if (dimension.above == Outside::saturate) {
-    const Rational last = dimension.point(dimension.count - 1);
-    const IndexRange seen = cells_meeting(dimension, cells, last - error, last, true);
-    for (IndexRange& entry : table.entries) entry.first = std::min(entry.first, seen.first);
-  }
-  if (dimension.below == Outside::saturate) {
-    const IndexRange seen = cells_meeting(dimension, cells, dimension.first, dimension.first + error, true);
-    for (IndexRange& entry : table.entries) entry.last = std::max(entry.last, seen.last);
-  }
-}
-
 /// Lists of states with the same dependencies, so that one flow serves them all; in discrete time of one
 /// each.
 std::vector<std::vector<std::size_t>> group_by_flow(const ProblemSpec& spec,
@@ -87,15 +71,30 @@ Abstraction build_abstraction(const ProblemSpec& spec, const std::vector<TableSh
   }
   std::sort(full.begin(), full.end());
   build_in_full(spec, shapes, abstraction, full, team);
-  for (std::size_t i = 0; i < spec.states.size(); ++i) {
-    if (!has_measured_limit(spec.states[i])) continue;
-    include_measurements_of_saturated(abstraction.grid[i], spec.abstraction.cells, abstraction.tables[i]);
-  }
+  for (std::size_t i = 0; i < spec.states.size(); ++i)
+    include_measurements_of_saturated(spec, abstraction, i);
   return abstraction;
 }
 
 Abstraction build_abstraction(const ProblemSpec& spec, ThreadTeam& team) {
   return build_abstraction(spec, table_shapes(spec), team);
+}
+
+void include_measurements_of_saturated(const ProblemSpec& spec, Abstraction& abstraction, std::size_t state) {
+  if (!has_measured_limit(spec.states[state])) return;
+  const GridDimension& dimension = abstraction.grid[state];
+  const Rational& error = dimension.measurement_error;
+  const Cells cells = spec.abstraction.cells;
+  std::vector<IndexRange>& entries = abstraction.tables[state].entries;
+  if (dimension.above == Outside::saturate) {
+    const Rational last = dimension.point(dimension.count - 1);
+    const IndexRange seen = cells_meeting(dimension, cells, last - error, last, true);
+    for (IndexRange& entry : entries) entry.first = std::min(entry.first, seen.first);
+  }
+  if (dimension.below == Outside::saturate) {
+    const IndexRange seen = cells_meeting(dimension, cells, dimension.first, dimension.first + error, true);
+    for (IndexRange& entry : entries) entry.last = std::max(entry.last, seen.last);
+  }
 }
 
 }  // namespace coordreq

@@ -18,4 +18,9 @@ namespace coordreq {
                                             ThreadTeam& team);
 [[nodiscard]] Abstraction build_abstraction(const ProblemSpec& spec, ThreadTeam& team);
 
+/// What saturates is at the last (first) grid point when it is measured, however far out the post lies; an
+/// error of half a cell or more then shows it in another cell than the boundary one. Adds those cells to the
+/// table of a state that has been filled; build_abstraction() has done so.
+void include_measurements_of_saturated(const ProblemSpec& spec, Abstraction& abstraction, std::size_t state);
+
 }  // namespace coordreq

@@ -43,10 +43,10 @@ class EnclosureTable {
   [[nodiscard]] const TransitionTable& table() const { return table_; }
 
   /// Says where the state itself is among the choices; only a tube asks for it, and not of differences.
-  void set_own(std::size_t place) {
+  void set_own(std::size_t place, std::int64_t first, std::int64_t count) {
     own_ = place;
     if (tube_ == nullptr) return;
-    for (std::int64_t k = 0; k < target_.count; ++k) own_pieces_.push_back(pieces(target_, k));
+    for (std::int64_t k = first; k < first + count; ++k) own_pieces_.push_back(pieces(target_, k));
   }
 
   /// Widens the entry by an enclosure of one choice of pieces.
@@ -156,7 +156,8 @@ class EnclosureTable {
 }  // namespace
 
 void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
-                            const std::vector<std::size_t>& states, ThreadTeam& team) {
+                            const std::vector<std::size_t>& states, ThreadTeam& team,
+                            std::optional<std::int64_t> own) {
   const Dependencies& dependencies = dynamics.dependencies(states.front());
   const StateEnclosure enclosure(spec, dependencies, states.front());
   BoxChoices choices;
@@ -166,14 +167,19 @@ void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynam
   }
   const TransitionTable& layout = tables.front().table();
   std::vector<std::int64_t> strides;
+  std::int64_t first_entry = 0;
   for (const std::int32_t j : layout.states) {
     const bool own_of_shift = layout.shift && at(j) == states.front();
     if (own_of_shift && enclosure.shifts()) continue;
-    for (EnclosureTable& table : tables) {
-      if (table.state() == at(j)) table.set_own(strides.size());
-    }
     const GridDimension& dimension = abstraction.grid[at(j)];
-    choices.add_state(dimension, spec.state_slot(at(j)), own_of_shift ? 1 : dimension.count);
+    const bool only_one = own && at(j) == states.front();
+    const std::int64_t from = only_one && !own_of_shift ? *own : 0;
+    const std::int64_t count = only_one || own_of_shift ? 1 : dimension.count;
+    for (EnclosureTable& table : tables) {
+      if (table.state() == at(j)) table.set_own(strides.size(), from, count);
+    }
+    choices.add_state(dimension, spec.state_slot(at(j)), count, from);
+    first_entry += from * layout.state_stride[at(j)];
     strides.push_back(layout.state_stride[at(j)]);
   }
   for (const std::int32_t j : layout.inputs) {
@@ -188,7 +194,7 @@ void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynam
     Odometer choice = all;
     choice.seek(range.begin);
     for (std::int64_t i = range.begin; i < range.end; ++i, choice.advance()) {
-      std::int64_t entry = 0;
+      std::int64_t entry = first_entry;
       for (std::size_t v = 0; v < strides.size(); ++v) entry += choice.indices()[v] * strides[v];
       bool first = true;
       choices.for_each_piece(choice.indices(), mine, [&](const std::vector<std::int64_t>& piece) {

@@ -16,8 +16,7 @@ bool holds(const GridDimension& dimension, IndexRange outer, IndexRange inner) {
 }
 
 Finding check_abstraction(const UniformGrid& grid, const InputSpace& inputs, std::size_t state,
-                          const PostTable& own, const PostTable& claimed, const std::vector<bool>& asked,
-                          const std::string& what) {
+                          const PostTable& own, const PostTable& claimed, const std::string& what) {
   const GridDimension& dimension = grid[state];
   Tally tally(what + " " + dimension.name);
   tally.set_note("exact");
@@ -26,14 +25,13 @@ Finding check_abstraction(const UniformGrid& grid, const InputSpace& inputs, std
     return tally.finding();
   }
   for (std::size_t e = 0; e < own.entries.size(); ++e) {
-    if (!asked.empty() && !asked[e]) continue;
     tally.add_checked(1);
     const IndexRange mine = own.entries[e];
-    const IndexRange found = claimed.entries[e];
+    const std::int64_t place = own.place_of(e);
+    const IndexRange found = claimed.at(place);
     if (found.first <= found.last && holds(dimension, found, mine) && holds(dimension, mine, found)) continue;
-    tally.add_wrong(static_cast<std::int64_t>(e), [&] {
-      return fmt::format("{}: {} {}, expected {}",
-                         entry_text(grid, inputs, own, static_cast<std::int64_t>(e)), dimension.name,
+    tally.add_wrong(place, [&] {
+      return fmt::format("{}: {} {}, expected {}", entry_text(grid, inputs, own, place), dimension.name,
                          range_text(dimension, found), range_text(dimension, mine));
     });
   }

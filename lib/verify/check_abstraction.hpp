@@ -12,11 +12,11 @@ namespace coordreq {
 /// True if every cell of `inner` is one of `outer`, in a periodic dimension after wrapping round.
 [[nodiscard]] bool holds(const GridDimension& dimension, IndexRange outer, IndexRange inner);
 
-/// Compares a table with the verifier's own, exact one of the same state: both have to be equal.
-/// @param asked which entries; all if empty
+/// Compares a table with the verifier's own, exact one of the same state: both have to be equal in all that
+/// the latter has.
 /// @param what the name of the check, before that of the state
 [[nodiscard]] Finding check_abstraction(const UniformGrid& grid, const InputSpace& inputs, std::size_t state,
                                         const PostTable& own, const PostTable& claimed,
-                                        const std::vector<bool>& asked, const std::string& what);
+                                        const std::string& what);
 
 }  // namespace coordreq

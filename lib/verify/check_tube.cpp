@@ -21,16 +21,15 @@ TubeTally::TubeTally(const PostQuestion& question)
     : question_(question),
       dimension_((*question.grid)[question.state]),
       claimed_(*question.claimed),
-      asked_(entries_of(*question.grid, *question.inputs, claimed_, *question.cells)),
       tally_("tubes " + dimension_.name) {}
 
-bool TubeTally::is_unbounded(std::int64_t entry) const {
-  const IndexRange claimed = claimed_.entries[static_cast<std::size_t>(entry)];
+bool TubeTally::is_unbounded(std::int64_t place) const {
+  const IndexRange claimed = claimed_.at(place);
   return claimed.first == INT32_MIN && claimed.last == INT32_MAX;
 }
 
-bool TubeTally::is_enough(std::int64_t entry, std::int64_t by, const std::vector<OwnTube>& own) const {
-  const IndexRange claimed = claimed_.entries[static_cast<std::size_t>(entry)];
+bool TubeTally::is_enough(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& own) const {
+  const IndexRange claimed = claimed_.at(place);
   return !own.empty() && std::all_of(own.begin(), own.end(), [&](const OwnTube& tube) {
     return holds(dimension_, claimed, moved(tube.outer, by));
   });
@@ -45,10 +44,10 @@ bool TubeTally::is_exact(IndexRange claimed, std::int64_t by, const std::vector<
   return holds(dimension_, all, claimed);
 }
 
-void TubeTally::add(std::int64_t entry, std::int64_t by, const std::vector<OwnTube>& own) {
+void TubeTally::add(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& own) {
   tally_.add_checked(1);
-  const IndexRange claimed = claimed_.entries[static_cast<std::size_t>(entry)];
-  if (is_enough(entry, by, own)) {
+  const IndexRange claimed = claimed_.at(place);
+  if (is_enough(place, by, own)) {
     if (exact_ && !is_exact(claimed, by, own)) exact_ = false;
     return;
   }
@@ -56,20 +55,20 @@ void TubeTally::add(std::int64_t entry, std::int64_t by, const std::vector<OwnTu
   for (const OwnTube& tube : own) {
     const IndexRange needed = moved(tube.inner, by);
     if (holds(dimension_, claimed, needed)) continue;
-    tally_.add_wrong(entry, [&] { return text_of(entry, needed); });
+    tally_.add_wrong(place, [&] { return text_of(place, needed); });
     return;
   }
-  tally_.add_unproven(entry, [&] {
+  tally_.add_unproven(place, [&] {
     return own.empty()
-               ? entry_text(*question_.grid, *question_.inputs, claimed_, entry) + ": no bound was found"
-               : text_of(entry, moved(own.front().outer, by));
+               ? entry_text(*question_.grid, *question_.inputs, claimed_, place) + ": no bound was found"
+               : text_of(place, moved(own.front().outer, by));
   });
 }
 
-std::string TubeTally::text_of(std::int64_t entry, IndexRange needed) const {
-  const IndexRange claimed = claimed_.entries[static_cast<std::size_t>(entry)];
+std::string TubeTally::text_of(std::int64_t place, IndexRange needed) const {
+  const IndexRange claimed = claimed_.at(place);
   return fmt::format("{}: {} {}, expected at least {}",
-                     entry_text(*question_.grid, *question_.inputs, claimed_, entry), dimension_.name,
+                     entry_text(*question_.grid, *question_.inputs, claimed_, place), dimension_.name,
                      range_text(dimension_, claimed), range_text(dimension_, needed));
 }
 

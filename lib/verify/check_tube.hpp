@@ -39,29 +39,24 @@ class TubeTally {
   /// REQUIRES: what `question` points to outlives this object.
   explicit TubeTally(const PostQuestion& question);
 
-  /// Whether the entry is asked about.
-  [[nodiscard]] bool is_asked(std::int64_t entry) const {
-    return asked_.empty() || asked_[static_cast<std::size_t>(entry)];
-  }
   /// True if the entry holds all that is enough.
-  [[nodiscard]] bool is_enough(std::int64_t entry, std::int64_t by, const std::vector<OwnTube>& own) const;
+  [[nodiscard]] bool is_enough(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& own) const;
   /// @param by how far up the own tubes have to be moved
   /// @param own one for each piece of the cell; empty: there are no bounds
-  void add(std::int64_t entry, std::int64_t by, const std::vector<OwnTube>& own);
+  void add(std::int64_t place, std::int64_t by, const std::vector<OwnTube>& own);
   /// The entry says that nothing is known, which blocks the pair: no tube need be computed.
   void add_unbounded() { tally_.add_checked(1); }
-  [[nodiscard]] bool is_unbounded(std::int64_t entry) const;
+  [[nodiscard]] bool is_unbounded(std::int64_t place) const;
 
   [[nodiscard]] TubeFinding finding(bool may_be_exact);
 
  private:
   [[nodiscard]] bool is_exact(IndexRange claimed, std::int64_t by, const std::vector<OwnTube>& own) const;
-  [[nodiscard]] std::string text_of(std::int64_t entry, IndexRange needed) const;
+  [[nodiscard]] std::string text_of(std::int64_t place, IndexRange needed) const;
 
   const PostQuestion& question_;
   const GridDimension& dimension_;
   const PostTable& claimed_;
-  std::vector<bool> asked_;  ///< [entry]; empty: all
   Tally tally_;
   std::atomic<bool> exact_{true};
 };

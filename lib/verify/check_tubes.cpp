@@ -1,6 +1,8 @@
 #include "verify/check_tubes.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "answers/invariance/safe_tubes.hpp"
 #include "verify/check_tube.hpp"
@@ -10,16 +12,13 @@
 namespace coordreq {
 namespace {
 
-std::vector<PostTable> tables_of(const ProblemSpec& spec, const Abstraction& analysis) {
-  const Abstraction tubes{.grid = analysis.grid, .inputs = analysis.inputs, .tables = analysis.tubes};
-  std::vector<PostTable> tables;
-  for (std::size_t i = 0; i < analysis.grid.size(); ++i) {
-    PostTable& table =
-        tables.emplace_back(empty_table(analysis.grid, analysis.inputs, influences_on(spec, i)));
-    table.exact = false;
-    table.entries = written_out(tubes, i).entries;
-  }
-  return tables;
+/// Whether it makes a difference that tubes go on beyond limits (see safe_beyond_limits()).
+bool may_go_beyond(const ProblemSpec& spec) {
+  const std::vector<std::uint32_t> states = spec.safe.variables();
+  return spec.abstraction.safe != Membership::center &&
+         std::any_of(states.begin(), states.end(), [&](std::uint32_t i) {
+           return spec.states[i].below == Outside::saturate || spec.states[i].above == Outside::saturate;
+         });
 }
 
 std::vector<std::uint8_t> beyond_limits(const ProblemSpec& spec, const Abstraction& analysis,
@@ -36,22 +35,31 @@ std::vector<std::uint8_t> beyond_limits(const ProblemSpec& spec, const Abstracti
   return result;
 }
 
+/// How far any tube goes beyond a limit is a question about all of them.
+Finding find_beyond(const ProblemSpec& spec, const UniformGrid& grid, AnalysisTables& analysis,
+                    const std::vector<std::uint8_t>& safe, CheckedTubes& result, ThreadTeam& team) {
+  std::vector<PostTable> tables;
+  for (std::size_t i = 0; i < grid.size(); ++i) tables.push_back(analysis.whole_tubes(i));
+  result.beyond = beyond_limits(spec, analysis.whole(), safe, team);
+  return SafeBeyond(spec, grid, tables).check(safe, result.beyond, team);
+}
+
 }  // namespace
 
-CheckedTubes check_tubes(const ProblemSpec& spec, const Abstraction& analysis,
-                         const std::vector<std::uint8_t>& safe, const std::vector<std::int64_t>& cells,
+CheckedTubes check_tubes(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+                         AnalysisTables& analysis, const std::vector<std::uint8_t>& safe,
                          const Budget& budget, ThreadTeam& team) {
-  CheckedTubes result{.tables = tables_of(spec, analysis),
-                      .beyond = beyond_limits(spec, analysis, safe, team)};
-  const UniformGrid& grid = analysis.grid;
-  const InputSpace& inputs = analysis.inputs;
+  CheckedTubes result{.tables = {}, .beyond = safe};
+  std::optional<Finding> beyond;
+  if (may_go_beyond(spec)) beyond = find_beyond(spec, grid, analysis, safe, result, team);
+  for (std::size_t i = 0; i < grid.size(); ++i) result.tables.push_back(analysis.tubes(i));
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const PostQuestion question{.spec = &spec,
                                 .grid = &grid,
                                 .inputs = &inputs,
                                 .state = i,
                                 .claimed = &result.tables[i],
-                                .cells = &cells,
+                                .cells = &analysis.cells(),
                                 .budget = &budget,
                                 .check = "tubes " + grid[i].name};
     std::optional<TubeFinding> found = check_corner_tubes(question, team);
@@ -63,8 +71,7 @@ CheckedTubes check_tubes(const ProblemSpec& spec, const Abstraction& analysis,
       result.borrowed.push_back(grid[i].name);
     }
   }
-  Finding beyond = SafeBeyond(spec, grid, result.tables).check(safe, result.beyond, team);
-  if (beyond.checked > 0 || beyond.wrong > 0) result.findings.push_back(std::move(beyond));
+  if (beyond && (beyond->checked > 0 || beyond->wrong > 0)) result.findings.push_back(std::move(*beyond));
   return result;
 }
 

@@ -6,8 +6,8 @@
 #include "answers/checking/post_table.hpp"
 #include "answers/checking/tally.hpp"
 #include "base/thread_team.hpp"
-#include "reach/abstraction.hpp"
 #include "spec/problem_spec.hpp"
+#include "verify/analysis_tables.hpp"
 #include "verify/budget.hpp"
 
 namespace coordreq {
@@ -23,12 +23,11 @@ struct CheckedTubes {
 
 /// Takes the tubes of an abstraction and what is safe beyond its limits, which no results file stores, and
 /// checks both by another route.
-/// @param analysis an abstraction of `spec` with tubes
+/// @param analysis of `spec`, with tubes
 /// @param safe S as the file has it
-/// @param cells only tubes of these are checked; all if empty
-[[nodiscard]] CheckedTubes check_tubes(const ProblemSpec& spec, const Abstraction& analysis,
-                                       const std::vector<std::uint8_t>& safe,
-                                       const std::vector<std::int64_t>& cells, const Budget& budget,
+[[nodiscard]] CheckedTubes check_tubes(const ProblemSpec& spec, const UniformGrid& grid,
+                                       const InputSpace& inputs, AnalysisTables& analysis,
+                                       const std::vector<std::uint8_t>& safe, const Budget& budget,
                                        ThreadTeam& team);
 
 }  // namespace coordreq

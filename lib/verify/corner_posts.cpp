@@ -18,8 +18,10 @@ struct Contribution {
     Rational one;
     Rational other;
   };
-  std::int64_t stride = 0;
-  std::vector<std::vector<Ends>> cells;  ///< [cell][piece]
+  std::size_t source = 0;
+  Rational factor;
+  bool cut = false;                      ///< at the seam
+  std::vector<std::vector<Ends>> cells;  ///< [cell][piece], once they are asked for
 };
 
 class CornerPosts {
@@ -32,8 +34,8 @@ class CornerPosts {
         state_(state),
         target_(grid[state]),
         influences_(influences_on(spec, state)),
-        table_(empty_table(grid, inputs, influences_)),
-        asked_(entries_of(grid, inputs, table_, cells)) {}
+        table_(empty_table(grid, inputs, influences_, cells)),
+        cells_(grid_, influences_, table_) {}
 
   std::optional<PostTable> run(ThreadTeam& team) {
     const ParameterChoices choices(spec_, grid_, inputs_, influences_, table_);
@@ -61,22 +63,18 @@ class CornerPosts {
  private:
   void fill(const SampledMap& map, std::int64_t base) {
     std::vector<Contribution> parts;
-    std::vector<std::int64_t> counts;
     const bool cut = jumps_at_a_seam(map);
     for (std::size_t j = 0; j < influences_.moving.size(); ++j) {
       // A state that others only move along goes round with its cell: that need not be cut at the seam.
-      const bool follows = influences_.moving[j] == state_ && map.coefficient[j] == 1;
-      parts.push_back(contribution(influences_.moving[j], map.coefficient[j], cut && !follows));
-      counts.push_back(grid_[influences_.moving[j]].count);
+      const std::size_t source = influences_.moving[j];
+      const bool follows = source == state_ && map.coefficient[j] == 1;
+      parts.push_back({source, map.coefficient[j], cut && !follows, {}});
+      parts.back().cells.resize(static_cast<std::size_t>(grid_[source].count));
     }
     const bool attained = !map.exact || !grows_with_an_open_cell(map);
-    Odometer cell(counts);
-    do {
-      std::int64_t position = base;
-      for (std::size_t j = 0; j < parts.size(); ++j) position += cell[j] * parts[j].stride;
-      const auto place = static_cast<std::size_t>(position);
-      if (asked_.empty() || asked_[place]) table_.entries[place] = post(map, parts, cell, attained);
-    } while (cell.advance());
+    cells_.for_each(base, std::nullopt, [&](const std::vector<std::int64_t>& cell, std::int64_t place) {
+      table_.entries[*table_.find(place)] = post(map, parts, cell, attained);
+    });
   }
 
   /// Equations see the representative in [lower, upper) of a periodic state, so that a value jumps at the
@@ -98,30 +96,25 @@ class CornerPosts {
     return false;
   }
 
-  [[nodiscard]] Contribution contribution(std::size_t source, const Rational& factor, bool cut) const {
-    const GridDimension& dimension = grid_[source];
-    Contribution result{.stride = table_.state_stride[source]};
+  const std::vector<Contribution::Ends>& ends_of(Contribution& part, std::int64_t k) const {
+    auto& ends = part.cells[static_cast<std::size_t>(k)];
+    if (!ends.empty()) return ends;
+    const GridDimension& dimension = grid_[part.source];
     const Rational reach = dimension.radius() + dimension.measurement_error;
-    for (std::int64_t k = 0; k < dimension.count; ++k) {
-      auto& ends = result.cells.emplace_back();
-      if (!cut) {
-        const Rational centre = dimension.point(k);
-        ends.push_back({Rational(factor * (centre - reach)), Rational(factor * (centre + reach))});
-        continue;
-      }
-      for (const Piece& piece : pieces(dimension, k))
-        ends.push_back({Rational(factor * piece.lower), Rational(factor * piece.upper)});
-    }
-    return result;
+    std::vector<Piece> places = {{dimension.point(k) - reach, dimension.point(k) + reach}};
+    if (part.cut) places = pieces(dimension, k);
+    for (const Piece& place : places)
+      ends.push_back({Rational(part.factor * place.lower), Rational(part.factor * place.upper)});
+    return ends;
   }
 
   /// The cells met from all pieces of one cell.
-  [[nodiscard]] IndexRange post(const SampledMap& map, const std::vector<Contribution>& parts,
-                                const Odometer& cell, bool attained) const {
+  [[nodiscard]] IndexRange post(const SampledMap& map, std::vector<Contribution>& parts,
+                                const std::vector<std::int64_t>& cell, bool attained) const {
     std::vector<const std::vector<Contribution::Ends>*> ends;
     std::vector<std::int64_t> counts;
     for (std::size_t j = 0; j < parts.size(); ++j) {
-      ends.push_back(&parts[j].cells[static_cast<std::size_t>(cell[j])]);
+      ends.push_back(&ends_of(parts[j], cell[j]));
       counts.push_back(static_cast<std::int64_t>(ends.back()->size()));
     }
     std::optional<IndexRange> range;
@@ -170,7 +163,7 @@ class CornerPosts {
   const GridDimension& target_;
   Influences influences_;
   PostTable table_;
-  std::vector<bool> asked_;  ///< [entry]; empty: all
+  CellsOfTable cells_;
 };
 
 }  // namespace

@@ -18,8 +18,10 @@ struct TimedPart {
     TimePolynomial upper;
   };
   int sign = 0;  ///< of the coefficient all the time; 0: both ends can be the extreme
-  std::int64_t stride = 0;
-  std::vector<std::vector<Ends>> cells;  ///< [cell][piece]
+  std::size_t source = 0;
+  TimePolynomial factor;                 ///< in steps
+  bool cut = false;                      ///< at the seam
+  std::vector<std::vector<Ends>> cells;  ///< [cell][piece], once they are asked for
 };
 
 /// The tubes of all cells for one choice of inputs and parameters.
@@ -32,25 +34,20 @@ class CornerTubes {
         state_(state),
         target_(grid[state]),
         claimed_(claimed),
+        cells_(grid, influences, claimed),
         tau_(spec.dynamics.period),
         tally_(tally) {}
 
   void check(const TimedMap& map, std::int64_t base) {
     find_parts(map);
-    std::vector<std::int64_t> counts;
-    for (const TimedPart& part : parts_) counts.push_back(static_cast<std::int64_t>(part.cells.size()));
-    Odometer cell(counts);
-    do {
-      std::int64_t position = base;
-      for (std::size_t j = 0; j < parts_.size(); ++j) position += cell[j] * parts_[j].stride;
-      std::vector<OwnTube> own;
+    const auto left_out = follows_ ? std::optional(state_) : std::nullopt;
+    cells_.for_each(base, left_out, [&](const std::vector<std::int64_t>& cell, std::int64_t first) {
+      const std::vector<OwnTube> own = tubes(map, cell);
       for (std::int64_t k = 0; k < (follows_ ? target_.count : 1); ++k) {
-        const std::int64_t entry = position + k * claimed_.state_stride[state_];
-        if (!tally_.is_asked(entry)) continue;
-        if (own.empty()) own = tubes(map, cell);
-        tally_.add(entry, k, own);
+        const std::int64_t place = first + k * claimed_.state_stride[state_];
+        if (claimed_.find(place)) tally_.add(place, k, own);
       }
-    } while (cell.advance());
+    });
   }
 
  private:
@@ -62,8 +59,12 @@ class CornerTubes {
       const std::size_t source = influences_.moving[j];
       const bool follows = source == state_ && map.coefficient[j].is_one();
       follows_ = follows_ || follows;
-      parts_.push_back(
-          part_of(source, map.coefficient[j], cut && !follows, follows ? 1 : grid_[source].count));
+      parts_.push_back({sign_on(map.coefficient[j], tau_),
+                        source,
+                        map.coefficient[j] * (1 / target_.step),
+                        cut && !follows,
+                        {}});
+      parts_.back().cells.resize(static_cast<std::size_t>(grid_[source].count));
     }
   }
 
@@ -77,25 +78,21 @@ class CornerTubes {
     return false;
   }
 
-  [[nodiscard]] TimedPart part_of(std::size_t source, const TimePolynomial& factor, bool cut,
-                                  std::int64_t cells) const {
-    const GridDimension& dimension = grid_[source];
-    TimedPart part{.sign = sign_on(factor, tau_), .stride = claimed_.state_stride[source]};
+  const std::vector<TimedPart::Ends>& ends_of(TimedPart& part, std::int64_t k) const {
+    auto& ends = part.cells[static_cast<std::size_t>(k)];
+    if (!ends.empty()) return ends;
+    const GridDimension& dimension = grid_[part.source];
     const Rational reach = dimension.radius() + dimension.measurement_error;
-    const TimePolynomial in_steps = factor * (1 / target_.step);
-    for (std::int64_t k = 0; k < cells; ++k) {
-      std::vector<Piece> places = {{dimension.point(k) - reach, dimension.point(k) + reach}};
-      if (cut) places = pieces(dimension, k);
-      auto& ends = part.cells.emplace_back();
-      for (const Piece& place : places) ends.push_back({in_steps * place.lower, in_steps * place.upper});
-    }
-    return part;
+    std::vector<Piece> places = {{dimension.point(k) - reach, dimension.point(k) + reach}};
+    if (part.cut) places = pieces(dimension, k);
+    for (const Piece& place : places) ends.push_back({part.factor * place.lower, part.factor * place.upper});
+    return ends;
   }
 
-  [[nodiscard]] std::vector<OwnTube> tubes(const TimedMap& map, const Odometer& cell) const {
+  [[nodiscard]] std::vector<OwnTube> tubes(const TimedMap& map, const std::vector<std::int64_t>& cell) {
     std::vector<std::int64_t> counts;
     for (std::size_t j = 0; j < parts_.size(); ++j)
-      counts.push_back(static_cast<std::int64_t>(parts_[j].cells[static_cast<std::size_t>(cell[j])].size()));
+      counts.push_back(static_cast<std::int64_t>(ends_of(parts_[j], cell[j]).size()));
     std::vector<OwnTube> result;
     Odometer piece(counts);
     do {
@@ -171,6 +168,7 @@ class CornerTubes {
   std::size_t state_;
   const GridDimension& target_;
   const PostTable& claimed_;
+  CellsOfTable cells_;
   const Rational& tau_;
   TubeTally& tally_;
   std::vector<TimedPart> parts_;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "answers/checking/cell_place.hpp"
+#include "answers/checking/posts.hpp"
 #include "model/odometer.hpp"
 #include "verify/map_extremes.hpp"
 #include "verify/piece_choices.hpp"
@@ -65,7 +66,7 @@ class OutwardPosts {
     if (group_.shifts) slots_[spec_.state_slot(group_.states.front())] = span_of(0, 0);
     for (const PostQuestion& question : questions_) {
       tallies_.emplace_back(question.check);
-      tallies_.back().add_checked(static_cast<std::int64_t>(open_.size()) * copies());
+      tallies_.back().add_checked(static_cast<std::int64_t>(question.claimed->entries.size()));
       tallies_.back().set_note("enclosures");
     }
   }
@@ -94,10 +95,10 @@ class OutwardPosts {
     }
     static constexpr std::size_t kMostSettled = 64;
   };
-  /// A claim and the entries of its table that make it.
+  /// A claim and the places of its table's entries that make it.
   struct Claimed {
     PostClaim claim;
-    std::vector<std::int64_t> entries;
+    std::vector<std::int64_t> places;
   };
 
   [[nodiscard]] std::vector<Open> open_choices() const {
@@ -138,6 +139,7 @@ class OutwardPosts {
       asked.push_back(all[c].claim);
       numbers.push_back(c);
     }
+    if (asked.empty()) return true;
     const std::vector<PostProof> proofs =
         over ? std::vector<PostProof>(asked.size(), {PostVerdict::open, "the budget ended"})
              : prove(choice, asked, effort, prover);
@@ -149,7 +151,7 @@ class OutwardPosts {
       }
       open.settle(numbers[k]);
       const Claimed& one = all[numbers[k]];
-      for (const std::int64_t entry : one.entries) note(one.claim.target, entry, proofs[k]);
+      for (const std::int64_t place : one.places) note(one.claim.target, place, proofs[k]);
     }
     return settled;
   }
@@ -161,18 +163,30 @@ class OutwardPosts {
     for (std::size_t t = 0; t < group_.states.size(); ++t) {
       const std::size_t first = result.size();
       for (std::int64_t k = 0; k < copies(); ++k) {
-        const std::int64_t entry = base + (group_.shifts ? k * table(t).state_stride[group_.states[t]] : 0);
-        const IndexRange range = back(table(t).entries[static_cast<std::size_t>(entry)], k);
+        const std::int64_t place = base + (group_.shifts ? k * table(t).state_stride[group_.states[t]] : 0);
+        const std::optional<std::size_t> entry = table(t).find(place);
+        if (!entry || is_given_up(place)) continue;
+        const IndexRange range = back(table(t).entries[*entry], k);
         const auto known = std::find_if(result.begin() + static_cast<std::ptrdiff_t>(first), result.end(),
                                         [&](const Claimed& one) { return one.claim.range == range; });
         if (known != result.end()) {
-          known->entries.push_back(entry);
+          known->places.push_back(place);
         } else {
-          result.push_back({{t, range}, {entry}});
+          result.push_back({{t, range}, {place}});
         }
       }
     }
     return result;
+  }
+
+  /// A state that is said to end anywhere leaves its domain, so that there is no post: nothing is claimed.
+  [[nodiscard]] bool is_given_up(std::int64_t place) const {
+    for (std::size_t t = 0; t < group_.states.size(); ++t) {
+      const IndexRange range = table(t).at(place);
+      const bool anywhere = range.first == INT32_MIN && range.last == INT32_MAX;
+      if (anywhere && after_leaving(range, grid_[group_.states[t]]).blocked) return true;
+    }
+    return false;
   }
 
   [[nodiscard]] static IndexRange back(IndexRange range, std::int64_t by) {
@@ -200,22 +214,22 @@ class OutwardPosts {
     return worst;
   }
 
-  void note(std::size_t target, std::int64_t entry, const PostProof& proof) {
+  void note(std::size_t target, std::int64_t place, const PostProof& proof) {
     const GridDimension& dimension = grid_[group_.states[target]];
-    const IndexRange range = table(target).entries[static_cast<std::size_t>(entry)];
+    const IndexRange range = table(target).at(place);
     const bool has_limits = with_measurements_at_limits(dimension, spec_.abstraction.cells, range) == range;
-    const auto place = [&] { return entry_text(grid_, inputs_, table(target), entry); };
+    const auto where = [&] { return entry_text(grid_, inputs_, table(target), place); };
     const auto describe = [&] {
-      return fmt::format("{}: {} {}, but {}", place(), dimension.name, range_text(dimension, range),
+      return fmt::format("{}: {} {}, but {}", where(), dimension.name, range_text(dimension, range),
                          has_limits ? proof.why : "without the cells that may be measured at a limit");
     };
     Tally& tally = tallies_[target];
     if (range.first > range.last) {
-      tally.add_wrong(entry, [&] { return place() + ": no cell at all"; });
+      tally.add_wrong(place, [&] { return where() + ": no cell at all"; });
     } else if (proof.verdict == PostVerdict::wrong) {
-      tally.add_wrong(entry, describe);
+      tally.add_wrong(place, describe);
     } else if (proof.verdict == PostVerdict::open || !has_limits) {
-      tally.add_unproven(entry, describe);
+      tally.add_unproven(place, describe);
     }
   }
 
@@ -236,8 +250,9 @@ class OutwardPosts {
 };
 
 bool can_be_asked(const PostQuestion& question, const Influences& influences) {
-  const PostTable shape = empty_table(*question.grid, *question.inputs, influences);
+  const PostTable shape = empty_table(*question.grid, *question.inputs, influences, *question.cells);
   return !has_stops(*question.spec, influences) && !jumps_on_the_way(*question.spec, influences) &&
+         question.claimed->states == shape.states && question.claimed->inputs == shape.inputs &&
          question.claimed->entries.size() == shape.entries.size();
 }
 

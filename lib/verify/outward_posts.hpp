@@ -19,7 +19,7 @@ struct PostQuestion {
   const InputSpace* inputs = nullptr;
   std::size_t state = 0;
   const PostTable* claimed = nullptr;
-  const std::vector<std::int64_t>* cells = nullptr;  ///< only entries of these, ascending; all if empty
+  const std::vector<std::int64_t>* cells = nullptr;  ///< whose entries `claimed` has, ascending; all if empty
   const Budget* budget = nullptr;
   std::string check;  ///< name of the finding
 };

@@ -55,20 +55,21 @@ class OutwardTubes {
 
  private:
   void check(const Odometer& choice, FlowExtremes& flow) {
-    const std::int64_t position = choices_.position(choice);
-    const std::int64_t entries = alike_ ? target_.count : 1;
-    const bool unbounded = tally_.is_unbounded(position);
+    const std::int64_t stride = claimed_.state_stride[state_];
+    std::int64_t place = choices_.position(choice);
+    std::int64_t k = 0;
+    for (; !claimed_.find(place); place += stride) ++k;
+    const bool unbounded = tally_.is_unbounded(place);
     std::vector<OwnTube> own;
     for (const Effort& effort : kEfforts) {
-      if (unbounded || budget_.is_over() || tally_.is_enough(position, 0, own)) break;
+      if (unbounded || budget_.is_over() || tally_.is_enough(place, k, own)) break;
       std::optional<std::vector<OwnTube>> next = tubes(choice, flow, effort);
       if (next) own = std::move(*next);
     }
-    for (std::int64_t k = 0; k < entries; ++k) {
-      const std::int64_t entry = position + k * claimed_.state_stride[state_];
-      if (!tally_.is_asked(entry)) continue;
+    for (; k < (alike_ ? target_.count : 1); ++k, place += stride) {
+      if (!claimed_.find(place)) continue;
       if (unbounded) tally_.add_unbounded();
-      if (!unbounded) tally_.add(entry, k, own);
+      if (!unbounded) tally_.add(place, k, own);
     }
   }
 

@@ -6,7 +6,8 @@
 
 namespace coordreq {
 
-PostTable empty_table(const UniformGrid& grid, const InputSpace& inputs, const Influences& influences) {
+PostTable empty_table(const UniformGrid& grid, const InputSpace& inputs, const Influences& influences,
+                      const std::vector<std::int64_t>& cells) {
   PostTable table{.states = influences.moving, .inputs = influences.inputs};
   table.states.insert(table.states.end(), influences.parameters.begin(), influences.parameters.end());
   std::sort(table.states.begin(), table.states.end());
@@ -21,7 +22,8 @@ PostTable empty_table(const UniformGrid& grid, const InputSpace& inputs, const I
     table.state_stride[*j] = entries;
     entries *= grid[*j].count;
   }
-  table.entries.resize(static_cast<std::size_t>(entries));
+  table.places = entry_places(table, grid, inputs, cells);
+  table.entries.resize(cells.empty() ? static_cast<std::size_t>(entries) : table.places.size());
   return table;
 }
 

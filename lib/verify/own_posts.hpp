@@ -13,8 +13,9 @@
 namespace coordreq {
 
 /// A table of the right size without its entries.
+/// @param cells only entries of these, with all inputs; all if empty
 [[nodiscard]] PostTable empty_table(const UniformGrid& grid, const InputSpace& inputs,
-                                    const Influences& influences);
+                                    const Influences& influences, const std::vector<std::int64_t>& cells);
 
 /// Raw indices of the cells that meet [lower, upper] (contract, "Cells"); the upper end alone may be missing.
 [[nodiscard]] IndexRange cells_met(const GridDimension& dimension, Cells cells, const Rational& lower,

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
 #include <vector>
 
 #include "model/input_space.hpp"
@@ -55,6 +59,61 @@ class ParameterChoices {
   const PostTable& table_;
   std::vector<std::int64_t> counts_;
   std::int64_t size_ = 1;
+};
+
+/// The cells that a table has entries of, for one choice of parameters and inputs after the other. Immutable.
+class CellsOfTable {
+ public:
+  /// REQUIRES: all outlive this object.
+  CellsOfTable(const UniformGrid& grid, const Influences& influences, const PostTable& table)
+      : grid_(grid), influences_(influences), table_(table) {
+    for (const std::int64_t place : table.places) {
+      std::int64_t base = place;
+      for (const std::size_t j : influences.moving) base -= index_of(place, j) * table.state_stride[j];
+      places_[base].push_back(place);
+    }
+  }
+
+  /// Calls `visit(indices of the moving states, place)` for each.
+  /// @param base as ParameterChoices::position()
+  /// @param left_out a state whose index is not told, but 0: one visit for all of them
+  template <class Visit>
+  void for_each(std::int64_t base, std::optional<std::size_t> left_out, const Visit& visit) const {
+    if (table_.places.empty()) return for_all(base, left_out, visit);
+    const auto places = places_.find(base);
+    if (places == places_.end()) return;
+    std::set<std::int64_t> visited;
+    for (std::int64_t place : places->second) {
+      std::vector<std::int64_t> indices;
+      for (const std::size_t j : influences_.moving)
+        indices.push_back(j == left_out ? 0 : index_of(place, j));
+      if (left_out) place -= index_of(place, *left_out) * table_.state_stride[*left_out];
+      if (visited.insert(place).second) visit(indices, place);
+    }
+  }
+
+ private:
+  [[nodiscard]] std::int64_t index_of(std::int64_t place, std::size_t state) const {
+    return place / table_.state_stride[state] % grid_[state].count;
+  }
+
+  template <class Visit>
+  void for_all(std::int64_t base, std::optional<std::size_t> left_out, const Visit& visit) const {
+    std::vector<std::int64_t> counts;
+    for (const std::size_t j : influences_.moving) counts.push_back(j == left_out ? 1 : grid_[j].count);
+    Odometer cell(counts);
+    do {
+      std::int64_t place = base;
+      for (std::size_t j = 0; j < counts.size(); ++j)
+        place += cell[j] * table_.state_stride[influences_.moving[j]];
+      visit(cell.indices(), place);
+    } while (cell.advance());
+  }
+
+  const UniformGrid& grid_;
+  const Influences& influences_;
+  const PostTable& table_;
+  std::map<std::int64_t, std::vector<std::int64_t>> places_;  ///< [base], if some are left out
 };
 
 }  // namespace coordreq

@@ -8,7 +8,7 @@
 
 #include "answers/checking/answer_check.hpp"
 #include "answers/plan.hpp"
-#include "reach/build_abstraction.hpp"
+#include "verify/analysis_tables.hpp"
 #include "verify/check_abstraction.hpp"
 #include "verify/check_cells.hpp"
 #include "verify/check_tubes.hpp"
@@ -59,6 +59,7 @@ class Verifier {
     report({.stage = "posts"});
     find_posts();
     if (spec_.abstraction.between_samples) find_tubes();
+    if (analysis_) result_.posts_computed = analysis_->entries_built();
     check_answers(make_posts(grid_, inputs_, tables_));
     return std::move(result_);
   }
@@ -96,14 +97,14 @@ class Verifier {
       std::optional<PostTable> own = corner_posts(spec_, grid_, inputs_, i, cells_of_posts_, team_);
       if (own && own->exact) {
         if (stored) {
-          findings[i] = check_abstraction(grid_, inputs_, i, *own, claims_.abstraction[i],
-                                          entries_of(grid_, inputs_, *own, cells_of_posts_), "abstraction");
+          findings[i] = check_abstraction(grid_, inputs_, i, *own, claims_.abstraction[i], "abstraction");
         }
         tables_.push_back(std::move(*own));
         continue;
       }
       result_.basis = stored ? PostBasis::stored : PostBasis::computed;
-      tables_.push_back(stored ? claims_.abstraction[i] : table_of_analysis(i));
+      tables_.push_back(stored ? part_of(claims_.abstraction[i], grid_, inputs_, cells_of_posts_)
+                               : analysis().posts(i));
       enclosed.push_back(i);
     }
     budget_.emplace(options_.budget_seconds, team_.size());
@@ -140,7 +141,7 @@ class Verifier {
 
   void find_tubes() {
     report({.stage = "tubes"});
-    CheckedTubes checked = check_tubes(spec_, analysis(), claims_.safe, sample_, *budget_, team_);
+    CheckedTubes checked = check_tubes(spec_, grid_, inputs_, analysis(), claims_.safe, *budget_, team_);
     result_.tubes = checked.exact ? PostBasis::exact : PostBasis::computed;
     for (const std::string& state : checked.borrowed) borrow(state);
     append(result_.findings, std::move(checked.findings));
@@ -153,16 +154,9 @@ class Verifier {
     if (std::find(names.begin(), names.end(), state) == names.end()) names.push_back(state);
   }
 
-  [[nodiscard]] const Abstraction& analysis() {
-    if (!analysis_) analysis_ = build_abstraction(spec_, team_);
+  [[nodiscard]] AnalysisTables& analysis() {
+    if (!analysis_) analysis_.emplace(spec_, grid_, inputs_, cells_of_posts_, team_);
     return *analysis_;
-  }
-
-  [[nodiscard]] PostTable table_of_analysis(std::size_t state) {
-    PostTable table = empty_table(grid_, inputs_, influences_on(spec_, state));
-    table.exact = false;
-    table.entries = written_out(analysis(), state).entries;
-    return table;
   }
 
   void check_answers(const Posts& posts) {
@@ -197,7 +191,7 @@ class Verifier {
   std::vector<PostTable> tables_;
   std::vector<PostTable> tube_tables_;
   std::optional<Tubes> tubes_;
-  std::optional<Abstraction> analysis_;
+  std::optional<AnalysisTables> analysis_;  ///< once it is asked for
   Verification result_;
 };
 

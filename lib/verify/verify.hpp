@@ -53,8 +53,9 @@ struct Verification {
   /// States whose reachable sets, or ways between the samples, are only those of the analysis, computed anew:
   /// the verifier's own integrator does not do for them.
   std::vector<std::string> borrowed;
-  std::int64_t enclosed = 0;   ///< reachable sets that are not exact and were looked at
-  std::int64_t confirmed = 0;  ///< how many of them the verifier's own enclosures confirm
+  std::int64_t enclosed = 0;        ///< reachable sets that are not exact and were looked at
+  std::int64_t confirmed = 0;       ///< how many of them the verifier's own enclosures confirm
+  std::int64_t posts_computed = 0;  ///< how many posts of the analysis, a state each, were worked out anew
   std::vector<Finding> findings;
 
   [[nodiscard]] Verdict verdict() const;

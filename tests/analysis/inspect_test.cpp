@@ -59,10 +59,10 @@ TEST(Inspect, MemoryGrowsWithTheCells) {
 }
 
 TEST(CheckMemory, RefusesWithTheEstimateBeforeAnythingRuns) {
-  EXPECT_NO_THROW(check_memory(spec_of("99"), std::nullopt, 1));
-  EXPECT_NO_THROW(check_memory(spec_of("99"), std::uint64_t{1} << 30, 1));
+  EXPECT_NO_THROW(check_memory(spec_of("99"), std::nullopt, 1, false));
+  EXPECT_NO_THROW(check_memory(spec_of("99"), std::uint64_t{1} << 30, 1, false));
   try {
-    check_memory(spec_of("99999999"), std::uint64_t{1} << 30, 1);
+    check_memory(spec_of("99999999"), std::uint64_t{1} << 30, 1, false);
     FAIL() << "expected a LimitError";
   } catch (const LimitError& error) {
     EXPECT_EQ(std::string(error.what()).substr(0, 22), "1e+09 cells need about");

@@ -59,9 +59,10 @@ class Cases(Case):
         return code, kib * 1024
 
     def assert_kept(self, spec, threads, codes=(0, 1)):
-        """@returns estimate and peak"""
+        """That analyze accepts what validate tells, and keeps to it. @returns estimate and peak"""
         options = ("--threads", str(threads))
         estimate = self.estimate(spec, *options)
+        options += ("--max-memory", str(round(1.02 * estimate)))  # the need is not told to the byte
         code, peak = self.peak("analyze", str(self.folder / spec), "-o", str(self.folder / "o.h5"), "--quiet", *options)
         self.assertIn(code, codes)
         self.assertLessEqual(peak, PERMITTED * estimate, f"{spec}, {threads} threads")
@@ -94,6 +95,18 @@ class Cases(Case):
         self.write("s.json", SPEC)
         self.assert_kept("s.json", 300)
 
+    def test_a_checkpoint(self):
+        """It takes some more than validate can tell."""
+        spec = str(CONFIGS / "circle_actions.json")
+        options = ("--threads", "2", "--quiet", "-o", str(self.folder / "o.h5"))
+        saved = ("--checkpoint", str(self.folder / "saved"), "--checkpoint-every", "0")
+        estimate = round(1.02 * self.estimate(spec, "--threads", "2"))
+        self.assertEqual(self.peak("analyze", spec, *options, *saved, "--max-memory", str(estimate))[0], 4)
+        limit = estimate + 5 * MEBI
+        code, peak = self.peak("analyze", spec, *options, *saved, "--max-memory", str(limit))
+        self.assertEqual(code, 0)
+        self.assertLessEqual(peak, PERMITTED * limit)
+
     def test_a_long_description(self):
         self.write("s.json", spec_with(description="x" * 20_000_000))
         estimate, _ = self.assert_kept("s.json", 2)
@@ -107,6 +120,17 @@ class Cases(Case):
         spec["output"] = dict.fromkeys(("controller", "actions", "layers", "abstraction"), True)
         self.write("s.json", spec)
         self.assert_kept("s.json", 32)
+
+    def test_what_was_not_estimated_is_refused_by_the_system(self):
+        """Short values take far more memory than their text says."""
+        text = json.dumps(spec_with(inputs=[{"name": "u", "values": "VALUES"}]))
+        (self.folder / "s.json").write_text(text.replace('"VALUES"', "[" + ",".join(["0"] * 3_000_000) + "]"))
+        for command in ("validate", "analyze"):
+            self.assert_fails(4, "more memory is needed than the limit allows, and than was estimated (--max-memory)",
+                              command, "s.json", "--max-memory", "50M", "--threads", "1")  # fmt: skip
+            code, peak = self.peak(command, str(self.folder / "s.json"), "--max-memory", "50M", "--threads", "1")
+            self.assertEqual(code, 4)
+            self.assertLessEqual(peak, PERMITTED * 50 * MEBI)
 
     def test_what_needs_more_is_refused(self):
         self.write("s.json", six_agents(agents=4))

@@ -77,7 +77,7 @@ class Cases(Case):
         self.assertEqual(
             list(summary),
             ["file", "name", "holds", "verdict", "cells", "cells_checked", "reachable_sets", "between_samples",
-             "not_independent", "confirmed", "checks", "threads", "seconds"],
+             "not_independent", "confirmed", "posts_computed", "checks", "threads", "seconds"],
         )  # fmt: skip
         self.assertEqual((summary["name"], summary["holds"], summary["reachable_sets"]), ("small", True, "exact"))
         self.assertEqual((summary["verdict"], summary["confirmed"]), ("holds", {"reachable_sets": 0, "of": 0}))
@@ -438,6 +438,27 @@ class Cases(Case):
         self.assertEqual(result.returncode, 0)
         self.assertEqual(summary["confirmed"]["of"], 3 * 2 * 9)  # cells, states that are not exact, joint inputs
         self.assertEqual(summary["confirmed"]["reachable_sets"], summary["confirmed"]["of"])
+
+    def test_a_sample_of_many_cells_costs_no_more_than_one_of_few(self):
+        """Reachable sets that are worked out, and those that are confirmed."""
+        for between_samples in (False, True):
+            costs = set()
+            for step in (0.25, 0.0625):
+                spec = spec_with(
+                    states=[{"name": n, "lower": -2, "upper": 2, "step": step, "outside": "unsafe"} for n in "xy"],
+                    inputs=[{"name": "u", "values": [-1, 0, 1]}],
+                    agents=[{"name": "a", "inputs": ["u"]}],
+                    dynamics={"time": "continuous", "period": 0.1, "equations": {"x": "y + 0.1*x^2", "y": "u - sin(x*y)"}},
+                    safe="x^2 + y^2 <= 3",
+                    abstraction={"between_samples": between_samples},
+                )
+                self.results(spec)
+                summary = json.loads(self.verify("results.h5", "--sample", "5", "--json").stdout)
+                self.assertEqual(summary["verdict"], "holds")
+                costs.add((summary["posts_computed"], summary["confirmed"]["of"]))
+                whole = json.loads(self.verify("results.h5", "--json").stdout)
+                self.assertGreater(whole["posts_computed"], 10 * summary["posts_computed"])
+            self.assertEqual(costs, {(5 * 2 * 3, 5 * 2 * 3)})  # cells, states, joint inputs
 
 
 if __name__ == "__main__":

@@ -26,9 +26,8 @@ Finding compare(const GridDimension& dimension, IndexRange own, IndexRange claim
     result.entries.assign(static_cast<std::size_t>(grid[0].count), range);
     return result;
   };
-  std::vector<bool> asked(static_cast<std::size_t>(dimension.count));
-  asked[2] = true;
-  return check_abstraction(grid, inputs, 0, table(own), table(claimed), asked, "abstraction");
+  const PostTable one = part_of(table(own), grid, inputs, {2});
+  return check_abstraction(grid, inputs, 0, one, table(claimed), "abstraction");
 }
 
 TEST(CheckAbstraction, AnExactRangeHasToBeEqual) {

@@ -38,7 +38,10 @@ Checked check(ProblemSpec spec) {
   ThreadTeam team(2);
   Abstraction analysis = build_abstraction(spec, team);
   const std::vector<std::uint8_t> safe(static_cast<std::size_t>(analysis.grid.cells()), 1);
-  CheckedTubes tubes = check_tubes(spec, analysis, safe, {}, Budget(60, team.size()), team);
+  const std::vector<std::int64_t> all;
+  AnalysisTables tables(spec, analysis.grid, analysis.inputs, all, team);
+  CheckedTubes tubes =
+      check_tubes(spec, analysis.grid, analysis.inputs, tables, safe, Budget(60, team.size()), team);
   return {std::move(spec), std::move(analysis), std::move(tubes)};
 }
 

@@ -3,12 +3,22 @@
 #include <fmt/format.h>
 
 namespace coordreq {
+namespace {
+
+/// Exactly, unless that is long: for people.
+std::string short_text(const Rational& value) {
+  constexpr std::size_t kLongest = 12;
+  std::string exact = to_text(value);
+  return exact.size() <= kLongest ? exact : fmt::format("{:.9g}", value.get_d());
+}
+
+}  // namespace
 
 std::string place_of(const UniformGrid& grid, std::int64_t cell) {
   std::string text;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     text += fmt::format("{}{} = {}", i == 0 ? "" : ", ", grid[i].name,
-                        to_text(grid[i].point(grid.index(cell, i))));
+                        short_text(grid[i].point(grid.index(cell, i))));
   }
   return text;
 }
@@ -17,7 +27,7 @@ std::string entry_text(const UniformGrid& grid, const InputSpace& inputs, const 
                        std::int64_t entry) {
   std::string text;
   const auto add = [&text](const std::string& name, const Rational& value) {
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, to_text(value));
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, short_text(value));
   };
   for (const std::size_t j : table.states)
     add(grid[j].name, grid[j].point(entry / table.state_stride[j] % grid[j].count));

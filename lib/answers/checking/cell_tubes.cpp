@@ -30,7 +30,7 @@ void CellTubes::go_to(std::int64_t cell) {
   first_.clear();
   may_pass_ = false;
   for (std::size_t i = 0; i < posts.tables.size(); ++i) {
-    const std::int64_t first = posts.tables[i]->first_entry(*posts.grid, cell);
+    const auto first = static_cast<std::int64_t>(posts.tables[i]->entry_of(*posts.grid, cell));
     first_.push_back(first);
     const auto begin = tubes_->passes[i].begin() + first;
     may_pass_ =

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "model/input_space.hpp"
@@ -10,25 +11,35 @@
 namespace coordreq {
 
 /// Where one state can be a period later: raw ranges of grid indices, before `outside` is applied, remembered
-/// for each choice of what they depend on.
+/// for each choice of what they depend on, or for those choices alone that some cells make.
 struct PostTable {
   std::vector<std::size_t> states;         ///< ascending
   std::vector<std::size_t> inputs;         ///< ascending
   std::vector<IndexRange> entries;         ///< row-major over `states`, then `inputs`
+  std::vector<std::int64_t> places;        ///< of the entries if some are left out, ascending; else empty
   std::vector<std::int64_t> state_stride;  ///< one for each state of the spec; 0 if it has no influence
   std::vector<std::int64_t> input_stride;
   bool exact = true;  ///< the ranges are those of the contract, not only enclosures of them
 
-  /// The entries of a cell begin here.
-  [[nodiscard]] std::int64_t first_entry(const UniformGrid& grid, std::int64_t cell) const {
-    std::int64_t entry = 0;
-    for (const std::size_t j : states) entry += grid.index(cell, j) * state_stride[j];
-    return entry;
+  /// Place of an entry among those of a table that leaves none out.
+  [[nodiscard]] std::int64_t place_of(std::size_t entry) const {
+    return places.empty() ? static_cast<std::int64_t>(entry) : places[entry];
   }
+  /// The entry with a place; nothing if it is left out.
+  [[nodiscard]] std::optional<std::size_t> find(std::int64_t place) const;
+  /// REQUIRES: it is not left out.
+  [[nodiscard]] const IndexRange& at(std::int64_t place) const { return entries[*find(place)]; }
+  /// The first entry of a cell; those of its other inputs follow. REQUIRES: they are not left out.
+  [[nodiscard]] std::size_t entry_of(const UniformGrid& grid, std::int64_t cell) const;
 };
 
-/// Which entries some cells have, with all inputs; empty if `cells` is: all of them.
-[[nodiscard]] std::vector<bool> entries_of(const UniformGrid& grid, const InputSpace& inputs,
-                                           const PostTable& table, const std::vector<std::int64_t>& cells);
+/// The places of the entries that some cells have, with all inputs, ascending.
+[[nodiscard]] std::vector<std::int64_t> entry_places(const PostTable& table, const UniformGrid& grid,
+                                                     const InputSpace& inputs,
+                                                     const std::vector<std::int64_t>& cells);
+
+/// What a whole table says of some cells; all of it if `cells` is empty.
+[[nodiscard]] PostTable part_of(const PostTable& whole, const UniformGrid& grid, const InputSpace& inputs,
+                                const std::vector<std::int64_t>& cells);
 
 }  // namespace coordreq

@@ -90,12 +90,12 @@ void PostMinima::go_to(std::int64_t cell) {
 
 void PostMinima::find_ranges(std::size_t i, std::int64_t cell) {
   const PostTable& table = *posts_->tables[i];
-  const std::int64_t first = table.first_entry(*grid_, cell);
+  const std::size_t first = table.entry_of(*grid_, cell);
   std::vector<ResolvedRange>& different = different_[i];
   different.clear();
   window_[i] = {INT32_MAX, INT32_MIN};
   for (std::size_t part = 0; part < ranks_[i].size(); ++part) {
-    const ResolvedRange& range = posts_->resolved[i][static_cast<std::size_t>(first) + part];
+    const ResolvedRange& range = posts_->resolved[i][first + part];
     const auto known = std::find_if(different.begin(), different.end(),
                                     [&range](const ResolvedRange& other) { return same(range, other); });
     ranks_[i][part] = known - different.begin();

@@ -22,12 +22,6 @@ struct Posts {
   std::vector<std::vector<ResolvedRange>> resolved;   ///< [state][entry]
   std::vector<std::vector<std::int32_t>> input_part;  ///< [state][u]: entry, counted from the cell's first
   std::vector<std::int64_t> input_choices;            ///< [state]: entries of one cell
-
-  /// Of a state and a pair.
-  [[nodiscard]] std::size_t entry(std::size_t i, std::int64_t cell, std::int64_t u) const {
-    return static_cast<std::size_t>(tables[i]->first_entry(*grid, cell) +
-                                    input_part[i][static_cast<std::size_t>(u)]);
-  }
 };
 /// REQUIRES: `grid` and `tables` outlive the result.
 [[nodiscard]] Posts make_posts(const UniformGrid& grid, const InputSpace& inputs,

@@ -1,5 +1,6 @@
 #include "answers/one_cell/cell_posts.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "answers/one_cell/cell_members.hpp"
@@ -11,14 +12,16 @@
 namespace coordreq {
 namespace {
 
-/// Entries to compute from which on all are computed. Sums have few, and no others hold the same ranges.
-double most_entries(const ProblemSpec& spec) {
+double entries_of(const std::vector<TableShape>& shapes) {
   double entries = 0;
-  for (const TableShape& shape : table_shapes(spec)) {
-    if (shape.sum) return 0;
-    entries += shape.entries;
-  }
+  for (const TableShape& shape : shapes) entries += shape.entries;
   return entries;
+}
+
+/// Entries to compute from which on all are computed. Sums have few, and no others hold the same ranges.
+double most_entries(const std::vector<TableShape>& shapes) {
+  const bool sums = std::any_of(shapes.begin(), shapes.end(), [](const TableShape& one) { return one.sum; });
+  return sums ? 0 : entries_of(shapes);
 }
 
 /// Notes the unsafe sides that a range passes.
@@ -34,16 +37,24 @@ void add_sides(std::size_t i, IndexRange raw, const GridDimension& dimension, Ce
 
 CellPosts::CellPosts(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
                      ThreadTeam& team, std::optional<Abstraction> stored)
-    : grid_(&grid),
-      inputs_(&inputs),
-      source_(std::make_unique<Source>(
-          Source{spec, team, AffineDynamics(spec), most_entries(spec), {}, {}, 0, std::move(stored)})) {
+    : grid_(&grid), inputs_(&inputs) {
+  const std::vector<TableShape> shapes = table_shapes(spec);
+  source_ = std::make_unique<Source>(Source{spec,
+                                            team,
+                                            AffineDynamics(spec),
+                                            entries_of(shapes),
+                                            most_entries(shapes),
+                                            {},
+                                            {},
+                                            0,
+                                            std::move(stored)});
   if (source_->whole) whole_ = &*source_->whole;
 }
 
 const Abstraction& CellPosts::whole() {
   if (whole_ == nullptr) {
     source_->whole = build_abstraction(source_->spec, source_->team);
+    source_->entries_built += source_->all_entries;
     whole_ = &*source_->whole;
   }
   return *whole_;
@@ -51,6 +62,10 @@ const Abstraction& CellPosts::whole() {
 
 const std::vector<std::int32_t>& CellPosts::inputs_of(std::size_t i) const {
   return source_ ? source_->dynamics.dependencies(i).inputs : whole_->tables[i].inputs;
+}
+
+std::int64_t CellPosts::entries_built() const {
+  return source_ ? static_cast<std::int64_t>(source_->entries_built) : 0;
 }
 
 bool CellPosts::has_tubes() const {
@@ -64,8 +79,8 @@ void CellPosts::move_to(std::int64_t cell) {
   cell_ = cell;
 }
 
-/// Restricts the states in which the map moves: a table is then filled for their one index. The state itself
-/// stays whole, because its dimension is also the one that posts lie in (and may be a periodic one), and so
+/// Restricts the states in which the map moves: a table is then filled for their one index. The dimension of
+/// the state itself stays whole, because it is also the one that posts lie in (and may be periodic), and so
 /// do discrete states whose values are put in one by one: whether the system is affine is decided over all of
 /// them, and must be decided as in the analysis. A state that stops stays whole, because its limits are the
 /// first and the last point of its dimension.
@@ -90,13 +105,17 @@ void CellPosts::build_parts(std::int64_t cell) {
   for (std::size_t i = 0; i < grid_->size(); ++i) {
     Abstraction& part = source_->parts.emplace_back(part_of(i, cell));
     const bool is_affine = build_affine_table(spec, source_->dynamics, part, i, source_->team).has_value();
-    if (!is_affine) build_enclosure_tables(spec, source_->dynamics, part, {i}, source_->team);
+    const std::int64_t own = grid_->index(cell, i);
+    if (!is_affine) build_enclosure_tables(spec, source_->dynamics, part, {i}, source_->team, own);
+    auto entries = static_cast<double>(part.tables[i].entries.size());
+    if (!is_affine && part.tables[i].state_stride[i] != 0) entries /= static_cast<double>((*grid_)[i].count);
+    include_measurements_of_saturated(spec, part, i);
     std::int64_t place = 0;
     for (std::size_t j = 0; j < part.grid.size(); ++j) {
       if (part.grid[j].count > 1) place += grid_->index(cell, j) * part.grid.stride(j);
     }
     source_->place.push_back(place);
-    source_->entries_built += static_cast<double>(part.tables[i].entries.size());
+    source_->entries_built += entries;
   }
 }
 

@@ -66,9 +66,13 @@ class CellPosts {
   void move_to(std::int64_t cell);
   /// The cells where state `i` can be next under joint input `u`. REQUIRES: move_to() was called.
   [[nodiscard]] ResolvedRange resolved(std::size_t i, std::int64_t u) const;
+  /// The same before the rules for leaving the domain.
+  [[nodiscard]] IndexRange raw(std::size_t i, std::int64_t u) const;
   /// The same of its tube: see Abstraction. REQUIRES: has_tubes().
   [[nodiscard]] ResolvedRange resolved_tube(std::size_t i, std::int64_t u) const;
   [[nodiscard]] IndexRange raw_tube(std::size_t i, std::int64_t u) const;
+  /// How many entries of tables have been computed so far.
+  [[nodiscard]] std::int64_t entries_built() const;
   /// f(x, u) of the whole state. @param tubes what tubes must stay in
   [[nodiscard]] CellPost post(std::int64_t u, const TubeSets& tubes) const;
 
@@ -78,12 +82,13 @@ class CellPosts {
     const ProblemSpec& spec;
     ThreadTeam& team;
     AffineDynamics dynamics;
-    double most_entries;
+    double all_entries;   ///< of the whole abstraction
+    double most_entries;  ///< to compute one by one before the whole is computed
     /// One a state: the abstraction of a grid that has only this cell's index where the state's table does
     /// not need more; its tables of that state alone are filled.
     std::vector<Abstraction> parts;
     std::vector<std::int64_t> place;  ///< the cell's linear index in each part
-    double entries_built = 0;         ///< of tables of parts, so far
+    double entries_built = 0;         ///< so far
     std::optional<Abstraction> whole;
   };
 
@@ -91,7 +96,6 @@ class CellPosts {
   [[nodiscard]] Abstraction part_of(std::size_t state, std::int64_t cell) const;
 
   void follow_tube(std::int64_t u, const TubeSets& tubes, CellPost& post) const;
-  [[nodiscard]] IndexRange raw(std::size_t i, std::int64_t u) const;
 
   const UniformGrid* grid_;
   const InputSpace* inputs_;

@@ -152,8 +152,12 @@ bool PathChecker::is_choice(std::int64_t u) const {
   });
 }
 
+std::size_t PathChecker::entry(const Posts& posts, std::size_t i, std::int64_t u) const {
+  return posts.tables[i]->entry_of(*ground_.grid, cell_.number()) + at(posts.input_part[i][at(u)]);
+}
+
 const ResolvedRange& PathChecker::range(std::size_t i, std::int64_t u) const {
-  return ground_.posts->resolved[i][ground_.posts->entry(i, cell_.number(), u)];
+  return ground_.posts->resolved[i][entry(*ground_.posts, i, u)];
 }
 
 bool PathChecker::is_blocked(std::int64_t u) const {
@@ -183,7 +187,7 @@ bool PathChecker::leaves_domain(std::int64_t u, const ResultSide& side) const {
     return side.above ? raw.last >= dimension.count : raw.first < 0;
   };
   const auto raw_of = [&](const Posts& posts) {
-    return posts.tables[side.state]->entries[posts.entry(side.state, cell_.number(), u)];
+    return posts.tables[side.state]->entries[entry(posts, side.state, u)];
   };
   return passes(raw_of(*ground_.posts)) ||
          (ground_.tubes != nullptr && passes(raw_of(ground_.tubes->covering)));

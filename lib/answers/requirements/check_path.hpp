@@ -38,6 +38,7 @@ class PathChecker {
   [[nodiscard]] bool is_in_post(std::int64_t u, std::int64_t next) const;
   [[nodiscard]] bool leaves_domain(std::int64_t u, const ResultSide& side) const;
   [[nodiscard]] const ResolvedRange& range(std::size_t i, std::int64_t u) const;
+  [[nodiscard]] std::size_t entry(const Posts& posts, std::size_t i, std::int64_t u) const;
   [[nodiscard]] bool is_blocked(std::int64_t u) const;
   void wrong(std::size_t number, const std::string& what);
   /// Wrong, unless the posts may be others than those of the analysis.
