@@ -58,6 +58,7 @@ SYSTEMS = {
                        {"x": "cos(h) + d", "y": "sin(h) + e", "h": "u + f"}, 0.25, "x^2 + y^2 <= 3",
                        [disturbance("d", 0.1), disturbance("e", 0.1), disturbance("f", 0.1)]),
     "turning": system([ring("y", 24)], {"y": "2 + sin(y) + 0.1*u"}, 0.25, "true"),
+    "escape": system([state("x", -3, 3, 0.25)], {"x": "x^3 + u + d"}, 0.5, "abs(x) <= 2.5", [disturbance("d", 0.1)]),
     "kink": system([state("v", -2, 2, 0.1), state("x", -1, 1, 0.25)], {"v": "abs(x - v^2) + 0.1*u", "x": "0"}, 0.2, "true"),
     "corners": system([state("x", -2, 2, 0.25), state("y", -2, 2, 0.25)],
                       {"x": "abs(y) - abs(x) + u", "y": "max(x, y) - min(x^2, y)"}, 0.25, "abs(x) <= 1.6"),
@@ -92,6 +93,9 @@ class Cases(Case):
         for name in ("stiff_pendulum", "turning"):
             with self.subTest(system=name):
                 self.assertGreater(self.assert_confirmed(SYSTEMS[name]), 0)
+
+    def test_what_may_escape_beyond_an_unsafe_side_claims_nothing(self):
+        self.assertEqual(self.assert_confirmed(SYSTEMS["escape"]), 25 * 3)
 
     def test_kinks_are_confirmed(self):
         for name in ("kink", "corners"):
