@@ -198,7 +198,8 @@ std::string partition_answers(const ResultsReader& results, const ReportData& da
                     ? "There is no state from which every allowed action keeps the system safe."
                     : "No state can be kept safe, even if all agents always coordinate.");
   }
-  return results.partitions().size() > kMostPartitionsInFull ? as_table(results, data) : in_full(results, data);
+  return results.partitions().size() > kMostPartitionsInFull ? as_table(results, data)
+                                                             : in_full(results, data);
 }
 
 /// What the numbers count, and how far they can be trusted.

@@ -92,8 +92,9 @@ std::string requirements_text(const Json& info) {
 }
 
 std::string info_text(const Json& info) {
-  std::string text = head_text(info) + "\n" + axes_text(info) + "\n" + described_partitions(info["partitions"]) +
-                     coalition_text(info) + requirements_text(info);
+  std::string text = head_text(info) + "\n" + axes_text(info) + "\n" +
+                     described_partitions(info["partitions"]) + coalition_text(info) +
+                     requirements_text(info);
   if (info.contains("modes")) text += "\n" + modes_text(info["modes"]);
   text += others_text(info, {"coalition"});
   text += "\ndatasets\n";

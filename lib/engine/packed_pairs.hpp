@@ -15,7 +15,8 @@ struct PackedPairs {
   [[nodiscard]] static std::int64_t bytes_for(std::int64_t inputs) { return (inputs + 7) / 8; }
   [[nodiscard]] std::int64_t bytes_per_cell() const { return bytes_for(inputs); }
   [[nodiscard]] bool test(std::int64_t cell, std::int64_t u) const {
-    return (std::uint32_t{bytes[static_cast<std::size_t>(cell * bytes_per_cell() + u / 8)]} >> (u % 8) & 1U) != 0;
+    return (std::uint32_t{bytes[static_cast<std::size_t>(cell * bytes_per_cell() + u / 8)]} >> (u % 8) &
+            1U) != 0;
   }
   [[nodiscard]] std::int64_t count() const {
     std::int64_t total = 0;

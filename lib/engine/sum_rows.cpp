@@ -29,7 +29,7 @@ constexpr std::int64_t kMostRunNumbers = std::int64_t{1} << 22;
 
 std::vector<SumSource> sources(const TransitionTable& table) {
   std::vector<SumSource> result{{table.base_lower.data(), table.base_upper.data(), table.base_lower.size(),
-                              &table.state_stride, &table.input_stride}};
+                                 &table.state_stride, &table.input_stride}};
   for (const TransitionTerm& term : table.terms) {
     result.push_back(
         {term.lower.data(), term.upper.data(), term.lower.size(), &term.state_stride, &term.input_stride});

@@ -21,7 +21,8 @@ struct FlowSystem {
 
   std::vector<const Program*> equations;  ///< one a state; they outlive whoever uses the system
   std::vector<std::uint32_t> state_slots;
-  /// Steps of the grid, one a state: what is much shorter makes no difference to a post. Empty: nothing is too short.
+  /// Steps of the grid, one a state: what is much shorter makes no difference to a post. Empty: nothing is
+  /// too short.
   std::vector<double> steps;
   std::vector<std::uint32_t> disturbance_slots;
   std::size_t slot_count = 0;

@@ -244,7 +244,8 @@ void PlanarFlow::begin(const std::array<Interval, 2>& start, double steps) {
   TurningPolygon::Vector tolerance{};
   for (const std::size_t i : {0U, 1U}) {
     const bool is_point = start[i].is_point();
-    tolerance[i] = (is_point ? kPlanarToleranceOfPoint * width(tube_[i]) : kPlanarTolerance * width(start[i])) / steps;
+    tolerance[i] =
+        (is_point ? kPlanarToleranceOfPoint * width(tube_[i]) : kPlanarTolerance * width(start[i])) / steps;
   }
   polygon_.begin(corners, bounds_, start, tolerance);
 }

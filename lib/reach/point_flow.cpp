@@ -23,7 +23,6 @@ constexpr double kEventShare = 0x1p-50;
 constexpr int kShortEvents = 50;
 constexpr double kDwell = 0x1p-12;
 
-
 /// What the error estimate says of the next sub-step, relative to this one.
 double growth(double error, double largest) {
   return error > 0.0 ? std::clamp(0.9 * std::pow(error, -0.2), 0.2, largest) : largest;

@@ -41,7 +41,8 @@ void combine(FlowEnclosure& a, const FlowEnclosure& b, Combine both) {
 const FlowEnclosure& ValidatedFlow::Solver::flow(std::span<const Interval> slots) {
   for (std::size_t i = 0; i < n_; ++i) {
     const double start = width(slots[system_.state_slots[i]]);
-    allowed_excess_[i] = start > 0.0 || system_.steps.empty() ? kTight * start : kTightStep * system_.steps[i];
+    allowed_excess_[i] =
+        start > 0.0 || system_.steps.empty() ? kTight * start : kTightStep * system_.steps[i];
   }
   enclose(slots, kMostHalvings);
   return result_;
