@@ -198,8 +198,8 @@ std::string to_text(const Rational& q) {
   std::string digits = scaled.get_num().get_str();
   if (digits.size() > kMostDigits) return q.get_str();
   if (digits.size() <= *places) digits.insert(0, *places + 1 - digits.size(), '0');
-  digits.insert(digits.size() - *places, ".");
-  return sgn(q) < 0 ? "-" + digits : digits;
+  const std::size_t whole = digits.size() - *places;
+  return (sgn(q) < 0 ? "-" : "") + digits.substr(0, whole) + "." + digits.substr(whole);
 }
 
 }  // namespace coordreq
