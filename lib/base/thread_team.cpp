@@ -33,8 +33,8 @@ class ShortWait {
   }
 
  private:
-  static constexpr int kLeastLooks = 16;
-  static constexpr int kMostLooks = 1024;
+  static constexpr int kLeastLooks = 1000;
+  static constexpr int kMostLooks = 4000;
   int looks_ = kMostLooks;
 };
 
