@@ -12,9 +12,6 @@
 namespace coordreq {
 namespace {
 
-/// With more partitions than this each gets one line.
-constexpr std::size_t kMostInFull = 3;
-
 /// "201 x 41 = 8,241", or "201" for a single factor.
 std::string product(const std::vector<std::int64_t>& factors, std::int64_t result) {
   if (factors.size() == 1) return grouped(result);
@@ -151,7 +148,7 @@ std::string partitions_text(const Json& summary, const ProblemSpec& spec) {
     return "\nThe invariance set is empty: no state can be kept safe, even if all agents always "
            "coordinate.\n";
   }
-  if (summary["partitions"].size() > kMostInFull) return partitions_table(summary);
+  if (summary["partitions"].size() > kMostPartitionsInFull) return partitions_table(summary);
   std::string text;
   for (const Json& partition : summary["partitions"]) text += partition_text(partition, summary);
   if (spec.network) text += network_text(summary, *spec.network);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "app/json_text.hpp"
@@ -10,6 +11,9 @@ namespace coordreq {
 
 /// What `analyze` prints for people.
 [[nodiscard]] std::string summary_text(const Json& summary, const ProblemSpec& spec);
+
+/// With more partitions than this each gets one line of a table.
+inline constexpr std::size_t kMostPartitionsInFull = 3;
 
 /// Figures of a partition in tables: F, |Z_F|, and the largest delay of the cells that have a finite one,
 /// which is empty if none has.

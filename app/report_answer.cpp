@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "app/analysis_text.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/text.hpp"
@@ -10,9 +11,6 @@
 
 namespace coordreq {
 namespace {
-
-/// With more partitions than this each gets one line of a table.
-constexpr std::size_t kMostPartitionsInFull = 3;
 
 /// "0.28 s (28 steps)": time first, for people who do not think in steps.
 std::string time_text(std::int64_t steps, const ResultsReader& results) {
@@ -68,9 +66,8 @@ class PartitionAnswer {
                          count == 0 ? "s" : "");
     }
     return fmt::format(
-        "A connection takes {} to establish: in {} of the states that can be kept safe it must be asked for "
-        "at "
-        "once, or exist already.",
+        "A connection takes {} to establish: in {} of the states that can be kept safe it must be asked "
+        "for at once, or exist already.",
         time_text(delay, results_),
         count == 0        ? "none"
         : count == kept() ? "all"

@@ -108,7 +108,7 @@ class Linker {
     if (const auto* const definition = std::get_if<std::shared_ptr<const Program>>(&binding)) {
       return {tape_.merge(**definition), (*definition)->is_condition(), offset};
     }
-    place_.fail(fmt::format("{} is not defined", quoted(name)), offset);
+    place_.fail(fmt::format("{} is not defined{}", quoted(name), std::get<NotDefined>(binding).hint), offset);
   }
 
   void require_number(const Value& value) const {

@@ -36,8 +36,13 @@ struct Program {
   [[nodiscard]] std::vector<std::uint32_t> variables() const;
 };
 
+/// A name that stands for nothing.
+struct NotDefined {
+  std::string hint = {};  ///< for the end of the message, perhaps ", did you mean 'v1'?"
+};
+
 /// What a name in an expression can stand for.
-using Binding = std::variant<std::monostate,                   ///< not defined
+using Binding = std::variant<NotDefined,
                              std::uint32_t,                    ///< a variable: its slot
                              Rational,                         ///< a constant
                              std::shared_ptr<const Program>>;  ///< a definition, inlined

@@ -11,7 +11,7 @@ void Definitions::add(const std::string& name, Program program) {
 
 Binding Definitions::find(std::string_view name) const {
   const auto found = index_of_.find(name);
-  if (found == index_of_.end()) return std::monostate{};
+  if (found == index_of_.end()) return NotDefined{};
   const std::uint32_t slot = first_slot_ + static_cast<std::uint32_t>(found->second);
   if (!programs_[found->second].is_condition()) return slot;
   // No variable is a condition, so a comparison of the slot with itself stands for one.

@@ -143,21 +143,13 @@ Program Scope::expression(const Node& node, ExpectedType expected, Over over) co
 
 Program Scope::link_text(const Node& node, ExpectedType expected) const {
   constexpr std::size_t kTooShort = 2;  // such names differ by a letter anyway
-  std::string hint;
   const auto lookup = [&](std::string_view name) {
     Binding binding = find(name);
-    if (std::holds_alternative<std::monostate>(binding) && name.size() > kTooShort)
-      hint = suggestion(name, names_.all());
+    if (std::holds_alternative<NotDefined>(binding) && name.size() > kTooShort)
+      binding = NotDefined{suggestion(name, names_.all())};
     return binding;
   };
-  try {
-    return link(node.text(), lookup, expected, node.pointer());
-  } catch (const SpecError& error) {
-    // "WHAT (WHERE)", about the name that was not found if there is one: nothing is read after it.
-    const std::string line = error.what();
-    const std::size_t place = std::min(line.rfind(" ("), line.size());
-    throw SpecError(line.substr(0, place) + hint + line.substr(place));
-  }
+  return link(node.text(), lookup, expected, node.pointer());
 }
 
 void Scope::check_dependence(const Program& program, Over over, const std::string& pointer) const {

@@ -14,7 +14,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Program condition(std::string_view text) {
   const auto lookup = [](std::string_view name) -> Binding {
-    return name == "x" ? Binding(0U) : name == "y" ? Binding(1U) : Binding(std::monostate{});
+    return name == "x" ? Binding(0U) : name == "y" ? Binding(1U) : Binding(NotDefined{});
   };
   return link(text, lookup, ExpectedType::condition, "test");
 }

@@ -18,7 +18,7 @@ inline Binding look_up_xyz(std::string_view name) {
   for (std::uint32_t i = 0; i < kVariables.size(); ++i) {
     if (name == kVariables[i]) return i;
   }
-  return std::monostate{};
+  return NotDefined{};
 }
 
 inline Program link_xyz(std::string_view text, ExpectedType expected = ExpectedType::any) {

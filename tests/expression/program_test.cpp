@@ -98,7 +98,7 @@ TEST(Link, DefinitionsOverConstantsFoldWhenUsed) {
 TEST(Link, NeverLooksUpReservedNames) {
   const Lookup lookup = [](std::string_view name) -> Binding {
     ADD_FAILURE() << "looked up " << name;
-    return std::monostate{};
+    return NotDefined{};
   };
   EXPECT_EQ(link("sin(pi) + if(true and not false, 1, 0)", lookup, ExpectedType::number, "").nodes.empty(),
             false);

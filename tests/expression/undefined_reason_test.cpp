@@ -12,7 +12,7 @@ std::string reason_of(const std::string& text) {
   const auto look_up = [](std::string_view name) -> Binding {
     if (name == "x") return std::uint32_t{0};
     if (name == "y") return std::uint32_t{1};
-    return std::monostate{};
+    return NotDefined{};
   };
   const Program program = link(text, look_up, ExpectedType::number, "/test");
   const std::vector<Interval> slots{{-1.0, 1.0}, {2.0, 3.0}};

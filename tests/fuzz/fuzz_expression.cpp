@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Lookup lookup = [](std::string_view name) -> Binding {
     if (name == "x") return std::uint32_t{0};
     if (name == "c") return Rational(3);
-    return std::monostate();
+    return NotDefined{};
   };
   test::answers([&] {
     const Program program = link(text, lookup, ExpectedType::any, "/safe");

@@ -19,7 +19,7 @@ inline Binding look_up_flow(std::string_view name) {
   for (std::uint32_t i = 0; i < kFlowNames.size(); ++i) {
     if (name == kFlowNames[i]) return i;
   }
-  return std::monostate{};
+  return NotDefined{};
 }
 
 /// A system of the states x, y, z, as many as there are equations, and boxes of everything.

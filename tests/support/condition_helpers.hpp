@@ -19,7 +19,7 @@ inline Program condition(std::string_view text) {
     for (std::uint32_t slot = 0; slot < kNames.size(); ++slot) {
       if (name == kNames[slot]) return slot;
     }
-    return std::monostate{};
+    return NotDefined{};
   };
   return link(text, lookup, ExpectedType::condition, "test");
 }

@@ -52,7 +52,7 @@ std::string region_on_grid(const ProblemSpec& spec) {
       for (std::uint32_t i = 0; i < spec.states.size(); ++i) {
         if (spec.states[i].name == name) return i;
       }
-      return std::monostate();
+      return NotDefined{};
     };
     const Program where = link(text, slot, ExpectedType::condition, "where");
     if (cells_of_region(where, grid, team).count() > 0) return text;
