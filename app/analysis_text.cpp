@@ -70,6 +70,13 @@ std::string connection_text(const Json& partition, const Json& summary) {
                      cells(partition["never_without_connection"]), duration(delay, summary));
 }
 
+/// How long agents that act alone lose no time on the way to the goal.
+void add_approach(const Json& approach, Facts& facts) {
+  facts.emplace_back("  approach", shortened(approach["layers"].get<std::vector<std::int64_t>>()));
+  facts.emplace_back("  loses no time",
+                     approach["truncated"] ? "unknown" : cells(approach["fixed_point"]) + ", for ever");
+}
+
 std::string unbounded_cells(const Json& partition) {
   return partition["truncated"] ? "unknown" : cells(partition["fixed_point"]);
 }
@@ -78,6 +85,7 @@ std::string partition_text(const Json& partition, const Json& summary) {
   Facts facts = {{"  layers", shortened(partition["layers"].get<std::vector<std::int64_t>>())},
                  {"  fixed point", (partition["truncated"] ? "" : "F = ") + fixed_point_text(partition)},
                  {"  unbounded", unbounded_cells(partition)}};
+  if (partition.contains("approach")) add_approach(partition["approach"], facts);
   if (number_of(summary["connection_delay"]) > 0)
     facts.emplace_back("  connection", connection_text(partition, summary));
   return fmt::format("\npartition {}\n{}  {}\n", text_of(partition["name"]), facts_text(facts),
@@ -121,6 +129,14 @@ std::string convention_text(const Json& convention) {
                   {"at most half in", Align::right, cells_of_half}}));
 }
 
+std::string goal_text(const Json& summary) {
+  const Json& goal = summary["goal"];
+  const std::string size = cells(goal["cells"]);
+  if (goal["longest_arrival"].is_null()) return size + "; it cannot be forced from anywhere";
+  return fmt::format("{}; forced from {}, within {}", size, cells(goal["winning"]),
+                     duration(goal["longest_arrival"], summary));
+}
+
 std::string sets_text(const Json& summary) {
   Facts facts;
   if (summary.contains("controller")) {
@@ -133,6 +149,7 @@ std::string sets_text(const Json& summary) {
   facts.emplace_back("safe set", cells(summary["safe"]));
   facts.emplace_back("invariance set", fmt::format("{} after {}", cells(summary["invariant"]),
                                                    count_of(number_of(summary["iterations"]), "sweep")));
+  if (summary.contains("goal")) facts.emplace_back("goal", goal_text(summary));
   facts.emplace_back("guarantee", guarantee_text(text_of(summary["guarantee"])));
   return facts_text(facts);
 }
@@ -168,7 +185,7 @@ std::string closing_text(const Json& summary) {
 std::string summary_text(const Json& summary, const ProblemSpec& spec) {
   return sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec) +
          coalition_text(summary) +
-         others_text(summary, {"controller", "coalition", "network", "seconds", "work"}) +
+         others_text(summary, {"controller", "coalition", "goal", "network", "seconds", "work"}) +
          requirements_text(summary["requirements"], spec) + closing_text(summary);
 }
 

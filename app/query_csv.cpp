@@ -36,6 +36,10 @@ std::string answer_csv_header(const ResultsReader& results) {
     line += fmt::format(",delay:{0},countdown:{0}", partition.name);
     for (const std::string& name : partition.classes)
       line += fmt::format(",actions:{}:{}", partition.name, name);
+    if (!results.spec().goal) continue;
+    line += fmt::format(",approach_delay:{0},approach_countdown:{0}", partition.name);
+    for (const std::string& name : partition.classes)
+      line += fmt::format(",approach_actions:{}:{}", partition.name, name);
   }
   if (results.has_coalition()) line += ",coalition,critical_pairs";
   if (results.spec().network) line += ",safe_modes";
@@ -53,7 +57,7 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
     const bool left_safely = answer.location.kind == Location::Kind::left_safely;
     line += left_safely ? "0,,1,1," : "0,,,,";
     for (const StoredPartition& partition : results.partitions()) {
-      line += std::string(2 + partition.classes.size(), ',');
+      line += std::string((results.spec().goal ? 2 : 1) * (2 + partition.classes.size()), ',');
     }
     if (results.has_coalition()) line += ",,";
     if (results.spec().network) line += ",";
@@ -66,6 +70,9 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
   for (const StateAnswer::Partition& partition : answer.partitions) {
     line += "," + csv_steps(partition.delay) + "," + csv_steps(partition.trigger);
     for (const std::vector<bool>& actions : partition.actions) line += "," + csv_actions(actions);
+    if (!partition.approach) continue;
+    line += "," + csv_steps(partition.approach->delay) + "," + csv_steps(partition.approach->trigger);
+    for (const std::vector<bool>& actions : partition.approach->actions) line += "," + csv_actions(actions);
   }
   if (answer.coalition) line += csv_coalition(*answer.coalition, results);
   if (const auto& network = results.spec().network)

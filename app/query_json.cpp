@@ -36,6 +36,8 @@ const char* rule_word(const GridDimension& dimension, const Location& location) 
       return "saturate";
     case Outside::stop:
       return "stop";
+    case Outside::goal:
+      return "goal";
     default:
       return "unsafe";
   }
@@ -90,6 +92,27 @@ bool is_lower_bound(std::int32_t delay, const StoredPartition& partition) {
          std::int64_t{delay} + 1 == static_cast<std::int64_t>(partition.layer_sizes.size());
 }
 
+Json classes_json(const std::vector<std::vector<bool>>& actions, std::size_t p,
+                  const ResultsReader& results) {
+  Json json = Json::array();
+  for (std::size_t c = 0; c < actions.size(); ++c) {
+    const auto inputs = inputs_of(results.spec(), results.spec().coordination.partitions[p].classes[c]);
+    json.push_back(class_json(results.spec(), results.partitions()[p].classes[c], inputs, actions[c]));
+  }
+  return json;
+}
+
+/// On the way to the goal.
+Json approach_json(const StateAnswer::Approach& approach, std::size_t p, const ResultsReader& results) {
+  Json json;
+  add_steps(json, "delay", approach.delay, status_of(results.field("/approach_delay"), approach.delay),
+            results);
+  add_steps(json, "countdown", approach.trigger,
+            status_of(results.field("/approach_trigger"), approach.trigger), results);
+  json["classes"] = classes_json(approach.actions, p, results);
+  return json;
+}
+
 Json partition_json(const StateAnswer::Partition& answer, std::size_t p, const ResultsReader& results) {
   const StoredPartition& stored = results.partitions()[p];
   Json json;
@@ -99,11 +122,8 @@ Json partition_json(const StateAnswer::Partition& answer, std::size_t p, const R
       is_lower_bound(answer.delay, stored) ? "at_least" : status_of(results.field("/delay"), answer.delay),
       results);
   add_steps(json, "countdown", answer.trigger, status_of(results.field("/trigger"), answer.trigger), results);
-  json["classes"] = Json::array();
-  for (std::size_t c = 0; c < answer.actions.size(); ++c) {
-    const auto inputs = inputs_of(results.spec(), results.spec().coordination.partitions[p].classes[c]);
-    json["classes"].push_back(class_json(results.spec(), stored.classes[c], inputs, answer.actions[c]));
-  }
+  json["classes"] = classes_json(answer.actions, p, results);
+  if (answer.approach) json["approach"] = approach_json(*answer.approach, p, results);
   return json;
 }
 

@@ -144,7 +144,26 @@ class AnswerText {
     Facts facts = {{"  delay", delay_text(partition)}, {"  countdown", countdown_text(partition)}};
     for (const Json& own : partition["classes"])
       facts.emplace_back("  actions of " + text_of(own["name"]), class_text(own));
+    if (partition.contains("approach")) add_approach(partition["approach"], facts);
     return fmt::format("\npartition {}\n{}", text_of(partition["name"]), facts_text(facts));
+  }
+
+  /// Towards the goal. Where nothing comes nearer, since the goal is reached or cannot be, no actions are
+  /// told.
+  void add_approach(const Json& approach, Facts& facts) const {
+    const auto text = [&](const char* key) {
+      const std::string status = text_of(approach[std::string(key) + "_status"]);
+      if (status == "steps") return steps_text(approach[key]);
+      std::string words = status;
+      std::replace(words.begin(), words.end(), '_', ' ');
+      return words;
+    };
+    facts.emplace_back("  approach delay", text("delay"));
+    facts.emplace_back("  approach countdown", text("countdown"));
+    for (const Json& own : approach["classes"]) {
+      if (!own["actions"].empty())
+        facts.emplace_back("  approach of " + text_of(own["name"]), class_text(own));
+    }
   }
 
   [[nodiscard]] std::string class_text(const Json& own) const {

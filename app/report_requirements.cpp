@@ -28,8 +28,9 @@ std::string requirement_verdict(const Json& own) {
 }
 
 std::string worst(const Json& own, const ProblemSpec& spec) {
-  const Json& status = own["least_delay_status"];
-  const auto text = [&] { return worst_text(own["least_delay"], status, spec); };
+  const std::string key = worst_key(own);
+  const Json& status = own[key + "_status"];
+  const auto text = [&] { return worst_text(own["kind"], own[key], status, spec); };
   if (!own["holds"].get<bool>() && !own["counterexample"]["state"].is_null())
     return fmt::format("{}: {}", values_text(own["counterexample"]["state"]), text());
   if (!own["reaches_outside"].is_null()) return capital(outside_text(own));

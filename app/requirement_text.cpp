@@ -10,13 +10,19 @@
 namespace coordreq {
 namespace {
 
+/// What its states are judged by: "delay", "arrival" or "approach_delay".
+std::string value_key(const Json& own) {
+  if (own["kind"] == "max_arrival") return "arrival";
+  return own["kind"] == "min_approach_delay" ? "approach_delay" : "delay";
+}
+
 std::string cell_failures(const Json& own, const ProblemSpec& spec) {
   const Json& story = own["counterexample"];
   const Json& first = story["steps"].empty() ? story["end_sample"] : story["steps"].front();
   const auto failing = own["failing"].get<std::int64_t>();
   return fmt::format("{} of {} {}, the worst at {}: it {}", grouped(failing), cells(own["cells"]),
                      failing == 1 ? "fails" : "fail", values_text(story["state"]),
-                     worst_text(first["delay"], first["delay_status"], spec));
+                     worst_text(own["kind"], first[value_key(own)], first[value_key(own) + "_status"], spec));
 }
 
 /// "p1 above its grid".
@@ -39,21 +45,21 @@ std::string story_text(const Json& own, const ProblemSpec& spec) {
   return text;
 }
 
-std::string delay_cell(const Json& sample) {
-  if (sample["delay_status"] == "unbounded") return "unbounded";
-  return sample["delay"].is_null() ? "-" : grouped(sample["delay"]);
+std::string value_cell(const Json& sample, const std::string& key) {
+  if (sample[key + "_status"] == "unbounded") return "unbounded";
+  return sample[key].is_null() ? "-" : grouped(sample[key]);
 }
 
 std::string time_cell(const Json& time) {
   return time.is_null() ? "never" : grouped(time);
 }
 
-/// A row but for its number. @param step whether something is done at the sample
-std::vector<std::string> story_row(const Json& sample, bool has_delay, const ProblemSpec& spec) {
+/// A row but for its number. @param key what states are judged by; empty: not shown
+std::vector<std::string> story_row(const Json& sample, const std::string& key, const ProblemSpec& spec) {
   const bool is_step = sample.contains("action");
   std::vector<std::string> row;
   for (const Json& value : sample["state"]) row.push_back(fmt::format("{:.6g}", value.get<double>()));
-  if (has_delay) row.push_back(delay_cell(sample));
+  if (!key.empty()) row.push_back(value_cell(sample, key));
   row.push_back(time_cell(sample["collision_time"]));
   row.push_back(is_step ? text_of(sample["action"]) : "");
   for (const AgentSpec& agent : spec.agents)
@@ -66,6 +72,9 @@ std::string end_text(const Json& story) {
   if (end == "outside_safe_set") return "the state is no longer safe";
   if (end == "left_domain") return "the state leaves the domain, " + side_text(story["left_side"]);
   if (end == "unsafe_between_samples") return "the way to the next sample is not safe";
+  if (end == "arrived") return "the goal is reached, too late";
+  if (end == "never_arrives") return "the goal has not come nearer, and need not for ever";
+  if (end == "time_lost") return "the state is not nearer to the goal";
   return "no action is allowed any more";
 }
 
@@ -83,10 +92,20 @@ std::string steps_text(std::int64_t steps, const ProblemSpec& spec) {
   return duration(steps, nearest_double(spec.dynamics.period), spec.dynamics.unit);
 }
 
-std::string worst_text(const Json& delay, const Json& status, const ProblemSpec& spec) {
+std::string worst_key(const Json& own) {
+  for (const char* const key : {"longest_arrival", "least_approach_delay"}) {
+    if (own.contains(key)) return key;
+  }
+  return "least_delay";
+}
+
+std::string worst_text(const Json& kind, const Json& value, const Json& status, const ProblemSpec& spec) {
   if (status == "not_safe") return "is not safe";
   if (status == "not_invariant") return "cannot be kept safe, even if all agents coordinate";
-  return "has a delay of " + steps_text(delay.get<std::int64_t>(), spec);
+  if (status == "goal_cannot_be_forced") return "cannot be made to reach the goal";
+  const std::string steps = steps_text(value.get<std::int64_t>(), spec);
+  if (kind == "max_arrival") return "takes " + steps + " to the goal";
+  return (kind == "min_approach_delay" ? "has an approach delay of " : "has a delay of ") + steps;
 }
 
 std::string outside_text(const Json& own) {
@@ -95,6 +114,11 @@ std::string outside_text(const Json& own) {
 
 std::string claim_text(const Json& own, const ProblemSpec& spec) {
   if (own["kind"] == "invariant") return "in the invariance set";
+  if (own["kind"] == "max_arrival")
+    return "in the goal after at most " + steps_text(own["max_arrival"].get<std::int64_t>(), spec);
+  if (own["kind"] == "min_approach_delay")
+    return fmt::format("approach delay of {} at least {}", text_of(own["partition"]),
+                       steps_text(own["min_approach_delay"].get<std::int64_t>(), spec));
   return fmt::format("delay of {} at least {}", text_of(own["partition"]),
                      steps_text(own["min_delay"].get<std::int64_t>(), spec));
 }
@@ -116,11 +140,11 @@ std::string failure_text(const Json& own, const ProblemSpec& spec) {
 }
 
 StoryTable story_table(const Json& own, const ProblemSpec& spec) {
-  const bool has_delay = own["kind"] != "invariant";
+  const std::string key = own["kind"] == "invariant" ? "" : value_key(own);
   StoryTable table;
   table.heads = {"step"};
   for (const StateSpec& state : spec.states) table.heads.push_back(column_heading(state.name, state.unit));
-  if (has_delay) table.heads.emplace_back("delay");
+  if (!key.empty()) table.heads.push_back(key == "approach_delay" ? "approach delay" : key);
   table.heads.emplace_back("collision time");
   table.numbers = table.heads.size();
   table.heads.emplace_back("action");
@@ -129,7 +153,7 @@ StoryTable story_table(const Json& own, const ProblemSpec& spec) {
   Json samples = story["steps"];
   if (!story["end_sample"].is_null()) samples.push_back(story["end_sample"]);
   for (const Json& sample : samples) {
-    std::vector<std::string> row = story_row(sample, has_delay, spec);
+    std::vector<std::string> row = story_row(sample, key, spec);
     row.insert(row.begin(), grouped(std::uint64_t{table.rows.size()}));
     table.rows.push_back(std::move(row));
   }
@@ -140,9 +164,15 @@ std::vector<std::string> story_sentences(const Json& own, const ProblemSpec& spe
   const Json& story = own["counterexample"];
   const Json& steps = story["steps"];
   if (steps.empty() && story["end"] == "outside_safe_set") return {"It is not safe to begin with."};
-  const std::int64_t alone = std::count_if(steps.begin(), steps.end(),
-                                           [](const Json& step) { return step["action"] == "independent"; });
-  const auto evasive = static_cast<std::int64_t>(steps.size()) - alone;
+  const auto count = [&steps](const char* action) {
+    return std::count_if(steps.begin(), steps.end(),
+                         [action](const Json& step) { return step["action"] == action; });
+  };
+  if (count("together") > 0)
+    return {fmt::format("All agents together take the shortest way, and after {} {}.",
+                        steps_text(count("together"), spec), end_text(story))};
+  const std::int64_t alone = count("independent") + count("approaching");
+  const std::int64_t evasive = count("evasive");
   std::vector<std::string> sentences;
   if (alone > 0) {
     const std::string text =

@@ -17,9 +17,13 @@ namespace coordreq {
 /// "delay of alone at least 20 steps (0.2 s)", "in the invariance set": what is asked of each cell.
 [[nodiscard]] std::string claim_text(const Json& own, const ProblemSpec& spec);
 
+/// The key of the worst value of its states: "least_delay", "longest_arrival" or "least_approach_delay".
+[[nodiscard]] std::string worst_key(const Json& own);
 /// What is the matter with the worst cell: "has a delay of 2 steps (1 s)", "is not safe".
-/// @param delay number of steps @param status as delay_word() says it, not unbounded
-[[nodiscard]] std::string worst_text(const Json& delay, const Json& status, const ProblemSpec& spec);
+/// @param kind of the requirement @param value number of steps
+/// @param status as delay_word() says it, not unbounded
+[[nodiscard]] std::string worst_text(const Json& kind, const Json& value, const Json& status,
+                                     const ProblemSpec& spec);
 
 /// Where the region may reach. REQUIRES: own["reaches_outside"].
 [[nodiscard]] std::string outside_text(const Json& own);

@@ -13,9 +13,6 @@
 namespace coordreq {
 namespace {
 
-constexpr Outcome kOutcomes[] = {Outcome::completed, Outcome::left_safely, Outcome::left_invariant,
-                                 Outcome::no_action};
-
 bool is_disturbed(const ProblemSpec& spec) {
   return !spec.disturbances.empty() ||
          std::any_of(spec.states.begin(), spec.states.end(),
@@ -32,10 +29,10 @@ std::string heading(const Json& simulation, const ProblemSpec& spec) {
 }
 
 std::string outcome_text(const std::string& outcome) {
-  static const std::map<std::string, std::string> kTexts = {{"completed", "stayed in the invariance set"},
-                                                            {"left_safely", "left through a safe side"},
-                                                            {"left_invariant", "left the invariance set"},
-                                                            {"no_action", "found no admissible action"}};
+  static const std::map<std::string, std::string> kTexts = {
+      {"completed", "stayed in the invariance set"}, {"left_safely", "left through a safe side"},
+      {"left_invariant", "left the invariance set"}, {"no_action", "found no admissible action"},
+      {"reached_goal", "reached the goal"},          {"late", "did not reach the goal in time"}};
   return kTexts.at(outcome);
 }
 
@@ -62,7 +59,8 @@ std::string coordinated_text(const Json& simulation) {
 /// Of the first run that contradicts the analysis.
 std::string violation_text(const Json& traces) {
   const auto violates = [](const Json& trace) {
-    return trace["outcome"] == "left_invariant" || trace["outcome"] == "no_action";
+    return trace["outcome"] == "left_invariant" || trace["outcome"] == "no_action" ||
+           trace["outcome"] == "late";
   };
   const auto first = std::find_if(traces.begin(), traces.end(), violates);
   if (first == traces.end()) return {};
@@ -78,14 +76,31 @@ Json state_json(const std::vector<double>& state, const ProblemSpec& spec) {
 }
 
 Json trace_json(const RunTrace& trace, std::size_t run, const ProblemSpec& spec) {
-  return {{"run", run},
-          {"outcome", outcome_name(trace.outcome)},
-          {"steps", trace.steps.size()},
-          {"coordinated", trace.coordinated_steps()},
-          {"longest_silence", trace.longest_silence()},
-          {"smallest_margin", trace.smallest_margin()},
-          {"start", state_json(trace.samples.front().state, spec)},
-          {"end", state_json(trace.samples.back().state, spec)}};
+  Json json{{"run", run},
+            {"outcome", outcome_name(trace.outcome)},
+            {"steps", trace.steps.size()},
+            {"coordinated", trace.coordinated_steps()},
+            {"longest_silence", trace.longest_silence()},
+            {"smallest_margin", trace.smallest_margin()},
+            {"start", state_json(trace.samples.front().state, spec)},
+            {"end", state_json(trace.samples.back().state, spec)}};
+  if (spec.goal) json["arrived"] = trace.arrived ? Json(*trace.arrived) : Json();
+  return json;
+}
+
+/// How many runs reach the goal, and when the last of them does.
+std::string goal_text(const Json& simulation) {
+  std::int64_t count = 0, latest = 0;
+  for (const Json& trace : simulation["traces"]) {
+    if (trace["arrived"].is_null()) continue;
+    ++count;
+    latest = std::max(latest, trace["arrived"].get<std::int64_t>());
+  }
+  const auto runs = static_cast<std::int64_t>(simulation["traces"].size());
+  if (count == 0) return "not reached";
+  const std::string when = duration(Json(latest), simulation);
+  if (runs == 1) return "reached after " + when;
+  return fmt::format("reached by {} of {}, after at most {}", grouped(count), count_of(runs, "run"), when);
 }
 
 std::string simulation_text(const Json& simulation, const ProblemSpec& spec) {
@@ -94,6 +109,7 @@ std::string simulation_text(const Json& simulation, const ProblemSpec& spec) {
                  {"coordinated", coordinated_text(simulation)},
                  {"longest silence", duration(simulation["longest_silence"], simulation)},
                  {"smallest margin", fmt::format("{:.6g}", simulation["smallest_margin"].get<double>())}};
+  if (spec.goal) facts.emplace_back("goal", goal_text(simulation));
   if (traces.size() == 1) {
     facts.emplace_back("start", values_text(traces.front()["start"]));
     facts.emplace_back("end", values_text(traces.front()["end"]));
@@ -120,7 +136,8 @@ Json simulation_json(const Simulation& simulation, const ResultsReader& results,
   json["steps"] = options.steps;
   json["period"] = nearest_double(spec.dynamics.period);
   json["period_unit"] = spec.dynamics.unit;
-  for (const Outcome outcome : kOutcomes) json["outcomes"][outcome_name(outcome)] = simulation.count(outcome);
+  for (const Outcome outcome : outcomes(spec))
+    json["outcomes"][outcome_name(outcome)] = simulation.count(outcome);
   json["steps_done"] = simulation.steps();
   json["coordinated"] = simulation.coordinated_steps();
   json["longest_silence"] = simulation.longest_silence();

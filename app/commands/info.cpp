@@ -7,6 +7,7 @@
 #include "app/network_report.hpp"
 #include "app/print_answer.hpp"
 #include "app/render.hpp"
+#include "app/requirement_text.hpp"
 #include "results/read_info.hpp"
 
 namespace coordreq {
@@ -29,6 +30,13 @@ std::string head_text(const Json& info) {
        {"cells", grouped(info["cells"])},
        {"safe set", grouped(info["safe"])},
        {"invariance set", grouped(info["invariant"])}});
+  if (info.contains("goal")) {
+    const Json& goal = info["goal"];
+    facts.emplace_back("goal", grouped(goal["cells"]));
+    facts.emplace_back("goal can be forced", grouped(goal["winning"]));
+    if (!goal["longest_arrival"].is_null())
+      facts.emplace_back("longest way to it", duration(goal["longest_arrival"], info));
+  }
   return facts_text(facts);
 }
 
@@ -72,8 +80,9 @@ std::string coalition_text(const Json& info) {
 
 std::string requirements_text(const Json& info) {
   const auto least = [&info](const Json& own) {
-    const Json& status = own["least_delay_status"];
-    return status == "steps" ? duration(own["least_delay"], info) : text_of(status);
+    const std::string key = worst_key(own);
+    const Json& status = own[key + "_status"];
+    return status == "steps" ? duration(own[key], info) : text_of(status);
   };
   const auto story = [&info](const Json& own) {
     const Json& steps = own["counterexample_steps"];
@@ -87,7 +96,7 @@ std::string requirements_text(const Json& info) {
               {"verdict", Align::left, [](const Json& own) { return own["holds"] ? "holds" : "FAILS"; }},
               {"cells", Align::right, [](const Json& own) { return grouped(own["cells"]); }},
               {"failing", Align::right, [](const Json& own) { return grouped(own["failing"]); }},
-              {"least delay", Align::left, least},
+              {info.contains("goal") ? "worst" : "least delay", Align::left, least},
               {"counterexample", Align::right, story}});
 }
 
@@ -96,7 +105,7 @@ std::string info_text(const Json& info) {
                      described_partitions(info["partitions"]) + coalition_text(info) +
                      requirements_text(info);
   if (info.contains("modes")) text += "\n" + modes_text(info["modes"]);
-  text += others_text(info, {"coalition"});
+  text += others_text(info, {"coalition", "goal"});
   text += "\ndatasets\n";
   for (const Json& dataset : info["datasets"]) text += "  " + line_of(dataset) + "\n";
   return text;

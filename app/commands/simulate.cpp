@@ -112,6 +112,10 @@ Run declare_simulate(Options& options) {
       "--disturbance", "random|extremes|constant|VALUES",
       "How it varies (default: random); VALUES: constant, as w1=0.1,w2=0",
       [&simulation](const auto& text, const auto& option) { read_disturbance(simulation, text, option); });
+  options.option("--until", "goal", "End runs where they reach the goal",
+                 [&simulation](const auto& text, const auto& option) {
+                   simulation.until_goal = OneOf<bool>{{{"goal", true}}}(text, option);
+                 });
   options.option(simulation.partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
   options.option(simulation.output, "-o,--output", "FILE", "File for the runs (default: none)", file_name);
   declare_progress(options, own->progress);

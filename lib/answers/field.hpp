@@ -124,8 +124,9 @@ struct FieldShown {
   std::int32_t below_zero = 0;
   bool steps = false;  ///< values are steps, which are told with the time that they take
   /// What it is called in the comparison of two files: "safe set", "delay". Fields of 0 and 1 are compared as
-  /// sets; others by value, of which more is better. Without a leading axis, or over /partition.
+  /// sets; others by value, of which more is better, or less. Without a leading axis, or over /partition.
   std::string compared = {};
+  bool less_is_better = false;
   /// What it is called in the answer to a query: "time to arrival". For numbers without a leading axis that
   /// the answer has no form of its own for.
   std::string asked = {};

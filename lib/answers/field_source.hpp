@@ -16,6 +16,8 @@ class FieldSource {
   [[nodiscard]] virtual std::vector<double> numbers(const std::string& path) const = 0;
   /// The attribute `cells`; empty if there is none, of the field or of the path.
   [[nodiscard]] virtual std::vector<std::uint64_t> counted(const std::string& path) const = 0;
+  /// An integer attribute of a field.
+  [[nodiscard]] virtual std::int64_t attribute(const std::string& path, const std::string& name) const = 0;
   /// @throws ResultsError that names the file and the field
   [[noreturn]] virtual void fail(const std::string& what, const std::string& path) const = 0;
 };

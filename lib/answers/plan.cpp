@@ -8,6 +8,9 @@
 #include "answers/convention/answer.hpp"
 #include "answers/convention/check.hpp"
 #include "answers/convention/fields.hpp"
+#include "answers/goal/answer.hpp"
+#include "answers/goal/check.hpp"
+#include "answers/goal/fields.hpp"
 #include "answers/ground/answer.hpp"
 #include "answers/ground/fields.hpp"
 #include "answers/invariance/answer.hpp"
@@ -46,6 +49,13 @@ const std::vector<Answer>& all_answers() {
        .summarise = summarise_layers,
        .tell = tell_layers,
        .check = check_layers},
+      {.stages = goal_stages,
+       .memory = goal_memory,
+       .fields = goal_fields,
+       .fill = fill_goal_fields,
+       .summarise = summarise_goal,
+       .tell = tell_goal,
+       .check = check_goal},
       {.stages = coalition_stages,
        .memory = coalition_memory,
        .fields = coalition_fields,

@@ -48,6 +48,8 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
                    [beyond = problem.safe_beyond](std::int64_t cell) { return beyond->test(cell); }),
       posts_(*problem.abstraction),
       inputs_(*problem.spec, posts_, sets()),
+      progress_(*problem.spec, posts_,
+                [arrival = problem.arrival](std::int64_t cell) { return arrival[at(cell)]; }),
       classes_(input_classes(*problem.spec, problem.abstraction->inputs, *problem.partition)),
       margin_(problem.spec->safe),
       nominal_(*problem.spec, *problem.abstraction, dynamics),
@@ -91,8 +93,13 @@ void ActionChooser::find_nominal() {
 }
 
 std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<const Rational> measured,
-                                                  bool coordinated, NextStates& next, RandomStream& random) {
+                                                  bool coordinated, bool approaching, NextStates& next,
+                                                  RandomStream& random) {
   admissible_ = &inputs_.of(cell);
+  if (approaching) {
+    progressing_ = progress_.of(cell, *admissible_);
+    admissible_ = &progressing_;
+  }
   if (admissible_->empty()) return std::nullopt;
   projections_.clear();
   if (coordinated) projections_.push_back(*admissible_);

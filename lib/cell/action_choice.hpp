@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "answers/one_cell/admissible_inputs.hpp"
+#include "answers/one_cell/progress_inputs.hpp"
 #include "cell/margin.hpp"
 #include "cell/next_states.hpp"
 #include "cell/random_stream.hpp"
@@ -31,6 +32,16 @@ struct LoopProblem {
   const CellSet* safe_beyond = nullptr;  ///< TubeSets::beyond
   const PackedPairs* listed = nullptr;   ///< what `controller.file` lists; null: it has none
   std::int64_t connection_delay = 0;     ///< D, steps
+  /// [cells], steps, as the results file has them; both empty without a goal.
+  std::span<const std::int32_t> arrival = {};
+  std::span<const std::int32_t> approach_delay = {};
+
+  [[nodiscard]] bool has_goal() const { return !arrival.empty(); }
+  /// The goal can be forced from the cell, and it is not in the goal.
+  [[nodiscard]] bool is_on_the_way(std::int64_t cell) const {
+    const std::int32_t steps = arrival[static_cast<std::size_t>(cell)];
+    return steps > 0 && steps != INT32_MAX;
+  }
 };
 
 /// What nature does in one period, and the measuring at its end.
@@ -40,7 +51,8 @@ struct Nature {
 };
 
 /// Chooses joint inputs. With coordination all agents choose from C(x) together; without it each class
-/// chooses from the projection of C(x) onto its inputs, so that together they choose from IND_C(x).
+/// chooses from the projection of C(x) onto its inputs, so that together they choose from IND_C(x). On the
+/// way to a goal from P(x) and IND_P(x).
 ///
 /// - random: uniform in C(x); uniform in each projection, class after class.
 /// - adversarial: of C(x) or IND_C(x) the joint input with the smallest delay of the cell in which the next
@@ -57,9 +69,11 @@ class ActionChooser {
 
   /// @param next begun at the true state with what nature does
   /// @param measured the state as it was measured; its cell is `cell`, in K
+  /// @param approaching whether to choose from P
   /// @returns nothing if no action is admissible
   [[nodiscard]] std::optional<std::int64_t> choose(std::int64_t cell, std::span<const Rational> measured,
-                                                   bool coordinated, NextStates& next, RandomStream& random);
+                                                   bool coordinated, bool approaching, NextStates& next,
+                                                   RandomStream& random);
 
   ActionChooser(const ActionChooser&) = delete;
   ActionChooser& operator=(const ActionChooser&) = delete;
@@ -91,6 +105,8 @@ class ActionChooser {
   MembersByCell safe_beyond_;
   CellPosts posts_;
   AdmissibleInputs inputs_;
+  ProgressInputs progress_;
+  Numbers progressing_;  ///< P(x) of the cell at work
   std::vector<InputClass> classes_;
   std::vector<std::vector<std::int64_t>> class_parts_;  ///< [class][action]: InputClass::parts()
   Margin margin_;

@@ -29,7 +29,8 @@ CellController::CellController(const ResultsReader& results, ThreadTeam& team)
       posts_(results.spec(), results.grid(), results.inputs(), team, stored_abstraction(results)),
       invariant_(results.grid(), [&results](const CellBlock& block) { return results.invariant(block); }),
       safe_(results.grid(), [&results](const CellBlock& block) { return results.safe(block); }),
-      admissible_(results.spec(), posts_, sets(team)) {}
+      admissible_(results.spec(), posts_, sets(team)),
+      progress_(results.spec(), posts_, [this](std::int64_t cell) { return arrival(cell); }) {}
 
 AdmissibleInputs::Sets CellController::sets(ThreadTeam& team) {
   AdmissibleInputs::Sets sets{.invariant = &invariant_, .safe = &safe_, .safe_beyond = {}, .listed = {}};
@@ -95,9 +96,45 @@ std::vector<std::vector<bool>> CellController::actions(std::size_t partition, st
   return result;
 }
 
+std::int32_t CellController::arrival(std::int64_t cell) {
+  const auto [place, is_new] = arrivals_.try_emplace(cell, 0);
+  if (is_new) {
+    const CellBlock block = one_cell(results_.grid(), cell);
+    place->second = results_.values(results_.field("/arrival"), std::nullopt, block).front();
+  }
+  return place->second;
+}
+
+std::vector<bool> CellController::inputs_of_run(std::int64_t cell) {
+  std::vector<bool> result = joint_inputs(cell);
+  if (!results_.spec().goal || arrival(cell) <= 0 || arrival(cell) == ResultsReader::kNever) return result;
+  std::vector<std::int64_t> admissible;
+  for (std::size_t u = 0; u < result.size(); ++u) {
+    if (result[u]) admissible.push_back(static_cast<std::int64_t>(u));
+  }
+  result.assign(result.size(), false);
+  for (const std::int64_t u : progress_.of(cell, admissible)) result[at(u)] = true;
+  return result;
+}
+
+std::vector<std::vector<bool>> CellController::approach_actions(std::size_t partition, std::int64_t cell) {
+  const PartitionSpec& spec = results_.spec().coordination.partitions[partition];
+  const bool is_on_the_way = arrival(cell) > 0 && arrival(cell) != ResultsReader::kNever;
+  const std::vector<bool> joint = inputs_of_run(cell);
+  std::vector<std::vector<bool>> result;
+  for (const auto& agents : spec.classes) {
+    const InputClass one(results_.inputs(), inputs_of(results_.spec(), agents));
+    std::vector<bool>& projection = result.emplace_back(at(one.actions()), false);
+    for (std::size_t u = 0; is_on_the_way && u < joint.size(); ++u) {
+      if (joint[u]) projection[at(one.action(static_cast<std::int64_t>(u)))] = true;
+    }
+  }
+  return result;
+}
+
 std::vector<std::vector<bool>> CellController::convention(std::int64_t cell) {
   const std::vector<InputClass> agents = agent_classes(results_.spec(), results_.inputs());
-  if (!results_.has_convention()) return convention_at(joint_inputs(cell), agents);
+  if (!results_.has_convention()) return convention_at(inputs_of_run(cell), agents);
   std::vector<std::vector<bool>> result;
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const CellBlock block = one_cell(results_.grid(), cell);

@@ -60,36 +60,76 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
   RandomStream disturbances(options_.seed, run, RandomStream::Purpose::disturbances);
   State state = first_state(std::move(measured), draw_nature(disturbances));
   RunTrace trace;
-  trace.samples.push_back(sample(state));
-  std::int32_t countdown = reset_countdown(trace.samples.back().delay);
+  const auto add_sample = [&]() -> RunTrace::Sample& {
+    trace.samples.push_back(sample(state));
+    const bool is_there = problem_.has_goal() && trace.samples.back().arrival == 0;
+    if (is_there && !trace.arrived) trace.arrived = static_cast<std::int64_t>(trace.samples.size()) - 1;
+    return trace.samples.back();
+  };
+  add_sample();
+  bool approaching = false;
+  std::int32_t countdown = begin_countdown(state, trace, approaching);
   trace.samples.back().countdown = countdown;
+  const std::int32_t promised = approaching ? trace.samples.front().arrival : RunTrace::kForever;
   for (std::int64_t k = 0; k < options_.steps; ++k) {
+    if (options_.until_goal && trace.arrived) {
+      trace.outcome = Outcome::reached_goal;
+      return trace;
+    }
     const bool coordinated = countdown == 0;
     const Nature nature = draw_nature(disturbances);
     next_.begin(state.exact, nature.disturbance, nature.error);
+    const bool from_progress = approaching && !trace.arrived;
     const std::optional<std::int64_t> u =
-        chooser_.choose(state.place.cell, state.measured, coordinated, next_, actions);
+        chooser_.choose(state.place.cell, state.measured, coordinated, from_progress, next_, actions);
     if (!u) {
       trace.outcome = Outcome::no_action;
       return trace;
     }
     trace.steps.push_back({*u, coordinated, nearest_doubles(nature.disturbance)});
     const bool known = advance(state, *u, nature);
-    RunTrace::Sample& reached = trace.samples.emplace_back(sample(state));
+    RunTrace::Sample& reached = add_sample();
     if (countdown != RunTrace::kForever) {
-      countdown = coordinated ? reset_countdown(reached.delay) : countdown - 1;
+      countdown = coordinated ? begin_countdown(state, trace, approaching) : countdown - 1;
     }
     reached.countdown = countdown;
     if (state.place.kind == Kind::left_safely) {
-      trace.outcome = Outcome::left_safely;
+      const bool ends_in_goal = options_.until_goal && trace.arrived;
+      trace.outcome = ends_in_goal ? Outcome::reached_goal : Outcome::left_safely;
       return trace;
     }
     if (!known || reached.delay < 0) {
       trace.outcome = Outcome::left_invariant;
       return trace;
     }
+    if (!trace.arrived && k + 1 >= promised) {
+      trace.outcome = Outcome::late;
+      return trace;
+    }
   }
+  if (options_.until_goal && trace.arrived) trace.outcome = Outcome::reached_goal;
   return trace;
+}
+
+std::int32_t ClosedLoop::begin_countdown(const State& state, const RunTrace& trace, bool& approaching) const {
+  approaching = problem_.has_goal() && !trace.arrived && state.place.kind == Kind::cell &&
+                problem_.is_on_the_way(state.place.cell);
+  if (!approaching) return reset_countdown(trace.samples.back().delay);
+  return reset_countdown(problem_.approach_delay[static_cast<std::size_t>(state.place.cell)]);
+}
+
+/// REQUIRES: it has left through `goal` or `safe` sides alone.
+bool ClosedLoop::is_beyond_goal_side(const State& state) const {
+  const UniformGrid& grid = problem_.abstraction->grid;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const Rational lower = grid[i].point(0) - grid[i].radius();
+    const Rational upper = grid[i].point(grid[i].count - 1) + grid[i].radius();
+    const bool below = state.measured[i] < lower, above = state.measured[i] >= upper;
+    if ((below && !traits(grid[i].below).wins) || (above && !traits(grid[i].above).wins)) {
+      if (!grid[i].periodic() && traits(below ? grid[i].below : grid[i].above).arrives) return false;
+    }
+  }
+  return true;
 }
 
 std::int32_t ClosedLoop::reset_countdown(std::int32_t delay) const {
@@ -152,6 +192,13 @@ RunTrace::Sample ClosedLoop::sample(const State& state) {
     result.delay = problem_.delay[static_cast<std::size_t>(state.place.cell)];
   } else {
     result.delay = state.place.kind == Kind::left_safely ? RunTrace::kForever : DelayLayers::kOutsideSafe;
+  }
+  if (!problem_.has_goal()) return result;
+  if (state.place.kind == Kind::cell) {
+    result.arrival = problem_.arrival[static_cast<std::size_t>(state.place.cell)];
+  } else {
+    const bool is_there = state.place.kind == Kind::left_safely && is_beyond_goal_side(state);
+    result.arrival = is_there ? 0 : RunTrace::kForever;
   }
   return result;
 }

@@ -22,6 +22,7 @@ struct LoopOptions {
   Disturbance disturbance = Disturbance::random;
   std::vector<Rational> constant_disturbance;  ///< one a disturbance; used if constant
   std::uint64_t seed = 1;
+  bool until_goal = false;  ///< a run ends where it reaches the goal
 };
 
 enum class Outcome : std::uint8_t {
@@ -29,10 +30,12 @@ enum class Outcome : std::uint8_t {
   left_safely,     ///< ended early beyond a `safe` side of the domain
   left_invariant,  ///< ended early because the measured cell is not in K, or the state is not finite
   no_action,       ///< ended early in K where no action is admissible
+  reached_goal,    ///< ended in the goal, as was asked
+  late,            ///< more steps than promised, and not in the goal
 };
-/// The last two contradict the analysis.
+/// Those that contradict the analysis.
 [[nodiscard]] constexpr bool is_violation(Outcome outcome) {
-  return outcome == Outcome::left_invariant || outcome == Outcome::no_action;
+  return outcome == Outcome::left_invariant || outcome == Outcome::no_action || outcome == Outcome::late;
 }
 
 /// One run. A sample is a state at a sampling instant; sample k is followed by step k, the last by none.
@@ -45,6 +48,7 @@ struct RunTrace {
     double margin = 0;             ///< of `safe` at the true state, see Margin
     /// Of the cell, steps, as LoopProblem has them; kForever in T, kOutsideSafe beyond an unsafe side.
     std::int32_t delay = 0;
+    std::int32_t arrival = 0;  ///< of the cell likewise, with a goal; 0 beyond a `goal` side
     /// i of Definition 3: steps that the agents still go on without coordination. kForever where they never
     /// need any.
     std::int32_t countdown = 0;
@@ -57,6 +61,7 @@ struct RunTrace {
   std::vector<Sample> samples;  ///< at least one
   std::vector<Step> steps;      ///< one fewer
   Outcome outcome = Outcome::completed;
+  std::optional<std::int64_t> arrived;  ///< the sample at which the goal is reached first
 
   [[nodiscard]] std::int64_t coordinated_steps() const;
   /// The most steps in a row without coordination.
@@ -71,6 +76,10 @@ struct RunTrace {
 /// countdown of delay(x) begins. While it is above 0 the agents act from IND_C, and start to connect when it
 /// is D; at 0 they coordinate: they act from C. If delay(x) < D the connection stays and the next step is
 /// coordinated too. Cells of unbounded delay never coordinate again.
+///
+/// With a goal (contract, section 5), until it is reached: where a countdown begins in a cell of W, it is
+/// that of the approach delay, and the agents act from P and IND_P. Then the goal is reached within
+/// arrival(start) steps.
 ///
 /// Holds the scratch memory of a run: one object a thread.
 class ClosedLoop {
@@ -95,6 +104,10 @@ class ClosedLoop {
   [[nodiscard]] bool advance(State& state, std::int64_t u, const Nature& nature);
   [[nodiscard]] RunTrace::Sample sample(const State& state);
   [[nodiscard]] std::int32_t reset_countdown(std::int32_t delay) const;
+  /// The countdown that begins at a sample. @param approaching set to whether it is one of the approach
+  [[nodiscard]] std::int32_t begin_countdown(const State& state, const RunTrace& trace,
+                                             bool& approaching) const;
+  [[nodiscard]] bool is_beyond_goal_side(const State& state) const;
 
   LoopProblem problem_;
   LoopOptions options_;

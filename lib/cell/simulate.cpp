@@ -124,7 +124,7 @@ void check_simulation_memory(const ResultsReader& results, const SimulationOptio
   const ProblemSpec& spec = results.spec();
   const auto states = static_cast<double>(spec.states.size());
   const auto disturbances = static_cast<double>(spec.disturbances.size());
-  double bytes = 32e6 + 4 * static_cast<double>(results.grid().cells());
+  double bytes = 32e6 + (spec.goal ? 12 : 4) * static_cast<double>(results.grid().cells());
   if (spec.controller.file) {
     bytes += static_cast<double>(PackedPairs::bytes_for(results.inputs().count())) *
              static_cast<double>(results.grid().cells());
@@ -148,11 +148,13 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   const ProblemSpec& spec = results.spec();
   const std::size_t partition = find_partition(spec, options.partition);
   check_prefer(spec, options.policy);
+  if (options.until_goal && !spec.goal) throw UsageError("the spec has no goal", "--until");
   RunOptions runs{.loop = {.steps = options.steps,
                            .policy = options.policy,
                            .disturbance = options.disturbance,
                            .constant_disturbance = constant_disturbance(spec, options.constant_disturbance),
-                           .seed = options.seed},
+                           .seed = options.seed,
+                           .until_goal = options.until_goal},
                   .runs = options.runs};
   if (options.start) runs.start = start_state(results, *options.start);
   check_simulation_memory(results, options);
@@ -167,6 +169,12 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
     check_start(results, *runs.start, delay);
   } else if (std::none_of(delay.begin(), delay.end(), [](std::int32_t steps) { return steps >= 0; })) {
     throw UsageError("the invariance set is empty: there is no state to start from", "--start");
+  }
+  const CellBlock all = all_cells(results.grid());
+  std::vector<std::int32_t> arrival, approach;
+  if (spec.goal) {
+    arrival = results.values(results.field("/arrival"), std::nullopt, all);
+    approach = results.values(results.field("/approach_delay"), partition, all);
   }
   // Tubes are not stored.
   const bool is_stored = results.has_abstraction() && !spec.abstraction.between_samples;
@@ -183,7 +191,9 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
                             .delay = delay,
                             .safe_beyond = beyond ? &*beyond : nullptr,
                             .listed = listed ? &*listed : nullptr,
-                            .connection_delay = spec.coordination.connection_delay};
+                            .connection_delay = spec.coordination.connection_delay,
+                            .arrival = arrival,
+                            .approach_delay = approach};
   Simulation simulation{.partition = problem.partition->name, .traces = simulate_runs(problem, runs, team)};
   if (options.output) {
     enter("writing");
@@ -229,8 +239,16 @@ std::optional<std::size_t> Simulation::violation() const {
 }
 
 std::string outcome_name(Outcome outcome) {
-  constexpr const char* kNames[] = {"completed", "left_safely", "left_invariant", "no_action"};
+  constexpr const char* kNames[] = {"completed", "left_safely",  "left_invariant",
+                                    "no_action", "reached_goal", "late"};
   return kNames[static_cast<std::size_t>(outcome)];
+}
+
+std::vector<Outcome> outcomes(const ProblemSpec& spec) {
+  std::vector<Outcome> result = {Outcome::completed, Outcome::left_safely, Outcome::left_invariant,
+                                 Outcome::no_action};
+  if (spec.goal) result.insert(result.end(), {Outcome::reached_goal, Outcome::late});
+  return result;
 }
 
 std::string policy_name(Policy policy) {

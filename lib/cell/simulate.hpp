@@ -24,6 +24,7 @@ struct SimulationOptions {
   Disturbance disturbance = Disturbance::random;
   NamedValues constant_disturbance;  ///< those not named are in the middle of their ranges
   std::uint64_t seed = 1;
+  bool until_goal = false;                  ///< runs end where they reach the goal
   std::optional<std::string> output;        ///< path of the file of runs
   std::optional<std::uint64_t> max_memory;  ///< bytes
   /// Told which stage begins: "checking", "running", "writing"; there are temporary files in all but
@@ -46,8 +47,10 @@ struct Simulation {
   [[nodiscard]] std::optional<std::size_t> violation() const;
 };
 
-/// "completed", "left_safely", "left_invariant", "no_action".
+/// "completed", "left_safely", "left_invariant", "no_action", "reached_goal", "late".
 [[nodiscard]] std::string outcome_name(Outcome outcome);
+/// All that runs of a spec can come to.
+[[nodiscard]] std::vector<Outcome> outcomes(const ProblemSpec& spec);
 /// "random", "adversarial", "prefer"; "random", "extremes", "constant".
 [[nodiscard]] std::string policy_name(Policy policy);
 [[nodiscard]] std::string disturbance_name(Disturbance disturbance);

@@ -25,7 +25,9 @@ StateAnswer StateQuery::at(std::vector<Rational> state) {
   for (std::size_t p = 0; p < results_.partitions().size(); ++p) {
     answer.partitions.push_back({.delay = results_.delay(p, block).front(),
                                  .trigger = results_.trigger(p, block).front(),
-                                 .actions = controller_.actions(p, cell)});
+                                 .actions = controller_.actions(p, cell),
+                                 .approach = {}});
+    if (results_.spec().goal) answer.partitions.back().approach = approach_at(p, cell);
   }
   if (results_.has_coalition()) answer.coalition = coalition_at(block);
   if (const auto& network = results_.spec().network) {
@@ -36,6 +38,16 @@ StateAnswer StateQuery::at(std::vector<Rational> state) {
   for (const Field* const field : asked_fields(results_))
     answer.others.push_back(results_.values(*field, std::nullopt, block).front());
   return answer;
+}
+
+StateAnswer::Approach StateQuery::approach_at(std::size_t partition, std::int64_t cell) {
+  const CellBlock block = one_cell(results_.grid(), cell);
+  const auto value = [&](const char* path) {
+    return results_.values(results_.field(path), partition, block).front();
+  };
+  return {.delay = value("/approach_delay"),
+          .trigger = value("/approach_trigger"),
+          .actions = controller_.approach_actions(partition, cell)};
 }
 
 StateAnswer::Coalition StateQuery::coalition_at(const CellBlock& block) const {

@@ -14,10 +14,17 @@ namespace coordreq {
 
 /// Everything that a results file knows about one state.
 struct StateAnswer {
+  /// On the way to a goal.
+  struct Approach {
+    std::int32_t delay = 0;                  ///< steps, as `/approach_delay`
+    std::int32_t trigger = 0;                ///< steps, as `/approach_trigger`
+    std::vector<std::vector<bool>> actions;  ///< joint actions that come nearer, [class][action]; none in G
+  };
   struct Partition {
     std::int32_t delay = 0;                  ///< steps, as ResultsReader::delay()
     std::int32_t trigger = 0;                ///< steps, as ResultsReader::trigger()
     std::vector<std::vector<bool>> actions;  ///< admissible joint actions, [class][action]
+    std::optional<Approach> approach;        ///< if the spec has a goal
   };
   std::vector<Rational> state;
   Location location;
@@ -52,6 +59,7 @@ class StateQuery {
   [[nodiscard]] StateAnswer at(std::vector<Rational> state);
 
  private:
+  [[nodiscard]] StateAnswer::Approach approach_at(std::size_t partition, std::int64_t cell);
   [[nodiscard]] StateAnswer::Coalition coalition_at(const CellBlock& block) const;
 
   const ResultsReader& results_;

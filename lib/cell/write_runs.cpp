@@ -158,6 +158,16 @@ class RunFields {
             std::vector<FieldAttribute>{
                 flags({no_sample, {-2, "not_safe"}, {-1, "not_invariant"}, {kLargestValue, "unbounded"}})},
         of_sample(kNoSample, [](const Sample& s, std::size_t) { return s.delay; }));
+    if (spec_.goal) {
+      add_list<std::int32_t>(
+          "/arrival", ElementType::int32,
+          described("arrival of the cell: steps within which the goal can be forced") +
+              std::vector<FieldAttribute>{flags({no_sample,
+                                                 {-2, "not_safe"},
+                                                 {-1, "not_invariant"},
+                                                 {kLargestValue, "goal_cannot_be_forced"}})},
+          of_sample(kNoSample, [](const Sample& s, std::size_t) { return s.arrival; }));
+    }
     add_list<std::uint8_t>(
         "/coordinated", ElementType::uint8,
         described("the agents coordinate the step that follows the sample") +
@@ -180,11 +190,16 @@ class RunFields {
   }
 
   void add_ends() {
+    if (spec_.goal) {
+      add_end<std::int32_t>("/arrived", ElementType::int32,
+                            described("sample at which the goal is reached") +
+                                std::vector<FieldAttribute>{flags({{-1, "not_reached"}})},
+                            [](const RunTrace& trace) { return trace.arrived.value_or(-1); });
+    }
     add_end<std::int32_t>("/samples", ElementType::int32, described("number of samples of the run"),
                           [](const RunTrace& trace) { return trace.samples.size(); });
     std::vector<FieldFlag> outcomes;
-    for (const Outcome outcome :
-         {Outcome::completed, Outcome::left_safely, Outcome::left_invariant, Outcome::no_action})
+    for (const Outcome outcome : coordreq::outcomes(spec_))
       outcomes.push_back({static_cast<std::int64_t>(outcomes.size()), outcome_name(outcome)});
     add_end<std::uint8_t>(
         "/outcome", ElementType::uint8,

@@ -126,7 +126,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
     const std::uint32_t* ids = view_ids(view, place);
     // Not easily told where columns or rows of `allow` are numbered.
     const RowSlices* slices = view.partial.empty() ? sources_[view.table].slices : nullptr;
-    const GridDimension& target = engine_->grid()[view.table % engine_->tables()];
+    const GridDimension& target = engine_->target(slices == nullptr ? 0 : view.table);
     const auto number = [&](std::size_t g) {
       const std::int32_t combination = view.combination[groups.representative[g]];
       return ids == nullptr ? static_cast<std::uint32_t>(combination) : ids[combination];

@@ -14,6 +14,13 @@ Level converted(Other level) {
   return static_cast<Level>(level);
 }
 
+/// The same for levels that rise: as far from kTop as it was. 0 and 1 say nothing of a goal.
+template <class Wide, class Narrow>
+Wide raised(Narrow level) {
+  if (level <= 1) return level;
+  return static_cast<Wide>(LevelRows<Wide>::kTop - (LevelRows<Narrow>::kTop - level));
+}
+
 /// Calls `change(row, cells)` for every row, and puts the cells that it leaves in `levels`.
 template <class Level, class Change>
 void change_rows(LevelRows<Level>& levels, ThreadTeam& team, const Change& change) {
@@ -31,11 +38,13 @@ void change_rows(LevelRows<Level>& levels, ThreadTeam& team, const Change& chang
 }
 
 template <class Wide, class Narrow>
-LevelRows<Wide> widened(const RowEngine& engine, const LevelRows<Narrow>& narrow, ThreadTeam& team) {
+LevelRows<Wide> widened(const RowEngine& engine, const LevelRows<Narrow>& narrow, bool rises,
+                        ThreadTeam& team) {
   LevelRows<Wide> levels = engine.make_levels<Wide>(engine.posts(), narrow.is_shared());
   change_rows(levels, team, [&](std::int64_t r, Wide* cells) {
     const Narrow* source = narrow.row(r);
-    std::transform(source, source + levels.row_length(), cells, converted<Wide, Narrow>);
+    std::transform(source, source + levels.row_length(), cells,
+                   rises ? raised<Wide, Narrow> : converted<Wide, Narrow>);
   });
   return levels;
 }
@@ -50,20 +59,24 @@ void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team)
   });
 }
 
-/// True if a cell has the greatest finite level of the width: the ones before it may need more.
+/// Some cell has this level. Gaps have that of no cell that counts.
 template <class Level>
-bool is_full(const LevelRows<Level>& levels) {
+bool has_level(const LevelRows<Level>& levels, Level level) {
   bool found = false;
   levels.for_each_held(0, levels.held(), [&](const Level* row, std::int64_t) {
-    const Level* const end = row + levels.row_length();
-    found = found || std::find(row, end, LevelRows<Level>::kTop - 1) != end;
+    levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+      found = found || std::find(row + lane, row + lane + count, level) != row + lane + count;
+    });
   });
   return found;
 }
 
+/// False if a cell has the last level of the width: the ones before it may need more.
 template <class Level>
-bool is_enough(const LevelRows<Level>& levels, std::int64_t limit) {
-  return (limit >= 0 && limit < LevelRows<Level>::kTop - 1) || !is_full(levels);
+bool is_enough(const LevelRows<Level>& levels, bool rises, std::int64_t limit) {
+  constexpr Level kTop = LevelRows<Level>::kTop;
+  if (rises) return !has_level(levels, Level{2});
+  return (limit >= 0 && limit < kTop - 1) || !has_level(levels, static_cast<Level>(kTop - 1));
 }
 
 /// Above the limit of the width in use levels count as kTop, which is not too low: the wave can go on from
@@ -102,16 +115,17 @@ class LevelFinder {
     counts_.add(run_wave(levels, engine_, hull_, clipped<Level>(problem_.limit), settled, *op, watch, team_,
                          problem_.equal));
     if constexpr (sizeof(Level) < sizeof(std::uint32_t)) {
-      if (!is_enough(levels, problem_.limit)) return from(widened_and_bounded(std::move(levels)));
+      if (!is_enough(levels, op->rises(), problem_.limit))
+        return from(widened_and_bounded(std::move(levels), op->rises()));
     }
     return LevelMap(std::move(levels));
   }
 
  private:
   template <class Level>
-  auto widened_and_bounded(LevelRows<Level> levels) {
+  auto widened_and_bounded(LevelRows<Level> levels, bool rises) {
     using Wide = std::conditional_t<sizeof(Level) == 1, std::uint16_t, std::uint32_t>;
-    LevelRows<Wide> wide = widened<Wide>(engine_, levels, team_);
+    LevelRows<Wide> wide = widened<Wide>(engine_, levels, rises, team_);
     levels = {};
     for (const LevelMap* bound : problem_.bounds) lower_to(*bound, wide, team_);
     return wide;

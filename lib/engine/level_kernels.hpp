@@ -34,9 +34,14 @@ struct LevelKernels {
   /// Bit j % 64 of bits[j / 64] = whether row[j] is the greatest level, for j < n; further bits of the last
   /// word are 0.
   void (*top_bits)(const Level* row, std::uint64_t* bits, std::size_t n);
+  /// The same, for whether row[j] is above bound[j].
+  void (*above_bits)(const Level* row, const Level* bound, std::uint64_t* bits, std::size_t n);
   /// One step of L <- 1 + min ... : out[j] = 0 where old[j] = 0, else next[j] + 1, and the greatest level
   /// where that is above `limit`. @returns whether out differs from old.
   bool (*advance)(const Level* next, const Level* old, Level limit, Level* out, std::size_t n);
+  /// One step of L <- max(L, -1 + max ...): out[j] = 0 where old[j] = 0, else the greater of old[j] and
+  /// next[j] - 1. @returns whether out differs from old.
+  bool (*rise)(const Level* next, const Level* old, Level* out, std::size_t n);
 };
 
 inline constexpr std::size_t kLevelBlock = 64;

@@ -169,18 +169,31 @@ inline __attribute__((always_inline)) uint64_t packed(const Level* lanes, size_t
   return bits;
 }
 
+/// Puts the bits of the lanes from j on, all ones or 0, in their place.
+template <class Level>
+inline __attribute__((always_inline)) void put_bits(const typename Lanes<Level>::Vector& lanes, size_t j,
+                                                    uint64_t* bits, size_t n) {
+  constexpr size_t kCount = Lanes<Level>::kCount;
+  Level list[kCount];
+  block(list) = lanes;
+  uint64_t word = packed(list, kCount);
+  if (n - j < kCount) word &= (uint64_t{1} << (n - j)) - 1;
+  bits[j / 64] = (j % 64 == 0 ? 0 : bits[j / 64]) | word << (j % 64);
+}
+
 template <class Level>
 void top_bits(const Level* row, uint64_t* bits, size_t n) {
   typedef typename Lanes<Level>::Vector Vector;
-  constexpr size_t kCount = Lanes<Level>::kCount;
   constexpr auto kTop = static_cast<Level>(~Level{0});
-  for (size_t j = 0; j < n; j += kCount) {
-    Level lanes[kCount];
-    block(lanes) = reinterpret_cast<Vector>(block(row + j) == kTop);
-    uint64_t word = packed(lanes, kCount);
-    if (n - j < kCount) word &= (uint64_t{1} << (n - j)) - 1;
-    bits[j / 64] = (j % 64 == 0 ? 0 : bits[j / 64]) | word << (j % 64);
-  }
+  for (size_t j = 0; j < n; j += Lanes<Level>::kCount)
+    put_bits<Level>(reinterpret_cast<Vector>(block(row + j) == kTop), j, bits, n);
+}
+
+template <class Level>
+void above_bits(const Level* row, const Level* bound, uint64_t* bits, size_t n) {
+  typedef typename Lanes<Level>::Vector Vector;
+  for (size_t j = 0; j < n; j += Lanes<Level>::kCount)
+    put_bits<Level>(reinterpret_cast<Vector>(block(row + j) > block(bound + j)), j, bits, n);
 }
 
 template <class Level>
@@ -209,9 +222,32 @@ bool advance(const Level* next, const Level* old, Level limit, Level* out, size_
 }
 
 template <class Level>
-constexpr LevelKernels<Level> kKernels{minimum<Level>,  raise<Level>,  raise_where<Level>, lower_where<Level>,
-                                       lower_at<Level>, is_top<Level>, is_settled<Level>,  spread<Level>,
-                                       top_bits<Level>, advance<Level>};
+bool rise(const Level* next, const Level* old, Level* out, size_t n) {
+  typedef typename Lanes<Level>::Vector Vector;
+  const Vector zero = Vector{} + Level{0};
+  bool changed = false;
+  for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
+    const Vector before = block(old + j);
+    const Vector value = block(next + j);
+    const Vector stepped = value == zero ? zero : value - Level{1};
+    const Vector risen = stepped > before ? stepped : before;
+    const Vector result = before == zero ? zero : risen;
+    const Vector difference = result ^ before;
+    block(out + j) = result;
+    if (changed) continue;
+    if (n - j >= Lanes<Level>::kCount) {
+      changed = any(difference);
+    } else {
+      for (size_t i = 0; i < n - j; ++i) changed = changed || difference[i] != 0;
+    }
+  }
+  return changed;
+}
+
+template <class Level>
+constexpr LevelKernels<Level> kKernels{
+    minimum<Level>,    raise<Level>,  raise_where<Level>, lower_where<Level>, lower_at<Level>, is_top<Level>,
+    is_settled<Level>, spread<Level>, top_bits<Level>,    above_bits<Level>,  advance<Level>,  rise<Level>};
 
 }  // namespace
 

@@ -46,10 +46,11 @@ TableProfile profile(const RowSlices& slices) {
 
 RowEngine::RowEngine(const Abstraction& abstraction, const PairTable* allow, const TubeSets& tubes)
     : abstraction_(&abstraction), allow_(allow) {
-  std::vector<GridDimension> dimensions = abstraction.grid.dimensions();
-  add_family(abstraction.tables, dimensions);
+  add_family(abstraction.tables, abstraction.grid.dimensions());
   choose_outer();
   if (tubes.inside == nullptr) return;
+  std::vector<GridDimension> dimensions =
+      (tubes.grid == nullptr ? abstraction.grid : *tubes.grid).dimensions();
   add_demand(tubes.beyond != nullptr ? *tubes.beyond : *tubes.inside, dimensions);
   if (tubes.beyond == nullptr) return;
   // The same tubes again, now blocked where they pass a limit: what is left need not be safe beyond it.
@@ -87,6 +88,7 @@ std::vector<RowSlices> RowEngine::summed_slices() const {
 
 void RowEngine::add_family(const std::vector<TransitionTable>& tables,
                            const std::vector<GridDimension>& targets) {
+  targets_.insert(targets_.end(), targets.begin(), targets.end());
   std::vector<RowSlices> sums;
   if (slices_.empty()) sums = summed_slices();
   const std::size_t cut = tables.size() - sums.size();

@@ -46,6 +46,8 @@ class RowEngine {
   /// twice.
   [[nodiscard]] const std::vector<RowSlices>& slices() const { return slices_; }
   [[nodiscard]] RowFamily posts() const { return family(0); }
+  /// The dimension, with its rules for leaving the domain, that a table of slices was cut for.
+  [[nodiscard]] const GridDimension& target(std::size_t table) const { return targets_[table]; }
   /// A post counts as blocked unless its tube is inside the set of one of these.
   struct Demand {
     RowFamily family;
@@ -98,6 +100,7 @@ class RowEngine {
   const Abstraction* abstraction_;
   const PairTable* allow_;
   std::vector<RowSlices> slices_;
+  std::vector<GridDimension> targets_;           ///< [table of slices]
   std::vector<LevelRows<std::uint8_t>> inside_;  ///< one for each family of tubes
   std::vector<RowShape> shapes_;                 ///< one a family: posts; tubes; tubes that pass no limit
   std::size_t outer_ = 0;

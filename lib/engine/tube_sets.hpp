@@ -9,8 +9,9 @@ namespace coordreq {
 /// Where tubes must stay: f(x, u) counts as empty unless the cells of resolved_tube() are in `inside`, or in
 /// `beyond` if the tube passes the limit of a state that saturates.
 struct TubeSets {
-  const CellSet* inside = nullptr;  ///< null: there are no tubes
-  const CellSet* beyond = nullptr;  ///< a part of `inside`; null: the same
+  const CellSet* inside = nullptr;    ///< null: there are no tubes
+  const CellSet* beyond = nullptr;    ///< a part of `inside`; null: the same
+  const UniformGrid* grid = nullptr;  ///< with the rules for tubes, if those for posts are others; or null
 };
 
 /// True if the tube of `state` with this raw range passes a limit that the sample puts it back on.

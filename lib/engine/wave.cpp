@@ -62,7 +62,7 @@ class WaveRunner {
     }
     // Levels below the lowest to which a cell has sunk in a whole sweep are final: the sets they make have
     // not changed while it was found of each cell that it stays in them.
-    layer_ = std::max<std::int64_t>(layer_, lowest_ == kTop ? layer_ : std::int64_t{lowest_} - 1);
+    if (lowest_ != kTop) layer_ = std::max<std::int64_t>(layer_, std::int64_t{lowest_} - 1);
     step.layer = layer_;
     tell(step);
     return step.visited;
@@ -110,17 +110,19 @@ class WaveRunner {
     return !settled_.empty() && settled_[static_cast<std::size_t>(row)] != 0;
   }
 
-  [[nodiscard]] bool can_sink(const Level* row) const {
+  [[nodiscard]] bool can_change(const Level* row) const {
+    const auto is_open = [rises = op_.rises()](Level level) {
+      return rises ? level > 0 && level < kTop : level > 1;
+    };
     bool can = false;
     levels_.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
-      const Level* cells = row + lane;
-      can = can || std::any_of(cells, cells + count, [](Level level) { return level > 1; });
+      can = can || std::any_of(row + lane, row + lane + count, is_open);
     });
     return can;
   }
 
-  /// Rows without a cell in the set never change, nor do those that have sunk as deep as cells in the set
-  /// can.
+  /// Rows without a cell in the set never change, nor do those that have sunk as deep (risen as high) as
+  /// cells in the set can.
   void find_alive() {
     alive_.assign(static_cast<std::size_t>(engine_.rows()), 0);
     unit_alive_.assign(static_cast<std::size_t>(units_), 0);
@@ -128,7 +130,7 @@ class WaveRunner {
     bool is_alive = false;
     for (std::int64_t r = 0; r < engine_.rows(); ++r) {
       const Level* const row = std::as_const(levels_).row(r);
-      if (row != before) is_alive = can_sink(row);
+      if (row != before) is_alive = can_change(row);
       before = row;
       alive_[static_cast<std::size_t>(r)] = is_alive ? 1 : 0;
       if (!is_alive) continue;
@@ -231,16 +233,23 @@ class WaveRunner {
     levels_.clear_gaps(worker.old.data());
     if (!op_.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w)) return;
     const LevelKernels<Level>& kernels = worker.posts.kernels();
-    if (!kernels.advance(worker.next.data(), worker.old.data(), limit_, worker.result.data(), n)) return;
+    const bool is_changed =
+        op_.rises() ? kernels.rise(worker.next.data(), worker.old.data(), worker.result.data(), n)
+                    : kernels.advance(worker.next.data(), worker.old.data(), limit_, worker.result.data(), n);
+    if (!is_changed) return;
+    if (!op_.rises()) find_lowest(worker, n);
+    worker.changes.push_back({place.row, worker.storage.size()});
+    worker.storage.insert(worker.storage.end(), worker.result.begin(),
+                          worker.result.begin() + static_cast<std::ptrdiff_t>(n));
+  }
+
+  static void find_lowest(Worker& worker, std::size_t n) {
     Level lowest = worker.lowest;
     for (std::size_t c = 0; c < n; ++c) {
       const Level sunk = worker.result[c] == worker.old[c] ? kTop : worker.result[c];
       lowest = std::min(lowest, sunk);
     }
     worker.lowest = lowest;
-    worker.changes.push_back({place.row, worker.storage.size()});
-    worker.storage.insert(worker.storage.end(), worker.result.begin(),
-                          worker.result.begin() + static_cast<std::ptrdiff_t>(n));
   }
 
   void tell(WaveStep& step) const {

@@ -40,6 +40,8 @@ class RowOperator {
   /// @returns false if nothing is lower than it was; `next` is then not looked at
   virtual bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
                            int worker) = 0;
+  /// Levels rise, see run_wave(): then all this is of the nearness of a goal.
+  [[nodiscard]] virtual bool rises() const { return false; }
 };
 
 /// The greatest solution of level(x) = 1 + op(level)(x) below the given levels, a level above `limit`
@@ -50,6 +52,12 @@ class RowOperator {
 /// found: levels travel through the whole grid in one sweep where motion is one way, instead of one
 /// step a sweep. A row is looked at again only after a row that its posts can meet has changed.
 /// REQUIRES: 1 + op(levels) is nowhere above the given levels, so that they only ever sink.
+///
+/// Where the operator says that levels rise, the other way round: the least solution of
+/// level(x) = max(given(x), op(level)(x) - 1). A cell has level kTop - i if it is i steps from a goal, 1 if
+/// it is not known to come there, and 0, for ever, if it does not count; so that the least level of a post is
+/// that of its farthest cell, and readers and operators are the same for both. There is no limit then, and i
+/// goes up to kTop - 2.
 /// @param settled [row] not 0 where 1 + op(levels) is known to be the given levels: such a row is not looked
 /// at
 ///   before a row that its posts can meet has changed. Empty: nothing is known

@@ -72,6 +72,8 @@ class HeaderWriter {
     write_inputs();
     write_dimensions();
     put(c_header::kFunctions);
+    if (results_.spec().goal) put(c_header::kApproach);
+    put(c_header::kClosing);
   }
 
  private:
@@ -140,6 +142,19 @@ class HeaderWriter {
     // INT32_MAX is an int wherever int32_t is one, and -2147483648 does not occur.
     integers("int32_t", "entry_countdown", countdowns);
     integers("uint32_t", "entry_set", sets);
+    if (results_.spec().goal) write_approach();
+  }
+
+  void write_approach() const {
+    std::vector<std::int32_t> countdowns;
+    std::vector<std::uint32_t> sets;
+    for (const ActionRuns::Entry& entry : runs_.entries) {
+      countdowns.push_back(entry.approach_countdown);
+      sets.insert(sets.end(), entry.approach_sets.begin(), entry.approach_sets.end());
+    }
+    sink_("/* The same on the way to the goal. */\n");
+    integers("int32_t", "entry_approach_countdown", countdowns);
+    integers("uint32_t", "entry_approach_set", sets);
   }
 
   void write_sets() const {

@@ -1,5 +1,6 @@
 #include "export/c_header_tables.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -38,10 +39,24 @@ ActionRuns find_action_runs(const ResultsReader& results, std::size_t partition,
     const std::int64_t end = std::min(begin + kPartCells, results.grid().cells());
     const auto countdowns = results.stretch(
         begin, end, [&](const CellBlock& block) { return results.trigger(partition, block); });
+    std::vector<std::int32_t> approach;
+    if (results.spec().goal) {
+      approach = results.stretch(begin, end, [&](const CellBlock& block) {
+        return results.values(results.field("/approach_trigger"), partition, block);
+      });
+    }
     for (std::int64_t cell = begin; cell < end; ++cell) {
       const auto actions = controller.actions(partition, cell);
       ActionRuns::Entry entry{.countdown = countdowns[static_cast<std::size_t>(cell - begin)]};
       for (std::size_t c = 0; c < sets.size(); ++c) entry.sets.push_back(sets[c].number_of(actions[c]));
+      if (results.spec().goal) {
+        entry.approach_countdown = approach[static_cast<std::size_t>(cell - begin)];
+        const auto nearer = controller.approach_actions(partition, cell);
+        for (std::size_t c = 0; c < sets.size(); ++c) {
+          const bool has_way = std::find(nearer[c].begin(), nearer[c].end(), true) != nearer[c].end();
+          entry.approach_sets.push_back(has_way ? sets[c].number_of(nearer[c]) : entry.sets[c]);
+        }
+      }
       const std::uint32_t number = entries.number_of(entry);
       if (!runs.entry_of.empty() && runs.entry_of.back() == number) continue;
       runs.start.push_back(static_cast<std::uint32_t>(cell));

@@ -15,6 +15,9 @@ struct ActionRuns {
   struct Entry {
     std::int32_t countdown = 0;
     std::vector<std::uint32_t> sets;  ///< by class: number among `sets`
+    /// The same on the way to a goal, where there is one; without a way as above, and without a goal nothing.
+    std::int32_t approach_countdown = 0;
+    std::vector<std::uint32_t> approach_sets;
     [[nodiscard]] auto operator<=>(const Entry&) const = default;
   };
   std::vector<std::uint32_t> start;                  ///< first cell of each run, ascending from 0

@@ -14,6 +14,7 @@ namespace coordreq {
 struct OutsideTraits {
   bool blocks = false;   ///< a post that leaves is empty
   bool arrives = false;  ///< what leaves is the absorbing cell T, in every set
+  bool wins = false;     ///< and leaving there is reaching the goal
   bool clamps = false;   ///< what is beyond reads as the boundary cell
   bool wraps = false;    ///< what leaves comes in again on the other side
   bool resets = false;   ///< the flow may pass the limit, and the sample puts the state back on it
@@ -24,12 +25,13 @@ struct OutsideTraits {
 };
 
 /// In the order of Outside.
-inline constexpr std::array<OutsideTraits, 5> kOutsideTraits{{
+inline constexpr std::array<OutsideTraits, 6> kOutsideTraits{{
     {.blocks = true},                  // unsafe
     {.arrives = true},                 // safe
     {.clamps = true, .resets = true},  // saturate
     {.clamps = true, .stops = true},   // stop
     {.wraps = true},                   // periodic
+    {.arrives = true, .wins = true},   // goal
 }};
 
 [[nodiscard]] constexpr const OutsideTraits& traits(Outside rule) {

@@ -155,6 +155,10 @@ std::vector<std::uint64_t> SmallFields::counted(const std::string& path) const {
   return found == parts_.counted.end() ? std::vector<std::uint64_t>() : found->second;
 }
 
+std::int64_t SmallFields::attribute(const std::string& path, const std::string& name) const {
+  return file_.integer(path, name);
+}
+
 void SmallFields::fail(const std::string& what, const std::string& path) const {
   throw ResultsError(what, file_.place(path));
 }

@@ -63,6 +63,16 @@ SetComparison compare_sets(const ResultsReader& before, const ResultsReader& aft
   return result;
 }
 
+/// A value of which less is better as one of which more is, and back again; no number of steps is infinite.
+std::int32_t turned(std::int32_t value) {
+  constexpr std::int32_t kMost = ResultsReader::kNever - 1;
+  if (value < 0) return value;
+  return value == ResultsReader::kNever ? 0 : kMost - value;
+}
+std::int32_t turned_back(std::int32_t value) {
+  return value == 0 ? ResultsReader::kNever : turned(value);
+}
+
 /// Adds up the cells, and keeps the worst of them.
 class ValueCounter {
  public:
@@ -122,10 +132,17 @@ void compare_values(const ResultsReader& before, const ResultsReader& after, con
   };
   for_each_part(before, after, read, [&](std::int64_t begin, const auto& old, const auto& now) {
     if (options.progress) options.progress(subject);
-    for (std::size_t i = 0; i < old.size(); ++i)
-      counter.add({begin + static_cast<std::int64_t>(i), old[i], now[i]});
+    for (std::size_t i = 0; i < old.size(); ++i) {
+      const std::int64_t cell = begin + static_cast<std::int64_t>(i);
+      const bool turns = field.shown.less_is_better;
+      counter.add(turns ? ValueChange{cell, turned(old[i]), turned(now[i])}
+                        : ValueChange{cell, old[i], now[i]});
+    }
   });
   counter.finish();
+  if (!field.shown.less_is_better) return;
+  for (ValueChange& change : result.worst)
+    change = {change.cell, turned_back(change.before), turned_back(change.after)};
 }
 
 /// Of every pair of partitions, where the field is over these.

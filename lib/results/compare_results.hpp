@@ -36,10 +36,10 @@ struct PartitionPair {
   std::size_t after = 0;
 };
 
-/// A field of numbers, such as the delay, of which more is better. Delays are compared as what each file
-/// guarantees: a cell outside K tolerates less than a cell with delay 0, unbounded is more than every number,
-/// and where `max_delay` stopped an analysis its last delay counts as it is, though the true one may be
-/// larger.
+/// A field of numbers, such as the delay, of which more is better, or of arrivals, of which less is. Delays
+/// are compared as what each file guarantees: a cell outside K tolerates less than a cell with delay 0,
+/// unbounded is more than every number, and where `max_delay` stopped an analysis its last delay counts as it
+/// is, though the true one may be larger.
 struct ValueComparison {
   std::string name;   ///< "delay"
   std::string words;  ///< what it is called

@@ -147,6 +147,10 @@ std::vector<double> ResultsReader::numbers(const std::string& path) const {
   return reading(path_, [&] { return SmallFields(*file_, parts_).numbers(path); });
 }
 
+std::int64_t ResultsReader::attribute(const std::string& path, const std::string& name) const {
+  return SmallFields(*file_, parts_).attribute(path, name);
+}
+
 std::vector<std::uint64_t> ResultsReader::counted(const std::string& path) const {
   return SmallFields(*file_, parts_).counted(path);
 }

@@ -38,6 +38,11 @@ constexpr std::array<std::string_view, 25> kDatasetNames{"abstraction",
                                                          "spec",
                                                          "trigger"};
 
+/// Of specs with a goal.
+constexpr std::array<std::string_view, 6> kGoalDatasetNames{"approach_delay",   "approach_fixed_point_index",
+                                                            "approach_layer",   "approach_layer_size",
+                                                            "approach_trigger", "arrival"};
+
 }  // namespace
 
 std::string_view kind_in_words(NameKind kind) {
@@ -45,7 +50,8 @@ std::string_view kind_in_words(NameKind kind) {
   return kWords[static_cast<std::size_t>(kind)];
 }
 
-bool is_dataset_name(std::string_view name) {
+bool is_dataset_name(std::string_view name, bool has_goal) {
+  if (has_goal && std::binary_search(kGoalDatasetNames.begin(), kGoalDatasetNames.end(), name)) return true;
   return std::binary_search(kDatasetNames.begin(), kDatasetNames.end(), name);
 }
 
@@ -53,7 +59,7 @@ void NameTable::add(const std::string& name, NameKind kind, const std::string& p
   if (is_reserved_name(name)) {
     throw SpecError(quote_text(name) + " is a function or keyword, expected another name", pointer);
   }
-  if (is_dataset_name(name)) {
+  if (is_dataset_name(name, has_goal_)) {
     throw SpecError(quote_text(name) + " is a dataset of the results file, expected another name", pointer);
   }
   const auto [entry, is_new] = entries_.try_emplace(name, Entry{kind, pointer});

@@ -19,6 +19,8 @@ enum class NameKind : std::uint8_t { state, input, disturbance, constant, defini
 /// file.
 class NameTable {
  public:
+  /// Reserves what only the results of a goal are called.
+  void reserve_goal_names() { has_goal_ = true; }
   /// @throws SpecError if the name is taken or reserved; `pointer` says where it stands
   void add(const std::string& name, NameKind kind, const std::string& pointer);
 
@@ -31,9 +33,10 @@ class NameTable {
     std::string pointer;
   };
   std::map<std::string, Entry> entries_;
+  bool has_goal_ = false;
 };
 
-/// The datasets and groups that the results file has or will have at its top (contract, section 4).
-[[nodiscard]] bool is_dataset_name(std::string_view name);
+/// The datasets and groups that the results file has or will have at its top (contract, sections 4 and 5).
+[[nodiscard]] bool is_dataset_name(std::string_view name, bool has_goal);
 
 }  // namespace coordreq

@@ -14,7 +14,7 @@
 // states first, then inputs, then disturbances, each in the order of the spec.
 namespace coordreq {
 
-enum class Outside : std::uint8_t { unsafe, safe, saturate, stop, periodic };
+enum class Outside : std::uint8_t { unsafe, safe, saturate, stop, periodic, goal };
 
 /// The grid points first, first + step, ..., first + (count - 1) * step. REQUIRES count >= 1, step > 0.
 struct GridSpec {
@@ -125,12 +125,20 @@ struct NetworkSpec {
 /// The key of the spec that stands for it, "automaton" for `modes`.
 [[nodiscard]] std::string network_kind_name(NetworkKind kind);
 
+enum class RequirementKind : std::uint8_t { min_delay, invariant, max_arrival, min_approach_delay };
+/// The key of the spec that stands for it.
+[[nodiscard]] std::string requirement_kind_name(RequirementKind kind);
 struct RequirementSpec {
   std::string name;
-  Program where;                          ///< over states
-  std::optional<std::int32_t> partition;  ///< index into partitions; none for `invariant`
-  std::optional<std::int64_t> min_delay;  ///< steps; from "min_delay_time" by ceil(time / period)
-  bool invariant = false;
+  Program where;  ///< over states
+  RequirementKind kind = RequirementKind::min_delay;
+  std::optional<std::int32_t> partition;  ///< index into partitions; none where it is about all of them
+  /// What is asked for, 0 for `invariant`. From a time by ceil(time / period), an upper limit by floor.
+  std::int64_t steps = 0;
+
+  [[nodiscard]] bool is_of_partition() const {
+    return kind == RequirementKind::min_delay || kind == RequirementKind::min_approach_delay;
+  }
 };
 
 struct OutputSpec {
@@ -150,7 +158,8 @@ struct ProblemSpec {
   std::vector<DisturbanceSpec> disturbances;
   std::vector<AgentSpec> agents;  ///< at least one; every input belongs to exactly one
   DynamicsSpec dynamics;
-  Program safe;  ///< a condition over states
+  Program safe;                 ///< a condition over states
+  std::optional<Program> goal;  ///< likewise
   AbstractionSpec abstraction;
   ControllerSpec controller;
   CoordinationSpec coordination;

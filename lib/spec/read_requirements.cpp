@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <array>
+
 #include "base/error.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/spec_errors.hpp"
@@ -33,35 +35,64 @@ std::optional<std::int32_t> read_partition(const Node& object, const std::vector
   throw SpecError(fmt::format("expected {}, found {}", expected, quote_text(node.text())), node.pointer());
 }
 
-/// An analysis that stops before `min_delay` could not tell whether the requirement holds.
-void check_decidable(const Node& object, const RequirementSpec& requirement,
+/// The kind of requirement that a key of the spec, its last word "time" or not, stands for.
+struct KindKey {
+  RequirementKind kind;
+  StepRounding rounding;  ///< of a time
+};
+constexpr std::array<KindKey, 4> kKinds{{{RequirementKind::min_delay, StepRounding::up},
+                                         {RequirementKind::invariant, StepRounding::up},
+                                         {RequirementKind::max_arrival, StepRounding::down},
+                                         {RequirementKind::min_approach_delay, StepRounding::up}}};
+
+/// Sets kind and steps. @returns the key that says so
+std::string read_kind(const Scope& scope, const Node& object, const Rational& period,
+                      RequirementSpec& requirement) {
+  std::string key;
+  for (const KindKey& one : kKinds) {
+    const std::string name = requirement_kind_name(one.kind);
+    for (const std::string& own : {name, name + "_time"}) {
+      if (!object.has(own)) continue;
+      key = own;
+      requirement.kind = one.kind;
+      if (one.kind == RequirementKind::invariant) continue;
+      requirement.steps = own == name ? read_integer(object[own])
+                                      : read_steps_of_time(scope, object[own], period, one.rounding);
+    }
+  }
+  return key;
+}
+
+/// An analysis that stops before the steps asked for could not tell whether the requirement holds.
+void check_decidable(const Node& asked, const RequirementSpec& requirement,
                      const CoordinationSpec& coordination) {
-  if (!requirement.min_delay || !coordination.max_delay ||
-      *requirement.min_delay <= *coordination.max_delay) {
+  if (!requirement.is_of_partition() || !coordination.max_delay ||
+      requirement.steps <= *coordination.max_delay) {
     return;
   }
   throw SpecError(
       fmt::format("expected at most 'max_delay', {} steps, where the analysis stops, found {} steps",
-                  *coordination.max_delay, *requirement.min_delay),
-      object[object.has("min_delay") ? "min_delay" : "min_delay_time"].pointer());
+                  *coordination.max_delay, requirement.steps),
+      asked.pointer());
 }
 
-RequirementSpec read_requirement(const Scope& scope, const Node& object, const std::vector<AgentSpec>& agents,
-                                 const CoordinationSpec& coordination, const Rational& period) {
+RequirementSpec read_requirement(const Scope& scope, const Node& root, const Node& object,
+                                 const std::vector<AgentSpec>& agents, const CoordinationSpec& coordination,
+                                 const Rational& period) {
   RequirementSpec requirement;
   requirement.name = object["name"].text();
   requirement.where = scope.expression(object["where"], ExpectedType::condition, Over::states);
-  requirement.invariant = object.has("invariant");
-  if (requirement.invariant && object.has("partition")) {
-    throw SpecError("'invariant' is about all partitions, found 'partition' too",
+  const std::string key = read_kind(scope, object, period, requirement);
+  const bool is_of_goal = requirement.kind == RequirementKind::max_arrival ||
+                          requirement.kind == RequirementKind::min_approach_delay;
+  if (is_of_goal && !root.has("goal"))
+    throw SpecError(fmt::format("'{}' is for a spec with the key 'goal'", key), object[key].pointer());
+  if (!requirement.is_of_partition() && object.has("partition")) {
+    throw SpecError(fmt::format("'{}' is about all partitions, found 'partition' too", key),
                     object["partition"].pointer());
   }
-  if (!requirement.invariant) requirement.partition = read_partition(object, agents, coordination);
-  if (object.has("min_delay")) requirement.min_delay = read_integer(object["min_delay"]);
-  if (object.has("min_delay_time")) {
-    requirement.min_delay = read_steps_of_time(scope, object["min_delay_time"], period);
-  }
-  check_decidable(object, requirement, coordination);
+  if (requirement.is_of_partition()) requirement.partition = read_partition(object, agents, coordination);
+  check_decidable(object[key], requirement, coordination);
   return requirement;
 }
 
@@ -77,10 +108,15 @@ std::vector<RequirementSpec> read_requirements(const Scope& scope, const Node& r
     errors.attempt([&] { check_new_name(object["name"], names, "requirement"); });
     names.push_back(object["name"].text());
     errors.attempt(
-        [&] { requirements.push_back(read_requirement(scope, object, agents, coordination, period)); });
+        [&] { requirements.push_back(read_requirement(scope, root, object, agents, coordination, period)); });
   }
   errors.raise();
   return requirements;
+}
+
+std::string requirement_kind_name(RequirementKind kind) {
+  constexpr std::array<const char*, 4> kNames{"min_delay", "invariant", "max_arrival", "min_approach_delay"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace coordreq

@@ -62,6 +62,9 @@ void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
   const bool has_period = errors.attempt([&] { period = read_period(scope, root); });
   errors.attempt([&] { spec.dynamics = read_dynamics(scope, root, period); });
   errors.attempt([&] { spec.safe = scope.expression(root["safe"], ExpectedType::condition, Over::states); });
+  errors.attempt([&] {
+    if (root.has("goal")) spec.goal = scope.expression(root["goal"], ExpectedType::condition, Over::states);
+  });
   errors.attempt([&] { spec.abstraction = read_abstraction(root); });
   errors.attempt([&] { spec.controller = read_controller(scope, root); });
   const bool is_coordinated = has_agents && has_period && errors.attempt([&] {
@@ -94,11 +97,13 @@ std::int64_t read_integer(const Node& node) {
   return node.integer();
 }
 
-std::int64_t read_steps_of_time(const Scope& scope, const Node& time, const Rational& period) {
+std::int64_t read_steps_of_time(const Scope& scope, const Node& time, const Rational& period,
+                                StepRounding rounding) {
   constexpr std::int64_t kMostSteps = 2'147'483'646;
   const Rational value = scope.number(time);
   if (value < 0) throw SpecError("expected a time >= 0, found " + to_text(value), time.pointer());
-  const std::int64_t steps = ceil_to_int(value / period);
+  const Rational periods = value / period;
+  const std::int64_t steps = rounding == StepRounding::up ? ceil_to_int(periods) : floor_to_int(periods);
   if (steps > kMostSteps) {
     throw SpecError(
         fmt::format("expected a time of at most {} periods, found {}", kMostSteps, to_text(value)),

@@ -17,40 +17,43 @@ namespace {
 
 using Node = JsonDocument::Node;
 
-constexpr std::array<std::pair<std::string_view, Outside>, 5> kOutside{{{"unsafe", Outside::unsafe},
+constexpr std::array<std::pair<std::string_view, Outside>, 6> kOutside{{{"unsafe", Outside::unsafe},
                                                                         {"safe", Outside::safe},
                                                                         {"saturate", Outside::saturate},
                                                                         {"stop", Outside::stop},
-                                                                        {"periodic", Outside::periodic}}};
+                                                                        {"periodic", Outside::periodic},
+                                                                        {"goal", Outside::goal}}};
 
-Outside read_side(const Node& node, Time time) {
+Outside read_side(const Node& node, Time time, bool has_goal) {
   const auto* const entry = std::find_if(kOutside.begin(), kOutside.end(),
                                          [&](const auto& one) { return one.first == node.text(); });
   if (entry->second == Outside::stop && time == Time::discrete) {
     throw SpecError("'stop' is for continuous time, expected 'saturate' or another", node.pointer());
   }
+  if (entry->second == Outside::goal && !has_goal)
+    throw SpecError("'goal' is for a spec with the key 'goal', expected 'safe' or another", node.pointer());
   return entry->second;
 }
 
-void read_outside(const Node& object, Time time, StateSpec& state) {
+void read_outside(const Node& object, Time time, bool has_goal, StateSpec& state) {
   if (!object.has("outside")) return;
   const Node outside = object["outside"];
   if (outside.is_text()) {
-    state.below = state.above = read_side(outside, time);
+    state.below = state.above = read_side(outside, time, has_goal);
     return;
   }
-  if (outside.has("below")) state.below = read_side(outside["below"], time);
-  if (outside.has("above")) state.above = read_side(outside["above"], time);
+  if (outside.has("below")) state.below = read_side(outside["below"], time, has_goal);
+  if (outside.has("above")) state.above = read_side(outside["above"], time, has_goal);
   if ((state.below == Outside::periodic) != (state.above == Outside::periodic)) {
     throw SpecError("expected 'periodic' on both sides, found it on one", outside.pointer());
   }
 }
 
-StateSpec read_state(const Scope& scope, const Node& object, Time time) {
+StateSpec read_state(const Scope& scope, const Node& object, Time time, bool has_goal) {
   StateSpec state;
   state.name = object["name"].text();
   state.unit = read_unit(object);
-  read_outside(object, time, state);
+  read_outside(object, time, has_goal, state);
   GridReading reading = read_grid(scope, object, state.below == Outside::periodic);
   state.grid = std::move(reading.grid);
   state.lower = std::move(reading.lower);
@@ -114,7 +117,7 @@ std::vector<StateSpec> read_states(const Scope& scope, const Node& root) {
   std::vector<StateSpec> states;
   ErrorList errors;
   for (const Node& object : root.elements("states"))
-    errors.attempt([&] { states.push_back(read_state(scope, object, time)); });
+    errors.attempt([&] { states.push_back(read_state(scope, object, time, root.has("goal"))); });
   errors.raise();
   check_cell_count(states);
   return states;

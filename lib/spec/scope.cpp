@@ -67,6 +67,7 @@ void add_in_order(const MentionGraph& graph, const std::vector<std::size_t>& ord
 }  // namespace
 
 Scope::Scope(const Node& root) {
+  if (root.has("goal")) names_.reserve_goal_names();
   add_names(root);
   if (root.has("constants")) evaluate_constants(root["constants"]);
   definitions_ = Definitions(static_cast<std::uint32_t>(slot_names_.size()));

@@ -39,9 +39,11 @@ namespace coordreq {
                                                              const CoordinationSpec& coordination,
                                                              const Rational& period);
 
-/// ceil(time / period), exactly, for a time >= 0.
+/// time / period, exactly, for a time >= 0; what is not a whole number of steps is rounded.
+enum class StepRounding : std::uint8_t { up, down };
 [[nodiscard]] std::int64_t read_steps_of_time(const Scope& scope, const JsonDocument::Node& time,
-                                              const Rational& period);
+                                              const Rational& period,
+                                              StepRounding rounding = StepRounding::up);
 
 /// The text of `unit`, empty if there is none. @throws SpecError if it contains the word "since", which
 /// readers of netCDF take for a calendar

@@ -48,7 +48,7 @@ bool SafeBeyond::has(const std::vector<std::pair<std::size_t, std::int64_t>>& bo
 Finding SafeBeyond::check(const std::vector<std::uint8_t>& safe, const std::vector<std::uint8_t>& beyond,
                           ThreadTeam& team) const {
   Tally tally("S beyond limits");
-  SafeMemory memory(spec_, grid_);
+  SafeMemory memory(spec_.safe, grid_);
   std::vector<std::unique_ptr<SafeJudge>> judges(static_cast<std::size_t>(team.size()));
   const auto check_cell = [&](std::int64_t cell, SafeJudge& judge) {
     const bool claimed = beyond[static_cast<std::size_t>(cell)] != 0;
@@ -68,7 +68,7 @@ Finding SafeBeyond::check(const std::vector<std::uint8_t>& safe, const std::vect
   };
   team.for_each(grid_.cells(), 4096, [&](ThreadTeam::Range range, int worker) {
     auto& judge = judges[static_cast<std::size_t>(worker)];
-    if (!judge) judge = std::make_unique<SafeJudge>(spec_, grid_, memory);
+    if (!judge) judge = std::make_unique<SafeJudge>(spec_, spec_.safe, grid_, memory);
     for (std::int64_t cell = range.begin; cell < range.end; ++cell) check_cell(cell, *judge);
   });
   return tally.finding();

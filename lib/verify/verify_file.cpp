@@ -77,6 +77,39 @@ std::vector<const Field*> plain_numbers(const ResultsReader& results) {
   return fields;
 }
 
+void read_attributes(const ResultsReader& results, const Field& field, Claims& claims) {
+  for (const FieldAttribute& attribute : field.attributes) {
+    if (attribute.is_found && attribute.name != "cells")
+      claims.attributes[field.path + " " + attribute.name] = results.attribute(field.path, attribute.name);
+  }
+}
+
+/// Fields of numbers over partitions, and of these over cells too, that have no member in Claims.
+std::vector<const Field*> partition_numbers(const ResultsReader& results) {
+  const std::set<std::string> known = {"/delay", "/trigger", "/layer_size", "/fixed_point_index"};
+  std::vector<const Field*> fields;
+  for (const Field& field : results.fields()) {
+    const bool is_of_partitions = !field.axes.empty() && field.axes.front() == "/partition";
+    if (is_of_partitions && !known.contains(field.path)) fields.push_back(&field);
+  }
+  return fields;
+}
+
+bool is_over_cells(const Field& field, const ProblemSpec& spec) {
+  return field.axes == cell_axes("/partition", spec);
+}
+
+void read_partition_numbers(const ResultsReader& results, const CellBlock& all, Claims& claims) {
+  for (const Field* const field : partition_numbers(results)) {
+    if (!is_over_cells(*field, results.spec())) {
+      claims.lists[field->path] = results.integers(field->path);
+      continue;
+    }
+    for (std::size_t p = 0; p < results.partitions().size(); ++p)
+      claims.partition_numbers[field->path].push_back(results.values(*field, p, all));
+  }
+}
+
 Claims read_all(const ResultsReader& results) {
   const CellBlock all = all_cells(results.grid());
   Claims claims{.safe = results.safe(all),
@@ -89,8 +122,11 @@ Claims read_all(const ResultsReader& results) {
                 .iterations = results.attributes().iterations};
   for (std::size_t p = 0; p < results.partitions().size(); ++p)
     claims.partitions.push_back(read_partition(results, p, all));
-  for (const Field* const field : plain_numbers(results))
+  for (const Field* const field : plain_numbers(results)) {
     claims.numbers[field->path] = results.values(*field, std::nullopt, all);
+    read_attributes(results, *field, claims);
+  }
+  read_partition_numbers(results, all, claims);
   const std::size_t modes = results.spec().network ? results.spec().network->modes.size() : 0;
   for (std::size_t mode = 0; mode < modes; ++mode)
     claims.network.push_back(results.network_safe(mode, 1, all));
@@ -127,6 +163,10 @@ std::uint64_t memory_need(const ResultsReader& results) {
   }
   if (results.spec().network) bytes_of_cell += 2 * results.spec().network->modes.size();  // and targets
   bytes_of_cell += plain_numbers(results).size() * 2 * sizeof(std::int32_t);
+  for (const Field* const field : partition_numbers(results)) {
+    if (is_over_cells(*field, results.spec()))
+      bytes_of_cell += 2 * sizeof(std::int32_t) * results.partitions().size();
+  }
   if (results.has_coalition()) bytes_of_cell += results.pairs().size();
   if (!results.requirements().empty()) bytes_of_cell += 1;  // what is found about a region
   const int joint = (results.has_controller() ? 1 : 0) + (results.spec().controller.file ? 1 : 0);

@@ -187,13 +187,13 @@ TEST(MaximalSpec, Requirements) {
   EXPECT_EQ(requirements[0].name, "near the middle");
   EXPECT_EQ(requirements[0].where.variables(), (Slots{0, 1}));
   EXPECT_EQ(requirements[0].partition, 0);
-  EXPECT_EQ(requirements[0].min_delay, 20);
-  EXPECT_FALSE(requirements[0].invariant);
+  EXPECT_EQ(requirements[0].steps, 20);
+  EXPECT_EQ(requirements[0].kind, RequirementKind::min_delay);
   EXPECT_EQ(requirements[1].partition, 1);
-  EXPECT_EQ(requirements[1].min_delay, 21);
-  EXPECT_TRUE(requirements[2].invariant);
+  EXPECT_EQ(requirements[1].steps, 21);
+  EXPECT_EQ(requirements[2].kind, RequirementKind::invariant);
   EXPECT_FALSE(requirements[2].partition.has_value());
-  EXPECT_FALSE(requirements[2].min_delay.has_value());
+  EXPECT_EQ(requirements[2].steps, 0);
 }
 
 TEST(MaximalSpec, DefaultsOfTheRest) {

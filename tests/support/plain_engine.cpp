@@ -7,11 +7,11 @@
 #include "answers/invariance/invariance.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/delay_layers.hpp"
-#include "engine/tube_sets.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
+#include "support/plain_posts.hpp"
 
 namespace coordreq {
 namespace {
@@ -25,7 +25,7 @@ class PlainEngine {
       : spec_(spec),
         a_(abstraction),
         safe_(safe),
-        safe_beyond_(safe_beyond),
+        posts_{abstraction, safe, safe_beyond},
         listed_(listed),
         cells_(abstraction.grid.cells()),
         inputs_(abstraction.inputs.count()) {}
@@ -64,40 +64,8 @@ class PlainEngine {
     }
   }
 
-  /// empty != f(x, u) subset of `target`; f is empty too where the tube is not safe.
   bool stays_in(std::int64_t x, std::int64_t u, const Set& target) const {
-    const auto post = [&](std::size_t i) { return a_.resolved(i, x, u); };
-    return box_in(post, target) && (a_.tubes.empty() || has_safe_tube(x, u));
-  }
-
-  bool has_safe_tube(std::int64_t x, std::int64_t u) const {
-    const auto tube = [&](std::size_t i) { return a_.resolved_tube(i, x, u); };
-    bool beyond = false;
-    for (std::size_t i = 0; i < a_.grid.size(); ++i) {
-      beyond = beyond || passes_a_limit(a_.raw_tube(i, x, u), a_.grid[i]);
-    }
-    return box_in(tube, beyond ? safe_beyond_ : safe_);
-  }
-
-  template <class Box>
-  bool box_in(const Box& range_of, const Set& target) const {
-    bool gone = false;
-    std::vector<IndexRange> box;
-    for (std::size_t i = 0; i < a_.grid.size(); ++i) {
-      const ResolvedRange range = range_of(i);
-      if (range.blocked) return false;
-      gone = gone || range.all_left();
-      box.push_back(range.inside);
-    }
-    return gone || all_in(box, 0, 0, target);
-  }
-
-  bool all_in(const std::vector<IndexRange>& box, std::size_t i, std::int64_t cell, const Set& target) const {
-    if (i == box.size()) return target[at(cell)];
-    for (std::int64_t k = box[i].first; k <= box[i].last; ++k) {
-      if (!all_in(box, i + 1, cell + k % a_.grid[i].count * a_.grid.stride(i), target)) return false;
-    }
-    return true;
+    return posts_.stays_in(x, u, target);
   }
 
   bool keeps(std::int64_t x, const Set& target) const {
@@ -279,7 +247,7 @@ class PlainEngine {
   const ProblemSpec& spec_;
   const Abstraction& a_;
   const Set& safe_;
-  const Set& safe_beyond_;
+  PlainPosts posts_;
   const PackedPairs* listed_;
   std::int64_t cells_;
   std::int64_t inputs_;

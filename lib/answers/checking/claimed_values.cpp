@@ -22,6 +22,15 @@ std::int32_t claimed_delay(const Claims& claims, std::optional<std::size_t> part
   return claims.invariant[cell] == 0 ? kOutsideInvariant : kForever;
 }
 
+std::int32_t claimed_value(const Claims& claims, const RequirementSpec& asked, std::size_t cell) {
+  if (asked.kind == RequirementKind::max_arrival) return claims.numbers.at("/arrival")[cell];
+  std::optional<std::size_t> partition;
+  if (asked.partition) partition = static_cast<std::size_t>(*asked.partition);
+  if (asked.kind == RequirementKind::min_approach_delay)
+    return claims.partition_numbers.at("/approach_delay")[*partition][cell];
+  return claimed_delay(claims, partition, cell);
+}
+
 BitDifference compare_bits(const std::vector<std::uint8_t>& bytes, std::size_t cell,
                            const std::vector<std::uint8_t>& expected) {
   BitDifference found;

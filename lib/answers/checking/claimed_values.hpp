@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "answers/checking/claims.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
@@ -16,6 +17,9 @@ namespace coordreq {
 [[nodiscard]] std::uint64_t count_members(const std::vector<std::uint8_t>& set);
 /// The delay of a cell; without a partition that of all agents together.
 [[nodiscard]] std::int32_t claimed_delay(const Claims& claims, std::optional<std::size_t> partition,
+                                         std::size_t cell);
+/// What a requirement judges a cell by: its delay, arrival or approach delay.
+[[nodiscard]] std::int32_t claimed_value(const Claims& claims, const RequirementSpec& asked,
                                          std::size_t cell);
 
 /// How bits of a cell differ from those expected.

@@ -46,6 +46,10 @@ struct Claims {
   /// [path][cell]: fields of numbers over cells alone that have no member here. kForever: the largest number
   /// of the type, where it has that meaning.
   std::map<std::string, std::vector<std::int32_t>> numbers;
+  /// The same over partitions and cells: [path][partition][cell].
+  std::map<std::string, std::vector<std::vector<std::int32_t>>> partition_numbers;
+  std::map<std::string, std::vector<std::int64_t>> lists;  ///< [path]: small fields of partitions
+  std::map<std::string, std::int64_t> attributes;          ///< "PATH NAME": of those fields, as found
   // With a horizon:
   std::vector<std::int64_t> coalition_cells;              ///< [partition] as counted; may be missing
   std::vector<std::string> pairs;                         ///< of agents, in their order

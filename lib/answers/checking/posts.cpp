@@ -17,6 +17,11 @@ ResolvedRange once_round(IndexRange raw, std::int64_t count) {
   return {.inside = {static_cast<std::int32_t>(first), static_cast<std::int32_t>(first + length - 1)}};
 }
 
+/// What leaves there is the absorbing cell T.
+bool arrives(Outside rule) {
+  return rule == Outside::safe || rule == Outside::goal;
+}
+
 }  // namespace
 
 ResolvedRange after_leaving(IndexRange raw, const GridDimension& dimension) {
@@ -26,12 +31,12 @@ ResolvedRange after_leaving(IndexRange raw, const GridDimension& dimension) {
   if (raw.first < 0) {
     if (dimension.below == Outside::unsafe) result.blocked = true;
     result.inside.first = 0;
-    if (dimension.below != Outside::safe && raw.last < 0) result.inside.last = 0;
+    if (!arrives(dimension.below) && raw.last < 0) result.inside.last = 0;
   }
   if (raw.last > top) {
     if (dimension.above == Outside::unsafe) result.blocked = true;
     result.inside.last = top;
-    if (dimension.above != Outside::safe && raw.first > top) result.inside.first = top;
+    if (!arrives(dimension.above) && raw.first > top) result.inside.first = top;
   }
   return result;
 }

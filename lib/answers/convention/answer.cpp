@@ -29,10 +29,45 @@ void serialise(Archive& archive, std::int64_t cells, ConventionFreedom& conventi
   }
 }
 
+/// Of a part of the cells and of others.
+void add(const ConventionFreedom& other, std::int64_t cells, std::int64_t other_cells,
+         ConventionFreedom& result) {
+  for (std::size_t i = 0; i < result.agents.size(); ++i) {
+    ConventionFreedom::Agent& own = result.agents[i];
+    const ConventionFreedom::Agent& more = other.agents[i];
+    for (std::size_t x = 0; x < own.freedom.size(); ++x) {
+      if (!std::isnan(more.freedom[x])) own.freedom[x] = more.freedom[x];
+    }
+    const auto n = static_cast<double>(cells), m = static_cast<double>(other_cells);
+    if (other_cells > 0) own.mean = (own.mean * n + more.mean * m) / (n + m);
+    own.full += more.full;
+    for (std::size_t k = 0; k < own.histogram.size(); ++k) own.histogram[k] += more.histogram[k];
+  }
+}
+
+ConventionFreedom find_parts(const ConventionAnswer& convention, ThreadTeam& team) {
+  ConventionFreedom result;
+  std::int64_t cells = 0;
+  for (std::size_t k = 0; k < convention.agents.size(); ++k) {
+    const PartialController& part = convention.controller->parts[k];
+    ConventionFreedom own = find_convention(part.controller, *part.hull, convention.agents[k], team);
+    const std::int64_t count = part.controller.invariant->count();
+    if (k == 0) {
+      result = std::move(own);
+    } else {
+      add(own, cells, count, result);
+    }
+    cells += count;
+  }
+  return result;
+}
+
 void find_a_convention(Answers& answers, const StageWork& work) {
   const Ground& ground = answers.ground;
-  ConventionAnswer& result = answers.add(ConventionAnswer{
-      ActionGrouping(*ground.engine, agent_classes(ground.spec, ground.abstraction->inputs), work.team), {}});
+  ConventionAnswer& result = answers.add(ConventionAnswer{controller_parts(answers, false), {}, {}});
+  const std::vector<InputClass> agents = agent_classes(ground.spec, ground.abstraction->inputs);
+  for (const PartialController& part : result.controller->parts)
+    result.agents.emplace_back(*part.controller.engine, agents, work.team);
   const auto exchange = [&answers](Archive& archive) {
     serialise(archive, answers.ground.engine->grid().cells(), answers.get<ConventionAnswer>().freedom);
   };
@@ -41,8 +76,7 @@ void find_a_convention(Answers& answers, const StageWork& work) {
     exchange(archive);
   };
   const bool is_kept = work.store != nullptr && work.store->take(load) == StageStore::Kept::finished;
-  if (!is_kept)
-    result.freedom = find_convention(answers.get<Controller>(), *ground.hull, result.agents, work.team);
+  if (!is_kept) result.freedom = find_parts(result, work.team);
   if (work.store != nullptr) work.store->finish(exchange);
 }
 

@@ -1,17 +1,22 @@
 #pragma once
 
+#include <deque>
+#include <memory>
 #include <vector>
 
 #include "answers/answers.hpp"
 #include "answers/convention/convention_freedom.hpp"
+#include "answers/goal/answer.hpp"
 #include "answers/memory_need.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
+
 namespace coordreq {
 
-/// A convention and what it costs; the actions of each agent are a class of their own.
+/// A convention and what it costs. With a goal it lies in P on the way there, so that agents arrive in time.
 struct ConventionAnswer {
-  ActionGrouping agents;
+  std::unique_ptr<const ControllerParts> controller;
+  std::deque<ActionGrouping> agents;  ///< of each part; the actions of each agent are a class of their own
   ConventionFreedom freedom;
 };
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "answers/checking/claimed_progress.hpp"
 #include "model/input_class.hpp"
 
 namespace coordreq {
@@ -21,7 +23,9 @@ class ConventionChecker : public CellChecker {
   ConventionChecker(const CheckGround& ground, ConventionTallies& tallies);
 
   void check(CheckedCell& cell) override {
-    find(cell.admitted());
+    const bool is_on_the_way = progress_ && progress_->is_on_the_way(cell.at());
+    admitted_ = is_on_the_way ? progress_->of(cell) : cell.admitted();
+    find(admitted_);
     check_freedom(cell);
     if (!claims_.convention.empty()) check_actions(cell);
   }
@@ -43,11 +47,14 @@ class ConventionChecker : public CellChecker {
   std::vector<InputClass> agents_;
   /// [agent][action]: the joint inputs with it.
   std::vector<std::vector<std::vector<std::int32_t>>> joint_;
-  Sets sets_;  ///< of the cell at work
+  std::optional<ClaimedProgress> progress_;  ///< with a goal
+  std::vector<std::uint8_t> admitted_;  ///< [joint input] of the cell at work: in C(x), or P(x) on the way
+  Sets sets_;                           ///< of the cell at work
 };
 
 ConventionChecker::ConventionChecker(const CheckGround& ground, ConventionTallies& tallies)
     : ground_(ground), claims_(*ground.claims), tallies_(tallies) {
+  if (ground.spec->goal) progress_.emplace(ground);
   for (std::size_t a = 0; a < ground.spec->agents.size(); ++a) {
     InputClass& own =
         agents_.emplace_back(class_of(*ground.spec, *ground.inputs, {static_cast<std::int32_t>(a)}));
@@ -119,7 +126,7 @@ void ConventionChecker::check_actions(const CheckedCell& cell) {
   tallies_.actions.add_checked(1);
   const Sets claimed = claimed_sets(cell.at());
   if (claimed == sets_) return;
-  if (ground_.sound_only() && is_product_in(claimed, cell.admitted())) {
+  if (ground_.sound_only() && is_product_in(claimed, admitted_)) {
     tallies_.actions.add_unproven();
     return;
   }
@@ -134,7 +141,7 @@ void ConventionChecker::check_freedom(const CheckedCell& cell) {
     std::int64_t all = 0;
     for (const std::vector<std::int32_t>& joint : joint_[i]) {
       all += std::any_of(joint.begin(), joint.end(),
-                         [&](std::int32_t u) { return cell.admitted()[static_cast<std::size_t>(u)] != 0; })
+                         [&](std::int32_t u) { return admitted_[static_cast<std::size_t>(u)] != 0; })
                  ? 1
                  : 0;
     }

@@ -101,7 +101,7 @@ ConventionFreedom find_convention(const Controller& controller, const RowHull& h
   std::vector<std::vector<double>> sums(agents.size(),
                                         std::vector<double>(static_cast<std::size_t>(engine.rows()), 0));
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
-  controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
+  controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<ConventionRows<Level>> finders;
     for (int w = 0; w < team.size(); ++w) finders.emplace_back(controller, hull, agents, levels);
     team.for_each((engine.rows() + grain - 1) / grain, 1, [&](ThreadTeam::Range range, int worker) {
@@ -159,7 +159,7 @@ void fill_convention_bits(const Controller& controller, const RowHull& hull, con
   const std::int64_t bytes = agents[agent].bytes();
   const auto row_bytes = static_cast<std::uint64_t>(controller.engine->row_length() * bytes);
   auto* target = static_cast<std::uint8_t*>(out);
-  controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
+  controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     ConventionRows<Level> finder(controller, hull, agents, levels);
     std::vector<std::uint8_t> cells(row_bytes);
     // A stretch may begin and end inside a row.

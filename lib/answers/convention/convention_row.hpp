@@ -24,10 +24,11 @@ template <class Level>
 class ConventionRows {
  public:
   /// @param agents the actions of each agent as a class of its own, in the order of the spec
-  /// REQUIRES: all outlive this object; `levels` are those of controller.collision_time.
+  /// REQUIRES: all outlive this object; `levels` are those of controller.levels.
   ConventionRows(const Controller& controller, const RowHull& hull, const ActionGrouping& agents,
                  const LevelRows<Level>& levels)
       : controller_(controller),
+        levels_(levels),
         agents_(agents),
         words_(controller.engine->row_words()),
         posts_(*controller.engine, levels),
@@ -62,7 +63,7 @@ class ConventionRows {
     numbers_.clear();
     std::vector<Word> members(words_);
     do {
-      controller_row(controller_, place.row, tuple_, posts_, members);
+      controller_row(controller_, levels_, place.row, tuple_, posts_, members);
       admissible_.insert(admissible_.end(), members.begin(), members.end());
       std::int64_t number = 0;
       for (std::size_t i = 0; i < agents_.size(); ++i) {
@@ -120,6 +121,7 @@ class ConventionRows {
   }
 
   const Controller& controller_;
+  const LevelRows<Level>& levels_;
   const ActionGrouping& agents_;
   std::size_t words_;
   PostReader<Level> posts_;

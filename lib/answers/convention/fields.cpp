@@ -6,6 +6,21 @@
 #include "answers/invariance/answer.hpp"
 
 namespace coordreq {
+namespace {
+
+/// Cells are in one part each.
+void fill_bits_of_parts(const ConventionAnswer& convention, std::size_t agent, std::uint64_t begin,
+                        std::uint64_t count, std::uint8_t* out) {
+  std::vector<std::uint8_t> bits(count);
+  for (std::size_t k = 0; k < convention.agents.size(); ++k) {
+    const PartialController& part = convention.controller->parts[k];
+    fill_convention_bits(part.controller, *part.hull, convention.agents[k], agent, begin, count, bits.data());
+    for (std::uint64_t i = 0; i < count; ++i)
+      out[i] = static_cast<std::uint8_t>(k == 0 ? bits[i] : out[i] | bits[i]);
+  }
+}
+
+}  // namespace
 
 std::string paths::convention(const AgentSpec& agent) {
   return "/actions:convention/" + agent.name;
@@ -39,9 +54,8 @@ void fill_convention_fields(const Answers& answers, ThreadTeam& /*team*/, FieldV
   values.entries[paths::kConventionFreedom].array = freedom_array(convention->freedom, *answers.ground.order);
   for (std::size_t i = 0; spec.output.actions && i < spec.agents.size(); ++i) {
     values.entries[paths::convention(spec.agents[i])].array = {
-        ElementType::uint8, [&answers, convention, i](std::uint64_t begin, std::uint64_t count, void* out) {
-          fill_convention_bits(answers.get<Controller>(), *answers.ground.hull, convention->agents, i, begin,
-                               count, out);
+        ElementType::uint8, [convention, i](std::uint64_t begin, std::uint64_t count, void* out) {
+          fill_bits_of_parts(*convention, i, begin, count, static_cast<std::uint8_t*>(out));
         }};
   }
 }

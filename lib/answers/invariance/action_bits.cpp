@@ -8,7 +8,8 @@ namespace {
 /// The sets of the cells of one row.
 template <class Level>
 void write_row(const Controller& controller, const ActionGrouping& grouping, std::size_t c,
-               const RowPlace& place, PostReader<Level>& posts, std::uint8_t* cells) {
+               const LevelRows<Level>& levels, const RowPlace& place, PostReader<Level>& posts,
+               std::uint8_t* cells) {
   const std::int64_t bytes = grouping[c].bytes();
   RowGroups groups;
   grouping.group(place, groups);
@@ -19,7 +20,7 @@ void write_row(const Controller& controller, const ActionGrouping& grouping, std
   TupleWalk tuple;
   tuple.begin(grouping, place, groups, candidates);
   do {
-    controller_row(controller, place.row, tuple, posts, members);
+    controller_row(controller, levels, place.row, tuple, posts, members);
     std::vector<Word>& target = projection[tuple.chosen(c)];
     for (std::size_t w = 0; w < members.size(); ++w) target[w] |= members[w];
   } while (tuple.next());
@@ -38,13 +39,13 @@ std::vector<std::uint8_t> action_bits(const Controller& controller, const Action
   const std::int64_t length = controller.engine->row_length();
   const std::int64_t bytes = grouping[c].bytes();
   std::vector<std::uint8_t> result(static_cast<std::size_t>((last_row - first_row) * length * bytes), 0);
-  controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
+  controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     PostReader<Level> posts(*controller.engine, levels);
     RowPlace place(controller.engine->grid(), first_row);
     for (; place.row < last_row; place.advance(controller.engine->grid())) {
       if (!any_set(controller.invariant->row(place.row))) continue;
       posts.enter();
-      write_row(controller, grouping, c, place, posts,
+      write_row(controller, grouping, c, levels, place, posts,
                 result.data() + (place.row - first_row) * length * bytes);
     }
   });

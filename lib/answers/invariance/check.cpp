@@ -24,7 +24,7 @@ class SetChecker : public CellChecker {
       : ground_(ground),
         claims_(*ground.claims),
         tallies_(tallies),
-        judge_(*ground.spec, *ground.grid, memory) {}
+        judge_(*ground.spec, ground.spec->safe, *ground.grid, memory) {}
 
   void check(CheckedCell& cell) override {
     check_safe(cell);
@@ -129,7 +129,7 @@ class SetChecker : public CellChecker {
 class InvarianceCheck : public AnswerCheck {
  public:
   explicit InvarianceCheck(const CheckGround& ground)
-      : AnswerCheck(CheckSection::sets), ground_(ground), memory_(*ground.spec, *ground.grid) {}
+      : AnswerCheck(CheckSection::sets), ground_(ground), memory_(ground.spec->safe, *ground.grid) {}
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
     const Claims& claims = *ground_.claims;

@@ -20,9 +20,9 @@ std::vector<RationalInterval> places_of(const ProblemSpec& spec, const GridDimen
 
 }  // namespace
 
-SafeMemory::SafeMemory(const ProblemSpec& spec, const UniformGrid& grid) : grid_(grid) {
+SafeMemory::SafeMemory(const Program& condition, const UniformGrid& grid) : grid_(grid) {
   std::size_t size = 1;
-  for (const std::uint32_t slot : spec.safe.variables()) {
+  for (const std::uint32_t slot : condition.variables()) {
     states_.push_back(slot);
     size *= static_cast<std::size_t>(grid[slot].count);
   }
@@ -35,13 +35,14 @@ std::atomic<SafeVerdict>& SafeMemory::of(std::int64_t cell) {
   return verdicts_[static_cast<std::size_t>(number)];
 }
 
-SafeJudge::SafeJudge(const ProblemSpec& spec, const UniformGrid& grid, SafeMemory& memory)
+SafeJudge::SafeJudge(const ProblemSpec& spec, const Program& condition, const UniformGrid& grid,
+                     SafeMemory& memory)
     : grid_(grid),
       memory_(memory),
       slots_(spec.slot_count()),
-      rough_(spec.safe),
-      exact_(spec.safe),
-      corner_truth_(spec.safe, memory.states()) {
+      rough_(condition),
+      exact_(condition),
+      corner_truth_(condition, memory.states()) {
   for (const std::size_t i : memory.states()) {
     auto& indices = pieces_.emplace_back();
     for (std::int64_t k = 0; k < grid[i].count; ++k) indices.push_back(places_of(spec, grid[i], k));

@@ -12,7 +12,7 @@
 
 namespace coordreq {
 
-/// What is found about a cell and `safe`.
+/// What is found about a cell and `safe`, or the condition of the goal.
 enum class SafeVerdict : std::uint8_t {
   unknown,  ///< not looked at
   safe,     ///< natural interval evaluation proves it: the cell has to be in S
@@ -24,7 +24,7 @@ enum class SafeVerdict : std::uint8_t {
 /// Verdicts that cells share which differ only in states that `safe` does not mention.
 class SafeMemory {
  public:
-  SafeMemory(const ProblemSpec& spec, const UniformGrid& grid);
+  SafeMemory(const Program& condition, const UniformGrid& grid);
   [[nodiscard]] std::atomic<SafeVerdict>& of(std::int64_t cell);
   [[nodiscard]] const std::vector<std::size_t>& states() const { return states_; }
 
@@ -34,10 +34,11 @@ class SafeMemory {
   std::vector<std::atomic<SafeVerdict>> verdicts_;
 };
 
-/// Decides whether a cell belongs to S (contract, "Safe set"). One object a thread; all share the memory.
+/// Decides whether a cell belongs to S (contract, "Safe set"), or is a goal cell likewise. One object a
+/// thread; all share the memory.
 class SafeJudge {
  public:
-  SafeJudge(const ProblemSpec& spec, const UniformGrid& grid, SafeMemory& memory);
+  SafeJudge(const ProblemSpec& spec, const Program& condition, const UniformGrid& grid, SafeMemory& memory);
 
   /// @param claimed whether the file has the cell in S: only then it matters what natural evaluation leaves
   /// open

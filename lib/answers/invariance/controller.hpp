@@ -10,24 +10,34 @@ namespace coordreq {
 /// The controller C of an invariance set, contract "Controller": `maximal` C(x) = {u allowed : empty !=
 /// f(x,u) subset of K}, `given` C(x) = {u allowed}; empty outside K. Never stored, computed row by row.
 /// The paper's C, whose projections make IND_C (its Eq. (3) and (4)).
+///
+/// Or the progress controller P outside the goal (contract, section 5): of `maximal` all u allowed after
+/// which every cell of the post is nearer to the goal, empty outside W \ G.
 struct Controller {
   const RowEngine* engine = nullptr;
-  const CellSet* invariant = nullptr;
-  const LevelMap* collision_time = nullptr;  ///< kTop in `invariant` and nowhere else
+  const CellSet* invariant = nullptr;  ///< where it is not empty
+  /// Of C collision times, kTop in `invariant` and nowhere else; of P nearness.
+  const LevelMap* levels = nullptr;
   Synthesis synthesis = Synthesis::maximal;
+  bool approaches = false;  ///< it is P
 };
 
 /// {x in the row : u in C(x)} for all u in one choice of groups.
-/// @param posts of the levels of controller.collision_time
+/// @param posts of `levels`, which are controller.levels
 /// REQUIRES: `out` has engine->row_words() words.
 template <class Level>
-void controller_row(const Controller& controller, std::int64_t row, TupleWalk& tuple,
-                    PostReader<Level>& posts, MutableRow out) {
+void controller_row(const Controller& controller, const LevelRows<Level>& levels, std::int64_t row,
+                    TupleWalk& tuple, PostReader<Level>& posts, MutableRow out) {
   const ConstRow invariant = controller.invariant->row(row);
   const ConstRow allowed = tuple.allowed();
   if (controller.synthesis == Synthesis::maximal) {
     const auto n = static_cast<std::size_t>(controller.engine->row_length());
-    posts.kernels().top_bits(posts.minimum(tuple.slice_ids()), out.data(), n);
+    const Level* const least = posts.minimum(tuple.slice_ids());
+    if (controller.approaches) {
+      posts.kernels().above_bits(least, levels.row(row), out.data(), n);
+    } else {
+      posts.kernels().top_bits(least, out.data(), n);
+    }
     for (std::size_t w = 0; w < out.size(); ++w) out[w] &= invariant[w];
   } else {
     std::copy(invariant.begin(), invariant.end(), out.begin());

@@ -54,22 +54,22 @@ CellSet joined(const CellSet& runs, const UniformGrid& grid, ThreadTeam& team) {
 
 }  // namespace
 
-CellSet safe_set(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
-                 ThreadTeam& team) {
+CellSet cells_that_satisfy(const Program& condition, const ProblemSpec& spec, const UniformGrid& grid,
+                           const InputSpace& inputs, ThreadTeam& team) {
   const Sampling sampling =
       spec.abstraction.safe == Membership::inner ? Sampling::closed_cells : Sampling::centres;
-  const auto undecided_is_unsafe = [](const std::vector<std::int64_t>&) { return false; };
+  const auto undecided_is_false = [](const std::vector<std::int64_t>&) { return false; };
   const UniformGrid plain = grid.in_rows({});
-  const ConditionTable table(spec.safe, plain, inputs, sampling, undecided_is_unsafe, team,
+  const ConditionTable table(condition, plain, inputs, sampling, undecided_is_false, team,
                              Question::everywhere);
-  CellSet safe(plain.rows(), plain.row_length());
-  team.for_each(safe.rows(), 1024, [&](ThreadTeam::Range range, int) {
+  CellSet cells(plain.rows(), plain.row_length());
+  team.for_each(cells.rows(), 1024, [&](ThreadTeam::Range range, int) {
     for (std::int64_t r = range.begin; r < range.end; ++r) {
       const auto source = table.row(r, 0);
-      std::copy(source.begin(), source.end(), safe.row(r).begin());
+      std::copy(source.begin(), source.end(), cells.row(r).begin());
     }
   });
-  return grid.across() == plain.across() ? std::move(safe) : joined(safe, grid, team);
+  return grid.across() == plain.across() ? std::move(cells) : joined(cells, grid, team);
 }
 
 std::optional<PairTable> allow_table(const ProblemSpec& spec, const Abstraction& abstraction,

@@ -10,16 +10,17 @@
 
 namespace coordreq {
 
-/// S, contract "Safe set". `inner`: cells whose whole closed box provably satisfies `safe` (see
-/// ConditionDecider), never one with an unsafe point. The box is widened by the measurement errors, for the
-/// true state may be that far outside of the cell that was measured; on the seam of a periodic dimension both
-/// parts count; the half of a boundary cell beyond a `stop` limit does not. `center`: cells whose centre
-/// satisfies it. What cannot be decided counts as unsafe.
-[[nodiscard]] CellSet safe_set(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
-                               ThreadTeam& team);
+/// The cells that satisfy a condition over states as `abstraction.safe` asks. `inner`: cells whose whole
+/// closed box provably satisfies it (see ConditionDecider), never one with a point that does not. The box is
+/// widened by the measurement errors, for the true state may be that far outside of the cell that was
+/// measured; on the seam of a periodic dimension both parts count; the half of a boundary cell beyond a
+/// `stop` limit does not. `center`: cells whose centre satisfies it. What cannot be decided counts as false.
+[[nodiscard]] CellSet cells_that_satisfy(const Program& condition, const ProblemSpec& spec,
+                                         const UniformGrid& grid, const InputSpace& inputs, ThreadTeam& team);
+/// S, contract "Safe set".
 [[nodiscard]] inline CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction,
                                       ThreadTeam& team) {
-  return safe_set(spec, abstraction.grid, abstraction.inputs, team);
+  return cells_that_satisfy(spec.safe, spec, abstraction.grid, abstraction.inputs, team);
 }
 
 /// The admissible pairs: those that `allow` permits at grid points of states and inputs, and that are listed

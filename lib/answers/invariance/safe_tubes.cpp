@@ -65,7 +65,8 @@ std::optional<CellSet> safe_beyond_limits(const ProblemSpec& spec, const Abstrac
     if (is_lost(excess.above, dimension.count)) lost.emplace_back(i, dimension.count - 1);
   }
   if (!stretched) return std::nullopt;
-  CellSet result = safe_set(spec, abstraction.grid.with(std::move(dimensions)), abstraction.inputs, team);
+  CellSet result = cells_that_satisfy(spec.safe, spec, abstraction.grid.with(std::move(dimensions)),
+                                      abstraction.inputs, team);
   for (const auto& [dimension, index] : lost) remove_cells(result, abstraction.grid, dimension, index);
   // More is asked of these cells, but a sharper evaluation may have more luck with a larger box.
   for (std::size_t w = 0; w < result.words().size(); ++w) result.words()[w] &= safe.words()[w];

@@ -1,5 +1,7 @@
 #include "answers/layers/fields.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 
@@ -16,15 +18,10 @@
 namespace coordreq {
 namespace {
 
-Field steps_field(const std::string& name, const ProblemSpec& spec, std::int64_t least,
-                  std::vector<FieldAttribute> attributes, FieldShown shown) {
-  return {.path = "/" + name,
-          .section = FieldSection::steps,
-          .types = {ElementType::int16, ElementType::int32},
-          .axes = cell_axes("/partition", spec),
-          .least = least,
-          .attributes = std::move(attributes),
-          .shown = std::move(shown)};
+/// The most layers that there can be: each but the last loses a cell.
+std::uint64_t most_layers(const ProblemSpec& spec, std::uint64_t cells) {
+  const std::optional<std::int64_t>& most = spec.coordination.max_delay;
+  return 1 + (most ? std::min(cells, static_cast<std::uint64_t>(*most)) : cells);
 }
 
 void add_steps(Fields& fields, const ProblemSpec& spec) {
@@ -50,21 +47,6 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
                   {.column = "countdown", .below_zero = TriggerTable::kMustBeConnected, .steps = true}));
 }
 
-void add_sizes(Fields& fields) {
-  fields.push_back({.path = "/layer_size",
-                    .section = FieldSection::layers,
-                    .types = {ElementType::uint64},
-                    .axes = {"/partition", "/layer"},
-                    .attributes = described("number of cells in Z_k")});
-  fields.push_back({.path = "/fixed_point_index",
-                    .section = FieldSection::layers,
-                    .types = {ElementType::int32},
-                    .axes = {"/partition"},
-                    .least = -1,
-                    .attributes = described("F, the first k with Z_k = Z_(k+1)") +
-                                  std::vector<FieldAttribute>{flags({{-1, "unknown_because_truncated"}})}});
-}
-
 void add_lists(Fields& fields, const PartitionSpec& partition, std::uint64_t cells, std::uint64_t layers) {
   const std::string group = paths::layers(partition);
   constexpr FieldSection kSection = FieldSection::layer_lists;
@@ -83,17 +65,6 @@ void add_lists(Fields& fields, const PartitionSpec& partition, std::uint64_t cel
                     .attributes = described("row-major linear index of the cell, by layer, ascending")});
 }
 
-/// One type for all partitions, which share an array.
-ElementType delay_type(const std::vector<DelayLayers>& partitions) {
-  std::int64_t greatest = 0;
-  for (const DelayLayers& layers : partitions) {
-    // In Z_F and not in Z_{F+1} is nobody: the greatest finite delay is F - 1, or what stopped the iteration.
-    const std::int64_t last = static_cast<std::int64_t>(layers.sizes.size()) - 1;
-    greatest = std::max(greatest, layers.truncated ? last : last - 1);
-  }
-  return level_type(greatest);
-}
-
 void fill_steps(const Answers& answers, const std::vector<DelayLayers>& partitions, FieldValues& values) {
   const ProblemSpec& spec = answers.ground.spec;
   const LevelMap& times = answers.get<Invariance>().collision_time;
@@ -107,22 +78,6 @@ void fill_steps(const Answers& answers, const std::vector<DelayLayers>& partitio
   values.entries["/delay"].array = stacked_array(cell_count(spec), std::move(delays));
   values.entries["/trigger"].array = stacked_array(cell_count(spec), std::move(triggers));
   if (spec.coordination.connection_delay == 0) values.entries["/trigger"].equals = "/delay";
-}
-
-/// |Z_k| of all partitions, constant once fixed, and F.
-void fill_sizes(const std::vector<DelayLayers>& partitions, FieldValues& values) {
-  std::size_t count = 1;
-  for (const DelayLayers& layers : partitions) count = std::max(count, layers.sizes.size());
-  std::vector<std::uint64_t> sizes;
-  std::vector<std::int32_t> fixed_points;
-  for (const DelayLayers& layers : partitions) {
-    for (std::size_t k = 0; k < count; ++k)
-      sizes.push_back(static_cast<std::uint64_t>(layers.sizes[std::min(k, layers.sizes.size() - 1)]));
-    fixed_points.push_back(layers.fixed_point_index);
-  }
-  values.lengths["/layer"] = count;
-  values.entries["/layer_size"].array = owned_array(ElementType::uint64, std::move(sizes));
-  values.entries["/fixed_point_index"].array = owned_array(ElementType::int32, std::move(fixed_points));
 }
 
 void fill_lists(const Answers& answers, const PartitionSpec& partition, const DelayLayers& layers,
@@ -152,12 +107,6 @@ ResultArray action_array(const Answers& answers, std::size_t p, std::size_t c,
           }};
 }
 
-/// The most layers that there can be: each but the last loses a cell.
-std::uint64_t most_layers(const ProblemSpec& spec, std::uint64_t cells) {
-  const std::optional<std::int64_t>& most = spec.coordination.max_delay;
-  return 1 + (most ? std::min(cells, static_cast<std::uint64_t>(*most)) : cells);
-}
-
 }  // namespace
 
 namespace paths {
@@ -172,12 +121,66 @@ std::string actions(const ProblemSpec& spec, const PartitionSpec& partition, std
 
 }  // namespace paths
 
+Field steps_field(const std::string& name, const ProblemSpec& spec, std::int64_t least,
+                  std::vector<FieldAttribute> attributes, FieldShown shown) {
+  return {.path = "/" + name,
+          .section = FieldSection::steps,
+          .types = {ElementType::int16, ElementType::int32},
+          .axes = cell_axes("/partition", spec),
+          .least = least,
+          .attributes = std::move(attributes),
+          .shown = std::move(shown)};
+}
+
+void add_sizes(Fields& fields, const std::string& prefix, char layer, const ProblemSpec& spec) {
+  fields.push_back(number_scale(prefix + "layer", FieldSection::axes, 1, most_layers(spec, cell_count(spec)),
+                                "number k of the layer"));
+  fields.push_back({.path = prefix + "layer_size",
+                    .section = FieldSection::layers,
+                    .types = {ElementType::uint64},
+                    .axes = {"/partition", prefix + "layer"},
+                    .attributes = described(fmt::format("number of cells in {}_k", layer))});
+  fields.push_back({.path = prefix + "fixed_point_index",
+                    .section = FieldSection::layers,
+                    .types = {ElementType::int32},
+                    .axes = {"/partition"},
+                    .least = -1,
+                    .attributes = described(fmt::format("F, the first k with {0}_k = {0}_(k+1)", layer)) +
+                                  std::vector<FieldAttribute>{flags({{-1, "unknown_because_truncated"}})}});
+}
+
+ElementType delay_type(const std::vector<DelayLayers>& partitions) {
+  std::int64_t greatest = 0;
+  for (const DelayLayers& layers : partitions) {
+    // In Z_F and not in Z_{F+1} is nobody: the greatest finite delay is F - 1, or what stopped the iteration.
+    const std::int64_t last = static_cast<std::int64_t>(layers.sizes.size()) - 1;
+    greatest = std::max(greatest, layers.truncated ? last : last - 1);
+  }
+  return level_type(greatest);
+}
+
+void fill_sizes(const std::vector<DelayLayers>& partitions, const std::string& prefix, FieldValues& values) {
+  std::size_t count = 1;
+  for (const DelayLayers& layers : partitions) count = std::max(count, layers.sizes.size());
+  std::vector<std::uint64_t> sizes;
+  std::vector<std::int32_t> fixed_points;
+  for (const DelayLayers& layers : partitions) {
+    for (std::size_t k = 0; k < count; ++k)
+      sizes.push_back(static_cast<std::uint64_t>(layers.sizes[std::min(k, layers.sizes.size() - 1)]));
+    fixed_points.push_back(layers.fixed_point_index);
+  }
+  values.lengths[prefix + "layer"] = count;
+  values.entries[prefix + "layer_size"].array = owned_array(ElementType::uint64, std::move(sizes));
+  values.entries[prefix + "fixed_point_index"].array =
+      owned_array(ElementType::int32, std::move(fixed_points));
+}
+
 Fields layer_fields(const ProblemSpec& spec) {
   const std::uint64_t cells = cell_count(spec);
   const std::uint64_t layers = most_layers(spec, cells);
-  Fields fields = {number_scale("/layer", FieldSection::axes, 1, layers, "number k of the layer")};
+  Fields fields;
   add_steps(fields, spec);
-  add_sizes(fields);
+  add_sizes(fields, "/", 'Z', spec);
   for (const PartitionSpec& partition : spec.coordination.partitions) {
     if (spec.output.layers) add_lists(fields, partition, cells, layers);
     for (std::size_t c = 0; spec.output.actions && c < partition.classes.size(); ++c) {
@@ -193,7 +196,7 @@ Fields layer_fields(const ProblemSpec& spec) {
 void fill_layer_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const std::vector<DelayLayers>& partitions = answers.get<PartitionLayers>().partitions;
   fill_steps(answers, partitions, values);
-  fill_sizes(partitions, values);
+  fill_sizes(partitions, "/", values);
   const ProblemSpec& spec = answers.ground.spec;
   const auto cells = std::make_shared<LatestCells>();
   const auto grouping = std::make_shared<LatestGrouping>();

@@ -7,6 +7,7 @@
 #include "answers/answers.hpp"
 #include "answers/field.hpp"
 #include "answers/field_source.hpp"
+#include "answers/layers/delay_layers.hpp"
 #include "base/thread_team.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -40,5 +41,15 @@ void fill_layer_fields(const Answers& answers, ThreadTeam& team, FieldValues& va
 /// @throws ResultsError if an F is no layer
 [[nodiscard]] std::vector<StoredPartition> read_partition_values(const ProblemSpec& spec,
                                                                  const FieldSource& source);
+
+/// The fields `PREFIXlayer`, `PREFIXlayer_size`, `PREFIXfixed_point_index`: how many cells layers have,
+/// constant once fixed, and F. @param layer what layers are called: "Z"
+void add_sizes(Fields& fields, const std::string& prefix, char layer, const ProblemSpec& spec);
+void fill_sizes(const std::vector<DelayLayers>& partitions, const std::string& prefix, FieldValues& values);
+/// Type of the delays of all partitions, which share an array.
+[[nodiscard]] ElementType delay_type(const std::vector<DelayLayers>& partitions);
+/// `length` elements of the field of delays, or of triggers, of one partition.
+[[nodiscard]] Field steps_field(const std::string& name, const ProblemSpec& spec, std::int64_t least,
+                                std::vector<FieldAttribute> attributes, FieldShown shown);
 
 }  // namespace coordreq

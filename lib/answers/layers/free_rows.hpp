@@ -12,7 +12,7 @@ namespace coordreq {
 template <class Level>
 class FreeRows {
  public:
-  /// REQUIRES: all outlive this object; `posts` reads the levels of controller.collision_time.
+  /// REQUIRES: all outlive this object; `posts` reads the levels of controller.levels.
   FreeRows(const Controller& controller, const RowHull& hull, PostReader<Level>& posts)
       : controller_(controller), hull_(hull), posts_(posts), lanes_(posts.lanes(), 0) {}
 
@@ -20,6 +20,7 @@ class FreeRows {
   [[nodiscard]] bool is_free(const RowPlace& place) {
     if (controller_.engine->allow() != nullptr) return false;
     if (controller_.synthesis == Synthesis::given) return true;
+    if (controller_.approaches) return false;
     hull_.box(place, box_);
     if (!box_.covers) return false;
     const auto n = static_cast<std::size_t>(controller_.engine->row_length());

@@ -21,6 +21,14 @@ bool IndependentActions<Level>::next_levels(const RowPlace& place, PostReader<Le
   const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
   hull_.box(place, work.box);
   if (work.box.covers && posts.kernels().is_settled(posts.minimum(work.box), old, n)) return false;
+  find_minimum(place, posts, next, worker);
+  return true;
+}
+
+template <class Level>
+void IndependentActions<Level>::find_minimum(const RowPlace& place, PostReader<Level>& posts, Level* next,
+                                             int worker) {
+  Workspace& work = work_[static_cast<std::size_t>(worker)];
   std::fill_n(next, posts.lanes(), PostReader<Level>::kTop);
   switch (projections_.form(place.row)) {
     case Projections::Form::product:
@@ -34,7 +42,6 @@ bool IndependentActions<Level>::next_levels(const RowPlace& place, PostReader<Le
       grouping_.group(place, work.groups);
       lower_by_projections(place, posts, next, work);
   }
-  return true;
 }
 
 template <class Level>

@@ -24,6 +24,7 @@ class Projections::Builder {
   Builder(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
           const LevelRows<Level>& levels)
       : controller_(controller),
+        levels_(levels),
         grouping_(grouping),
         boxes_(grouping),
         pair_(controller, boxes_, grouping.size()),
@@ -45,7 +46,7 @@ class Projections::Builder {
     const bool is_product = boxes_.is_product() && boxes_.fill(place, groups_);
     if (is_full && !is_product) return false;
     is_simple_ = is_product && !boxes_.has_gone() && controller_.engine->allow() == nullptr &&
-                 controller_.synthesis == Synthesis::maximal;
+                 controller_.synthesis == Synthesis::maximal && !controller_.approaches;
     box_.resize(controller_.engine->grid());
     if (!is_full && is_simple_ && pair_.applies()) {
       pair_.find_masks(place, groups_, masks_);
@@ -102,7 +103,7 @@ class Projections::Builder {
     }
     tuple_.begin(grouping_, place, groups_, candidates_);
     do {
-      controller_row(controller_, place.row, tuple_, posts_, members_);
+      controller_row(controller_, levels_, place.row, tuple_, posts_, members_);
       for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= members_[w];
     } while (!is_subset(reachable_, mask) && tuple_.next());
   }
@@ -141,6 +142,7 @@ class Projections::Builder {
   }
 
   const Controller& controller_;
+  const LevelRows<Level>& levels_;
   const ActionGrouping& grouping_;
   RowBoxes boxes_;
   PairProjection pair_;
@@ -166,7 +168,7 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
   const RowEngine& engine = *controller.engine;
   number_rows_of(*controller.invariant);
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
-  controller.collision_time->visit([&]<class Level>(const LevelRows<Level>& levels) {
+  controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<Builder<Level>> builders;
     for (int w = 0; w < team.size(); ++w) builders.emplace_back(controller, grouping, hull, levels);
     team.for_each((engine.rows() + grain - 1) / grain, 1, [&](ThreadTeam::Range range, int worker) {

@@ -1,8 +1,10 @@
 #include "answers/requirements/answer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
+#include "answers/goal/fields.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "answers/requirements/fields.hpp"
 #include "answers/requirements/judge_requirements.hpp"
@@ -11,16 +13,22 @@ namespace coordreq {
 namespace {
 
 const char* end_word(EscapeEnd end) {
-  switch (end) {
-    case EscapeEnd::outside_safe_set:
-      return "outside_safe_set";
-    case EscapeEnd::left_domain:
-      return "left_domain";
-    case EscapeEnd::unsafe_between_samples:
-      return "unsafe_between_samples";
-    default:
-      return "no_allowed_action";
-  }
+  constexpr std::array<const char*, 7> kWords{"outside_safe_set",  "left_domain", "unsafe_between_samples",
+                                              "no_allowed_action", "arrived",     "never_arrives",
+                                              "time_lost"};
+  return kWords[static_cast<std::size_t>(end)];
+}
+
+const char* phase_word(EscapePhase phase) {
+  constexpr std::array<const char*, 4> kWords{"independent", "evasive", "together", "approaching"};
+  return kWords[static_cast<std::size_t>(phase)];
+}
+
+/// Of INT32_MAX the word differs: silence without bound, or a goal that is never reached.
+void put_value(Json& json, const std::string& key, RequirementKind kind, std::int32_t value) {
+  const bool is_never = kind == RequirementKind::max_arrival && value == DelayLayers::kUnbounded;
+  json[key] = delay_json(value);
+  json[key + "_status"] = is_never ? "goal_cannot_be_forced" : delay_word(value);
 }
 
 Json side_json(const std::optional<ResultSide>& side, const ProblemSpec& spec) {
@@ -35,20 +43,19 @@ Json state_json(const ResultPath& path, std::size_t sample, const ProblemSpec& s
   return json;
 }
 
-Json sample_json(const ResultPath& path, std::size_t sample, const ProblemSpec& spec) {
+Json sample_json(const ResultPath& path, std::size_t sample, RequirementKind kind, const ProblemSpec& spec) {
   const std::int32_t time = path.collision_time[sample];
   Json json;
   json["state"] = state_json(path, sample, spec);
   json["cell"] = path.cell[sample];
-  json["delay"] = delay_json(path.delay[sample]);
-  json["delay_status"] = delay_word(path.delay[sample]);
+  put_value(json, requirement_value_name(kind), kind, path.delay[sample]);
   json["collision_time"] = time == DelayLayers::kUnbounded ? Json() : Json(time);
   return json;
 }
 
-Json step_json(const ResultPath& path, std::size_t step, const ProblemSpec& spec) {
-  Json json = sample_json(path, step, spec);
-  json["action"] = path.phase[step] == EscapePhase::independent ? "independent" : "evasive";
+Json step_json(const ResultPath& path, std::size_t step, RequirementKind kind, const ProblemSpec& spec) {
+  Json json = sample_json(path, step, kind, spec);
+  json["action"] = phase_word(path.phase[step]);
   json["inputs"] = Json::object();
   for (const AgentSpec& agent : spec.agents) {
     Json& own = json["inputs"][agent.name] = Json::object();
@@ -60,7 +67,7 @@ Json step_json(const ResultPath& path, std::size_t step, const ProblemSpec& spec
   return json;
 }
 
-Json counterexample_json(const ResultRequirement& result, const ProblemSpec& spec) {
+Json counterexample_json(const ResultRequirement& result, RequirementKind kind, const ProblemSpec& spec) {
   Json json;
   if (!result.path) {
     json["state"] = Json();
@@ -73,15 +80,24 @@ Json counterexample_json(const ResultRequirement& result, const ProblemSpec& spe
   const ResultPath& path = *result.path;
   json["state"] = state_json(path, 0, spec);
   json["steps"] = Json::array();
-  for (std::size_t s = 0; s < path.steps(); ++s) json["steps"].push_back(step_json(path, s, spec));
+  for (std::size_t s = 0; s < path.steps(); ++s) json["steps"].push_back(step_json(path, s, kind, spec));
   json["end"] = end_word(path.end);
   const bool stays = path.samples() > path.steps();
-  json["end_sample"] = stays ? sample_json(path, path.steps(), spec) : Json();
+  json["end_sample"] = stays ? sample_json(path, path.steps(), kind, spec) : Json();
   json["left_side"] = side_json(path.left_side, spec);
   return json;
 }
 
 }  // namespace
+
+std::string requirement_value_name(RequirementKind kind) {
+  if (kind == RequirementKind::max_arrival) return "arrival";
+  return kind == RequirementKind::min_approach_delay ? "approach_delay" : "delay";
+}
+
+std::string requirement_worst_name(RequirementKind kind) {
+  return (kind == RequirementKind::max_arrival ? "longest_" : "least_") + requirement_value_name(kind);
+}
 
 Json delay_json(std::int32_t delay) {
   return delay < 0 || delay == DelayLayers::kUnbounded ? Json() : Json(delay);
@@ -89,7 +105,8 @@ Json delay_json(std::int32_t delay) {
 
 const char* delay_word(std::int32_t delay) {
   if (delay == DelayLayers::kUnbounded) return "unbounded";
-  return delay == DelayLayers::kOutsideSafe        ? "not_safe"
+  return delay == kOutsideWinning                  ? "goal_cannot_be_forced"
+         : delay == DelayLayers::kOutsideSafe      ? "not_safe"
          : delay == DelayLayers::kOutsideInvariant ? "not_invariant"
                                                    : "steps";
 }
@@ -99,17 +116,17 @@ Json requirement_json(const ResultRequirement& result, const RequirementSpec& as
   Json json;
   json["name"] = result.name;
   json["holds"] = result.holds;
-  json["kind"] = asked.invariant ? "invariant" : "min_delay";
+  json["kind"] = requirement_kind_name(asked.kind);
   json["partition"] =
       asked.partition ? Json(spec.coordination.partitions[static_cast<std::size_t>(*asked.partition)].name)
                       : Json();
-  json["min_delay"] = asked.min_delay ? Json(*asked.min_delay) : Json();
+  json["min_delay"] = Json();
+  if (asked.kind != RequirementKind::invariant) json[requirement_kind_name(asked.kind)] = asked.steps;
   json["cells"] = result.cells;
   json["failing"] = result.failing;
-  json["least_delay"] = delay_json(result.least_delay);
-  json["least_delay_status"] = delay_word(result.least_delay);
+  put_value(json, requirement_worst_name(asked.kind), asked.kind, result.least_delay);
   json["reaches_outside"] = side_json(result.reached_side, spec);
-  json["counterexample"] = result.holds ? Json() : counterexample_json(result, spec);
+  json["counterexample"] = result.holds ? Json() : counterexample_json(result, asked.kind, spec);
   return json;
 }
 
@@ -137,14 +154,14 @@ void summarise_requirements(const Answers& answers, Json& summary, Json& /*work*
 
 void tell_requirements(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   info["requirements"] = Json::array();
-  for (const ResultRequirement& own : read_requirement_values(spec, source)) {
-    info["requirements"].push_back({{"name", own.name},
-                                    {"holds", own.holds},
-                                    {"cells", own.cells},
-                                    {"failing", own.failing},
-                                    {"least_delay", delay_json(own.least_delay)},
-                                    {"least_delay_status", delay_word(own.least_delay)},
-                                    {"counterexample_steps", own.path ? Json(own.path->steps()) : Json()}});
+  const std::vector<ResultRequirement> results = read_requirement_values(spec, source);
+  for (std::size_t r = 0; r < results.size(); ++r) {
+    const ResultRequirement& own = results[r];
+    const RequirementKind kind = spec.requirements[r].kind;
+    Json& json = info["requirements"].emplace_back(
+        Json{{"name", own.name}, {"holds", own.holds}, {"cells", own.cells}, {"failing", own.failing}});
+    put_value(json, requirement_worst_name(kind), kind, own.least_delay);
+    json["counterexample_steps"] = own.path ? Json(own.path->steps()) : Json();
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "answers/answers.hpp"
@@ -24,9 +25,13 @@ struct RequirementVerdicts {
 /// One requirement as the summary has it, with the story of its counterexample.
 [[nodiscard]] Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
                                     const ProblemSpec& spec);
+/// What a requirement judges states by, "delay", "arrival" or "approach_delay", and its key for the worst of
+/// them: "least_delay", "longest_arrival", "least_approach_delay".
+[[nodiscard]] std::string requirement_value_name(RequirementKind kind);
+[[nodiscard]] std::string requirement_worst_name(RequirementKind kind);
 /// A delay as in `/delay`: the number of steps, else null.
 [[nodiscard]] Json delay_json(std::int32_t delay);
-/// "steps", "unbounded", "not_invariant" or "not_safe".
+/// "steps", "unbounded", "not_invariant", "not_safe" or "goal_cannot_be_forced".
 [[nodiscard]] const char* delay_word(std::int32_t delay);
 [[nodiscard]] MemoryNeed requirements_memory(const EngineSizes& sizes, int threads);
 void summarise_requirements(const Answers& answers, Json& summary, Json& work);

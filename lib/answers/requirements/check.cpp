@@ -13,15 +13,24 @@
 namespace coordreq {
 namespace {
 
-using Rank = std::tuple<std::int32_t, std::int32_t, std::int64_t>;  // delay, collision time, number
+using Rank = std::tuple<std::int64_t, std::int32_t, std::int64_t>;  // of the value, collision time, number
+
+/// The lower, the worse: not safe, not invariant, no way to the goal, then delays, or arrivals the other way
+/// round.
+std::int64_t rank_of(RequirementKind kind, std::int32_t value) {
+  constexpr std::int32_t kNotWinning = -4;
+  if (value == kNotWinning) return -1;
+  if (value < 0) return INT64_MIN + 2 + value;
+  return kind == RequirementKind::max_arrival ? -std::int64_t{value} : std::int64_t{value};
+}
 
 /// What can be said of the cells of a region: of those that surely meet it, and of those that may be counted.
 struct Bounds {
   std::uint64_t sure = 0, possible = 0;
   std::uint64_t sure_failing = 0, possible_failing = 0;
   std::uint64_t open_failing = 0;  ///< neither sure nor shown to be apart
-  Rank sure_worst{kForever, kForever, INT64_MAX};
-  std::int32_t sure_least = kForever, possible_least = kForever;
+  Rank sure_worst{INT64_MAX, kForever, INT64_MAX};
+  std::int64_t sure_least = INT64_MAX, possible_least = INT64_MAX;  ///< ranks
 
   void add(const Bounds& other) {
     sure += other.sure;
@@ -42,9 +51,7 @@ class RequirementChecker {
         asked_(ground.spec->requirements[number]),
         claim_(ground.claims->requirements[number]),
         region_(*ground.spec, asked_.where, *ground.grid, team),
-        tally_("requirement " + asked_.name) {
-    if (!asked_.invariant) partition_ = static_cast<std::size_t>(*asked_.partition);
-  }
+        tally_("requirement " + asked_.name) {}
 
   Finding run(ThreadTeam& team) {
     const Bounds bounds = find_bounds(team);
@@ -65,11 +72,12 @@ class RequirementChecker {
     tally_.add_wrong(number_++, [&what] { return what; });
   }
 
-  [[nodiscard]] std::int32_t delay_at(std::size_t cell) const {
-    return claimed_delay(*ground_.claims, partition_, cell);
+  [[nodiscard]] std::int32_t value_at(std::size_t cell) const {
+    return claimed_value(*ground_.claims, asked_, cell);
   }
-  [[nodiscard]] bool fails(std::int32_t delay) const {
-    return delay < 0 || delay < asked_.min_delay.value_or(0);
+  [[nodiscard]] bool fails(std::int32_t value) const {
+    return value < 0 ||
+           (asked_.kind == RequirementKind::max_arrival ? value > asked_.steps : value < asked_.steps);
   }
 
   [[nodiscard]] Bounds find_bounds(ThreadTeam& team) const {
@@ -88,25 +96,27 @@ class RequirementChecker {
     const Meeting meeting = region_.of(cell);
     if (meeting == Meeting::off) return;
     const auto x = static_cast<std::size_t>(cell);
-    const std::int32_t delay = delay_at(x);
-    const bool failing = fails(delay);
+    const std::int32_t value = value_at(x);
+    const std::int64_t rank = rank_of(asked_.kind, value);
+    const bool failing = fails(value);
     ++bounds.possible;
     bounds.possible_failing += failing ? 1 : 0;
-    bounds.possible_least = std::min(bounds.possible_least, delay);
+    bounds.possible_least = std::min(bounds.possible_least, rank);
     if (meeting == Meeting::open && failing) ++bounds.open_failing;
     if (meeting != Meeting::common) return;
     ++bounds.sure;
-    bounds.sure_least = std::min(bounds.sure_least, delay);
+    bounds.sure_least = std::min(bounds.sure_least, rank);
     if (!failing) return;
     ++bounds.sure_failing;
-    bounds.sure_worst = std::min(bounds.sure_worst, {delay, ground_.claims->collision_time[x], cell});
+    bounds.sure_worst = std::min(bounds.sure_worst, {rank, ground_.claims->collision_time[x], cell});
   }
 
   void check_counts(const Bounds& bounds) {
     expect("cells", claim_.cells, bounds.sure, bounds.possible);
     expect("failing cells", claim_.failing, bounds.sure_failing, bounds.possible_failing);
     if (claim_.failing > claim_.cells) wrong("more cells fail than there are");
-    expect("least delay", claim_.least_delay, bounds.possible_least, bounds.sure_least);
+    expect("worst value, ranked", rank_of(asked_.kind, claim_.least_delay), bounds.possible_least,
+           bounds.sure_least);
   }
 
   template <class Number>
@@ -139,13 +149,13 @@ class RequirementChecker {
   void check_path(const ResultPath& path, const Bounds& bounds) {
     const std::uint64_t first = path.cell.front();
     const auto cell = static_cast<std::int64_t>(first);
-    const std::int32_t delay = delay_at(first);
+    const std::int32_t value = value_at(first);
     if (region_.of(cell) == Meeting::off) wrong("the counterexample begins outside the region");
-    if (!fails(delay)) wrong("the counterexample begins in a cell that does not fail");
-    if (delay != claim_.least_delay) wrong("the counterexample begins with another delay than the least");
-    if (Rank(delay, ground_.claims->collision_time[first], cell) > bounds.sure_worst)
+    if (!fails(value)) wrong("the counterexample begins in a cell that does not fail");
+    if (value != claim_.least_delay) wrong("the counterexample begins with another value than the worst");
+    if (Rank(rank_of(asked_.kind, value), ground_.claims->collision_time[first], cell) > bounds.sure_worst)
       wrong("the counterexample does not begin in the worst cell");
-    PathChecker(ground_, partition_).check(path, tally_);
+    PathChecker(ground_, asked_).check(path, tally_);
   }
 
   const CheckGround& ground_;
@@ -153,7 +163,6 @@ class RequirementChecker {
   const ResultRequirement& claim_;
   RegionJudge region_;
   Tally tally_;
-  std::optional<std::size_t> partition_;
   std::int64_t number_ = -1000;  // before the steps of the counterexample
 };
 

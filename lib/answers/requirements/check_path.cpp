@@ -9,10 +9,13 @@
 
 namespace coordreq {
 
-PathChecker::PathChecker(const CheckGround& ground, std::optional<std::size_t> partition)
-    : ground_(ground), partition_(partition), cell_(ground) {
-  if (!partition) return;
-  for (const auto& agents : ground.spec->coordination.partitions[*partition].classes)
+PathChecker::PathChecker(const CheckGround& ground, const RequirementSpec& asked)
+    : ground_(ground), asked_(asked), cell_(ground) {
+  if (asked.kind == RequirementKind::max_arrival || asked.kind == RequirementKind::min_approach_delay)
+    progress_.emplace(ground);
+  if (!asked.partition) return;
+  partition_ = static_cast<std::size_t>(*asked.partition);
+  for (const auto& agents : ground.spec->coordination.partitions[*partition_].classes)
     classes_.emplace_back(class_of(*ground.spec, *ground.inputs, agents)).tabulate();
 }
 
@@ -45,7 +48,7 @@ void PathChecker::check_sample(std::size_t sample) {
     if (path_->state[sample * grid.size() + i] != nearest_double(grid[i].point(grid.index(cell, i))))
       wrong(sample, "the state is not the centre of the cell");
   }
-  if (path_->delay[sample] != claimed_delay(*ground_.claims, partition_, at(cell)))
+  if (path_->delay[sample] != claimed_value(*ground_.claims, asked_, at(cell)))
     wrong(sample, "the delay is not that of the cell");
   if (path_->collision_time[sample] != ground_.claims->collision_time[at(cell)])
     wrong(sample, "the collision time is not that of the cell");
@@ -70,15 +73,21 @@ std::optional<std::int64_t> PathChecker::input_of(std::size_t step) const {
 void PathChecker::check_step(std::size_t step) {
   cell_.go_to(static_cast<std::int64_t>(path_->cell[step]));
   const std::optional<std::int64_t> u = input_of(step);
-  const bool in_invariant = ground_.claims->invariant[cell_.at()] != 0;
   if (!u) return wrong(step, "not a joint input of the spec");
-  if (in_invariant != (path_->phase[step] == EscapePhase::independent))
-    return wrong(step, "another phase than that of the cell");
+  if (path_->phase[step] != phase_of(step)) return wrong(step, "another phase than that of the cell");
   if (!cell_.is_safe()) return wrong(step, "goes on after it has left the safe set");
-  if (in_invariant) {
-    check_independent(step, *u);
-  } else {
-    check_evasive(step, *u);
+  switch (path_->phase[step]) {
+    case EscapePhase::independent:
+      check_independent(step, *u);
+      break;
+    case EscapePhase::evasive:
+      check_evasive(step, *u);
+      break;
+    case EscapePhase::together:
+      check_together(step, *u);
+      break;
+    case EscapePhase::approaching:
+      check_approaching(step, *u);
   }
   if (step + 1 < path_->samples()) {
     check_next(step, *u);
@@ -87,12 +96,49 @@ void PathChecker::check_step(std::size_t step) {
   }
 }
 
+/// What agents do in the cell at work. Those that have reached the goal go on as if there was none.
+EscapePhase PathChecker::phase_of(std::size_t step) const {
+  if (ground_.claims->invariant[cell_.at()] == 0) return EscapePhase::evasive;
+  if (!progress_) return EscapePhase::independent;
+  if (asked_.kind == RequirementKind::max_arrival) return EscapePhase::together;
+  const std::int32_t arrival = progress_->arrival(cell_.at());
+  if (step == 0 && arrival == kForever) return EscapePhase::together;
+  const EscapePhase before = step == 0 ? EscapePhase::approaching : path_->phase[step - 1];
+  return before == EscapePhase::approaching && arrival == 0 ? EscapePhase::independent : before;
+}
+
+void PathChecker::check_together(std::size_t step, std::int64_t u) {
+  if (cell_.admitted()[at(u)] == 0) return differs(step, "the joint input is not admissible");
+  const std::int32_t arrival = progress_->arrival(cell_.at());
+  const std::int32_t expected = arrival == kForever ? kForever : arrival - 1;
+  if (arrival <= 0 || progress_->worst(cell_, u) != expected)
+    differs(step, "the joint input is not one that comes to the goal soonest");
+  if (step + 1 < path_->samples() && progress_->arrival(path_->cell[step + 1]) != expected)
+    differs(step, "the next cell is not the one farthest from the goal");
+}
+
+void PathChecker::check_approaching(std::size_t step, std::int64_t u) {
+  if (!is_choice(u, progress_->of(cell_))) differs(step, "the joint input is not an independent choice");
+  const std::int32_t delay = path_->delay[step];
+  if (delay > 0) {
+    if (step + 1 >= path_->samples() || path_->delay[step + 1] != delay - 1)
+      differs(step, fmt::format("leads to another approach delay than {}", delay - 1));
+    return;
+  }
+  const bool stays = step + 1 < path_->samples();
+  const std::int32_t next = stays ? progress_->arrival(path_->cell[step + 1]) : kForever;
+  if (next >= 0 && next < progress_->arrival(cell_.at())) differs(step, "no time is lost");
+}
+
 void PathChecker::check_independent(std::size_t step, std::int64_t u) {
   if (!partition_) return wrong(step, "begins in the invariance set");
-  if (!is_choice(u)) differs(step, "the joint input is not an independent choice");
-  const std::int32_t delay = path_->delay[step];
+  if (!is_choice(u, cell_.admitted())) differs(step, "the joint input is not an independent choice");
+  const auto delay_of = [&](std::size_t sample) {
+    return claimed_delay(*ground_.claims, partition_, path_->cell[sample]);
+  };
+  const std::int32_t delay = delay_of(step);
   const bool goes_on = step + 1 < path_->samples();
-  const std::int32_t next = goes_on ? std::max(path_->delay[step + 1], kOutsideInvariant) : kOutsideInvariant;
+  const std::int32_t next = goes_on ? std::max(delay_of(step + 1), kOutsideInvariant) : kOutsideInvariant;
   if (next != delay - 1) differs(step, fmt::format("leads to delay {}, expected {}", next, delay - 1));
 }
 
@@ -115,6 +161,7 @@ void PathChecker::check_next(std::size_t step, std::int64_t u) {
 /// The last action leads nowhere.
 void PathChecker::check_last_step(std::int64_t u) {
   const std::size_t step = path_->steps() - 1;
+  if (path_->end >= EscapeEnd::arrived) return;  // all has left through a `goal` side, or a `safe` one
   if (path_->end == EscapeEnd::unsafe_between_samples) {
     if (is_blocked(u) || cell_.is_way_safe(u)) differs(step, "the way to the next sample is safe");
   } else if (path_->end != EscapeEnd::left_domain || !path_->left_side) {
@@ -135,6 +182,8 @@ void PathChecker::check_end() {
     bool any = false;
     for (std::int64_t u = 0; safe && u < ground_.inputs->count() && !any; ++u) any = cell_.is_allowed(u);
     if (!stays || !safe || any) wrong(path_->samples(), "in the last cell something is allowed");
+  } else if (path_->end >= EscapeEnd::arrived) {
+    check_goal_end();
   } else if (stays) {
     wrong(path_->samples(), "the end is another");
   }
@@ -142,11 +191,24 @@ void PathChecker::check_end() {
     wrong(path_->samples(), "a side that belongs to another end");
 }
 
-/// Whether each class's part of u is part of some joint input in C(x).
-bool PathChecker::is_choice(std::int64_t u) const {
+void PathChecker::check_goal_end() {
+  const bool stays = path_->samples() > path_->steps();
+  const bool on_the_way = !path_->phase.empty() && path_->phase.back() >= EscapePhase::together;
+  if (!progress_ || (!on_the_way && !path_->phase.empty()))
+    return wrong(path_->samples(), "an end of the way to the goal, which it is not on");
+  const auto last = path_->cell.end() - 1;
+  if (path_->end == EscapeEnd::arrived && stays && progress_->arrival(*last) != 0)
+    wrong(path_->samples(), "the last cell is not in the goal");
+  if (path_->end == EscapeEnd::never_arrives && stays && std::find(path_->cell.begin(), last, *last) == last)
+    wrong(path_->samples(), "the last cell does not come again");
+  if (path_->end == EscapeEnd::time_lost && path_->phase.back() != EscapePhase::approaching)
+    wrong(path_->samples(), "time is lost by agents that act alone only");
+}
+
+bool PathChecker::is_choice(std::int64_t u, const std::vector<std::uint8_t>& joint) const {
   return std::all_of(classes_.begin(), classes_.end(), [&](const InputClass& own) {
-    for (std::size_t v = 0; v < cell_.admitted().size(); ++v) {
-      if (cell_.admitted()[v] != 0 && own.action(static_cast<std::int64_t>(v)) == own.action(u)) return true;
+    for (std::size_t v = 0; v < joint.size(); ++v) {
+      if (joint[v] != 0 && own.action(static_cast<std::int64_t>(v)) == own.action(u)) return true;
     }
     return false;
   });

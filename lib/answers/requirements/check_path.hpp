@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "answers/checking/checked_cell.hpp"
+#include "answers/checking/claimed_progress.hpp"
 #include "answers/checking/tally.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "model/input_class.hpp"
@@ -15,11 +16,11 @@ namespace coordreq {
 /// Follows a counterexample step by step: each joint input is in IND_C of its cell (outside K: is allowed,
 /// and the collision time falls by one), each next cell is in its post, the delay falls by one down to 0, and
 /// the end is what it is said to be. With the delays and collision times of the file, which are checked
-/// elsewhere, that makes the path a shortest one.
+/// elsewhere, that makes the path a shortest one. On the way to the goal likewise with arrivals and approach
+/// delays.
 class PathChecker {
  public:
-  /// @param partition position of the partition; none for `invariant`
-  PathChecker(const CheckGround& ground, std::optional<std::size_t> partition);
+  PathChecker(const CheckGround& ground, const RequirementSpec& asked);
 
   /// @param tally of one requirement; counts samples and steps
   void check(const ResultPath& path, Tally& tally);
@@ -27,14 +28,19 @@ class PathChecker {
  private:
   void check_sample(std::size_t sample);
   void check_step(std::size_t step);
+  [[nodiscard]] EscapePhase phase_of(std::size_t step) const;
+  void check_together(std::size_t step, std::int64_t u);
+  void check_approaching(std::size_t step, std::int64_t u);
   void check_independent(std::size_t step, std::int64_t u);
   void check_evasive(std::size_t step, std::int64_t u);
   void check_next(std::size_t step, std::int64_t u);
   void check_last_step(std::int64_t u);
   void check_end();
+  void check_goal_end();
 
   [[nodiscard]] std::optional<std::int64_t> input_of(std::size_t step) const;
-  [[nodiscard]] bool is_choice(std::int64_t u) const;
+  /// Whether each class's part of u is part of some of these joint inputs.
+  [[nodiscard]] bool is_choice(std::int64_t u, const std::vector<std::uint8_t>& joint) const;
   [[nodiscard]] bool is_in_post(std::int64_t u, std::int64_t next) const;
   [[nodiscard]] bool leaves_domain(std::int64_t u, const ResultSide& side) const;
   [[nodiscard]] const ResolvedRange& range(std::size_t i, std::int64_t u) const;
@@ -45,7 +51,9 @@ class PathChecker {
   void differs(std::size_t number, const std::string& what);
 
   const CheckGround& ground_;
-  std::optional<std::size_t> partition_;
+  const RequirementSpec& asked_;
+  std::optional<std::size_t> partition_;     ///< none for `invariant` and `max_arrival`
+  std::optional<ClaimedProgress> progress_;  ///< of requirements about the goal
   std::vector<InputClass> classes_;
   CheckedCell cell_;  ///< at work
   const ResultPath* path_ = nullptr;

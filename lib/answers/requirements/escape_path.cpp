@@ -5,7 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "answers/goal/arrival.hpp"
 #include "answers/one_cell/admissible_inputs.hpp"
+#include "answers/one_cell/progress_inputs.hpp"
 
 namespace coordreq {
 namespace {
@@ -31,11 +33,20 @@ class EscapeFinder {
         invariant_(grid_, [&set = sets.invariance->invariant](std::int64_t cell) { return set.test(cell); }),
         safe_(grid_, [this](std::int64_t cell) { return tubes_.inside->test(cell); }),
         beyond_(grid_, [this](std::int64_t cell) { return tubes_.beyond->test(cell); }),
-        inputs_(ground_.spec, posts_, members()) {}
+        inputs_(ground_.spec, posts_, members()),
+        progress_(ground_.spec, posts_, [this](std::int64_t y) { return arrival(y); }) {}
 
   EscapePath run(std::int64_t cell) {
     path_.cells.push_back(cell);
     bool goes_on = true;
+    if (sets_.goal != nullptr && sets_.invariance->invariant.test(cell)) {
+      if (sets_.kind == RequirementKind::max_arrival || !sets_.goal->winning.test(cell)) {
+        while (take_together()) {
+        }
+        return std::move(path_);
+      }
+      while (goes_on && sets_.goal->away.test(path_.cells.back())) goes_on = take_approaching();
+    }
     while (goes_on && sets_.invariance->invariant.test(path_.cells.back())) goes_on = take_independent();
     while (goes_on && level_of(collision_time_, path_.cells.back()) > 0) goes_on = take_evasive();
     return std::move(path_);
@@ -60,22 +71,93 @@ class EscapeFinder {
     return sets;
   }
 
+  /// Of a cell in K.
+  [[nodiscard]] std::int32_t arrival(std::int64_t y) const {
+    return sets_.invariance->invariant.test(y) ? arrival_at(sets_.goal->nearness, y) : -1;
+  }
+
+  /// The product of the projections of joint inputs onto the classes.
+  [[nodiscard]] std::vector<bool> independent(const std::vector<std::int64_t>& joint) const {
+    std::vector<bool> result(static_cast<std::size_t>(posts_.inputs().count()), true);
+    for (const InputClass& own : sets_.classes) {
+      std::vector<bool> projection(static_cast<std::size_t>(own.actions()), false);
+      for (const std::int64_t a : own.project(joint)) projection[static_cast<std::size_t>(a)] = true;
+      for (std::size_t u = 0; u < result.size(); ++u)
+        result[u] =
+            result[u] && projection[static_cast<std::size_t>(own.action(static_cast<std::int64_t>(u)))];
+    }
+    return result;
+  }
+
+  /// One step of all agents together to the goal, as badly as it can turn out. @returns whether to go on
+  bool take_together() {
+    const std::int64_t cell = path_.cells.back();
+    if (arrival(cell) == 0) {
+      path_.end = EscapeEnd::arrived;
+      return false;
+    }
+    const bool is_given = ground_.spec.controller.synthesis == Synthesis::given;
+    std::optional<std::pair<std::int32_t, std::int64_t>> best;  // worst arrival, joint input
+    for (const std::int64_t u : inputs_.of(cell)) {
+      const std::int32_t own = progress_.worst(cell, u);
+      if (!best || (is_given ? own > best->first : own < best->first)) best = {own, u};
+    }
+    const auto [worst, u] = *best;
+    path_.joint_inputs.push_back(u);
+    path_.phases.push_back(EscapePhase::together);
+    const CellPost post = posts_.post(u, tubes_);
+    const std::int64_t next =
+        lowest_cell(post, [&, worst = worst](std::int64_t y) { return arrival(y) == worst; });
+    path_.end = worst == INT32_MAX ? EscapeEnd::never_arrives : EscapeEnd::arrived;
+    if (next < 0) return false;  // all has left
+    const bool comes_again = std::find(path_.cells.begin(), path_.cells.end(), next) != path_.cells.end();
+    path_.cells.push_back(next);
+    return !comes_again;
+  }
+
+  /// One step of agents that act alone on the way to the goal. @returns whether to go on
+  bool take_approaching() {
+    const std::int64_t cell = path_.cells.back();
+    const std::vector<bool> choices = independent(progress_.of(cell, inputs_.of(cell)));
+    const std::int64_t layers = level_of(*sets_.approach_of, cell);
+    if (layers > 1) {
+      const auto is_choice = [&](std::int64_t u) { return choices[static_cast<std::size_t>(u)]; };
+      return take(find(*sets_.approach_of, layers - 1, is_choice), *sets_.approach_of,
+                  EscapePhase::approaching);
+    }
+    posts_.move_to(cell);
+    for (std::int64_t u = 0; u < posts_.inputs().count(); ++u) {
+      if (!choices[static_cast<std::size_t>(u)]) continue;
+      const CellPost post = posts_.post(u, tubes_);
+      if (post.blocked == CellPost::Blocked::no && progress_.worst(cell, u) < arrival(cell)) continue;
+      path_.joint_inputs.push_back(u);
+      path_.phases.push_back(EscapePhase::approaching);
+      if (post.blocked != CellPost::Blocked::no) {
+        end_at_block(post);
+        return false;
+      }
+      path_.end = EscapeEnd::time_lost;
+      const std::int64_t next = lowest_cell(post, [&](std::int64_t y) {
+        const std::int32_t own = arrival(y);
+        return own < 0 || own >= arrival(cell);
+      });
+      if (next >= 0) path_.cells.push_back(next);
+      return false;
+    }
+    return false;
+  }
+
+  void end_at_block(const CellPost& post) {
+    const bool left = post.blocked == CellPost::Blocked::left_domain;
+    path_.end = left ? EscapeEnd::left_domain : EscapeEnd::unsafe_between_samples;
+    path_.sides = post.sides;
+  }
+
   bool take_independent() {
     const std::int64_t cell = path_.cells.back();
     const std::int64_t layers = level_of(*sets_.layers_of, cell);
-    const std::vector<std::int64_t>& admissible = inputs_.of(cell);
-    std::vector<std::vector<bool>> projections;  // IND_C(x): [class][action]
-    for (const InputClass& own : sets_.classes) {
-      projections.emplace_back(static_cast<std::size_t>(own.actions()), false);
-      for (const std::int64_t a : own.project(admissible))
-        projections.back()[static_cast<std::size_t>(a)] = true;
-    }
-    const auto is_choice = [&](std::int64_t u) {
-      for (std::size_t c = 0; c < projections.size(); ++c) {
-        if (!projections[c][static_cast<std::size_t>(sets_.classes[c].action(u))]) return false;
-      }
-      return true;
-    };
+    const std::vector<bool> choices = independent(inputs_.of(cell));
+    const auto is_choice = [&](std::int64_t u) { return choices[static_cast<std::size_t>(u)]; };
     // From the last layer that holds the cell the way out of K is a single step.
     const bool is_last = layers == 1;
     const LevelMap& levels = is_last ? collision_time_ : *sets_.layers_of;
@@ -131,21 +213,21 @@ class EscapeFinder {
     path_.joint_inputs.push_back(choice->joint_input);
     path_.phases.push_back(phase);
     if (choice->post.blocked != CellPost::Blocked::no) {
-      const bool left = choice->post.blocked == CellPost::Blocked::left_domain;
-      path_.end = left ? EscapeEnd::left_domain : EscapeEnd::unsafe_between_samples;
-      path_.sides = choice->post.sides;
+      end_at_block(choice->post);
       return false;
     }
-    path_.cells.push_back(lowest_cell(choice->post, choice->level, levels));
+    path_.cells.push_back(
+        lowest_cell(choice->post, [&](std::int64_t y) { return level_of(levels, y) == choice->level; }));
     return true;
   }
 
-  /// The lowest-numbered cell of a post that has the level.
-  [[nodiscard]] std::int64_t lowest_cell(const CellPost& post, std::int64_t level,
-                                         const LevelMap& levels) const {
+  /// The lowest-numbered cell of a post that is wanted; negative: there is none.
+  template <class IsWanted>
+  [[nodiscard]] std::int64_t lowest_cell(const CellPost& post, const IsWanted& is_wanted) const {
     std::int64_t lowest = -1;
+    if (post.all_left) return lowest;
     for_each_cell(grid_, post.box, [&](std::int64_t next) {
-      if (level_of(levels, next) == level && (lowest < 0 || number(next) < number(lowest))) lowest = next;
+      if (is_wanted(next) && (lowest < 0 || number(next) < number(lowest))) lowest = next;
       return true;
     });
     return lowest;
@@ -167,6 +249,7 @@ class EscapeFinder {
   CellPosts posts_;
   MembersByCell invariant_, safe_, beyond_;
   AdmissibleInputs inputs_;
+  ProgressInputs progress_;
   EscapePath path_;
 };
 

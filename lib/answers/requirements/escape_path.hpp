@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "answers/goal/answer.hpp"
 #include "answers/ground.hpp"
 #include "answers/invariance/invariance.hpp"
 #include "answers/one_cell/cell_posts.hpp"
@@ -11,7 +12,8 @@
 
 namespace coordreq {
 
-/// How the system can get from a cell out of S although all agents do what is reasonable to them.
+/// How the system can get from a cell out of S although all agents do what is reasonable to them; or lose
+/// time on the way to the goal, or never get there.
 struct EscapePath {
   /// Visited; each but the first is in f(the cell before, the joint input before). One more than there are
   /// steps, unless the last action leads nowhere (`left_domain`, `unsafe_between_samples`).
@@ -30,6 +32,11 @@ struct EscapeSets {
   /// starts in K.
   std::vector<InputClass> classes;
   const LevelMap* layers_of = nullptr;
+  /// Of a requirement about the goal: which, and of `min_approach_delay` the approach layers of the
+  /// partition.
+  RequirementKind kind = RequirementKind::min_delay;
+  const Goal* goal = nullptr;
+  const LevelMap* approach_of = nullptr;
   /// [dimension]: what one index adds to a cell's number, by which ties are broken.
   std::vector<std::int64_t> number_stride;
 };
@@ -41,6 +48,13 @@ struct EscapeSets {
 ///   u that leads out of K to the least collision time.
 /// - From x outside K, collision_time(x) steps lead out of S, the worst successor each time: C can do no
 ///   better. The lowest-numbered u, and the lowest-numbered successor, of those that are equal.
+/// - `max_arrival`, from x in K: all take the lowest-numbered u of least worst arrival, the world the worst y
+/// of
+///   lowest number, down to the goal; where it cannot be forced the lowest y outside W, until a cell repeats.
+/// - `min_approach_delay`, from x in W of approach delay k: k steps by u in IND_P, each to a y of which less
+/// is
+///   asked, then one to a y that is not nearer; from the goal on as from x in K above, from x in K outside W
+///   as for `max_arrival`.
 /// REQUIRES: the delay of x is bounded, and known.
 /// Cost: a look at every joint input in every step, and at every cell of each different post.
 [[nodiscard]] EscapePath find_escape(const EscapeSets& sets, std::int64_t cell);

@@ -1,6 +1,8 @@
 #include "answers/requirements/fields.hpp"
 
 #include "answers/field_parts.hpp"
+#include "answers/goal/fields.hpp"
+#include "answers/layers/delay_layers.hpp"
 #include "answers/requirements/answer.hpp"
 
 namespace coordreq {
@@ -55,8 +57,31 @@ Field table(const std::string& path, std::vector<std::string> axes, const std::s
           .attributes = {{"long_name", long_name}}};
 }
 
-std::vector<FieldFlag> delay_flags() {
-  return {{-2, "not_safe"}, {-1, "not_invariant"}, {kLargestValue, "unbounded"}};
+std::vector<FieldFlag> delay_flags(const ProblemSpec& spec) {
+  std::vector<FieldFlag> result = {{-2, "not_safe"}, {-1, "not_invariant"}, {kLargestValue, "unbounded"}};
+  if (spec.goal) result.insert(result.begin(), {kOutsideWinning, "goal_cannot_be_forced"});
+  return result;
+}
+
+/// Delays are those of safety, approach delays or arrivals, as the requirement asks.
+std::int64_t least_delay(const ProblemSpec& spec) {
+  return spec.goal ? kOutsideWinning : DelayLayers::kOutsideSafe;
+}
+
+std::vector<FieldFlag> end_flags(const ProblemSpec& spec) {
+  std::vector<FieldFlag> result = {{0, "none"},
+                                   {1, "outside_safe_set"},
+                                   {2, "left_domain"},
+                                   {3, "unsafe_between_samples"},
+                                   {4, "no_allowed_action"}};
+  if (spec.goal) result.insert(result.end(), {{5, "arrived"}, {6, "never_arrives"}, {7, "time_lost"}});
+  return result;
+}
+
+std::vector<FieldFlag> phase_flags(const ProblemSpec& spec) {
+  std::vector<FieldFlag> result = {{0, "independent"}, {1, "evasive"}};
+  if (spec.goal) result.insert(result.end(), {{2, "together"}, {3, "approaching"}});
+  return result;
 }
 
 /// The sides of the domain, numbered: 0 for none, then below and above of each state.
@@ -88,16 +113,12 @@ void add_verdicts(Fields& fields, const ProblemSpec& spec) {
   add("holds", ElementType::uint8, "verdict", 0, 1, {{0, "fails"}, {1, "holds"}});
   add("cells", ElementType::uint64, "cells that may meet the region", 0, kLargestValue);
   add("failing", ElementType::uint64, "cells of the region that fail", 0, kLargestValue);
-  add("least_delay", ElementType::int32, "least delay of the cells of the region", -2, kLargestValue,
-      delay_flags());
+  add("least_delay", ElementType::int32, "least delay of the cells of the region", least_delay(spec),
+      kLargestValue, delay_flags(spec));
   add("reached_side", ElementType::int32, "side of the domain beyond which the region may reach", 0, sides,
       side_flags(spec));
-  add("end", ElementType::uint8, "how the counterexample ends", 0, 4,
-      {{0, "none"},
-       {1, "outside_safe_set"},
-       {2, "left_domain"},
-       {3, "unsafe_between_samples"},
-       {4, "no_allowed_action"}});
+  const std::vector<FieldFlag> ends = end_flags(spec);
+  add("end", ElementType::uint8, "how the counterexample ends", 0, ends.back().value, ends);
   add("left_side", ElementType::int32, "unsafe side of the domain through which the last action leads", 0,
       sides, side_flags(spec));
 }
@@ -116,15 +137,16 @@ void add_path(Fields& fields, const ProblemSpec& spec, std::size_t requirement) 
                         static_cast<std::int64_t>(cells) - 1));
   fields.push_back(
       table(path("state"), {sample, at("state_name")}, "centre of the cell: " + component_text(spec.states)));
-  fields.push_back(
-      list(path("delay"), sample, ElementType::int32, "delay of the cell", -2, kLargestValue, delay_flags()));
+  fields.push_back(list(path("delay"), sample, ElementType::int32, "delay of the cell", least_delay(spec),
+                        kLargestValue, delay_flags(spec)));
   fields.push_back(list(path("collision_time"), sample, ElementType::int32, "collision time of the cell", 0,
                         kLargestValue, {{0, "not_safe"}, {kLargestValue, "never"}}));
   fields.push_back(std::move(steps));
   fields.push_back(
       table(path("input"), {step, at("input_name")}, "joint input: " + component_text(spec.inputs)));
-  fields.push_back(list(path("phase"), step, ElementType::uint8, "what the joint input is taken from", 0, 1,
-                        {{0, "independent"}, {1, "evasive"}}));
+  const std::vector<FieldFlag> phases = phase_flags(spec);
+  fields.push_back(list(path("phase"), step, ElementType::uint8, "what the joint input is taken from", 0,
+                        phases.back().value, phases));
 }
 
 /// One value of each requirement.

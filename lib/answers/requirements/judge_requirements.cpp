@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "answers/goal/answer.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"
 #include "answers/requirements/escape_path.hpp"
@@ -30,48 +31,58 @@ class Judge {
 
   ResultRequirement judge(std::size_t r) {
     const RequirementSpec& requirement = ground_.spec.requirements[r];
-    std::optional<std::size_t> partition;
-    if (!requirement.invariant) partition = static_cast<std::size_t>(*requirement.partition);
-    const CellVerdict verdict = judge_all_cells(r, partition);
+    asked_ = ask(requirement);
+    const UniformGrid& grid = ground_.abstraction->grid;
+    const CellSet region = cells_of_region(requirement.where, grid, team_);
+    const CellVerdict verdict = judge_cells(region, grid, asked_, number_stride_, team_);
     ResultRequirement result{.name = requirement.name,
                              .cells = static_cast<std::uint64_t>(verdict.cells),
                              .failing = static_cast<std::uint64_t>(verdict.failing),
-                             .least_delay = verdict.least_delay};
+                             .least_delay = verdict.worst_value};
     if (const std::optional<DomainSide> side = side_reached(requirement.where, grid_)) {
       result.reached_side = {.state = side->dimension, .above = side->above};
     }
     result.holds = verdict.failing == 0 && !result.reached_side;
-    if (verdict.worst) result.path = path_from(*verdict.worst, partition);
+    if (verdict.worst) result.path = path_from(*verdict.worst, requirement);
     return result;
   }
 
  private:
-  /// Null: membership in K is asked for.
-  [[nodiscard]] const DelayLayers* layers_of(std::optional<std::size_t> partition) const {
-    return partition ? &answers_.get<PartitionLayers>().partitions[*partition] : nullptr;
+  [[nodiscard]] CellRequirement ask(const RequirementSpec& requirement) const {
+    CellRequirement result{.collision_time = controller_.levels,
+                           .kind = requirement.kind,
+                           .layers = nullptr,
+                           .nearness = nullptr,
+                           .steps = requirement.steps};
+    const Goal* const goal = answers_.find<Goal>();
+    if (goal != nullptr) result.nearness = &goal->nearness;
+    if (!requirement.partition) return result;
+    const auto p = static_cast<std::size_t>(*requirement.partition);
+    result.layers = requirement.kind == RequirementKind::min_approach_delay
+                        ? &goal->approach[p]
+                        : &answers_.get<PartitionLayers>().partitions[p];
+    return result;
   }
 
-  [[nodiscard]] CellVerdict judge_all_cells(std::size_t r, std::optional<std::size_t> partition) const {
-    const UniformGrid& grid = ground_.abstraction->grid;
-    const CellSet region = cells_of_region(ground_.spec.requirements[r].where, grid, team_);
-    const CellRequirement requirement{.collision_time = controller_.collision_time,
-                                      .layers = layers_of(partition),
-                                      .min_delay = ground_.spec.requirements[r].min_delay.value_or(0)};
-    return judge_cells(region, grid, requirement, number_stride_, team_);
-  }
-
-  [[nodiscard]] ResultPath path_from(std::int64_t cell, std::optional<std::size_t> partition) const {
-    EscapeSets sets{
-        .ground = &ground_, .invariance = &answers_.get<Invariance>(), .number_stride = number_stride_};
-    if (partition) {
-      const PartitionSpec& own = ground_.spec.coordination.partitions[*partition];
-      sets.classes = input_classes(ground_.spec, ground_.abstraction->inputs, own);
-      sets.layers_of = &layers_of(partition)->layers_of;
+  [[nodiscard]] ResultPath path_from(std::int64_t cell, const RequirementSpec& requirement) const {
+    EscapeSets sets{.ground = &ground_,
+                    .invariance = &answers_.get<Invariance>(),
+                    .kind = requirement.kind,
+                    .number_stride = number_stride_};
+    if (requirement.kind == RequirementKind::max_arrival ||
+        requirement.kind == RequirementKind::min_approach_delay)
+      sets.goal = answers_.find<Goal>();
+    if (requirement.partition) {
+      const auto p = static_cast<std::size_t>(*requirement.partition);
+      sets.classes =
+          input_classes(ground_.spec, ground_.abstraction->inputs, ground_.spec.coordination.partitions[p]);
+      sets.layers_of = &answers_.get<PartitionLayers>().partitions[p].layers_of;
+      sets.approach_of = &asked_.layers->layers_of;
     }
     const UniformGrid& grid = ground_.abstraction->grid;
     const EscapePath found = find_escape(sets, cell);
     ResultPath path{.phase = found.phases, .end = found.end};
-    for (const std::int64_t x : found.cells) add_sample(x, partition, path);
+    for (const std::int64_t x : found.cells) add_sample(x, path);
     for (const std::int64_t u : found.joint_inputs) add_step(u, path);
     for (const DomainSide& side : found.sides) {
       const ResultSide named{.state = grid.state(side.dimension), .above = side.above};
@@ -80,17 +91,17 @@ class Judge {
     return path;
   }
 
-  void add_sample(std::int64_t cell, std::optional<std::size_t> partition, ResultPath& path) const {
+  void add_sample(std::int64_t cell, ResultPath& path) const {
     std::int64_t number = 0;
     for (std::size_t i = 0; i < number_stride_.size(); ++i)
       number += ground_.abstraction->grid.index(cell, i) * number_stride_[i];
     path.cell.push_back(static_cast<std::uint64_t>(number));
     for (std::size_t i = 0; i < grid_.size(); ++i)
       path.state.push_back(nearest_double(grid_[i].point(grid_.index(number, i))));
-    const std::int64_t time = controller_.collision_time->at(cell);
+    const std::int64_t time = controller_.levels->at(cell);
     path.collision_time.push_back(time == LevelMap::kTop ? DelayLayers::kUnbounded
                                                          : static_cast<std::int32_t>(time));
-    path.delay.push_back(delay_of(cell, time, layers_of(partition)));
+    path.delay.push_back(asked_.value_of(cell));
   }
 
   void add_step(std::int64_t u, ResultPath& path) const {
@@ -104,6 +115,7 @@ class Judge {
   const Controller& controller_;
   ThreadTeam& team_;
   UniformGrid grid_;                         ///< the spec's
+  CellRequirement asked_;                    ///< at work
   std::vector<std::int64_t> number_stride_;  ///< [dimension of the engine]
 };
 

@@ -7,25 +7,37 @@
 #include "answers/layers/delay_layers.hpp"
 #include "answers/requirements/region.hpp"
 #include "base/thread_team.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
 /// What is asked of all cells of a region.
 struct CellRequirement {
-  const LevelMap* collision_time = nullptr;  ///< Controller::collision_time
-  /// Of the partition that is meant; null: membership in K, where all agents together tolerate any delay.
+  const LevelMap* collision_time = nullptr;  ///< Controller::levels
+  RequirementKind kind = RequirementKind::invariant;
+  /// Of the partition that is meant, of safety or of the approach; null: membership in K, where all agents
+  /// together tolerate any delay.
   const DelayLayers* layers = nullptr;
-  std::int64_t min_delay = 0;  ///< steps
+  const LevelMap* nearness = nullptr;  ///< if arrivals are asked for
+  std::int64_t steps = 0;
+
+  /// What cells are judged by: a delay, an approach delay or an arrival, as the results file has them.
+  [[nodiscard]] std::int32_t value_of(std::int64_t cell) const;
 };
+
+/// Whether a cell of this value fails.
+[[nodiscard]] bool fails(RequirementKind kind, std::int64_t steps, std::int32_t value);
+/// The lower, the worse.
+[[nodiscard]] std::int64_t rank_of(RequirementKind kind, std::int32_t value);
 
 /// What became of it.
 struct CellVerdict {
   std::int64_t cells = 0;    ///< of the region
   std::int64_t failing = 0;  ///< of these
-  /// The least delay of all cells of the region, as DelayLayers has them: kOutsideSafe, kOutsideInvariant,
-  /// steps, kUnbounded. A lower bound where `max_delay` cut the delays off.
-  std::int32_t least_delay = DelayLayers::kUnbounded;
-  /// The failing cell with the least delay; of these that with the least collision time; then the
+  /// The worst value of all cells of the region; for delays kOutsideSafe, kOutsideInvariant, steps,
+  /// kUnbounded. A lower bound where `max_delay` cut delays off.
+  std::int32_t worst_value = 0;
+  /// The failing cell with the worst value; of these that with the least collision time; then the
   /// lowest-numbered.
   std::optional<std::int64_t> worst;
 };

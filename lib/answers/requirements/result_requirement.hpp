@@ -15,6 +15,9 @@ enum class EscapePhase : std::uint8_t {
   /// Outside K: the allowed joint action that puts off the collision longest; if the controller is `given`,
   /// one that it may choose, the one that does so least.
   evasive,
+  together,     ///< on the way to the goal: the joint action from which it can be forced soonest
+  approaching,  ///< on the way to the goal: each class picks from its projection of P(x), so that u is in
+                ///< IND_P(x)
 };
 
 /// How an escape ends.
@@ -23,6 +26,9 @@ enum class EscapeEnd : std::uint8_t {
   left_domain,             ///< the last action leads out of the domain through an unsafe side
   unsafe_between_samples,  ///< the last action's way between the samples is not safe
   no_allowed_action,       ///< in the last cell, outside K, nothing is allowed
+  arrived,                 ///< in the goal, later than was asked for
+  never_arrives,           ///< a cell comes again, or all has left safely: the goal cannot be forced
+  time_lost,               ///< the last cell is not nearer to the goal than the one before
 };
 
 /// One end of one state.
@@ -37,7 +43,9 @@ struct ResultSide {
 struct ResultPath {
   std::vector<std::uint64_t> cell;  ///< [sample] row-major linear index
   std::vector<double> state;        ///< [sample, state] centre of the cell
-  std::vector<std::int32_t> delay;  ///< [sample] as in `/delay`; for `invariant` that of all together
+  /// [sample] as in `/delay`, for `invariant` that of all together; of requirements about the goal arrivals
+  /// or approach delays.
+  std::vector<std::int32_t> delay;
   std::vector<std::int32_t> collision_time;  ///< [sample] as in `/collision_time`, INT32_MAX in K
   std::vector<double> input;                 ///< [step, input]
   std::vector<EscapePhase> phase;            ///< [step]
@@ -52,9 +60,11 @@ struct ResultPath {
 struct ResultRequirement {
   std::string name;
   bool holds = false;
-  std::uint64_t cells = 0;       ///< of the region
-  std::uint64_t failing = 0;     ///< of these
-  std::int32_t least_delay = 0;  ///< over the region, coded as in `/delay` with INT32_MAX: unbounded
+  std::uint64_t cells = 0;    ///< of the region
+  std::uint64_t failing = 0;  ///< of these
+  /// Over the region, coded as in `/delay` with INT32_MAX: unbounded; likewise the greatest arrival or the
+  /// least approach delay.
+  std::int32_t least_delay = 0;
   std::optional<ResultSide> reached_side;  ///< beyond which the region may reach
   std::optional<ResultPath> path;          ///< from the worst cell, if one fails
 

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "answers/checking/checked_cell.hpp"
+
+namespace coordreq {
+
+/// The progress controller P by its definition, from the arrivals that a file claims.
+class ClaimedProgress {
+ public:
+  /// REQUIRES: the spec has a goal; `ground` outlives this object.
+  explicit ClaimedProgress(const CheckGround& ground);
+
+  /// -2 outside S, -1 in S but not in K, kForever where the goal cannot be forced.
+  [[nodiscard]] std::int32_t arrival(std::size_t cell) const { return arrival_[cell]; }
+  /// The goal can be forced from the cell, which is none of it.
+  [[nodiscard]] bool is_on_the_way(std::size_t cell) const {
+    return arrival_[cell] > 0 && arrival_[cell] != kForever;
+  }
+  /// The greatest arrival in f(x,u), kForever if T may be there through a `safe` side, or a cell outside K,
+  /// or if there is no post.
+  [[nodiscard]] std::int32_t worst(CheckedCell& cell, std::int64_t u) const;
+  /// Every cell of f(x,u) is nearer to the goal.
+  [[nodiscard]] bool comes_nearer(CheckedCell& cell, std::int64_t u) const {
+    return worst(cell, u) < arrival_[cell.at()];
+  }
+  /// P(x) as [joint input] 1 or 0. REQUIRES: x is in W \ G.
+  [[nodiscard]] std::vector<std::uint8_t> of(CheckedCell& cell) const;
+
+ private:
+  [[nodiscard]] bool leaves_through_safe_side(const CheckedCell& cell, std::int64_t u) const;
+
+  const CheckGround& ground_;
+  const std::vector<std::int32_t>& arrival_;
+  std::vector<std::int32_t> nearness_;  ///< [cell] kForever less arrival; negative outside K
+};
+
+}  // namespace coordreq

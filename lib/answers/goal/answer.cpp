@@ -1,0 +1,151 @@
+#include "answers/goal/answer.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "answers/goal/approach_layers.hpp"
+#include "answers/goal/arrival.hpp"
+#include "answers/invariance/answer.hpp"
+#include "answers/invariance/safe_set.hpp"
+#include "answers/kept_levels.hpp"
+#include "answers/layers/answer.hpp"
+#include "answers/layers/projection_bytes.hpp"
+#include "answers/work_json.hpp"
+
+namespace coordreq {
+namespace {
+
+CellSet without(const CellSet& set, const CellSet& other) {
+  CellSet result = set;
+  for (std::size_t w = 0; w < result.words().size(); ++w) result.words()[w] &= ~other.words()[w];
+  return result;
+}
+
+CellSet within(const CellSet& set, const CellSet& other) {
+  return without(set, without(set, other));
+}
+
+void find_arrival(Answers& answers, const StageWork& work) {
+  const Ground& ground = answers.ground;
+  const auto& controller = answers.get<Controller>();
+  Goal& goal = answers.add(Goal{});
+  goal.engine = std::make_unique<ProgressEngine>(ground);
+  goal.cells = within(cells_that_satisfy(*ground.spec.goal, ground.spec, ground.abstraction->grid,
+                                         ground.abstraction->inputs, work.team),
+                      *controller.invariant);
+  const RowEngine& engine = goal.engine->engine();
+  const LevelBounds bounds{controller.invariant, INT64_MAX};
+  find_or_take_levels(work, engine, bounds, goal.nearness, [&](const WaveWatch& watch) {
+    return find_nearness(*goal.engine, *controller.invariant, goal.cells, controller.synthesis, watch,
+                         work.team, goal.counts);
+  });
+  goal.winning = winning_cells(goal.nearness, work.team);
+  goal.away = without(goal.winning, goal.cells);
+  goal.progress = Controller{&engine, &goal.away, &goal.nearness, controller.synthesis, true};
+  goal.approach.resize(ground.spec.coordination.partitions.size());
+}
+
+void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
+  const ProblemSpec& spec = answers.ground.spec;
+  Goal& goal = answers.get<Goal>();
+  const RowEngine& engine = goal.engine->engine();
+  const DelayLayers& layers = answers.get<PartitionLayers>().partitions[p];
+  const std::optional<std::int64_t>& max_delay = spec.coordination.max_delay;
+  const ApproachSets sets{goal.engine.get(), &goal.nearness, &goal.cells, &goal.winning, &goal.away};
+  const std::int64_t steps = engine.grid().points();
+  const LevelBounds bounds{&goal.winning, max_delay ? std::min(*max_delay, steps) : steps};
+  DelayLayers& own = goal.approach[p];
+  find_or_take_levels(work, engine, bounds, own.layers_of, [&](const WaveWatch& watch) {
+    work.enter_part("projections");
+    const PartitionSpec& partition = spec.coordination.partitions[p];
+    const ActionGrouping grouping(engine, input_classes(spec, answers.ground.abstraction->inputs, partition),
+                                  work.team);
+    const Projections projections(goal.progress, grouping, goal.engine->hull(), work.team);
+    work.enter_part("");
+    DelayLayers found = find_approach_layers(sets, projections, layers, max_delay, watch, work.team);
+    own.counts = found.counts;
+    return std::move(found.layers_of);
+  });
+  follow_from_approach(layers, max_delay, work.team, own);
+}
+
+Json approach_json(const DelayLayers& approach) {
+  return {{"F", approach.truncated ? Json() : Json(approach.fixed_point_index)},
+          {"layers", approach.sizes},
+          {"fixed_point", approach.truncated ? Json() : Json(approach.sizes.back())},
+          {"truncated", approach.truncated}};
+}
+
+}  // namespace
+
+std::vector<Stage> goal_stages(const ProblemSpec& spec) {
+  if (!spec.goal) return {};
+  std::vector<Stage> stages = {{"arrival", find_arrival}};
+  for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p)
+    stages.push_back({"approach " + spec.coordination.partitions[p].name,
+                      [p](Answers& answers, const StageWork& work) { find_approach(p, answers, work); }});
+  return stages;
+}
+
+void summarise_goal(const Answers& answers, Json& summary, Json& work) {
+  const Goal* const goal = answers.find<Goal>();
+  if (goal == nullptr) return;
+  ThreadTeam alone(1);
+  const std::optional<std::int32_t> longest = longest_arrival(goal->nearness, alone);
+  summary["goal"] = {{"cells", goal->cells.count()},
+                     {"winning", goal->winning.count()},
+                     {"longest_arrival", longest ? Json(*longest) : Json()}};
+  work["arrival"] = work_json(goal->counts);
+  for (std::size_t p = 0; p < goal->approach.size(); ++p) {
+    summary["partitions"][p]["approach"] = approach_json(goal->approach[p]);
+    work["approach " + answers.ground.spec.coordination.partitions[p].name] =
+        work_json(goal->approach[p].counts);
+  }
+}
+
+std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers, bool is_in_goal_only) {
+  auto result = std::make_unique<ControllerParts>();
+  Controller everywhere = answers.get<Controller>();
+  const Goal* const goal = answers.find<Goal>();
+  if (goal == nullptr) {
+    result->parts.push_back({everywhere, &*answers.ground.hull});
+    return result;
+  }
+  result->rest = is_in_goal_only ? goal->cells : without(*everywhere.invariant, goal->away);
+  everywhere.invariant = &result->rest;
+  result->parts.push_back({everywhere, &*answers.ground.hull});
+  result->parts.push_back({goal->progress, &goal->engine->hull()});
+  return result;
+}
+
+void tell_goal(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+  if (!spec.goal) return;
+  const std::int64_t longest = source.attribute("/arrival", "longest_arrival");
+  info["goal"] = {{"cells", source.attribute("/arrival", "goal_cells")},
+                  {"winning", source.attribute("/arrival", "winning_cells")},
+                  {"longest_arrival", longest < 0 ? Json() : Json(longest)}};
+}
+
+MemoryNeed goal_memory(const EngineSizes& sizes, int threads) {
+  const ProblemSpec& spec = sizes.model().spec();
+  if (!spec.goal) return {};
+  const auto partitions = static_cast<double>(spec.coordination.partitions.size());
+  MemoryNeed need{.kept = (partitions + 1) * sizes.levels() + 3 * sizes.set(),
+                  .work = sizes.groups(single_classes(sizes.model().inputs())) + sizes.condition(*spec.goal),
+                  .array = partitions * sizes.cells() * sizeof(std::int16_t)};
+  if (has_safe_side(spec)) {
+    need.kept += sizes.hull();
+    for (std::size_t t = 0; t < spec.states.size(); ++t) need.kept += sizes.table(t) + sizes.slices(t);
+  }
+  for (const PartitionSpec& partition : spec.coordination.partitions) {
+    const std::vector<InputClass> classes = input_classes(spec, sizes.model().inputs(), partition);
+    need.work = std::max(need.work, sizes.groups(classes) + projection_bytes(sizes, classes));
+  }
+  need.work += sizes.wave(threads) + sizes.set();
+  if (spec.output.actions || spec.output.controller)
+    need.written +=
+        sizes.groups({whole_class(sizes.model().inputs())}) + 2 * sizes.readers(threads) + sizes.set();
+  return need;
+}
+
+}  // namespace coordreq

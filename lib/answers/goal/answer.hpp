@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "answers/answers.hpp"
+#include "answers/field_source.hpp"
+#include "answers/goal/progress_engine.hpp"
+#include "answers/invariance/controller.hpp"
+#include "answers/layers/delay_layers.hpp"
+#include "answers/memory_need.hpp"
+#include "answers/stage.hpp"
+#include "base/json.hpp"
+#include "engine/wave.hpp"
+
+namespace coordreq {
+
+/// How soon the goal can be reached, and how long silence costs no time on the way (contract, section 5).
+struct Goal {
+  std::unique_ptr<ProgressEngine> engine;
+  CellSet cells;                      ///< G
+  CellSet winning;                    ///< W
+  CellSet away;                       ///< W \ G
+  LevelMap nearness;                  ///< of all cells, see find_nearness()
+  Controller progress;                ///< P on W \ G
+  std::vector<DelayLayers> approach;  ///< [partition]
+  WaveCounts counts;
+};
+
+/// Adds Goal, if the spec has one: "arrival", then "approach PARTITION" for each partition.
+[[nodiscard]] std::vector<Stage> goal_stages(const ProblemSpec& spec);
+[[nodiscard]] MemoryNeed goal_memory(const EngineSizes& sizes, int threads);
+void summarise_goal(const Answers& answers, Json& summary, Json& work);
+void tell_goal(const ProblemSpec& spec, const FieldSource& source, Json& info);
+
+/// C where no progress is asked for, and P on W \ G: controllers of cells that are not the same, which
+/// together are that of a run towards the goal, or, without a goal, C alone.
+struct PartialController {
+  Controller controller;
+  const RowHull* hull = nullptr;
+};
+/// What a PartialController refers to beside the answers.
+struct ControllerParts {
+  CellSet rest;  ///< the cells of K where C holds
+  std::vector<PartialController> parts;
+};
+/// @param is_in_goal_only whether C holds in G alone, not in all of K without W \ G
+[[nodiscard]] std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers,
+                                                                      bool is_in_goal_only);
+
+}  // namespace coordreq

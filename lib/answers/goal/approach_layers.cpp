@@ -1,0 +1,132 @@
+#include "answers/goal/approach_layers.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <memory>
+#include <utility>
+
+#include "answers/layers/independent_actions.hpp"
+#include "engine/find_levels.hpp"
+
+namespace coordreq {
+namespace {
+
+/// The cells of W \ G where every choice of IND_P comes nearer.
+CellSet nearing_cells(const ApproachSets& sets, const Projections& projections, ThreadTeam& team) {
+  const RowEngine& engine = sets.progress->engine();
+  CellSet result(engine.rows(), engine.row_length());
+  sets.nearness->visit([&]<class Level>(const LevelRows<Level>& levels) {
+    IndependentActions<Level> actions(projections, sets.progress->hull(), *sets.away, team.size());
+    std::deque<PostReader<Level>> readers;
+    for (int w = 0; w < team.size(); ++w) readers.emplace_back(engine, levels);
+    const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
+    team.for_each((engine.rows() + grain - 1) / grain, 1, [&](ThreadTeam::Range range, int worker) {
+      PostReader<Level>& posts = readers[static_cast<std::size_t>(worker)];
+      std::vector<Level> least(posts.lanes(), 0);
+      const std::int64_t end = std::min(range.end * grain, engine.rows());
+      for (RowPlace place(engine.grid(), range.begin * grain); place.row < end;
+           place.advance(engine.grid())) {
+        if (place.row == range.begin * grain || place.row % engine.unit_rows() == 0) posts.enter();
+        const ConstRow away = sets.away->row(place.row);
+        if (!any_set(away)) continue;
+        actions.find_minimum(place, posts, least.data(), worker);
+        const MutableRow nearing = result.row(place.row);
+        posts.kernels().above_bits(least.data(), levels.row(place.row), nearing.data(),
+                                   static_cast<std::size_t>(engine.row_length()));
+        for (std::size_t w = 0; w < nearing.size(); ++w) nearing[w] &= away[w];
+      }
+    });
+  });
+  return result;
+}
+
+/// Layers under IND_P of the cells where all choices come nearer; all others keep theirs.
+template <class Level>
+class ApproachActions final : public RowOperator<Level> {
+ public:
+  ApproachActions(const ApproachSets& sets, const Projections& projections, const CellSet& nearing,
+                  int workers)
+      : actions_(projections, sets.progress->hull(), *sets.away, workers),
+        nearing_(nearing),
+        lanes_(static_cast<std::size_t>(workers)) {}
+
+  bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
+                   int worker) override {
+    constexpr Level kTop = PostReader<Level>::kTop;
+    const ConstRow nearing = nearing_.row(place.row);
+    if (!any_set(nearing)) return false;
+    actions_.find_minimum(place, posts, next, worker);
+    std::vector<Level>& lanes = lanes_[static_cast<std::size_t>(worker)];
+    lanes.resize(posts.lanes());
+    const auto n = static_cast<std::size_t>(nearing_.row_length());
+    posts.kernels().spread(nearing.data(), lanes.data(), n);
+    for (std::size_t x = 0; x < n; ++x) {
+      if (lanes[x] == 0) next[x] = old[x] == kTop || old[x] == 0 ? old[x] : static_cast<Level>(old[x] - 1);
+    }
+    return true;
+  }
+
+ private:
+  IndependentActions<Level> actions_;
+  const CellSet& nearing_;
+  std::vector<std::vector<Level>> lanes_;
+};
+
+/// The levels that the wave begins with, as wide as those of the layers.
+LevelMap first_levels(const ApproachSets& sets, const CellSet& nearing, const DelayLayers& layers) {
+  const RowEngine& engine = sets.progress->engine();
+  return layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& safe) {
+    auto levels = engine.make_levels<Level>(engine.posts());
+    std::vector<Level> cells(static_cast<std::size_t>(levels.row_length()) + kLevelBlock / sizeof(Level));
+    for (std::int64_t r = 0; r < levels.rows(); ++r) {
+      const Level* const own = safe.row(r);
+      std::fill(cells.begin(), cells.end(), Level{0});
+      for_each_bit(sets.away->row(r), [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = 1; });
+      for_each_bit(nearing.row(r),
+                   [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = LevelRows<Level>::kTop; });
+      for_each_bit(sets.goal->row(r), [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = own[x]; });
+      levels.put(r, cells.data());
+    }
+    return LevelMap(std::move(levels));
+  });
+}
+
+}  // namespace
+
+DelayLayers find_approach_layers(const ApproachSets& sets, const Projections& projections,
+                                 const DelayLayers& layers, std::optional<std::int64_t> max_delay,
+                                 const WaveWatch& watch, ThreadTeam& team) {
+  const CellSet nearing = nearing_cells(sets, projections, team);
+  const auto make = [&]<class Level>(Level) -> std::unique_ptr<RowOperator<Level>> {
+    return std::make_unique<ApproachActions<Level>>(sets, projections, nearing, team.size());
+  };
+  const LevelProblem problem{.limit = max_delay.value_or(-1),
+                             .make8 = [&] { return make(std::uint8_t{}); },
+                             .make16 = [&] { return make(std::uint16_t{}); },
+                             .make32 = [&] { return make(std::uint32_t{}); }};
+  LevelMap start;
+  WaveWatch own = watch;
+  if (own.resumed == nullptr) {
+    start = first_levels(sets, nearing, layers);
+    own.resumed = &start;
+  }
+  WaveCounts counts;
+  DelayLayers result{
+      .layers_of = find_levels(sets.progress->engine(), sets.progress->hull(), problem, own, team, counts)};
+  result.counts = counts;
+  follow_from_approach(layers, max_delay, team, result);
+  return result;
+}
+
+void follow_from_approach(const DelayLayers& layers, std::optional<std::int64_t> max_delay, ThreadTeam& team,
+                          DelayLayers& approach) {
+  follow_from_levels(std::nullopt, team, approach);
+  if (!max_delay || approach.sizes.back() == 0) return;
+  const std::int64_t still = std::max<std::int64_t>(approach.fixed_point_index, layers.fixed_point_index);
+  approach.truncated = layers.truncated || still >= *max_delay;
+  if (!approach.truncated) return;
+  approach.fixed_point_index = -1;
+  approach.sizes.resize(static_cast<std::size_t>(*max_delay) + 1, approach.sizes.back());
+}
+
+}  // namespace coordreq

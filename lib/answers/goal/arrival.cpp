@@ -1,0 +1,93 @@
+#include "answers/goal/arrival.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "answers/invariance/joint_actions.hpp"
+#include "engine/find_levels.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Nothing is known but what the goal is.
+LevelMap first_nearness(const ProgressEngine& progress, const CellSet& invariant, const CellSet& goal) {
+  const RowEngine& engine = progress.engine();
+  auto levels = engine.make_levels<std::uint8_t>(engine.posts(), progress.equal_work() != nullptr);
+  std::vector<std::uint8_t> cells(static_cast<std::size_t>(levels.row_length()) + kLevelBlock);
+  for (std::int64_t r = 0; r < levels.rows(); ++r) {
+    std::fill(cells.begin(), cells.end(), 0);
+    for_each_bit(invariant.row(r), [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = 1; });
+    for_each_bit(goal.row(r),
+                 [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = LevelRows<std::uint8_t>::kTop; });
+    levels.put(r, cells.data());
+  }
+  return LevelMap(std::move(levels));
+}
+
+}  // namespace
+
+std::int32_t arrival_at(const LevelMap& nearness, std::int64_t cell) {
+  return nearness.visit([cell](const auto& levels) {
+    return arrival_of(levels.row(cell / levels.row_length())[cell % levels.row_length()]);
+  });
+}
+
+LevelMap find_nearness(const ProgressEngine& progress, const CellSet& invariant, const CellSet& goal,
+                       Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team, WaveCounts& counts) {
+  const RowEngine& engine = progress.engine();
+  const RowHull& hull = progress.hull();
+  const ActionGrouping grouping(engine, single_classes(engine.abstraction().inputs), team);
+  const int workers = team.size();
+  const Tiles* const tiles = progress.equal_work();
+  const LevelProblem problem{
+      .equal = {tiles, tiles == nullptr ? nullptr : &tiles->tables()},
+      .make8 = [&] { return make_joint_actions<std::uint8_t>(grouping, hull, synthesis, true, workers); },
+      .make16 = [&] { return make_joint_actions<std::uint16_t>(grouping, hull, synthesis, true, workers); },
+      .make32 = [&] { return make_joint_actions<std::uint32_t>(grouping, hull, synthesis, true, workers); }};
+  LevelMap start;
+  WaveWatch own = watch;
+  if (own.resumed == nullptr) {
+    start = first_nearness(progress, invariant, goal);
+    own.resumed = &start;
+  }
+  return find_levels(engine, hull, problem, own, team, counts);
+}
+
+CellSet winning_cells(const LevelMap& nearness, ThreadTeam& team) {
+  CellSet winning(nearness.rows(), nearness.row_length());
+  nearness.visit([&](const auto& levels) {
+    team.for_each(levels.rows(), 256, [&](ThreadTeam::Range range, int) {
+      for (std::int64_t r = range.begin; r < range.end; ++r) {
+        const auto* const row = levels.row(r);
+        const MutableRow bits = winning.row(r);
+        levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+          for (std::int64_t x = lane; x < lane + count; ++x) {
+            if (row[x] > 1)
+              bits[static_cast<std::size_t>(x / CellSet::kWordBits)] |= Word{1} << (x % CellSet::kWordBits);
+          }
+        });
+      }
+    });
+  });
+  return winning;
+}
+
+std::optional<std::int32_t> longest_arrival(const LevelMap& nearness, ThreadTeam& team) {
+  std::vector<std::int32_t> longest(static_cast<std::size_t>(team.size()), -1);
+  nearness.visit([&](const auto& levels) {
+    team.for_each(levels.held(), 256, [&](ThreadTeam::Range range, int worker) {
+      std::int32_t& own = longest[static_cast<std::size_t>(worker)];
+      levels.for_each_held(range.begin, range.end, [&](const auto* row, std::int64_t) {
+        levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+          for (std::int64_t x = lane; x < lane + count; ++x) {
+            if (row[x] > 1) own = std::max(own, arrival_of(row[x]));
+          }
+        });
+      });
+    });
+  });
+  const std::int32_t all = *std::max_element(longest.begin(), longest.end());
+  return all < 0 ? std::nullopt : std::optional<std::int32_t>(all);
+}
+
+}  // namespace coordreq

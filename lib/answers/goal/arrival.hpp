@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "answers/goal/progress_engine.hpp"
+#include "base/thread_team.hpp"
+#include "engine/level_map.hpp"
+#include "engine/wave.hpp"
+#include "engine/wave_watch.hpp"
+#include "spec/problem_spec.hpp"
+
+// How soon a goal can be reached (contract, section 5): the least solution of arrival(x) = 0 in G,
+// 1 + min over u in C(x) of max over y in f(x,u) of arrival(y) elsewhere in K.
+//
+// It is held as *nearness*, kTop - arrival: the farthest cell of a post is then the one of the least level,
+// so that the readers of posts, which take minima, and the operators of K are those of arrival too. The least
+// solution of arrival is the greatest of nearness that can be reached from below, and levels rise to it from
+// G. (Arrivals that sink from infinity would need readers that take maxima.)
+namespace coordreq {
+
+/// Arrival of a cell from where the goal cannot be forced.
+inline constexpr std::int32_t kNeverArrives = std::numeric_limits<std::int32_t>::max();
+
+/// What a level of nearness says. REQUIRES: it is that of a cell in K.
+template <class Level>
+[[nodiscard]] std::int32_t arrival_of(Level nearness) {
+  if (nearness <= 1) return kNeverArrives;
+  return static_cast<std::int32_t>(LevelRows<Level>::kTop - nearness);
+}
+/// Of a cell (row-major linear index) in K.
+[[nodiscard]] std::int32_t arrival_at(const LevelMap& nearness, std::int64_t cell);
+
+/// Nearness of all cells: 0 outside K, 1 where the goal cannot be forced, kTop in the goal.
+/// @param invariant K @param goal G, a part of it
+[[nodiscard]] LevelMap find_nearness(const ProgressEngine& progress, const CellSet& invariant,
+                                     const CellSet& goal, Synthesis synthesis, const WaveWatch& watch,
+                                     ThreadTeam& team, WaveCounts& counts);
+
+/// W: the cells from which the goal can be forced.
+[[nodiscard]] CellSet winning_cells(const LevelMap& nearness, ThreadTeam& team);
+
+/// The greatest finite arrival; nothing if no cell arrives.
+[[nodiscard]] std::optional<std::int32_t> longest_arrival(const LevelMap& nearness, ThreadTeam& team);
+
+}  // namespace coordreq

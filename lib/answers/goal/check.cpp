@@ -1,0 +1,258 @@
+#include "answers/goal/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <vector>
+
+#include "answers/checking/claimed_progress.hpp"
+#include "answers/checking/claimed_values.hpp"
+#include "answers/invariance/check_safe.hpp"
+#include "model/input_class.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr std::int32_t kNoWayToGoal = -4;
+constexpr std::int32_t kMustStand = -3;
+/// What all threads share about one partition.
+struct ApproachTallies {
+  explicit ApproachTallies(const std::string& name)
+      : delay("approach delay " + name), trigger("approach trigger " + name) {}
+
+  Tally delay, trigger;
+};
+
+/// What all threads share.
+struct GoalTallies {
+  Tally goal{"goal"};
+  Tally arrival{"arrival"};
+  std::deque<ApproachTallies> approach;  // they cannot be moved
+};
+
+/// What the file says, as far as the goal is concerned.
+struct GoalClaims {
+  explicit GoalClaims(const Claims& claims)
+      : arrival(claims.numbers.at("/arrival")),
+        delay(claims.partition_numbers.at("/approach_delay")),
+        trigger(claims.partition_numbers.at("/approach_trigger")) {}
+
+  const std::vector<std::int32_t>& arrival;
+  const std::vector<std::vector<std::int32_t>>& delay;    ///< [partition][cell]
+  const std::vector<std::vector<std::int32_t>>& trigger;  ///< likewise
+};
+
+class GoalChecker : public CellChecker {
+ public:
+  GoalChecker(const CheckGround& ground, const GoalClaims& claims, GoalTallies& tallies, SafeMemory& memory)
+      : ground_(ground),
+        claims_(claims),
+        tallies_(tallies),
+        by_definition_(ground),
+        judge_(*ground.spec, *ground.spec->goal, *ground.grid, memory) {
+    for (const PartitionSpec& partition : ground.spec->coordination.partitions) {
+      std::vector<InputClass>& own = classes_.emplace_back();
+      for (const auto& agents : partition.classes)
+        own.emplace_back(class_of(*ground.spec, *ground.inputs, agents)).tabulate();
+    }
+  }
+
+  void check(CheckedCell& cell) override {
+    const std::int32_t arrival = claims_.arrival[cell.at()];
+    if (cell.is_invariant()) check_goal(cell, arrival == 0);
+    check_arrival(cell, arrival);
+    if (cell.is_invariant() && by_definition_.is_on_the_way(cell.at())) progress_ = by_definition_.of(cell);
+    for (std::size_t p = 0; p < classes_.size(); ++p) {
+      check_approach(cell, p);
+      check_trigger(cell, p);
+    }
+  }
+
+ private:
+  void check_goal(const CheckedCell& cell, bool is_claimed) {
+    tallies_.goal.add_checked(1);
+    const SafeVerdict verdict = judge_.judge(cell.number(), is_claimed);
+    if (!is_claimed && verdict == SafeVerdict::safe) {
+      wrong(tallies_.goal, cell, "does not count as the goal, but it is");
+    } else if (is_claimed && verdict == SafeVerdict::unsafe) {
+      wrong(tallies_.goal, cell, "counts as the goal, but it is not");
+    } else if (is_claimed && verdict == SafeVerdict::open) {
+      tallies_.goal.add_unproven();
+    }
+  }
+
+  void check_arrival(CheckedCell& cell, std::int32_t claimed) {
+    tallies_.arrival.add_checked(1);
+    std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
+    if (cell.is_invariant()) expected = claimed == 0 ? 0 : arrival_by_definition(cell);
+    if (claimed == expected) return;
+    if (ground_.sound_only() && expected >= 0 && claimed > expected) {
+      tallies_.arrival.add_unproven();
+    } else {
+      wrong_steps(tallies_.arrival, cell, claimed, expected);
+    }
+  }
+
+  [[nodiscard]] std::int32_t arrival_by_definition(CheckedCell& cell) const {
+    const bool is_given = ground_.spec->controller.synthesis == Synthesis::given;
+    std::int32_t best = is_given ? 0 : kForever;
+    for (std::size_t u = 0; u < cell.admitted().size(); ++u) {
+      if (cell.admitted()[u] == 0) continue;
+      const std::int32_t own = by_definition_.worst(cell, static_cast<std::int64_t>(u));
+      best = is_given ? std::max(best, own) : std::min(best, own);
+    }
+    return one_more(best);
+  }
+
+  void check_approach(CheckedCell& cell, std::size_t p) {
+    Tally& tally = tallies_.approach[p].delay;
+    tally.add_checked(1);
+    const std::int32_t claimed = claims_.delay[p][cell.at()];
+    const std::int32_t arrival = claims_.arrival[cell.at()];
+    std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
+    if (cell.is_invariant()) {
+      expected = arrival == kForever ? kNoWayToGoal
+                 : arrival == 0      ? ground_.claims->partitions[p].delay[cell.at()]
+                                     : approach_by_definition(cell, p);
+    }
+    if (claimed == expected) return;
+    // The file does not say which choices there are.
+    if (ground_.sound_only() && expected >= 0 && claimed >= 0) {
+      tally.add_unproven();
+    } else {
+      wrong_steps(tally, cell, claimed, expected);
+    }
+  }
+
+  [[nodiscard]] std::int32_t approach_by_definition(CheckedCell& cell, std::size_t p) {
+    std::vector<std::vector<std::uint8_t>> projections;
+    for (const InputClass& own : classes_[p]) {
+      std::vector<std::uint8_t>& projection =
+          projections.emplace_back(static_cast<std::size_t>(own.actions()), std::uint8_t{0});
+      for (std::size_t u = 0; u < progress_.size(); ++u) {
+        if (progress_[u] != 0)
+          projection[static_cast<std::size_t>(own.action(static_cast<std::int64_t>(u)))] = 1;
+      }
+    }
+    std::vector<std::int64_t> choices;
+    for (std::int64_t u = 0; u < ground_.inputs->count(); ++u) {
+      bool is_choice = true;
+      for (std::size_t c = 0; is_choice && c < projections.size(); ++c)
+        is_choice = projections[c][static_cast<std::size_t>(classes_[p][c].action(u))] != 0;
+      if (!is_choice) continue;
+      if (!by_definition_.comes_nearer(cell, u)) return 0;
+      choices.push_back(u);
+    }
+    std::int32_t worst = kForever;
+    for (const std::int64_t u : choices) worst = std::min(worst, cell.least(u, claims_.delay[p], 0));
+    const std::int32_t delay = one_more(std::max(worst, 0));
+    const std::optional<std::int64_t> most = ground_.spec->coordination.max_delay;
+    const bool truncated = most && ground_.claims->lists.at("/approach_fixed_point_index")[p] < 0;
+    return truncated ? std::min(delay, static_cast<std::int32_t>(*most)) : delay;
+  }
+
+  void check_trigger(const CheckedCell& cell, std::size_t p) {
+    Tally& tally = tallies_.approach[p].trigger;
+    tally.add_checked(1);
+    const std::int32_t delay = claims_.delay[p][cell.at()];
+    const std::int64_t needed = ground_.spec->coordination.connection_delay;
+    const std::int32_t expected = delay < 0 || delay == kForever ? delay
+                                  : delay < needed               ? kMustStand
+                                                                 : static_cast<std::int32_t>(delay - needed);
+    const std::int32_t claimed = claims_.trigger[p][cell.at()];
+    if (claimed != expected) wrong_steps(tally, cell, claimed, expected);
+  }
+
+  static void wrong(Tally& tally, const CheckedCell& cell, const char* what) {
+    tally.add_wrong(cell.number(), [&] { return fmt::format("{}: {}", cell.place(), what); });
+  }
+  static void wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed,
+                          std::int32_t expected) {
+    tally.add_wrong(cell.number(), [&] {
+      return fmt::format("{}: {}, expected {}", cell.place(), step_words(claimed), step_words(expected));
+    });
+  }
+
+  const CheckGround& ground_;
+  const GoalClaims& claims_;
+  GoalTallies& tallies_;
+  ClaimedProgress by_definition_;
+  SafeJudge judge_;
+  std::vector<std::vector<InputClass>> classes_;  ///< [partition]
+  std::vector<std::uint8_t> progress_;            ///< P(x) of the cell at work
+};
+
+class GoalCheck : public AnswerCheck {
+ public:
+  explicit GoalCheck(const CheckGround& ground)
+      : AnswerCheck(CheckSection::steps),
+        ground_(ground),
+        claims_(*ground.claims),
+        memory_(*ground.spec->goal, *ground.grid) {
+    for (const PartitionClaims& partition : ground.claims->partitions)
+      tallies_.approach.emplace_back(partition.name);
+  }
+
+  std::vector<Finding> compare_sizes(Comparison& sizes) override {
+    std::int64_t goal = 0, winning = 0, longest = -1;
+    for (const std::int32_t arrival : claims_.arrival) {
+      goal += arrival == 0 ? 1 : 0;
+      if (arrival < 0 || arrival == kForever) continue;
+      ++winning;
+      longest = std::max(longest, std::int64_t{arrival});
+    }
+    const std::map<std::string, std::int64_t>& found = ground_.claims->attributes;
+    sizes.expect("|G|", found.at("/arrival goal_cells"), goal);
+    sizes.expect("|W|", found.at("/arrival winning_cells"), winning);
+    sizes.expect("longest arrival", found.at("/arrival longest_arrival"), longest);
+    std::vector<Finding> findings;
+    for (std::size_t p = 0; p < claims_.delay.size(); ++p) findings.push_back(compare_layers(p));
+    return findings;
+  }
+  std::unique_ptr<CellChecker> cell_checker() override {
+    return std::make_unique<GoalChecker>(ground_, claims_, tallies_, memory_);
+  }
+  [[nodiscard]] std::vector<Finding> findings() const override {
+    std::vector<Finding> result = {tallies_.goal.finding(), tallies_.arrival.finding()};
+    for (const ApproachTallies& own : tallies_.approach) {
+      result.push_back(own.delay.finding());
+      result.push_back(own.trigger.finding());
+    }
+    return result;
+  }
+
+ private:
+  /// |A_k| of one partition, and F, with the delays of its cells.
+  [[nodiscard]] Finding compare_layers(std::size_t p) const {
+    Comparison comparison("approach layers " + ground_.claims->partitions[p].name);
+    const std::vector<std::int64_t>& all = ground_.claims->lists.at("/approach_layer_size");
+    const std::size_t length = all.size() / claims_.delay.size();
+    std::vector<std::int64_t> sizes(length, 0);
+    std::int64_t last = -1;  // the greatest delay that is not unbounded
+    for (const std::int32_t delay : claims_.delay[p]) {
+      if (delay < 0) continue;
+      if (delay != kForever) last = std::max(last, std::int64_t{delay});
+      for (std::size_t k = 0; k < length && (delay == kForever || static_cast<std::int64_t>(k) <= delay); ++k)
+        ++sizes[k];
+    }
+    for (std::size_t k = 0; k < length; ++k)
+      comparison.expect(fmt::format("|A_{}|", k), all[p * length + k], sizes[k]);
+    const std::int64_t index = ground_.claims->lists.at("/approach_fixed_point_index")[p];
+    if (index >= 0) comparison.expect("F", index, last + 1);
+    return comparison.finding();
+  }
+
+  const CheckGround& ground_;
+  GoalClaims claims_;
+  SafeMemory memory_;
+  GoalTallies tallies_;
+};
+
+}  // namespace
+
+std::unique_ptr<AnswerCheck> check_goal(const CheckGround& ground) {
+  return ground.spec->goal ? std::make_unique<GoalCheck>(ground) : nullptr;
+}
+
+}  // namespace coordreq

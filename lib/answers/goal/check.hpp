@@ -1,0 +1,14 @@
+#pragma once
+
+#include <memory>
+
+#include "answers/checking/answer_check.hpp"
+
+namespace coordreq {
+
+/// Checks arrivals, approach delays and their triggers by their local equations: that of arrival has exactly
+/// one solution, so that arrivals which obey it everywhere are right; and which cells are the goal, by an
+/// evaluation of its own. Null without a goal.
+[[nodiscard]] std::unique_ptr<AnswerCheck> check_goal(const CheckGround& ground);
+
+}  // namespace coordreq

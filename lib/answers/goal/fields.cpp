@@ -1,0 +1,199 @@
+#include "answers/goal/fields.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "answers/field_arrays.hpp"
+#include "answers/field_parts.hpp"
+#include "answers/goal/answer.hpp"
+#include "answers/goal/arrival.hpp"
+#include "answers/invariance/action_bits.hpp"
+#include "answers/invariance/answer.hpp"
+#include "answers/layers/fields.hpp"
+#include "answers/layers/trigger_table.hpp"
+#include "engine/convert_stretch.hpp"
+#include "spec/partition_names.hpp"
+
+namespace coordreq {
+namespace {
+
+const FieldFlag kNotSafe{DelayLayers::kOutsideSafe, "not_safe"};
+const FieldFlag kNotInvariant{DelayLayers::kOutsideInvariant, "not_invariant"};
+const FieldFlag kNotWinning{kOutsideWinning, "goal_cannot_be_forced"};
+
+std::string progress_path() {
+  return "/controller:goal";
+}
+
+std::string progress_path(const ProblemSpec& spec, const PartitionSpec& partition, std::size_t c) {
+  return "/actions:goal/" + partition.name + "/" + class_name(spec.agents, partition.classes[c]);
+}
+
+Field arrival_field(const ProblemSpec& spec) {
+  return {.path = "/arrival",
+          .section = FieldSection::steps,
+          .types = {ElementType::int16, ElementType::int32},
+          .axes = cell_axes(spec),
+          .least = DelayLayers::kOutsideSafe,
+          .attributes = described("steps within which coordinated agents can force the goal") +
+                        std::vector<FieldAttribute>{
+                            flags({kNotSafe, kNotInvariant, {kLargestValue, "goal_cannot_be_forced"}}),
+                            {"goal_cells", std::uint64_t{0}, true},
+                            {"winning_cells", std::uint64_t{0}, true},
+                            {"longest_arrival", std::int64_t{0}, true}},
+          .shown = {
+              .column = "arrival",
+              .steps = true,
+              .compared = "time to the goal",
+              .less_is_better = true,
+              .asked = "time to the goal",
+              .map = {.values = FieldMap::Values::numbers, .kind = "arrival", .title = "Time to the goal"}}};
+}
+
+void add_approach(Fields& fields, const ProblemSpec& spec) {
+  fields.push_back(steps_field(
+      "approach_delay", spec, kOutsideWinning,
+      described("largest number of steps without coordination that is safe and costs no time to the goal") +
+          std::vector<FieldAttribute>{
+              flags({kNotWinning, kNotSafe, kNotInvariant, {kLargestValue, "unbounded"}})},
+      {.column = "approach_delay",
+       .steps = true,
+       .compared = "approach delay",
+       .map = {.values = FieldMap::Values::numbers,
+               .kind = "approach_delay",
+               .title = "Silence that costs no time to the goal"}}));
+  fields.push_back(steps_field(
+      "approach_trigger", spec, kOutsideWinning,
+      described("steps until the agents must start to connect, so as to lose no time to the goal") +
+          std::vector<FieldAttribute>{
+              flags({kNotWinning,
+                     {TriggerTable::kMustBeConnected, "connection_must_stand_already"},
+                     kNotSafe,
+                     kNotInvariant,
+                     {kLargestValue, "never"}}),
+              {"connection_delay", spec.coordination.connection_delay}},
+      {.column = "approach_countdown", .below_zero = TriggerTable::kMustBeConnected, .steps = true}));
+}
+
+template <class Integer>
+FillArray fill_arrival(const Goal& goal, const LevelMap& times, const CellOrder& order) {
+  return [&goal, &times, &order](std::uint64_t begin, std::uint64_t count, void* out) {
+    auto* const steps = static_cast<Integer*>(out);
+    goal.nearness.visit([&](const auto& levels) {
+      convert_stretch(levels, order, begin, count, steps, [](auto level) {
+        if (level == 0) return static_cast<Integer>(DelayLayers::kOutsideInvariant);
+        const std::int32_t arrival = arrival_of(level);
+        return arrival == kNeverArrives ? std::numeric_limits<Integer>::max() : static_cast<Integer>(arrival);
+      });
+    });
+    mark_unsafe(times, order, begin, count, steps);
+  };
+}
+
+/// Writes kOutsideWinning for the cells of a stretch that are in K but not in W.
+template <class Integer>
+FillArray with_losing_cells(FillArray fill, const Goal& goal, const CellOrder& order) {
+  return [fill = std::move(fill), &goal, &order](std::uint64_t begin, std::uint64_t count, void* out) {
+    fill(begin, count, out);
+    std::vector<std::uint8_t> is_losing(count);
+    goal.nearness.visit([&](const auto& levels) {
+      convert_stretch(levels, order, begin, count, is_losing.data(),
+                      [](auto level) { return static_cast<std::uint8_t>(level == 1 ? 1 : 0); });
+    });
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (is_losing[i] != 0) static_cast<Integer*>(out)[i] = static_cast<Integer>(kOutsideWinning);
+    }
+  };
+}
+
+ResultArray with_losing_cells(ResultArray array, const Goal& goal, const CellOrder& order) {
+  array.fill = array.type == ElementType::int16
+                   ? with_losing_cells<std::int16_t>(std::move(array.fill), goal, order)
+                   : with_losing_cells<std::int32_t>(std::move(array.fill), goal, order);
+  return array;
+}
+
+void fill_approach(const Answers& answers, const Goal& goal, FieldValues& values) {
+  const ProblemSpec& spec = answers.ground.spec;
+  const LevelMap& times = answers.get<Invariance>().collision_time;
+  const CellOrder& order = *answers.ground.order;
+  const ElementType type = delay_type(goal.approach);
+  const std::int64_t connection_delay = spec.coordination.connection_delay;
+  std::vector<ResultArray> delays, triggers;
+  for (const DelayLayers& own : goal.approach) {
+    delays.push_back(with_losing_cells(delay_array(own, times, order, type), goal, order));
+    triggers.push_back(
+        with_losing_cells(trigger_array(own, times, connection_delay, order, type), goal, order));
+  }
+  values.entries["/approach_delay"].array = stacked_array(cell_count(spec), std::move(delays));
+  values.entries["/approach_trigger"].array = stacked_array(cell_count(spec), std::move(triggers));
+  if (connection_delay == 0) values.entries["/approach_trigger"].equals = "/approach_delay";
+  fill_sizes(goal.approach, "/approach_", values);
+}
+
+/// P of one class of actions, with C in G.
+ResultArray progress_bits(std::shared_ptr<const ControllerParts> parts, std::vector<InputClass> classes,
+                          std::size_t c, ThreadTeam& team) {
+  std::vector<std::shared_ptr<const ActionGrouping>> groupings;
+  for (const PartialController& part : parts->parts)
+    groupings.push_back(std::make_shared<const ActionGrouping>(*part.controller.engine, classes, team));
+  return {ElementType::uint8, [parts = std::move(parts), groupings = std::move(groupings), c](
+                                  std::uint64_t begin, std::uint64_t count, void* out) {
+            fill_action_bits(parts->parts[0].controller, *groupings[0], c, begin, count, out);
+            std::vector<std::uint8_t> more(count);
+            fill_action_bits(parts->parts[1].controller, *groupings[1], c, begin, count, more.data());
+            auto* const bits = static_cast<std::uint8_t*>(out);
+            for (std::uint64_t i = 0; i < count; ++i) bits[i] = static_cast<std::uint8_t>(bits[i] | more[i]);
+          }};
+}
+
+}  // namespace
+
+Fields goal_fields(const ProblemSpec& spec) {
+  if (!spec.goal) return {};
+  Fields fields = {arrival_field(spec)};
+  add_approach(fields, spec);
+  add_sizes(fields, "/approach_", 'A', spec);
+  if (spec.output.controller) {
+    add_bits(fields, progress_path(), FieldSection::controller, spec, all_inputs(spec),
+             "joint inputs that come nearer to the goal, one bit each; in the goal those of the controller");
+  }
+  for (const PartitionSpec& partition : spec.coordination.partitions) {
+    for (std::size_t c = 0; spec.output.actions && c < partition.classes.size(); ++c) {
+      add_bits(
+          fields, progress_path(spec, partition, c), FieldSection::actions, spec,
+          inputs_of(spec, partition.classes[c]),
+          "joint actions of the class that come nearer to the goal with some of the others, one bit each");
+    }
+  }
+  return fields;
+}
+
+void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& values) {
+  const Goal* const goal = answers.find<Goal>();
+  if (goal == nullptr) return;
+  const ProblemSpec& spec = answers.ground.spec;
+  const LevelMap& times = answers.get<Invariance>().collision_time;
+  const CellOrder& order = *answers.ground.order;
+  const std::optional<std::int32_t> longest = longest_arrival(goal->nearness, team);
+  const ElementType type = level_type(longest.value_or(0));
+  values.entries["/arrival"] = {
+      .array = {type, type == ElementType::int16 ? fill_arrival<std::int16_t>(*goal, times, order)
+                                                 : fill_arrival<std::int32_t>(*goal, times, order)},
+      .attributes = {{"goal_cells", static_cast<std::uint64_t>(goal->cells.count())},
+                     {"winning_cells", static_cast<std::uint64_t>(goal->winning.count())},
+                     {"longest_arrival", std::int64_t{longest.value_or(-1)}}}};
+  fill_approach(answers, *goal, values);
+  if (!spec.output.controller && !spec.output.actions) return;
+  const std::shared_ptr<const ControllerParts> parts = controller_parts(answers, true);
+  const InputSpace& inputs = answers.ground.abstraction->inputs;
+  if (spec.output.controller)
+    values.entries[progress_path()].array = progress_bits(parts, {whole_class(inputs)}, 0, team);
+  for (const PartitionSpec& partition : spec.coordination.partitions) {
+    for (std::size_t c = 0; spec.output.actions && c < partition.classes.size(); ++c)
+      values.entries[progress_path(spec, partition, c)].array =
+          progress_bits(parts, input_classes(spec, inputs, partition), c, team);
+  }
+}
+
+}  // namespace coordreq

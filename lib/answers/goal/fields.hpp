@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+#include "answers/answers.hpp"
+#include "answers/field.hpp"
+#include "base/thread_team.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// Approach delay of a cell in K from where the goal cannot be forced.
+inline constexpr std::int32_t kOutsideWinning = -4;
+
+/// Arrival, approach delays and triggers, sizes of approach layers, F; on request the progress controller and
+/// what it leaves to each class. None without a goal.
+[[nodiscard]] Fields goal_fields(const ProblemSpec& spec);
+
+/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
+
+}  // namespace coordreq

@@ -1,0 +1,42 @@
+#include "answers/goal/progress_engine.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace coordreq {
+namespace {
+
+/// What leaves there is safe, and nothing else.
+bool only_arrives(Outside rule) {
+  return traits(rule).arrives && !traits(rule).wins;
+}
+
+/// REQUIRES: the rules are those of a grid with such a side.
+UniformGrid without_safe_sides(const UniformGrid& grid) {
+  std::vector<GridDimension> dimensions = grid.dimensions();
+  for (GridDimension& dimension : dimensions) {
+    if (only_arrives(dimension.below)) dimension.below = Outside::unsafe;
+    if (only_arrives(dimension.above)) dimension.above = Outside::unsafe;
+  }
+  return grid.with(std::move(dimensions));
+}
+
+}  // namespace
+
+ProgressEngine::ProgressEngine(const Ground& ground) : ground_(&ground) {
+  if (!has_safe_side(ground.spec)) return;
+  abstraction_ = *ground.abstraction;
+  abstraction_->grid = without_safe_sides(abstraction_->grid);
+  TubeSets tubes = ground.tubes();
+  tubes.grid = &ground.abstraction->grid;
+  engine_.emplace(*abstraction_, ground.allow ? &*ground.allow : nullptr, tubes);
+  hull_.emplace(*engine_);
+}
+
+bool has_safe_side(const ProblemSpec& spec) {
+  return std::any_of(spec.states.begin(), spec.states.end(), [](const StateSpec& state) {
+    return only_arrives(state.below) || only_arrives(state.above);
+  });
+}
+
+}  // namespace coordreq

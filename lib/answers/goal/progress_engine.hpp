@@ -1,0 +1,34 @@
+#pragma once
+
+#include "answers/ground.hpp"
+
+namespace coordreq {
+
+/// The engine by which nearness to a goal is read: a post that leaves through a `safe` side does not come
+/// nearer to anything, and reads as one that is blocked. (Contract, section 5: T has an infinite arrival
+/// there, and a pair that may leave through a `goal` side too makes no progress.) Where no side is `safe`
+/// that is the engine of the ground. Else tables are held a second time, as their rows are cut otherwise.
+class ProgressEngine {
+ public:
+  /// REQUIRES: `ground` is laid and outlives this object.
+  explicit ProgressEngine(const Ground& ground);
+  ProgressEngine(const ProgressEngine&) = delete;
+  ProgressEngine& operator=(const ProgressEngine&) = delete;
+  ~ProgressEngine() = default;
+
+  [[nodiscard]] const RowEngine& engine() const { return engine_ ? *engine_ : *ground_->engine; }
+  [[nodiscard]] const RowHull& hull() const { return hull_ ? *hull_ : *ground_->hull; }
+  /// The tiles or null.
+  [[nodiscard]] const Tiles* equal_work() const { return engine_ ? nullptr : ground_->equal_work(); }
+
+ private:
+  const Ground* ground_;
+  std::optional<Abstraction> abstraction_;
+  std::optional<RowEngine> engine_;
+  std::optional<RowHull> hull_;
+};
+
+/// Some side is `safe`, so that a ProgressEngine has tables of its own.
+[[nodiscard]] bool has_safe_side(const ProblemSpec& spec);
+
+}  // namespace coordreq

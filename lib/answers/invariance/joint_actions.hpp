@@ -1,0 +1,125 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "engine/action_groups.hpp"
+#include "engine/row_hull.hpp"
+#include "engine/tuple_walk.hpp"
+#include "engine/wave.hpp"
+#include "spec/problem_spec.hpp"
+
+// What all agents together can do, as operators on levels.
+namespace coordreq {
+
+template <class Level>
+struct JointWorkspace {
+  RowGroups groups;
+  TupleWalk::Candidates candidates;
+  TupleWalk tuple;
+  RowBox box;
+  std::vector<Level> lanes;
+  std::vector<Word> some_allowed;
+};
+
+/// level(x) = 1 + max over allowed u of min over f(x,u): one safe action is enough. Or, where levels rise, -1
+/// instead of 1: the action that comes nearest to the goal.
+template <class Level>
+class SomeAction final : public RowOperator<Level> {
+ public:
+  SomeAction(const ActionGrouping& grouping, const RowHull& hull, bool rises, int workers)
+      : grouping_(grouping), hull_(hull), rises_(rises), work_(static_cast<std::size_t>(workers)) {}
+
+  bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
+                   int worker) override {
+    JointWorkspace<Level>& work = work_[static_cast<std::size_t>(worker)];
+    const LevelKernels<Level>& kernels = posts.kernels();
+    const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
+    if (!rises_ && grouping_.engine().allow() == nullptr) {
+      hull_.box(place, work.box);
+      if (work.box.covers && kernels.is_settled(posts.minimum(work.box), old, n)) return false;
+    }
+    std::fill_n(next, posts.lanes(), Level{0});
+    grouping_.group(place, work.groups);
+    // A larger post is never of use where a smaller one of the same class is allowed alike.
+    choose_groups(work.groups, GroupChoice::minimal, work.candidates);
+    work.tuple.begin(grouping_, place, work.groups, work.candidates);
+    do {
+      raise(work, posts, next);
+      // No action can do better than to leave all as it was.
+      if (!rises_ && kernels.is_settled(next, old, n)) return false;
+    } while (work.tuple.next());
+    return true;
+  }
+  [[nodiscard]] bool rises() const override { return rises_; }
+
+ private:
+  void raise(JointWorkspace<Level>& work, PostReader<Level>& posts, Level* next) const {
+    const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
+    const ConstRow allowed = work.tuple.allowed();
+    if (allowed.empty()) {
+      posts.kernels().raise(posts.minimum(work.tuple.slice_ids()), next, n);
+    } else if (any_set(allowed)) {
+      work.lanes.resize(posts.lanes(), 0);
+      posts.kernels().spread(allowed.data(), work.lanes.data(), n);
+      posts.kernels().raise_where(posts.minimum(work.tuple.slice_ids()), work.lanes.data(), next, n);
+    }
+  }
+
+  const ActionGrouping& grouping_;
+  const RowHull& hull_;
+  bool rises_;
+  std::vector<JointWorkspace<Level>> work_;
+};
+
+/// level(x) = 1 + min over allowed u of min over f(x,u), 1 where nothing is allowed: all must be safe. That
+/// is PRE of the paper, Eq. (9), for all sets of the sequence at once.
+template <class Level>
+class EveryAction final : public RowOperator<Level> {
+ public:
+  EveryAction(const ActionGrouping& grouping, bool rises, int workers)
+      : grouping_(grouping), rises_(rises), work_(static_cast<std::size_t>(workers)) {}
+
+  bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* /*old*/, Level* next,
+                   int worker) override {
+    JointWorkspace<Level>& work = work_[static_cast<std::size_t>(worker)];
+    const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
+    work.lanes.assign(posts.lanes(), static_cast<Level>(-1));
+    work.some_allowed.assign(grouping_.engine().row_words(), 0);
+    std::fill_n(next, posts.lanes(), PostReader<Level>::kTop);
+    grouping_.group(place, work.groups);
+    choose_groups(work.groups, GroupChoice::maximal, work.candidates);
+    work.tuple.begin(grouping_, place, work.groups, work.candidates);
+    do {
+      const ConstRow allowed = work.tuple.allowed();
+      if (!allowed.empty()) {
+        posts.kernels().spread(allowed.data(), work.lanes.data(), n);
+        for (std::size_t w = 0; w < allowed.size(); ++w) work.some_allowed[w] |= allowed[w];
+      }
+      posts.kernels().lower_where(posts.minimum(work.tuple.slice_ids()), work.lanes.data(), next, n);
+    } while (work.tuple.next());
+    if (grouping_.engine().allow() != nullptr) {
+      posts.kernels().spread(work.some_allowed.data(), work.lanes.data(), n);
+      for (std::size_t c = 0; c < n; ++c) next[c] = static_cast<Level>(next[c] & work.lanes[c]);
+    }
+    return true;
+  }
+  [[nodiscard]] bool rises() const override { return rises_; }
+
+ private:
+  const ActionGrouping& grouping_;
+  bool rises_;
+  std::vector<JointWorkspace<Level>> work_;
+};
+
+/// @param rises whether levels are nearness to a goal
+template <class Level>
+std::unique_ptr<RowOperator<Level>> make_joint_actions(const ActionGrouping& grouping, const RowHull& hull,
+                                                       Synthesis synthesis, bool rises, int workers) {
+  if (synthesis == Synthesis::maximal)
+    return std::make_unique<SomeAction<Level>>(grouping, hull, rises, workers);
+  return std::make_unique<EveryAction<Level>>(grouping, rises, workers);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,55 @@
+#include "answers/one_cell/progress_inputs.hpp"
+
+#include <algorithm>
+
+#include "answers/one_cell/cell_members.hpp"
+
+namespace coordreq {
+
+bool ProgressInputs::leaves_through_safe_side(std::int64_t u) const {
+  for (std::size_t i = 0; i < posts_.grid().size(); ++i) {
+    const GridDimension& dimension = posts_.grid()[i];
+    const IndexRange raw = posts_.raw(i, u);
+    const auto only_arrives = [](Outside rule) { return traits(rule).arrives && !traits(rule).wins; };
+    if (raw.first < 0 && only_arrives(dimension.below)) return true;
+    if (raw.last >= dimension.count && only_arrives(dimension.above)) return true;
+  }
+  return false;
+}
+
+std::int32_t ProgressInputs::worst_in(const std::vector<IndexRange>& box) {
+  const auto [place, is_new] = known_.try_emplace(box, 0);
+  if (is_new) {
+    for_each_cell(posts_.grid(), box, [&worst = place->second, this](std::int64_t y) {
+      const std::int32_t own = arrival_(y);
+      worst = std::max(worst, own < 0 ? INT32_MAX : own);
+      return worst < INT32_MAX;
+    });
+  }
+  return place->second;
+}
+
+std::int32_t ProgressInputs::worst(std::int64_t x, std::int64_t u) {
+  if (x != cell_) known_.clear();
+  cell_ = x;
+  posts_.move_to(x);
+  if (leaves_through_safe_side(u)) return INT32_MAX;
+  std::vector<IndexRange> box;
+  for (std::size_t i = 0; i < posts_.grid().size(); ++i) {
+    const ResolvedRange range = posts_.resolved(i, u);
+    if (range.all_left()) return 0;
+    box.push_back(range.inside);
+  }
+  return worst_in(box);
+}
+
+std::vector<std::int64_t> ProgressInputs::of(std::int64_t x, const std::vector<std::int64_t>& admissible) {
+  if (spec_.controller.synthesis == Synthesis::given) return admissible;
+  std::vector<std::int64_t> result;
+  for (const std::int64_t u : admissible) {
+    if (worst(x, u) < arrival_(x)) result.push_back(u);
+  }
+  return result;
+}
+
+}  // namespace coordreq

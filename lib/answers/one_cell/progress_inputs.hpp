@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "answers/one_cell/cell_posts.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// The progress controller P at single cells, straight from the definition (contract, section 5). One object
+/// a thread.
+class ProgressInputs {
+ public:
+  /// Steps to the goal from a cell, INT32_MAX where it cannot be forced, below 0 outside K.
+  using Arrival = std::function<std::int32_t(std::int64_t cell)>;
+
+  /// REQUIRES: both outlive this object.
+  ProgressInputs(const ProblemSpec& spec, CellPosts& posts, Arrival arrival)
+      : spec_(spec), posts_(posts), arrival_(std::move(arrival)) {}
+
+  [[nodiscard]] std::int32_t arrival(std::int64_t x) const { return arrival_(x); }
+  /// The greatest arrival in f(x,u), INT32_MAX if T is there through a `safe` side, or a cell outside K.
+  /// REQUIRES: f(x,u) is not empty.
+  [[nodiscard]] std::int32_t worst(std::int64_t x, std::int64_t u);
+  /// P(x) of C(x), ascending, x in W \ G.
+  [[nodiscard]] std::vector<std::int64_t> of(std::int64_t x, const std::vector<std::int64_t>& admissible);
+
+ private:
+  [[nodiscard]] bool leaves_through_safe_side(std::int64_t u) const;
+  [[nodiscard]] std::int32_t worst_in(const std::vector<IndexRange>& box);
+
+  const ProblemSpec& spec_;
+  CellPosts& posts_;
+  Arrival arrival_;
+  std::int64_t cell_ = -1;  ///< that `known_` is of
+  std::map<std::vector<IndexRange>, std::int32_t> known_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,81 @@
+"""The way to the goal: how many steps it takes at most, and how many of them cost no time without coordination
+
+Over two states, the others cut with --slice. FILE needs a "goal" in its spec."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import style
+from .cut import Cut, add_cut_arguments, make_cut
+from .errors import FileError
+from .results import Results
+
+# Kinds of cells that are drawn in one colour, and -1 for those with steps to show.
+NOT_SAFE, NOT_INVARIANT, NO_WAY, FREE = range(4)
+_COLORS = (style.NOT_SAFE, style.NOT_INVARIANT, style.NO_PARTITION, style.FREE)
+_TEXTS = ("not safe", "safe, not invariant", "goal cannot be forced", "silent for ever, in time")
+
+
+@dataclass(frozen=True)
+class Panel:
+    title: str
+    kinds: np.ndarray  # [x, y]
+    steps: np.ndarray  # masked where `kinds` says all
+
+
+@dataclass(frozen=True)
+class Goal:
+    cut: Cut
+    partition: str
+    panels: list[Panel]
+    most: int  # steps of all panels
+
+
+def add_arguments(parser):
+    add_cut_arguments(parser, 2)
+    parser.add_argument("--partition", metavar="NAME", help="partition (default: the only one)")
+
+
+def prepare(arguments):
+    results = Results(arguments.file)
+    if "/arrival" not in results:
+        raise FileError('no /arrival in the file: analyse with a "goal"', results.path)
+    partition = results.partition(arguments.partition)
+    cut = make_cut(results, arguments, directions=2, fewest=1)
+    panels = [
+        _panel("time to the goal", cut.read("/arrival"), results.flags("/arrival")),
+        _panel("silence that costs no time", cut.read("/approach_delay", partition), results.flags("/approach_delay")),
+    ]
+    most = max((int(panel.steps.max()) for panel in panels if panel.steps.count()), default=0)
+    return Goal(cut, results.partitions[partition], panels, most)
+
+
+def _panel(title, values, flags):
+    values = values.reshape(len(values), -1).astype(int)
+    kinds = np.full(values.shape, -1)
+    kinds[values == flags["not_safe"]] = NOT_SAFE
+    kinds[values == flags["not_invariant"]] = NOT_INVARIANT
+    kinds[values == flags["goal_cannot_be_forced"]] = NO_WAY
+    if "unbounded" in flags:
+        kinds[values == flags["unbounded"]] = FREE
+    return Panel(title, kinds, np.ma.masked_where(kinds >= 0, values))
+
+
+def draw(goal, size=None):
+    results, cut = goal.cut.results, goal.cut
+    figure = style.new_figure(size, (1.6 + 3.4 * len(goal.panels), 4.3))
+    grid = figure.subplots(1, len(goal.panels), squeeze=False, sharex=True, sharey=True)
+    for axes, panel in zip(grid.flat, goal.panels):
+        style.kind_image(axes, panel.kinds, _COLORS, style.extent_of(cut))
+        style.step_image(axes, panel.steps, goal.most, style.extent_of(cut))
+        style.label_plane(axes, cut)
+        axes.set_title(panel.title)
+    for axes in grid.flat:
+        axes.label_outer()
+    if any(panel.steps.count() for panel in goal.panels):
+        style.add_step_bar(figure, list(grid.flat), goal.most, "", results)
+    style.add_title(figure, f"{results.title}, {goal.partition}", cut.title)
+    found = {int(kind) for panel in goal.panels for kind in np.unique(panel.kinds)}
+    style.legend_below(figure, [(_COLORS[kind], _TEXTS[kind]) for kind in sorted(found - {-1})])
+    return figure
