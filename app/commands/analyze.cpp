@@ -12,6 +12,7 @@
 #include "app/memory_limit.hpp"
 #include "app/option_values.hpp"
 #include "app/print_answer.hpp"
+#include "app/print_warnings.hpp"
 
 namespace coordreq {
 namespace {
@@ -41,6 +42,7 @@ ExitCode run(const AnalyzeOptions& own) {
   if (own.is_batch()) return run_analyze_batch(own);
   const ProblemSpec spec = load_spec(own.specs.front(), own.settings, own.memory());
   const std::shared_ptr<const Json> summary = analyze_and_write(spec, own);
+  PrintedWarnings(own).print((*summary)["warnings"]);
   print_answer(own, *summary, [&spec](const Json& found) { return summary_text(found, spec); });
   return verdict(*summary);
 }

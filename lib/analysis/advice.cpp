@@ -1,0 +1,50 @@
+#include "analysis/advice.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "answers/ground/answer.hpp"
+#include "answers/plan.hpp"
+#include "reach/table_shapes.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Whether posts can be had in less than a second.
+bool has_few_posts(const ProblemSpec& spec) {
+  constexpr double kMostCells = 1e6, kMostEntries = 2e4;
+  double cells = 1, entries = 0;
+  for (const StateSpec& state : spec.states) cells *= static_cast<double>(state.grid.count);
+  for (const TableShape& shape : table_shapes(spec)) entries += shape.entries;
+  return cells <= kMostCells && entries <= kMostEntries && !spec.controller.file;
+}
+
+void append(Warnings& all, Warnings more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+}  // namespace
+
+Warnings advise_before(const ProblemSpec& spec, ThreadTeam& team) {
+  Warnings all = advise_on_spec(spec);
+  if (!has_few_posts(spec)) return all;
+  Answers answers(spec);
+  run_stages(ground_stages(spec), answers, {.team = team});
+  append(all, advise_on_posts(answers.ground));
+  return all;
+}
+
+Warnings advise(const Answers& answers, ThreadTeam& team) {
+  Warnings all = advise_on_spec(answers.ground.spec);
+  append(all, advise_on_posts(answers.ground));
+  append(all, advise_on_answers(answers, team));
+  return all;
+}
+
+Json warnings_json(const Warnings& warnings) {
+  Json json = Json::array();
+  for (const Warning& own : warnings)
+    json.push_back({{"kind", own.kind}, {"place", own.place}, {"message", own.text}});
+  return json;
+}
+
+}  // namespace coordreq
