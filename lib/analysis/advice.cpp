@@ -1,5 +1,7 @@
 #include "analysis/advice.hpp"
 
+#include <exception>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "answers/ground/answer.hpp"
@@ -18,25 +20,37 @@ bool has_few_posts(const ProblemSpec& spec) {
   return cells <= kMostCells && entries <= kMostEntries && !spec.controller.file;
 }
 
-void append(Warnings& all, Warnings more) {
-  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+/// Advice that cannot be had, for want of memory or for an error that is for somebody else to report, is not
+/// given.
+template <class Advise>
+void add(Warnings& all, const Advise& advise) {
+  try {
+    Warnings more = advise();
+    all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  } catch (const std::exception&) {
+    return;
+  }
 }
 
 }  // namespace
 
 Warnings advise_before(const ProblemSpec& spec, ThreadTeam& team) {
-  Warnings all = advise_on_spec(spec);
-  if (!has_few_posts(spec)) return all;
-  Answers answers(spec);
-  run_stages(ground_stages(spec), answers, {.team = team});
-  append(all, advise_on_posts(answers.ground));
+  Warnings all;
+  add(all, [&] { return advise_on_spec(spec); });
+  add(all, [&] {
+    if (!has_few_posts(spec)) return Warnings();
+    Answers answers(spec);
+    run_stages(ground_stages(spec), answers, {.team = team});
+    return advise_on_posts(answers.ground);
+  });
   return all;
 }
 
 Warnings advise(const Answers& answers, ThreadTeam& team) {
-  Warnings all = advise_on_spec(answers.ground.spec);
-  append(all, advise_on_posts(answers.ground));
-  append(all, advise_on_answers(answers, team));
+  Warnings all;
+  add(all, [&] { return advise_on_spec(answers.ground.spec); });
+  add(all, [&] { return advise_on_posts(answers.ground); });
+  add(all, [&] { return advise_on_answers(answers, team); });
   return all;
 }
 

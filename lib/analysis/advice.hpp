@@ -34,7 +34,7 @@ using Warnings = std::vector<Warning>;
 
 /// All that is known without the answer; what posts show only where they are few.
 [[nodiscard]] Warnings advise_before(const ProblemSpec& spec, ThreadTeam& team);
-/// All of them. REQUIRES: as advise_on_answers()
+/// All of them. Neither of the two throws what others do not. REQUIRES: as advise_on_answers()
 [[nodiscard]] Warnings advise(const Answers& answers, ThreadTeam& team);
 
 /// A list of objects with `kind`, `place` and `message`.

@@ -126,6 +126,8 @@ void advise_on_names(const Node& root, const nlohmann::json& document, Warnings&
 }  // namespace
 
 Warnings advise_on_spec(const ProblemSpec& spec) {
+  constexpr std::size_t kLongText = std::size_t{1} << 20;  // it would take memory that nobody has counted
+  if (spec.text.size() > kLongText) return {};
   const JsonDocument document = JsonDocument::parse(spec.text, "the spec");
   Warnings found;
   advise_on_state_grids(spec, found);
