@@ -3,7 +3,7 @@
 #include "answers/invariance/answer.hpp"
 #include "engine/engine_sizes.hpp"
 #include "model/model.hpp"
-#include "reach/table_shapes.hpp"
+#include "reach/build_abstraction.hpp"
 #include "results/controller_file.hpp"
 
 namespace coordreq {
@@ -67,6 +67,8 @@ SpecReport inspect(const ProblemSpec& spec, int threads) {
     report.modes.push_back(spec.network->modes[mode].name);
   report.rows = row_report(model);
   report.exact = check_dynamics(spec);
+  ThreadTeam team(threads);
+  check_discrete_states(spec, shapes, team);
   report.guarantee = guarantee_of(spec);
   report.memory_bytes = to_bytes(estimate_memory(model, threads));
   return report;

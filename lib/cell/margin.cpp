@@ -70,6 +70,9 @@ double Margin::combine() {
       case Operator::literal_false:
         value = -outward::kInfinity;
         break;
+      case Operator::literal_undecided:
+        value = std::numeric_limits<double>::quiet_NaN();
+        break;
       default:
         value = margin_of(formula_->comparisons[node.a].op, difference_values_[node.a]);
     }

@@ -92,6 +92,8 @@ class Finder {
       case Operator::literal_true:
       case Operator::literal_false:
         return add((node.op == Operator::literal_true) != negated ? Join::always : Join::never);
+      case Operator::literal_undecided:
+        return add(Join::never);  // neither it nor its negation is ever proven
       case Operator::logical_not:
         return visit(node.a, !negated);
       case Operator::logical_and:

@@ -40,6 +40,8 @@ template <class Node, class T>
       return {Truth::yes, true};
     case Operator::literal_false:
       return {Truth::no, true};
+    case Operator::literal_undecided:
+      return {Truth::undecided, true};
     default:
       break;
   }

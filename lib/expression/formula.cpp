@@ -63,6 +63,9 @@ Truth Formula::value(std::span<const Truth> truths) const {
       case Operator::literal_false:
         values.push_back(to_truth(node.op == Operator::literal_true));
         break;
+      case Operator::literal_undecided:
+        values.push_back(Truth::undecided);
+        break;
       default:
         values.push_back(truths[node.a]);
     }

@@ -33,6 +33,8 @@ std::string_view spelling(Operator op) {
       return "not";
     case Operator::literal_true:
       return "true";
+    case Operator::literal_undecided:
+      return "undecided";
     default:
       return "false";
   }

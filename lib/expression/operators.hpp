@@ -51,6 +51,7 @@ enum class Operator : std::uint8_t {
   logical_not,
   literal_true,
   literal_false,
+  literal_undecided,  // of a memory that does not know; not in the grammar
 };
 
 [[nodiscard]] constexpr bool is_condition(Operator op) {

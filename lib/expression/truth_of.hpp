@@ -23,6 +23,8 @@ template <class Comparison>
       return Truth::yes;
     case Operator::literal_false:
       return Truth::no;
+    case Operator::literal_undecided:
+      return Truth::undecided;
     default:
       return comparison();
   }

@@ -17,8 +17,10 @@ ConditionAxis::Ranges ranges_of_cell(const GridDimension& dimension, std::int64_
   return ranges;
 }
 
-/// By slot: states, then inputs.
-std::vector<ConditionAxis> axes_of(const UniformGrid& grid, const InputSpace& inputs, Sampling sampling) {
+}  // namespace
+
+std::vector<ConditionAxis> condition_axes(const UniformGrid& grid, const InputSpace& inputs,
+                                          Sampling sampling) {
   std::vector<ConditionAxis> axes(grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const GridDimension& dimension = grid[i];
@@ -35,12 +37,10 @@ std::vector<ConditionAxis> axes_of(const UniformGrid& grid, const InputSpace& in
   return axes;
 }
 
-}  // namespace
-
 ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid, const InputSpace& inputs,
                                Sampling sampling, const Undecided& undecided, ThreadTeam& team,
                                Question question)
-    : table_(condition, axes_of(grid, inputs, sampling),
+    : table_(condition, condition_axes(grid, inputs, sampling),
              static_cast<std::uint32_t>(grid.state(grid.size() - 1)), undecided, team, question),
       positions_{.grid = &grid, .input_space = &inputs} {
   const std::vector<std::int64_t>& strides = table_.strides();

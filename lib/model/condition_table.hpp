@@ -19,6 +19,10 @@ enum class Sampling : std::uint8_t {
   closed_cells,
 };
 
+/// What states and inputs can be, by slot. REQUIRES: grid and inputs outlive the axes.
+[[nodiscard]] std::vector<ConditionAxis> condition_axes(const UniformGrid& grid, const InputSpace& inputs,
+                                                        Sampling sampling);
+
 /// The truth of a condition over the grid, tabulated over only the states and inputs that it depends on. The
 /// condition numbers variables as the spec does; all else here is about dimensions of the grid.
 ///

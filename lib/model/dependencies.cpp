@@ -16,10 +16,15 @@ bool is_parameter(const ProblemSpec& spec, std::size_t state) {
   return spec.dynamics.time == Time::discrete || is_constant_zero(spec.dynamics.equations[state]);
 }
 
-/// Marks every variable of the equations that `state` depends on: its own equation in discrete time, the
-/// transitive closure in continuous time.
+/// Marks every variable of the equations that `state` depends on: its own equation or update where it jumps,
+/// the transitive closure where it flows.
 std::vector<bool> used_slots(const ProblemSpec& spec, std::size_t state) {
   std::vector<bool> used(spec.slot_count(), false);
+  if (const UpdateSpec* const update = spec.dynamics.update(state)) {
+    for (const std::uint32_t slot : update->variables()) used[slot] = true;
+    if (spec.abstraction.between_samples) used[state] = true;  // where it is until the next sample
+    return used;
+  }
   std::vector<std::size_t> pending = {state};
   if (spec.dynamics.time == Time::continuous) used[state] = true;
   while (!pending.empty()) {

@@ -21,7 +21,7 @@ struct Dependencies {
 };
 
 /// Read off the equations: in discrete time that of `state`, in continuous time all that it depends on,
-/// itself included.
+/// itself included; but off the update of a state that has one.
 [[nodiscard]] Dependencies find_dependencies(const ProblemSpec& spec, std::size_t state);
 
 }  // namespace coordreq

@@ -9,9 +9,13 @@
 #include "reach/enclosure_table.hpp"
 #include "reach/shift.hpp"
 #include "reach/sum_table.hpp"
+#include "reach/update_table.hpp"
 
 namespace coordreq {
 namespace {
+
+/// Some seconds of work.
+constexpr double kMostCheckedEntries = 1e7;
 
 /// Lists of states with the same dependencies, so that one flow serves them all; in discrete time of one
 /// each.
@@ -40,6 +44,10 @@ void build_in_full(const ProblemSpec& spec, const std::vector<TableShape>& shape
   std::vector<std::size_t> others;
   for (const std::size_t i : states) {
     abstraction.tables[i] = {};
+    if (spec.dynamics.update(i) != nullptr) {
+      build_update_table(spec, abstraction, i, team);
+      continue;
+    }
     const std::optional<bool> exact = build_affine_table(spec, dynamics, abstraction, i, team);
     abstraction.exact = abstraction.exact && exact.value_or(false);
     if (!exact) others.push_back(i);
@@ -74,6 +82,15 @@ Abstraction build_abstraction(const ProblemSpec& spec, const std::vector<TableSh
   for (std::size_t i = 0; i < spec.states.size(); ++i)
     include_measurements_of_saturated(spec, abstraction, i);
   return abstraction;
+}
+
+void check_discrete_states(const ProblemSpec& spec, const std::vector<TableShape>& shapes, ThreadTeam& team) {
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    if (!spec.states[i].discrete || shapes[i].entries > kMostCheckedEntries) continue;
+    Abstraction alone{.grid = make_grid(spec), .inputs = make_input_space(spec)};
+    alone.tables.resize(spec.states.size());
+    build_in_full(spec, shapes, alone, {i}, team);
+  }
 }
 
 Abstraction build_abstraction(const ProblemSpec& spec, ThreadTeam& team) {

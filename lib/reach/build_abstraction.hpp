@@ -18,6 +18,10 @@ namespace coordreq {
                                             ThreadTeam& team);
 [[nodiscard]] Abstraction build_abstraction(const ProblemSpec& spec, ThreadTeam& team);
 
+/// Works out the tables of discrete states, unless they are very large: what else could be wrong with a spec
+/// is seen before. @throws SpecError as build_abstraction() does
+void check_discrete_states(const ProblemSpec& spec, const std::vector<TableShape>& shapes, ThreadTeam& team);
+
 /// What saturates is at the last (first) grid point when it is measured, however far out the post lies; an
 /// error of half a cell or more then shows it in another cell than the boundary one. Adds those cells to the
 /// table of a state that has been filled; build_abstraction() has done so.

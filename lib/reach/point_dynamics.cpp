@@ -34,6 +34,12 @@ std::optional<Rational> PointDynamics::next(std::size_t i, const std::vector<Rat
 }
 
 std::optional<Rational> PointDynamics::exact_next(std::size_t i, const std::vector<Rational>& slots) {
+  if (const UpdateSpec* const update = spec_->dynamics.update(i)) {
+    std::vector<RationalInterval> points;
+    for (const Rational& value : slots) points.push_back({.lower = value, .upper = value});
+    const RationalInterval value = Evaluator<RationalInterval>(update->value).number(points);
+    return value.is_point() ? std::optional(value.lower) : std::nullopt;
+  }
   const Dependencies& dependencies = affine_.dependencies(i);
   for (const std::int32_t j : dependencies.disturbances) {
     const auto l = static_cast<std::size_t>(j);
@@ -60,6 +66,8 @@ std::optional<Rational> PointDynamics::approximate_next(std::size_t i, const std
 }
 
 std::optional<double> PointDynamics::double_next(std::size_t i) {
+  if (const UpdateSpec* const update = spec_->dynamics.update(i))
+    return Evaluator<double>(update->value).number(doubles_);
   if (spec_->dynamics.time == Time::discrete) {
     return Evaluator<double>(spec_->dynamics.equations[i]).number(doubles_);
   }

@@ -69,7 +69,7 @@ bool has_measured_limit(const StateSpec& state) {
 
 bool is_shift(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state) {
   if (!contains(dependencies.moving, state) && !contains(dependencies.parameters, state)) return false;
-  if (has_measured_limit(spec.states[state])) return false;
+  if (has_measured_limit(spec.states[state]) || spec.dynamics.update(state) != nullptr) return false;
   if (spec.dynamics.time == Time::continuous) return flow_shifts(spec, dependencies, state);
   const Slope slope = find_slopes(spec.dynamics.equations[state], spec.state_slot(state)).back();
   return slope ? *slope == 1 : derivative_is_one(spec, state);

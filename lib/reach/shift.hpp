@@ -20,7 +20,8 @@ namespace coordreq {
 /// True if x_i(next) - x_i provably does not depend on x_i, so that one offset serves all its cells: in
 /// discrete time the equation is x_i plus what does not mention x_i, or its derivative by x_i is exactly 1
 /// over the whole domain and all inputs and disturbances; in continuous time no equation that x_i depends on
-/// mentions x_i, nor has x_i a `stop`. Not where has_measured_limit(). False where that is true but not seen.
+/// mentions x_i, nor has x_i a `stop`. Not where has_measured_limit(), nor of an update. False where that is
+/// true but not seen.
 [[nodiscard]] bool is_shift(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state);
 
 }  // namespace coordreq

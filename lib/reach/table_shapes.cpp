@@ -61,8 +61,9 @@ std::vector<std::int32_t> states_of_sum(const ProblemSpec& spec, const AffineDyn
 
 /// Finds out in which form the table will be stored, and how large it gets.
 void measure(const ProblemSpec& spec, const AffineDynamics& dynamics, std::size_t state, TableShape& shape) {
-  const AffinePart part = find_affine_part(spec, shape, state);
-  shape.terms = states_of_sum(spec, dynamics, part, state);
+  const bool jumps = spec.dynamics.update(state) != nullptr;
+  const AffinePart part = jumps ? AffinePart() : find_affine_part(spec, shape, state);
+  if (!jumps) shape.terms = states_of_sum(spec, dynamics, part, state);
   shape.sum = !shape.terms.empty();
   const auto count = [&](std::int32_t j) { return static_cast<double>(spec.states[at(j)].grid.count); };
   const auto values = [&](std::int32_t j) { return static_cast<double>(spec.inputs[at(j)].values.size()); };
@@ -100,6 +101,7 @@ bool check_dynamics(const ProblemSpec& spec) {
   if (spec.abstraction.between_samples) check_between_samples(spec);
   bool exact = true;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    if (spec.dynamics.update(i) != nullptr) continue;
     for_each_row(spec, dynamics, i, Limits::obeyed, [&](const std::optional<SampledRow>& row) {
       exact = exact && row && row->exact;
       return true;
@@ -113,7 +115,7 @@ void check_between_samples(const ProblemSpec& spec) {
     const std::vector<std::int32_t> constant = find_dependencies(spec, i).parameters;
     const bool moves =
         std::find(constant.begin(), constant.end(), static_cast<std::int32_t>(i)) == constant.end();
-    if (!spec.states[i].discrete || !moves) continue;
+    if (!spec.states[i].discrete || !moves || spec.dynamics.update(i) != nullptr) continue;
     throw SpecError(fmt::format("the discrete state '{}' moves between the samples, where it has no cells, "
                                 "expected the equation 0 with 'between_samples'",
                                 spec.states[i].name),

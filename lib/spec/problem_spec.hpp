@@ -57,11 +57,32 @@ struct AgentSpec {
 
 enum class Time : std::uint8_t { continuous, discrete };
 
+/// How a discrete state jumps at a sample: its next value as a function of the present sample. Outside of the
+/// conditions of `if` it mentions discrete states and inputs only, and nowhere disturbances.
+struct UpdateSpec {
+  Program value;
+  [[nodiscard]] std::vector<std::uint32_t> variables() const { return value.variables(); }
+};
+
 struct DynamicsSpec {
   Time time = Time::continuous;
   Rational period;                 ///< tau, > 0
   std::string unit;                ///< of time, as written; empty if none was given
-  std::vector<Program> equations;  ///< one a state, in order: derivative or next value
+  std::vector<Program> equations;  ///< one a state, in order: derivative or next value; 0 if it has an update
+                                   ///< in continuous time, for between samples it keeps its value
+  /// One a state. In discrete time the equation of a discrete state that asks of continuous ones where they
+  /// are (with `if`) is an update, too.
+  std::vector<std::optional<UpdateSpec>> updates;
+
+  [[nodiscard]] const UpdateSpec* update(std::size_t state) const {
+    return state < updates.size() && updates[state] ? &*updates[state] : nullptr;
+  }
+  /// Where what a state does next stands in the spec.
+  [[nodiscard]] std::string pointer_of(const std::string& name, std::size_t state) const {
+    return (time == Time::continuous && update(state) != nullptr ? "/dynamics/updates/"
+                                                                 : "/dynamics/equations/") +
+           name;
+  }
 };
 
 enum class Cells : std::uint8_t { closed, half_open };

@@ -60,7 +60,7 @@ void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
       has_inputs && errors.attempt([&] { spec.agents = read_agents(scope, root, spec.inputs); });
   Rational period;
   const bool has_period = errors.attempt([&] { period = read_period(scope, root); });
-  errors.attempt([&] { spec.dynamics = read_dynamics(scope, root, period); });
+  errors.attempt([&] { spec.dynamics = read_dynamics(scope, root, period, spec.states); });
   errors.attempt([&] { spec.safe = scope.expression(root["safe"], ExpectedType::condition, Over::states); });
   errors.attempt([&] {
     if (root.has("goal")) spec.goal = scope.expression(root["goal"], ExpectedType::condition, Over::states);

@@ -36,12 +36,13 @@ void take_input(const Node& name, std::int32_t input, std::int32_t agent,
   owner = agent;
 }
 
-void check_equation_names(const Node& equations, const std::vector<std::string>& states) {
-  for (const std::string& key : equations.keys()) {
+/// @param kind "an equation" or "an update"
+void check_state_names(const Node& object, const std::string& kind, const std::vector<std::string>& states) {
+  for (const std::string& key : object.keys()) {
     if (std::find(states.begin(), states.end(), key) != states.end()) continue;
     throw SpecError(
-        fmt::format("an equation for {}, which is no state{}", quote_text(key), suggestion(key, states)),
-        equations.pointer());
+        fmt::format("{} for {}, which is no state{}", kind, quote_text(key), suggestion(key, states)),
+        object.pointer());
   }
 }
 
@@ -49,6 +50,74 @@ Program read_equation(const Scope& scope, const Node& equations, const std::stri
   if (!equations.has(state))
     throw SpecError("missing equation for the state " + quote_text(state), equations.pointer());
   return scope.expression(equations[state], ExpectedType::number, Over::everything);
+}
+
+Program zero() {
+  Program program;
+  program.nodes = {{Operator::constant}};
+  program.constants = {0};
+  return program;
+}
+
+/// The first state that is read outside of the conditions of `if` and is not discrete; nothing if there is
+/// none.
+std::optional<std::size_t> box_read_as_number(const Program& program, const std::vector<StateSpec>& states) {
+  std::vector<bool> needed(program.nodes.size(), false);
+  needed.back() = true;
+  std::optional<std::size_t> found;
+  for (std::size_t i = needed.size(); i-- > 0;) {
+    const Program::Node& node = program.nodes[i];
+    if (!needed[i]) continue;
+    if (node.op == Operator::variable && node.a < states.size() && !states[node.a].discrete) found = node.a;
+    const std::size_t operands = operand_count(node.op);
+    if (operands > 0 && node.op != Operator::if_else) needed[node.a] = true;
+    if (operands > 1) needed[node.b] = true;
+    if (operands > 2) needed[node.c] = true;
+  }
+  return found;
+}
+
+/// The equation of a discrete state in discrete time asks in conditions where continuous states are.
+bool is_update(const Program& equation, const std::vector<StateSpec>& states, std::size_t inputs) {
+  const std::vector<std::uint32_t> slots = equation.variables();
+  const auto is_box = [&](std::uint32_t slot) { return slot < states.size() && !states[slot].discrete; };
+  return std::any_of(slots.begin(), slots.end(), is_box) && slots.back() < states.size() + inputs &&
+         !box_read_as_number(equation, states);
+}
+
+void check_updates(const Node& updates, const Node& equations, Time time,
+                   const std::vector<std::string>& states) {
+  if (time == Time::discrete) {
+    throw SpecError("updates are for continuous time, expected the next values in 'equations'",
+                    updates.pointer());
+  }
+  check_state_names(updates, "an update", states);
+  for (const std::string& key : updates.keys()) {
+    if (!equations.has(key)) continue;
+    throw SpecError(fmt::format("{} has an equation too, expected one of the two", quote_text(key)),
+                    updates[key].pointer());
+  }
+}
+
+UpdateSpec read_update(const Scope& scope, const Node& node, const StateSpec& state,
+                       const std::vector<StateSpec>& states) {
+  if (!state.discrete)
+    throw SpecError(fmt::format("{} is no discrete state, expected an equation", quote_text(state.name)),
+                    node.pointer());
+  if (state.below == Outside::stop || state.above == Outside::stop) {
+    throw SpecError(
+        fmt::format("{} jumps at samples, expected another 'outside' than 'stop'", quote_text(state.name)),
+        node.pointer());
+  }
+  UpdateSpec update{scope.expression(node, ExpectedType::number, Over::states_and_inputs)};
+  if (const auto box = box_read_as_number(update.value, states)) {
+    throw SpecError(
+        fmt::format("expected discrete states and inputs outside of the conditions of 'if', found "
+                    "the state {}",
+                    quote_text(states[*box].name)),
+        node.pointer());
+  }
+  return update;
 }
 
 }  // namespace
@@ -91,18 +160,33 @@ Rational read_period(const Scope& scope, const Node& root) {
   return period;
 }
 
-DynamicsSpec read_dynamics(const Scope& scope, const Node& root, const Rational& period) {
+DynamicsSpec read_dynamics(const Scope& scope, const Node& root, const Rational& period,
+                           const std::vector<StateSpec>& states) {
   const Node object = root["dynamics"];
   DynamicsSpec dynamics{.time = read_time(root), .period = period};
   ErrorList errors;
   errors.attempt([&] { dynamics.unit = read_unit(object); });
   const Node equations = object["equations"];
-  std::vector<std::string> states;
-  for (const Node& state : root.elements("states")) states.push_back(state["name"].text());
-  const bool are_known = errors.attempt([&] { check_equation_names(equations, states); });
-  for (const std::string& state : states) {
-    if (!are_known && !equations.has(state)) continue;  // most likely the one that is spelt differently
-    errors.attempt([&] { dynamics.equations.push_back(read_equation(scope, equations, state)); });
+  std::vector<std::string> names;
+  for (const Node& state : root.elements("states")) names.push_back(state["name"].text());
+  bool are_known = errors.attempt([&] { check_state_names(equations, "an equation", names); });
+  if (object.has("updates")) {
+    are_known = errors.attempt([&] { check_updates(object["updates"], equations, dynamics.time, names); }) &&
+                are_known;
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::optional<UpdateSpec>& update = dynamics.updates.emplace_back();
+    const bool jumps = object.has("updates") && object["updates"].has(names[i]);
+    if (!are_known && !jumps && !equations.has(names[i])) continue;  // most likely one spelt differently
+    errors.attempt(
+        [&] { dynamics.equations.push_back(jumps ? zero() : read_equation(scope, equations, names[i])); });
+    if (i >= states.size()) continue;  // there are errors
+    if (jumps)
+      errors.attempt([&] { update = read_update(scope, object["updates"][names[i]], states[i], states); });
+    const bool is_map = dynamics.time == Time::discrete && states[i].discrete;
+    if (!is_map || dynamics.equations.size() != i + 1) continue;
+    if (is_update(dynamics.equations[i], states, root.elements("inputs").size()))
+      update = UpdateSpec{dynamics.equations[i]};
   }
   errors.raise();
   return dynamics;

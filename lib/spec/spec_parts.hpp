@@ -23,7 +23,7 @@ namespace coordreq {
                                                  const std::vector<InputSpec>& inputs);
 [[nodiscard]] Rational read_period(const Scope& scope, const JsonDocument::Node& root);
 [[nodiscard]] DynamicsSpec read_dynamics(const Scope& scope, const JsonDocument::Node& root,
-                                         const Rational& period);
+                                         const Rational& period, const std::vector<StateSpec>& states);
 [[nodiscard]] AbstractionSpec read_abstraction(const JsonDocument::Node& root);
 [[nodiscard]] ControllerSpec read_controller(const Scope& scope, const JsonDocument::Node& root);
 [[nodiscard]] OutputSpec read_output(const JsonDocument::Node& root);

@@ -34,4 +34,10 @@ namespace coordreq {
                                                     const InputSpace& inputs, std::size_t state,
                                                     const std::vector<std::int64_t>& cells, ThreadTeam& team);
 
+/// The table of a state that has an update, from its definition: every branch that a cell does not exclude.
+/// @throws SpecError if it may leave its grid
+[[nodiscard]] PostTable update_posts(const ProblemSpec& spec, const UniformGrid& grid,
+                                     const InputSpace& inputs, std::size_t state,
+                                     const std::vector<std::int64_t>& cells, ThreadTeam& team);
+
 }  // namespace coordreq

@@ -211,9 +211,14 @@ void add_disturbance(TimedMap& map, std::vector<TimePolynomial>& constant, const
 
 Influences influences_on(const ProblemSpec& spec, std::size_t state) {
   std::vector<bool> seen(spec.slot_count(), false);
-  std::vector<std::size_t> pending = {state};
-  const bool flows = spec.dynamics.time == Time::continuous;
-  if (flows) seen[spec.state_slot(state)] = true;
+  const UpdateSpec* const update = spec.dynamics.update(state);
+  std::vector<std::size_t> pending;
+  if (update == nullptr) pending.push_back(state);
+  const bool flows = spec.dynamics.time == Time::continuous && update == nullptr;
+  if (flows || (update != nullptr && spec.abstraction.between_samples)) seen[spec.state_slot(state)] = true;
+  if (update != nullptr) {
+    for (const std::uint32_t slot : update->variables()) seen[slot] = true;
+  }
   while (!pending.empty()) {
     const Program& equation = spec.dynamics.equations[pending.back()];
     pending.pop_back();
@@ -224,7 +229,8 @@ Influences influences_on(const ProblemSpec& spec, std::size_t state) {
   }
   Influences result;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
-    if (seen[spec.state_slot(i)]) (is_parameter(spec, i) ? result.parameters : result.moving).push_back(i);
+    const bool is_point = is_parameter(spec, i) || (update != nullptr && spec.states[i].discrete);
+    if (seen[spec.state_slot(i)]) (is_point ? result.parameters : result.moving).push_back(i);
   }
   for (std::size_t i = 0; i < spec.inputs.size(); ++i) {
     if (seen[spec.input_slot(i)]) result.inputs.push_back(i);

@@ -10,8 +10,9 @@
 
 namespace coordreq {
 
-/// What the next value of a state depends on: the variables of its equation in discrete time, in continuous
-/// time also those of the equations of all states it depends on. Indices into the spec's lists, ascending.
+/// What the next value of a state depends on: the variables of its equation in discrete time, or of its
+/// update; in continuous time also those of the equations of all states it depends on. Indices into the
+/// spec's lists, ascending.
 struct Influences {
   std::vector<std::size_t> moving;      ///< states that vary over a cell, or between samples
   std::vector<std::size_t> parameters;  ///< discrete states, put in value by value

@@ -94,7 +94,9 @@ class Verifier {
     std::vector<std::size_t> enclosed;
     std::vector<std::optional<Finding>> findings(grid_.size());
     for (std::size_t i = 0; i < grid_.size(); ++i) {
-      std::optional<PostTable> own = corner_posts(spec_, grid_, inputs_, i, cells_of_posts_, team_);
+      const bool jumps = spec_.dynamics.update(i) != nullptr;
+      std::optional<PostTable> own = jumps ? update_posts(spec_, grid_, inputs_, i, cells_of_posts_, team_)
+                                           : corner_posts(spec_, grid_, inputs_, i, cells_of_posts_, team_);
       if (own && own->exact) {
         if (stored) {
           findings[i] = check_abstraction(grid_, inputs_, i, *own, claims_.abstraction[i], "abstraction");

@@ -8,6 +8,7 @@
 #include "reach/affine_table.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/enclosure_table.hpp"
+#include "reach/update_table.hpp"
 
 namespace coordreq {
 namespace {
@@ -104,7 +105,10 @@ void CellPosts::build_parts(std::int64_t cell) {
   source_->place.clear();
   for (std::size_t i = 0; i < grid_->size(); ++i) {
     Abstraction& part = source_->parts.emplace_back(part_of(i, cell));
-    const bool is_affine = build_affine_table(spec, source_->dynamics, part, i, source_->team).has_value();
+    const bool jumps = spec.dynamics.update(i) != nullptr;
+    if (jumps) build_update_table(spec, part, i, source_->team);
+    const bool is_affine =
+        jumps || build_affine_table(spec, source_->dynamics, part, i, source_->team).has_value();
     const std::int64_t own = grid_->index(cell, i);
     if (!is_affine) build_enclosure_tables(spec, source_->dynamics, part, {i}, source_->team, own);
     auto entries = static_cast<double>(part.tables[i].entries.size());

@@ -1,0 +1,145 @@
+#include "reach/update_ranges.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "expression/tape_builder.hpp"
+#include "model/condition_table.hpp"
+#include "model/pieces.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Branches of an update can double their number with every `if`.
+constexpr std::size_t kMostUpdateValues = 4096;
+
+/// The nodes that give the value, whatever the conditions say.
+std::vector<bool> value_nodes(const Program& program) {
+  std::vector<bool> needed(program.nodes.size(), false);
+  needed.back() = true;
+  for (std::size_t i = needed.size(); i-- > 0;) {
+    const Program::Node& node = program.nodes[i];
+    if (!needed[i]) continue;
+    const std::size_t operands = operand_count(node.op);
+    if (operands > 0 && node.op != Operator::if_else) needed[node.a] = true;
+    if (operands > 1) needed[node.b] = true;
+    if (operands > 2) needed[node.c] = true;
+  }
+  return needed;
+}
+
+}  // namespace
+
+UpdateRanges::UpdateRanges(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+                           std::size_t state)
+    : spec_(spec),
+      state_(state),
+      grid_(grid),
+      inputs_(inputs),
+      target_(grid[grid.dimension_of(state)]),
+      program_(spec.dynamics.update(state)->value),
+      needed_(value_nodes(program_)),
+      condition_of_(program_.nodes.size(), 0),
+      values_(program_.nodes.size()) {
+  const std::vector<ConditionAxis> axes = condition_axes(grid, inputs, Sampling::closed_cells);
+  TapeBuilder tape;
+  std::vector<TapeBuilder::Index> here;
+  for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
+    const Program::Node& node = program_.nodes[i];
+    here.push_back(tape.copy(program_, node, here));
+    if (!needed_[i] || node.op != Operator::if_else) continue;
+    condition_of_[i] = conditions_.size();
+    conditions_.emplace_back(tape.extract(here[node.a]), axes);
+  }
+}
+
+IndexRange UpdateRanges::at(std::span<const std::int64_t> indices, bool is_new) {
+  if (is_new) known_.clear();
+  truths_.clear();
+  for (CellTruth& condition : conditions_) truths_.push_back(condition.at(indices));
+  const auto known = known_.find(truths_);
+  if (known != known_.end()) return known->second;
+  return known_.emplace(truths_, range_of(indices)).first->second;
+}
+
+IndexRange UpdateRanges::range_of(std::span<const std::int64_t> indices) {
+  for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
+    if (!needed_[i]) continue;
+    values_[i].clear();
+    find_values(i, indices);
+  }
+  std::int64_t least = INT64_MAX;
+  std::int64_t greatest = INT64_MIN;
+  for (const RationalInterval& value : values_.back()) {
+    const Rational index = (value.lower - target_.first) / target_.step;
+    if (!value.is_point() || !is_integer(index)) fail(value, indices);
+    least = std::min(least, floor_to_int(index));
+    greatest = std::max(greatest, floor_to_int(index));
+  }
+  return raw_range(target_, least, greatest);
+}
+
+/// From the values of the nodes before.
+void UpdateRanges::find_values(std::size_t i, std::span<const std::int64_t> indices) {
+  const Program::Node& node = program_.nodes[i];
+  const std::size_t operands = operand_count(node.op);
+  if (node.op == Operator::constant) {
+    const Rational& value = program_.constants[node.a];
+    add_value(i, {.lower = value, .upper = value});
+  } else if (node.op == Operator::variable) {
+    const Rational value = value_at(node.a, indices);
+    add_value(i, {.lower = value, .upper = value});
+  } else if (node.op == Operator::if_else) {
+    const Truth truth = truths_[condition_of_[i]];
+    if (truth != Truth::no) values_[i] = values_[node.b];
+    if (truth == Truth::yes) return;
+    for (const RationalInterval& value : values_[node.c]) add_value(i, value);
+  } else {
+    for (const RationalInterval& a : values_[node.a]) {
+      if (operands == 1) add_value(i, apply(node.op, a));
+      if (operands == 1) continue;
+      for (const RationalInterval& b : values_[node.b]) add_value(i, apply(node.op, a, b));
+    }
+  }
+}
+
+void UpdateRanges::add_value(std::size_t node, const RationalInterval& value) {
+  Values& values = values_[node];
+  const auto is_same = [&](const RationalInterval& one) {
+    return one.lower == value.lower && one.upper == value.upper && one.total == value.total &&
+           one.bounded == value.bounded;
+  };
+  if (std::any_of(values.begin(), values.end(), is_same)) return;
+  if (values.size() == kMostUpdateValues) {
+    throw SpecError(fmt::format("the update of '{}' can have more than {} values from one cell, expected "
+                                "fewer conditions that branch",
+                                target_.name, kMostUpdateValues),
+                    spec_.dynamics.pointer_of(target_.name, state_));
+  }
+  values.push_back(value);
+}
+
+Rational UpdateRanges::value_at(std::uint32_t slot, std::span<const std::int64_t> indices) const {
+  if (slot < spec_.states.size()) return grid_[grid_.dimension_of(slot)].point(indices[slot]);
+  return inputs_[slot - spec_.states.size()].values[static_cast<std::size_t>(indices[slot])];
+}
+
+void UpdateRanges::fail(const RationalInterval& value, std::span<const std::int64_t> indices) const {
+  std::string place;
+  for (const std::uint32_t slot : program_.variables()) {
+    const bool is_state = slot < spec_.states.size();
+    place += fmt::format("{}{} = {}", place.empty() ? " at " : ", ",
+                         is_state ? spec_.states[slot].name : inputs_[slot - spec_.states.size()].name,
+                         to_text(value_at(slot, indices)));
+  }
+  const std::string found = value.is_point() ? to_text(value.lower) : "a number that is not known exactly";
+  throw SpecError(
+      fmt::format(
+          "the next value of the discrete state '{}' can be {}{}, expected {} + k * {} with an integer k",
+          target_.name, found, place, to_text(target_.first), to_text(target_.step)),
+      spec_.dynamics.pointer_of(target_.name, state_));
+}
+
+}  // namespace coordreq

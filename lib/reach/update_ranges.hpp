@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "expression/cell_truth.hpp"
+#include "expression/domains.hpp"
+#include "model/input_space.hpp"
+#include "model/uniform_grid.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// Where an update leads from one cell after the other (contract, section 6): the hull of the indices of all
+/// values that its branches give, where a condition that the cell leaves undecided takes both. Exact:
+/// discrete states and inputs are points, and nothing else is read outside of conditions. Conditions are
+/// asked of the closed cell, widened by the measurement error; several of them branch independently.
+///
+/// Scratch inside: one object a thread.
+class UpdateRanges {
+ public:
+  /// REQUIRES: all outlive this object; the state has an update.
+  UpdateRanges(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, std::size_t state);
+
+  /// Raw indices.
+  /// @param indices by slot, of states and inputs; @param is_new whether one has changed that is read outside
+  ///   of conditions since the last call
+  /// @throws SpecError if a branch that counts gives no grid value
+  [[nodiscard]] IndexRange at(std::span<const std::int64_t> indices, bool is_new);
+
+ private:
+  using Values = std::vector<RationalInterval>;  ///< all different; points, as they should be
+
+  [[nodiscard]] IndexRange range_of(std::span<const std::int64_t> indices);
+  void find_values(std::size_t node, std::span<const std::int64_t> indices);
+  void add_value(std::size_t node, const RationalInterval& value);
+  [[nodiscard]] Rational value_at(std::uint32_t slot, std::span<const std::int64_t> indices) const;
+  [[noreturn]] void fail(const RationalInterval& value, std::span<const std::int64_t> indices) const;
+
+  const ProblemSpec& spec_;
+  std::size_t state_;
+  const UniformGrid& grid_;
+  const InputSpace& inputs_;
+  const GridDimension& target_;
+  const Program& program_;
+  std::vector<bool> needed_;               ///< number nodes outside of conditions
+  std::vector<std::size_t> condition_of_;  ///< [node]: of an `if` its number among the conditions
+  std::deque<CellTruth> conditions_;
+  std::vector<Truth> truths_;
+  std::vector<Values> values_;                      ///< [node]
+  std::map<std::vector<Truth>, IndexRange> known_;  ///< for the present discrete states and inputs
+};
+
+}  // namespace coordreq

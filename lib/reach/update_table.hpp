@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+
+#include "base/thread_team.hpp"
+#include "reach/abstraction.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// Fills the table of a state that has an update, exactly (UpdateRanges), and its tube if there are tubes: it
+/// keeps its value until the next sample.
+/// REQUIRES: the grid of `abstraction` is in the order of the spec.
+/// @throws SpecError if the state may leave its grid
+void build_update_table(const ProblemSpec& spec, Abstraction& abstraction, std::size_t state,
+                        ThreadTeam& team);
+
+}  // namespace coordreq
