@@ -51,6 +51,7 @@ Warnings advise(const Answers& answers, ThreadTeam& team) {
   add(all, [&] { return advise_on_spec(answers.ground.spec); });
   add(all, [&] { return advise_on_posts(answers.ground); });
   add(all, [&] { return advise_on_answers(answers, team); });
+  add(all, [&] { return advise_on_goal(answers); });
   return all;
 }
 

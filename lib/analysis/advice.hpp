@@ -13,7 +13,7 @@ namespace coordreq {
 /// What is no error and can mislead: a result that shows the grid rather than the system, a name that nothing
 /// uses. It never changes a result.
 struct Warning {
-  std::string kind;   ///< "grid", "unused", "motion", "blocked", "empty" or "no_silence"
+  std::string kind;   ///< "grid", "unused", "motion", "blocked", "empty", "no_silence" or "goal"
   std::string place;  ///< JSON pointer
   std::string text;   ///< one line
 };
@@ -31,6 +31,10 @@ using Warnings = std::vector<Warning>;
 /// one rule, disturbance, error or step after the other is relaxed on a copy with at most some 10^5 cells,
 /// for about two seconds. REQUIRES: K and the layers are there, and the team is watched by nobody.
 [[nodiscard]] Warnings advise_on_answers(const Answers& answers, ThreadTeam& team);
+
+/// A goal that nothing arrives at, or nothing but what is there already. REQUIRES: the goal is there, if the
+/// spec has one.
+[[nodiscard]] Warnings advise_on_goal(const Answers& answers);
 
 /// All that is known without the answer; what posts show only where they are few.
 [[nodiscard]] Warnings advise_before(const ProblemSpec& spec, ThreadTeam& team);

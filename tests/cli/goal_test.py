@@ -98,6 +98,13 @@ class Cases(Case):
         for cells, values in (("half_open", near), ("closed", far)):
             self.assertEqual(self.results(points(cells, values))["arrival"].tolist(), [0, 1, 2, 3, 4])
 
+    def test_long_ways_take_wider_numbers(self):
+        for last in (252, 253, 254, 255, 300):
+            found = self.results(
+                spec([state("p", last, discrete=True)], {"u": [0, 1]}, {"p": "p - u"}, "p == 0")
+            )
+            self.assertEqual(found["arrival"].tolist(), list(range(last + 1)), last)
+
     def test_requirements(self):
         def asked(**requirement):
             return {**leaving("goal"), "requirements": [{"name": "r", "where": "p == 1", **requirement}]}

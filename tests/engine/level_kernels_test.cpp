@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -166,6 +167,36 @@ TYPED_TEST(LevelKernelsTest, AdvanceAddsOneUpToTheLimit) {
       differs = differs || out[j] != old[j];
     }
     RC_ASSERT(changed == differs);
+  });
+}
+
+TYPED_TEST(LevelKernelsTest, RiseTakesOneLess) {
+  this->check("rise", [](const auto& kernels, std::size_t n) {
+    Row<TypeParam> next(n);
+    Row<TypeParam> old(n);
+    if (*rc::gen::arbitrary<bool>()) {  // nothing changes
+      for (std::size_t j = 0; j < n; ++j) old.data()[j] = j % 4 == 0 ? TypeParam{0} : TestFixture::kMost;
+    }
+    Row<TypeParam> out(n);
+    const bool changed = kernels.rise(next.data(), old.data(), out.data(), n);
+    bool differs = false;
+    for (std::size_t j = 0; j < n; ++j) {
+      const TypeParam stepped = next[j] == 0 ? TypeParam{0} : static_cast<TypeParam>(next[j] - 1);
+      RC_ASSERT(out[j] == (old[j] == 0 ? TypeParam{0} : std::max(old[j], stepped)));
+      differs = differs || out[j] != old[j];
+    }
+    RC_ASSERT(changed == differs);
+  });
+}
+
+TYPED_TEST(LevelKernelsTest, BitsOfWhatIsAbove) {
+  this->check("above_bits", [](const auto& kernels, std::size_t n) {
+    Row<TypeParam> row(n);
+    Row<TypeParam> bound(n);
+    std::vector<std::uint64_t> bits((n + 63) / 64, ~std::uint64_t{0});
+    kernels.above_bits(row.data(), bound.data(), bits.data(), n);
+    for (std::size_t j = 0; j < (n + 63) / 64 * 64; ++j)
+      RC_ASSERT((bits[j / 64] >> (j % 64) & 1U) == (j < n && row[j] > bound[j] ? 1U : 0U));
   });
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "answers/goal/arrival.hpp"
 #include "answers/layers/independent_actions.hpp"
 #include "engine/join_rows.hpp"
 #include "model/model.hpp"
@@ -28,6 +29,19 @@ std::vector<std::int64_t> levels_of(const LevelMap& map, const CellSet& cells) {
   return result;
 }
 
+/// A goal: the cells of K with low indices.
+CellSet corner(const FastAnalysis& fast, const CellSet& invariant) {
+  const UniformGrid& grid = fast.abstraction.grid;
+  CellSet result = invariant;
+  for (std::int64_t x = 0; x < invariant.cells(); ++x) {
+    if (!invariant.test(x)) continue;
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      if (grid.index(x, i) > 1) result.reset(x);
+    }
+  }
+  return result;
+}
+
 /// @param tiles null: no equal work is looked for
 Found find(const FastAnalysis& fast, const Tiles* tiles, ThreadTeam& team) {
   const ProblemSpec& spec = fast.answers->ground.spec;
@@ -35,6 +49,11 @@ Found find(const FastAnalysis& fast, const Tiles* tiles, ThreadTeam& team) {
   const Invariance k = find_invariance(fast.engine, fast.hull, fast.safe, synthesis, {}, team, tiles);
   Found found{.levels = {levels_of(k.collision_time, fast.safe)}, .copied = k.counts.rows_copied};
   const Controller controller{&fast.engine, &k.invariant, &k.collision_time, synthesis};
+  WaveCounts arrival;
+  const LevelMap nearness = find_nearness(fast.engine, fast.hull, k.invariant, corner(fast, k.invariant),
+                                          synthesis, {}, team, arrival, tiles);
+  found.levels.push_back(levels_of(nearness, k.invariant));
+  found.copied += arrival.rows_copied;
   for (const PartitionActions& actions : fast.actions) {
     if (actions.grouping.size() < 2) continue;
     const Projections projections(controller, actions.grouping, fast.hull, team, tiles);

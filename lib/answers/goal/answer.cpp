@@ -36,8 +36,8 @@ void find_arrival(Answers& answers, const StageWork& work) {
   const RowEngine& engine = goal.engine->engine();
   const LevelBounds bounds{controller.invariant, INT64_MAX};
   find_or_take_levels(work, engine, bounds, goal.nearness, [&](const WaveWatch& watch) {
-    return find_nearness(*goal.engine, *controller.invariant, goal.cells, controller.synthesis, watch,
-                         work.team, goal.counts);
+    return find_nearness(engine, goal.engine->hull(), *controller.invariant, goal.cells, controller.synthesis,
+                         watch, work.team, goal.counts, goal.engine->equal_work());
   });
   goal.winning = winning_cells(goal.nearness, work.team);
   goal.away = without(goal.winning, goal.cells);

@@ -10,9 +10,8 @@ namespace coordreq {
 namespace {
 
 /// Nothing is known but what the goal is.
-LevelMap first_nearness(const ProgressEngine& progress, const CellSet& invariant, const CellSet& goal) {
-  const RowEngine& engine = progress.engine();
-  auto levels = engine.make_levels<std::uint8_t>(engine.posts(), progress.equal_work() != nullptr);
+LevelMap first_nearness(const RowEngine& engine, const CellSet& invariant, const CellSet& goal, bool shared) {
+  auto levels = engine.make_levels<std::uint8_t>(engine.posts(), shared);
   std::vector<std::uint8_t> cells(static_cast<std::size_t>(levels.row_length()) + kLevelBlock);
   for (std::int64_t r = 0; r < levels.rows(); ++r) {
     std::fill(cells.begin(), cells.end(), 0);
@@ -32,13 +31,11 @@ std::int32_t arrival_at(const LevelMap& nearness, std::int64_t cell) {
   });
 }
 
-LevelMap find_nearness(const ProgressEngine& progress, const CellSet& invariant, const CellSet& goal,
-                       Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team, WaveCounts& counts) {
-  const RowEngine& engine = progress.engine();
-  const RowHull& hull = progress.hull();
+LevelMap find_nearness(const RowEngine& engine, const RowHull& hull, const CellSet& invariant,
+                       const CellSet& goal, Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
+                       WaveCounts& counts, const Tiles* tiles) {
   const ActionGrouping grouping(engine, single_classes(engine.abstraction().inputs), team);
   const int workers = team.size();
-  const Tiles* const tiles = progress.equal_work();
   const LevelProblem problem{
       .equal = {tiles, tiles == nullptr ? nullptr : &tiles->tables()},
       .make8 = [&] { return make_joint_actions<std::uint8_t>(grouping, hull, synthesis, true, workers); },
@@ -47,7 +44,7 @@ LevelMap find_nearness(const ProgressEngine& progress, const CellSet& invariant,
   LevelMap start;
   WaveWatch own = watch;
   if (own.resumed == nullptr) {
-    start = first_nearness(progress, invariant, goal);
+    start = first_nearness(engine, invariant, goal, tiles != nullptr);
     own.resumed = &start;
   }
   return find_levels(engine, hull, problem, own, team, counts);

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 
-#include "answers/goal/progress_engine.hpp"
 #include "base/thread_team.hpp"
 #include "engine/level_map.hpp"
+#include "engine/row_hull.hpp"
+#include "engine/tiles.hpp"
 #include "engine/wave.hpp"
 #include "engine/wave_watch.hpp"
 #include "spec/problem_spec.hpp"
@@ -32,10 +34,12 @@ template <class Level>
 [[nodiscard]] std::int32_t arrival_at(const LevelMap& nearness, std::int64_t cell);
 
 /// Nearness of all cells: 0 outside K, 1 where the goal cannot be forced, kTop in the goal.
+/// @param engine that of ProgressEngine
 /// @param invariant K @param goal G, a part of it
-[[nodiscard]] LevelMap find_nearness(const ProgressEngine& progress, const CellSet& invariant,
+/// @param tiles where equal work is looked for; may be null
+[[nodiscard]] LevelMap find_nearness(const RowEngine& engine, const RowHull& hull, const CellSet& invariant,
                                      const CellSet& goal, Synthesis synthesis, const WaveWatch& watch,
-                                     ThreadTeam& team, WaveCounts& counts);
+                                     ThreadTeam& team, WaveCounts& counts, const Tiles* tiles = nullptr);
 
 /// W: the cells from which the goal can be forced.
 [[nodiscard]] CellSet winning_cells(const LevelMap& nearness, ThreadTeam& team);
