@@ -140,12 +140,13 @@ std::string sets_text(const Json& summary) {
 std::string partitions_text(const Json& summary, const ProblemSpec& spec) {
   if (summary["safe"] == 0) return "\nThe safe set is empty: no cell satisfies \"safe\".\n";
   if (summary["invariant"] == 0 && spec.controller.synthesis == Synthesis::given) {
-    return "\nThe invariance set is empty: there is no state from which every allowed action keeps the "
+    return "\nThe invariance set is empty on this grid: there is no state from which every allowed action "
+           "keeps the "
            "system "
            "safe.\n";
   }
   if (summary["invariant"] == 0) {
-    return "\nThe invariance set is empty: no state can be kept safe, even if all agents always "
+    return "\nThe invariance set is empty on this grid: no state can be kept safe, even if all agents always "
            "coordinate.\n";
   }
   if (summary["partitions"].size() > kMostPartitionsInFull) return partitions_table(summary);
@@ -168,7 +169,7 @@ std::string closing_text(const Json& summary) {
 std::string summary_text(const Json& summary, const ProblemSpec& spec) {
   return sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec) +
          coalition_text(summary) +
-         others_text(summary, {"controller", "coalition", "network", "seconds", "work"}) +
+         others_text(summary, {"controller", "coalition", "network", "seconds", "work", "warnings"}) +
          requirements_text(summary["requirements"], spec) + closing_text(summary);
 }
 

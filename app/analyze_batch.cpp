@@ -10,6 +10,7 @@
 #include "app/batch_report.hpp"
 #include "app/interrupt.hpp"
 #include "app/junit_report.hpp"
+#include "app/print_warnings.hpp"
 #include "app/standard_streams.hpp"
 #include "base/timer.hpp"
 
@@ -26,7 +27,8 @@ void analyze_into(FinishedRun& run, const AnalyzeOptions& asked, const std::stri
   }
 }
 
-FinishedRun finish(PlannedRun plan, const AnalyzeOptions& asked, const std::string& prefix) {
+FinishedRun finish(PlannedRun plan, const AnalyzeOptions& asked, const std::string& prefix,
+                   PrintedWarnings& warnings) {
   FinishedRun run{.plan = std::move(plan)};
   run.failure = run.plan.failure;
   if (run.plan.spec) analyze_into(run, asked, prefix);
@@ -35,6 +37,7 @@ FinishedRun finish(PlannedRun plan, const AnalyzeOptions& asked, const std::stri
     throw Error(ExitCode::interrupted, "interrupted", run_label(run.plan));
   }
   if (run.failure) report_failure(run_label(run.plan), *run.failure);
+  if (run.summary) warnings.print((*run.summary)["warnings"], run_label(run.plan));
   return run;
 }
 
@@ -63,9 +66,10 @@ ExitCode run_analyze_batch(const AnalyzeOptions& asked) {
   const bool is_text = !asked.json && !asked.quiet;
   if (is_text) write_output(table.heading());
   std::vector<FinishedRun> runs;
+  PrintedWarnings warnings(asked);
   for (std::size_t i = 0; i < plan.size(); ++i) {
     const std::string prefix = fmt::format("{} of {}, ", i + 1, plan.size());
-    runs.push_back(finish(std::move(plan[i]), asked, prefix));
+    runs.push_back(finish(std::move(plan[i]), asked, prefix, warnings));
     if (is_text) write_output(table.row(runs.back()));
   }
   if (asked.junit) write_report(*asked.junit, runs);

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/option_values.hpp"
 #include "app/sweep.hpp"
 #include "app/text.hpp"
 #include "base/error.hpp"
@@ -15,6 +16,10 @@
 
 namespace coordreq {
 namespace {
+
+/// Instead of a path in the spec: the last setting that is carried out.
+constexpr const char* kRefine = "refine";
+constexpr WholeNumber<std::int64_t> kFactors{1, 1'000'000};
 
 /// A text takes so many times its length while it is read, as one long string; short values take more.
 constexpr double kBytesOfByte = 4.75;
@@ -39,10 +44,24 @@ void declare_settings(Options& options, std::vector<SpecSetting>& settings) {
       settings, "--set", "PATH=VALUE",
       "Take another value in the spec, as constants.R=0.7 or states.0.step=0.02; may be repeated",
       parse_setting);
+  options.option("--refine", "N", "Divide all steps of states by N, after --set",
+                 [&settings](const auto& text, const auto& option) {
+                   settings.push_back({kRefine, std::to_string(kFactors(text, option))});
+                 });
 }
 
 SpecSource with_settings(SpecSource source, const std::vector<SpecSetting>& settings) {
-  for (const SpecSetting& setting : settings) source.text = with_setting(source.text, source.name, setting);
+  std::optional<std::int64_t> factor;
+  for (const SpecSetting& setting : settings) {
+    if (setting.path != kRefine) {
+      source.text = with_setting(source.text, source.name, setting);
+    } else if (factor) {
+      throw UsageError("expected one refinement, found --refine and --sweep refine");
+    } else {
+      factor = kFactors(setting.value, kRefine);
+    }
+  }
+  if (factor) source.text = with_refinement(source.text, source.name, *factor);
   return source;
 }
 

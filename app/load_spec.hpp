@@ -15,7 +15,7 @@ namespace coordreq {
 
 inline constexpr const char* kSpecDescription = "The problem spec, a JSON file; - reads standard input";
 
-/// --set.
+/// --set and --refine.
 void declare_settings(Options& options, std::vector<SpecSetting>& settings);
 
 /// The text at `path` ("-": standard input).
@@ -31,7 +31,8 @@ void declare_settings(Options& options, std::vector<SpecSetting>& settings);
 /// The files that the spec at `path` is made of. @param spec nothing where it could not be read
 void add_read_files(const std::string& path, const ProblemSpec* spec, FilesInUse& files);
 
-/// `source` with the settings carried out, one after the other. @throws SpecError, UsageError
+/// `source` with the settings carried out, one after the other, and one of "refine" at last. @throws
+/// SpecError, UsageError
 [[nodiscard]] SpecSource with_settings(SpecSource source, const std::vector<SpecSetting>& settings);
 
 }  // namespace coordreq

@@ -82,16 +82,6 @@ std::string column_heading(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} [{}]", name, printable(unit));
 }
 
-std::string grouped(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, 1, ',');
-  return text;
-}
-
-std::string grouped(std::int64_t number) {
-  return grouped(static_cast<std::uint64_t>(number));
-}
-
 std::string cells(std::int64_t count) {
   return grouped(count) + (count == 1 ? " cell" : " cells");
 }

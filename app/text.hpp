@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/grouped.hpp"
+
 // Pieces of text for people.
 namespace coordreq {
 
@@ -21,11 +23,6 @@ namespace coordreq {
 
 /// "v1 [m/s]", or "n" without a unit.
 [[nodiscard]] std::string column_heading(const std::string& name, const std::string& unit);
-/// 1234567 -> "1,234,567".
-[[nodiscard]] std::string grouped(std::uint64_t number);
-/// REQUIRES: number >= 0
-[[nodiscard]] std::string grouped(std::int64_t number);
-
 /// 1 -> "1 cell", 1234 -> "1,234 cells". REQUIRES: count >= 0
 [[nodiscard]] std::string cells(std::int64_t count);
 

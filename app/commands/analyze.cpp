@@ -12,6 +12,7 @@
 #include "app/memory_limit.hpp"
 #include "app/option_values.hpp"
 #include "app/print_answer.hpp"
+#include "app/print_warnings.hpp"
 
 namespace coordreq {
 namespace {
@@ -41,6 +42,7 @@ ExitCode run(const AnalyzeOptions& own) {
   if (own.is_batch()) return run_analyze_batch(own);
   const ProblemSpec spec = load_spec(own.specs.front(), own.settings, own.memory());
   const std::shared_ptr<const Json> summary = analyze_and_write(spec, own);
+  PrintedWarnings(own).print((*summary)["warnings"]);
   print_answer(own, *summary, [&spec](const Json& found) { return summary_text(found, spec); });
   return verdict(*summary);
 }
@@ -72,10 +74,11 @@ Run declare_analyze(Options& options) {
                  "Results file (default: NAME.h5 in the current folder), or a folder for several", file_name);
   options.option(own->junit, "--junit", "FILE", "Also write the requirements as a JUnit report", file_name);
   declare_settings(options, own->settings);
-  options.repeatable(own->sweeps, "--sweep", "PATH=VALUE,VALUE",
-                     "Analyse with each of these values and print a table; repeated: with each combination; "
-                     "results files are only written with -o",
-                     parse_sweep);
+  options.repeatable(
+      own->sweeps, "--sweep", "PATH=VALUE,VALUE",
+      "Analyse with each of these values and print a table, refine=1,2,4 with finer grids; repeated: "
+      "with each combination; results files are only written with -o",
+      parse_sweep);
   declare_checkpoint(options, own->checkpoint);
   declare_progress(options, own->progress);
   declare_common(options, *own);

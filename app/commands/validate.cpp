@@ -3,12 +3,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "analysis/advice.hpp"
 #include "analysis/analyze.hpp"
 #include "answers/requirements/judge_requirements.hpp"
 #include "app/commands/all.hpp"
 #include "app/load_spec.hpp"
 #include "app/memory_limit.hpp"
 #include "app/print_answer.hpp"
+#include "app/print_warnings.hpp"
 #include "app/render.hpp"
 
 namespace coordreq {
@@ -144,11 +146,15 @@ ExitCode run(const ValidateOptions& own) {
   const std::optional<std::uint64_t> memory = own.memory();
   const ProblemSpec spec = load_spec(own.spec, own.settings, memory);
   const SpecReport report = inspect(spec, own.threads);
+  Json found = report_json(report);
+  found["warnings"] = Json::array();
   if (!memory || report.memory_bytes <= *memory) {
     ThreadTeam team(own.threads);
     check_regions(spec, team);
+    found["warnings"] = warnings_json(advise_before(spec, team));
   }
-  print_answer(own, report_json(report), report_text);
+  PrintedWarnings(own).print(found["warnings"]);
+  print_answer(own, found, report_text);
   return ExitCode::success;
 }
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/advice.hpp"
 #include "analysis/analysis_stages.hpp"
 #include "analysis/checkpoint.hpp"
 #include "analysis/stage_reporter.hpp"
@@ -73,6 +74,7 @@ Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam
   for (const auto& [stage, seconds] : reporter.finish()) summary["seconds"][stage] = seconds;
   summary["work"] = std::move(work);
   summary["peak_memory_bytes"] = peak_memory_bytes();
+  summary["warnings"] = warnings_json(advise(answers, team));
   return summary;
 }
 

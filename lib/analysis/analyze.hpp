@@ -29,7 +29,7 @@ struct AnalysisOptions {
 /// removed in the end.
 /// @returns the summary of the contract, section 3: what each answer says of itself, and then `output` (null
 ///   if no file was written), `threads`, `seconds` (wall time by stage), `work` (of each fixed point, by
-///   stage), `peak_memory_bytes`
+///   stage), `peak_memory_bytes`, and what is worth a warning, `warnings` (advice.hpp)
 /// @throws SpecError for what only shows when the system is built (undecidable `allow`, a discrete state off
 ///   its grid, dynamics that this version cannot abstract); IoError
 [[nodiscard]] Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team);

@@ -9,6 +9,7 @@
 
 #include "answers/plan.hpp"
 #include "base/error.hpp"
+#include "base/grouped.hpp"
 #include "base/timer.hpp"
 #include "reach/table_shapes.hpp"
 #include "results/write_results.hpp"
@@ -57,10 +58,10 @@ void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit, i
   const Model model(spec, table_shapes(spec));
   const double bytes = estimate_memory(model, threads) + (saves ? kCheckpointBytes : 0);
   if (bytes <= static_cast<double>(*limit)) return;
-  throw LimitError(fmt::format("{:.3g} cells need about {} of memory, the limit is {}",
-                               static_cast<double>(model.grid().points()), in_words(bytes),
-                               in_words(static_cast<double>(*limit))),
-                   "--max-memory");
+  throw LimitError(
+      fmt::format("{} cells need about {} of memory, the limit is {}", grouped(model.grid().points()),
+                  in_words(bytes), in_words(static_cast<double>(*limit))),
+      "--max-memory");
 }
 
 }  // namespace coordreq

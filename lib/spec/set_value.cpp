@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -165,7 +166,42 @@ class PlaceFinder {
   std::vector<std::string> place_;
 };
 
+/// A step as it is written, of which so many make one of the old ones.
+OrderedJson refined_step(const OrderedJson& step, std::int64_t factor) {
+  if (step.is_string()) return fmt::format("({})/{}", step.get<std::string>(), factor);
+  const std::optional<Rational> value = parse_decimal(step.dump());
+  if (!value) return step;
+  const std::string text = to_text(*value / Rational(mpz_class(static_cast<long>(factor))));
+  return text.find('/') == std::string::npos ? parsed(text) : OrderedJson(text);
+}
+
+bool is_ring(const OrderedJson& state) {
+  const auto outside = state.find("outside");
+  if (outside == state.end()) return false;
+  return *outside == "periodic" ||
+         (outside->is_object() && outside->contains("below") && (*outside)["below"] == "periodic");
+}
+
+/// What is not as the schema has it stays, for read_spec() to name.
+void refine(OrderedJson& state, std::int64_t factor) {
+  if (!state.is_object() || state.value("discrete", OrderedJson()) == true) return;
+  const auto step = state.find("step");
+  if (step != state.end() && (step->is_number() || step->is_string())) *step = refined_step(*step, factor);
+  const auto count = state.find("count");
+  if (count == state.end() || !count->is_number_integer() || *count < 1 || *count > INT32_MAX) return;
+  const std::int64_t ends = is_ring(state) ? 0 : 1;
+  *count = (count->get<std::int64_t>() - ends) * factor + ends;
+}
+
 }  // namespace
+
+std::string with_refinement(const std::string& text, const std::string& source, std::int64_t factor) {
+  static_cast<void>(JsonDocument::parse(text, source));
+  OrderedJson spec = parsed(text);
+  if (!spec.is_object() || !spec.contains("states") || !spec["states"].is_array()) return text;
+  for (OrderedJson& state : spec["states"]) refine(state, factor);
+  return spec.dump(2) + "\n";
+}
 
 std::string with_setting(const std::string& text, const std::string& source, const SpecSetting& setting) {
   static_cast<void>(JsonDocument::parse(text, source));  // from here on it is well-formed

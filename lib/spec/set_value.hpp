@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace coordreq {
@@ -22,5 +23,11 @@ struct SpecSetting {
 ///   the place if the path leads nowhere, the value starts like JSON and is none, or one of them is not UTF-8
 [[nodiscard]] std::string with_setting(const std::string& text, const std::string& source,
                                        const SpecSetting& setting);
+
+/// The text of a spec with a finer grid: every step of a state that is not discrete is divided by `factor`,
+/// so that all grid points stay and others lie between them. REQUIRES: 1 <= factor < 2^31
+/// @param source as for with_setting(). @throws SpecError likewise
+[[nodiscard]] std::string with_refinement(const std::string& text, const std::string& source,
+                                          std::int64_t factor);
 
 }  // namespace coordreq

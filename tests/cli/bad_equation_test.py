@@ -141,7 +141,7 @@ class Cases(Case):
         self.assertEqual((result.returncode, result.stdout), (4, b""))
         self.assertRegex(
             result.stderr.decode(),
-            r"^coordreq: error: [0-9e+.]+ cells need about [0-9.]+ MiB of memory, the limit is 1\.0 MiB "
+            r"^coordreq: error: [0-9,]+ cells need about [0-9.]+ MiB of memory, the limit is 1\.0 MiB "
             r"\(--max-memory\)\n$",
         )
         self.write("spec.json", system("sin(x) + u", step=1e-9))

@@ -70,6 +70,7 @@ $""",
                 "exact",
                 "guarantee",
                 "memory_bytes",
+                "warnings",
             ],
         )
         self.assertEqual((report["name"], report["cells"], report["joint_inputs"]), ("lane_change", 28, 4))

@@ -49,10 +49,6 @@ class Cases(PageCase):
         self.assert_sessions("commands.md")
 
     def test_sessions_of_grids(self):
-        spec = json.loads(without_comments(example(2)))
-        for part in blocks(DOCS / "grids.md", "json"):
-            spec.update(json.loads("{" + part + "}"))
-        self.write("spec.json", dict(spec, name="spec"))
         self.assert_sessions("grids.md")
 
     def test_sessions_of_networks(self):

@@ -18,6 +18,37 @@ class Cases(Case):
             self.assertEqual(file.attrs["spec_sha256"], hashlib.sha256(text.encode()).hexdigest())
         return text
 
+    def test_a_refinement_divides_all_steps(self):
+        self.write("spec.json", COMMENTED)
+        refined = self.analyze("spec.json", "--refine", "2")
+        self.assertEqual(refined["states"], 81)
+        self.assertEqual([state["step"] for state in json.loads(self.stored_spec())["states"]], [0.5, 0.5])
+        by_hand = self.analyze("spec.json", "--set", "states.0.step=0.5", "--set", "states.1.step=1/2")
+        for key in ("states", "safe", "invariant", "iterations", "partitions"):
+            self.assertEqual(refined[key], by_hand[key])
+        # It comes last, and 1 changes nothing.
+        self.assertEqual(self.analyze("spec.json", "--refine", "2", "--set", "states.0.step=2")["states"], 45)
+        self.assertEqual(self.analyze("spec.json", "--refine", "1")["states"], 25)
+        self.assertEqual(json.loads(self.run_program("validate", "spec.json", "--refine", "3", "--json").stdout)["cells"], 169)
+
+    def test_sweeps_of_refinements(self):
+        self.write("spec.json", COMMENTED)
+        document = json.loads(
+            self.run_program("analyze", "spec.json", "--sweep", "refine=1,2,4", "--json", "-o", ".").stdout
+        )
+        self.assertEqual([run["summary"]["states"] for run in document["runs"]], [25, 81, 289])
+        self.assertEqual([run["values"] for run in document["runs"]], [{"refine": n} for n in (1, 2, 4)])
+        self.assertEqual(self.files(), [*(f"small_refine={n}.h5" for n in (1, 2, 4)), "spec.json"])
+
+    def test_refinements_that_are_none(self):
+        self.write("spec.json", COMMENTED)
+        for value in ("0", "1.5", "x", "1000001"):
+            message = f"expected a whole number from 1 to 1000000, found '{value}'"
+            self.assert_fails(2, f"{message} (--refine)", "analyze", "spec.json", "--refine", value)
+        result = self.run_program("analyze", "spec.json", "--refine", "2", "--sweep", "refine=1,2")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn(b"expected one refinement, found --refine and --sweep refine", result.stderr)
+
     def test_file_has_the_spec_that_was_analysed(self):
         self.write("spec.json", COMMENTED)
         summary = self.analyze("spec.json", "--set", "states.0.step=0.5", "--set", "safe=x + y <= 5")

@@ -41,6 +41,37 @@ TEST(SetValue, OnlyTheValueChanges) {
   EXPECT_EQ(set(R"({"b": 1, "a": [2.50]})", "b", "3"), "{\n  \"b\": 3,\n  \"a\": [\n    2.5\n  ]\n}\n");
 }
 
+TEST(Refinement, DividesStepsAndKeepsAllPoints) {
+  const Json refined = Json::parse(with_refinement(R"({"states": [
+      {"step": 0.01, "origin": 0.3}, {"step": 1, "discrete": true}, {"step": "R/4"}, {"step": 2},
+      {"count": 24, "outside": "periodic"}, {"count": 7, "outside": {"below": "periodic", "above": "periodic"}},
+      {"count": 5, "outside": "safe"}, {"count": 5}], "inputs": [{"step": 1}]})",
+                                                   "test", 2));
+  EXPECT_EQ(refined["states"], Json::parse(R"([
+      {"step": 0.005, "origin": 0.3}, {"step": 1, "discrete": true}, {"step": "(R/4)/2"}, {"step": 1},
+      {"count": 48, "outside": "periodic"}, {"count": 14, "outside": {"below": "periodic", "above": "periodic"}},
+      {"count": 9, "outside": "safe"}, {"count": 9}])"));
+  EXPECT_EQ(refined["inputs"][0]["step"], 1);
+}
+
+TEST(Refinement, IsExact) {
+  const auto step = [](const std::string& old, std::int64_t factor) {
+    return Json::parse(
+        with_refinement(R"({"states": [{"step": )" + old + "}]}", "test", factor))["states"][0]["step"];
+  };
+  EXPECT_EQ(step("0.1", 3), "1/30");
+  EXPECT_EQ(step("0.30000000000000004", 1), 0.30000000000000004);
+  EXPECT_EQ(step("0.10", 4), 0.025);
+}
+
+TEST(Refinement, LeavesWhatIsWrongToTheReader) {
+  for (const char* const text :
+       {R"({"states": 3})", R"([])",
+        R"({"states": [1, {"step": true, "count": "x", "outside": {"below": 3}}]})",
+        R"({"states": [{"count": -3}, {"count": 1.5}, {"count": 9223372036854775807}]})"})
+    EXPECT_EQ(Json::parse(with_refinement(text, "test", 2)), Json::parse(text)) << text;
+}
+
 TEST(SetValue, ElementsGoByNumberOrName) {
   const Json by_number = Json::parse(set(kText, "states.1.step", "3"), nullptr, true, true);
   EXPECT_EQ(by_number["states"][1]["step"], 3);

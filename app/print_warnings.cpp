@@ -1,0 +1,23 @@
+#include "app/print_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/render.hpp"
+#include "app/standard_streams.hpp"
+
+namespace coordreq {
+
+void PrintedWarnings::print(const Json& warnings, const std::string& subject) {
+  if (is_quiet_) return;
+  for (const Json& own : warnings) {
+    const std::string place = line_of(own["place"]);
+    const std::string line = line_of(own["message"]) + (place.empty() ? "" : " (" + place + ")");
+    if (!lines_.insert(line).second) continue;
+    const std::string start = subject.empty() ? "" : shortened(printable(subject), 200, 20) + ": ";
+    write_diagnostics(fmt::format("coordreq: warning: {}{}\n", start, line));
+  }
+}
+
+}  // namespace coordreq

@@ -1,0 +1,64 @@
+#include "analysis/advice.hpp"
+
+#include <exception>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "answers/ground/answer.hpp"
+#include "answers/plan.hpp"
+#include "reach/table_shapes.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Whether posts can be had in less than a second.
+bool has_few_posts(const ProblemSpec& spec) {
+  constexpr double kMostCells = 1e6, kMostEntries = 2e4;
+  double cells = 1, entries = 0;
+  for (const StateSpec& state : spec.states) cells *= static_cast<double>(state.grid.count);
+  for (const TableShape& shape : table_shapes(spec)) entries += shape.entries;
+  return cells <= kMostCells && entries <= kMostEntries && !spec.controller.file;
+}
+
+/// Advice that cannot be had, for want of memory or for an error that is for somebody else to report, is not
+/// given.
+template <class Advise>
+void add(Warnings& all, const Advise& advise) {
+  try {
+    Warnings more = advise();
+    all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  } catch (const std::exception&) {
+    return;
+  }
+}
+
+}  // namespace
+
+Warnings advise_before(const ProblemSpec& spec, ThreadTeam& team) {
+  Warnings all;
+  add(all, [&] { return advise_on_spec(spec); });
+  add(all, [&] {
+    if (!has_few_posts(spec)) return Warnings();
+    Answers answers(spec);
+    run_stages(ground_stages(spec), answers, {.team = team});
+    return advise_on_posts(answers.ground);
+  });
+  return all;
+}
+
+Warnings advise(const Answers& answers, ThreadTeam& team) {
+  Warnings all;
+  add(all, [&] { return advise_on_spec(answers.ground.spec); });
+  add(all, [&] { return advise_on_posts(answers.ground); });
+  add(all, [&] { return advise_on_answers(answers, team); });
+  return all;
+}
+
+Json warnings_json(const Warnings& warnings) {
+  Json json = Json::array();
+  for (const Warning& own : warnings)
+    json.push_back({{"kind", own.kind}, {"place", own.place}, {"message", own.text}});
+  return json;
+}
+
+}  // namespace coordreq

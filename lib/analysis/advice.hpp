@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "answers/answers.hpp"
+#include "base/json.hpp"
+#include "base/thread_team.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// What is no error and can mislead: a result that shows the grid rather than the system, a name that nothing
+/// uses. It never changes a result.
+struct Warning {
+  std::string kind;   ///< "grid", "unused", "motion", "blocked", "empty" or "no_silence"
+  std::string place;  ///< JSON pointer
+  std::string text;   ///< one line
+};
+using Warnings = std::vector<Warning>;
+
+/// What the spec itself shows: grids that miss the ends of their domains; constants, definitions, inputs and
+/// disturbances that nothing uses.
+[[nodiscard]] Warnings advise_on_spec(const ProblemSpec& spec);
+
+/// What posts show: states that move less than a cell in a period; sides left at the default `unsafe` through
+/// which pairs of safe cells are blocked. REQUIRES: the ground is laid. Cost: a pass over tables and S.
+[[nodiscard]] Warnings advise_on_posts(const Ground& ground);
+
+/// What the answer shows: nothing that can be kept safe, or no silence at all, with what would help. For that
+/// one rule, disturbance, error or step after the other is relaxed on a copy with at most some 10^5 cells,
+/// for about two seconds. REQUIRES: K and the layers are there, and the team is watched by nobody.
+[[nodiscard]] Warnings advise_on_answers(const Answers& answers, ThreadTeam& team);
+
+/// All that is known without the answer; what posts show only where they are few.
+[[nodiscard]] Warnings advise_before(const ProblemSpec& spec, ThreadTeam& team);
+/// All of them. Neither of the two throws what others do not. REQUIRES: as advise_on_answers()
+[[nodiscard]] Warnings advise(const Answers& answers, ThreadTeam& team);
+
+/// A list of objects with `kind`, `place` and `message`.
+[[nodiscard]] Json warnings_json(const Warnings& warnings);
+
+}  // namespace coordreq

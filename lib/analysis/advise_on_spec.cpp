@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "analysis/advice.hpp"
+#include "expression/token.hpp"
+#include "spec/scope.hpp"
+
+namespace coordreq {
+namespace {
+
+using Node = JsonDocument::Node;
+
+std::string short_number(const Rational& value) {
+  return fmt::format("{:.6g}", nearest_double(value));
+}
+
+/// Whether points from first to last, a step apart, are what somebody means by the domain [lower, upper]:
+/// they meet its ends, or the cells around them do.
+bool covers(const GridSpec& grid, const Rational& lower, const Rational& upper, const Rational& margin) {
+  const Rational last = grid.first + grid.step * Rational(mpz_class(static_cast<long>(grid.count - 1)));
+  const auto meets = [&](const Rational& by) { return grid.first == lower + by && last == upper - by; };
+  return meets(0) || meets(margin);
+}
+
+void advise_on_grid(const std::string& points, const GridSpec& grid, const Rational& lower,
+                    const Rational& upper, const std::string& place, Warnings& found) {
+  const Rational last = grid.first + grid.step * Rational(mpz_class(static_cast<long>(grid.count - 1)));
+  const char* const reason =
+      is_integer(Rational((upper - lower) / grid.step)) ? "" : ", because the step does not divide that";
+  found.push_back({"grid", place,
+                   fmt::format("{} go from {} to {} in steps of {}, not from {} to {}{}", points,
+                               short_number(grid.first), short_number(last), short_number(grid.step),
+                               short_number(lower), short_number(upper), reason)});
+}
+
+void advise_on_state_grids(const ProblemSpec& spec, Warnings& found) {
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    const StateSpec& state = spec.states[i];
+    const bool is_ring = state.below == Outside::periodic;
+    if (is_ring || covers(state.grid, state.lower, state.upper, state.grid.step / 2)) continue;
+    advise_on_grid("the grid points of " + state.name, state.grid, state.lower, state.upper,
+                   fmt::format("/states/{}", i), found);
+  }
+}
+
+void advise_on_input_grids(const ProblemSpec& spec, const Node& root, Warnings& found) {
+  const Scope scope(root);
+  const std::vector<Node> objects = root.elements("inputs");
+  for (std::size_t i = 0; i < spec.inputs.size(); ++i) {
+    const InputSpec& input = spec.inputs[i];
+    if (!input.grid) continue;
+    const Rational lower = scope.number(objects[i]["lower"]);
+    const Rational upper = scope.number(objects[i]["upper"]);
+    if (covers(*input.grid, lower, upper, 0)) continue;
+    advise_on_grid("the values of " + input.name, *input.grid, lower, upper, objects[i].pointer(), found);
+  }
+}
+
+using Words = std::set<std::string>;
+
+/// The names in an expression.
+Words words_of(const std::string& expression) {
+  Words words;
+  Token token = read_token(expression, 0);
+  for (; token.kind != TokenKind::end; token = read_token(expression, token.offset + token.text.size()))
+    if (token.kind == TokenKind::name) words.emplace(token.text);
+  return words;
+}
+
+/// Of all texts below a value that may be expressions. A name of something else that looks like one hides at
+/// most a warning.
+void add_words(const nlohmann::json& value, Words& words) {
+  static const Words kPlain = {"name", "unit", "description", "$schema", "file"};
+  if (value.is_string()) words.merge(words_of(value.get<std::string>()));
+  if (value.is_array())
+    for (const auto& element : value) add_words(element, words);
+  if (!value.is_object()) return;
+  for (const auto& [key, member] : value.items())
+    if (!kPlain.contains(key)) add_words(member, words);
+}
+
+/// What the parts of a spec that mean something mention, and what that mentions in turn.
+Words used_names(const nlohmann::json& root) {
+  Words used;
+  for (const auto& [key, part] : root.items()) {
+    if (key == "constants" || key == "definitions") continue;
+    if (key != "agents") {
+      add_words(part, used);
+      continue;
+    }
+    for (const auto& agent : part)
+      if (agent.contains("prefer")) add_words(agent["prefer"], used);
+  }
+  std::vector<std::string> open(used.begin(), used.end());
+  while (!open.empty()) {
+    const std::string name = open.back();
+    open.pop_back();
+    for (const char* const list : {"constants", "definitions"}) {
+      if (!root.contains(list) || !root[list].contains(name)) continue;
+      Words more;
+      add_words(root[list][name], more);
+      for (const std::string& word : more)
+        if (used.insert(word).second) open.push_back(word);
+    }
+  }
+  return used;
+}
+
+void advise_on_names(const Node& root, const nlohmann::json& document, Warnings& found) {
+  const Words used = used_names(document);
+  const auto look = [&](const char* kind, const std::string& name, const std::string& place) {
+    if (used.contains(name)) return;
+    found.push_back({"unused", place, fmt::format("nothing depends on the {} {}", kind, name)});
+  };
+  for (const auto& [list, kind] :
+       {std::pair("constants", "constant"), std::pair("definitions", "definition")}) {
+    if (!root.has(list)) continue;
+    for (const std::string& name : root[list].keys()) look(kind, name, root[list][name].pointer());
+  }
+  for (const auto& [list, kind] : {std::pair("inputs", "input"), std::pair("disturbances", "disturbance")})
+    for (const Node& object : root.elements(list)) look(kind, object["name"].text(), object.pointer());
+}
+
+}  // namespace
+
+Warnings advise_on_spec(const ProblemSpec& spec) {
+  constexpr std::size_t kLongText = std::size_t{1} << 20;  // it would take memory that nobody has counted
+  if (spec.text.size() > kLongText) return {};
+  const JsonDocument document = JsonDocument::parse(spec.text, "the spec");
+  Warnings found;
+  advise_on_state_grids(spec, found);
+  advise_on_input_grids(spec, document.root(), found);
+  advise_on_names(document.root(), document.value(), found);
+  return found;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,72 @@
+#include "analysis/coarse_copy.hpp"
+
+#include <algorithm>
+
+#include "reach/table_shapes.hpp"
+
+namespace coordreq {
+namespace {
+
+Rational rational(std::int64_t number) {
+  return Rational(mpz_class(static_cast<long>(number)));
+}
+
+std::int64_t count_cells(const ProblemSpec& spec) {
+  std::int64_t cells = 1;
+  for (const StateSpec& state : spec.states) cells *= state.grid.count;
+  return cells;
+}
+
+double count_entries(const ProblemSpec& spec) {
+  double entries = 0;
+  for (const TableShape& shape : table_shapes(spec)) entries += shape.entries;
+  return entries;
+}
+
+/// Few points are what a state needs.
+void coarsen(ProblemSpec& spec, std::int64_t factor) {
+  constexpr std::int64_t kFewPoints = 4;
+  for (StateSpec& state : spec.states)
+    regrid(state, rational(std::clamp<std::int64_t>(state.grid.count / kFewPoints, 1, factor)));
+}
+
+void leave_only(std::size_t partition, ProblemSpec& spec) {
+  CoordinationSpec& own = spec.coordination;
+  own = CoordinationSpec{.partitions = {own.partitions[partition]}, .max_delay = 1};
+  spec.network.reset();
+  spec.requirements.clear();
+  spec.output = {};
+}
+
+}  // namespace
+
+void regrid(StateSpec& state, const Rational& factor) {
+  GridSpec& grid = state.grid;
+  if (state.discrete || factor == 1) return;
+  if (state.below == Outside::periodic) {
+    const std::int64_t count = floor_to_int(rational(grid.count) / factor + Rational(1, 2));
+    if (count < 2) return;
+    grid.step = (state.upper - state.lower) / rational(count);
+    grid.count = count;
+    return;
+  }
+  const Rational step = grid.step * factor;
+  const Rational first = grid.first - step * rational(floor_to_int((grid.first - state.lower) / step));
+  const std::int64_t count = floor_to_int((state.upper - first) / step) + 1;
+  if (count >= 2) grid = {first, step, count};
+}
+
+std::optional<CoarseCopy> coarse_copy(const ProblemSpec& spec, std::size_t partition, std::int64_t most_cells,
+                                      double most_entries) {
+  if (spec.controller.file) return std::nullopt;
+  for (std::int64_t factor = 1; factor <= 4096; factor = factor < 4 ? factor + 1 : factor * 3 / 2) {
+    CoarseCopy copy{.spec = spec, .factor = factor};
+    leave_only(partition, copy.spec);
+    coarsen(copy.spec, factor);
+    copy.cells = count_cells(copy.spec);
+    if (copy.cells <= most_cells && count_entries(copy.spec) <= most_entries) return copy;
+  }
+  return std::nullopt;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+/// Gives a state that is not discrete a grid with steps `factor` times as long, over the same domain and
+/// through one of its points; a ring keeps its period and gets the whole number of points that is next to
+/// that. Nothing is done where not even two points would be left.
+void regrid(StateSpec& state, const Rational& factor);
+
+/// The problem on a coarser grid, without what only asks more of the answer: K and the layers of one
+/// partition up to Z_1 are left.
+struct CoarseCopy {
+  ProblemSpec spec;
+  std::int64_t cells = 0;
+  std::int64_t factor = 1;  ///< of steps; 1: the grid is that of the spec
+};
+
+/// The least coarse one with at most so many cells and entries of tables; nothing if there is none, or the
+/// controller comes from a file, which has the cells of one grid.
+/// @param partition that is left
+[[nodiscard]] std::optional<CoarseCopy> coarse_copy(const ProblemSpec& spec, std::size_t partition,
+                                                    std::int64_t most_cells, double most_entries);
+
+}  // namespace coordreq

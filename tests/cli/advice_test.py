@@ -1,0 +1,230 @@
+"""Warnings: what is no error and can mislead, on standard error and in JSON."""
+
+import json
+import unittest
+
+import h5py
+
+from program import CONFIGS, SPEC, Case, spec_with, without_comments
+
+X, Y = SPEC["states"]
+
+
+def without_outside(state):
+    return {key: value for key, value in state.items() if key != "outside"}
+
+
+class Cases(Case):
+    def warnings(self, command, spec, *arguments):
+        """Those in JSON, which are those on standard error; with --quiet there are none there."""
+        self.write("spec.json", spec)
+        result = self.run_program(command, "spec.json", "--json", *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        found = json.loads(result.stdout)["warnings"]
+        lines = [
+            f"coordreq: warning: {own['message']}" + (f" ({own['place']})" if own["place"] else "") for own in found
+        ]
+        self.assertEqual(result.stderr.decode().splitlines(), lines)
+        quiet = self.run_program(command, "spec.json", "--quiet", *arguments)
+        self.assertEqual((quiet.returncode, quiet.stdout, quiet.stderr), (0, b"", b""))
+        return found
+
+    def both(self, spec, *arguments):
+        """What analyze and validate say alike: (kind, place) of each."""
+        found = self.warnings("analyze", spec, *arguments)
+        found = [own for own in found if own["kind"] not in ("empty", "no_silence")]
+        self.assertEqual(self.warnings("validate", spec, *arguments), found)
+        return [(own["kind"], own["place"]) for own in found]
+
+    def texts(self, command, spec, kind):
+        return [own["message"] for own in self.warnings(command, spec) if own["kind"] == kind]
+
+    def test_nothing_to_warn_of(self):
+        self.assertEqual(self.both(SPEC), [])
+
+    def test_a_step_that_does_not_divide_the_domain(self):
+        spec = spec_with(states=[X, dict(Y, upper=4.5)])
+        self.assertEqual(self.both(spec), [("grid", "/states/1")])
+        self.assertEqual(
+            self.texts("validate", spec, "grid"),
+            [
+                "the grid points of y go from 0 to 4 in steps of 1, not from 0 to 4.5, because the step does not "
+                "divide that"
+            ],
+        )
+
+    def test_an_origin_off_the_ends(self):
+        self.assertEqual(self.both(spec_with(states=[X, dict(Y, origin=0.25)])), [("grid", "/states/1")])
+        # The cells end where the domain does.
+        self.assertEqual(self.both(spec_with(states=[X, dict(Y, origin=0.5)])), [])
+
+    def test_inputs_that_miss_their_limits(self):
+        u = {"name": "u", "lower": -1, "upper": 1, "step": 0.3}
+        dynamics = dict(SPEC["dynamics"], equations={"x": "x + 4*u", "y": "y + v"})
+        spec = spec_with(inputs=[u, SPEC["inputs"][1]], dynamics=dynamics)
+        self.assertEqual(
+            self.texts("validate", spec, "grid"),
+            ["the values of u go from -0.9 to 0.9 in steps of 0.3, not from -1 to 1, because the step does not divide that"],
+        )
+
+    def test_names_that_nothing_uses(self):
+        spec = spec_with(
+            constants={"a": 1, "b": "a + 1", "c": 3, "d": 6},
+            definitions={"e": "x + c", "f": "e + y"},
+            disturbances=[{"name": "w", "lower": 0, "upper": 0}, {"name": "z", "lower": 0, "upper": 0}],
+            dynamics=dict(SPEC["dynamics"], equations={"x": "x + u + w", "y": "y + v"}),
+            safe="x + y <= d",
+        )
+        self.assertEqual(
+            self.both(spec),
+            [
+                ("unused", "/constants/a"),
+                ("unused", "/constants/b"),
+                ("unused", "/constants/c"),
+                ("unused", "/definitions/e"),
+                ("unused", "/definitions/f"),
+                ("unused", "/disturbances/1"),
+            ],
+        )
+        self.assertEqual(self.texts("validate", spec, "unused")[-1], "nothing depends on the disturbance z")
+
+    def test_an_input_that_moves_nothing(self):
+        spec = spec_with(dynamics=dict(SPEC["dynamics"], equations={"x": "x + u", "y": "y"}))
+        self.assertEqual(self.both(spec), [("unused", "/inputs/1")])
+
+    def corridor(self):
+        return json.loads(without_comments((CONFIGS / "tutorial/corridor_2.json").read_text()))
+
+    def test_motion_of_less_than_a_cell(self):
+        """The period of 0.01 s on steps of 0.25 m that answers 0.37 s where 9.5 s are true."""
+        spec = self.corridor()
+        self.assertEqual(self.both(spec), [])
+        for period, kinds in ((0.01, ["motion"] * 2), (0.249, ["motion"] * 2), (0.25, [])):
+            spec["dynamics"]["period"] = period
+            self.assertEqual([kind for kind, _ in self.both(spec)], kinds, period)
+        spec["dynamics"]["period"] = 0.01
+        self.assertIn(
+            "p1 moves by less than one cell (0.25 m) in a period (0.01 s)", self.texts("validate", spec, "motion")[0]
+        )
+        # Half-open cells lose as much, unless nothing moves at all; discrete states have no cells to spread to.
+        spec["abstraction"] = {"cells": "half_open"}
+        self.assertEqual([place for _, place in self.both(spec)], ["/states/0", "/states/1"])
+        still = {"x": "x + u + 2*v", "y": "y"}
+        spec = spec_with(dynamics=dict(SPEC["dynamics"], equations=still))
+        self.assertEqual(self.both(spec), [])
+        spec["abstraction"] = {"cells": "closed"}
+        self.assertEqual(self.both(spec), [("motion", "/states/1")])
+        spec["states"] = [X, dict(Y, discrete=True)]
+        self.assertEqual(self.both(spec), [])
+
+    def test_motion_in_tables_that_are_sums(self):
+        """p moves with v and h: affine, and coupled with what is not."""
+        states = [
+            dict(X, name="h", lower="-pi", upper="pi", step=None, count=24, outside="periodic"),
+            dict(X, name="p", lower=-5, upper=5, step=0.5),
+            dict(X, name="q", lower=-5, upper=5, step=0.5),
+        ]
+        states = [{key: value for key, value in state.items() if value is not None} for state in states]
+        for speed, expected in (("4", []), ("0.1", [("motion", "/states/1"), ("motion", "/states/2")])):
+            equations = {"h": "4*u", "p": f"{speed}*cos(h) + 0.1*v*q", "q": f"{speed}*sin(h) - 0.1*v*p"}
+            dynamics = {"time": "continuous", "period": 0.25, "unit": "s", "equations": equations}
+            spec = spec_with(states=states, dynamics=dynamics, safe="p^2 + q^2 >= 1", abstraction=None)
+            self.write("spec.json", spec)
+            report = json.loads(self.run_program("validate", "spec.json", "--json").stdout)
+            self.assertEqual([own["sum"] for own in report["states"]], [False, True, True])
+            self.assertEqual(self.both(spec), expected)
+
+    def test_sides_at_the_default_that_block(self):
+        spec = spec_with(states=[without_outside(X), dict(Y, outside={"above": "unsafe"})], safe="x <= 3")
+        # x below 0 with u = -1 from 5 cells, and y with v = -1 from 4; above, x would leave from 4, which is not safe.
+        self.assertEqual(self.both(spec), [("blocked", "/states")])
+        (text,) = self.texts("analyze", spec, "blocked")
+        self.assertIn(" blocked where the domain ends: 15 below x, 12 below y; ", text)
+        # What is not allowed anyway is not blocked, at x = 0 with u = -1 and v = -1 either.
+        spec["controller"] = {"allow": "x > 0 or u >= 0"}
+        (text,) = self.texts("analyze", spec, "blocked")
+        self.assertIn(" ends: 11 below y; ", text)
+        spec["states"] = SPEC["states"]
+        self.assertEqual(self.both(spec), [])
+
+    def likely_causes(self, spec, kind):
+        (own,) = [own for own in self.warnings("analyze", spec) if own["kind"] == kind]
+        return own["message"]
+
+    def test_an_empty_invariance_set_and_what_helps(self):
+        equations = {"x": "x + 2*u + 5", "y": "y + v"}
+        spec = spec_with(dynamics=dict(SPEC["dynamics"], equations=equations))
+        text = self.likely_causes(spec, "empty")
+        self.assertRegex(
+            text, r"^the invariance set is empty on this grid; of [0-9]+ changes tried one by one, it helps if x saturates above$"
+        )
+        result = self.run_program("analyze", "spec.json")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"The invariance set is empty on this grid: no state can be kept safe", result.stdout)
+        w = [{"name": "w", "lower": -3, "upper": 3}]
+        spec = spec_with(disturbances=w, dynamics=dict(SPEC["dynamics"], equations={"x": "x + u + w", "y": "y + v"}))
+        self.assertRegex(self.likely_causes(spec, "empty"), "it helps if w is 0$")
+
+    def test_a_safe_set_that_is_empty_for_its_steps(self):
+        spec = spec_with(safe="x >= 0.9 and x <= 1.1", abstraction={"cells": "half_open"}, states=[X, dict(Y, outside="saturate")])
+        spec["dynamics"] = dict(SPEC["dynamics"], equations={"x": "x", "y": "y + u + v"})
+        text = self.likely_causes(spec, "empty")
+        self.assertRegex(text, "^the safe set is empty on this grid; .* it helps if only centres of cells must be safe$")
+
+    def test_no_silence_at_all(self):
+        """Only opposite actions keep the sum, so alone nobody may act."""
+        spec = spec_with(safe="x + y >= 4 and x + y <= 4", states=[dict(X, outside="saturate"), dict(Y, outside="saturate")])
+        text = self.likely_causes(spec, "no_silence")
+        self.assertRegex(
+            text,
+            r"^with the partition a\|b no state tolerates even one step without coordination on this grid; of [0-9]+ "
+            "changes tried one by one, none helps$",
+        )
+
+    def test_causes_are_sought_on_a_coarse_copy(self):
+        """A million cells; the side above x is what empties K on any grid."""
+        states = [dict(X, step="1/250"), dict(Y, step="1/250")]
+        spec = spec_with(states=states, dynamics=dict(SPEC["dynamics"], equations={"x": "x + 2*u + 5", "y": "y + v"}))
+        text = self.likely_causes(spec, "empty")
+        self.assertRegex(text, r" tried one by one on a copy with [0-9]{2},[0-9]{3} cells \(steps up to 4 times as long\), it helps if x saturates above")
+
+    def test_a_requirement_that_fails_is_no_other_exit_code(self):
+        requirement = [{"name": "r", "where": "x <= 1", "invariant": True}]
+        spec = spec_with(constants={"k": 1}, requirements=requirement, safe="x >= 2")
+        self.write("spec.json", spec)
+        result = self.run_program("analyze", "spec.json")
+        self.assertEqual((result.returncode, result.stderr.count(b"warning: ")), (1, 1))
+
+    def test_of_several_analyses_each_line_is_printed_once(self):
+        self.write("spec.json", spec_with(constants={"k": 1, "r": 6}, safe="x + y <= r"))
+        result = self.run_program("analyze", "spec.json", "--sweep", "constants.r=5,6")
+        self.assertEqual(
+            result.stderr.decode(),
+            "coordreq: warning: spec.json constants.r=5: nothing depends on the constant k (/constants/k)\n",
+        )
+        result = self.run_program("analyze", "spec.json", "--sweep", "constants.r=5,6", "--json")
+        runs = json.loads(result.stdout)["runs"]
+        self.assertEqual([len(run["summary"]["warnings"]) for run in runs], [1, 1])
+
+    def test_the_results_file_is_the_same(self):
+        """Warnings are nothing that a file holds."""
+        self.write("plain.json", SPEC)
+        self.write("warned.json", spec_with(states=[without_outside(X), Y]))
+        for name in ("plain", "warned"):
+            self.assertEqual(self.run_program("analyze", f"{name}.json", "-o", f"{name}.h5").returncode, 0)
+        result = self.run_program("compare", "plain.h5", "warned.h5")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        with h5py.File(self.folder / "warned.h5") as file:
+            self.assertNotIn("warning", " ".join(file))
+
+    def test_the_examples_have_no_warnings(self):
+        for path in sorted([*CONFIGS.glob("*.json"), *CONFIGS.glob("tutorial/*.json")]):
+            with self.subTest(path.name):
+                result = self.run_program("validate", str(path), "--json")
+                found = [own["kind"] for own in json.loads(result.stdout)["warnings"]]
+                # The first step of the tutorial says nothing of the walls, and the second one explains it.
+                self.assertEqual(found, ["blocked"] if path.name == "corridor_1.json" else [])
+
+
+if __name__ == "__main__":
+    unittest.main()
