@@ -44,7 +44,7 @@ def point(memory, safe, **changes):
 THERMOSTAT = spec_with(
     name="thermostat",
     states=[
-        {"name": "T", "lower": 14, "upper": 26, "step": 0.5},
+        {"name": "T", "lower": 14, "upper": 26, "step": 0.5, "outside": "unsafe"},
         {"name": "m", "lower": 0, "upper": 1, "step": 1, "discrete": True},
     ],
     inputs=[{"name": "u", "values": [0, 1]}, {"name": "v", "values": [0, 1]}],
@@ -120,7 +120,7 @@ class Cases(Case):
 
     def test_a_memory_is_a_state_made_by_hand(self):
         """The same product of system and automaton: K, delays and collision times are equal."""
-        grid = [{"name": name, "lower": 0, "upper": 4, "step": 1, "discrete": True} for name in "xy"]
+        grid = [{"name": name, "lower": 0, "upper": 4, "step": 1, "discrete": True, "outside": "unsafe"} for name in "xy"]
         safe = "not (hot and tired and y >= 3) and x + y <= 6"
         own = spec_with(states=grid, memory={"hot": "within(3, x >= 3)", "tired": "since(y > 0, x >= 4)"}, safe=safe)
         equations = dict(own["dynamics"]["equations"], h="if(x >= 3, 2, max(h - 1, 0))", t="if(tired, 1, 0)")
@@ -185,6 +185,17 @@ class Cases(Case):
         text = "".join(" ".join(map(str, state)) + "\n" for state in states)
         result = subprocess.run([self.folder / "main"], input=text, capture_output=True, text=True, check=True)
         self.assertEqual([[int(x) for x in line.split()] for line in result.stdout.splitlines()], expected)
+
+    def test_first_come_costs_nothing(self):
+        half = []
+        for name, first in (("crossing", ()), ("first_come", (0, 0))):
+            self.run_well("analyze", str(CONFIGS / f"{name}.json"), "-o", "out.h5")
+            with h5py.File(self.folder / "out.h5") as file:
+                delay = file["delay"][0][(..., *first)]
+            delay = delay[delay >= 0]
+            self.assertEqual(delay.size, 20501)
+            half.append(int(np.sort(delay)[delay.size // 2]))
+        self.assertEqual(half, [4, 5])
 
     def test_the_examples_hold(self):
         for name in ("first_come", "patrol_lock"):

@@ -32,6 +32,7 @@ TEST(MemoryStates, AreNumberedInTheOrderOfTheText) {
   EXPECT_EQ(kept(R"spec({"m": "once(x1 > 0.1)"})spec"), (Names{"m_past 3"}));
   EXPECT_EQ(kept(R"spec({"m": "once(x1 > 0.1)"})spec", "center"), (Names{"m_past 2"}));
   EXPECT_EQ(kept(R"spec({"m": "once(0.2 <= x1 <= 0.4)"})spec"), (Names{"m_past 3"}));
+  EXPECT_EQ(kept(R"spec({"m": "once(0.2 <= x1 <= 0.4)"})spec", "center"), (Names{"m_past 2"}));
   EXPECT_EQ(kept(R"spec({"m": "within(4, x1 > 0.1) or for_last(3, x1 > 0.1)"})spec"),
             (Names{"m_past1 4", "m_past2 4", "m_past3 3", "m_past4 3"}));
   EXPECT_EQ(kept(R"spec({"m": "within(4, previous(x1 > 9))"})spec"), (Names{"m_past1 4", "m_past2 2"}));
