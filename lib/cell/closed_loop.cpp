@@ -78,7 +78,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
     }
     const bool coordinated = countdown == 0;
     const Nature nature = draw_nature(disturbances);
-    next_.begin(state.exact, nature.disturbance, nature.error);
+    next_.begin(state.exact, nature.disturbance, nature.error, state.place.cell);
     const bool from_progress = approaching && !trace.arrived;
     const std::optional<std::int64_t> u =
         chooser_.choose(state.place.cell, state.measured, coordinated, from_progress, next_, actions);
@@ -122,12 +122,12 @@ std::int32_t ClosedLoop::begin_countdown(const State& state, const RunTrace& tra
 bool ClosedLoop::is_beyond_goal_side(const State& state) const {
   const UniformGrid& grid = problem_.abstraction->grid;
   for (std::size_t i = 0; i < grid.size(); ++i) {
-    const Rational lower = grid[i].point(0) - grid[i].radius();
     const Rational upper = grid[i].point(grid[i].count - 1) + grid[i].radius();
-    const bool below = state.measured[i] < lower, above = state.measured[i] >= upper;
-    if ((below && !traits(grid[i].below).wins) || (above && !traits(grid[i].above).wins)) {
-      if (!grid[i].periodic() && traits(below ? grid[i].below : grid[i].above).arrives) return false;
-    }
+    const bool below = state.measured[i] < grid[i].point(0) - grid[i].radius();
+    const bool above = grid[i].discrete ? state.measured[i] > upper : state.measured[i] >= upper;
+    if (!below && !above) continue;
+    const OutsideTraits& rule = traits(below ? grid[i].below : grid[i].above);
+    if (rule.arrives && !rule.wins) return false;
   }
   return true;
 }

@@ -36,7 +36,7 @@ class Explorer {
       (cell) => this.choose(cell),
     );
     this.addControls();
-    this.index = data.states.map((state) => Math.floor(state.points.length / 2));
+    this.index = data.states.map((state) => (state.kept ? 0 : Math.floor(state.points.length / 2)));
   }
 
   // Shows the middle of the grid, or a best state where there is nothing to see in the middle.
