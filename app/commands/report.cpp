@@ -41,8 +41,8 @@ std::string page_of(const ResultsReader& results, ReportData& data) {
   ReportPage page;
   page.title = printable(results.spec().name);
   page.summary = "<h1>" + html_line(results.spec().name) + "</h1>\n" + report_task(results) +
-                 report_answer(results, data) + report_requirements(results) + report_coalitions(results) +
-                 report_network(results);
+                 report_answer(results, data) + report_goal(results) + report_requirements(results) +
+                 report_coalitions(results) + report_network(results);
   page.details = report_details(results) + report_footer(results);
   page.data = std::move(data.json);
   return report_page(page);

@@ -79,6 +79,8 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
     const bool coordinated = countdown == 0;
     const Nature nature = draw_nature(disturbances);
     next_.begin(state.exact, nature.disturbance, nature.error, state.place.cell);
+    // Those that coordinate head for the goal where they can, whatever the countdown was of that ended here.
+    if (coordinated) approaching = is_on_the_way(state, trace);
     const bool from_progress = approaching && !trace.arrived;
     const std::optional<std::int64_t> u =
         chooser_.choose(state.place.cell, state.measured, coordinated, from_progress, next_, actions);
@@ -111,9 +113,13 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
   return trace;
 }
 
+bool ClosedLoop::is_on_the_way(const State& state, const RunTrace& trace) const {
+  return problem_.has_goal() && !trace.arrived && state.place.kind == Kind::cell &&
+         problem_.is_on_the_way(state.place.cell);
+}
+
 std::int32_t ClosedLoop::begin_countdown(const State& state, const RunTrace& trace, bool& approaching) const {
-  approaching = problem_.has_goal() && !trace.arrived && state.place.kind == Kind::cell &&
-                problem_.is_on_the_way(state.place.cell);
+  approaching = is_on_the_way(state, trace);
   if (!approaching) return reset_countdown(trace.samples.back().delay);
   return reset_countdown(problem_.approach_delay[static_cast<std::size_t>(state.place.cell)]);
 }

@@ -104,6 +104,8 @@ class ClosedLoop {
   [[nodiscard]] bool advance(State& state, std::int64_t u, const Nature& nature);
   [[nodiscard]] RunTrace::Sample sample(const State& state);
   [[nodiscard]] std::int32_t reset_countdown(std::int32_t delay) const;
+  /// The goal can be forced, and has not been reached.
+  [[nodiscard]] bool is_on_the_way(const State& state, const RunTrace& trace) const;
   /// The countdown that begins at a sample. @param approaching set to whether it is one of the approach
   [[nodiscard]] std::int32_t begin_countdown(const State& state, const RunTrace& trace,
                                              bool& approaching) const;

@@ -170,7 +170,7 @@ class Cases(Case):
         table = self.run_program("export", "r.h5", "--format", "csv").stdout.decode().splitlines()
         self.assertIn("arrival", table[0].split(","))
         self.assertIn("approach_delay:a|b", table[0].split(","))
-        header = self.run_program("export", "r.h5", "--format", "c").stdout.decode()
+        header = self.run_program("export", "r.h5", "--format", "c-header").stdout.decode()
         self.assertIn("coordreq_hand_approach_countdown", header)
         page = self.run_program("report", "r.h5", "-o", "-").stdout.decode()
         self.assertIn("Time to the goal", page)
