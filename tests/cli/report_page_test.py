@@ -88,8 +88,8 @@ class Cases(PageCase):
         self.assertIn("gear = 1", self.cell()["Centre"])
         self.focus("#slider-2")
         self.assert_picture_changes(lambda: self.browser.press("ArrowLeft"))
-        self.assertIn("v = 0 m/s", self.cell()["Centre"])
-        self.assertEqual(self.browser.run("document.getElementById('slider-2').getAttribute('aria-valuetext')"), "0 m/s")
+        self.assertIn("v = 0.5 m/s", self.cell()["Centre"])
+        self.assertEqual(self.browser.run("document.getElementById('slider-2').getAttribute('aria-valuetext')"), "0.5 m/s")
         self.assert_is_answer(self.cell(), "alone")
 
     def test_other_maps(self):
@@ -120,7 +120,7 @@ class Cases(PageCase):
         self.report(self.example("circle.json"))
         self.open()
         self.focus("#picture")
-        for key, shift, index in (("ArrowRight", False, (101, 100)), ("ArrowUp", True, (101, 110)), ("ArrowLeft", True, (91, 110)),
+        for key, shift, index in (("ArrowRight", False, (100, 100)), ("ArrowUp", True, (100, 110)), ("ArrowLeft", True, (90, 110)),
                                   ("Home", False, (0, 110)), ("ArrowLeft", False, (0, 110)), ("End", False, (200, 110)),
                                   ("ArrowDown", False, (200, 109))):  # fmt: skip
             self.browser.press(key, shift=shift)
