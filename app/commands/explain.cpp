@@ -22,9 +22,7 @@ ExitCode run(const ExplainOptions& own) {
   if (own.at.empty()) throw UsageError("no state, expected --at NAME=VALUE,...");
   const ResultsReader results(own.results, own.max_memory);
   const std::size_t partition = find_partition(results.spec(), own.partition);
-  std::vector<std::string> names;
-  for (const GridDimension& dimension : results.grid().dimensions()) names.push_back(dimension.name);
-  const std::vector<Rational> state = parse_state(own.at, names, "--at");
+  const std::vector<Rational> state = parse_state(own.at, state_names(results.spec()), "--at");
   const Location location = locate(results.grid(), state);
   if (location.kind != Location::Kind::cell)
     throw UsageError("expected a state in a cell of the grid, found one outside; see query", "--at");

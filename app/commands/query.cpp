@@ -19,15 +19,9 @@ struct QueryOptions : CommonOptions {
   std::optional<std::string> at;  ///< none: states come from standard input
 };
 
-std::vector<std::string> state_names(const ResultsReader& results) {
-  std::vector<std::string> names;
-  for (const GridDimension& dimension : results.grid().dimensions()) names.push_back(dimension.name);
-  return names;
-}
-
 /// Line by line, so that a program at the other end of two pipes gets each answer before it asks on.
 void answer_standard_input(const ResultsReader& results, StateQuery& query, bool as_json) {
-  StateReader states(std::cin, state_names(results), "standard input");
+  StateReader states(std::cin, state_names(results.spec()), "standard input");
   const bool json = as_json || states.format() == StateReader::Format::json_lines;
   if (!json) write_output(answer_csv_header(results));
   while (std::optional<std::vector<Rational>> state = states.next()) {
@@ -44,7 +38,7 @@ ExitCode run(const QueryOptions& own) {
     answer_standard_input(results, query, own.json);
     return ExitCode::success;
   }
-  const StateAnswer answer = query.at(parse_state(*own.at, state_names(results), "--at"));
+  const StateAnswer answer = query.at(parse_state(*own.at, state_names(results.spec()), "--at"));
   print_state(own, answer, results);
   return ExitCode::success;
 }

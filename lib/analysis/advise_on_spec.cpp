@@ -46,7 +46,8 @@ void advise_on_state_grids(const ProblemSpec& spec, Warnings& found) {
 }
 
 void advise_on_input_grids(const ProblemSpec& spec, const Node& root, Warnings& found) {
-  const Scope scope(root);
+  MemoryReader memory(root);
+  const Scope scope(root, memory);
   const std::vector<Node> objects = root.elements("inputs");
   for (std::size_t i = 0; i < spec.inputs.size(); ++i) {
     const InputSpec& input = spec.inputs[i];

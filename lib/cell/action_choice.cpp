@@ -101,7 +101,7 @@ std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<c
     for (const std::int64_t a : classes_[c].project(*admissible_)) parts.push_back(class_parts_[c][at(a)]);
   }
   if (policy_ == Policy::random) return choose_randomly(random);
-  return policy_ == Policy::adversarial ? choose_worst(next) : choose_preferred(measured);
+  return policy_ == Policy::adversarial ? choose_worst(next) : choose_preferred(cell, measured);
 }
 
 std::int64_t ActionChooser::choose_randomly(RandomStream& random) const {
@@ -157,8 +157,8 @@ std::int64_t ActionChooser::smallest_margin(NextStates& next, const Numbers& can
       });
 }
 
-std::int64_t ActionChooser::choose_preferred(std::span<const Rational> measured) {
-  nominal_.begin(measured, middle_, no_error_);
+std::int64_t ActionChooser::choose_preferred(std::int64_t cell, std::span<const Rational> measured) {
+  nominal_.begin(measured, middle_, no_error_, cell);
   if (projections_.size() == 1) {  // coordinated, or one class of all
     std::vector<std::int32_t> everyone(prefer_.size());
     std::iota(everyone.begin(), everyone.end(), 0);

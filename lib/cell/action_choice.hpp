@@ -72,7 +72,7 @@ class ActionChooser {
 
   [[nodiscard]] std::int64_t choose_randomly(RandomStream& random) const;
   [[nodiscard]] std::int64_t choose_worst(NextStates& next);
-  [[nodiscard]] std::int64_t choose_preferred(std::span<const Rational> measured);
+  [[nodiscard]] std::int64_t choose_preferred(std::int64_t cell, std::span<const Rational> measured);
   /// Each joint input that can be chosen, once.
   template <class Visit>
   void for_each_choice(const Visit& visit) const;

@@ -66,7 +66,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
   for (std::int64_t k = 0; k < options_.steps; ++k) {
     const bool coordinated = countdown == 0;
     const Nature nature = draw_nature(disturbances);
-    next_.begin(state.exact, nature.disturbance, nature.error);
+    next_.begin(state.exact, nature.disturbance, nature.error, state.place.cell);
     const std::optional<std::int64_t> u =
         chooser_.choose(state.place.cell, state.measured, coordinated, next_, actions);
     if (!u) {

@@ -18,7 +18,8 @@ NextStates::NextStates(const ProblemSpec& spec, const Abstraction& abstraction, 
 }
 
 void NextStates::begin(std::span<const Rational> state, std::span<const Rational> disturbance,
-                       std::span<const Rational> error) {
+                       std::span<const Rational> error, std::int64_t cell) {
+  cell_ = cell;
   for (std::size_t i = 0; i < state.size(); ++i) slots_[spec_->state_slot(i)] = state[i];
   for (std::size_t l = 0; l < disturbance.size(); ++l) {
     slots_[spec_->disturbance_slot(l)] = disturbance[l];
@@ -41,7 +42,7 @@ const NextStates::Value& NextStates::state(std::size_t i, std::int64_t u) {
     slots_[spec_->input_slot(input)] = inputs[input].values[static_cast<std::size_t>(inputs.index(u, input))];
   }
   Value& result = place->second;
-  if (const std::optional<Rational> flow = dynamics_->next(i, slots_)) {
+  if (const std::optional<Rational> flow = next(i, u)) {
     const GridDimension& dimension = abstraction_->grid[i];
     result.known = true;
     result.value = reset_at_sample(dimension, *flow);
@@ -52,6 +53,11 @@ const NextStates::Value& NextStates::state(std::size_t i, std::int64_t u) {
     result.index = location.index.front();
   }
   return result;
+}
+
+std::optional<Rational> NextStates::next(std::size_t i, std::int64_t u) {
+  if (!spec_->dynamics.is_kept(i)) return dynamics_->next(i, slots_);
+  return abstraction_->grid[i].point(abstraction_->raw(i, cell_, u).first);
 }
 
 bool NextStates::is_known(std::int64_t u) {

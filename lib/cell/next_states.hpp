@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -32,8 +33,9 @@ class NextStates {
   NextStates(const ProblemSpec& spec, const Abstraction& abstraction, PointDynamics& dynamics);
 
   /// @param error what measuring the next state adds, one a state
+  /// @param cell where the state is measured: what memories keep is a function of it
   void begin(std::span<const Rational> state, std::span<const Rational> disturbance,
-             std::span<const Rational> error);
+             std::span<const Rational> error, std::int64_t cell);
 
   [[nodiscard]] const Value& state(std::size_t i, std::int64_t u);
   /// Where the next state is measured, as locate() has it; `beyond` if it is not known.
@@ -42,9 +44,12 @@ class NextStates {
   [[nodiscard]] bool is_known(std::int64_t u);
 
  private:
+  [[nodiscard]] std::optional<Rational> next(std::size_t i, std::int64_t u);
+
   const ProblemSpec* spec_;
   const Abstraction* abstraction_;
   PointDynamics* dynamics_;
+  std::int64_t cell_ = 0;
   std::vector<Rational> slots_;
   std::vector<Rational> error_;
   std::vector<std::unordered_map<std::int64_t, Value>> values_;  ///< by state, then the number of its inputs

@@ -7,6 +7,7 @@
 
 #include "answers/invariance/safe_tubes.hpp"
 #include "base/error.hpp"
+#include "cell/invariant_cells.hpp"
 #include "cell/state_text.hpp"
 #include "cell/write_runs.hpp"
 #include "model/locate.hpp"
@@ -56,9 +57,7 @@ bool is_beyond_limit(const GridDimension& dimension, const Rational& value) {
 }
 
 std::vector<Rational> start_state(const ResultsReader& results, const std::string& text) {
-  std::vector<std::string> names;
-  for (const StateSpec& state : results.spec().states) names.push_back(state.name);
-  std::vector<Rational> state = parse_state(text, names, "--from");
+  std::vector<Rational> state = parse_state(text, state_names(results.spec()), "--from");
   for (std::size_t i = 0; i < state.size(); ++i) {
     const GridDimension& dimension = results.grid()[i];
     if (dimension.periodic()) state[i] = reset_at_sample(dimension, state[i]);
@@ -165,8 +164,11 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   const std::vector<std::int32_t> delay = results.delay(partition, all_cells(results.grid()));
   if (runs.start) {
     check_start(results, *runs.start, delay);
-  } else if (std::none_of(delay.begin(), delay.end(), [](std::int32_t steps) { return steps >= 0; })) {
-    throw UsageError("the invariance set is empty: there is no state to start from", "--start");
+  } else if (InvariantCells(spec, delay).count() == 0) {
+    throw UsageError(spec.memory.empty()
+                         ? "the invariance set is empty: there is no state to start from"
+                         : "the invariance set has no state with nothing remembered to start from",
+                     "--start");
   }
   // Tubes are not stored.
   const bool is_stored = results.has_abstraction() && !spec.abstraction.between_samples;

@@ -35,8 +35,8 @@ std::vector<std::string> csv_fields(std::string_view line, const std::string& wh
 
 }  // namespace
 
-StateReader::StateReader(std::istream& stream, std::vector<std::string> names, std::string source)
-    : stream_(stream), names_(std::move(names)), source_(std::move(source)) {
+StateReader::StateReader(std::istream& stream, StateNames states, std::string source)
+    : stream_(stream), names_(std::move(states.names)), needed_(states.needed), source_(std::move(source)) {
   pending_ = read_line();
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (line_.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0) line_.erase(0, kByteOrderMark.size());
@@ -69,7 +69,7 @@ void StateReader::read_header() {
     }
     columns_.push_back(state);
   }
-  for (std::size_t i = 0; i < names_.size(); ++i) {
+  for (std::size_t i = 0; i < needed_; ++i) {
     if (std::find(columns_.begin(), columns_.end(), i) == columns_.end()) {
       throw UsageError(fmt::format("no column for the state '{}'", names_[i]), place());
     }
@@ -102,6 +102,10 @@ std::vector<Rational> StateReader::json_state() const {
     for (const std::string& key : root.keys()) static_cast<void>(state_number(key, names_, place()));
     std::vector<Rational> state;
     for (const std::string& name : names_) {
+      if (!root.has(name) && state.size() >= needed_) {
+        state.emplace_back(0);
+        continue;
+      }
       if (!root.has(name)) throw UsageError(fmt::format("no value for the state '{}'", name), place());
       const JsonDocument::Node node = root[name];
       if (!node.is_number() && !node.is_text()) {

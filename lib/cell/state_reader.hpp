@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cell/state_text.hpp"
 #include "numeric/rational.hpp"
 
 namespace coordreq {
@@ -22,11 +23,11 @@ class StateReader {
   enum class Format : std::uint8_t { csv, json_lines };
 
   /// Reads up to the first line that is not empty. REQUIRES: `stream` outlives this object.
-  /// @param names of the states. @param source for messages
-  StateReader(std::istream& stream, std::vector<std::string> names, std::string source);
+  /// @param source for messages
+  StateReader(std::istream& stream, StateNames states, std::string source);
 
   [[nodiscard]] Format format() const { return format_; }
-  /// The next state, in the order of `names`; nothing at the end.
+  /// The next state, in the order of the names; nothing at the end.
   [[nodiscard]] std::optional<std::vector<Rational>> next();
 
  private:
@@ -38,6 +39,7 @@ class StateReader {
 
   std::istream& stream_;
   std::vector<std::string> names_;
+  std::size_t needed_;
   std::string source_;
   Format format_ = Format::csv;
   std::vector<std::size_t> columns_;  ///< state of each CSV column

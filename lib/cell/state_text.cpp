@@ -53,8 +53,20 @@ std::size_t state_number(std::string_view name, const std::vector<std::string>& 
                    where);
 }
 
-std::vector<Rational> parse_state(std::string_view text, const std::vector<std::string>& names,
-                                  const std::string& where) {
+StateNames state_names(const ProblemSpec& spec) {
+  std::vector<std::string> names;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    names.push_back(spec.states[i].name);
+    if (spec.dynamics.is_kept(i)) ++kept;
+  }
+  StateNames result(std::move(names));
+  result.needed -= kept;
+  return result;
+}
+
+std::vector<Rational> parse_state(std::string_view text, const StateNames& states, const std::string& where) {
+  const std::vector<std::string>& names = states.names;
   std::vector<std::optional<Rational>> values(names.size());
   for (const std::string_view part : split_at_commas(text)) {
     const std::size_t equals = part.find('=');
@@ -67,8 +79,9 @@ std::vector<Rational> parse_state(std::string_view text, const std::vector<std::
   }
   std::vector<Rational> state;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!values[i]) throw UsageError(fmt::format("no value for the state '{}'", names[i]), where);
-    state.push_back(*values[i]);
+    if (!values[i] && i < states.needed)
+      throw UsageError(fmt::format("no value for the state '{}'", names[i]), where);
+    state.push_back(values[i].value_or(0));
   }
   return state;
 }

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "numeric/rational.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
@@ -13,10 +16,20 @@ namespace coordreq {
 /// @param where for the message. @throws UsageError
 [[nodiscard]] Rational parse_value(std::string_view text, const std::string& where);
 
+/// A state of a problem as people and files name it.
+struct StateNames {
+  StateNames(std::vector<std::string> all) : names(std::move(all)), needed(names.size()) {}
+  StateNames(std::initializer_list<std::string> all) : StateNames(std::vector<std::string>(all)) {}
+
+  std::vector<std::string> names;
+  std::size_t needed;  ///< so many need a value; the others, which memories keep, are 0 at first
+};
+[[nodiscard]] StateNames state_names(const ProblemSpec& spec);
+
 /// "x1=0.1,x2=1/3": one value a name, in any order. Commas in parentheses belong to a value.
-/// @param names of the states. @returns the values in the order of `names`
+/// @returns the values in the order of the names
 /// @throws UsageError naming what is unknown, missing, given twice or no number
-[[nodiscard]] std::vector<Rational> parse_state(std::string_view text, const std::vector<std::string>& names,
+[[nodiscard]] std::vector<Rational> parse_state(std::string_view text, const StateNames& states,
                                                 const std::string& where);
 
 /// `text` without blanks at its ends.

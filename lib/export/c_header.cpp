@@ -14,6 +14,7 @@
 #include "cell/cell_controller.hpp"
 #include "export/c_header_tables.hpp"
 #include "export/c_header_text.hpp"
+#include "reach/update_table.hpp"
 
 namespace coordreq {
 namespace {
@@ -54,6 +55,7 @@ class HeaderWriter {
  public:
   HeaderWriter(const ResultsReader& results, std::size_t partition, ThreadTeam& team, const TextSink& sink)
       : results_(results),
+        team_(team),
         partition_(results.partitions()[partition]),
         spec_(results.spec().coordination.partitions[partition]),
         runs_(find_action_runs(results, partition, team)),
@@ -72,6 +74,8 @@ class HeaderWriter {
     write_inputs();
     write_dimensions();
     put(c_header::kFunctions);
+    if (results_.spec().dynamics.is_kept(results_.grid().size() - 1)) write_memory();
+    sink_(c_header::kClosing);
   }
 
  private:
@@ -214,7 +218,33 @@ class HeaderWriter {
     array("double", "bound", bounds, [](double value) { return fmt::format("{:a}", value); });
   }
 
+  /// A table for each state that a memory keeps, over what its next value depends on.
+  void write_memory() const {
+    const ProblemSpec& spec = results_.spec();
+    Abstraction tables{.grid = results_.grid(), .inputs = results_.inputs()};
+    tables.tables.resize(spec.states.size());
+    std::vector<std::int64_t> strides;
+    std::vector<std::size_t> first;
+    std::vector<std::int32_t> next;
+    for (std::size_t i = 0; i < spec.states.size(); ++i) {
+      if (!spec.dynamics.is_kept(i)) continue;
+      build_update_table(spec, tables, i, team_);
+      const TransitionTable& table = tables.tables[i];
+      strides.insert(strides.end(), table.state_stride.begin(), table.state_stride.end());
+      first.push_back(next.size());
+      for (const IndexRange& entry : table.entries) next.push_back(entry.first);
+    }
+    sink_("\n/* Kept state k: next[first[k] + sum of index[i] * stride[k * states + i]]. */\n");
+    put("#define $M_KEPT {}\n", first.size());
+    integers("uint32_t", "next_first", first);
+    integers("uint32_t", "next_stride", strides);
+    const auto most = std::max_element(next.begin(), next.end());
+    integers(unsigned_type(static_cast<std::size_t>(*most)), "next", next);
+    put(c_header::kMemory);
+  }
+
   const ResultsReader& results_;
+  ThreadTeam& team_;
   const StoredPartition& partition_;
   const PartitionSpec& spec_;
   ActionRuns runs_;

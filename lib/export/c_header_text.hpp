@@ -128,8 +128,35 @@ static inline double $P_input(uint32_t c, uint32_t a, uint32_t j) {{
   for (; i > $P_class_first[c] + j; --i) a /= $P_value_count[i];
   return $P_value[$P_value_first[i] + a % $P_value_count[i]];
 }}
-
-#endif
 )c";
+
+inline constexpr char kMemory[] = R"c(
+/* What memories keep are the last $M_KEPT states, all 0 at first. Their values before the next sample, as one
+   number, row-major; negative if there is no such cell. */
+static inline int32_t $P_remember(int32_t cell) {{
+  uint32_t index[$M_STATES], i, k, rest = (uint32_t)cell;
+  int32_t kept = 0;
+  if (cell < 0 || cell >= $M_CELLS) return -1;
+  for (i = $M_STATES; i-- > 0;) {{
+    index[i] = rest % $P_points[i];
+    rest /= $P_points[i];
+  }}
+  for (k = 0; k < $M_KEPT; ++k) {{
+    uint32_t place = $P_next_first[k];
+    for (i = 0; i < $M_STATES; ++i) place += index[i] * $P_next_stride[k * $M_STATES + i];
+    kept = kept * (int32_t)$P_points[$M_STATES - $M_KEPT + k] + (int32_t)$P_next[place];
+  }}
+  return kept;
+}}
+
+/* The value of the k-th of these states, 0 <= k < $M_KEPT. */
+static inline double $P_kept(int32_t kept, uint32_t k) {{
+  uint32_t j = $M_KEPT - 1;
+  for (; j > k; --j) kept /= (int32_t)$P_points[$M_STATES - $M_KEPT + j];
+  return kept % (int32_t)$P_points[$M_STATES - $M_KEPT + k];
+}}
+)c";
+
+inline constexpr char kClosing[] = "\n#endif\n";
 
 }  // namespace coordreq::c_header

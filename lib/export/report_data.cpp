@@ -24,6 +24,7 @@ Json states_json(const ResultsReader& results) {
     state["unit"] = results.spec().states[i].unit;
     state["step"] = nearest_double(dimension.step);
     state["discrete"] = dimension.discrete;
+    if (results.spec().dynamics.is_kept(i)) state["kept"] = true;
     state["points"] = Json::array();
     for (std::int64_t k = 0; k < dimension.count; ++k)
       state["points"].push_back(nearest_double(dimension.point(k)));

@@ -1,5 +1,6 @@
 #include "expression/cell_truth.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "expression/tape_builder.hpp"
@@ -24,6 +25,11 @@ std::vector<bool> joined_nodes(const Program& condition) {
 }
 
 }  // namespace
+
+bool may_not_know(const Program& condition) {
+  return std::any_of(condition.nodes.begin(), condition.nodes.end(),
+                     [](const Program::Node& node) { return node.op == Operator::literal_undecided; });
+}
 
 CellTruth::Comparison::Comparison(Program condition)
     : program(std::move(condition)), decider(program), variables(program.variables()) {}

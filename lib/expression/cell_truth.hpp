@@ -10,6 +10,9 @@
 
 namespace coordreq {
 
+/// The condition says of itself that it may be undecided, where a memory does not know.
+[[nodiscard]] bool may_not_know(const Program& condition);
+
 /// The truth of a condition at a cell, comparison by comparison: each one is asked of all that its variables
 /// can be there (see ConditionDecider; where there are several ranges, of all of them), and the answers are
 /// joined by Kleene's rules. So the truth of a condition is one of its comparisons, however they were

@@ -234,6 +234,11 @@ class Parser {
   }
 
   [[noreturn, gnu::noinline]] void fail_function(const Token& word) const {
+    if (past_operator_arguments(word.text) > 0) {
+      place_.fail(
+          fmt::format("{} looks at the past, expected it in a formula of 'memory' only", quoted(word.text)),
+          word.offset);
+    }
     std::string known(spelling(Operator::if_else));
     for (const NumberFunction& function : number_functions()) {
       if (!function.call.empty()) known += fmt::format(", {}", function.call);

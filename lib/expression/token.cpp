@@ -109,6 +109,11 @@ std::string shown(const Token& token) {
   return quoted(token.text);
 }
 
+std::size_t past_operator_arguments(std::string_view name) {
+  if (name == "once" || name == "always" || name == "previous") return 1;
+  return name == "since" || name == "within" || name == "for_last" ? 2 : 0;
+}
+
 std::optional<Function> find_function(std::string_view name) {
   if (name == spelling(Operator::if_else)) return Function{name, Operator::if_else, 3, 3};
   for (const NumberFunction& function : number_functions()) {

@@ -43,4 +43,8 @@ struct Function {
 };
 [[nodiscard]] std::optional<Function> find_function(std::string_view name);
 
+/// How many arguments an operator on the past takes; 0 if it is none. They stand in formulas of memories
+/// only, which are taken apart before they are parsed, so that their names are free for other things.
+[[nodiscard]] std::size_t past_operator_arguments(std::string_view name);
+
 }  // namespace coordreq

@@ -65,18 +65,7 @@ std::int64_t UniformGrid::points() const {
 
 UniformGrid make_grid(const ProblemSpec& spec) {
   std::vector<GridDimension> dimensions;
-  for (const StateSpec& state : spec.states) {
-    dimensions.push_back({.name = state.name,
-                          .first = state.grid.first,
-                          .step = state.grid.step,
-                          .count = state.grid.count,
-                          .discrete = state.discrete,
-                          .below = state.below,
-                          .above = state.above,
-                          .lower = state.lower,
-                          .upper = state.upper,
-                          .measurement_error = state.measurement_error});
-  }
+  for (const StateSpec& state : spec.states) dimensions.push_back(dimension_of(state));
   return UniformGrid(std::move(dimensions));
 }
 

@@ -7,32 +7,10 @@
 
 #include "model/outside.hpp"
 #include "numeric/rational.hpp"
+#include "spec/grid_dimension.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
-
-/// One state dimension: grid points first + k * step, k = 0, ..., count - 1, and what lies beyond them.
-struct GridDimension {
-  std::string name;
-  Rational first;
-  Rational step;
-  std::int64_t count = 0;
-  bool discrete = false;  ///< cells are points
-  Outside below = Outside::unsafe;
-  Outside above = Outside::unsafe;
-  Rational lower;  ///< as written in the spec; [lower, upper) is one period of a periodic dimension
-  Rational upper;
-  Rational measurement_error = 0;  ///< how far the true state may be from the measured one
-  /// How far beyond its outer face the first and the last cell count as going on (see safe_beyond_limits()).
-  Rational stretch_below = 0;
-  Rational stretch_above = 0;
-
-  /// The dimension wraps round: first = lower, count * step = upper - lower.
-  [[nodiscard]] bool periodic() const { return traits(below).wraps; }
-  [[nodiscard]] Rational point(std::int64_t k) const { return first + step * Rational(static_cast<long>(k)); }
-  /// Half the width of a cell: step / 2, or 0 for a discrete dimension.
-  [[nodiscard]] Rational radius() const { return discrete ? Rational(0) : Rational(step / 2); }
-};
 
 /// The cells of a state space. Linear indices are row-major, the last dimension fastest, below 2^62.
 ///

@@ -43,7 +43,15 @@ UpdateRanges::UpdateRanges(const ProblemSpec& spec, const UniformGrid& grid, con
       needed_(value_nodes(program_)),
       condition_of_(program_.nodes.size(), 0),
       values_(program_.nodes.size()) {
-  const std::vector<ConditionAxis> axes = condition_axes(grid, inputs, Sampling::closed_cells);
+  past_ = spec.dynamics.update(state)->past ? &*spec.dynamics.update(state)->past : nullptr;
+  const bool centres = past_ != nullptr && spec.abstraction.safe == Membership::center;
+  const std::vector<ConditionAxis> axes =
+      condition_axes(grid, inputs, centres ? Sampling::centres : Sampling::closed_cells);
+  if (past_ != nullptr) {
+    conditions_.emplace_back(past_->first, axes);
+    if (past_->kind == PastOperator::Kind::since) conditions_.emplace_back(past_->second, axes);
+    return;
+  }
   TapeBuilder tape;
   std::vector<TapeBuilder::Index> here;
   for (std::size_t i = 0; i < program_.nodes.size(); ++i) {
@@ -59,9 +67,20 @@ IndexRange UpdateRanges::at(std::span<const std::int64_t> indices, bool is_new) 
   if (is_new) known_.clear();
   truths_.clear();
   for (CellTruth& condition : conditions_) truths_.push_back(condition.at(indices));
+  if (past_ != nullptr) return kept(indices);
   const auto known = known_.find(truths_);
   if (known != known_.end()) return known->second;
   return known_.emplace(truths_, range_of(indices)).first->second;
+}
+
+IndexRange UpdateRanges::kept(std::span<const std::int64_t> indices) const {
+  const Truth one = truths_.front();
+  const Truth other = truths_.back();
+  const bool is_open = one == Truth::undecided || other == Truth::undecided;
+  if (is_open && !past_->three_valued)
+    throw SpecError(fmt::format("what {} keeps cannot be decided at a cell", target_.name), "/memory");
+  const std::int64_t k = past_->next(one, other, indices[past_->slot]);
+  return raw_range(target_, k, k);
 }
 
 IndexRange UpdateRanges::range_of(std::span<const std::int64_t> indices) {

@@ -20,6 +20,9 @@ namespace coordreq {
 /// discrete states and inputs are points, and nothing else is read outside of conditions. Conditions are
 /// asked of the closed cell, widened by the measurement error; several of them branch independently.
 ///
+/// What a memory keeps follows from the truth of its conditions at the cell, which is three-valued: the next
+/// value is one. They are asked as `safe` is.
+///
 /// Scratch inside: one object a thread.
 class UpdateRanges {
  public:
@@ -35,6 +38,7 @@ class UpdateRanges {
  private:
   using Values = std::vector<RationalInterval>;  ///< all different; points, as they should be
 
+  [[nodiscard]] IndexRange kept(std::span<const std::int64_t> indices) const;
   [[nodiscard]] IndexRange range_of(std::span<const std::int64_t> indices);
   void find_values(std::size_t node, std::span<const std::int64_t> indices);
   void add_value(std::size_t node, const RationalInterval& value);
@@ -47,6 +51,7 @@ class UpdateRanges {
   const InputSpace& inputs_;
   const GridDimension& target_;
   const Program& program_;
+  const PastOperator* past_ = nullptr;
   std::vector<bool> needed_;               ///< number nodes outside of conditions
   std::vector<std::size_t> condition_of_;  ///< [node]: of an `if` its number among the conditions
   std::deque<CellTruth> conditions_;

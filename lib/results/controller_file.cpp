@@ -40,6 +40,46 @@ Kind kind_of(const std::string& path) {
                         path);
 }
 
+/// The spec of a controller that knows nothing of memories.
+ProblemSpec without_memory(ProblemSpec spec) {
+  for (std::size_t i = spec.states.size(); i-- > 0;) {
+    if (spec.dynamics.is_kept(i)) spec.states.pop_back();  // they come last
+  }
+  return spec;
+}
+
+PackedPairs read_pairs(const std::string& path, Kind kind, const ProblemSpec& spec) {
+  return kind == Kind::hdf5 ? read_stored_controller(path, spec) : read_scots_controller(path, spec);
+}
+
+void check_pairs(const std::string& path, Kind kind, const ProblemSpec& spec) {
+  kind == Kind::hdf5 ? check_stored_controller(path, spec) : check_scots_controller(path, spec);
+}
+
+/// The same pairs for `copies` cells instead of each.
+PackedPairs repeated(const PackedPairs& pairs, std::int64_t copies) {
+  PackedPairs result{.inputs = pairs.inputs, .bytes = {}};
+  const auto width = static_cast<std::ptrdiff_t>(pairs.bytes_per_cell());
+  for (auto cell = pairs.bytes.begin(); cell != pairs.bytes.end(); cell += width) {
+    for (std::int64_t k = 0; k < copies; ++k) result.bytes.insert(result.bytes.end(), cell, cell + width);
+  }
+  return result;
+}
+
+/// Whether the file lists what holds whatever memories keep. @throws as check_pairs() does if it is neither
+/// that nor a file for the spec
+bool ignores_memory(const std::string& path, Kind kind, const ProblemSpec& spec) {
+  if (!spec.memory.empty()) {
+    try {
+      check_pairs(path, kind, without_memory(spec));
+      return true;
+    } catch (const Error&) {  // then it is a file with all axes, or none that fits
+    }
+  }
+  check_pairs(path, kind, spec);
+  return false;
+}
+
 }  // namespace
 
 std::string controller_path(const ProblemSpec& spec) {
@@ -48,19 +88,22 @@ std::string controller_path(const ProblemSpec& spec) {
 
 void check_controller_file(const ProblemSpec& spec) {
   const std::string path = controller_path(spec);
-  if (kind_of(path) == Kind::hdf5) {
-    check_stored_controller(path, spec);
-  } else {
-    check_scots_controller(path, spec);
-  }
+  static_cast<void>(ignores_memory(path, kind_of(path), spec));
 }
 
 ListedController read_controller_file(const ProblemSpec& spec) {
   const std::string path = controller_path(spec);
   const Kind kind = kind_of(path);
-  return {
-      .sha256 = sha256_of_file(path),
-      .pairs = kind == Kind::hdf5 ? read_stored_controller(path, spec) : read_scots_controller(path, spec)};
+  ListedController listed{.sha256 = sha256_of_file(path), .pairs = {}};
+  if (!ignores_memory(path, kind, spec)) {
+    listed.pairs = read_pairs(path, kind, spec);
+    return listed;
+  }
+  std::int64_t copies = 1;
+  for (std::size_t i = 0; i < spec.states.size(); ++i)
+    copies *= spec.dynamics.is_kept(i) ? spec.states[i].grid.count : 1;
+  listed.pairs = repeated(read_pairs(path, kind, without_memory(spec)), copies);
+  return listed;
 }
 
 }  // namespace coordreq

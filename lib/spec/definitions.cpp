@@ -37,7 +37,7 @@ Program Definitions::expand(const Program& program) const {
 }
 
 bool Definitions::is_definition(const Program::Node& node) const {
-  return node.op == Operator::variable && node.a >= first_slot_;
+  return node.op == Operator::variable && node.a >= first_slot_ && definition_at(node) < programs_.size();
 }
 
 bool Definitions::stands_for_condition(const Program& program, const Program::Node& node) const {

@@ -34,6 +34,7 @@ class Definitions {
  private:
   using Index = TapeBuilder::Index;
 
+  /// Slots beyond those of the definitions are provisional ones of memories.
   [[nodiscard]] bool is_definition(const Program::Node& node) const;
   [[nodiscard]] bool stands_for_condition(const Program& program, const Program::Node& node) const;
   [[nodiscard]] std::size_t definition_at(const Program::Node& node) const { return node.a - first_slot_; }

@@ -21,7 +21,7 @@ struct Visit {
 
 [[noreturn]] void fail_cycle(const std::vector<Visit>& path, std::size_t repeated,
                              const std::vector<std::string>& names, const std::string& kind,
-                             const std::string& pointer) {
+                             const std::vector<std::string>& pointers) {
   constexpr std::ptrdiff_t kMostShown = 8;
   const auto start =
       std::find_if(path.begin(), path.end(), [&](const Visit& visit) { return visit.vertex == repeated; });
@@ -33,15 +33,14 @@ struct Visit {
     }
     cycle += names[visit->vertex] + " -> ";
   }
-  throw SpecError(fmt::format("cycle of {}: {}{}", kind, cycle, names[repeated]),
-                  member_pointer(pointer, names[repeated]));
+  throw SpecError(fmt::format("cycle of {}: {}{}", kind, cycle, names[repeated]), pointers[repeated]);
 }
 
 }  // namespace
 
 std::vector<std::size_t> dependency_order(const std::vector<std::vector<std::size_t>>& dependencies,
                                           const std::vector<std::string>& names, const std::string& kind,
-                                          const std::string& pointer) {
+                                          const std::vector<std::string>& pointers) {
   std::vector<std::size_t> order;
   std::vector<Mark> marks(dependencies.size(), Mark::unseen);
   std::vector<Visit> path;
@@ -57,7 +56,7 @@ std::vector<std::size_t> dependency_order(const std::vector<std::vector<std::siz
         continue;
       }
       const std::size_t next = dependencies[vertex][path.back().next++];
-      if (marks[next] == Mark::open) fail_cycle(path, next, names, kind, pointer);
+      if (marks[next] == Mark::open) fail_cycle(path, next, names, kind, pointers);
       if (marks[next] == Mark::unseen) path.push_back({next});
     }
   }

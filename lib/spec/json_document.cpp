@@ -78,8 +78,10 @@ bool is_closing(std::string_view text, std::size_t offset) {
 /// Receives the parser's events and builds the document.
 class Builder : public nlohmann::json_sax<Json> {
  public:
-  Builder(const JsonText& json, Json& root, std::unordered_map<std::string, std::string>& tokens)
-      : json_(json), root_(root), tokens_(tokens) {}
+  using Keys = std::unordered_map<std::string, std::vector<std::string>>;
+
+  Builder(const JsonText& json, Json& root, std::unordered_map<std::string, std::string>& tokens, Keys& keys)
+      : json_(json), root_(root), tokens_(tokens), keys_(keys) {}
 
   bool null() override { return add(nullptr); }
   bool boolean(bool value) override { return add(value); }
@@ -111,6 +113,7 @@ class Builder : public nlohmann::json_sax<Json> {
     if (name.size() > kLongestKey) throw SpecError("key longer than 200 bytes: " + quote_text(name), where);
     if (level.value->contains(name)) throw SpecError("repeated key " + quote_text(name), where);
     key_ = name;
+    if (levels_.size() == 2) keys_[level.pointer].push_back(name);
     return true;
   }
 
@@ -172,6 +175,7 @@ class Builder : public nlohmann::json_sax<Json> {
   const JsonText& json_;
   Json& root_;
   std::unordered_map<std::string, std::string>& tokens_;
+  Keys& keys_;
   std::vector<Level> levels_;
   std::size_t opened_ = 0;  ///< objects and lists so far
   std::string key_;
@@ -186,7 +190,7 @@ JsonDocument JsonDocument::parse(std::string_view text, std::string_view source)
   const auto value = std::make_shared<Json>();
   JsonDocument document;
   document.value_ = value;
-  Builder builder(json, *value, document.number_tokens_);
+  Builder builder(json, *value, document.number_tokens_, document.keys_);
   constexpr bool kStrict = true;
   constexpr bool kIgnoreComments = true;
   // The builder throws on every error, so the result says nothing new.
@@ -253,6 +257,11 @@ std::vector<std::string> JsonDocument::Node::keys() const {
   std::vector<std::string> names;
   for (const auto& [name, value] : value_->items()) names.push_back(name);
   return names;
+}
+
+std::vector<std::string> JsonDocument::Node::keys_as_written() const {
+  const auto found = document_->keys_.find(pointer_);
+  return found == document_->keys_.end() ? std::vector<std::string>() : found->second;
 }
 
 std::string JsonDocument::Node::text_or(const std::string& key, std::string_view fallback) const {

@@ -31,7 +31,8 @@ class JsonDocument {
 
  private:
   std::shared_ptr<const nlohmann::json> value_;
-  std::unordered_map<std::string, std::string> number_tokens_;  // by JSON pointer; integers need none
+  std::unordered_map<std::string, std::string> number_tokens_;      // by JSON pointer; integers need none
+  std::unordered_map<std::string, std::vector<std::string>> keys_;  // of the objects in the outermost one
 };
 
 /// A value in the document and where it is.
@@ -59,6 +60,8 @@ class JsonDocument::Node {
   [[nodiscard]] std::vector<Node> elements() const;
   /// Keys of this object, sorted. REQUIRES: an object.
   [[nodiscard]] std::vector<std::string> keys() const;
+  /// In the order of the text. REQUIRES: a member of the document's object, an object itself.
+  [[nodiscard]] std::vector<std::string> keys_as_written() const;
 
   /// REQUIRES: a string.
   [[nodiscard]] const std::string& text() const;

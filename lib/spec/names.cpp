@@ -41,7 +41,8 @@ constexpr std::array<std::string_view, 25> kDatasetNames{"abstraction",
 }  // namespace
 
 std::string_view kind_in_words(NameKind kind) {
-  constexpr std::array<std::string_view, 5> kWords{"state", "input", "disturbance", "constant", "definition"};
+  constexpr std::array<std::string_view, 6> kWords{"state",    "input",      "disturbance",
+                                                   "constant", "definition", "memory"};
   return kWords[static_cast<std::size_t>(kind)];
 }
 

@@ -10,7 +10,7 @@
 namespace coordreq {
 
 /// What a name in an expression stands for.
-enum class NameKind : std::uint8_t { state, input, disturbance, constant, definition };
+enum class NameKind : std::uint8_t { state, input, disturbance, constant, definition, memory };
 
 /// "state", "input", ...
 [[nodiscard]] std::string_view kind_in_words(NameKind kind);

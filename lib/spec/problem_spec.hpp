@@ -8,6 +8,7 @@
 
 #include "expression/program.hpp"
 #include "numeric/rational.hpp"
+#include "spec/past_operator.hpp"
 
 // The problem as plain data, contract section 2. Only read_spec() makes one, so every invariant named here
 // holds wherever a ProblemSpec is seen. All expressions share one numbering of variables ("slots"):
@@ -57,11 +58,16 @@ struct AgentSpec {
 
 enum class Time : std::uint8_t { continuous, discrete };
 
-/// How a discrete state jumps at a sample: its next value as a function of the present sample. Outside of the
-/// conditions of `if` it mentions discrete states and inputs only, and nowhere disturbances.
+/// How a discrete state jumps at a sample.
 struct UpdateSpec {
+  /// The next value as a function of the present sample. Outside of the conditions of `if` it mentions
+  /// discrete states and inputs only, and nowhere disturbances.
   Program value;
-  [[nodiscard]] std::vector<std::uint32_t> variables() const { return value.variables(); }
+  /// But the next value of a state that a memory keeps is a function of the cell seen.
+  std::optional<PastOperator> past;
+  [[nodiscard]] std::vector<std::uint32_t> variables() const {
+    return past ? past->variables() : value.variables();
+  }
 };
 
 struct DynamicsSpec {
@@ -74,6 +80,10 @@ struct DynamicsSpec {
   /// are (with `if`) is an update, too.
   std::vector<std::optional<UpdateSpec>> updates;
 
+  /// A memory keeps the state.
+  [[nodiscard]] bool is_kept(std::size_t state) const {
+    return update(state) != nullptr && update(state)->past.has_value();
+  }
   [[nodiscard]] const UpdateSpec* update(std::size_t state) const {
     return state < updates.size() && updates[state] ? &*updates[state] : nullptr;
   }
@@ -146,6 +156,13 @@ struct NetworkSpec {
 /// The key of the spec that stands for it, "automaton" for `modes`.
 [[nodiscard]] std::string network_kind_name(NetworkKind kind);
 
+struct MemorySpec {
+  std::string name;
+  Program truth;  ///< its condition at a sample, over states
+  std::vector<std::string>
+      states;  ///< that keep it, among the last ones of ProblemSpec::states; perhaps none
+};
+
 struct RequirementSpec {
   std::string name;
   Program where;                          ///< over states
@@ -166,12 +183,13 @@ struct ProblemSpec {
   std::string folder;  ///< where relative paths start; empty: the current one
   std::string name;
   std::string description;
-  std::vector<StateSpec> states;  ///< at least one
+  std::vector<StateSpec> states;  ///< at least one; those that memories keep come last
   std::vector<InputSpec> inputs;  ///< at least one
   std::vector<DisturbanceSpec> disturbances;
   std::vector<AgentSpec> agents;  ///< at least one; every input belongs to exactly one
   DynamicsSpec dynamics;
-  Program safe;  ///< a condition over states
+  std::vector<MemorySpec> memory;  ///< in the order of the spec
+  Program safe;                    ///< a condition over states
   AbstractionSpec abstraction;
   ControllerSpec controller;
   CoordinationSpec coordination;

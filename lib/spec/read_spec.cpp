@@ -6,6 +6,9 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/index.hpp"
+#include "expression/tape_builder.hpp"
+#include "spec/check_limits.hpp"
 #include "spec/json_document.hpp"
 #include "spec/schema_violation.hpp"
 #include "spec/scope.hpp"
@@ -77,6 +80,49 @@ void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
   errors.raise();
 }
 
+/// What memories rest on: the states, and whether conditions are asked of centres.
+void number_memories(const Node& root, MemoryReader& memory) {
+  if (memory.names().empty()) return;
+  const AbstractionSpec abstraction = read_abstraction(root);
+  if (abstraction.between_samples) {
+    throw SpecError("'between_samples' together with 'memory' is not supported yet",
+                    "/abstraction/between_samples");
+  }
+  memory.look_at(read_states(Scope(root, memory), root), abstraction.safe);
+  static_cast<void>(Scope(root, memory));
+  memory.settle();
+}
+
+/// `allow` is asked at grid points, a memory in `inner` of whole cells.
+void check_allow(const Scope& scope, const Node& root, const ProblemSpec& spec) {
+  if (!spec.controller.allow || spec.abstraction.safe == Membership::center) return;
+  const Node allow = root["controller"]["allow"];
+  const std::string memory = scope.memory_of_boxes(allow, spec.states);
+  if (memory.empty()) return;
+  throw SpecError(
+      fmt::format("{} asks where continuous states are now, which is not supported yet in 'allow' "
+                  "with \"safe\": \"inner\", expected a memory of what was, as previous(...)",
+                  quote_text(memory)),
+      allow.pointer());
+}
+
+/// A requirement is about what is kept at first, unless it says otherwise.
+void begin_at_first_values(ProblemSpec& spec) {
+  for (RequirementSpec& requirement : spec.requirements) {
+    const std::vector<std::uint32_t> mentioned = requirement.where.variables();
+    TapeBuilder tape;
+    TapeBuilder::Index where = tape.merge(requirement.where);
+    for (std::size_t i = 0; i < spec.states.size(); ++i) {
+      if (!spec.dynamics.is_kept(i) || contains(mentioned, i)) continue;
+      where = tape.apply(Operator::logical_and, where,
+                         tape.apply(Operator::equal, tape.variable(spec.state_slot(i)), tape.constant(0)));
+    }
+    std::string text = requirement.where.text;
+    requirement.where = tape.extract(where);
+    requirement.where.text = std::move(text);
+  }
+}
+
 }  // namespace
 
 std::string read_unit(const Node& object) {
@@ -125,13 +171,20 @@ ProblemSpec read_spec(std::string text, std::string_view source) {
   const Node root = document.root();
   check_format(root);
   check_schema(document);
-  const Scope scope(root);
+  MemoryReader memory(root);
+  number_memories(root, memory);
+  const Scope scope(root, memory);
   ProblemSpec spec;
   spec.text = std::move(text);
   spec.name = root["name"].text();
   spec.description = root.text_or("description", "");
   spec.output = read_output(root);
   read_parts(scope, root, spec);
+  if (memory.names().empty()) return spec;
+  check_allow(scope, root, spec);
+  memory.add_to(spec);
+  check_cell_count(spec.states);
+  begin_at_first_values(spec);
   return spec;
 }
 

@@ -52,8 +52,10 @@ Program read_equation(const Scope& scope, const Node& equations, const std::stri
   return scope.expression(equations[state], ExpectedType::number, Over::everything);
 }
 
-Program zero() {
+/// The state keeps its value between the samples; the text is that of its update.
+Program zero(const std::string& text) {
   Program program;
+  program.text = text;
   program.nodes = {{Operator::constant}};
   program.constants = {0};
   return program;
@@ -78,10 +80,10 @@ std::optional<std::size_t> box_read_as_number(const Program& program, const std:
 }
 
 /// The equation of a discrete state in discrete time asks in conditions where continuous states are.
-bool is_update(const Program& equation, const std::vector<StateSpec>& states, std::size_t inputs) {
+bool is_update(const Scope& scope, const Program& equation, const std::vector<StateSpec>& states) {
   const std::vector<std::uint32_t> slots = equation.variables();
   const auto is_box = [&](std::uint32_t slot) { return slot < states.size() && !states[slot].discrete; };
-  return std::any_of(slots.begin(), slots.end(), is_box) && slots.back() < states.size() + inputs &&
+  return std::any_of(slots.begin(), slots.end(), is_box) && !scope.is_disturbance(slots.back()) &&
          !box_read_as_number(equation, states);
 }
 
@@ -178,15 +180,16 @@ DynamicsSpec read_dynamics(const Scope& scope, const Node& root, const Rational&
     std::optional<UpdateSpec>& update = dynamics.updates.emplace_back();
     const bool jumps = object.has("updates") && object["updates"].has(names[i]);
     if (!are_known && !jumps && !equations.has(names[i])) continue;  // most likely one spelt differently
-    errors.attempt(
-        [&] { dynamics.equations.push_back(jumps ? zero() : read_equation(scope, equations, names[i])); });
+    errors.attempt([&] {
+      dynamics.equations.push_back(jumps ? zero(object["updates"][names[i]].text())
+                                         : read_equation(scope, equations, names[i]));
+    });
     if (i >= states.size()) continue;  // there are errors
     if (jumps)
       errors.attempt([&] { update = read_update(scope, object["updates"][names[i]], states[i], states); });
     const bool is_map = dynamics.time == Time::discrete && states[i].discrete;
     if (!is_map || dynamics.equations.size() != i + 1) continue;
-    if (is_update(dynamics.equations[i], states, root.elements("inputs").size()))
-      update = UpdateSpec{dynamics.equations[i]};
+    if (is_update(scope, dynamics.equations[i], states)) update = UpdateSpec{dynamics.equations[i]};
   }
   errors.raise();
   return dynamics;

@@ -25,35 +25,10 @@ void check_size(const Rational& value, const std::string& pointer) {
   if (bits > kMostBits) throw SpecError(fmt::format("number of more than {} bits", kMostBits), pointer);
 }
 
-/// Named expressions of one JSON object and who mentions whom.
-struct MentionGraph {
-  std::vector<std::string> names;
-  std::map<std::string, std::size_t> index_of;
-  std::vector<std::vector<std::size_t>> mentions;
-
-  explicit MentionGraph(const Node& object) : names(object.keys()) {
-    for (std::size_t i = 0; i < names.size(); ++i) index_of[names[i]] = i;
-    ErrorList errors;
-    for (const std::string& name : names)
-      errors.attempt([&] { mentions.push_back(mentioned_in(object[name])); });
-    errors.raise();
-  }
-
-  [[nodiscard]] std::vector<std::size_t> mentioned_in(const Node& node) const {
-    std::vector<std::size_t> found;
-    if (!node.is_text()) return found;
-    for (const std::string& name : mentioned_names(node.text(), node.pointer())) {
-      const auto known = index_of.find(name);
-      if (known != index_of.end()) found.push_back(known->second);
-    }
-    return found;
-  }
-};
-
 /// Adds each name after those that it mentions. What mentions one that is wrong is left alone: nothing can be
 /// said of it.
-template <class Add>
-void add_in_order(const MentionGraph& graph, const std::vector<std::size_t>& order, const Add& add) {
+template <class Graph, class Add>
+void add_in_order(const Graph& graph, const std::vector<std::size_t>& order, const Add& add) {
   ErrorList errors;
   std::vector<bool> is_known(graph.names.size(), false);
   for (const std::size_t i : order) {
@@ -66,19 +41,64 @@ void add_in_order(const MentionGraph& graph, const std::vector<std::size_t>& ord
 
 }  // namespace
 
-Scope::Scope(const Node& root) {
-  add_names(root);
+/// Named expressions and who mentions whom.
+struct Scope::MentionGraph {
+  std::vector<std::string> names;
+  std::vector<std::string> pointers;
+  std::map<std::string, std::size_t> index_of;
+  std::vector<std::vector<std::string>> mentioned;  ///< names of any kind
+  std::vector<std::vector<std::size_t>> mentions;   ///< of those, which are of the graph
+
+  void add(const std::string& name, const std::string& pointer) {
+    index_of[name] = names.size();
+    names.push_back(name);
+    pointers.push_back(pointer);
+  }
+  void add_members(const Node& object) {
+    for (const std::string& name : object.keys()) add(name, object[name].pointer());
+  }
+  /// @param mentioned_by the names that one mentions
+  template <class MentionedBy>
+  void find_mentions(const MentionedBy& mentioned_by) {
+    ErrorList errors;
+    for (const std::string& name : names) {
+      errors.attempt([&] {
+        mentioned.push_back(mentioned_by(name));
+        std::vector<std::size_t>& own = mentions.emplace_back();
+        for (const std::string& other : mentioned.back()) {
+          if (const auto known = index_of.find(other); known != index_of.end()) own.push_back(known->second);
+        }
+      });
+    }
+    errors.raise();
+  }
+  [[nodiscard]] std::vector<std::size_t> order(const std::string& kind) const {
+    return dependency_order(mentions, names, kind, pointers);
+  }
+};
+
+Scope::Scope(const Node& root, MemoryReader& memory) {
+  add_names(root, memory);
   if (root.has("constants")) evaluate_constants(root["constants"]);
   definitions_ = Definitions(static_cast<std::uint32_t>(slot_names_.size()));
-  if (root.has("definitions")) link_definitions(root["definitions"]);
+  link_definitions(root, memory);
 }
 
-void Scope::add_names(const Node& root) {
+void Scope::add_names(const Node& root, const MemoryReader& memory) {
   ErrorList errors;
-  for (const auto& [list, kind] : {std::pair("states", NameKind::state), std::pair("inputs", NameKind::input),
-                                   std::pair("disturbances", NameKind::disturbance)}) {
-    errors.attempt([&, list = list, kind = kind] { add_variables(root, list, kind); });
+  errors.attempt([&] { add_variables(root, "states", NameKind::state); });
+  for (const std::string& name : memory.names()) {
+    const std::string pointer = root["memory"][name].pointer();
+    errors.attempt([&] { names_.add(name, NameKind::memory, pointer); });
+    for (const std::string& kept : memory.kept_by(name)) {
+      errors.attempt([&] { names_.add(kept, NameKind::state, pointer); });
+      slots_[kept] = static_cast<std::uint32_t>(slot_names_.size());
+      slot_names_.push_back(kept);
+      memories_in_[kept] = {name};
+    }
   }
+  errors.attempt([&] { add_variables(root, "inputs", NameKind::input); });
+  errors.attempt([&] { add_variables(root, "disturbances", NameKind::disturbance); });
   const auto add_keys = [&](const std::string& object, NameKind kind) {
     if (!root.has(object)) return;
     for (const std::string& key : root[object].keys())
@@ -99,16 +119,75 @@ void Scope::add_variables(const Node& root, const std::string& list, NameKind ki
 }
 
 void Scope::evaluate_constants(const Node& constants) {
-  const MentionGraph graph(constants);
-  add_in_order(graph, dependency_order(graph.mentions, graph.names, "constants", constants.pointer()),
+  MentionGraph graph;
+  graph.add_members(constants);
+  graph.find_mentions([&](const std::string& name) {
+    const Node node = constants[name];
+    return node.is_text() ? mentioned_names(node.text(), node.pointer()) : std::vector<std::string>();
+  });
+  add_in_order(graph, graph.order("constants"),
                [&](const std::string& name) { constants_[name] = number(constants[name]); });
 }
 
-void Scope::link_definitions(const Node& object) {
-  const MentionGraph graph(object);
-  add_in_order(
-      graph, dependency_order(graph.mentions, graph.names, "definitions", object.pointer()),
-      [&](const std::string& name) { definitions_.add(name, link_text(object[name], ExpectedType::any)); });
+/// Definitions and memories may mention each other.
+void Scope::link_definitions(const Node& root, MemoryReader& memory) {
+  MentionGraph graph;
+  if (root.has("definitions")) graph.add_members(root["definitions"]);
+  for (const std::string& name : memory.names()) graph.add(name, root["memory"][name].pointer());
+  const auto is_memory = [&](const std::string& name) { return names_.find(name) == NameKind::memory; };
+  graph.find_mentions([&](const std::string& name) {
+    if (is_memory(name)) return memory.mentioned(name);
+    const Node node = root["definitions"][name];
+    return mentioned_names(node.text(), node.pointer());
+  });
+  const std::string kind = memory.names().empty() ? "definitions" : "definitions and memories";
+  add_in_order(graph, graph.order(kind), [&](const std::string& name) {
+    const std::size_t place = graph.index_of.at(name);
+    note_memories(name, graph.mentioned[place]);
+    if (!is_memory(name)) {
+      definitions_.add(name, link_text(root["definitions"][name], ExpectedType::any));
+      return;
+    }
+    const auto find = [&](std::string_view mention) {
+      return find_for_memory(mention, graph.pointers[place]);
+    };
+    memories_[name] = std::make_shared<const Program>(memory.linked(name, find));
+  });
+}
+
+/// Which memories a name is, or rests on by what its text mentions.
+void Scope::note_memories(const std::string& name, const std::vector<std::string>& mentioned) {
+  std::set<std::string> all;
+  if (names_.find(name) == NameKind::memory) all.insert(name);
+  for (const std::string& mention : mentioned) {
+    if (const auto known = memories_in_.find(mention); known != memories_in_.end())
+      all.insert(known->second.begin(), known->second.end());
+  }
+  if (!all.empty()) memories_in_[name] = std::move(all);
+}
+
+/// Formulas are over states, constants, definitions over these, and other memories.
+Binding Scope::find_for_memory(std::string_view name, const std::string& pointer) const {
+  const std::optional<NameKind> kind = names_.find(std::string(name));
+  const auto refuse = [&](const std::string& found, NameKind its_kind) {
+    throw SpecError(fmt::format("expected an expression over states, found the {} {}",
+                                kind_in_words(its_kind), quote_text(found)),
+                    pointer);
+  };
+  if (kind == NameKind::input || kind == NameKind::disturbance) refuse(std::string(name), *kind);
+  if (kind != NameKind::definition) {
+    Binding binding = find(name);
+    if (std::holds_alternative<NotDefined>(binding)) binding = NotDefined{suggestion(name, names_.all())};
+    return binding;
+  }
+  Program program = definitions_.expand(link(
+      name, [this](std::string_view own) { return find(own); }, ExpectedType::any, pointer));
+  for (const std::uint32_t slot : program.variables()) {
+    if (slot >= slot_names_.size()) continue;  // a memory's, for now
+    const NameKind its_kind = names_.find(slot_names_[slot]).value();
+    if (its_kind != NameKind::state) refuse(slot_names_[slot], its_kind);
+  }
+  return std::make_shared<const Program>(std::move(program));
 }
 
 Rational Scope::number(const Node& node) const {
@@ -136,9 +215,42 @@ Rational Scope::constant_expression(const Node& node) const {
 }
 
 Program Scope::expression(const Node& node, ExpectedType expected, Over over) const {
+  if (expected == ExpectedType::number) refuse_memories(node);
   Program program = definitions_.expand(link_text(node, expected));
   check_dependence(program, over, node.pointer());
   return program;
+}
+
+/// What is no condition says how things move, or what agents prefer; what they remember follows from that.
+void Scope::refuse_memories(const Node& node) const {
+  if (memories_in_.empty()) return;
+  for (const std::string& name : mentioned_names(node.text(), node.pointer())) {
+    const auto found = memories_in_.find(name);
+    if (found == memories_in_.end()) continue;
+    const std::string& memory = *found->second.begin();
+    const std::string through = memory == name ? "" : " through " + quote_text(name);
+    throw SpecError(
+        "expected no memory but in conditions such as 'safe', found " + quote_text(memory) + through,
+        node.pointer());
+  }
+}
+
+std::string Scope::memory_of_boxes(const Node& node, const std::vector<StateSpec>& states) const {
+  if (memories_in_.empty()) return {};
+  const auto is_box = [&](std::uint32_t slot) { return slot < states.size() && !states[slot].discrete; };
+  for (const std::string& name : mentioned_names(node.text(), node.pointer())) {
+    const auto found = memories_in_.find(name);
+    if (found == memories_in_.end()) continue;
+    for (const std::string& memory : found->second) {
+      const std::vector<std::uint32_t> slots = memories_.at(memory)->variables();
+      if (std::any_of(slots.begin(), slots.end(), is_box)) return memory;
+    }
+  }
+  return {};
+}
+
+bool Scope::is_disturbance(std::uint32_t slot) const {
+  return names_.find(slot_names_[slot]) == NameKind::disturbance;
 }
 
 Program Scope::link_text(const Node& node, ExpectedType expected) const {
@@ -169,6 +281,7 @@ void Scope::check_dependence(const Program& program, Over over, const std::strin
 Binding Scope::find(std::string_view name) const {
   if (const auto slot = slots_.find(name); slot != slots_.end()) return slot->second;
   if (const auto constant = constants_.find(name); constant != constants_.end()) return constant->second;
+  if (const auto memory = memories_.find(name); memory != memories_.end()) return memory->second;
   return definitions_.find(name);
 }
 

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "spec/definitions.hpp"
 #include "spec/json_document.hpp"
 #include "spec/names.hpp"
+#include "spec/read_memory.hpp"
 
 namespace coordreq {
 
@@ -20,24 +23,38 @@ enum class Over : std::uint8_t { states, states_and_inputs, everything };
 /// Everything that expressions of one spec can name, and the way to read numbers and expressions with it.
 class Scope {
  public:
-  /// Registers all names, evaluates the constants, links the definitions.
+  /// Registers all names, evaluates the constants, links the definitions and the memories.
+  /// @param memory of the same document
   /// REQUIRES: the document follows the schema.
-  /// @throws SpecError for names that clash, cycles, and anything wrong in a constant or definition
-  explicit Scope(const JsonDocument::Node& root);
+  /// @throws SpecError for names that clash, cycles, and anything wrong in a constant, definition or memory
+  Scope(const JsonDocument::Node& root, MemoryReader& memory);
 
   /// The exact value of a number or of a string with a constant expression.
   /// @throws SpecError if it has none that is finite as a double, or one of more than 4096 bits
   [[nodiscard]] Rational number(const JsonDocument::Node& node) const;
 
-  /// The linked expression in a string.
+  /// The linked expression in a string. Conditions may name memories, numbers may not.
   /// @throws SpecError for errors in it, and if it depends on more than `over`
   [[nodiscard]] Program expression(const JsonDocument::Node& node, ExpectedType expected, Over over) const;
 
+  /// The first memory that an expression rests on and that asks where continuous states are now; empty if
+  /// there is none.
+  [[nodiscard]] std::string memory_of_boxes(const JsonDocument::Node& node,
+                                            const std::vector<StateSpec>& states) const;
+
+  /// The slot is one of a disturbance.
+  [[nodiscard]] bool is_disturbance(std::uint32_t slot) const;
+
  private:
-  void add_names(const JsonDocument::Node& root);
+  struct MentionGraph;
+
+  void add_names(const JsonDocument::Node& root, const MemoryReader& memory);
   void add_variables(const JsonDocument::Node& root, const std::string& list, NameKind kind);
   void evaluate_constants(const JsonDocument::Node& constants);
-  void link_definitions(const JsonDocument::Node& object);
+  void link_definitions(const JsonDocument::Node& root, MemoryReader& memory);
+  void note_memories(const std::string& name, const std::vector<std::string>& mentioned);
+  void refuse_memories(const JsonDocument::Node& node) const;
+  [[nodiscard]] Binding find_for_memory(std::string_view name, const std::string& pointer) const;
   void check_dependence(const Program& program, Over over, const std::string& pointer) const;
   [[nodiscard]] Rational constant_expression(const JsonDocument::Node& node) const;
   [[nodiscard]] Program link_text(const JsonDocument::Node& node, ExpectedType expected) const;
@@ -47,6 +64,8 @@ class Scope {
   std::vector<std::string> slot_names_;
   std::map<std::string, std::uint32_t, std::less<>> slots_;
   std::map<std::string, Rational, std::less<>> constants_;
+  std::map<std::string, std::shared_ptr<const Program>, std::less<>> memories_;
+  std::map<std::string, std::set<std::string>> memories_in_;  ///< the memories that a name is or rests on
   Definitions definitions_;
 };
 

@@ -139,10 +139,41 @@ class UpdateJudge {
   std::vector<std::unique_ptr<CheckedComparison>> comparisons_;
 };
 
-std::vector<SlotBox> places_of(const GridDimension& dimension) {
+/// What a memory keeps next, from the meaning of its operator (contract, section 6).
+Rational kept_value(const PastOperator& past, Truth one, Truth other, const std::vector<SlotBox>& pieces) {
+  using Kind = PastOperator::Kind;
+  const auto rank = [&](Truth truth) {
+    if (truth == Truth::no) return 0L;
+    return truth == Truth::yes && past.three_valued ? 2L : 1L;
+  };
+  const bool is_seen = past.possibly ? one != Truth::no : one == Truth::yes;
+  const Rational now = rank(one);
+  if (past.kind == Kind::previous) return now;
+  const Rational before = pieces[past.slot].front().lower;
+  const Rational most = static_cast<long>(past.samples - 1);
+  switch (past.kind) {
+    case Kind::once:
+      return before > now ? before : now;
+    case Kind::since: {
+      const Rational held = now < before ? now : before;
+      return held > rank(other) ? held : Rational(rank(other));
+    }
+    case Kind::within:
+      if (is_seen) return most;
+      return before > 0 ? Rational(before - 1) : Rational(0);
+    default:
+      if (!is_seen) return 0;
+      return before < most ? Rational(before + 1) : most;
+  }
+}
+
+std::vector<SlotBox> places_of(const GridDimension& dimension, bool centres) {
   std::vector<SlotBox> places;
   for (std::int64_t k = 0; k < dimension.count; ++k) {
     SlotBox& parts = places.emplace_back();
+    const Rational centre = dimension.point(k);
+    if (centres) parts.push_back({.lower = centre, .upper = centre});
+    if (centres) continue;
     for (const Piece& piece : pieces(dimension, k))
       parts.push_back({.lower = piece.lower, .upper = piece.upper});
   }
@@ -168,9 +199,16 @@ PostTable update_posts(const ProblemSpec& spec, const UniformGrid& grid, const I
   const CellsOfTable all(grid, influences, table);
   const ParameterChoices choices(spec, grid, inputs, influences, table);
   std::vector<std::vector<SlotBox>> places;
-  for (const std::size_t j : influences.moving) places.push_back(places_of(grid[j]));
+  const UpdateSpec& update = *spec.dynamics.update(state);
+  const bool centres = update.past && spec.abstraction.safe == Membership::center;
+  for (const std::size_t j : influences.moving) places.push_back(places_of(grid[j], centres));
   team.for_each(choices.size(), 1, [&](ThreadTeam::Range range, int) {
-    UpdateJudge judge(spec.dynamics.update(state)->value);
+    UpdateJudge judge(update.past ? update.past->first : update.value);
+    UpdateJudge other(update.past ? update.past->second : update.value);
+    const auto next = [&](const std::vector<SlotBox>& pieces) -> std::set<Rational> {
+      if (!update.past) return judge.values(pieces);
+      return {kept_value(*update.past, judge.truth(pieces), other.truth(pieces), pieces)};
+    };
     Odometer choice(choices.counts(), range.begin);
     for (std::int64_t i = range.begin; i < range.end; ++i, choice.advance()) {
       std::vector<SlotBox> pieces;
@@ -180,7 +218,7 @@ PostTable update_posts(const ProblemSpec& spec, const UniformGrid& grid, const I
                    [&](const std::vector<std::int64_t>& cell, std::int64_t place) {
                      for (std::size_t j = 0; j < cell.size(); ++j)
                        pieces[influences.moving[j]] = places[j][static_cast<std::size_t>(cell[j])];
-                     table.entries[*table.find(place)] = indices_of(judge.values(pieces), grid[state]);
+                     table.entries[*table.find(place)] = indices_of(next(pieces), grid[state]);
                    });
     }
   });

@@ -33,7 +33,7 @@ std::optional<std::int64_t> chosen(const LoopFixture& loop, Policy policy, const
   NextStates next(loop.spec(), loop.abstraction(), dynamics);
   const std::vector<Rational> state{x};
   const std::vector<Rational> error{Rational(0)};
-  next.begin(state, {}, error);
+  next.begin(state, {}, error, floor_to_int(x + Rational(1) / 2));
   RandomStream random(seed, 0, RandomStream::Purpose::actions);
   return chooser.choose(floor_to_int(x + Rational(1) / 2), state, coordinated, next, random);
 }

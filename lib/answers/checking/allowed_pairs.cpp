@@ -1,6 +1,7 @@
 #include "answers/checking/allowed_pairs.hpp"
 
 #include "base/error.hpp"
+#include "expression/cell_truth.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
@@ -49,7 +50,7 @@ void AllowedPairs::evaluate_all() {
       slots_[spec_.input_slot(inputs_used_[i])] = {.lower = value, .upper = value};
     }
     const Truth truth = evaluator_.front().condition(slots_);
-    if (truth == Truth::undecided)
+    if (truth == Truth::undecided && !may_not_know(*spec_.controller.allow))
       throw SpecError("'allow' cannot be decided at a grid point", "/controller/allow");
     permitted_.push_back(truth == Truth::yes);
   } while (choice.advance());

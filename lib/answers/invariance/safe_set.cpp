@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "expression/cell_truth.hpp"
 
 namespace coordreq {
 namespace {
@@ -16,7 +17,9 @@ std::optional<ConditionTable> condition_table(const ProblemSpec& spec, const Abs
   if (!spec.controller.allow) return std::nullopt;
   const Program& allow = *spec.controller.allow;
   if (allow.nodes.back().op == Operator::literal_true) return std::nullopt;
+  const bool is_false = may_not_know(allow);
   const auto refuse = [&](const std::vector<std::int64_t>& indices) -> bool {
+    if (is_false) return false;
     std::string place;
     for (const std::uint32_t slot : allow.variables()) {
       const bool is_state = slot < spec.states.size();

@@ -25,7 +25,8 @@ namespace coordreq {
 /// The admissible pairs: those that `allow` permits at grid points of states and inputs, and that are listed
 /// if there is a list; nothing if everything is admissible.
 /// @param listed may be null; cells in the order of the abstraction's grid
-/// @throws SpecError naming the first grid point where `allow` cannot be decided (contract, "Conditions")
+/// @throws SpecError naming the first grid point where `allow` cannot be decided (contract, "Conditions"),
+///   unless a memory may be why: that counts as false
 [[nodiscard]] std::optional<PairTable> allow_table(const ProblemSpec& spec, const Abstraction& abstraction,
                                                    ThreadTeam& team, const PackedPairs* listed = nullptr);
 

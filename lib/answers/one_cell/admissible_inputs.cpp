@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/index.hpp"
 #include "engine/tube_sets.hpp"
+#include "expression/cell_truth.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
@@ -103,7 +104,8 @@ bool AdmissibleInputs::is_allowed(std::int64_t x, std::int64_t u) {
   }
   const Truth truth =
       allow_->decide(fast_point_, [this]() -> std::span<const RationalInterval> { return point_; });
-  if (truth == Truth::undecided) throw SpecError("'allow' cannot be decided at a cell", "/controller/allow");
+  if (truth == Truth::undecided && !may_not_know(*spec_->controller.allow))
+    throw SpecError("'allow' cannot be decided at a cell", "/controller/allow");
   return truth == Truth::yes;
 }
 

@@ -36,14 +36,14 @@ class Explorer {
       (cell) => this.choose(cell),
     );
     this.addControls();
-    this.index = data.states.map((state) => Math.floor(state.points.length / 2));
+    this.index = data.states.map((state) => (state.kept ? 0 : Math.floor(state.points.length / 2)));
   }
 
-  // Shows a best state, or the middle of the grid where there is none.
+  // Shows a best state, or the middle of the grid where there is none at first, when nothing is remembered.
   async start() {
     await this.change({});
     const { best } = data.maps[this.map];
-    if (best !== null) this.goTo(best);
+    if (best !== null && best.every((k, i) => k === 0 || !data.states[i].kept)) this.goTo(best);
     find("spoken").textContent = "";
   }
 

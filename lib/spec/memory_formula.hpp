@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace coordreq {
+
+/// A part of the text of a formula in which calls of past operators are replaced by names that nothing else
+/// has. As long as the formula, blank outside of the part, so that errors name places in the formula.
+struct FormulaPart {
+  std::string text;
+  std::map<std::string, std::size_t, std::less<>> calls;  ///< by name: which of MemoryFormula::calls
+  [[nodiscard]] const std::size_t* call(std::string_view name) const {
+    const auto found = calls.find(name);
+    return found == calls.end() ? nullptr : &found->second;
+  }
+};
+
+/// The formula of a memory, taken apart at its past operators.
+struct MemoryFormula {
+  struct Call {
+    std::string_view operation;  ///< "once", ...
+    std::vector<FormulaPart> arguments;
+  };
+  FormulaPart whole;
+  std::vector<Call> calls;  ///< in the order of the text, an outer one before its inner ones
+};
+
+/// @throws SpecError with the place in `where` for a wrong number of arguments, or too deep nesting; what
+/// else
+///   is wrong shows when a part is linked
+[[nodiscard]] MemoryFormula take_apart_formula(std::string_view text, std::string_view where);
+
+}  // namespace coordreq
