@@ -92,6 +92,19 @@ class Cases(PageCase):
         self.assertEqual(self.browser.run("document.getElementById('slider-2').getAttribute('aria-valuetext')"), "0.5 m/s")
         self.assert_is_answer(self.cell(), "alone")
 
+    def test_tables_of_stories_on_wide_and_narrow_screens(self):
+        self.report_that_fails(self.example("intersection_requirements.json"))
+        self.open()
+        self.addCleanup(self.browser.call, "Emulation.clearDeviceMetricsOverride")
+        inner = "(() => { const box = document.querySelector('.story').parentElement; return [box.clientWidth, box.scrollWidth]; })()"
+        for width in (1700, 390):
+            self.browser.call("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=False)
+            shown, needed = self.browser.run(inner)
+            self.assertEqual(self.browser.run("document.documentElement.scrollWidth"), width)
+            if width == 1700:
+                self.assertGreater(needed, 720)  # more than a column of text
+                self.assertEqual(shown, needed)
+
     def test_other_maps(self):
         self.report(FOUR)
         self.open()
