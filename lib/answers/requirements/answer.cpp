@@ -68,16 +68,20 @@ Json step_json(const ResultPath& path, std::size_t step, RequirementKind kind, c
 }
 
 Json counterexample_json(const ResultRequirement& result, RequirementKind kind, const ProblemSpec& spec) {
+  if (result.path) return story_json(*result.path, kind, spec);
   Json json;
-  if (!result.path) {
-    json["state"] = Json();
-    json["steps"] = Json::array();
-    json["end"] = "outside_domain";
-    json["end_sample"] = Json();
-    json["left_side"] = side_json(result.reached_side, spec);
-    return json;
-  }
-  const ResultPath& path = *result.path;
+  json["state"] = Json();
+  json["steps"] = Json::array();
+  json["end"] = "outside_domain";
+  json["end_sample"] = Json();
+  json["left_side"] = side_json(result.reached_side, spec);
+  return json;
+}
+
+}  // namespace
+
+Json story_json(const ResultPath& path, RequirementKind kind, const ProblemSpec& spec) {
+  Json json;
   json["state"] = state_json(path, 0, spec);
   json["steps"] = Json::array();
   for (std::size_t s = 0; s < path.steps(); ++s) json["steps"].push_back(step_json(path, s, kind, spec));
@@ -87,8 +91,6 @@ Json counterexample_json(const ResultRequirement& result, RequirementKind kind, 
   json["left_side"] = side_json(path.left_side, spec);
   return json;
 }
-
-}  // namespace
 
 std::string requirement_value_name(RequirementKind kind) {
   if (kind == RequirementKind::max_arrival) return "arrival";

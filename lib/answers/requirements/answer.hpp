@@ -25,6 +25,8 @@ struct RequirementVerdicts {
 /// One requirement as the summary has it, with the story of its counterexample.
 [[nodiscard]] Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
                                     const ProblemSpec& spec);
+/// The counterexample of a requirement of this kind, step by step.
+[[nodiscard]] Json story_json(const ResultPath& path, RequirementKind kind, const ProblemSpec& spec);
 /// What a requirement judges states by, "delay", "arrival" or "approach_delay", and its key for the worst of
 /// them: "least_delay", "longest_arrival", "least_approach_delay".
 [[nodiscard]] std::string requirement_value_name(RequirementKind kind);
