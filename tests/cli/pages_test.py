@@ -17,6 +17,7 @@ GRIDS = (DOCS / "grids.md").read_text()
 SESSIONS = {
     "coalitions.md": (2, []),
     "commands.md": (1, []),
+    "goals-and-memory.md": (1, []),
     "grids.md": (1, []),
     "networks.md": (1, []),
     "outputs.md": (7, []),
