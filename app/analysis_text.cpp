@@ -12,6 +12,8 @@
 namespace coordreq {
 namespace {
 
+using Align = Table::Align;
+
 /// "201 x 41 = 8,241", or "201" for a single factor.
 std::string product(const std::vector<std::int64_t>& factors, std::int64_t result) {
   if (factors.size() == 1) return grouped(result);
@@ -25,8 +27,8 @@ std::string sizes(const Json& summary, const ProblemSpec& spec) {
   for (const StateSpec& state : spec.states) points.push_back(state.grid.count);
   for (const InputSpec& input : spec.inputs) values.push_back(static_cast<std::int64_t>(input.values.size()));
   return fmt::format("{}: {} cells, {} joint inputs\n", text_of(summary["name"]),
-                     product(points, number_of(summary["states"])),
-                     product(values, number_of(summary["inputs"])));
+                     product(points, number_of(summary["cells"])),
+                     product(values, number_of(summary["joint_inputs"])));
 }
 
 bool is_joint(const Json& class_name) {
@@ -86,7 +88,6 @@ std::string partition_text(const Json& partition, const Json& summary) {
 
 /// One line a partition.
 std::string partitions_table(const Json& summary) {
-  using Align = Table::Align;
   const std::int64_t delay = number_of(summary["connection_delay"]);
   std::vector<Column> columns = {
       {"partition", Align::left, [](const Json& own) { return text_of(own["name"]); }},
@@ -110,7 +111,6 @@ std::string cells_of_half(const Json& own) {
 }
 
 std::string convention_text(const Json& convention) {
-  using Align = Table::Align;
   return fmt::format(
       "\nconvention\n{}  Agents that keep to it never need to coordinate inside the invariance set.\n",
       table_text(convention,
@@ -127,7 +127,7 @@ std::string sets_text(const Json& summary) {
     const Json& controller = summary["controller"];
     facts.emplace_back("controller",
                        fmt::format("{} of {} pairs, from {}", grouped(controller["pairs"]),
-                                   grouped(number_of(summary["states"]) * number_of(summary["inputs"])),
+                                   grouped(number_of(summary["cells"]) * number_of(summary["joint_inputs"])),
                                    line_of(controller["file"])));
   }
   facts.emplace_back("safe set", cells(summary["safe"]));

@@ -43,7 +43,7 @@ constexpr const char* kFigures[] = {"cells",  "safe", "invariant", "requirements
 
 std::vector<std::string> figures(const Json& summary) {
   const auto count = [&summary](const char* key) { return grouped(summary[key].get<std::int64_t>()); };
-  return {count("states"),
+  return {count("cells"),
           count("safe"),
           count("invariant"),
           requirements_met(summary),

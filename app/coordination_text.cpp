@@ -10,8 +10,9 @@
 namespace coordreq {
 namespace {
 
+using Align = Table::Align;
+
 std::string choices_table(const Json& coalition) {
-  using Align = Table::Align;
   Table table({Align::left, Align::right, Align::right});
   table.add({"  partition", "cost", "needed by"});
   for (const Json& choice : coalition["partitions"]) {

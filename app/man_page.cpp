@@ -140,7 +140,7 @@ std::string man_page(const ProgramHelp& help, std::string_view version) {
       fmt::format(".SH SYNOPSIS\n.PP\n{} {} [{}]\n", bold(help.name), italic("COMMAND"), italic("OPTIONS"));
   text += fmt::format(".SH DESCRIPTION\n{}.SH COMMANDS\n", kDescription);
   for (const CommandHelp& command : help.commands) text += command_entry(help, command, common);
-  text += options_section("OPTIONS OF EVERY COMMAND", common);
+  text += options_section("COMMON OPTIONS", common);
   text += options_section("OPTIONS WITHOUT A COMMAND", help.options);
   text += ".SH EXIT STATUS\n";
   for (const ExitCodeHelp& code : kExitCodes) {

@@ -61,13 +61,16 @@ std::optional<std::uint64_t> CommonOptions::memory() const {
   return max_memory ? max_memory : available_memory();
 }
 
-void declare_common(Options& options, CommonOptions& common) {
+void declare_common(Options& options, CommonOptions& common, const CommonUse& use) {
   constexpr int kMostThreads = 1024;
-  options.option(common.threads, "--threads", "N", "Threads to work with (default: all cores)",
-                 WholeNumber<int>{1, kMostThreads});
-  options.option(common.max_memory, "--max-memory", "SIZE",
-                 "Refuse what would need more, as 500M or 1.5G (default: the memory of the machine)",
-                 memory_size);
+  if (use.threads)
+    options.option(common.threads, "--threads", "N", "Threads to work with (default: all cores)",
+                   WholeNumber<int>{1, kMostThreads});
+  if (use.memory)
+    options.option(common.max_memory, "--max-memory", "SIZE",
+                   "Refuse what would need more, as 500M or 1.5G (default: the memory of the machine)",
+                   memory_size);
+  if (!use.answer) return;
   options.flag(common.json, "--json", "Print one JSON document instead of text");
   options.flag(common.quiet, "--quiet", "No text summary and no progress");
 }

@@ -86,7 +86,14 @@ class Options {
   std::list<Entry> entries_;
 };
 
-/// What every command takes.
+/// Which of the common options a command has a use for.
+struct CommonUse {
+  bool threads = true;
+  bool memory = true;
+  bool answer = true;  ///< --json and --quiet
+};
+
+/// What most commands take.
 struct CommonOptions {
   int threads = 0;                          ///< 0: all cores
   std::optional<std::uint64_t> max_memory;  ///< bytes
@@ -98,7 +105,7 @@ struct CommonOptions {
 };
 
 /// To be declared last.
-void declare_common(Options& options, CommonOptions& common);
+void declare_common(Options& options, CommonOptions& common, const CommonUse& use = {});
 /// The argument RESULTS.
 void declare_results(Options& options, std::string& path);
 

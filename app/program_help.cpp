@@ -71,10 +71,15 @@ std::string ValueHelp::file_pattern() const {
 std::vector<OptionHelp> ProgramHelp::common_options() const {
   std::vector<OptionHelp> common = commands.front().options;
   for (const CommandHelp& command : commands) {
-    std::erase_if(common, [&command](const OptionHelp& option) {
-      return std::find(command.options.begin(), command.options.end(), option) == command.options.end();
-    });
+    for (const OptionHelp& option : command.options)
+      if (std::find(common.begin(), common.end(), option) == common.end()) common.push_back(option);
   }
+  std::erase_if(common, [this](const OptionHelp& option) {
+    const auto users = std::count_if(commands.begin(), commands.end(), [&](const CommandHelp& command) {
+      return std::find(command.options.begin(), command.options.end(), option) != command.options.end();
+    });
+    return 2 * static_cast<std::size_t>(users) < commands.size();
+  });
   return common;
 }
 

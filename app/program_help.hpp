@@ -55,7 +55,7 @@ struct ProgramHelp {
   std::vector<OptionHelp> options;  ///< of the program itself
   std::vector<CommandHelp> commands;
 
-  /// The options that every command has, as the first one describes them.
+  /// The options that at least half of the commands have, described alike.
   [[nodiscard]] std::vector<OptionHelp> common_options() const;
 };
 

@@ -6,12 +6,11 @@
 namespace coordreq {
 
 void declare_progress(Options& options, ProgressOptions& progress) {
-  options.option(progress.mode, "--progress", "auto|bar|log|none",
-                 "auto: a bar on a terminal; bar: that, also with --quiet; log: lines (default: auto)",
-                 OneOf<ProgressMode>{{{"auto", ProgressMode::automatic},
-                                      {"bar", ProgressMode::bar},
-                                      {"log", ProgressMode::log},
-                                      {"none", ProgressMode::none}}});
+  options.option(
+      progress.mode, "--progress", "auto|log|none",
+      "auto: a bar on a terminal, but for --quiet; log: lines (default: auto)",
+      OneOf<ProgressMode>{
+          {{"auto", ProgressMode::automatic}, {"log", ProgressMode::log}, {"none", ProgressMode::none}}});
   options.option("--progress-every", "SECONDS", "Between two lines of the log (default: 10)",
                  [&progress](const auto& text, const auto& option) {
                    if (progress.mode != ProgressMode::log)

@@ -38,6 +38,11 @@ std::string values_text(const Json& values) {
   return text;
 }
 
+std::string sides_text(const Json& outside) {
+  if (outside["below"] == outside["above"]) return text_of(outside["below"]);
+  return fmt::format("{} below, {} above", text_of(outside["below"]), text_of(outside["above"]));
+}
+
 std::string count_of(std::int64_t count, const char* noun) {
   return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
 }

@@ -23,6 +23,8 @@ namespace coordreq {
 [[nodiscard]] std::string duration(const Json& steps, const Json& document);
 /// "x = 0.1, v = -2", of an object of numbers.
 [[nodiscard]] std::string values_text(const Json& values);
+/// "saturate", "unsafe below, safe above".
+[[nodiscard]] std::string sides_text(const Json& outside);
 /// "4 steps", "1 step".
 [[nodiscard]] std::string count_of(std::int64_t count, const char* noun);
 

@@ -78,10 +78,14 @@ class PartitionAnswer {
   [[nodiscard]] std::string shares() const {
     if (is_joint() || stored_.layer_sizes.size() < 2) return "";
     std::string rows;
-    for (const int percent : {90, 50, 10, 1}) {
-      rows += fmt::format("<tr><th scope=\"row\">{} % of the states</th><td>{}</td></tr>\n", percent,
-                          bearable(percent));
-    }
+    const auto add = [&rows](const std::string& share, const std::string& length) {
+      rows += fmt::format("<tr><th scope=\"row\">{} of the states</th><td>{}</td></tr>\n", share, length);
+    };
+    const std::uint64_t any = stored_.layer_sizes[1];
+    if (any == 0) return "";
+    if (!is_share(any, 90)) add(share_text(any, kept()), "for at least " + time_text(1, results_));
+    for (const int percent : {90, 50, 10, 1})
+      if (is_share(any, percent)) add(fmt::format("{} %", percent), bearable(percent));
     return "<table><thead><tr><th scope=\"col\">So many</th><th scope=\"col\">may be "
            "silent</th></tr></thead><tbody>\n" +
            rows + "</tbody></table>\n";
@@ -113,15 +117,18 @@ class PartitionAnswer {
     return stored_.layer_sizes.back();
   }
 
+  /// Whether so many states are so much of K.
+  [[nodiscard]] bool is_share(std::uint64_t size, int percent) const {
+    return size * 100 >= kept() * static_cast<std::uint64_t>(percent);
+  }
+
+  /// REQUIRES: so many tolerate a step.
   [[nodiscard]] std::string bearable(int percent) const {
-    const auto enough = [&](std::uint64_t size) {
-      return size * 100 >= kept() * static_cast<std::uint64_t>(percent);
-    };
+    const auto enough = [&](std::uint64_t size) { return is_share(size, percent); };
     const auto& sizes = stored_.layer_sizes;
     const auto end = std::partition_point(sizes.begin(), sizes.end(), enough);
     if (end == sizes.end() && !stored_.truncated()) return "for ever";
-    const std::int64_t steps = end - sizes.begin() - 1;
-    return steps == 0 ? "not at all" : "for at least " + time_text(steps, results_);
+    return "for at least " + time_text(end - sizes.begin() - 1, results_);
   }
 
   [[nodiscard]] std::string best_state() const {

@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/json_text.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/text.hpp"
 #include "export/report_page.hpp"
+#include "spec/names_behind.hpp"
 
 namespace coordreq {
 namespace {
@@ -79,22 +81,32 @@ std::string disturbances_table(const ProblemSpec& spec) {
 }
 
 /// A member of the spec's text as a list "name = value" of code; empty if there is none.
-std::string assignments(const Json& spec, const char* key) {
+/// @param used the others are left out
+std::string assignments(const Json& spec, const char* key, const std::set<std::string>& used) {
   std::string html;
   if (!spec.contains(key)) return html;
   for (const auto& [name, value] : spec.at(key).items()) {
+    if (!used.contains(name)) continue;
     const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
     html += fmt::format("{}{}", html.empty() ? "" : ", ", html_code(name + " = " + text));
   }
   return html;
 }
 
+/// What the safe set and `allow` depend on.
+std::set<std::string> names_of_safety(const ProblemSpec& spec, const Json& text) {
+  std::set<std::string> names = names_in(spec.safe.text);
+  if (spec.controller.allow) names.merge(names_in(spec.controller.allow->text));
+  return with_names_behind(text, std::move(names));
+}
+
 std::string safe_text(const ProblemSpec& spec) {
   const Json text = Json::parse(spec.text, nullptr, true, true);
+  const std::set<std::string> used = names_of_safety(spec, text);
   std::string html = "<p>A state is safe if " + html_code(spec.safe.text);
   const char* joint = ", where ";
   for (const char* const key : {"definitions", "constants"}) {
-    const std::string meant = assignments(text, key);
+    const std::string meant = assignments(text, key, used);
     if (meant.empty()) continue;
     html += joint + meant;
     joint = ", ";
@@ -107,12 +119,21 @@ std::string safe_text(const ProblemSpec& spec) {
 
 }  // namespace
 
+std::string report_title(const ProblemSpec& spec) {
+  constexpr std::size_t kLongestTitle = 100;
+  const std::string& text = spec.description;
+  const bool is_title = !text.empty() && text.size() <= kLongestTitle && text.find('\n') == std::string::npos;
+  return is_title ? text : spec.name;
+}
+
 std::string report_task(const ResultsReader& results) {
   const ProblemSpec& spec = results.spec();
   const std::string every =
       spec.dynamics.unit.empty() ? "step" : with_unit(number_text(spec.dynamics.period), spec.dynamics.unit);
   std::string html;
-  if (!spec.description.empty())
+  if (report_title(spec) != spec.name)
+    html += fmt::format("<p class=\"lead\">{}</p>\n", html_code(spec.name));
+  else if (!spec.description.empty())
     html += fmt::format("<p class=\"lead\">{}</p>\n", html_text(spec.description));
   return html +
          fmt::format(

@@ -9,6 +9,9 @@
 // The sections of the page of `report`, as HTML for people who do not code. A "state" there is a cell.
 namespace coordreq {
 
+/// The description if it is short, else the name.
+[[nodiscard]] std::string report_title(const ProblemSpec& spec);
+
 /// What was asked, in short: description, agents, what counts as safe.
 [[nodiscard]] std::string report_task(const ResultsReader& results);
 

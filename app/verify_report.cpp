@@ -11,6 +11,8 @@
 namespace coordreq {
 namespace {
 
+using Align = Table::Align;
+
 const char* status_of(const Finding& finding) {
   if (finding.wrong > 0) return "wrong";
   return finding.unproven > 0 ? "not confirmed" : "holds";
@@ -39,7 +41,6 @@ std::string result_text(const Json& finding) {
 }
 
 std::string findings_table(const Json& findings) {
-  using Align = Table::Align;
   return table_text(findings,
                     {{"check", Align::left, [](const Json& own) { return line_of(own["check"]); }},
                      {"checked", Align::right, [](const Json& own) { return grouped(own["checked"]); }},

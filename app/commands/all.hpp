@@ -18,6 +18,7 @@ Run declare_analyze(Options& options);
 Run declare_validate(Options& options);
 Run declare_info(Options& options);
 Run declare_query(Options& options);
+Run declare_explain(Options& options);
 Run declare_simulate(Options& options);
 Run declare_verify(Options& options);
 Run declare_compare(Options& options);
@@ -56,6 +57,10 @@ inline constexpr CommandInfo kCommands[] = {
      "Print everything that is known at a state: delay, countdown, allowed actions",
      declare_query,
      {"coordreq query circle.h5 --at x1=0.1,x2=0", "coordreq query circle.h5 < states.csv"}},
+    {"explain",
+     "Print why a state tolerates so much silence: the shortest way out, and what would buy more",
+     declare_explain,
+     {"coordreq explain circle.h5 --at x1=0.1,x2=0", "coordreq explain circle.h5 --at x1=0.1,x2=0 --json"}},
     {"simulate",
      "Run the self-triggered closed loop on the system itself",
      declare_simulate,

@@ -49,7 +49,7 @@ Run declare_compare(Options& options) {
   options.option(own->compare.worst, "--limit", "N", "Cells to name for each partition (default: 5)",
                  WholeNumber<std::size_t>{0, kMostCells});
   declare_progress(options, own->progress);
-  declare_common(options, *own);
+  declare_common(options, *own, {.threads = false});
   return [own] { return run(*own); };
 }
 

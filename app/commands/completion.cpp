@@ -10,10 +10,6 @@
 namespace coordreq {
 namespace {
 
-struct CompletionOptions : CommonOptions {
-  std::string shell;
-};
-
 std::string completion_script(const std::string& shell) {
   if (shell == "bash") return bash_completion(program_help());
   if (shell == "zsh") return zsh_completion(program_help());
@@ -24,11 +20,10 @@ std::string completion_script(const std::string& shell) {
 }  // namespace
 
 Run declare_completion(Options& options) {
-  const auto own = std::make_shared<CompletionOptions>();
-  options.argument(own->shell, "SHELL", "The shell", "bash|zsh|fish");
-  declare_common(options, *own);
-  return [own] {
-    write_output(completion_script(own->shell));
+  const auto shell = std::make_shared<std::string>();
+  options.argument(*shell, "SHELL", "The shell", "bash|zsh|fish");
+  return [shell] {
+    write_output(completion_script(*shell));
     return ExitCode::success;
   };
 }

@@ -146,7 +146,7 @@ Run declare_export(Options& options) {
   options.repeatable(own->projections, "--project", "STATE:KIND",
                      "csv, vtk: the smallest or largest value along a state, min or max; may be repeated",
                      as_typed);
-  declare_common(options, *own);
+  declare_common(options, *own, {.answer = false});
   return [own] { return run(*own); };
 }
 

@@ -8,22 +8,13 @@
 #include "app/standard_streams.hpp"
 
 namespace coordreq {
-namespace {
-
-struct HelpOptions : CommonOptions {
-  std::string command;
-};
-
-}  // namespace
-
 Run declare_help(Options& options) {
-  const auto own = std::make_shared<HelpOptions>();
+  const auto command = std::make_shared<std::string>();
   std::vector<const char*> names;
   for (const CommandInfo& info : kCommands) names.push_back(info.name);
-  options.optional_argument(own->command, "COMMAND", "The command", fmt::format("{}", fmt::join(names, "|")));
-  declare_common(options, *own);
-  return [own] {
-    write_output(help_text(own->command));
+  options.optional_argument(*command, "COMMAND", "The command", fmt::format("{}", fmt::join(names, "|")));
+  return [command] {
+    write_output(help_text(*command));
     return ExitCode::success;
   };
 }

@@ -33,13 +33,14 @@ std::string head_text(const Json& info) {
 }
 
 std::string axes_text(const Json& info) {
-  Table table({Align::left, Align::left, Align::right, Align::right, Align::right, Align::left});
-  table.add({"axis", "kind", "points", "first", "last", "unit"});
+  Table table({Align::left, Align::left, Align::right, Align::right, Align::right, Align::left, Align::left});
+  table.add({"axis", "kind", "points", "first", "last", "unit", "outside"});
   for (const auto& [list, kind] : {std::pair("states", "state"), std::pair("inputs", "input")}) {
     for (const Json& axis : info[list]) {
       table.add({line_of(axis["name"]), kind, grouped(axis["points"]),
                  fmt::format("{:.6g}", axis["first"].get<double>()),
-                 fmt::format("{:.6g}", axis["last"].get<double>()), line_of(axis["unit"])});
+                 fmt::format("{:.6g}", axis["last"].get<double>()), line_of(axis["unit"]),
+                 axis.contains("outside") ? sides_text(axis["outside"]) : ""});
     }
   }
   return table.text();
@@ -111,7 +112,7 @@ struct InfoOptions : CommonOptions {
 Run declare_info(Options& options) {
   const auto own = std::make_shared<InfoOptions>();
   declare_results(options, own->results);
-  declare_common(options, *own);
+  declare_common(options, *own, {.threads = false});
   return [own] {
     print_answer(*own, read_info(own->results, own->max_memory), info_text);
     return ExitCode::success;

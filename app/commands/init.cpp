@@ -135,7 +135,7 @@ Run declare_init(Options& options) {
   const auto own = std::make_shared<InitOptions>();
   options.optional_argument(own->file, "FILE",
                             "The new spec (default: spec.json); - writes to standard output");
-  declare_common(options, *own);
+  declare_common(options, *own, {.threads = false, .memory = false});
   return [own] {
     const std::string text = spec_text(own->file);
     if (own->file == "-") {

@@ -39,8 +39,8 @@ std::vector<std::size_t> shown_partitions(const ResultsReader& results) {
 std::string page_of(const ResultsReader& results, ReportData& data) {
   data = report_data(results, shown_partitions(results));
   ReportPage page;
-  page.title = printable(results.spec().name);
-  page.summary = "<h1>" + html_line(results.spec().name) + "</h1>\n" + report_task(results) +
+  page.title = printable(report_title(results.spec()));
+  page.summary = "<h1>" + html_line(report_title(results.spec())) + "</h1>\n" + report_task(results) +
                  report_answer(results, data) + report_requirements(results) + report_coalitions(results) +
                  report_network(results);
   page.details = report_details(results) + report_footer(results);
@@ -97,7 +97,7 @@ Run declare_report(Options& options) {
   declare_results(options, own->results);
   options.option(own->output, "-o,--output", "FILE", "HTML file (default: NAME.html in the current folder)",
                  file_name);
-  declare_common(options, *own);
+  declare_common(options, *own, {.threads = false});
   return [own] { return run(*own); };
 }
 

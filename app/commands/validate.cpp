@@ -12,6 +12,7 @@
 #include "app/print_answer.hpp"
 #include "app/print_warnings.hpp"
 #include "app/render.hpp"
+#include "model/outside_word.hpp"
 
 namespace coordreq {
 namespace {
@@ -21,6 +22,7 @@ Json state_json(const SpecReport::State& state) {
   json["name"] = state.name;
   json["unit"] = state.unit;
   json["points"] = state.points;
+  json["outside"] = {{"below", outside_word(state.below)}, {"above", outside_word(state.above)}};
   json["depends_on"] =
       Json{{"states", state.states}, {"inputs", state.inputs}, {"disturbances", state.disturbances}};
   json["shift"] = state.shift;
@@ -86,6 +88,7 @@ std::string states_table(const Json& states) {
                     {{"state", Align::left, name_of},
                      {"points", Align::right, points_of},
                      {"unit", Align::left, unit_of},
+                     {"outside", Align::left, [](const Json& own) { return sides_text(own["outside"]); }},
                      {"table", Align::left, table_kind},
                      {"entries", Align::right, [](const Json& own) { return grouped(own["table_entries"]); }},
                      {"memory", Align::right,

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "analysis/advice.hpp"
-#include "expression/token.hpp"
+#include "spec/names_behind.hpp"
 #include "spec/scope.hpp"
 
 namespace coordreq {
@@ -61,20 +61,11 @@ void advise_on_input_grids(const ProblemSpec& spec, const Node& root, Warnings& 
 
 using Words = std::set<std::string>;
 
-/// The names in an expression.
-Words words_of(const std::string& expression) {
-  Words words;
-  Token token = read_token(expression, 0);
-  for (; token.kind != TokenKind::end; token = read_token(expression, token.offset + token.text.size()))
-    if (token.kind == TokenKind::name) words.emplace(token.text);
-  return words;
-}
-
 /// Of all texts below a value that may be expressions. A name of something else that looks like one hides at
 /// most a warning.
-void add_words(const nlohmann::json& value, Words& words) {
+void add_words(const Json& value, Words& words) {
   static const Words kPlain = {"name", "unit", "description", "$schema", "file"};
-  if (value.is_string()) words.merge(words_of(value.get<std::string>()));
+  if (value.is_string()) words.merge(names_in(value.get<std::string>()));
   if (value.is_array())
     for (const auto& element : value) add_words(element, words);
   if (!value.is_object()) return;
@@ -83,7 +74,7 @@ void add_words(const nlohmann::json& value, Words& words) {
 }
 
 /// What the parts of a spec that mean something mention, and what that mentions in turn.
-Words used_names(const nlohmann::json& root) {
+Words used_names(const Json& root) {
   Words used;
   for (const auto& [key, part] : root.items()) {
     if (key == "constants" || key == "definitions") continue;
@@ -94,22 +85,10 @@ Words used_names(const nlohmann::json& root) {
     for (const auto& agent : part)
       if (agent.contains("prefer")) add_words(agent["prefer"], used);
   }
-  std::vector<std::string> open(used.begin(), used.end());
-  while (!open.empty()) {
-    const std::string name = open.back();
-    open.pop_back();
-    for (const char* const list : {"constants", "definitions"}) {
-      if (!root.contains(list) || !root[list].contains(name)) continue;
-      Words more;
-      add_words(root[list][name], more);
-      for (const std::string& word : more)
-        if (used.insert(word).second) open.push_back(word);
-    }
-  }
-  return used;
+  return with_names_behind(root, std::move(used));
 }
 
-void advise_on_names(const Node& root, const nlohmann::json& document, Warnings& found) {
+void advise_on_names(const Node& root, const Json& document, Warnings& found) {
   const Words used = used_names(document);
   const auto look = [&](const char* kind, const std::string& name, const std::string& place) {
     if (used.contains(name)) return;
@@ -133,7 +112,7 @@ Warnings advise_on_spec(const ProblemSpec& spec) {
   Warnings found;
   advise_on_state_grids(spec, found);
   advise_on_input_grids(spec, document.root(), found);
-  advise_on_names(document.root(), document.value(), found);
+  advise_on_names(document.root(), Json::parse(spec.text, nullptr, true, true), found);
   return found;
 }
 

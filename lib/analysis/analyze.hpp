@@ -40,6 +40,8 @@ struct SpecReport {
     std::string name;
     std::string unit;
     std::int64_t points = 0;
+    Outside below = Outside::unsafe;
+    Outside above = Outside::unsafe;
     std::vector<std::string> states;  ///< that its next value depends on; likewise inputs and disturbances
     std::vector<std::string> inputs;
     std::vector<std::string> disturbances;

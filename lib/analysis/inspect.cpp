@@ -47,6 +47,8 @@ SpecReport inspect(const ProblemSpec& spec, int threads) {
         SpecReport::State{.name = state.name,
                           .unit = state.unit,
                           .points = state.grid.count,
+                          .below = state.below,
+                          .above = state.above,
                           .states = names(spec.states, shapes[i].states),
                           .inputs = names(spec.inputs, shapes[i].inputs),
                           .disturbances = names(spec.disturbances, shapes[i].disturbances),

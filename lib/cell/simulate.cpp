@@ -19,21 +19,6 @@
 namespace coordreq {
 namespace {
 
-std::size_t find_partition(const ProblemSpec& spec, const std::string& name) {
-  const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
-  std::string names;
-  for (std::size_t p = 0; p < partitions.size(); ++p) {
-    const PartitionSpec& partition = partitions[p];
-    if (name.empty() ? partitions.size() == 1 : name == partition.name || name == partition.canonical) {
-      return p;
-    }
-    names += (names.empty() ? "" : ", ") + partition.name;
-  }
-  throw UsageError(name.empty() ? fmt::format("several partitions, expected the name of one of {}", names)
-                                : fmt::format("unknown partition '{}', expected one of {}", name, names),
-                   "--partition");
-}
-
 /// The given values, and the middles of the ranges of all others.
 std::vector<Rational> constant_disturbance(const ProblemSpec& spec, const NamedValues& given) {
   std::vector<std::string> names;
@@ -142,6 +127,21 @@ void check_simulation_memory(const ResultsReader& results, const SimulationOptio
 }
 
 }  // namespace
+
+std::size_t find_partition(const ProblemSpec& spec, const std::string& name) {
+  const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
+  std::string names;
+  for (std::size_t p = 0; p < partitions.size(); ++p) {
+    const PartitionSpec& partition = partitions[p];
+    if (name.empty() ? partitions.size() == 1 : name == partition.name || name == partition.canonical) {
+      return p;
+    }
+    names += (names.empty() ? "" : ", ") + partition.name;
+  }
+  throw UsageError(name.empty() ? fmt::format("several partitions, expected the name of one of {}", names)
+                                : fmt::format("unknown partition '{}', expected one of {}", name, names),
+                   "--partition");
+}
 
 Simulation simulate(const ResultsReader& results, const SimulationOptions& options, ThreadTeam& team) {
   const ProblemSpec& spec = results.spec();

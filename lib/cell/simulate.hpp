@@ -52,6 +52,10 @@ struct Simulation {
 [[nodiscard]] std::string policy_name(Policy policy);
 [[nodiscard]] std::string disturbance_name(Disturbance disturbance);
 
+/// The number of the partition with this name, given or canonical; of the only one if `name` is empty.
+/// @throws UsageError
+[[nodiscard]] std::size_t find_partition(const ProblemSpec& spec, const std::string& name);
+
 /// Self-triggered closed loops on the system of a results file, from its K, its delays and its abstraction,
 /// which is built again unless it is stored. Writes them to `options.output`, also runs that contradict the
 /// analysis.

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "answers/plan.hpp"
+#include "model/outside_word.hpp"
 #include "results/results_reader.hpp"
 #include "spec/unit_text.hpp"
 
@@ -39,6 +40,8 @@ void add_axes(const ResultsReader& results, Json& info) {
     const GridSpec& grid = state.grid;
     const Rational last = grid.first + grid.step * Rational(static_cast<long>(grid.count - 1));
     info["states"].push_back(axis_json(state.name, state.unit, grid.count, grid.first, last));
+    info["states"].back()["outside"] = {{"below", outside_word(state.below)},
+                                        {"above", outside_word(state.above)}};
   }
   info["inputs"] = Json::array();
   for (const InputSpec& input : results.spec().inputs) {

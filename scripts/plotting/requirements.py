@@ -1,7 +1,7 @@
 """How many cells tolerate how long without coordination, with the lines of the requirements
 
 A histogram of the delay over the cells of the invariance set for each partition. A requirement is a line at the delay
-that it asks for in its region; whether it holds says `coordreq analyze`."""
+that it asks for in its region, solid if it holds and dashed if it fails."""
 
 from dataclasses import dataclass
 
@@ -12,12 +12,14 @@ from .errors import FileError, UsageError, quoted
 from .results import Results
 
 _MOST_PANELS = 6
+_VERDICTS = "/counterexample/holds"
 
 
 @dataclass(frozen=True)
 class Line:
     name: str
     steps: int  # 0: the region must be in K
+    holds: bool  # None: the file does not say
 
 
 @dataclass(frozen=True)
@@ -56,15 +58,17 @@ def _lines(results):
     """[(number of the partition, or None for all, line), ...]"""
     lines = []
     names = results.spec.canonical_partitions()
-    for requirement in results.spec.requirements():
+    verdicts = results.read(_VERDICTS) if _VERDICTS in results else []
+    for i, requirement in enumerate(results.spec.requirements()):
         name = requirement.get("partition")
         if name is not None:
             name = names.get(name, name)
             if name not in results.partitions:
                 what = f"requirement '{requirement['name']}': no partition '{name}' in the file"
                 raise FileError(what, results.path)
+        holds = bool(verdicts[i]) if i < len(verdicts) else None
         number = None if name is None else results.partitions.index(name)
-        lines.append((number, Line(requirement["name"], results.spec.required_steps(requirement))))
+        lines.append((number, Line(requirement["name"], results.spec.required_steps(requirement), holds)))
     return lines
 
 
@@ -111,8 +115,9 @@ def _draw_histogram(axes, results, histogram, never):
     elif histogram.unbounded < 0:
         _note(axes, steps[-1] * unit, histogram.cells[-1], "at least")
     for i, line in enumerate(histogram.lines):
-        color, dashes = style.KINDS[(3, 4, 0, 2, 1)[i % 5]], ("-", "--", ":")[i // 5 % 3]
+        color, dashes = style.KINDS[(3, 4, 0, 2, 1)[i % 5]], "--" if line.holds is False else "-"
         text = f"{line.name}: {results.seconds(line.steps)}" if line.steps else f"{line.name}: in K"
+        text += {True: ", holds", False: ", FAILS", None: ""}[line.holds]
         # A cell with this delay is good enough, so the line is left of its bar.
         axes.axvline((line.steps - 0.5) * unit, color=color, linestyle=dashes, label=style.plain(text), zorder=3)
     axes.set_xlim(-unit, never * unit + 1.5 * width)

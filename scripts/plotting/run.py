@@ -25,6 +25,7 @@ class Curve:
     x: np.ndarray
     y: np.ndarray
     state: str  # name of what is along y
+    unit: str  # curves of one unit share axes
 
 
 @dataclass(frozen=True)
@@ -100,12 +101,11 @@ def _parse_plane(text, names):
 
 
 def _plane_curves(planes, names, state):
-    return [Curve(f"{names[x]}, {names[y]}", state[:, x], state[:, y], names[y]) for x, y in planes]
+    return [Curve(f"{names[x]}, {names[y]}", state[:, x], state[:, y], names[y], "") for x, y in planes]
 
 
 def _time_curves(names, units, time, state):
-    labels = [f"{name} [{unit}]" if unit else name for name, unit in zip(names, units)]
-    return [Curve(label, time, state[:, i], names[i]) for i, label in enumerate(labels)]
+    return [Curve(name, time, state[:, i], name, units[i]) for i, name in enumerate(names)]
 
 
 def _labels(planes, names, units, time_unit):
@@ -144,7 +144,16 @@ def _as_steps(values):
 def draw(run, size=None):
     figure = style.new_figure(size, (9.5, 4.6))
     grid = figure.add_gridspec(2, 2, width_ratios=(1, 1.25), height_ratios=(1.6, 1))
-    _draw_curves(figure.add_subplot(grid[:, 0]), run)
+    units = list(dict.fromkeys(curve.unit for curve in run.curves))
+    left = grid[:, 0].subgridspec(len(units), 1)
+    first = None
+    for i, unit in enumerate(units):
+        axes = figure.add_subplot(left[i], sharex=first)
+        first = first or axes
+        _draw_curves(axes, run, unit)
+        if i + 1 < len(units):
+            axes.tick_params(labelbottom=False)
+            axes.set_xlabel("")
     above = figure.add_subplot(grid[0, 1])
     _draw_steps(above, run.steps)
     below = figure.add_subplot(grid[1, 1], sharex=above)
@@ -154,8 +163,11 @@ def draw(run, size=None):
     return figure
 
 
-def _draw_curves(axes, run):
+def _draw_curves(axes, run, unit):
+    names = [curve.state for curve in run.curves if curve.unit == unit]
     for i, curve in enumerate(run.curves):
+        if curve.unit != unit:
+            continue
         color = style.KINDS[i % len(style.KINDS)]
         dashes = ("-", "--", ":")[i // len(style.KINDS) % 3]
         axes.plot(curve.x, curve.y, dashes, color=color, label=style.plain(curve.label))
@@ -163,7 +175,7 @@ def _draw_curves(axes, run):
             axes.plot(curve.x[:1], curve.y[:1], "o", color=color, fillstyle="none")
             axes.plot(curve.x[-1:], curve.y[-1:], "s", color=color)
     axes.set_xlabel(style.plain(run.x_label))
-    axes.set_ylabel(style.plain(run.y_label))
+    axes.set_ylabel(style.plain(run.y_label if run.flat else _with_unit(", ".join(names), unit)))
     if run.in_scale:
         axes.set_aspect("equal", adjustable="datalim")
     axes.legend(title="○ start  ■ end" if run.flat else None)

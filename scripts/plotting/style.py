@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
 NOT_SAFE = "#7f7f7f"
 NOT_INVARIANT = "#bdbdbd"
@@ -39,14 +39,16 @@ def add_step_bar(figure, axes, most, label, results, location="right", shrink=1.
     cmap, norm = step_colors(most)
     place = {"location": location, "shrink": shrink, "fraction": 0.06, "pad": pad}
     bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, cmap), ax=axes, **place)
-    bar.ax.yaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
+    steps = [k for k in MaxNLocator(integer=True, min_n_ticks=1).tick_values(0, most) if 0 <= k <= most]
+    bar.ax.yaxis.set_major_locator(FixedLocator(steps))
     bar.ax.minorticks_off()
     bar.set_label(plain(f"{label} [steps]"))
     if results.period_unit:
         period = results.period
         other = "left" if location == "right" else "right"
         times = bar.ax.secondary_yaxis(other, functions=(lambda k: k * period, lambda t: t / period))
-        times.set_ylabel(plain(f"[{results.period_unit}]"), labelpad=2)
+        times.yaxis.set_major_locator(FixedLocator([k * period for k in steps]))
+        times.yaxis.set_major_formatter(FuncFormatter(lambda t, _: plain(f"{t:g} {results.period_unit}")))
         times.tick_params(labelsize="small")
     return bar
 

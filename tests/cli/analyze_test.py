@@ -85,7 +85,8 @@ $""",
 
     def test_lane_change(self):
         summary = self.analyze(str(CONFIGS / "lane_change.json"))
-        self.assertEqual((summary["states"], summary["inputs"]), (28, 4))
+        self.assertEqual((summary["cells"], summary["joint_inputs"]), (28, 4))
+        self.assertEqual((summary["states"], summary["inputs"]), (28, 4))  # their older names
         self.assertEqual((summary["safe"], summary["invariant"], summary["iterations"]), (26, 26, 1))
         self.assertEqual(summary["partitions"][0]["layers"], [26, 20, 16, 12, 8, 4, 0])
         self.assertEqual(summary["partitions"][0]["F"], 6)
@@ -98,6 +99,8 @@ $""",
             list(summary),
             [
                 "name",
+                "cells",
+                "joint_inputs",
                 "states",
                 "inputs",
                 "safe",

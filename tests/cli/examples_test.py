@@ -32,9 +32,9 @@ class Cases(Case):
             result.stdout.decode(),
             r"""^circle: the spec is valid
 
-state  points  unit  table  entries     memory  next value depends on
-x1        201  m     shift       41  328 bytes  x1, u1
-x2        201  m     shift       41  328 bytes  x2, u2
+state  points  unit  outside  table  entries     memory  next value depends on
+x1        201  m     unsafe   shift       41  328 bytes  x1, u1
+x2        201  m     unsafe   shift       41  328 bytes  x2, u2
 
 input  points  unit
 u1         41  m/s
@@ -80,6 +80,7 @@ $""",
                 "name": "left_lane",
                 "unit": "",
                 "points": 2,
+                "outside": {"below": "unsafe", "above": "unsafe"},
                 "depends_on": {"states": ["left_lane"], "inputs": ["left_change"], "disturbances": []},
                 "shift": False,
                 "sum": False,
@@ -103,12 +104,12 @@ $""",
         table = result.stdout.decode().split("\n\n")[1]
         self.assertEqual(
             table,
-            """state  points  unit  table  entries    memory  next value depends on
-v1          5  m/s   shift        3  24 bytes  v1, u1, gust
-v2          5  m/s   shift        3  24 bytes  v2, u2, gust
-v3          5  m/s   shift        3  24 bytes  v3, u3, gust
-gap12      39  m     shift      225   1.8 KiB  v1, v2, gap12, u1, u2, gust
-gap23      39  m     shift      225   1.8 KiB  v2, v3, gap23, u2, u3, gust""",
+            """state  points  unit  outside                       table  entries    memory  next value depends on
+v1          5  m/s   saturate                      shift        3  24 bytes  v1, u1, gust
+v2          5  m/s   saturate                      shift        3  24 bytes  v2, u2, gust
+v3          5  m/s   saturate                      shift        3  24 bytes  v3, u3, gust
+gap12      39  m     unsafe below, saturate above  shift      225   1.8 KiB  v1, v2, gap12, u1, u2, gust
+gap23      39  m     unsafe below, saturate above  shift      225   1.8 KiB  v2, v3, gap23, u2, u3, gust""",
         )
 
     def test_validate_quiet(self):

@@ -53,7 +53,7 @@ class Cases(Case):
                 self.assertIn(description, section)
                 for *_, described in arguments:
                     self.assertIn(described, section)
-                self.assert_describes(section + sections["OPTIONS OF EVERY COMMAND"], program_help.options(text))
+                self.assert_describes(section + sections["COMMON OPTIONS"], program_help.options(text))
 
     def test_name_that_whatis_finds(self):
         name = self.sections()["NAME"].strip()

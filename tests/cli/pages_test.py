@@ -20,7 +20,7 @@ SESSIONS = {
     "grids.md": (1, []),
     "networks.md": (1, []),
     "outputs.md": (7, []),
-    "queries.md": (1, ["circle.json"]),
+    "queries.md": (2, ["circle.json"]),
     "requirements.md": (1, []),
     "results.md": (2, ["circle.json"]),
     "rules.md": (1, []),
@@ -40,7 +40,7 @@ class Cases(PageCase):
         """Cells, and the longest silence in seconds."""
         self.write("spec.json", spec)
         summary = json.loads(self.run_program("analyze", "spec.json", "--json", "-o", "out.h5").stdout)
-        return summary["states"], summary["partitions"][0]["max_delay_time"]
+        return summary["cells"], summary["partitions"][0]["max_delay_time"]
 
     def test_sessions_of_coalitions(self):
         self.assert_sessions("coalitions.md")

@@ -189,6 +189,18 @@ class Cases(PlotCase):
         self.assert_arrays_equal(data.histograms[0].cells, [(delay == k).sum() for k in range(3)])
         self.assertEqual([text.get_text() for text in figure.axes[0].texts], ["at least"])
 
+    def test_colour_bars_have_whole_steps_with_their_times(self):
+        self.analyzed(SPEC)
+        data, figure = self.plotted("layers")
+        bar = figure.axes[1]
+        figure.canvas.draw()
+        steps = bar.get_yticks()
+        self.assertEqual([step % 1 for step in steps], [0] * len(steps))
+        self.assertTrue((0 <= min(steps)) and (max(steps) <= data.most))
+        (times,) = bar.child_axes
+        np.testing.assert_allclose(times.get_yticks(), steps * 0.5)
+        self.assertEqual([text.get_text() for text in times.get_yticklabels()][:2], ["0 s", f"{steps[1] * 0.5:g} s"])
+
     # unsafe3d
 
     def test_unsafe3d_shows_the_surface_of_what_is_lost(self):
@@ -260,7 +272,8 @@ class Cases(PlotCase):
         data, figure = self.plotted("run", "--run", "1", file="runs.h5")
         time, state = self.stored("time", "runs.h5"), self.stored("state", "runs.h5")[1]
         curves, steps, margin = figure.axes
-        for i, name in enumerate(("x1 [m]", "x2 [m]")):
+        self.assertEqual(labels(curves)[1], "x1, x2 [m]")
+        for i, name in enumerate(("x1", "x2")):
             self.assertEqual(curves.lines[i].get_label(), name)
             self.assert_arrays_equal(curves.lines[i].get_xydata(), np.stack([time, state[:, i]], axis=1))
         slack, countdown, coordinated = steps.lines
@@ -280,6 +293,15 @@ class Cases(PlotCase):
             (("--plane", "x1,x3"), "'x3' is no state, expected 'x1' or 'x2' (--plane)"),
         ):
             self.assert_plot_fails(2, message, "run", "runs.h5", "-o", "a.png", *words)
+
+    def test_run_has_axes_for_each_unit(self):
+        self.simulated("load.json", "--from", "v=0,p=0.5", "--steps", "20")
+        data, figure = self.plotted("run", file="runs.h5")
+        state = self.stored("state", "runs.h5")[0]
+        for axes, name, i in zip(figure.axes, ("v [m/s]", "p [m]"), (0, 1)):
+            self.assertEqual((labels(axes)[1], len(axes.lines)), (name, 1))
+            self.assert_arrays_equal(axes.lines[0].get_ydata(), state[:, i])
+        self.assertEqual([labels(axes)[0] for axes in figure.axes[:2]], ["", "time [s]"])
 
     def test_run_in_a_plane_and_for_ever(self):
         start = "p1=-10,v1=0,v2=1.5,p2=10"
@@ -327,6 +349,19 @@ class Cases(PlotCase):
         self.assertEqual(texts, [first, "time: 11 steps (0.11 s)", "start: in K"])
         self.assertEqual(titles(figure), ["circle\n4 safe cells are not invariant", "horizontal|vertical"])
         self.assertEqual(labels(axes), ("delay [s]", "cells"))
+
+    def test_requirements_that_hold_and_fail(self):
+        required = [
+            {"name": "good", "where": "x <= 0.1 and y <= 0.1 and x > -0.4 and y > -0.4", "min_delay": 3},
+            {"name": "bad", "where": "x >= 3 and y >= 2.6", "min_delay": 2},
+        ]
+        self.write("spec.json", spec_with(requirements=required))
+        self.assertEqual(self.run_program("analyze", "spec.json", "-o", "out.h5").returncode, 1)
+        data, figure = self.plotted("requirements")
+        axes = figure.axes[0]
+        texts = [text.get_text() for text in axes.get_legend().get_texts()]
+        self.assertEqual(texts, ["good: 3 steps (1.5 s), holds", "bad: 2 steps (1 s), FAILS"])
+        self.assertEqual([line.get_linestyle() for line in axes.lines], ["-", "--"])
 
     def test_requirements_of_several_partitions(self):
         partitions = [{"classes": []}, {"name": "both", "classes": [["b", "a"]]}]

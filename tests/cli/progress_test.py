@@ -83,9 +83,9 @@ class Cases(Case):
 
     def test_bar_on_a_terminal_only(self):
         spec = self.fine_circle(0.001)
-        result = self.run_program("analyze", spec, "--progress", "bar")
+        result = self.run_program("analyze", spec, "--progress", "auto")
         self.assertEqual((result.returncode, result.stderr), (0, b""))
-        for options in ([], ["--progress", "bar", "--quiet"], ["--progress", "auto"]):
+        for options in ([], ["--progress", "auto"]):
             shown = self.on_terminal("analyze", spec, *options)
             self.assertIn("layers horizontal|vertical", shown)
             self.assertRegex(shown, r"\r +\r$")
@@ -117,7 +117,7 @@ class Cases(Case):
 
     def test_options(self):
         for message, *options in (
-            ("expected auto, bar, log or none, found 'no' (--progress)", "--progress", "no"),
+            ("expected auto, log or none, found 'no' (--progress)", "--progress", "no"),
             (
                 "only a log has lines every so often, expected --progress log (--progress-every)",
                 "--progress-every",

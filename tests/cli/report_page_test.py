@@ -88,9 +88,22 @@ class Cases(PageCase):
         self.assertIn("gear = 1", self.cell()["Centre"])
         self.focus("#slider-2")
         self.assert_picture_changes(lambda: self.browser.press("ArrowLeft"))
-        self.assertIn("v = 0 m/s", self.cell()["Centre"])
-        self.assertEqual(self.browser.run("document.getElementById('slider-2').getAttribute('aria-valuetext')"), "0 m/s")
+        self.assertIn("v = 0.5 m/s", self.cell()["Centre"])
+        self.assertEqual(self.browser.run("document.getElementById('slider-2').getAttribute('aria-valuetext')"), "0.5 m/s")
         self.assert_is_answer(self.cell(), "alone")
+
+    def test_tables_of_stories_on_wide_and_narrow_screens(self):
+        self.report_that_fails(self.example("intersection_requirements.json"))
+        self.open()
+        self.addCleanup(self.browser.call, "Emulation.clearDeviceMetricsOverride")
+        inner = "(() => { const box = document.querySelector('.story').parentElement; return [box.clientWidth, box.scrollWidth]; })()"
+        for width in (1700, 390):
+            self.browser.call("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=False)
+            shown, needed = self.browser.run(inner)
+            self.assertEqual(self.browser.run("document.documentElement.scrollWidth"), width)
+            if width == 1700:
+                self.assertGreater(needed, 720)  # more than a column of text
+                self.assertEqual(shown, needed)
 
     def test_other_maps(self):
         self.report(FOUR)
@@ -120,7 +133,7 @@ class Cases(PageCase):
         self.report(self.example("circle.json"))
         self.open()
         self.focus("#picture")
-        for key, shift, index in (("ArrowRight", False, (101, 100)), ("ArrowUp", True, (101, 110)), ("ArrowLeft", True, (91, 110)),
+        for key, shift, index in (("ArrowRight", False, (100, 100)), ("ArrowUp", True, (100, 110)), ("ArrowLeft", True, (90, 110)),
                                   ("Home", False, (0, 110)), ("ArrowLeft", False, (0, 110)), ("End", False, (200, 110)),
                                   ("ArrowDown", False, (200, 109))):  # fmt: skip
             self.browser.press(key, shift=shift)

@@ -134,7 +134,7 @@ class Cases(PageCase):
                 names = ["11", "10", "01"] if cell["Safe in"].startswith("all") else re.findall(r"\d\d", cell["Safe in"].split(":")[-1])
                 return cell["Safe set"], cell["Invariance set"], mode in names
 
-            self.assertEqual(len(self.assert_colours_tell_apart(meaning, self.PLACES[::2])), 4)
+            self.assertGreaterEqual(len(self.assert_colours_tell_apart(meaning, self.PLACES[::2])), 3)
             for place in self.PLACES[::7]:
                 self.point(*place)
                 cell = self.cell()
@@ -143,9 +143,9 @@ class Cases(PageCase):
                 found.add(cell["Safe in"])
         self.assertLessEqual({"no mode", "all 3 modes"}, found)
         self.focus("#sliders input")
-        self.assert_picture_changes(lambda: self.browser.press("Home"))
+        self.assert_picture_changes(lambda: self.browser.press("End"))
         self.point(0.3, 0.3)
-        self.assertIn("v1 = 0 m/s", self.cell()["Centre"])
+        self.assertIn("v1 = 3 m/s", self.cell()["Centre"])
         self.assert_is_answer(self.cell(), "first|second")
         self.assert_is_quiet()
 

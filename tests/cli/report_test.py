@@ -46,6 +46,23 @@ class Cases(ReportCase):
         self.assertIn("A state is safe if r2 <= R^2, where r2 = x1^2 + x2^2, R = 0.8.", text)
         self.assertIn("20,081 of them are safe; from 20,077 of these", text)
 
+    def test_title_shares_and_constants(self):
+        """No round share of the states that is none of theirs, no constant that nothing depends on."""
+        page = self.report(spec_with(description="A short one", constants={"R": 6, "b": 2, "c": "R + b"},
+                                     definitions={"sum": "x + y", "other": "c"}, safe="sum <= R"))
+        self.assertIn("<title>A short one</title>", page)
+        text = self.text_of(page)
+        self.assertIn("A short one\nsmall\n", text)
+        self.assertIn("A state is safe if sum <= R, where sum = x + y, R = 6.", text)
+        self.assertIn(
+            "So manymay be silent\n"
+            "77 % of the statesfor at least 0.5 s (1 step)\n"
+            "50 % of the statesfor at least 0.5 s (1 step)\n"
+            "10 % of the statesfor at least 1 s (2 steps)\n",
+            text,
+        )
+        self.assertIn("<title>small</title>", self.report(spec_with(description="long " * 30)))
+
     def test_answers_of_partitions(self):
         text = self.text_of(self.report(FOUR))
         self.assertRegex(text, r"Partition alone\nFrom [0-9.]+ % of the states the agents never need to talk to each other; "

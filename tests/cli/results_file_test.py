@@ -26,9 +26,9 @@ cells             40,401
 safe set          20,081
 invariance set    20,077
 
-axis  kind   points  first  last  unit
-x1    state     201     -1     1  m
-x2    state     201     -1     1  m
+axis  kind   points  first  last  unit  outside
+x1    state     201     -1     1  m     unsafe
+x2    state     201     -1     1  m     unsafe
 u1    input      41     -1     1  m/s
 u2    input      41     -1     1  m/s
 
@@ -69,7 +69,15 @@ datasets
         )
         self.assertEqual((info["cells"], info["safe"], info["invariant"]), (40401, 20081, 20077))
         self.assertEqual(
-            info["states"][0], {"name": "x1", "unit": "m", "points": 201, "first": -1.0, "last": 1.0}
+            info["states"][0],
+            {
+                "name": "x1",
+                "unit": "m",
+                "points": 201,
+                "first": -1.0,
+                "last": 1.0,
+                "outside": {"below": "unsafe", "above": "unsafe"},
+            },
         )
         self.assertEqual([axis["name"] for axis in info["inputs"]], ["u1", "u2"])
         self.assertEqual(info["partitions"][0]["layers"], summary["partitions"][0]["layers"])

@@ -21,14 +21,14 @@ class Cases(Case):
     def test_a_refinement_divides_all_steps(self):
         self.write("spec.json", COMMENTED)
         refined = self.analyze("spec.json", "--refine", "2")
-        self.assertEqual(refined["states"], 81)
+        self.assertEqual(refined["cells"], 81)
         self.assertEqual([state["step"] for state in json.loads(self.stored_spec())["states"]], [0.5, 0.5])
         by_hand = self.analyze("spec.json", "--set", "states.0.step=0.5", "--set", "states.1.step=1/2")
-        for key in ("states", "safe", "invariant", "iterations", "partitions"):
+        for key in ("cells", "safe", "invariant", "iterations", "partitions"):
             self.assertEqual(refined[key], by_hand[key])
         # It comes last, and 1 changes nothing.
-        self.assertEqual(self.analyze("spec.json", "--refine", "2", "--set", "states.0.step=2")["states"], 45)
-        self.assertEqual(self.analyze("spec.json", "--refine", "1")["states"], 25)
+        self.assertEqual(self.analyze("spec.json", "--refine", "2", "--set", "states.0.step=2")["cells"], 45)
+        self.assertEqual(self.analyze("spec.json", "--refine", "1")["cells"], 25)
         self.assertEqual(json.loads(self.run_program("validate", "spec.json", "--refine", "3", "--json").stdout)["cells"], 169)
 
     def test_sweeps_of_refinements(self):
@@ -36,7 +36,7 @@ class Cases(Case):
         document = json.loads(
             self.run_program("analyze", "spec.json", "--sweep", "refine=1,2,4", "--json", "-o", ".").stdout
         )
-        self.assertEqual([run["summary"]["states"] for run in document["runs"]], [25, 81, 289])
+        self.assertEqual([run["summary"]["cells"] for run in document["runs"]], [25, 81, 289])
         self.assertEqual([run["values"] for run in document["runs"]], [{"refine": n} for n in (1, 2, 4)])
         self.assertEqual(self.files(), [*(f"small_refine={n}.h5" for n in (1, 2, 4)), "spec.json"])
 
@@ -52,7 +52,7 @@ class Cases(Case):
     def test_file_has_the_spec_that_was_analysed(self):
         self.write("spec.json", COMMENTED)
         summary = self.analyze("spec.json", "--set", "states.0.step=0.5", "--set", "safe=x + y <= 5")
-        self.assertEqual(summary["states"], 45)
+        self.assertEqual(summary["cells"], 45)
         expected = COMMENTED.replace('"step": 1', '"step": 0.5', 1).replace("x + y <= 6", "x + y <= 5")
         self.assertEqual(json.loads(self.stored_spec()), json.loads(without_comments(expected)))
         self.assertEqual((self.folder / "spec.json").read_text(), COMMENTED)
@@ -69,12 +69,12 @@ class Cases(Case):
         self.write("spec.json", SPEC)
         for path in ("states.1.upper", "states.y.upper", "/states/1/upper"):
             with self.subTest(path=path):
-                self.assertEqual(self.analyze("spec.json", "--set", f"{path}=6")["states"], 35)
+                self.assertEqual(self.analyze("spec.json", "--set", f"{path}=6")["cells"], 35)
 
     def test_the_last_one_counts(self):
         self.write("spec.json", SPEC)
         arguments = ("--set", "states.y.upper=6", "--set", "states.y.upper=7")
-        self.assertEqual(self.analyze("spec.json", *arguments)["states"], 40)
+        self.assertEqual(self.analyze("spec.json", *arguments)["cells"], 40)
 
     def test_optional_keys_may_be_added(self):
         self.write("spec.json", SPEC)
@@ -90,14 +90,14 @@ class Cases(Case):
 
     def test_standard_input(self):
         text = json.dumps(SPEC).encode()
-        self.assertEqual(self.analyze("-", "--set", "states.y.upper=6", stdin=text)["states"], 35)
+        self.assertEqual(self.analyze("-", "--set", "states.y.upper=6", stdin=text)["cells"], 35)
 
     def test_values(self):
         """JSON is taken as JSON, everything else as text."""
         self.write("spec.json", SPEC)
         for value in ("2", "2.0", "4/2", '"4/2"', "sqrt(4)"):
             with self.subTest(value=value):
-                self.assertEqual(self.analyze("spec.json", "--set", f"states.x.step={value}")["states"], 15)
+                self.assertEqual(self.analyze("spec.json", "--set", f"states.x.step={value}")["cells"], 15)
         self.assert_fails(
             3,
             "expected a string with a condition, found true (/safe)",

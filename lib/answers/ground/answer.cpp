@@ -47,8 +47,11 @@ std::vector<Stage> ground_stages(const ProblemSpec& /*spec*/) {
 void summarise_ground(const Answers& answers, Json& summary, Json& /*work*/) {
   const Ground& ground = answers.ground;
   summary["name"] = ground.spec.name;
-  summary["states"] = ground.abstraction->grid.points();
-  summary["inputs"] = ground.abstraction->inputs.count();
+  summary["cells"] = ground.abstraction->grid.points();
+  summary["joint_inputs"] = ground.abstraction->inputs.count();
+  // Older names of the two.
+  summary["states"] = summary["cells"];
+  summary["inputs"] = summary["joint_inputs"];
   if (ground.listed) {
     summary["controller"] = {{"file", *ground.spec.controller.file},
                              {"sha256", ground.listed->sha256},

@@ -61,16 +61,20 @@ Json step_json(const ResultPath& path, std::size_t step, const ProblemSpec& spec
 }
 
 Json counterexample_json(const ResultRequirement& result, const ProblemSpec& spec) {
+  if (result.path) return story_json(*result.path, spec);
   Json json;
-  if (!result.path) {
-    json["state"] = Json();
-    json["steps"] = Json::array();
-    json["end"] = "outside_domain";
-    json["end_sample"] = Json();
-    json["left_side"] = side_json(result.reached_side, spec);
-    return json;
-  }
-  const ResultPath& path = *result.path;
+  json["state"] = Json();
+  json["steps"] = Json::array();
+  json["end"] = "outside_domain";
+  json["end_sample"] = Json();
+  json["left_side"] = side_json(result.reached_side, spec);
+  return json;
+}
+
+}  // namespace
+
+Json story_json(const ResultPath& path, const ProblemSpec& spec) {
+  Json json;
   json["state"] = state_json(path, 0, spec);
   json["steps"] = Json::array();
   for (std::size_t s = 0; s < path.steps(); ++s) json["steps"].push_back(step_json(path, s, spec));
@@ -80,8 +84,6 @@ Json counterexample_json(const ResultRequirement& result, const ProblemSpec& spe
   json["left_side"] = side_json(path.left_side, spec);
   return json;
 }
-
-}  // namespace
 
 Json delay_json(std::int32_t delay) {
   return delay < 0 || delay == DelayLayers::kUnbounded ? Json() : Json(delay);

@@ -24,6 +24,8 @@ struct RequirementVerdicts {
 /// One requirement as the summary has it, with the story of its counterexample.
 [[nodiscard]] Json requirement_json(const ResultRequirement& result, const RequirementSpec& asked,
                                     const ProblemSpec& spec);
+/// A way out of S, step by step.
+[[nodiscard]] Json story_json(const ResultPath& path, const ProblemSpec& spec);
 /// A delay as in `/delay`: the number of steps, else null.
 [[nodiscard]] Json delay_json(std::int32_t delay);
 /// "steps", "unbounded", "not_invariant" or "not_safe".

@@ -7,7 +7,7 @@
 
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"
-#include "answers/requirements/escape_path.hpp"
+#include "answers/requirements/escape_result.hpp"
 #include "answers/requirements/requirement.hpp"
 #include "base/error.hpp"
 
@@ -68,35 +68,8 @@ class Judge {
       sets.classes = input_classes(ground_.spec, ground_.abstraction->inputs, own);
       sets.layers_of = &layers_of(partition)->layers_of;
     }
-    const UniformGrid& grid = ground_.abstraction->grid;
-    const EscapePath found = find_escape(sets, cell);
-    ResultPath path{.phase = found.phases, .end = found.end};
-    for (const std::int64_t x : found.cells) add_sample(x, partition, path);
-    for (const std::int64_t u : found.joint_inputs) add_step(u, path);
-    for (const DomainSide& side : found.sides) {
-      const ResultSide named{.state = grid.state(side.dimension), .above = side.above};
-      if (!path.left_side || named.state < path.left_side->state) path.left_side = named;
-    }
-    return path;
-  }
-
-  void add_sample(std::int64_t cell, std::optional<std::size_t> partition, ResultPath& path) const {
-    std::int64_t number = 0;
-    for (std::size_t i = 0; i < number_stride_.size(); ++i)
-      number += ground_.abstraction->grid.index(cell, i) * number_stride_[i];
-    path.cell.push_back(static_cast<std::uint64_t>(number));
-    for (std::size_t i = 0; i < grid_.size(); ++i)
-      path.state.push_back(nearest_double(grid_[i].point(grid_.index(number, i))));
-    const std::int64_t time = controller_.collision_time->at(cell);
-    path.collision_time.push_back(time == LevelMap::kTop ? DelayLayers::kUnbounded
-                                                         : static_cast<std::int32_t>(time));
-    path.delay.push_back(delay_of(cell, time, layers_of(partition)));
-  }
-
-  void add_step(std::int64_t u, ResultPath& path) const {
-    const InputSpace& inputs = ground_.abstraction->inputs;
-    for (std::size_t i = 0; i < inputs.size(); ++i)
-      path.input.push_back(nearest_double(inputs[i].values[static_cast<std::size_t>(inputs.index(u, i))]));
+    return result_of(find_escape(sets, cell), ground_, *controller_.collision_time, layers_of(partition),
+                     number_stride_);
   }
 
   const Answers& answers_;

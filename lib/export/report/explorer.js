@@ -39,17 +39,12 @@ class Explorer {
     this.index = data.states.map((state) => (state.kept ? 0 : Math.floor(state.points.length / 2)));
   }
 
-  // Shows the middle of the grid, or a best state where there is nothing to see in the middle.
+  // Shows a best state, or the middle of the grid where there is none at first, when nothing is remembered.
   async start() {
     await this.change({});
     const { best } = data.maps[this.map];
-    if (best !== null && this.isUniform()) this.goTo(best);
+    if (best !== null && best.every((k, i) => k === 0 || !data.states[i].kept)) this.goTo(best);
     find("spoken").textContent = "";
-  }
-
-  isUniform() {
-    const { data: pixels } = this.picture.image.getContext("2d").getImageData(0, 0, this.picture.image.width, this.picture.image.height);
-    return pixels.every((value, i) => value === pixels[i % 4]);
   }
 
   addControls() {

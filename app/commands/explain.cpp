@@ -1,0 +1,47 @@
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/all.hpp"
+#include "app/explain_report.hpp"
+#include "app/option_values.hpp"
+#include "app/print_answer.hpp"
+#include "cell/simulate.hpp"
+#include "cell/state_text.hpp"
+#include "results/results_reader.hpp"
+
+namespace coordreq {
+namespace {
+
+struct ExplainOptions : CommonOptions {
+  std::string results;
+  std::string at;
+  std::string partition;
+};
+
+ExitCode run(const ExplainOptions& own) {
+  if (own.at.empty()) throw UsageError("no state, expected --at NAME=VALUE,...");
+  const ResultsReader results(own.results, own.max_memory);
+  const std::size_t partition = find_partition(results.spec(), own.partition);
+  const std::vector<Rational> state = parse_state(own.at, state_names(results.spec()), "--at");
+  const Location location = locate(results.grid(), state);
+  if (location.kind != Location::Kind::cell)
+    throw UsageError("expected a state in a cell of the grid, found one outside; see query", "--at");
+  ThreadTeam team(own.threads);
+  const DelayExplanation found = explain_delay(results, partition, location.cell, own.memory(), team);
+  print_answer(own, explanation_json(found, state, location.cell, partition, results),
+               [&](const Json& json) { return explanation_text(json, results.spec()); });
+  return ExitCode::success;
+}
+
+}  // namespace
+
+Run declare_explain(Options& options) {
+  const auto own = std::make_shared<ExplainOptions>();
+  declare_results(options, own->results);
+  options.option(own->at, "--at", "STATE", "The state, as x1=0.1,x2=1/3", as_typed);
+  options.option(own->partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
+  declare_common(options, *own);
+  return [own] { return run(*own); };
+}
+
+}  // namespace coordreq

@@ -1,0 +1,217 @@
+#include "app/explain_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "answers/field_parts.hpp"
+#include "answers/requirements/answer.hpp"
+#include "app/query_values.hpp"
+#include "app/render.hpp"
+#include "app/requirement_text.hpp"
+
+namespace coordreq {
+namespace {
+
+void add_delay(Json& json, std::int32_t delay, bool is_lower_bound) {
+  json["delay"] = delay_json(delay);
+  json["delay_status"] = is_lower_bound ? "at_least" : delay_word(delay);
+}
+
+Json centre_json(const UniformGrid& grid, std::int64_t cell) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    json[grid[i].name] = nearest_double(grid[i].point(grid.index(cell, i)));
+  return json;
+}
+
+Json freedom_json(const DelayExplanation& found, const StoredPartition& partition) {
+  Json json = {{"together", found.together}, {"alone", found.alone}, {"classes", Json::array()}};
+  for (std::size_t c = 0; c < found.actions.size(); ++c) {
+    const std::vector<bool>& own = found.actions[c];
+    json["classes"].push_back({{"name", partition.classes[c]},
+                               {"admissible", std::count(own.begin(), own.end(), true)},
+                               {"total", own.size()}});
+  }
+  return json;
+}
+
+Json remedy_json(const DelayExplanation::Remedy& remedy, std::size_t partition,
+                 const ResultsReader& results) {
+  const ProblemSpec& spec = results.spec();
+  const std::vector<std::int32_t> inputs =
+      inputs_of(spec, spec.coordination.partitions[partition].classes[remedy.class_number]);
+  const std::vector<Rational> values = values_of(spec, inputs, static_cast<std::size_t>(remedy.action));
+  Json json = {{"class", results.partitions()[partition].classes[remedy.class_number]},
+               {"inputs", Json::object()}};
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    json["inputs"][spec.inputs[static_cast<std::size_t>(inputs[i])].name] = nearest_double(values[i]);
+  add_delay(json, remedy.delay, remedy.delay != ResultsReader::kNever);
+  return json;
+}
+
+Json convention_json(const DelayExplanation& found, const ProblemSpec& spec) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < found.convention.size(); ++i) {
+    const std::vector<bool>& own = found.convention[i];
+    json.push_back({{"agent", spec.agents[i].name},
+                    {"kept", std::count(own.begin(), own.end(), true)},
+                    {"total", own.size()}});
+  }
+  return json;
+}
+
+std::string listed_words(const std::vector<std::string>& parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
+  return text;
+}
+
+std::string classes_are(const Json& freedom) {
+  std::vector<std::string> parts;
+  for (const Json& own : freedom["classes"]) {
+    const bool is_all = own["admissible"] == own["total"];
+    parts.push_back(fmt::format("{} {}{}", line_of(own["name"]),
+                                is_all ? "all " : grouped(own["admissible"]) + " of ",
+                                grouped(own["total"])));
+  }
+  return listed_words(parts);
+}
+
+/// What is left to the classes, and what that means.
+void add_freedom(const Json& found, std::vector<std::string>& text) {
+  const Json& freedom = found["freedom"];
+  text.push_back(fmt::format("Of their actions the controller leaves {} here.", classes_are(freedom)));
+  const std::int64_t alone = number_of(freedom["alone"]), together = number_of(freedom["together"]);
+  if (alone == together) {
+    text.push_back("Whatever they pick of these keeps the next state in the invariance set.");
+  } else {
+    text.push_back(
+        fmt::format("Picked alone that makes {} joint actions, of which {} keep the next state in the "
+                    "invariance set.",
+                    grouped(freedom["alone"]), grouped(freedom["together"])));
+  }
+}
+
+void add_neighbour(const Json& found, const ProblemSpec& spec, std::vector<std::string>& text) {
+  const Json& other = found["freer_is_shorter"];
+  if (other.is_null()) return;
+  const std::string delay = other["delay_status"] == "unbounded"
+                                ? "silence may last for ever"
+                                : "the delay is " + steps_text(number_of(other["delay"]), spec);
+  text.push_back(fmt::format(
+      "At {} {}, with {} joint actions instead of {}: the controller leaves agents every action that can "
+      "still be made up for together, so that more freedom can mean less silence.",
+      values_text(other["state"]), delay, grouped(other["alone"]), grouped(found["freedom"]["alone"])));
+}
+
+void add_remedies(const Json& found, const ProblemSpec& spec, std::vector<std::string>& text) {
+  for (const Json& own : found["remedies"]) {
+    const std::string much =
+        own["delay_status"] == "unbounded"
+            ? "no silence would be too long"
+            : fmt::format("at least {} would be tolerated", steps_text(number_of(own["delay"]), spec));
+    text.push_back(fmt::format("If \"allow\" left {} only {} here, {}.", line_of(own["class"]),
+                               values_text(own["inputs"]), much));
+  }
+  if (found["remedies"].empty())
+    text.push_back("No class alone can lengthen this by keeping to one action here.");
+  std::vector<std::string> kept;
+  for (const Json& own : found["convention"])
+    kept.push_back(
+        fmt::format("{} {} of {}", line_of(own["agent"]), grouped(own["kept"]), grouped(own["total"])));
+  text.push_back(fmt::format(
+      "With a convention (\"convention\": true) {} actions here, and agents that keep to it never "
+      "need to coordinate.",
+      "agents would keep " + listed_words(kept)));
+}
+
+/// As requirements have it, so that the story is told the same way.
+Json as_requirement(const Json& found) {
+  return {{"kind", "min_delay"}, {"partition", found["partition"]}, {"counterexample", found["way_out"]}};
+}
+
+std::vector<std::string> sentences_of(const Json& found, const ProblemSpec& spec) {
+  std::vector<std::string> text;
+  const std::string status = text_of(found["delay_status"]);
+  if (status == "not_safe") return {"The cell is not safe."};
+  if (!found["way_out"].is_null()) text = story_sentences(as_requirement(found), spec);
+  if (status == "not_invariant") return text;
+  if (status == "unbounded")
+    text.emplace_back(
+        "Whatever the classes do alone of what is admissible to them, all cells that can follow tolerate "
+        "any silence again.");
+  if (status == "at_least")
+    text.emplace_back(
+        "\"max_delay\" ended the search, so that there may be no way out of the invariance set.");
+  add_freedom(found, text);
+  if (found["way_out"].is_null()) return text;
+  add_neighbour(found, spec, text);
+  add_remedies(found, spec, text);
+  return text;
+}
+
+std::string delay_text(const Json& found, const ProblemSpec& spec) {
+  const std::string status = text_of(found["delay_status"]);
+  if (status == "not_safe") return "none: the cell is not safe";
+  if (status == "not_invariant") return "none: no coordination keeps the system safe from here";
+  if (status == "unbounded") return "unbounded: safe without coordination for ever";
+  return (status == "at_least" ? "at least " : "") + steps_text(number_of(found["delay"]), spec);
+}
+
+std::string way_text(const Json& found, const ProblemSpec& spec) {
+  if (found["way_out"].is_null() || found["way_out"]["steps"].empty()) return "";
+  const StoryTable story = story_table(as_requirement(found), spec);
+  std::vector<Table::Align> columns(story.heads.size(), Table::Align::left);
+  std::fill_n(columns.begin(), story.numbers, Table::Align::right);
+  Table table(columns);
+  table.add(story.heads);
+  for (const std::vector<std::string>& row : story.rows) table.add(row);
+  return "\nthe shortest way out\n" + table.text();
+}
+
+}  // namespace
+
+Json explanation_json(const DelayExplanation& found, const std::vector<Rational>& state, std::int64_t cell,
+                      std::size_t partition, const ResultsReader& results) {
+  const ProblemSpec& spec = results.spec();
+  const UniformGrid& grid = results.grid();
+  Json json;
+  json["name"] = spec.name;
+  json["state"] = Json::object();
+  for (std::size_t i = 0; i < grid.size(); ++i) json["state"][grid[i].name] = nearest_double(state[i]);
+  json["cell"] = cell;
+  json["center"] = centre_json(grid, cell);
+  json["partition"] = results.partitions()[partition].name;
+  add_delay(json, found.delay, found.is_lower_bound);
+  json["way_out"] = found.path ? story_json(*found.path, spec) : Json();
+  const bool is_in_k = found.delay >= 0;
+  json["freedom"] = is_in_k ? freedom_json(found, results.partitions()[partition]) : Json();
+  json["remedies"] = Json::array();
+  for (const DelayExplanation::Remedy& own : found.remedies)
+    json["remedies"].push_back(remedy_json(own, partition, results));
+  json["convention"] = convention_json(found, spec);
+  json["freer_is_shorter"] = Json();
+  if (const auto& other = found.freer_is_shorter) {
+    Json& own = json["freer_is_shorter"] = {{"state", centre_json(grid, other->cell)}, {"cell", other->cell}};
+    add_delay(own, other->delay, false);
+    own["alone"] = other->alone;
+  }
+  json["sentences"] = sentences_of(json, spec);
+  return json;
+}
+
+std::string explanation_text(const Json& explanation, const ProblemSpec& spec) {
+  std::string text = facts_text({{"state", values_text(explanation["state"])},
+                                 {"cell", fmt::format("number {}, around {}", grouped(explanation["cell"]),
+                                                      values_text(explanation["center"]))},
+                                 {"partition", line_of(explanation["partition"])},
+                                 {"delay", delay_text(explanation, spec)}});
+  text += way_text(explanation, spec) + "\n";
+  for (const Json& sentence : explanation["sentences"]) text += text_of(sentence) + "\n";
+  return text;
+}
+
+}  // namespace coordreq

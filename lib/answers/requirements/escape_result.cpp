@@ -1,0 +1,55 @@
+#include "answers/requirements/escape_result.hpp"
+
+#include "answers/requirements/requirement.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Where the parts of an escape go.
+struct EscapeWriter {
+  const Ground& ground;
+  const LevelMap& collision_time;
+  const DelayLayers* layers;
+  const std::vector<std::int64_t>& number_stride;
+  ResultPath path = {};
+
+  void add_sample(std::int64_t cell) {
+    const UniformGrid& grid = ground.abstraction->grid;
+    std::int64_t number = 0;
+    std::vector<double> state(grid.size());
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      number += grid.index(cell, i) * number_stride[i];
+      state[grid.state(i)] = nearest_double(grid[i].point(grid.index(cell, i)));
+    }
+    path.cell.push_back(static_cast<std::uint64_t>(number));
+    path.state.insert(path.state.end(), state.begin(), state.end());
+    const std::int64_t time = collision_time.at(cell);
+    path.collision_time.push_back(time == LevelMap::kTop ? DelayLayers::kUnbounded
+                                                         : static_cast<std::int32_t>(time));
+    path.delay.push_back(delay_of(cell, time, layers));
+  }
+
+  void add_step(std::int64_t u) {
+    const InputSpace& inputs = ground.abstraction->inputs;
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      path.input.push_back(nearest_double(inputs[i].values[static_cast<std::size_t>(inputs.index(u, i))]));
+  }
+};
+
+}  // namespace
+
+ResultPath result_of(const EscapePath& found, const Ground& ground, const LevelMap& collision_time,
+                     const DelayLayers* layers, const std::vector<std::int64_t>& number_stride) {
+  EscapeWriter writer{ground, collision_time, layers, number_stride};
+  writer.path.phase = found.phases;
+  writer.path.end = found.end;
+  for (const std::int64_t x : found.cells) writer.add_sample(x);
+  for (const std::int64_t u : found.joint_inputs) writer.add_step(u);
+  for (const DomainSide& side : found.sides) {
+    const ResultSide named{.state = ground.abstraction->grid.state(side.dimension), .above = side.above};
+    if (!writer.path.left_side || named.state < writer.path.left_side->state) writer.path.left_side = named;
+  }
+  return std::move(writer.path);
+}
+
+}  // namespace coordreq

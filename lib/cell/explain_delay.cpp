@@ -1,0 +1,147 @@
+#include "cell/explain_delay.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "answers/requirements/escape_result.hpp"
+#include "answers/requirements/requirement.hpp"
+#include "base/index.hpp"
+#include "cell/cell_controller.hpp"
+#include "cell/file_sets.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr std::int32_t kNever = ResultsReader::kNever;
+
+class Explainer {
+ public:
+  Explainer(const ResultsReader& results, std::size_t partition, std::optional<std::uint64_t> max_memory,
+            ThreadTeam& team)
+      : results_(results),
+        partition_(partition),
+        sets_(results, partition, max_memory, team),
+        controller_(results, team),
+        posts_(*sets_.ground().abstraction),
+        classes_(input_classes(results.spec(), results.inputs(),
+                               results.spec().coordination.partitions[partition])) {
+    for (InputClass& own : classes_) own.tabulate();
+  }
+
+  DelayExplanation run(std::int64_t cell) {
+    DelayExplanation found{.delay = delay_at(cell)};
+    const DelayLayers& layers = sets_.layers();
+    found.is_lower_bound = layers.truncated && found.delay >= 0 && found.delay == layers.top_delay();
+    const bool is_bounded = found.delay != kNever && !found.is_lower_bound;
+    if (is_bounded) found.path = way_out(cell);
+    if (found.delay < 0) return found;
+    found.actions = controller_.actions(partition_, cell);
+    const std::vector<bool>& together = controller_.joint_inputs(cell);
+    found.together = std::count(together.begin(), together.end(), true);
+    found.alone = choices(found.actions);
+    found.convention = controller_.convention(cell);
+    if (!is_bounded) return found;
+    find_remedies(cell, found);
+    find_neighbour(cell, found);
+    return found;
+  }
+
+ private:
+  [[nodiscard]] std::int32_t delay_at(std::int64_t cell) const {
+    return delay_of(cell, sets_.invariance().collision_time.at(cell), &sets_.layers());
+  }
+
+  [[nodiscard]] ResultPath way_out(std::int64_t cell) const {
+    const std::vector<std::int64_t> strides = sets_.number_stride();
+    const EscapeSets sets{.ground = &sets_.ground(),
+                          .invariance = &sets_.invariance(),
+                          .classes = classes_,
+                          .layers_of = &sets_.layers().layers_of,
+                          .number_stride = strides};
+    return result_of(find_escape(sets, cell), sets_.ground(), sets_.invariance().collision_time,
+                     &sets_.layers(), strides);
+  }
+
+  [[nodiscard]] static std::int64_t choices(const std::vector<std::vector<bool>>& actions) {
+    std::int64_t product = 1;
+    for (const std::vector<bool>& own : actions) product *= std::count(own.begin(), own.end(), true);
+    return product;
+  }
+
+  /// How many steps are left after a post, and this one: a blocked one leaves none.
+  [[nodiscard]] std::int32_t steps_after(const CellPost& post) {
+    if (post.blocked != CellPost::Blocked::no) return 0;
+    if (post.all_left) return kNever;
+    const auto [place, is_new] = known_.try_emplace(post.box, kNever);
+    if (!is_new) return place->second;
+    for_each_cell(posts_.grid(), post.box, [&, &worst = place->second](std::int64_t next) {
+      const std::int32_t delay = delay_at(next);
+      worst = std::min(worst, delay == kNever ? kNever : std::max(delay, -1) + 1);
+      return worst > 0;
+    });
+    return place->second;
+  }
+
+  /// For each class and each of its actions the worst that the others can make of it.
+  void find_remedies(std::int64_t cell, DelayExplanation& found) {
+    std::vector<std::vector<std::int32_t>> worst;
+    for (const InputClass& own : classes_) worst.emplace_back(at(own.actions()), kNever);
+    posts_.move_to(cell);
+    for (std::int64_t u = 0; u < posts_.inputs().count(); ++u) {
+      const bool is_choice = std::equal(classes_.begin(), classes_.end(), found.actions.begin(),
+                                        [u](const InputClass& own, const std::vector<bool>& actions) {
+                                          return actions[at(own.action(u))];
+                                        });
+      if (!is_choice) continue;
+      const std::int32_t steps = steps_after(posts_.post(u, sets_.ground().tubes()));
+      for (std::size_t c = 0; c < classes_.size(); ++c) {
+        std::int32_t& own = worst[c][at(classes_[c].action(u))];
+        own = std::min(own, steps);
+      }
+    }
+    for (std::size_t c = 0; c < classes_.size(); ++c) {
+      std::optional<DelayExplanation::Remedy> best;
+      for (std::size_t a = 0; a < worst[c].size(); ++a) {
+        if (!found.actions[c][a] || worst[c][a] <= (best ? best->delay : found.delay)) continue;
+        best = {.class_number = c, .action = static_cast<std::int64_t>(a), .delay = worst[c][a]};
+      }
+      if (best) found.remedies.push_back(*best);
+    }
+  }
+
+  void find_neighbour(std::int64_t cell, DelayExplanation& found) {
+    const UniformGrid& grid = posts_.grid();
+    std::int64_t nearest = INT64_MAX;
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      for (const std::int64_t step : {-1, 1}) {
+        const std::int64_t index = grid.index(cell, i);
+        const std::int64_t most = step < 0 ? index : grid[i].count - 1 - index;
+        std::int64_t k = 1;
+        while (k <= most && delay_at(cell + k * step * grid.stride(i)) <= found.delay) ++k;
+        if (k > most || k >= nearest) continue;
+        const std::int64_t other = cell + k * step * grid.stride(i);
+        const std::int64_t alone = choices(controller_.actions(partition_, other));
+        if (alone >= found.alone) continue;
+        nearest = k;
+        found.freer_is_shorter = {.cell = other, .delay = delay_at(other), .alone = alone};
+      }
+    }
+  }
+
+  const ResultsReader& results_;
+  std::size_t partition_;
+  FileSets sets_;
+  CellController controller_;
+  CellPosts posts_;
+  std::vector<InputClass> classes_;
+  std::map<std::vector<IndexRange>, std::int32_t> known_;
+};
+
+}  // namespace
+
+DelayExplanation explain_delay(const ResultsReader& results, std::size_t partition, std::int64_t cell,
+                               std::optional<std::uint64_t> max_memory, ThreadTeam& team) {
+  return Explainer(results, partition, max_memory, team).run(cell);
+}
+
+}  // namespace coordreq

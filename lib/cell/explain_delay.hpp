@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "answers/requirements/result_requirement.hpp"
+#include "base/thread_team.hpp"
+#include "results/results_reader.hpp"
+
+namespace coordreq {
+
+/// Why a cell tolerates so much silence in a partition, and no more.
+///
+/// Delays are those of `/delay`: steps, kNever where silence may last for ever, -1 and -2 outside K and S.
+struct DelayExplanation {
+  std::int32_t delay = 0;
+  bool is_lower_bound = false;  ///< `max_delay` ended the iteration before
+  /// A shortest way out of S on which each class picks from its projection of C(x) as long as that is in K
+  /// (find_escape()); none where the delay has no known end.
+  std::optional<ResultPath> path;
+  // The rest only in K.
+  std::int64_t together = 0;                  ///< |C(x)|
+  std::int64_t alone = 0;                     ///< |IND_C(x)|, the product of the projections
+  std::vector<std::vector<bool>> actions;     ///< the projections, [class][action]
+  std::vector<std::vector<bool>> convention;  ///< what a convention would leave each agent, [agent][action]
+
+  /// A class that keeps to one of its actions at this cell, whatever the others do of theirs; as an `allow`
+  /// would have it. K stays, IND_C(x) shrinks, so that no delay anywhere gets shorter.
+  struct Remedy {
+    std::size_t class_number = 0;
+    std::int64_t action = 0;
+    std::int32_t delay = 0;  ///< at least; the greatest that one of its actions gives, the lowest-numbered
+  };
+  std::vector<Remedy> remedies;  ///< those that give more than `delay`
+
+  /// A cell along one dimension with a longer delay although less is left to the classes.
+  struct Neighbour {
+    std::int64_t cell = 0;
+    std::int32_t delay = 0;
+    std::int64_t alone = 0;
+  };
+  std::optional<Neighbour> freer_is_shorter;  ///< the nearest, of equals in the first dimension, below first
+};
+
+/// @param cell its number in the spec's grid @param max_memory bytes that the program may take
+/// @throws as FileSets and CellController
+/// Cost: that of reading the arrays of the partition and of the abstraction, and of the way out.
+[[nodiscard]] DelayExplanation explain_delay(const ResultsReader& results, std::size_t partition,
+                                             std::int64_t cell, std::optional<std::uint64_t> max_memory,
+                                             ThreadTeam& team);
+
+}  // namespace coordreq

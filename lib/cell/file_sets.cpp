@@ -1,0 +1,95 @@
+#include "cell/file_sets.hpp"
+
+#include <fmt/format.h>
+
+#include "answers/invariance/safe_tubes.hpp"
+#include "base/error.hpp"
+#include "base/grouped.hpp"
+#include "base/timer.hpp"
+#include "reach/build_abstraction.hpp"
+
+namespace coordreq {
+namespace {
+
+using Levels = LevelRows<std::uint32_t>;
+
+/// A level of steps as the file has them: never lost, lost after so many, or not there from the start.
+std::uint32_t level_of_steps(std::int32_t steps, std::int32_t first) {
+  if (steps == ResultsReader::kNever) return Levels::kTop;
+  return steps < 0 ? 0 : static_cast<std::uint32_t>(steps + first);
+}
+
+}  // namespace
+
+FileSets::FileSets(const ResultsReader& results, std::size_t partition,
+                   std::optional<std::uint64_t> max_memory, ThreadTeam& team)
+    : results_(results), ground_(results.spec()) {
+  check_memory(max_memory);
+  // Tubes are not stored.
+  const bool is_stored = results.has_abstraction() && !results.spec().abstraction.between_samples;
+  ground_.abstraction = is_stored ? results.abstraction() : build_abstraction(results.spec(), team);
+  read_cells(partition);
+  if (results.spec().controller.file) read_listed();
+  ground_.beyond = safe_beyond_limits(results.spec(), *ground_.abstraction, ground_.safe, team);
+}
+
+void FileSets::check_memory(std::optional<std::uint64_t> max_memory) const {
+  if (!max_memory) return;
+  double bytes = 9.0 * static_cast<double>(results_.grid().cells());
+  for (const TableShape& shape : table_shapes(results_.spec())) bytes += shape.bytes;
+  if (results_.spec().controller.file)
+    bytes += static_cast<double>(results_.grid().cells()) *
+             static_cast<double>(PackedPairs::bytes_for(results_.inputs().count()));
+  if (bytes + static_cast<double>(resident_bytes()) <= static_cast<double>(*max_memory)) return;
+  throw LimitError(fmt::format("{} cells need about {:.0f} MiB of memory, the limit is {:.0f} MiB",
+                               grouped(results_.grid().cells()), bytes / 1048576,
+                               static_cast<double>(*max_memory) / 1048576),
+                   "--max-memory");
+}
+
+void FileSets::read_cells(std::size_t partition) {
+  const UniformGrid& grid = ground_.abstraction->grid;
+  const std::int64_t length = grid.row_length();
+  ground_.safe = CellSet(grid.rows(), length);
+  invariance_.invariant = CellSet(grid.rows(), length);
+  Levels collision_time(grid.rows(), length, {}, {});
+  Levels layers_of(grid.rows(), length, {}, {});
+  const StoredPartition& stored = results_.partitions()[partition];
+  layers_.sizes.assign(stored.layer_sizes.begin(), stored.layer_sizes.end());
+  layers_.fixed_point_index = stored.fixed_point_index;
+  layers_.truncated = stored.truncated();
+  const auto last = static_cast<std::int32_t>(layers_.sizes.size()) - 1;
+  for (std::int64_t r = 0; r < grid.rows(); ++r) {
+    const auto read = [&](const auto& part) { return results_.stretch(r * length, (r + 1) * length, part); };
+    const auto safe = read([&](const CellBlock& block) { return results_.safe(block); });
+    const auto times = read([&](const CellBlock& block) { return results_.collision_time(block); });
+    const auto delays = read([&](const CellBlock& block) { return results_.delay(partition, block); });
+    for (std::int64_t i = 0; i < length; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (safe[at] != 0) ground_.safe.set(r * length + i);
+      if (delays[at] >= 0) invariance_.invariant.set(r * length + i);
+      collision_time.row(r)[i] = level_of_steps(times[at], 0);
+      const bool is_cut_off = layers_.truncated && delays[at] == last;
+      layers_of.row(r)[i] = is_cut_off ? Levels::kTop : level_of_steps(delays[at], 1);
+    }
+  }
+  invariance_.collision_time = LevelMap(std::move(collision_time));
+  layers_.layers_of = LevelMap(std::move(layers_of));
+}
+
+void FileSets::read_listed() {
+  ListedController listed;
+  listed.pairs.inputs = results_.inputs().count();
+  listed.pairs.bytes = results_.stretch(0, results_.grid().cells(),
+                                        [&](const CellBlock& block) { return results_.listed_bits(block); });
+  ground_.listed = std::move(listed);
+}
+
+std::vector<std::int64_t> FileSets::number_stride() const {
+  std::vector<std::int64_t> strides;
+  for (std::size_t i = 0; i < ground_.abstraction->grid.size(); ++i)
+    strides.push_back(ground_.abstraction->grid.stride(i));
+  return strides;
+}
+
+}  // namespace coordreq

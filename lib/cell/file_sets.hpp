@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "answers/ground.hpp"
+#include "answers/invariance/invariance.hpp"
+#include "answers/layers/delay_layers.hpp"
+#include "base/thread_team.hpp"
+#include "results/results_reader.hpp"
+
+namespace coordreq {
+
+/// What a results file says of all cells, and the posts of its spec, as an analysis has them in memory: S, K
+/// with its collision times, and the delays of one partition. States are in the order of the spec; there is
+/// no engine.
+class FileSets {
+ public:
+  /// @param max_memory bytes that the program may take. @throws LimitError; ResultsError; SpecError
+  FileSets(const ResultsReader& results, std::size_t partition, std::optional<std::uint64_t> max_memory,
+           ThreadTeam& team);
+
+  [[nodiscard]] const Ground& ground() const { return ground_; }
+  [[nodiscard]] const Invariance& invariance() const { return invariance_; }
+  [[nodiscard]] const DelayLayers& layers() const { return layers_; }
+  /// [dimension]: what one index adds to a cell's number.
+  [[nodiscard]] std::vector<std::int64_t> number_stride() const;
+
+ private:
+  void check_memory(std::optional<std::uint64_t> max_memory) const;
+  void read_cells(std::size_t partition);
+  void read_listed();
+
+  const ResultsReader& results_;
+  Ground ground_;
+  Invariance invariance_;
+  DelayLayers layers_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,21 @@
+#include "model/outside_word.hpp"
+
+namespace coordreq {
+
+const char* outside_word(Outside rule) {
+  switch (rule) {
+    case Outside::unsafe:
+      return "unsafe";
+    case Outside::safe:
+      return "safe";
+    case Outside::saturate:
+      return "saturate";
+    case Outside::stop:
+      return "stop";
+    case Outside::periodic:
+      return "periodic";
+  }
+  return "";
+}
+
+}  // namespace coordreq

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <set>
+#include <string>
+
+namespace coordreq {
+
+/// The names that an expression mentions, of functions and keywords too.
+[[nodiscard]] std::set<std::string> names_in(const std::string& expression);
+
+/// These, and what constants and definitions among them mention in turn. @param spec the document
+[[nodiscard]] std::set<std::string> with_names_behind(const nlohmann::ordered_json& spec,
+                                                      std::set<std::string> names);
+
+}  // namespace coordreq
