@@ -11,7 +11,7 @@ import unittest
 
 from program import PROGRAM, SPEC, Case, spec_with
 
-FINE = spec_with(states=[{"name": name, "lower": 0, "upper": 1500, "step": 1} for name in "xy"], safe="true")
+FINE = spec_with(states=[{"name": name, "lower": 0, "upper": 1500, "step": 1, "outside": "unsafe"} for name in "xy"], safe="true")
 
 
 class Cases(Case):
