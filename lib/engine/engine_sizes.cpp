@@ -81,11 +81,12 @@ double EngineSizes::hull() const {
 double EngineSizes::condition(const Program& condition) const {
   const UniformGrid& grid = model_->grid();
   double choices = 1;
-  for (const std::uint32_t slot : condition.variables()) {
+  for (std::uint32_t slot : condition.variables()) {
+    const std::size_t points = grid.size() + model_->inputs().size();
+    if (slot >= points) slot -= static_cast<std::uint32_t>(points);  // a cell: ControllerSpec::allow
     if (slot < grid.size() && slot != grid.state(grid.size() - 1))
       choices *= in_double(grid[grid.dimension_of(slot)].count);
-    if (slot >= grid.size() && slot < grid.size() + model_->inputs().size())
-      choices *= in_double(model_->inputs()[slot - grid.size()].count());
+    if (slot >= grid.size()) choices *= in_double(model_->inputs()[slot - grid.size()].count());
   }
   return choices * row_of_words(grid.row_length());
 }

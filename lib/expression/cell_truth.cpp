@@ -8,8 +8,8 @@
 namespace coordreq {
 namespace {
 
-/// More is not remembered.
-constexpr std::int64_t kMostRemembered = std::int64_t{1} << 24U;
+/// Bytes of a comparison; more is not remembered, for no estimate counts it.
+constexpr std::int64_t kMostRemembered = std::int64_t{1} << 21U;
 
 /// Which nodes are joined to the result by `and`, `or` and `not`.
 std::vector<bool> joined_nodes(const Program& condition) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "expression/cell_truth.hpp"
 #include "expression/condition.hpp"
 #include "expression/condition_atoms.hpp"
 
@@ -47,6 +48,21 @@ std::vector<FastRanges> kept_ranges(const ConditionAxis& axis, std::int64_t time
   if (times_asked < kOften) return result;
   for (std::int64_t k = 0; k < axis.count; ++k) result.push_back(enclosed(axis.ranges(k)));
   return result;
+}
+
+/// The slots whose indices decide, ascending: those that others follow, instead of these.
+std::vector<std::uint32_t> leading_slots(const Program& condition, std::span<const ConditionAxis> axes) {
+  std::vector<std::uint32_t> slots;
+  for (const std::uint32_t slot : condition.variables()) slots.push_back(axes[slot].follows.value_or(slot));
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  return slots;
+}
+
+bool has_followers(const Program& condition, std::span<const ConditionAxis> axes) {
+  const std::vector<std::uint32_t> slots = condition.variables();
+  return std::any_of(slots.begin(), slots.end(),
+                     [&](std::uint32_t slot) { return axes[slot].follows.has_value(); });
 }
 
 /// By Kleene's logic, where a bit that is not set means `not proven`.
@@ -96,17 +112,25 @@ class TruthTable::Filler {
         parts_(axes.size(), 0),
         ranges_(axes.size()),
         fast_(axes.size()),
-        exact_(axes.size()) {}
+        exact_(axes.size()) {
+    if (!has_followers(condition, axes)) return;
+    cell_truth_.emplace(condition, std::vector<ConditionAxis>(axes.begin(), axes.end()));
+    for (const std::uint32_t slot : variables_) {
+      if (axes[slot].follows) followers_.emplace_back(slot, *axes[slot].follows);
+    }
+  }
 
   void set(std::size_t slot, std::int64_t index) {
     indices_[slot] = index;
+    if (cell_truth_) return;
     ranges_[slot] = kept_[slot].empty() ? enclosed(axes_[slot].ranges(index))
                                         : kept_[slot][static_cast<std::size_t>(index)];
     set_part(slot, 0);
   }
 
   [[nodiscard]] bool holds() {
-    const Truth truth = on_all_parts();
+    for (const auto& [follower, slot] : followers_) indices_[follower] = indices_[slot];
+    const Truth truth = cell_truth_ ? cell_truth_->at(indices_) : on_all_parts();
     return truth == Truth::undecided ? undecided_(indices_) : truth == Truth::yes;
   }
 
@@ -149,6 +173,8 @@ class TruthTable::Filler {
   }
 
   ConditionDecider decider_;
+  std::optional<CellTruth> cell_truth_;                             ///< if there are followers
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> followers_;  ///< and whom they follow
   std::span<const ConditionAxis> axes_;
   const std::vector<std::vector<FastRanges>>& kept_;
   const Undecided& undecided_;
@@ -166,7 +192,9 @@ TruthTable::TruthTable(const Program& condition, std::span<const ConditionAxis> 
   lay_out(condition, axes, along);
   // Comparisons that depend on few variables settle most cells; the others are looked at one by one.
   std::vector<Word> refuted;
-  if (std::vector<Word> proven = proven_by_atoms(condition, axes, false, team); !proven.empty()) {
+  std::vector<Word> proven;
+  if (!has_followers(condition, axes)) proven = proven_by_atoms(condition, axes, false, team);
+  if (!proven.empty()) {
     bits_ = std::move(proven);
     refuted = proven_by_atoms(condition, axes, true, team);
   }
@@ -190,7 +218,7 @@ TruthTable::TruthTable(const Program& condition, std::span<const ConditionAxis> 
 void TruthTable::lay_out(const Program& condition, std::span<const ConditionAxis> axes, std::uint32_t along) {
   strides_.assign(axes.size(), 0);
   for (const ConditionAxis& axis : axes) counts_.push_back(axis.count);
-  const std::vector<std::uint32_t> used = condition.variables();
+  const std::vector<std::uint32_t> used = leading_slots(condition, axes);
   for (std::size_t i = used.size(); i-- > 0;) {
     if (used[i] == along) {
       along_in_use_ = true;

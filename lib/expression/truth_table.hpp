@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct ConditionAxis {
   /// Mostly one range; several (all of them can occur) for a cell that is cut by a seam. Called by many
   /// threads, and again for what is asked again: an axis can be too long to be kept.
   std::function<Ranges(std::int64_t index)> ranges;
+  /// Another view of the variable in this slot: its index is that one's. Then the condition is asked
+  /// comparison by comparison (CellTruth).
+  std::optional<std::uint32_t> follows = std::nullopt;
 };
 
 /// The truth of a condition for every choice of an index for each of its variables; true where it holds on

@@ -1,5 +1,7 @@
 #include "model/condition_table.hpp"
 
+#include <utility>
+
 #include "model/pieces.hpp"
 
 namespace coordreq {
@@ -37,12 +39,36 @@ std::vector<ConditionAxis> condition_axes(const UniformGrid& grid, const InputSp
   return axes;
 }
 
+std::vector<ConditionAxis> allow_axes(const UniformGrid& grid, const InputSpace& inputs) {
+  std::vector<ConditionAxis> axes = condition_axes(grid, inputs, Sampling::centres);
+  std::vector<ConditionAxis> cells = condition_axes(grid, inputs, Sampling::closed_cells);
+  for (std::uint32_t i = 0; i < grid.size(); ++i) {
+    cells[i].follows = i;
+    axes.push_back(std::move(cells[i]));
+  }
+  return axes;
+}
+
 ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid, const InputSpace& inputs,
                                Sampling sampling, const Undecided& undecided, ThreadTeam& team,
                                Question question)
     : table_(condition, condition_axes(grid, inputs, sampling),
              static_cast<std::uint32_t>(grid.state(grid.size() - 1)), undecided, team, question),
       positions_{.grid = &grid, .input_space = &inputs} {
+  find_positions();
+}
+
+ConditionTable::ConditionTable(const Program& allow, const UniformGrid& grid, const InputSpace& inputs,
+                               const Undecided& undecided, ThreadTeam& team)
+    : table_(allow, allow_axes(grid, inputs), static_cast<std::uint32_t>(grid.state(grid.size() - 1)),
+             undecided, team),
+      positions_{.grid = &grid, .input_space = &inputs} {
+  find_positions();
+}
+
+void ConditionTable::find_positions() {
+  const UniformGrid& grid = *positions_.grid;
+  const InputSpace& inputs = *positions_.input_space;
   const std::vector<std::int64_t>& strides = table_.strides();
   for (std::size_t i = 0; i < grid.size(); ++i) positions_.state_stride.push_back(strides[grid.state(i)]);
   for (std::size_t i = 0; i < inputs.size(); ++i) {

@@ -22,6 +22,9 @@ enum class Sampling : std::uint8_t {
 /// What states and inputs can be, by slot. REQUIRES: grid and inputs outlive the axes.
 [[nodiscard]] std::vector<ConditionAxis> condition_axes(const UniformGrid& grid, const InputSpace& inputs,
                                                         Sampling sampling);
+/// The same for `allow`: grid points, and then each state once more as the whole cell that memories are asked
+/// of (ControllerSpec::allow).
+[[nodiscard]] std::vector<ConditionAxis> allow_axes(const UniformGrid& grid, const InputSpace& inputs);
 
 /// The truth of a condition over the grid, tabulated over only the states and inputs that it depends on. The
 /// condition numbers variables as the spec does; all else here is about dimensions of the grid.
@@ -37,6 +40,9 @@ class ConditionTable {
   ConditionTable(const Program& condition, const UniformGrid& grid, const InputSpace& inputs,
                  Sampling sampling, const Undecided& undecided, ThreadTeam& team,
                  Question question = Question::truth);
+  /// Of `allow`.
+  ConditionTable(const Program& allow, const UniformGrid& grid, const InputSpace& inputs,
+                 const Undecided& undecided, ThreadTeam& team);
 
   /// The bits of all cells of grid row `row` under joint input `u` (any u if no input is in use).
   [[nodiscard]] std::span<const TruthTable::Word> row(std::int64_t row, std::int64_t u) const {
@@ -47,6 +53,8 @@ class ConditionTable {
   [[nodiscard]] const TruthTable& table() const { return table_; }
 
  private:
+  void find_positions();
+
   TruthTable table_;
   RowPositions positions_;
 };

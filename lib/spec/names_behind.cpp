@@ -20,7 +20,7 @@ std::set<std::string> with_names_behind(const nlohmann::ordered_json& spec, std:
   while (!open.empty()) {
     const std::string name = open.back();
     open.pop_back();
-    for (const char* const list : {"constants", "definitions"}) {
+    for (const char* const list : {"constants", "definitions", "memory"}) {
       if (!spec.contains(list) || !spec[list].contains(name) || !spec[list][name].is_string()) continue;
       for (const std::string& behind : names_in(spec[list][name].get<std::string>()))
         if (names.insert(behind).second) open.push_back(behind);

@@ -9,7 +9,7 @@ namespace coordreq {
 /// The names that an expression mentions, of functions and keywords too.
 [[nodiscard]] std::set<std::string> names_in(const std::string& expression);
 
-/// These, and what constants and definitions among them mention in turn. @param spec the document
+/// These, and what constants, definitions and memories among them mention in turn. @param spec the document
 [[nodiscard]] std::set<std::string> with_names_behind(const nlohmann::ordered_json& spec,
                                                       std::set<std::string> names);
 

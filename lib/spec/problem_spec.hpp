@@ -108,7 +108,9 @@ enum class Synthesis : std::uint8_t { maximal, given };
 
 struct ControllerSpec {
   Synthesis synthesis = Synthesis::maximal;
-  std::optional<Program> allow;     ///< over states and inputs; none: everything is allowed
+  /// Over states and inputs; none: everything is allowed. Grid points are asked; but conditions of memories
+  /// that `safe` asks of whole cells have slots of their own for states, after those of states and inputs.
+  std::optional<Program> allow;
   std::optional<std::string> file;  ///< as written; lists the pairs that are admissible
 };
 

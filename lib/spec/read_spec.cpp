@@ -96,19 +96,6 @@ void number_memories(const Node& root, MemoryReader& memory) {
   memory.settle();
 }
 
-/// `allow` is asked at grid points, a memory in `inner` of whole cells.
-void check_allow(const Scope& scope, const Node& root, const ProblemSpec& spec) {
-  if (!spec.controller.allow || spec.abstraction.safe == Membership::center) return;
-  const Node allow = root["controller"]["allow"];
-  const std::string memory = scope.memory_of_boxes(allow, spec.states);
-  if (memory.empty()) return;
-  throw SpecError(
-      fmt::format("{} asks where continuous states are now, which is not supported yet in 'allow' "
-                  "with \"safe\": \"inner\", expected a memory of what was, as previous(...)",
-                  quote_text(memory)),
-      allow.pointer());
-}
-
 /// A requirement is about what is kept at first, unless it says otherwise.
 void begin_at_first_values(ProblemSpec& spec) {
   for (RequirementSpec& requirement : spec.requirements) {
@@ -186,7 +173,6 @@ ProblemSpec read_spec(std::string text, std::string_view source) {
   spec.output = read_output(root);
   read_parts(scope, root, spec);
   if (memory.names().empty()) return spec;
-  check_allow(scope, root, spec);
   memory.add_to(spec);
   check_cell_count(spec.states);
   begin_at_first_values(spec);

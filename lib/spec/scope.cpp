@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "expression/tape_builder.hpp"
 #include "spec/dependency_order.hpp"
 #include "spec/spec_errors.hpp"
+#include "spec/spec_parts.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -18,6 +20,9 @@ using Node = JsonDocument::Node;
 /// Twice what the least double has, and all digits that anyone types; everything that is computed exactly
 /// takes time and memory in proportion.
 constexpr std::size_t kMostBits = 4096;
+
+/// Slots from here on stand for the cells of states; no slot of a spec is as large.
+constexpr std::uint32_t kSeenCell = 1U << 25U;
 
 void check_size(const Rational& value, const std::string& pointer) {
   const std::size_t bits =
@@ -80,6 +85,8 @@ struct Scope::MentionGraph {
 Scope::Scope(const Node& root, MemoryReader& memory) {
   if (root.has("goal")) names_.reserve_goal_names();
   add_names(root, memory);
+  for (const Node& state : root.elements("states")) is_box_.push_back(!state.flag("discrete"));
+  centres_ = read_abstraction(root).safe == Membership::center;
   if (root.has("constants")) evaluate_constants(root["constants"]);
   definitions_ = Definitions(static_cast<std::uint32_t>(slot_names_.size()));
   link_definitions(root, memory);
@@ -99,6 +106,7 @@ void Scope::add_names(const Node& root, const MemoryReader& memory) {
     }
   }
   errors.attempt([&] { add_variables(root, "inputs", NameKind::input); });
+  inputs_end_ = static_cast<std::uint32_t>(slot_names_.size());
   errors.attempt([&] { add_variables(root, "disturbances", NameKind::disturbance); });
   const auto add_keys = [&](const std::string& object, NameKind kind) {
     if (!root.has(object)) return;
@@ -152,7 +160,11 @@ void Scope::link_definitions(const Node& root, MemoryReader& memory) {
     const auto find = [&](std::string_view mention) {
       return find_for_memory(mention, graph.pointers[place]);
     };
-    memories_[name] = std::make_shared<const Program>(memory.linked(name, find));
+    Program truth = memory.linked(name, find);
+    for (Program::Node& node : truth.nodes) {
+      if (node.op == Operator::variable && node.a < is_box_.size() && is_box_[node.a]) node.a += kSeenCell;
+    }
+    memories_[name] = std::make_shared<const Program>(std::move(truth));
   });
 }
 
@@ -176,6 +188,9 @@ Binding Scope::find_for_memory(std::string_view name, const std::string& pointer
                     pointer);
   };
   if (kind == NameKind::input || kind == NameKind::disturbance) refuse(std::string(name), *kind);
+  if (kind == NameKind::memory) {
+    return std::make_shared<const Program>(seen_as(*memories_.find(name)->second, 0));
+  }
   if (kind != NameKind::definition) {
     Binding binding = find(name);
     if (std::holds_alternative<NotDefined>(binding)) binding = NotDefined{suggestion(name, names_.all())};
@@ -188,7 +203,7 @@ Binding Scope::find_for_memory(std::string_view name, const std::string& pointer
     const NameKind its_kind = names_.find(slot_names_[slot]).value();
     if (its_kind != NameKind::state) refuse(slot_names_[slot], its_kind);
   }
-  return std::make_shared<const Program>(std::move(program));
+  return std::make_shared<const Program>(seen_as(program, 0));
 }
 
 Rational Scope::number(const Node& node) const {
@@ -219,7 +234,8 @@ Program Scope::expression(const Node& node, ExpectedType expected, Over over) co
   if (expected == ExpectedType::number) refuse_memories(node);
   Program program = definitions_.expand(link_text(node, expected));
   check_dependence(program, over, node.pointer());
-  return program;
+  if (memories_.empty()) return program;
+  return seen_as(program, over == Over::states_and_inputs && !centres_ ? inputs_end_ : 0);
 }
 
 /// What is no condition says how things move, or what agents prefer; what they remember follows from that.
@@ -236,18 +252,16 @@ void Scope::refuse_memories(const Node& node) const {
   }
 }
 
-std::string Scope::memory_of_boxes(const Node& node, const std::vector<StateSpec>& states) const {
-  if (memories_in_.empty()) return {};
-  const auto is_box = [&](std::uint32_t slot) { return slot < states.size() && !states[slot].discrete; };
-  for (const std::string& name : mentioned_names(node.text(), node.pointer())) {
-    const auto found = memories_in_.find(name);
-    if (found == memories_in_.end()) continue;
-    for (const std::string& memory : found->second) {
-      const std::vector<std::uint32_t> slots = memories_.at(memory)->variables();
-      if (std::any_of(slots.begin(), slots.end(), is_box)) return memory;
-    }
+/// With the slots that stand for the cell of a state moved to `first` and the following.
+Program Scope::seen_as(const Program& program, std::uint32_t first) const {
+  Program moved = program;
+  for (Program::Node& node : moved.nodes) {
+    if (node.op == Operator::variable && node.a >= kSeenCell) node.a = first + (node.a - kSeenCell);
   }
-  return {};
+  TapeBuilder tape;
+  moved = tape.extract(tape.merge(moved));
+  moved.text = program.text;
+  return moved;
 }
 
 bool Scope::is_disturbance(std::uint32_t slot) const {
@@ -267,6 +281,7 @@ Program Scope::link_text(const Node& node, ExpectedType expected) const {
 
 void Scope::check_dependence(const Program& program, Over over, const std::string& pointer) const {
   for (const std::uint32_t slot : program.variables()) {
+    if (slot >= slot_names_.size()) continue;  // a memory's
     const std::string& name = slot_names_[slot];
     const NameKind kind = names_.find(name).value();
     const bool is_allowed = over == Over::everything || kind == NameKind::state ||

@@ -37,11 +37,6 @@ class Scope {
   /// @throws SpecError for errors in it, and if it depends on more than `over`
   [[nodiscard]] Program expression(const JsonDocument::Node& node, ExpectedType expected, Over over) const;
 
-  /// The first memory that an expression rests on and that asks where continuous states are now; empty if
-  /// there is none.
-  [[nodiscard]] std::string memory_of_boxes(const JsonDocument::Node& node,
-                                            const std::vector<StateSpec>& states) const;
-
   /// The slot is one of a disturbance.
   [[nodiscard]] bool is_disturbance(std::uint32_t slot) const;
 
@@ -60,10 +55,16 @@ class Scope {
   [[nodiscard]] Program link_text(const JsonDocument::Node& node, ExpectedType expected) const;
   [[nodiscard]] Binding find(std::string_view name) const;
 
+  [[nodiscard]] Program seen_as(const Program& program, std::uint32_t first) const;
+
   NameTable names_;
+  std::vector<bool> is_box_;  ///< [slot] of the spec's own states: not discrete
+  std::uint32_t inputs_end_ = 0;
+  bool centres_ = false;  ///< memories are asked of the centres of cells
   std::vector<std::string> slot_names_;
   std::map<std::string, std::uint32_t, std::less<>> slots_;
   std::map<std::string, Rational, std::less<>> constants_;
+  /// Over slots of their own for states that are not discrete, until it is known who asks.
   std::map<std::string, std::shared_ptr<const Program>, std::less<>> memories_;
   std::map<std::string, std::set<std::string>> memories_in_;  ///< the memories that a name is or rests on
   Definitions definitions_;

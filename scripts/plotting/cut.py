@@ -66,6 +66,9 @@ def choose(names, arguments, directions, fewest, kind):
 def make_cut(results, arguments, directions, fewest):
     """The cut that the arguments describe, over `fewest` to `directions` states."""
     by_name = {axis.name: axis for axis in results.states}
+    given = named_values(arguments.slice, "--slice").keys() | {getattr(arguments, d) for d in _DIRECTIONS[:directions]}
+    kept = [name for name in by_name if results.spec.is_kept(name) and name not in given]
+    arguments.slice = [*arguments.slice, *(f"{name}=0" for name in kept)]
     names, slices = choose(list(by_name), arguments, directions, fewest, "state")
     index = tuple(
         results.cell(axis, slices[axis.name], "--slice") if axis.name in slices else slice(None)

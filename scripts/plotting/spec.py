@@ -57,7 +57,12 @@ class Spec:
         return evaluate(value, self._constants) if isinstance(value, str) else Fraction(value)
 
     def state(self, name):
-        return next(state for state in self._keys["states"] if state["name"] == name)
+        kept = {"name": name, "discrete": True}  # by a memory
+        return next((state for state in self._keys["states"] if state["name"] == name), kept)
+
+    def is_kept(self, name):
+        """The state is one that a memory keeps, 0 at first."""
+        return all(state["name"] != name for state in self._keys["states"])
 
     def is_discrete(self, name):
         return bool(self.state(name).get("discrete", False))

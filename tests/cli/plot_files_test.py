@@ -167,8 +167,9 @@ class Cases(PlotCase):
 
     # the page
 
-    def test_the_pictures_of_the_page_are_those_of_its_commands(self):
+    def test_the_pictures_of_the_pages_are_those_of_their_commands(self):
         text = (ROOT / "docs/export.md").read_text().split("\n## Pictures\n")[1].split("\n## ")[0]
+        text += (ROOT / "docs/goals-and-memory.md").read_text()
         shown = re.findall(r"!\[.*\]\(pictures/(.*)\)", text)
         commands = [line.split() for line in re.findall(r"(?m)^scripts/plot .*-o .*", text)]
         self.assertEqual(sorted(command[-1] for command in commands), sorted(shown))

@@ -1,12 +1,13 @@
 """Updates of discrete states, and memories, through all commands."""
 
 import json
+import random
 import subprocess
 import unittest
 
 import h5py
 import numpy as np
-from program import CONFIGS, Case, spec_with
+from program import CONFIGS, ROOT, Case, spec_with
 
 CHECK = """#include <stdio.h>
 #include "exported.h"
@@ -60,6 +61,33 @@ THERMOSTAT = spec_with(
 )
 
 
+FORMULAS = ("once({0})", "since({1}, {0})", "within(3, {0})", "for_last(2, {0}) or previous({1})", "always({1} or not {0})")
+
+
+def random_spec(seed):
+    """Two agents, a mode that one of them switches, and a memory that `safe` and `allow` name."""
+    rng = random.Random(seed)
+    points = rng.randint(5, 9)
+    one, two = f"x >= {rng.randint(1, points - 2)}.3", f"y + m < {rng.randint(2, points)}"
+    continuous = rng.random() < 0.5
+    update = f"if(x >= {rng.randint(0, points)}.2, {rng.randint(0, 1)}, if({two}, m, 1))"
+    equations = {"x": "u - m/2", "y": "v"} if continuous else {"x": "x + u - m/2", "y": "y + v", "m": update}
+    dynamics = {"time": "continuous" if continuous else "discrete", "period": 1, "equations": equations}
+    return spec_with(
+        name="random",
+        states=[
+            *({"name": n, "lower": 0, "upper": points - 1, "step": 1, "outside": rng.choice(["unsafe", "saturate"])} for n in "xy"),
+            {"name": "m", "lower": 0, "upper": 1, "step": 1, "discrete": True},
+        ],
+        dynamics=dict(dynamics, updates={"m": update}) if continuous else dynamics,
+        memory={"was": rng.choice(FORMULAS).format(one, two)},
+        safe=f"x + y <= {2 * points - 3} and (not was or x + 1 < {points} or y >= 1)",
+        controller={"allow": rng.choice(["true", "not was or u <= 0", "was or v <= 0"])},
+        abstraction={"cells": rng.choice(["closed", "half_open"]), "safe": rng.choice(["inner", "center"])},
+        output={key: rng.random() < 0.5 for key in ("controller", "actions", "abstraction")},
+    )
+
+
 class Cases(Case):
     def run_well(self, *arguments):
         result = self.run_program(*arguments)
@@ -84,6 +112,17 @@ class Cases(Case):
                 self.assertEqual((first[k, m], last[k, m]), (min(values), max(values)), (center, m))
         self.assertIn("holds", self.run_well("verify", "out.h5"))
         self.assertIn("stayed in the invariance set", self.run_well("simulate", "out.h5", "--from", "T=20,m=0", "--steps", "30"))
+
+    def test_random_modes_and_memories_hold(self):
+        for seed in range(12):
+            with self.subTest(seed=seed):
+                self.write("spec.json", random_spec(seed))
+                result = self.run_program("analyze", "spec.json", "-o", "out.h5", "--quiet")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                answer = json.loads(self.run_program("verify", "out.h5", "--json").stdout)
+                self.assertEqual(answer["verdict"], "holds")
+                runs = self.run_program("simulate", "out.h5", "--start", "random", "--runs", "5", "--steps", "20")
+                self.assertTrue(runs.returncode == 0 or b"to start from" in runs.stderr, runs.stdout + runs.stderr)
 
     def test_verify_finds_a_wrong_update(self):
         with self.results(THERMOSTAT):
@@ -142,6 +181,14 @@ class Cases(Case):
             self.assertEqual(one.shape[-4:], (5, 5, 3, 2))
             self.assertTrue(np.array_equal(one, other))
 
+    def test_what_is_not_given_is_as_at_first(self):
+        self.results(point({"bad": "once(p==1)"}, "not bad")).close()
+        for text in (b'{"p": 0}\n{"p": 0, "bad_past": 1}\n', b"p,bad_past\n0,0\n0,1\n"):
+            lines = self.run_program("query", "out.h5", "--json", stdin=text).stdout.splitlines()
+            self.assertEqual([json.loads(line)["safe"] for line in lines], [True, False])
+        (line,) = self.run_program("query", "out.h5", "--json", stdin=b"p\n0\n").stdout.splitlines()
+        self.assertEqual(json.loads(line)["state"], {"p": 0, "bad_past": 0})
+
     def test_a_region_begins_with_nothing_remembered(self):
         requirement = {"name": "start", "where": "p == 0", "invariant": True}
         self.results(point({"bad": "once(p==1)"}, "not bad", requirements=[requirement])).close()
@@ -186,6 +233,29 @@ class Cases(Case):
         result = subprocess.run([self.folder / "main"], input=text, capture_output=True, text=True, check=True)
         self.assertEqual([[int(x) for x in line.split()] for line in result.stdout.splitlines()], expected)
 
+    def test_allow_asks_a_memory_of_whole_cells(self):
+        spec = spec_with(
+            states=[{"name": "x", "lower": -2, "upper": 2, "step": 1, "outside": "saturate"}],
+            inputs=[{"name": "u", "values": [-1, 0, 1]}],
+            agents=[{"name": "a", "inputs": ["u"]}],
+            dynamics={"time": "discrete", "period": 1, "equations": {"x": "x + u"}},
+            memory={"seen": "once(x >= 0.2)"},
+            definitions={"quiet": "not seen and x < 1.5"},
+            safe="true",
+            output={"controller": True},
+            controller={"allow": "quiet or u == 0"},
+        )
+        for safe, allowed in (("inner", [7, 7, 2, 2, 2]), ("center", [7, 7, 7, 2, 2])):
+            with self.results(dict(spec, abstraction={"cells": "half_open", "safe": safe})) as file:
+                controller = file["controller"][..., 0]
+            self.assertEqual(controller[:, 0].tolist(), allowed)
+            self.assertTrue((controller[:, 1:] == 2).all())
+            self.assertIn("holds", self.run_well("verify", "out.h5"))
+            for k, x in enumerate((-2, -1, 0, 1, 2)):
+                answer = json.loads(self.run_well("query", "out.h5", "--at", f"x={x}", "--json"))
+                actions = answer["partitions"][0]["classes"][0]["actions"]
+                self.assertEqual(sum(1 << u for u in actions), allowed[k])
+
     def test_first_come_costs_nothing(self):
         half = []
         for name, first in (("crossing", ()), ("first_come", (0, 0))):
@@ -196,6 +266,13 @@ class Cases(Case):
             self.assertEqual(delay.size, 20501)
             half.append(int(np.sort(delay)[delay.size // 2]))
         self.assertEqual(half, [4, 5])
+
+    def test_pictures_show_first_values(self):
+        self.run_well("analyze", str(CONFIGS / "patrol_lock.json"), "-o", "out.h5")
+        for more in ((), ("--slice", "x1=1", "--y", "locked_past1")):
+            command = [ROOT / "scripts/plot", "layers", "out.h5", "-o", "picture.png", *more]
+            result = subprocess.run(command, cwd=self.folder, capture_output=True, check=False)
+            self.assertEqual((result.returncode, result.stderr), (0, b""))
 
     def test_the_examples_hold(self):
         for name in ("first_come", "patrol_lock"):

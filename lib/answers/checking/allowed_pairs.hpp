@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
 #include "base/thread_team.hpp"
 #include "engine/packed_pairs.hpp"
+#include "expression/cell_truth.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
 #include "model/input_space.hpp"
@@ -46,6 +48,7 @@ class AllowedPairs {
   std::vector<bool> permitted_;        ///< by that number; empty: all
   std::vector<RationalInterval> slots_;
   std::vector<Evaluator<RationalInterval>> evaluator_;  ///< one, or none
+  std::deque<CellTruth> of_cells_;  ///< one where memories are asked of whole cells, instead
 };
 
 }  // namespace coordreq

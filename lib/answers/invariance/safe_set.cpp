@@ -17,11 +17,14 @@ std::optional<ConditionTable> condition_table(const ProblemSpec& spec, const Abs
   if (!spec.controller.allow) return std::nullopt;
   const Program& allow = *spec.controller.allow;
   if (allow.nodes.back().op == Operator::literal_true) return std::nullopt;
-  const bool is_false = may_not_know(allow);
+  const std::vector<std::uint32_t> slots = allow.variables();
+  const bool asks_cells = !slots.empty() && slots.back() >= spec.states.size() + spec.inputs.size();
+  const bool is_false = asks_cells || may_not_know(allow);
   const auto refuse = [&](const std::vector<std::int64_t>& indices) -> bool {
     if (is_false) return false;
     std::string place;
     for (const std::uint32_t slot : allow.variables()) {
+      if (slot >= spec.states.size() + spec.inputs.size()) continue;  // a state's cell
       const bool is_state = slot < spec.states.size();
       const std::size_t i = is_state ? slot : slot - spec.states.size();
       const auto k = indices[slot];
@@ -32,7 +35,7 @@ std::optional<ConditionTable> condition_table(const ProblemSpec& spec, const Abs
     }
     throw SpecError(fmt::format("'allow' cannot be decided at {}", place), "/controller/allow");
   };
-  return ConditionTable(allow, abstraction.grid, abstraction.inputs, Sampling::centres, refuse, team);
+  return ConditionTable(allow, abstraction.grid, abstraction.inputs, refuse, team);
 }
 
 /// The same cells in rows along several dimensions.

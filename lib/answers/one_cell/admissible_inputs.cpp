@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/index.hpp"
 #include "engine/tube_sets.hpp"
-#include "expression/cell_truth.hpp"
+#include "model/condition_table.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
@@ -48,6 +48,10 @@ AdmissibleInputs::AdmissibleInputs(const ProblemSpec& spec, CellPosts& posts, Se
       point_(spec.slot_count()) {
   if (spec.controller.allow && !is_literal_true(*spec.controller.allow)) {
     allow_ = std::make_unique<ConditionDecider>(*spec.controller.allow);
+    const std::vector<std::uint32_t> slots = spec.controller.allow->variables();
+    if (!slots.empty() && slots.back() >= spec.states.size() + spec.inputs.size())
+      allow_of_cells_ =
+          std::make_unique<CellTruth>(*spec.controller.allow, allow_axes(posts.grid(), posts.inputs()));
   }
   find_components();
 }
@@ -66,6 +70,7 @@ void AdmissibleInputs::find_components() {
     for (const std::uint32_t slot : spec_->controller.allow->variables()) {
       if (slot < spec_->input_slot(0)) continue;
       const std::size_t i = slot - spec_->input_slot(0);
+      if (i >= inputs) continue;  // a state's cell
       if (first_of_allow == inputs) first_of_allow = i;
       merger.merge(first_of_allow, i);
     }
@@ -89,7 +94,22 @@ void AdmissibleInputs::find_components() {
   }
 }
 
+/// Where a memory is asked of the whole cell.
+bool AdmissibleInputs::is_allowed_at_cell(std::int64_t x, std::int64_t u) {
+  const UniformGrid& grid = posts_->grid();
+  const InputSpace& inputs = posts_->inputs();
+  std::vector<std::int64_t> indices(2 * grid.size() + inputs.size());
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const std::int64_t index = grid.index(x, i);
+    indices[grid.state(i)] = index;
+    indices[grid.size() + inputs.size() + grid.state(i)] = index;
+  }
+  for (std::size_t i = 0; i < inputs.size(); ++i) indices[grid.size() + i] = inputs.index(u, i);
+  return allow_of_cells_->at(indices) == Truth::yes;
+}
+
 bool AdmissibleInputs::is_allowed(std::int64_t x, std::int64_t u) {
+  if (allow_of_cells_) return is_allowed_at_cell(x, u);
   const auto set = [this](std::size_t slot, const Rational& value) {
     point_[slot] = {.lower = value, .upper = value};
     fast_point_[slot] = enclose(value);

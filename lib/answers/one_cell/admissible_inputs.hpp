@@ -9,6 +9,7 @@
 
 #include "answers/one_cell/cell_members.hpp"
 #include "answers/one_cell/cell_posts.hpp"
+#include "expression/cell_truth.hpp"
 #include "expression/condition.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -62,6 +63,7 @@ class AdmissibleInputs {
   void find_moves(Component& component, std::int64_t x);
   [[nodiscard]] std::optional<Move> move(const Component& component, std::int64_t u) const;
   [[nodiscard]] bool is_allowed(std::int64_t x, std::int64_t u);
+  [[nodiscard]] bool is_allowed_at_cell(std::int64_t x, std::int64_t u);
   void cover(Box Move::*part, CellMembers& set) const;
   void prepare_sets();
   [[nodiscard]] bool is_safe(const std::vector<std::int64_t>& choice) const;
@@ -75,7 +77,8 @@ class AdmissibleInputs {
   Sets sets_;
   CellMembers* safe_beyond_ = nullptr;  ///< of the cell at work: what tubes that pass a limit must stay in
   std::vector<Component> components_;
-  std::unique_ptr<ConditionDecider> allow_;  ///< none if everything is allowed
+  std::unique_ptr<ConditionDecider> allow_;    ///< none if everything is allowed
+  std::unique_ptr<CellTruth> allow_of_cells_;  ///< where memories are asked of whole cells, instead
   bool allow_has_inputs_ = false;
   std::vector<Interval> fast_point_;
   std::vector<RationalInterval> point_;
