@@ -7,6 +7,7 @@
 #include "app/print_answer.hpp"
 #include "app/query_report.hpp"
 #include "app/query_values.hpp"
+#include "model/outside_word.hpp"
 
 namespace coordreq {
 namespace {
@@ -28,21 +29,6 @@ Json cell_json(const UniformGrid& grid, const Location& location) {
   return json;
 }
 
-const char* rule_word(const GridDimension& dimension, const Location& location) {
-  switch (location.above ? dimension.above : dimension.below) {
-    case Outside::safe:
-      return "safe";
-    case Outside::saturate:
-      return "saturate";
-    case Outside::stop:
-      return "stop";
-    case Outside::goal:
-      return "goal";
-    default:
-      return "unsafe";
-  }
-}
-
 Json outside_json(const UniformGrid& grid, const Location& location) {
   const GridDimension& dimension = grid[location.dimension];
   Json json;
@@ -53,7 +39,7 @@ Json outside_json(const UniformGrid& grid, const Location& location) {
   }
   json["reason"] = "beyond";
   json["side"] = location.above ? "above" : "below";
-  json["rule"] = rule_word(dimension, location);
+  json["rule"] = outside_word(location.above ? dimension.above : dimension.below);
   return json;
 }
 

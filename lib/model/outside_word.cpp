@@ -12,6 +12,8 @@ const char* outside_word(Outside rule) {
       return "saturate";
     case Outside::stop:
       return "stop";
+    case Outside::goal:
+      return "goal";
     case Outside::periodic:
       return "periodic";
   }
