@@ -91,11 +91,13 @@ TEST(SpecError, ValuesHaveTheRightType) {
       {"/coordination", R"({"partitions": []})",
        "expected a list of at least one partition, found an empty list (/coordination/partitions)"},
       {"/states/0/outside", "\"unsave\"",
-       "expected 'unsafe', 'safe', 'saturate', 'stop', 'periodic' or an object with 'below' and 'above', "
+       "expected 'unsafe', 'safe', 'saturate', 'stop', 'periodic', 'goal' or an object with 'below' and "
+       "'above', "
        "found "
        "'unsave' (/states/0/outside)"},
       {"/states/0/outside", R"({"below": "wall"})",
-       "expected 'unsafe', 'safe', 'saturate', 'stop' or 'periodic', found 'wall' (/states/0/outside/below)"},
+       "expected 'unsafe', 'safe', 'saturate', 'stop', 'periodic' or 'goal', found 'wall' "
+       "(/states/0/outside/below)"},
       {"/states/0/outside", R"({"left": "safe"})",
        "unknown key 'left', expected 'above' or 'below' (/states/0/outside)"},
   });
@@ -329,7 +331,8 @@ TEST(SpecError, NetworksAreOfOneKind) {
 TEST(SpecError, RequirementsAskForOneThing) {
   expect_errors({
       {"/requirements", R"([{"name": "r", "where": "true"}])",
-       "missing key: one of 'min_delay', 'min_delay_time' or 'invariant' (/requirements/0)"},
+       "missing key: one of 'min_delay', 'min_delay_time', 'invariant', 'max_arrival', 'max_arrival_time', "
+       "'min_approach_delay' or 'min_approach_delay_time' (/requirements/0)"},
       {"/requirements", R"([{"name": "r", "where": "true", "min_delay": 1, "invariant": true}])",
        "'min_delay' and 'invariant' exclude each other (/requirements/0)"},
       {"/requirements", R"([{"name": "r", "where": "true", "invariant": false}])",
