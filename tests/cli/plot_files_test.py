@@ -121,7 +121,7 @@ class Cases(PlotCase):
             ((*layers, "--partition", "a"), "no partition 'a', expected 'a|b' (--partition)"),
             (
                 ("maps", "out.h5", "-o", "a.png"),
-                "unknown figure 'maps', expected 'actions', 'layers', 'unsafe3d', 'run', 'requirements' or 'coalition'",
+                "unknown figure 'maps', expected 'actions', 'layers', 'unsafe3d', 'run', 'requirements', 'coalition' or 'goal'",
             ),
         ):
             self.assert_plot_fails(2, message, *words)
