@@ -1,6 +1,8 @@
 """How all figures look. Colours: viridis for numbers of steps (perceptually uniform, readable for colour-blind people
 and in grey), greys for cells that are lost, Okabe and Ito's palette for kinds."""
 
+import textwrap
+
 import matplotlib
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
@@ -92,8 +94,9 @@ def label_plane(axes, cut):
 
 
 def add_title(figure, *lines):
-    """@param lines those that are empty are left out"""
-    figure.suptitle(plain("\n".join(filter(None, lines))))
+    """@param lines those that are empty are left out, those that are too long go on below"""
+    width = int(12 * figure.get_figwidth())  # letters, about
+    figure.suptitle(plain("\n".join(textwrap.fill(line, width) for line in lines if line)))
 
 
 def legend_below(figure, entries):
