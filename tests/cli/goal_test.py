@@ -172,8 +172,10 @@ class Cases(Case):
         self.assertIn("approach_delay:a|b", table[0].split(","))
         header = self.run_program("export", "r.h5", "--format", "c-header").stdout.decode()
         self.assertIn("coordreq_hand_approach_countdown", header)
-        page = self.run_program("report", "r.h5", "-o", "-").stdout.decode()
+        self.run_program("report", "r.h5", "-o", "r.html")
+        page = (self.folder / "r.html").read_text()
         self.assertIn("Time to the goal", page)
+        self.assertIn("How soon is the goal reached?", page)
 
     def test_changed_values_are_found(self):
         self.results(spec(*TWO, WALK, "p == 0 or q == 0"))
@@ -213,6 +215,18 @@ class Cases(Case):
         result = self.run_program("compare", "before.h5", "r.h5", "--json")
         self.assertEqual(result.returncode, 1)
         self.assertGreater(json.loads(result.stdout)["arrival"]["lost"], 0)
+
+    def test_goals_that_nothing_comes_nearer_to(self):
+        for goal, text in (
+            ("p == 7", "no cell of the invariance set is in the goal on this grid: it cannot be forced"),
+            ("p == 2", "the goal can be forced from its own cells only"),
+        ):
+            problem = spec([state("p", 2, discrete=True)], {"u": [0, 1]}, {"p": "p - u"}, goal)
+            self.write("spec.json", {**problem, "abstraction": {"cells": "half_open"}})
+            result = self.run_program("analyze", "spec.json", "--json")
+            self.assertEqual(result.returncode, 0)
+            self.assertIn(f"coordreq: warning: {text} (/goal)\n", result.stderr.decode())
+            self.assertIn(text, [one["message"] for one in json.loads(result.stdout)["warnings"]])
 
     def test_what_is_refused(self):
         self.write("spec.json", {**leaving("goal"), "goal": "u == 0"})
