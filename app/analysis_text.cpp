@@ -75,8 +75,10 @@ std::string connection_text(const Json& partition, const Json& summary) {
 /// How long agents that act alone lose no time on the way to the goal.
 void add_approach(const Json& approach, Facts& facts) {
   facts.emplace_back("  approach", shortened(approach["layers"].get<std::vector<std::int64_t>>()));
-  facts.emplace_back("  loses no time",
-                     approach["truncated"] ? "unknown" : cells(approach["fixed_point"]) + ", for ever");
+  const Json& layers = approach["layers"];
+  const std::string for_ever = approach["truncated"] ? "unknown" : cells(approach["fixed_point"]);
+  facts.emplace_back("  loses no time", fmt::format("for a step from {}, for ever from {}",
+                                                    cells(layers[layers.size() > 1 ? 1 : 0]), for_ever));
 }
 
 std::string unbounded_cells(const Json& partition) {

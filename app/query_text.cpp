@@ -55,7 +55,7 @@ class AnswerText {
     facts.emplace_back("invariance set", answer_["invariant"] ? "inside" : "outside");
     facts.emplace_back("leaves the safe set", collision_text(answer_["collision_time"]));
     for (const Field* const field : asked_fields(results_))
-      facts.emplace_back(field->shown.asked, other_text(field->path.substr(1)));
+      facts.emplace_back(field->shown.asked, value_text(answer_, field->path.substr(1)));
     facts.emplace_back("guarantee", guarantee_text(text_of(answer_["guarantee"])));
     return facts_text(facts);
   }
@@ -112,10 +112,11 @@ class AnswerText {
     return "within " + steps_text(time) + ", whatever is coordinated";
   }
 
-  [[nodiscard]] std::string other_text(const std::string& name) const {
-    const std::string status = text_of(answer_[name + "_status"]);
-    if (status == "steps") return steps_text(answer_[name]);
-    if (status == "number") return grouped(answer_[name]);
+  /// A value by its key, or the word that it means.
+  [[nodiscard]] std::string value_text(const Json& of, const std::string& name) const {
+    const std::string status = text_of(of[name + "_status"]);
+    if (status == "steps") return steps_text(of[name]);
+    if (status == "number") return grouped(of[name]);
     std::string words = status;
     std::replace(words.begin(), words.end(), '_', ' ');
     return words;
@@ -151,15 +152,8 @@ class AnswerText {
   /// Towards the goal. Where nothing comes nearer, since the goal is reached or cannot be, no actions are
   /// told.
   void add_approach(const Json& approach, Facts& facts) const {
-    const auto text = [&](const char* key) {
-      const std::string status = text_of(approach[std::string(key) + "_status"]);
-      if (status == "steps") return steps_text(approach[key]);
-      std::string words = status;
-      std::replace(words.begin(), words.end(), '_', ' ');
-      return words;
-    };
-    facts.emplace_back("  approach delay", text("delay"));
-    facts.emplace_back("  approach countdown", text("countdown"));
+    facts.emplace_back("  approach delay", value_text(approach, "delay"));
+    facts.emplace_back("  approach countdown", value_text(approach, "countdown"));
     for (const Json& own : approach["classes"]) {
       if (!own["actions"].empty())
         facts.emplace_back("  approach of " + text_of(own["name"]), class_text(own));

@@ -60,7 +60,7 @@ std::string report_goal(const ResultsReader& results) {
       "<section aria-labelledby=\"goal-title\">\n<h2 id=\"goal-title\">How soon is the goal "
       "reached?</h2>\n<p>The goal is <code>{}</code>: {} that can be kept safe. ",
       html_line(results.spec().goal->text), states_text(goal));
-  if (longest < 0) return text + "From nowhere can it be forced.</p>\n</section>\n";
+  if (longest < 0) return text + "It cannot be forced from any of them.</p>\n</section>\n";
   text += fmt::format(
       "Agents that coordinate can force it from {} of the states that can be kept safe, within {}.</p>\n",
       share_text(winning, results.attributes().invariant_cells),

@@ -73,7 +73,7 @@ std::string end_text(const Json& story) {
   if (end == "left_domain") return "the state leaves the domain, " + side_text(story["left_side"]);
   if (end == "unsafe_between_samples") return "the way to the next sample is not safe";
   if (end == "arrived") return "the goal is reached, too late";
-  if (end == "never_arrives") return "the goal has not come nearer, and need not for ever";
+  if (end == "never_arrives") return "the state is one that came before: the goal need never be reached";
   if (end == "time_lost") return "the state is not nearer to the goal";
   return "no action is allowed any more";
 }

@@ -132,8 +132,7 @@ bool ClosedLoop::is_beyond_goal_side(const State& state) const {
     const bool below = state.measured[i] < grid[i].point(0) - grid[i].radius();
     const bool above = grid[i].discrete ? state.measured[i] > upper : state.measured[i] >= upper;
     if (!below && !above) continue;
-    const OutsideTraits& rule = traits(below ? grid[i].below : grid[i].above);
-    if (rule.arrives && !rule.wins) return false;
+    if (traits(below ? grid[i].below : grid[i].above).is_only_safe()) return false;
   }
   return true;
 }

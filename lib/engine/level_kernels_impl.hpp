@@ -42,6 +42,17 @@ inline __attribute__((always_inline)) bool any(const Vector& v) {
   return together != 0;
 }
 
+/// True if any of the first `count` lanes is not zero.
+template <class Vector>
+inline __attribute__((always_inline)) bool any_before(const Vector& v, size_t count) {
+  constexpr size_t kCount = sizeof(Vector) / sizeof(v[0]);
+  if (count >= kCount) return any(v);
+  for (size_t i = 0; i < count; ++i) {
+    if (v[i] != 0) return true;
+  }
+  return false;
+}
+
 template <class Level>
 void minimum(const Level* const* rows, size_t count, Level* out, size_t n) {
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
@@ -97,13 +108,7 @@ bool is_top(const Level* row, const Level* lanes, size_t n) {
   constexpr auto kTop = static_cast<Level>(~Level{0});
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
     const auto below = (block(row + j) != kTop) & (block(lanes + j) != Level{0});
-    if (n - j >= Lanes<Level>::kCount) {
-      if (any(below)) return false;
-      continue;
-    }
-    for (size_t i = 0; i < n - j; ++i) {
-      if (below[i] != 0) return false;
-    }
+    if (any_before(below, n - j)) return false;
   }
   return true;
 }
@@ -114,13 +119,7 @@ bool is_settled(const Level* row, const Level* bound, size_t n) {
     // bound <= row + 1 without overflow: bound is 0, or bound - 1 <= row.
     const typename Lanes<Level>::Vector b = block(bound + j);
     const auto open = (b != Level{0}) & (b - Level{1} > block(row + j));
-    if (n - j >= Lanes<Level>::kCount) {
-      if (any(open)) return false;
-      continue;
-    }
-    for (size_t i = 0; i < n - j; ++i) {
-      if (open[i] != 0) return false;
-    }
+    if (any_before(open, n - j)) return false;
   }
   return true;
 }
@@ -211,12 +210,7 @@ bool advance(const Level* next, const Level* old, Level limit, Level* out, size_
     const Vector result = before == zero ? zero : stepped;
     const Vector difference = result ^ before;
     block(out + j) = result;
-    if (changed) continue;
-    if (n - j >= Lanes<Level>::kCount) {
-      changed = any(difference);
-    } else {
-      for (size_t i = 0; i < n - j; ++i) changed = changed || difference[i] != 0;
-    }
+    changed = changed || any_before(difference, n - j);
   }
   return changed;
 }
@@ -234,12 +228,7 @@ bool rise(const Level* next, const Level* old, Level* out, size_t n) {
     const Vector result = before == zero ? zero : risen;
     const Vector difference = result ^ before;
     block(out + j) = result;
-    if (changed) continue;
-    if (n - j >= Lanes<Level>::kCount) {
-      changed = any(difference);
-    } else {
-      for (size_t i = 0; i < n - j; ++i) changed = changed || difference[i] != 0;
-    }
+    changed = changed || any_before(difference, n - j);
   }
   return changed;
 }

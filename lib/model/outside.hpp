@@ -22,6 +22,8 @@ struct OutsideTraits {
 
   /// At a sample the true state may be beyond the side.
   [[nodiscard]] constexpr bool is_open() const { return blocks || arrives; }
+  /// What leaves is safe for ever, and never reaches the goal.
+  [[nodiscard]] constexpr bool is_only_safe() const { return arrives && !wins; }
 };
 
 /// In the order of Outside.

@@ -29,9 +29,8 @@ struct MemoryFormula {
   std::vector<Call> calls;  ///< in the order of the text, an outer one before its inner ones
 };
 
-/// @throws SpecError with the place in `where` for a wrong number of arguments, or too deep nesting; what
-/// else
-///   is wrong shows when a part is linked
+/// @throws SpecError with the place in `where` for a wrong number of arguments, or too deep nesting. What
+///   else is wrong shows when a part is linked.
 [[nodiscard]] MemoryFormula take_apart_formula(std::string_view text, std::string_view where);
 
 }  // namespace coordreq

@@ -55,11 +55,13 @@ def prepare(arguments):
 
 
 def _lines(results):
-    """[(number of the partition, or None for all, line), ...]"""
+    """[(number of the partition, or None for all, line), ...]; of the goal they ask no delay"""
     lines = []
     names = results.spec.canonical_partitions()
     verdicts = results.read(_VERDICTS) if _VERDICTS in results else []
     for i, requirement in enumerate(results.spec.requirements()):
+        if any(key.startswith(("max_arrival", "min_approach_delay")) for key in requirement):
+            continue
         name = requirement.get("partition")
         if name is not None:
             name = names.get(name, name)

@@ -353,9 +353,10 @@ class Cases(PlotCase):
     def test_requirements_that_hold_and_fail(self):
         required = [
             {"name": "good", "where": "x <= 0.1 and y <= 0.1 and x > -0.4 and y > -0.4", "min_delay": 3},
+            {"name": "no delay is asked for", "where": "true", "max_arrival": 0},
             {"name": "bad", "where": "x >= 3 and y >= 2.6", "min_delay": 2},
         ]
-        self.write("spec.json", spec_with(requirements=required))
+        self.write("spec.json", spec_with(requirements=required, goal="x <= 1"))
         self.assertEqual(self.run_program("analyze", "spec.json", "-o", "out.h5").returncode, 1)
         data, figure = self.plotted("requirements")
         axes = figure.axes[0]

@@ -17,6 +17,8 @@ inline constexpr std::int32_t kForever = INT32_MAX;
 /// What a delay says of cells that have none.
 inline constexpr std::int32_t kOutsideSafe = -2;
 inline constexpr std::int32_t kOutsideInvariant = -1;
+/// And an approach delay of cells in K from where the goal cannot be forced.
+inline constexpr std::int32_t kNoWayToGoal = -4;
 
 /// What a results file says about one partition. Arrays over all cells, row-major.
 struct PartitionClaims {

@@ -103,8 +103,11 @@ MemoryNeed convention_memory(const EngineSizes& sizes, int threads) {
   if (!spec.coordination.convention) return {};
   const auto agents = static_cast<double>(spec.agents.size());
   const double freedom = agents * sizes.lanes() * sizeof(float);
-  return {.kept = sizes.groups(agent_classes(spec, sizes.model().inputs())) + freedom,
-          .work = sizes.readers(threads) + agents * sizes.rows() * sizeof(double),
+  // With a goal in two parts, one after the other.
+  const double parts = spec.goal ? 2 : 1;
+  return {.kept = parts * sizes.groups(agent_classes(spec, sizes.model().inputs())) + freedom +
+                  (parts - 1) * sizes.set(),
+          .work = sizes.readers(threads) + agents * sizes.rows() * sizeof(double) + (parts - 1) * freedom,
           .written = sizes.readers(threads),
           .array = freedom};
 }

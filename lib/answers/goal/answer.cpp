@@ -40,6 +40,7 @@ void find_arrival(Answers& answers, const StageWork& work) {
                          watch, work.team, goal.counts, goal.engine->equal_work());
   });
   goal.winning = winning_cells(goal.nearness, work.team);
+  goal.longest = longest_arrival(goal.nearness, work.team);
   goal.away = without(goal.winning, goal.cells);
   goal.progress = Controller{&engine, &goal.away, &goal.nearness, controller.synthesis, true};
   goal.approach.resize(ground.spec.coordination.partitions.size());
@@ -51,7 +52,7 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
   const RowEngine& engine = goal.engine->engine();
   const DelayLayers& layers = answers.get<PartitionLayers>().partitions[p];
   const std::optional<std::int64_t>& max_delay = spec.coordination.max_delay;
-  const ApproachSets sets{goal.engine.get(), &goal.nearness, &goal.cells, &goal.winning, &goal.away};
+  const ApproachSets sets{goal.engine.get(), &goal.nearness, &goal.cells, &goal.away};
   const std::int64_t steps = engine.grid().points();
   const LevelBounds bounds{&goal.winning, max_delay ? std::min(*max_delay, steps) : steps};
   DelayLayers& own = goal.approach[p];
@@ -90,11 +91,9 @@ std::vector<Stage> goal_stages(const ProblemSpec& spec) {
 void summarise_goal(const Answers& answers, Json& summary, Json& work) {
   const Goal* const goal = answers.find<Goal>();
   if (goal == nullptr) return;
-  ThreadTeam alone(1);
-  const std::optional<std::int32_t> longest = longest_arrival(goal->nearness, alone);
   summary["goal"] = {{"cells", goal->cells.count()},
                      {"winning", goal->winning.count()},
-                     {"longest_arrival", longest ? Json(*longest) : Json()}};
+                     {"longest_arrival", goal->longest ? Json(*goal->longest) : Json()}};
   work["arrival"] = work_json(goal->counts);
   for (std::size_t p = 0; p < goal->approach.size(); ++p) {
     summary["partitions"][p]["approach"] = approach_json(goal->approach[p]);
@@ -134,8 +133,10 @@ MemoryNeed goal_memory(const EngineSizes& sizes, int threads) {
                   .work = sizes.groups(single_classes(sizes.model().inputs())) + sizes.condition(*spec.goal),
                   .array = partitions * sizes.cells() * sizeof(std::int16_t)};
   if (has_safe_side(spec)) {
+    const double families = spec.abstraction.between_samples ? 2 : 1;  // of posts, of tubes
     need.kept += sizes.hull();
-    for (std::size_t t = 0; t < spec.states.size(); ++t) need.kept += sizes.table(t) + sizes.slices(t);
+    for (std::size_t t = 0; t < spec.states.size(); ++t)
+      need.kept += families * (sizes.table(t) + sizes.slices(t));
   }
   for (const PartitionSpec& partition : spec.coordination.partitions) {
     const std::vector<InputClass> classes = input_classes(spec, sizes.model().inputs(), partition);

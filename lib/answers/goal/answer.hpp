@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "answers/answers.hpp"
@@ -18,12 +20,13 @@ namespace coordreq {
 /// How soon the goal can be reached, and how long silence costs no time on the way (contract, section 5).
 struct Goal {
   std::unique_ptr<ProgressEngine> engine;
-  CellSet cells;                      ///< G
-  CellSet winning;                    ///< W
-  CellSet away;                       ///< W \ G
-  LevelMap nearness;                  ///< of all cells, see find_nearness()
-  Controller progress;                ///< P on W \ G
-  std::vector<DelayLayers> approach;  ///< [partition]
+  CellSet cells;                        ///< G
+  CellSet winning;                      ///< W
+  CellSet away;                         ///< W \ G
+  LevelMap nearness;                    ///< of all cells, see find_nearness()
+  std::optional<std::int32_t> longest;  ///< the greatest finite arrival
+  Controller progress;                  ///< P on W \ G
+  std::vector<DelayLayers> approach;    ///< [partition]
   WaveCounts counts;
 };
 

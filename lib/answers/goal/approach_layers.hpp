@@ -12,9 +12,8 @@ namespace coordreq {
 struct ApproachSets {
   const ProgressEngine* progress = nullptr;
   const LevelMap* nearness = nullptr;
-  const CellSet* goal = nullptr;     ///< G
-  const CellSet* winning = nullptr;  ///< W
-  const CellSet* away = nullptr;     ///< W \ G
+  const CellSet* goal = nullptr;  ///< G
+  const CellSet* away = nullptr;  ///< W \ G
 };
 
 /// Layers in W \ G, where agents that act alone must come nearer to the goal with every step; in G the layers

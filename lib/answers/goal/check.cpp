@@ -14,7 +14,6 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int32_t kNoWayToGoal = -4;
 constexpr std::int32_t kMustStand = -3;
 /// What all threads share about one partition.
 struct ApproachTallies {

@@ -175,14 +175,13 @@ void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& val
   const ProblemSpec& spec = answers.ground.spec;
   const LevelMap& times = answers.get<Invariance>().collision_time;
   const CellOrder& order = *answers.ground.order;
-  const std::optional<std::int32_t> longest = longest_arrival(goal->nearness, team);
-  const ElementType type = level_type(longest.value_or(0));
+  const ElementType type = level_type(goal->longest.value_or(0));
   values.entries["/arrival"] = {
       .array = {type, type == ElementType::int16 ? fill_arrival<std::int16_t>(*goal, times, order)
                                                  : fill_arrival<std::int32_t>(*goal, times, order)},
       .attributes = {{"goal_cells", static_cast<std::uint64_t>(goal->cells.count())},
                      {"winning_cells", static_cast<std::uint64_t>(goal->winning.count())},
-                     {"longest_arrival", std::int64_t{longest.value_or(-1)}}}};
+                     {"longest_arrival", std::int64_t{goal->longest.value_or(-1)}}}};
   fill_approach(answers, *goal, values);
   if (!spec.output.controller && !spec.output.actions) return;
   const std::shared_ptr<const ControllerParts> parts = controller_parts(answers, true);

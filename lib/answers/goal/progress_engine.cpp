@@ -6,17 +6,12 @@
 namespace coordreq {
 namespace {
 
-/// What leaves there is safe, and nothing else.
-bool only_arrives(Outside rule) {
-  return traits(rule).arrives && !traits(rule).wins;
-}
-
 /// REQUIRES: the rules are those of a grid with such a side.
 UniformGrid without_safe_sides(const UniformGrid& grid) {
   std::vector<GridDimension> dimensions = grid.dimensions();
   for (GridDimension& dimension : dimensions) {
-    if (only_arrives(dimension.below)) dimension.below = Outside::unsafe;
-    if (only_arrives(dimension.above)) dimension.above = Outside::unsafe;
+    if (traits(dimension.below).is_only_safe()) dimension.below = Outside::unsafe;
+    if (traits(dimension.above).is_only_safe()) dimension.above = Outside::unsafe;
   }
   return grid.with(std::move(dimensions));
 }
@@ -35,7 +30,7 @@ ProgressEngine::ProgressEngine(const Ground& ground) : ground_(&ground) {
 
 bool has_safe_side(const ProblemSpec& spec) {
   return std::any_of(spec.states.begin(), spec.states.end(), [](const StateSpec& state) {
-    return only_arrives(state.below) || only_arrives(state.above);
+    return traits(state.below).is_only_safe() || traits(state.above).is_only_safe();
   });
 }
 

@@ -10,9 +10,8 @@ bool ProgressInputs::leaves_through_safe_side(std::int64_t u) const {
   for (std::size_t i = 0; i < posts_.grid().size(); ++i) {
     const GridDimension& dimension = posts_.grid()[i];
     const IndexRange raw = posts_.raw(i, u);
-    const auto only_arrives = [](Outside rule) { return traits(rule).arrives && !traits(rule).wins; };
-    if (raw.first < 0 && only_arrives(dimension.below)) return true;
-    if (raw.last >= dimension.count && only_arrives(dimension.above)) return true;
+    if (raw.first < 0 && traits(dimension.below).is_only_safe()) return true;
+    if (raw.last >= dimension.count && traits(dimension.above).is_only_safe()) return true;
   }
   return false;
 }

@@ -18,8 +18,7 @@ using Rank = std::tuple<std::int64_t, std::int32_t, std::int64_t>;  // of the va
 /// The lower, the worse: not safe, not invariant, no way to the goal, then delays, or arrivals the other way
 /// round.
 std::int64_t rank_of(RequirementKind kind, std::int32_t value) {
-  constexpr std::int32_t kNotWinning = -4;
-  if (value == kNotWinning) return -1;
+  if (value == kNoWayToGoal) return -1;
   if (value < 0) return INT64_MIN + 2 + value;
   return kind == RequirementKind::max_arrival ? -std::int64_t{value} : std::int64_t{value};
 }

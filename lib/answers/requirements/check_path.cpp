@@ -194,7 +194,7 @@ void PathChecker::check_end() {
 void PathChecker::check_goal_end() {
   const bool stays = path_->samples() > path_->steps();
   const bool on_the_way = !path_->phase.empty() && path_->phase.back() >= EscapePhase::together;
-  if (!progress_ || (!on_the_way && !path_->phase.empty()))
+  if (!progress_ || !on_the_way)
     return wrong(path_->samples(), "an end of the way to the goal, which it is not on");
   const auto last = path_->cell.end() - 1;
   if (path_->end == EscapeEnd::arrived && stays && progress_->arrival(*last) != 0)

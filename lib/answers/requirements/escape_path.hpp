@@ -48,13 +48,12 @@ struct EscapeSets {
 ///   u that leads out of K to the least collision time.
 /// - From x outside K, collision_time(x) steps lead out of S, the worst successor each time: C can do no
 ///   better. The lowest-numbered u, and the lowest-numbered successor, of those that are equal.
-/// - `max_arrival`, from x in K: all take the lowest-numbered u of least worst arrival, the world the worst y
-/// of
-///   lowest number, down to the goal; where it cannot be forced the lowest y outside W, until a cell repeats.
-/// - `min_approach_delay`, from x in W of approach delay k: k steps by u in IND_P, each to a y of which less
-/// is
-///   asked, then one to a y that is not nearer; from the goal on as from x in K above, from x in K outside W
-///   as for `max_arrival`.
+/// - `max_arrival`, from x in K: all take the lowest-numbered u of least worst arrival, the world the
+///   lowest-numbered of the worst y, down to the goal; where it cannot be forced the lowest-numbered y
+///   outside W, until a cell repeats.
+/// - `min_approach_delay`, from x in W of approach delay k: k steps by u in IND_P, each to a y whose approach
+///   delay is one less, then one to a y that is not nearer; from the goal on as from x in K above, from x in
+///   K outside W as for `max_arrival`.
 /// REQUIRES: the delay of x is bounded, and known.
 /// Cost: a look at every joint input in every step, and at every cell of each different post.
 [[nodiscard]] EscapePath find_escape(const EscapeSets& sets, std::int64_t cell);
