@@ -36,6 +36,13 @@ Dual free_value(const Interval& range) {
   return result;
 }
 
+/// Of a function that is constant but for jumps.
+Dual jump_of(const Interval& range, bool total) {
+  Dual result = range.is_point() ? Dual::constant(range) : free_value(range);
+  result.total = total;
+  return result;
+}
+
 /// The chain rule for a function of one number.
 Dual chained(const Dual& a, const Interval& value, const Interval& factor) {
   Dual result;
@@ -168,6 +175,13 @@ Dual pow(const Dual& a, const Dual& b) {
   return combined(a, is_constant(a) ? kZero : by_base, b, by_exponent, value);
 }
 
+Dual atan2(const Dual& y, const Dual& x) {
+  const Interval value = atan2(y.value, x.value);
+  if (meets_cut_of_angles(y.value, x.value)) return jump_of(value, y.total && x.total && value.total);
+  const Interval square = sqr(y.value) + sqr(x.value);
+  return combined(y, x.value / square, x, -(y.value / square), value);
+}
+
 Dual min(const Dual& a, const Dual& b) {
   return extreme(a, b, a.value.upper <= b.value.lower, b.value.upper <= a.value.lower, min(a.value, b.value));
 }
@@ -240,9 +254,12 @@ Dual abs(const Dual& a) {
 
 Dual sign(const Dual& a) {
   const Interval value = sign(a.value);
-  Dual result = value.is_point() ? Dual::constant(value) : free_value(value);
-  result.total = a.total && value.total;
-  return result;
+  return jump_of(value, a.total && value.total);
+}
+
+Dual floor(const Dual& a) {
+  const Interval value = floor(a.value);
+  return jump_of(value, a.total && value.total);
 }
 
 }  // namespace coordreq

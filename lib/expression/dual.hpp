@@ -15,10 +15,11 @@ namespace coordreq {
 ///     f(a) - f(b)  in  sum_j gradient[j] * (a_j - b_j) + 2 * jump.
 ///
 /// Where f is differentiable, `gradient` encloses its derivatives over the box; at kinks of abs, min and max
-/// it holds Clarke's generalised gradient. A discontinuity (`sign`, or `if` with a condition that the box
-/// leaves undecided) has no derivative: its value is replaced by a free number in the hull V of the values
-/// it may take, and what V - mid(V) adds to f is `jump`, symmetric about 0. Hence 2 * jump between two points
-/// of f itself, but only `jump` between f and the function with mid(V) put in for the discontinuity.
+/// it holds Clarke's generalised gradient. A discontinuity (`sign`, `floor`, `atan2` across its cut, or `if`
+/// with a condition that the box leaves undecided) has no derivative: its value is replaced by a free number
+/// in the hull V of the values it may take, and what V - mid(V) adds to f is `jump`, symmetric about 0. Hence
+/// 2 * jump between two points of f itself, but only `jump` between f and the function with mid(V) put in for
+/// the discontinuity.
 ///
 /// Directions are the variables that were seeded, at most kDirections of them; variables without a direction
 /// stand for themselves, and differences are then between points that agree there. Over-approximates; an
@@ -53,6 +54,7 @@ struct Dual {
 [[nodiscard]] Dual operator*(const Dual& a, const Dual& b);
 [[nodiscard]] Dual operator/(const Dual& a, const Dual& b);
 [[nodiscard]] Dual pow(const Dual& a, const Dual& b);
+[[nodiscard]] Dual atan2(const Dual& y, const Dual& x);
 [[nodiscard]] Dual min(const Dual& a, const Dual& b);
 [[nodiscard]] Dual max(const Dual& a, const Dual& b);
 [[nodiscard]] Dual operator-(const Dual& a);
@@ -70,5 +72,6 @@ struct Dual {
 [[nodiscard]] Dual sqrt(const Dual& a);
 [[nodiscard]] Dual abs(const Dual& a);
 [[nodiscard]] Dual sign(const Dual& a);
+[[nodiscard]] Dual floor(const Dual& a);
 
 }  // namespace coordreq

@@ -48,6 +48,10 @@ template <class T>
 T minus_a(const T& a, const T& /*b*/) {
   return -a;
 }
+template <Interval (*f)(const Interval&, const Interval&)>
+RationalInterval outward_of_both(const RationalInterval& a, const RationalInterval& b) {
+  return to_rational(f(enclose(a), enclose(b)));
+}
 /// An irrational function of an exact interval; sin(0), exp(0) and the like stay exact, since Interval gives
 /// them as points.
 template <Interval (*f)(const Interval&)>
@@ -76,6 +80,10 @@ double greater(const double& a, const double& b) {
 }
 double double_log(double a) {
   return a > 0.0 ? std::log(a) : kUndefined;
+}
+/// Without a -0 that would choose the side of the cut.
+double double_angle(const double& y, const double& x) {
+  return y == 0.0 && x == 0.0 ? kUndefined : std::atan2(y + 0.0, x + 0.0);
 }
 double double_sign(double a) {
   if (std::isnan(a)) return a;
@@ -106,6 +114,12 @@ std::optional<Rational> magnitude(const Rational& a, const Rational& /*b*/) {
 std::optional<Rational> sign_of(const Rational& a, const Rational& /*b*/) {
   return Rational(sgn(a));
 }
+std::optional<Rational> floor_of(const Rational& a, const Rational& /*b*/) {
+  return floor(a);
+}
+std::optional<Rational> no_angle(const Rational& y, const Rational& x) {
+  return sgn(y) == 0 && sgn(x) > 0 ? std::optional<Rational>(0) : std::nullopt;
+}
 /// The function is `value` at `place`, and irrational at all other rationals.
 template <int place, int value>
 std::optional<Rational> rational_only_at(const Rational& a, const Rational& /*b*/) {
@@ -129,6 +143,11 @@ template <ElementaryFunction f>
 Constant to_double(const Rational& a, const Rational& /*b*/) {
   if (bit_size(a) > kMostRoundedBits) return {Outcome::too_large, 0};
   const std::optional<double> value = nearest_value(f, a);
+  return value ? from_double(*value) : Constant{};
+}
+Constant angle_constant(const Rational& y, const Rational& x) {
+  if (std::max(bit_size(y), bit_size(x)) > kMostRoundedBits) return {Outcome::too_large, 0};
+  const std::optional<double> value = nearest_angle(y, x);
   return value ? from_double(*value) : Constant{};
 }
 template <Outcome outcome>
@@ -210,6 +229,10 @@ constexpr std::array kFunctions{
         double_power, of_both<Interval, pow>, of_both<RationalInterval, pow>, of_both<Dual, pow>,
         exact_power, power_constant,
         {SeriesRule::power, nullptr}, "{0} to the power of {1}", kNever},
+    NumberFunction{Operator::angle, "atan2", "atan2", 2, 2,
+        double_angle, of_both<Interval, atan2>, outward_of_both<atan2>, of_both<Dual, atan2>,
+        no_angle, angle_constant,
+        {SeriesRule::angle, nullptr}, "atan2 of {0} and {1}", kNever},
     NumberFunction{Operator::minimum, "min", "min", 2, kAnyNumber,
         smaller, of_both<Interval, min>, of_both<RationalInterval, min>, of_both<Dual, min>,
         lesser_rational, none<Outcome::undefined>,
@@ -278,6 +301,10 @@ constexpr std::array kFunctions{
         at<double_sign>, of<Interval, sign>, of<RationalInterval, sign>, of<Dual, sign>,
         sign_of, none<Outcome::undefined>,
         {SeriesRule::pick, nullptr}, kNowhere, kNever},
+    NumberFunction{Operator::floor, "floor", "floor", 1, 1,
+        at<std::floor>, of<Interval, floor>, of<RationalInterval, floor>, of<Dual, floor>,
+        floor_of, none<Outcome::undefined>,
+        {SeriesRule::pick, nullptr}, kNowhere, kNever},
 };
 // clang-format on
 
@@ -298,7 +325,7 @@ constexpr bool is_in_order() {
   for (std::size_t i = 0; i < kFunctions.size(); ++i) {
     if (place_of(kFunctions[i].op) != i) return false;
   }
-  return kFunctions.size() == place_of(Operator::sign) + 1;
+  return kFunctions.size() == place_of(Operator::floor) + 1;
 }
 static_assert(is_in_order());
 // With its sanitisers g++ 12 takes no address of a function for a constant.

@@ -37,6 +37,7 @@ enum class SeriesRule : std::uint8_t {
   inverse_chain,  ///< q r' = p', as log with q = p
   root,           ///< r^2 = p
   power,          ///< r = p^q for a fixed q
+  angle,          ///< (p^2 + q^2) r' = q p' - p q'
   pick,           ///< a kink or a jump: one of +-p, q or a constant, as the surroundings decide
 };
 

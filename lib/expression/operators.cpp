@@ -11,6 +11,8 @@ std::string_view spelling(Operator op) {
       return "number";
     case Operator::variable:
       return "name";
+    case Operator::modulo:
+      return "mod";
     case Operator::if_else:
       return "if";
     case Operator::less:

@@ -18,6 +18,7 @@ enum class Operator : std::uint8_t {
   multiply,
   divide,
   power,  // `a ^ b` and `pow(a, b)`
+  angle,  // `atan2(y, x)`
   minimum,
   maximum,
   // number -> number
@@ -36,6 +37,9 @@ enum class Operator : std::uint8_t {
   square_root,
   absolute,
   sign,
+  floor,
+  // number, number -> number, written out by whoever makes a tape
+  modulo,
   // condition, number, number -> number
   if_else,
   // number, number -> condition
@@ -61,11 +65,16 @@ enum class Operator : std::uint8_t {
   return op >= Operator::less && op <= Operator::not_equal;
 }
 [[nodiscard]] constexpr bool is_unary_function(Operator op) {
-  return op >= Operator::negate && op <= Operator::sign;
+  return op >= Operator::negate && op <= Operator::floor;
 }
 /// An operation that makes a number of one or two numbers.
 [[nodiscard]] constexpr bool is_number_function(Operator op) {
-  return op >= Operator::add && op <= Operator::sign;
+  return op >= Operator::add && op <= Operator::floor;
+}
+
+/// A number that may jump where its operands do not.
+[[nodiscard]] constexpr bool is_discontinuous(Operator op) {
+  return op == Operator::angle || op == Operator::sign || op == Operator::floor || op == Operator::if_else;
 }
 
 /// How many of a, b and c of a node are other nodes.

@@ -239,7 +239,7 @@ class Parser {
           fmt::format("{} looks at the past, expected it in a formula of 'memory' only", quoted(word.text)),
           word.offset);
     }
-    std::string known(spelling(Operator::if_else));
+    std::string known = fmt::format("{}, {}", spelling(Operator::if_else), spelling(Operator::modulo));
     for (const NumberFunction& function : number_functions()) {
       if (!function.call.empty()) known += fmt::format(", {}", function.call);
     }

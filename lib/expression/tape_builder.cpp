@@ -31,7 +31,17 @@ TapeBuilder::Index TapeBuilder::variable(std::uint32_t slot) {
   return insert({Operator::variable, slot, 0, 0});
 }
 
+/// a - b floor(a / b). It lies between 0 and b, which intervals would not see.
+TapeBuilder::Index TapeBuilder::modulo(Index a, Index b) {
+  const Index zero = constant(0);
+  const Index turns = apply(Operator::floor, apply(Operator::divide, a, b));
+  const Index rest = apply(Operator::subtract, a, apply(Operator::multiply, b, turns));
+  const Index most = apply(Operator::minimum, apply(Operator::maximum, zero, b), rest);
+  return apply(Operator::maximum, apply(Operator::minimum, zero, b), most);
+}
+
 TapeBuilder::Index TapeBuilder::apply(Operator op, Index a, Index b, Index c) {
+  if (op == Operator::modulo) return modulo(a, b);
   const Program::Node node{op, a, b, c};
   if (const std::optional<Index> folded = fold(node)) return *folded;
   // An interval does not know that both factors are the same; its square does.

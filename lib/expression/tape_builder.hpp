@@ -34,6 +34,7 @@ class TapeBuilder {
 
   Index insert(const Program::Node& node);
   Index insert_truth(bool value);
+  Index modulo(Index a, Index b);
   std::optional<Index> fold(const Program::Node& node);
   std::optional<Index> fold_number(const Program::Node& node);
   std::optional<Index> fold_condition(const Program::Node& node);

@@ -116,6 +116,7 @@ std::size_t past_operator_arguments(std::string_view name) {
 
 std::optional<Function> find_function(std::string_view name) {
   if (name == spelling(Operator::if_else)) return Function{name, Operator::if_else, 3, 3};
+  if (name == spelling(Operator::modulo)) return Function{name, Operator::modulo, 2, 2};
   for (const NumberFunction& function : number_functions()) {
     if (!function.call.empty() && function.call == name)
       return Function{function.call, function.op, function.fewest, function.most};

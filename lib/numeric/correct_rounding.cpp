@@ -137,23 +137,27 @@ std::optional<double> rounded_at(ElementaryFunction f, const Rational& q, mpfr_p
   return result.rounded();
 }
 
-/// The power is monotone in either argument, so it is extreme at the four corners.
-std::optional<double> rounded_power_at(const Rational& base, const Rational& exponent,
-                                       mpfr_prec_t precision) {
-  const Enclosure x(base, precision);
-  const Enclosure y(exponent, precision);
-  Enclosure result(precision);
-  mpfr_pow(result.lower.get(), x.lower.get(), y.lower.get(), MPFR_RNDD);
-  mpfr_pow(result.upper.get(), x.lower.get(), y.lower.get(), MPFR_RNDU);
-  for (const BigFloat* const a : {&x.lower, &x.upper}) {
-    for (const BigFloat* const b : {&y.lower, &y.upper}) {
-      Enclosure corner(precision);
-      mpfr_pow(corner.lower.get(), a->get(), b->get(), MPFR_RNDD);
-      mpfr_pow(corner.upper.get(), a->get(), b->get(), MPFR_RNDU);
-      widen(result, corner);
+using MpfrFunctionOfTwo = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_srcptr, mpfr_rnd_t);
+
+/// f(a, b) for an f that over small boxes is extreme at corners: powers are monotone in either argument, and
+/// seen from the origin the extreme points of a box are corners.
+double rounded_at_corners(MpfrFunctionOfTwo f, const Rational& a, const Rational& b) {
+  for (mpfr_prec_t precision = kFirstPrecision;; precision *= 2) {
+    const Enclosure x(a, precision);
+    const Enclosure y(b, precision);
+    Enclosure result(precision);
+    f(result.lower.get(), x.lower.get(), y.lower.get(), MPFR_RNDD);
+    f(result.upper.get(), x.lower.get(), y.lower.get(), MPFR_RNDU);
+    for (const BigFloat* const first : {&x.lower, &x.upper}) {
+      for (const BigFloat* const second : {&y.lower, &y.upper}) {
+        Enclosure corner(precision);
+        f(corner.lower.get(), first->get(), second->get(), MPFR_RNDD);
+        f(corner.upper.get(), first->get(), second->get(), MPFR_RNDU);
+        widen(result, corner);
+      }
     }
+    if (const std::optional<double> value = result.rounded()) return *value;
   }
-  return result.rounded();
 }
 
 }  // namespace
@@ -166,9 +170,12 @@ std::optional<double> nearest_value(ElementaryFunction f, const Rational& q) {
 }
 
 double nearest_power(const Rational& base, const Rational& exponent) {
-  for (mpfr_prec_t precision = kFirstPrecision;; precision *= 2) {
-    if (const std::optional<double> value = rounded_power_at(base, exponent, precision)) return *value;
-  }
+  return rounded_at_corners(mpfr_pow, base, exponent);
+}
+
+std::optional<double> nearest_angle(const Rational& y, const Rational& x) {
+  if (sgn(y) == 0 && sgn(x) == 0) return std::nullopt;
+  return rounded_at_corners(mpfr_atan2, y, x);
 }
 
 }  // namespace coordreq

@@ -36,4 +36,8 @@ enum class ElementaryFunction : std::uint8_t {
 /// no integer); a rational value could lie between two doubles for ever.
 [[nodiscard]] double nearest_power(const Rational& base, const Rational& exponent);
 
+/// The double nearest to the angle of the point (x, y), which is 0 (seen by the caller) or transcendental.
+/// @returns nothing at the origin. REQUIRES: y != 0 or x <= 0.
+[[nodiscard]] std::optional<double> nearest_angle(const Rational& y, const Rational& x);
+
 }  // namespace coordreq

@@ -256,6 +256,23 @@ Interval atan(const Interval& a) {
   return clipped(increasing(a, value_at), -kHalfPiAbove, kHalfPiAbove);
 }
 
+/// Seen from the origin the extreme points of a box are corners. Adding 0 makes 0 of -0, which would choose a
+/// side of the cut.
+Interval atan2(const Interval& y, const Interval& x) {
+  if (y.is_zero() && x.is_zero()) return whole_line(false);
+  const bool total = y.total && x.total && !(y.contains(0.0) && x.contains(0.0));
+  if (meets_cut_of_angles(y, x)) return {-kPi.upper, kPi.upper, total};
+  Interval result{kInfinity, -kInfinity, total};
+  for (const double up : {y.lower, y.upper}) {
+    for (const double right : {x.lower, x.upper}) {
+      if (up == 0.0 && right == 0.0) continue;
+      const Interval corner = around(up, std::atan2(up + 0.0, right + 0.0));
+      result = {std::min(result.lower, corner.lower), std::max(result.upper, corner.upper), total};
+    }
+  }
+  return clipped(result, -kPi.upper, kPi.upper);
+}
+
 Interval sinh(const Interval& a) {
   return increasing(a, [](double x) { return around(x, std::sinh(x)); });
 }

@@ -136,6 +136,11 @@ struct Interval {
   return {of(a.lower), of(a.upper), a.total};
 }
 
+/// The greatest whole number that is not above.
+[[nodiscard]] inline Interval floor(const Interval& a) {
+  return {std::floor(a.lower), std::floor(a.upper), a.total};
+}
+
 [[nodiscard]] inline Interval min(const Interval& a, const Interval& b) {
   return {std::min(a.lower, b.lower), std::min(a.upper, b.upper), a.total && b.total};
 }
@@ -169,6 +174,13 @@ struct Interval {
 [[nodiscard]] Interval asin(const Interval& a);
 [[nodiscard]] Interval acos(const Interval& a);
 [[nodiscard]] Interval atan(const Interval& a);
+
+/// The angle of the points (x, y), in (-pi, pi]; undefined at the origin. It jumps where they cross the
+/// half-line y = 0, x < 0, and is then anything.
+[[nodiscard]] Interval atan2(const Interval& y, const Interval& x);
+[[nodiscard]] inline bool meets_cut_of_angles(const Interval& y, const Interval& x) {
+  return x.lower < 0.0 && y.lower < 0.0 && y.upper >= 0.0;
+}
 
 [[nodiscard]] Interval sinh(const Interval& a);
 [[nodiscard]] Interval cosh(const Interval& a);

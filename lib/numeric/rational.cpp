@@ -174,10 +174,14 @@ Rational exact(double value) {
   return Rational(value);
 }
 
-std::int64_t floor_to_int(const Rational& q) {
+Rational floor(const Rational& q) {
   mpz_class result;
   mpz_fdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
-  return saturate(result);
+  return Rational(result);
+}
+
+std::int64_t floor_to_int(const Rational& q) {
+  return saturate(floor(q).get_num());
 }
 
 std::int64_t ceil_to_int(const Rational& q) {

@@ -136,6 +136,11 @@ RationalInterval sign(const RationalInterval& a) {
   return {sgn(a.lower), sgn(a.upper), a.total, true};
 }
 
+RationalInterval floor(const RationalInterval& a) {
+  if (!a.bounded) return a;
+  return {floor(a.lower), floor(a.upper), a.total, true};
+}
+
 RationalInterval min(const RationalInterval& a, const RationalInterval& b) {
   const bool total = a.total && b.total;
   if (!a.bounded || !b.bounded) return unbounded(total);

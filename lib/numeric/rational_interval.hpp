@@ -39,6 +39,7 @@ struct RationalInterval {
 [[nodiscard]] RationalInterval abs(const RationalInterval& a);
 /// -1, 0 or 1.
 [[nodiscard]] RationalInterval sign(const RationalInterval& a);
+[[nodiscard]] RationalInterval floor(const RationalInterval& a);
 [[nodiscard]] RationalInterval min(const RationalInterval& a, const RationalInterval& b);
 [[nodiscard]] RationalInterval max(const RationalInterval& a, const RationalInterval& b);
 

@@ -39,11 +39,9 @@ bool is_steep(const FlowTape& tape, const FlowTape::Node& node) {
     case Operator::square_root:
     case Operator::arcsine:
     case Operator::arccosine:
-    case Operator::sign:
-    case Operator::if_else:
       return true;
     default:
-      return false;
+      return is_discontinuous(node.op);
   }
 }
 

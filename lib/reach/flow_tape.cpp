@@ -97,6 +97,12 @@ class TapeWriter final : private NodeWriter {
     const FunctionSeries& series = number_function(node.op).series;
     const Index second = is_unary_function(node.op) ? 0 : node.b;
     rule(i, series.rule, node.a, series.factor == nullptr ? second : series.factor(*this, node.a, i));
+    if (series.rule != Rule::angle) return;
+    const Index two = constant(Rational(2));
+    const Index y_square = put(Operator::power, node.a, two);
+    const Index x_square = put(Operator::power, node.b, two);
+    const Index square = put(Operator::add, y_square, x_square);
+    tape_.nodes[i].square = square;
   }
 
   /// Integer powers as products, so that a base that contains 0 does no harm; moving exponents by exp, log.
@@ -178,6 +184,8 @@ std::vector<Index> series_operands(const Node& node) {
       return {node.p};
     case Rule::pick:
       return is_unary_function(node.op) ? std::vector<Index>{node.p} : std::vector<Index>{node.p, node.q};
+    case Rule::angle:
+      return {node.p, node.q, node.square};
     default:
       return {node.p, node.q};
   }

@@ -26,6 +26,10 @@ struct FlowTape {
     std::uint32_t a = 0, b = 0, c = 0;  ///< as in Program::Node
     Rule rule = Rule::fixed;
     std::uint32_t p = 0, q = 0;
+    std::uint32_t square = 0;  ///< of `angle`: p^2 + q^2; may stand behind
+
+    /// Whether it depends on the box what the node amounts to.
+    [[nodiscard]] bool is_choice() const { return rule == Rule::pick || rule == Rule::angle; }
   };
 
   std::vector<Node> nodes;

@@ -11,17 +11,34 @@ namespace coordreq {
 namespace {
 
 bool is_switch(Operator op) {
-  return op == Operator::absolute || op == Operator::sign || op == Operator::minimum ||
-         op == Operator::maximum || is_comparison(op);
+  return op == Operator::absolute || op == Operator::minimum || op == Operator::maximum ||
+         (is_discontinuous(op) && op != Operator::if_else) || is_comparison(op);
 }
 
-constexpr int kUndefined = 2;
+constexpr double kUndefined = std::numeric_limits<double>::infinity();
 
-int side_of(double x) {
-  return std::isnan(x) ? kUndefined : x > 0.0 ? 1 : x < 0.0 ? -1 : 0;
+double side_of(double x) {
+  return std::isnan(x) ? kUndefined : x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0;
 }
 
-bool holds(Operator comparison, int side) {
+/// The side of the cut, if (x, y) is in that half of the plane.
+double side_of_angle(double y, double x) {
+  return std::isnan(y) || std::isnan(x) ? kUndefined : x >= 0.0 ? 0.0 : y >= 0.0 ? 1.0 : -1.0;
+}
+
+double side_of_floor(double x) {
+  return std::isfinite(x) ? std::floor(x) : kUndefined;
+}
+
+/// The angle as if it went on across the cut.
+double kept_angle(double y, double x, double side) {
+  constexpr double kTurn = 6.283185307179586;
+  const double angle = apply(Operator::angle, y, x);
+  const bool crossed = side != 0.0 && side_of_angle(y, x) == -side;
+  return crossed ? angle + side * kTurn : angle;
+}
+
+bool holds(Operator comparison, double side) {
   switch (comparison) {
     case Operator::less:
       return side < 0;
@@ -56,9 +73,9 @@ double SwitchedEquation::run(std::span<const double> slots, bool keep, bool move
   left_ = false;
   for (std::size_t i = 0; i < program_->nodes.size(); ++i) {
     const Program::Node& node = program_->nodes[i];
-    int side = 0;
+    double side = 0.0;
     if (is_switch(node.op)) {
-      side = side_of(numbers_[node.a] - (is_unary_function(node.op) ? 0.0 : numbers_[node.b]));
+      side = side_now(node);
       left_ = left_ || side != sides_[i];
       if (move) sides_[i] = side;
       if (keep && side != kUndefined) side = sides_[i];
@@ -74,7 +91,14 @@ double SwitchedEquation::run(std::span<const double> slots, bool keep, bool move
   return numbers_.back();
 }
 
-double SwitchedEquation::number_of(const Program::Node& node, std::span<const double> slots, int side) const {
+double SwitchedEquation::side_now(const Program::Node& node) const {
+  if (node.op == Operator::floor) return side_of_floor(numbers_[node.a]);
+  if (node.op == Operator::angle) return side_of_angle(numbers_[node.a], numbers_[node.b]);
+  return side_of(numbers_[node.a] - (is_unary_function(node.op) ? 0.0 : numbers_[node.b]));
+}
+
+double SwitchedEquation::number_of(const Program::Node& node, std::span<const double> slots,
+                                   double side) const {
   if (side == kUndefined) return kNaN;
   switch (node.op) {
     case Operator::constant:
@@ -86,7 +110,10 @@ double SwitchedEquation::number_of(const Program::Node& node, std::span<const do
     case Operator::absolute:
       return side < 0 ? -numbers_[node.a] : numbers_[node.a];
     case Operator::sign:
+    case Operator::floor:
       return side;
+    case Operator::angle:
+      return kept_angle(numbers_[node.a], numbers_[node.b], side);
     case Operator::minimum:
       return side < 0 ? numbers_[node.a] : numbers_[node.b];
     case Operator::maximum:

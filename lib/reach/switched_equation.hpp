@@ -8,12 +8,14 @@
 
 namespace coordreq {
 
-/// An equation in double arithmetic whose switches can be kept where they are: abs, sign, min, max and the
-/// comparisons in the conditions of `if`. While they are kept the equation is smooth, also a little beyond
-/// the place where one of them would switch, so that an integrator can step over that place and find it.
+/// An equation in double arithmetic whose switches can be kept where they are: abs, sign, floor, min, max,
+/// atan2 and the comparisons in the conditions of `if`. While they are kept the equation is smooth, also a
+/// little beyond the place where one of them would switch, so that an integrator can step over that place and
+/// find it.
 ///
-/// Each switch is on the side -1, 0 or 1: the sign of its argument, or of the difference of its arguments.
-/// NaN where undefined. Scratch inside: one object a thread.
+/// Each switch is on the side -1, 0 or 1: the sign of its argument, or of the difference of its arguments;
+/// the side of floor is its value, that of atan2 is 0 away from its cut. NaN where undefined. Scratch inside:
+/// one object a thread.
 class SwitchedEquation {
  public:
   /// REQUIRES: `program` outlives this object and is a number.
@@ -33,7 +35,8 @@ class SwitchedEquation {
 
  private:
   double run(std::span<const double> slots, bool keep, bool move);
-  [[nodiscard]] double number_of(const Program::Node& node, std::span<const double> slots, int side) const;
+  [[nodiscard]] double side_now(const Program::Node& node) const;
+  [[nodiscard]] double number_of(const Program::Node& node, std::span<const double> slots, double side) const;
 
   const Program* program_;
   bool has_switches_ = false;
@@ -41,7 +44,7 @@ class SwitchedEquation {
   std::vector<double> constants_;
   std::vector<double> numbers_;
   std::vector<Truth> truths_;
-  std::vector<int> sides_;  ///< of every node
+  std::vector<double> sides_;  ///< of every node
 };
 
 }  // namespace coordreq

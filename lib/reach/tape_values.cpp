@@ -12,7 +12,10 @@ Choice pin_to_middle(const Interval& range) {
 
 Choice decide_discontinuity(const FlowTape::Node& node, const TapeValues<Interval>& values,
                             const Interval& range) {
-  if (node.op == Operator::sign) return pin_to_middle(range);
+  if (node.op == Operator::sign || node.op == Operator::floor) return pin_to_middle(range);
+  if (node.op == Operator::angle)
+    return meets_cut_of_angles(values[node.a], values[node.b]) ? pin_to_middle(range)
+                                                               : Choice{Kind::first, {}};
   const Truth condition = values.truth(node.a);
   if (condition == Truth::undecided) return pin_to_middle(range);
   return {condition == Truth::yes ? Kind::first : Kind::second, {}};
@@ -30,16 +33,12 @@ Kind decide_kink(const FlowTape::Node& node, const TapeValues<Interval>& values)
   return high.upper <= low.lower ? Kind::second : Kind::undecided;
 }
 
-bool is_discontinuous(Operator op) {
-  return op == Operator::sign || op == Operator::if_else;
-}
-
 bool decide_all(const FlowTape& tape, const TapeValues<Interval>& values, bool with_discontinuities,
                 Choices& choices) {
   bool smooth = true;
   for (const std::uint32_t i : tape.values) {
     const FlowTape::Node& node = tape.nodes[i];
-    if (node.rule != FlowTape::Rule::pick) continue;
+    if (!node.is_choice()) continue;
     if (!is_discontinuous(node.op)) {
       choices[i].kind = decide_kink(node, values);
       smooth = smooth && choices[i].kind != Kind::undecided;

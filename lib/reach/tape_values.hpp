@@ -11,13 +11,13 @@
 
 namespace coordreq {
 
-/// What a `pick` node of a FlowTape amounts to over some box.
+/// What a choice of a FlowTape amounts to over some box.
 struct Choice {
   enum class Kind : std::uint8_t {
-    first,          ///< p
+    first,          ///< p; of an angle: itself
     second,         ///< q
     first_negated,  ///< -p
-    pinned,         ///< the constant `value`: a discontinuity that the box does not decide, or a sign
+    pinned,         ///< the constant `value`: a discontinuity that the box does not decide, a sign or a floor
     undecided,      ///< a kink of abs, min or max
   };
   Kind kind = Kind::undecided;
@@ -50,8 +50,7 @@ class TapeValues {
   /// Evaluates what moves, except that nodes pinned in `pins` have the value given there.
   void run_moving(std::span<const Interval> slots, const Choices& pins) requires std::same_as<T, Interval> {
     for (const std::uint32_t i : tape_->values) {
-      const bool pick = tape_->nodes[i].rule == FlowTape::Rule::pick;
-      if (pick && pins[i].kind == Choice::Kind::pinned) {
+      if (tape_->nodes[i].is_choice() && pins[i].kind == Choice::Kind::pinned) {
         numbers_[i] = pins[i].value;
       } else {
         run_node(i, slots);
@@ -87,12 +86,12 @@ class TapeValues {
   std::vector<ConditionValue> truths_;
 };
 
-/// Decides the `pick` nodes by the values over a box. Discontinuities that stay open are pinned to the middle
+/// Decides the choices by the values over a box. Discontinuities that stay open are pinned to the middle
 /// of their range.
 /// @returns whether no kink was left undecided
 bool decide(const FlowTape& tape, const TapeValues<Interval>& values, Choices& choices);
 
-/// As decide(), but leaves discontinuities (`sign` and `if`) as they are in `choices`.
+/// As decide(), but leaves discontinuities as they are in `choices`.
 bool decide_kinks(const FlowTape& tape, const TapeValues<Interval>& values, Choices& choices);
 
 }  // namespace coordreq

@@ -49,8 +49,13 @@ Interval TaylorSeries::value_of(std::uint32_t i, std::span<const Interval> slots
   const FlowTape::Node& node = tape_->nodes[i];
   if (node.rule == Rule::variable) return slots[node.a];
   if (node.rule == Rule::pick) return picked_value(i);
+  if (is_pinned_angle(i)) return (*choices_)[i].value;
   if (is_unary_function(node.op)) return apply(node.op, values_[node.a]);
   return apply(node.op, values_[node.a], values_[node.b]);
+}
+
+bool TaylorSeries::is_pinned_angle(std::uint32_t i) const {
+  return tape_->nodes[i].rule == Rule::angle && (*choices_)[i].kind == Choice::Kind::pinned;
 }
 
 Interval TaylorSeries::picked_value(std::uint32_t i) const {
@@ -139,6 +144,8 @@ Ball TaylorSeries::next(std::uint32_t i, std::size_t k) {
       return (of(node.p) - convolution(i, i, k, 1, k - 1)) / (number(2.0) * at(i, 0));
     case Rule::power:
       return power(i, k);
+    case Rule::angle:
+      return is_pinned_angle(i) ? kZero : angle(i, k);
     case Rule::pick:
       return picked(i, k);
     case Rule::fixed:
@@ -215,6 +222,22 @@ Ball TaylorSeries::power(std::uint32_t i, std::size_t k) {
     sum = sum + factor * at(node.p, j) * at(i, k - j);
   }
   return sum.is_zero() ? kZero : sum / (number(k) * at(node.p, 0));
+}
+
+/// s = p^2 + q^2: k s_0 r_k = sum of j (p_j q_{k-j} - q_j p_{k-j}) over 1 <= j <= k, less the sum of j r_j
+/// s_{k-j} over 1 <= j < k.
+Ball TaylorSeries::angle(std::uint32_t i, std::size_t k) {
+  const FlowTape::Node& node = tape_->nodes[i];
+  const auto of = [&](std::uint32_t operand, std::size_t order) {
+    return order == 0 || moves(operand) ? at(operand, order) : kZero;
+  };
+  Ball sum = kZero;
+  for (std::size_t j = 1; j <= k; ++j) {
+    Ball term = of(node.p, j) * of(node.q, k - j) - of(node.q, j) * of(node.p, k - j);
+    if (j < k) term = term - at(i, j) * of(node.square, k - j);
+    sum = sum + number(j) * term;
+  }
+  return sum.is_zero() ? kZero : sum / (number(k) * at(node.square, 0));
 }
 
 }  // namespace coordreq

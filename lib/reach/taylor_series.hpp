@@ -44,6 +44,7 @@ class TaylorSeries {
     return tape_->nodes[node].rule != FlowTape::Rule::fixed;
   }
   [[nodiscard]] Interval value_of(std::uint32_t i, std::span<const Interval> slots) const;
+  [[nodiscard]] bool is_pinned_angle(std::uint32_t i) const;
   [[nodiscard]] Interval picked_value(std::uint32_t i) const;
   [[nodiscard]] Ball picked(std::uint32_t i, std::size_t k);
   [[nodiscard]] Ball next(std::uint32_t i, std::size_t k);
@@ -54,6 +55,7 @@ class TaylorSeries {
   [[nodiscard]] Ball chain(std::uint32_t i, std::size_t k);
   [[nodiscard]] Ball inverse_chain(std::uint32_t i, std::size_t k);
   [[nodiscard]] Ball power(std::uint32_t i, std::size_t k);
+  [[nodiscard]] Ball angle(std::uint32_t i, std::size_t k);
   void set_state_coefficients(std::size_t k);
 
   const FlowTape* tape_;

@@ -34,11 +34,12 @@ bool is_decided_at_points(const Program& condition) {
     switch (node.op) {
       case Operator::divide:
       case Operator::power:
+      case Operator::angle:
       case Operator::literal_undecided:
         return false;
       default:
         return !is_unary_function(node.op) || node.op == Operator::negate || node.op == Operator::absolute ||
-               node.op == Operator::sign;
+               node.op == Operator::sign || node.op == Operator::floor;
     }
   });
 }

@@ -26,6 +26,11 @@ Arb absolute(const Arb& a) {
   return hull(Arb(0.0), greater(a.upper(), Arb(0.0) - a.lower()));
 }
 
+Arb squared(const Arb& a) {
+  const Arb whole = absolute(a);
+  return hull(whole.lower() * whole.lower(), whole.upper() * whole.upper());
+}
+
 /// Whether it matters that a ball is not the product of one number with itself.
 bool is_wide(const Arb& a) {
   return a.width() > 1e-3 * std::abs(a.approximately());
@@ -117,6 +122,28 @@ void square_root(ArbSeries& result, const ArbSeries& a, slong length) {
   result.assign(root);
 }
 
+/// The series of atan2(y, x) but for its constant term: r' = (x y' - y x') / (x^2 + y^2).
+ArbSeries angle_series(const ArbSeries& y, const ArbSeries& x, slong length) {
+  const auto product = [length](const ArbSeries& a, const ArbSeries& b) {
+    ArbSeries result;
+    arb_poly_mullow(result.get(), a.get(), b.get(), length, kArbBits);
+    return result;
+  };
+  const auto derivative = [](const ArbSeries& a) {
+    ArbSeries result;
+    arb_poly_derivative(result.get(), a.get(), kArbBits);
+    return result;
+  };
+  ArbSeries result, square;
+  arb_poly_add(square.get(), product(x, x).get(), product(y, y).get(), kArbBits);
+  square.set(0, squared(x[0]) + squared(y[0]));
+  arb_poly_sub(result.get(), product(x, derivative(y)).get(), product(y, derivative(x)).get(), kArbBits);
+  arb_poly_div_series(result.get(), result.get(), square.get(), length, kArbBits);
+  arb_poly_integral(result.get(), result.get(), kArbBits);
+  arb_poly_truncate(result.get(), length);
+  return result;
+}
+
 constexpr SmoothFunction kSmooth[] = {
     {Operator::negate, minus, false},
     {Operator::sine, sine, false},
@@ -145,9 +172,9 @@ constexpr bool is_in_order(std::span<const SmoothFunction> rows) {
 // Whoever adds a function adds a row, or a kink to run_unary().
 static_assert(is_in_order(kSmooth) &&
               number_of(Operator::absolute) == number_of(Operator::negate) + std::size(kSmooth));
-static_assert(number_of(Operator::if_else) == number_of(Operator::absolute) + 2,
+static_assert(number_of(Operator::modulo) == number_of(Operator::absolute) + 3,
               "a function of one number is missing");
-static_assert(number_of(Operator::negate) == number_of(Operator::add) + 7,
+static_assert(number_of(Operator::negate) == number_of(Operator::add) + 8,
               "one of two numbers is missing in run_binary()");
 
 const SmoothFunction& smooth_function(Operator op) {
@@ -240,14 +267,15 @@ void ExpressionSeries::run_binary(std::size_t n, slong length) {
     case Operator::multiply:
       arb_poly_mullow(result, a, b, length, kArbBits);
       if (is_same(node.a, node.b) && is_wide(values_[node.a][0])) {
-        const Arb whole = absolute(values_[node.a][0]);
-        values_[n].set(0, hull(whole.lower() * whole.lower(), whole.upper() * whole.upper()));
+        values_[n].set(0, squared(values_[node.a][0]));
       }
       return;
     case Operator::divide:
       return arb_poly_div_series(result, a, b, length, kArbBits);
     case Operator::power:
       return run_power(n, length);
+    case Operator::angle:
+      return run_angle(n, length);
     default:
       return run_choice(n, node.op == Operator::minimum, length);
   }
@@ -287,10 +315,38 @@ void ExpressionSeries::run_power(std::size_t n, slong length) {
   }
 }
 
+/// atan2(y, x): seen from the origin the extreme points of a box are corners, if it does not meet the cut.
+void ExpressionSeries::run_angle(std::size_t n, slong length) {
+  const Program::Node& node = program_->nodes[n];
+  const ArbSeries& y = values_[node.a];
+  const ArbSeries& x = values_[node.b];
+  const Arb up = constant_term(y), right = constant_term(x);
+  Arb value;
+  if (arb_contains_zero(up.get()) != 0 && arb_contains_zero(right.get()) != 0) {
+    arb_indeterminate(value.get());
+    return values_[n].assign(value);
+  }
+  if (!right.is_nonnegative() && !up.is_nonnegative() && arb_is_negative(up.get()) == 0) {
+    lose(Smoothness::jumps);
+    arb_const_pi(value.get(), kArbBits);
+    return values_[n].assign(hull(value, Arb(0.0) - value));
+  }
+  arb_atan2(value.get(), up.lower().get(), right.lower().get(), kArbBits);
+  for (const auto& [b, a] : {std::pair(up.lower(), right.upper()), std::pair(up.upper(), right.lower()),
+                             std::pair(up.upper(), right.upper())}) {
+    Arb corner;
+    arb_atan2(corner.get(), b.get(), a.get(), kArbBits);
+    value = hull(value, corner);
+  }
+  values_[n] = angle_series(y, x, length);
+  values_[n].set(0, value);
+}
+
 void ExpressionSeries::run_unary(std::size_t n, slong length) {
   const Program::Node& node = program_->nodes[n];
   if (node.op == Operator::absolute) return run_absolute(n, length);
   if (node.op == Operator::sign) return run_sign(n);
+  if (node.op == Operator::floor) return run_floor(n);
   smooth_function(node.op).series(values_[n], values_[node.a], length);
 }
 
@@ -322,6 +378,17 @@ void ExpressionSeries::run_sign(std::size_t n) {
   }
   if (!value.is_finite()) sign = value;
   values_[n].assign(sign);
+}
+
+void ExpressionSeries::run_floor(std::size_t n) {
+  const Arb value = constant_term(values_[program_->nodes[n].a]);
+  if (!value.is_finite()) return values_[n].assign(value);
+  Arb least, most;
+  arb_floor(least.get(), value.lower().get(), kArbBits);
+  arb_floor(most.get(), value.upper().get(), kArbBits);
+  if (arb_equal(least.get(), most.get()) == 0 || (value.is_point() && arb_is_int(value.get()) != 0))
+    lose(Smoothness::jumps);
+  values_[n].assign(hull(least, most));
 }
 
 /// min and max: one of their operands where that is certain, else both with weights that sum up to 1.

@@ -15,8 +15,8 @@ _BINARY = {
     ast.Pow: operator.pow,
 }
 _MAX_EXPONENT = 1000
-_EXACT = {"abs": abs, "min": min, "max": max}
-_ROUNDED = ("sin cos tan asin acos atan sinh cosh tanh exp log sqrt").split()
+_EXACT = {"abs": abs, "min": min, "max": max, "floor": math.floor, "mod": operator.mod}
+_ROUNDED = ("sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt").split()
 
 
 def evaluate(text, names=None):
@@ -52,7 +52,7 @@ def _value(node, source, names):
         if node.func.id in _ROUNDED:
             return Fraction(getattr(math, node.func.id)(*map(float, values)))
         if node.func.id in _EXACT:
-            return _EXACT[node.func.id](*values)
+            return Fraction(_EXACT[node.func.id](*values))
         raise ValueError(f"'{node.func.id}' is no function")
     raise ValueError(f"expected a number, found '{ast.get_source_segment(source, node)}'")
 

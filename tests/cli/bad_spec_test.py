@@ -5,7 +5,9 @@ import unittest
 
 from program import SPEC, Case, spec_with
 
-FUNCTIONS = "if, pow, min, max, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, log, sqrt, abs, sign"
+FUNCTIONS = (
+    "if, mod, pow, atan2, min, max, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, log, sqrt, abs, sign, floor"
+)
 
 
 def state(**changes):
@@ -125,7 +127,7 @@ class Cases(Case):
         )
 
     def test_several_errors_of_meaning(self):
-        equations = {"x": "x + w", "y": "atan2(y, v)"}
+        equations = {"x": "x + w", "y": "atan3(y, v)"}
         requirements = [
             {"name": "near", "where": "x <", "invariant": True},
             {"name": "near", "where": "z < 1", "invariant": True},
@@ -135,7 +137,7 @@ class Cases(Case):
                 "expected a step > 0, found 0 (/states/0/step)",
                 "expected upper >= lower = 1, found 0 (/disturbances/0/upper)",
                 "'w' is not defined (/dynamics/equations/x, column 5)",
-                f"'atan2' is not a function, expected one of {FUNCTIONS} (/dynamics/equations/y, column 1)",
+                f"'atan3' is not a function, expected one of {FUNCTIONS} (/dynamics/equations/y, column 1)",
                 "expected a condition, found a number (/safe, column 1)",
                 "expected a number, a name or '(', found the end (/requirements/0/where, column 4)",
                 "the requirement 'near' is listed twice (/requirements/1/name)",
@@ -167,7 +169,10 @@ class Cases(Case):
         self.write("good.json", SPEC)
         self.write("bad.json", spec_with(safe="z < 1", description=7, name=8))
         result = self.run_program("analyze", "good.json", "bad.json")
-        name = "a name of at most 200 letters, digits, '_', '.' and '-' that starts with none of '.' and '-'"
+        name = (
+            "a name of at most 200 letters, digits, blanks, '_', '.' and '-' that starts with none of ' ', '.' and '-' "
+            "and does not end with ' '"
+        )
         lines = ("expected a string, found 7 (/description)", f"expected {name}, found 8 (/name)")
         self.assertEqual(result.stderr.decode(), "".join(f"coordreq: error: bad.json: {line}\n" for line in lines))
         self.assertEqual(result.returncode, 3)

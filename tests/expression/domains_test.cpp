@@ -102,6 +102,10 @@ TEST(DoubleDomain, UndefinedIsNaN) {
   EXPECT_TRUE(std::isnan(apply(Operator::maximum, nan, 1.0)));
   EXPECT_TRUE(std::isnan(apply(Operator::maximum, 1.0, nan)));
   EXPECT_TRUE(std::isnan(apply(Operator::sign, nan)));
+  EXPECT_TRUE(std::isnan(apply(Operator::floor, nan)));
+  EXPECT_TRUE(std::isnan(apply(Operator::angle, nan, 1.0)));
+  EXPECT_TRUE(std::isnan(apply(Operator::angle, 1.0, nan)));
+  EXPECT_TRUE(std::isnan(apply(Operator::angle, 0.0, -0.0)));
 }
 
 /// Every function in three domains at one point: the double lies near the enclosures, and they contain each
@@ -109,7 +113,7 @@ TEST(DoubleDomain, UndefinedIsNaN) {
 TEST(Domains, AgreeOnEveryFunction) {
   const Rational q(3, 8);
   const Rational r(5, 4);
-  for (auto op = Operator::negate; op <= Operator::sign; op = Operator(int(op) + 1)) {
+  for (auto op = Operator::negate; op <= Operator::floor; op = Operator(int(op) + 1)) {
     const double value = apply(op, 0.375);
     const Interval enclosure = apply(op, Interval{0.375, 0.375});
     const RationalInterval exact_enclosure = apply(op, RationalInterval{q, q});

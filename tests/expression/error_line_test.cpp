@@ -50,12 +50,14 @@ INSTANTIATE_TEST_SUITE_P(
         ErrorCase{"*x", "expected a number, a name or '(', found '*' (/safe, column 1)"},
         ErrorCase{"x + not y", "expected a number, a name or '(', found 'not' (/safe, column 5)"},
         ErrorCase{"x < !y", "expected a number, a name or '(', found '!' (/safe, column 5)"},
-        ErrorCase{"foo(2)",
-                  "'foo' is not a function, expected one of if, pow, min, max, sin, cos, tan, asin, "
-                  "acos, atan, sinh, cosh, tanh, exp, log, sqrt, abs, sign (/safe, column 1)"},
-        ErrorCase{"x(2)",
-                  "'x' is not a function, expected one of if, pow, min, max, sin, cos, tan, asin, "
-                  "acos, atan, sinh, cosh, tanh, exp, log, sqrt, abs, sign (/safe, column 1)"},
+        ErrorCase{
+            "foo(2)",
+            "'foo' is not a function, expected one of if, mod, pow, atan2, min, max, sin, cos, tan, asin, "
+            "acos, atan, sinh, cosh, tanh, exp, log, sqrt, abs, sign, floor (/safe, column 1)"},
+        ErrorCase{
+            "x(2)",
+            "'x' is not a function, expected one of if, mod, pow, atan2, min, max, sin, cos, tan, asin, "
+            "acos, atan, sinh, cosh, tanh, exp, log, sqrt, abs, sign, floor (/safe, column 1)"},
         ErrorCase{"1e6000", "the number '1e6000' is out of range (/safe, column 1)"}));
 
 INSTANTIATE_TEST_SUITE_P(

@@ -115,9 +115,9 @@ TEST(MentionedNames, AreInOrderOfAppearanceWithoutReservedOnes) {
 }
 
 TEST(ReservedName, CoversFunctionsAndKeywords) {
-  for (const char* const name :
-       {"sin", "cos",  "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log",  "sqrt",
-        "abs", "sign", "min", "max",  "pow",  "if",   "pi",   "and",  "or",   "not", "true", "false"}) {
+  for (const char* const name : {"sin", "cos",   "tan",   "asin", "acos", "atan", "sinh", "cosh", "tanh",
+                                 "exp", "log",   "sqrt",  "abs",  "sign", "min",  "max",  "pow",  "if",
+                                 "mod", "floor", "atan2", "pi",   "and",  "or",   "not",  "true", "false"}) {
     EXPECT_TRUE(is_reserved_name(name)) << name;
   }
   for (const char* const name : {"x", "Sin", "sin1", "e", "", "AND"})
@@ -129,13 +129,14 @@ TEST(Operators, AreSpelledAsInASpec) {
   EXPECT_EQ(spelling(Operator::maximum), "max");
   EXPECT_EQ(spelling(Operator::arctangent), "atan");
   EXPECT_EQ(spelling(Operator::sign), "sign");
+  EXPECT_EQ(spelling(Operator::modulo), "mod");
   EXPECT_EQ(spelling(Operator::less_equal), "<=");
   EXPECT_EQ(spelling(Operator::logical_and), "and");
   EXPECT_EQ(spelling(Operator::literal_false), "false");
 }
 
 TEST(Operators, EveryFunctionParsesUnderItsSpelling) {
-  for (auto op = Operator::sine; op <= Operator::sign; op = Operator(int(op) + 1)) {
+  for (auto op = Operator::sine; op <= Operator::floor; op = Operator(int(op) + 1)) {
     const std::string text = std::string(spelling(op)) + "(x)";
     EXPECT_EQ(link_xyz(text).nodes.back().op, op) << text;
   }

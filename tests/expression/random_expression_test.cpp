@@ -24,7 +24,7 @@ std::string random_leaf() {
 std::string random_number(int depth) {
   if (depth == 0) return random_leaf();
   const auto next = [&] { return random_number(depth - 1); };
-  switch (pick(12)) {
+  switch (pick(14)) {
     case 0:
       return "(" + next() + " + " + next() + ")";
     case 1:
@@ -45,6 +45,10 @@ std::string random_number(int depth) {
     case 9:
       return "max(" + next() + ", " + next() + ")";
     case 10:
+      return "floor(" + next() + ")";
+    case 11:
+      return "mod(" + next() + ", " + next() + ")";
+    case 12:
       return "if(" + random_condition(depth - 1) + ", " + next() + ", " + next() + ")";
     default:
       return "sign(" + next() + ")";

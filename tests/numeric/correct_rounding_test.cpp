@@ -80,5 +80,19 @@ TEST(CorrectRounding, Powers) {
   EXPECT_EQ(nearest_power(10, Rational(1001, 2)), std::numeric_limits<double>::infinity());
 }
 
+TEST(CorrectRounding, Angles) {
+  RandomDoubles random(51);
+  BigValue value;
+  for (int i = 0; i < 500; ++i) {
+    const double y = random.any();
+    const double x = random.any();
+    value.set(mpfr_atan2, y, x);
+    ASSERT_EQ(nearest_angle(exact(y), exact(x)), value.nearest()) << y << ", " << x;
+  }
+  EXPECT_EQ(nearest_angle(0, -1), 3.14159265358979323846);
+  EXPECT_EQ(nearest_angle(Rational(-1, 3), Rational(-1, 3)), -2.35619449019234492885);
+  EXPECT_FALSE(nearest_angle(0, 0).has_value());
+}
+
 }  // namespace
 }  // namespace coordreq

@@ -53,6 +53,33 @@ TEST_P(ElementaryEnclosure, ContainsTheValueAtEveryPoint) {
   }
 }
 
+TEST(Angle, ContainsTheValueAtEveryPoint) {
+  RandomDoubles random(22);
+  BigValue value;
+  for (int i = 0; i < kSamples; ++i) {
+    const Interval y = i % 2 == 0 ? argument(random) : random.interval();
+    const Interval x = i % 2 == 0 ? argument(random) : random.interval();
+    const double up = random.within(y) + 0.0, right = random.within(x) + 0.0;
+    const Interval result = atan2(y, x);
+    ASSERT_LE(result.lower, result.upper);
+    ASSERT_EQ(result.total, !(y.contains(0.0) && x.contains(0.0)));
+    if (up == 0.0 && right == 0.0) continue;
+    value.set(mpfr_atan2, up, right);
+    ASSERT_TRUE(value.is_at_least(result.lower) && value.is_at_most(result.upper))
+        << up << ", " << right << " in " << y.lower << ", " << y.upper << ", " << x.lower << ", " << x.upper;
+  }
+}
+
+TEST(Angle, IsTightAwayFromTheCut) {
+  const Interval quarter = atan2({1.0, 2.0}, {-1.0, 1.0});
+  EXPECT_NEAR(quarter.lower, std::atan2(1.0, 1.0), 1e-14);
+  EXPECT_NEAR(quarter.upper, std::atan2(1.0, -1.0), 1e-14);
+  EXPECT_EQ(atan2({0.0, 0.0}, {1.0, 2.0}).magnitude(), 0.0);
+  EXPECT_NEAR(atan2({0.0, 0.0}, {-2.0, -1.0}).lower, std::acos(-1.0), 1e-14);
+  EXPECT_NEAR(atan2({-1.0, -0.5}, {-2.0, -1.0}).lower, std::atan2(-0.5, -2.0), 1e-14);
+  EXPECT_FALSE(atan2({0.0, 1.0}, {0.0, 1.0}).total);
+}
+
 TEST_P(ElementaryEnclosure, IsNarrowAtPoints) {
   RandomDoubles random(21);
   BigValue value;

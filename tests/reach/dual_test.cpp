@@ -44,6 +44,8 @@ TEST(Dual, DerivativesOfElementaryFunctionsAtAPoint) {
   expect("asin(x)", 1.0 / std::sqrt(1.0 - 0.0625));
   expect("acos(x)", -1.0 / std::sqrt(1.0 - 0.0625));
   expect("atan(x)", 1.0 / 1.0625);
+  expect("atan2(x, 2)", 0.5 / (1.0 + 0.015625));
+  expect("atan2(-2, x - 1)", 2.0 / (4.0 + 0.5625));
   expect("sinh(x)", std::cosh(0.25));
   expect("cosh(x)", std::sinh(0.25));
   expect("tanh(x)", 1.0 - std::tanh(0.25) * std::tanh(0.25));
@@ -75,6 +77,11 @@ TEST(Dual, DiscontinuitiesAreJumps) {
   EXPECT_EQ(branch.jump.upper, 1.5);
   EXPECT_EQ(of("3*sign(x)", {-1.0, 2.0}).jump.upper, 3.0);
   EXPECT_EQ(of("3*sign(x)", {1.0, 2.0}).jump.upper, 0.0);
+  EXPECT_EQ(of("floor(x)", {-0.5, 2.5}).jump.upper, 1.5);
+  EXPECT_EQ(of("floor(x)", {1.25, 1.75}).jump.upper, 0.0);
+  EXPECT_GE(of("atan2(x, -1)", {-1.0, 2.0}).jump.upper, 3.1415926535897931);
+  EXPECT_EQ(of("atan2(x, -1)", {0.0, 2.0}).jump.upper, 0.0);
+  EXPECT_EQ(of("atan2(x, 1)", {-1.0, 2.0}).jump.upper, 0.0);
 }
 
 TEST(Dual, UndefinednessIsCarried) {

@@ -138,6 +138,7 @@ TEST(PointFlow, PiecewiseLinearMotionIsExact) {
     const std::vector<std::string> pieces{"h",
                                           "abs(h - " + place + ")",
                                           "sign(h - " + place + ")",
+                                          "floor(2*h - 2*" + place + ")",
                                           "min(h, " + place + ")",
                                           "max(" + place + ", 1 - h)",
                                           "if(h < " + place + ", 1 + h, -2)",
@@ -151,7 +152,7 @@ TEST(PointFlow, PiecewiseLinearMotionIsExact) {
         spec_of(kind, std::to_string(rate) + "/7", first + " - 2*(" + second + ") + 1/3");
     const Rational at(k, 16);
     ExactFlow exact(spec, {0, 1, Rational(1, 4), Rational(1, 2), Rational(3, 4), at, 1 - at,
-                           Rational(1, 2) - at, Rational(1, 2) + at});
+                           Rational(1, 2) - at, Rational(1, 2) + at, at - Rational(1, 2)});
     exact.h = Rational(*rc::gen::inRange(0, kind == kRing ? 96 : 97)) / 96;
     const double start = nearest_double(exact.h);
     exact.run(Rational(rate) / 7);

@@ -53,6 +53,8 @@ std::string smooth_term(int which, int depth, int states, Roughness roughness) {
       return "(1 + (" + next() + ")^2)^-0.5";
     case 17:
       return "cosh(sin(" + next() + "))";
+    case 18:
+      return "atan2(" + next() + ", 1 + (" + next() + ")^2)";
     default:
       return "-" + next();
   }
@@ -69,6 +71,10 @@ std::string rough_term(int which, int depth, int states, Roughness roughness) {
       return "max(" + next() + ", " + next() + ")";
     case 3:
       return "sign(" + next() + ")";
+    case 4:
+      return "floor(" + next() + ")";
+    case 5:
+      return "atan2(" + next() + ", 0.3 + " + next() + ")";
     default:
       return "if(" + next() + (pick(2) == 0 ? " > " : " <= ") + next() + ", " + next() + ", " + next() + ")";
   }
@@ -101,8 +107,8 @@ double pick_between(double lower, double upper, int count) {
 std::string random_field(int depth, int states, Roughness roughness) {
   if (depth == 0 || pick(6) == 0) return random_leaf(states);
   const bool rough = roughness != Roughness::smooth && pick(4) == 0;
-  if (rough) return rough_term(pick(roughness == Roughness::lipschitz ? 3 : 5), depth, states, roughness);
-  return smooth_term(pick(19), depth, states, roughness);
+  if (rough) return rough_term(pick(roughness == Roughness::lipschitz ? 3 : 7), depth, states, roughness);
+  return smooth_term(pick(20), depth, states, roughness);
 }
 
 FlowCase random_case(Roughness roughness) {

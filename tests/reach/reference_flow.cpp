@@ -124,6 +124,8 @@ Real apply(Operator op, const Real& a) {
       return {std::fabs(x)};
     case Operator::sign:
       return {std::isnan(x) ? x : x > 0.0L ? 1.0L : x < 0.0L ? -1.0L : 0.0L};
+    case Operator::floor:
+      return {std::floor(x)};
     default:
       return {kUndefined};
   }
@@ -143,6 +145,8 @@ Real apply(Operator op, const Real& a, const Real& b) {
       return {y == 0.0L ? kUndefined : x / y};
     case Operator::power:
       return {power(x, y)};
+    case Operator::angle:
+      return {x == 0.0L && y == 0.0L ? kUndefined : std::atan2(x + 0.0L, y + 0.0L)};
     case Operator::minimum:
       return {std::isnan(y) || y < x ? y : x};
     case Operator::maximum:

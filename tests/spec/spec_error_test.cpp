@@ -110,10 +110,15 @@ TEST(SpecError, NamesAreWellFormedAndDifferent) {
       "expected a name of at most 200 letters, digits, '_', '.' and '-' that starts with none of '.' and "
       "'-', "
       "found ";
+  const std::string expected_title =
+      "expected a name of at most 200 letters, digits, blanks, '_', '.' and '-' that starts with none of ' "
+      "', '.' "
+      "and '-' and does not end with ' ', found ";
   expect_errors({
-      {"/name", "\"\"", expected_label + "'' (/name)"},
-      {"/name", "\"a/b\"", expected_label + "'a/b' (/name)"},
-      {"/name", "\"..\"", expected_label + "'..' (/name)"},
+      {"/name", "\"\"", expected_title + "'' (/name)"},
+      {"/name", "\"a/b\"", expected_title + "'a/b' (/name)"},
+      {"/name", "\"..\"", expected_title + "'..' (/name)"},
+      {"/name", "\"two cars \"", expected_title + "'two cars ' (/name)"},
       {"/agents/0/name", "\"a+b\"", expected_label + "'a+b' (/agents/0/name)"},
       {"/states/0/name", "\"1x\"", expected_name + "'1x' (/states/0/name)"},
       {"/states/0/name", "\"x\\n\"", expected_name + "'x\\u000A' (/states/0/name)"},

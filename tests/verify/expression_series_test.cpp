@@ -62,6 +62,37 @@ TEST(ExpressionSeries, OfARangeEveryFunctionHoldsTheValuesInIt) {
   }
 }
 
+TEST(ExpressionSeries, AnAngleJumpsAcrossItsCutOnly) {
+  const Program program = program_of(Operator::angle);
+  ExpressionSeries series(program);
+  const auto range = [&](double y, double to, double x) {
+    std::vector<ArbSeries> slots(2);
+    slots[0].assign(hull(Arb(y), Arb(to)));
+    slots[1].assign(Arb(x));
+    return series(slots, 2)[0];
+  };
+  EXPECT_NEAR(range(-1, 1, 1).width(), std::acos(0.0), 1e-6);
+  EXPECT_EQ(series.smoothness(), Smoothness::analytic);
+  EXPECT_GE(range(-1, 1, -1).width(), 2 * std::acos(-1.0));
+  EXPECT_EQ(series.smoothness(), Smoothness::jumps);
+  EXPECT_FALSE(range(-1, 1, 0).is_finite());
+}
+
+TEST(ExpressionSeries, FloorJumpsWhereItsArgumentIsWhole) {
+  const Program program = program_of(Operator::floor);
+  ExpressionSeries series(program);
+  const auto range = [&](double from, double to) {
+    std::vector<ArbSeries> slots(2);
+    slots[0].assign(hull(Arb(from), Arb(to)));
+    return series(slots, 2)[0];
+  };
+  EXPECT_TRUE(range(1.25, 1.75).is_point());
+  EXPECT_EQ(series.smoothness(), Smoothness::analytic);
+  const Arb across = range(-1.5, 0.5);
+  EXPECT_TRUE(across.holds(Arb(-2.0)) && across.holds(Arb(0.0)));
+  EXPECT_EQ(series.smoothness(), Smoothness::jumps);
+}
+
 TEST(Sloped, EveryFunctionHasItsSlope) {
   for (const NumberFunction& f : number_functions()) {
     SCOPED_TRACE(f.spelling);

@@ -107,6 +107,20 @@ template <class N>
   return {by_a, apply(Operator::power, a.value, b.value) * apply(Operator::logarithm, a.value)};
 }
 
+/// atan2(y, x), which jumps where y changes its sign at x < 0.
+template <class N>
+[[nodiscard]] Sloped<N> angle(const Sloped<N>& y, const Sloped<N>& x) {
+  const auto squared = [](const N& a) { return apply(Operator::power, a, number<N>(2)); };
+  const N square = squared(y.value) + squared(x.value);
+  Sloped<N> result = chain(Operator::angle, y, x.value / square, x, -(y.value / square));
+  const auto may_be_negative = [](const N& a) {
+    return compare(Operator::less, a, number<N>(0)) != Truth::no;
+  };
+  const bool may_be_above = compare(Operator::less, y.value, number<N>(0)) != Truth::yes;
+  if (may_be_negative(x.value) && may_be_negative(y.value) && may_be_above) result.smooth = false;
+  return result;
+}
+
 /// What weight `a` has in min(a, b) or max(a, b): 1, 0, or all between.
 template <class N>
 [[nodiscard]] N weight(Truth a_counts) {
@@ -124,7 +138,7 @@ template <class N>
 template <class N>
 [[nodiscard]] Sloped<N> apply(Operator op, const Sloped<N>& a) {
   Sloped<N> result = sloped::chain(op, a, sloped::derivative(op, a.value));
-  if (op == Operator::sign && !a.gradient.empty() && !result.value.is_point()) result.smooth = false;
+  if (is_discontinuous(op) && !a.gradient.empty() && !result.value.is_point()) result.smooth = false;
   return result;
 }
 
@@ -144,6 +158,8 @@ template <class N>
       const auto [by_a, by_b] = sloped::power_derivatives(a, b);
       return sloped::chain(op, a, by_a, b, by_b);
     }
+    case Operator::angle:
+      return sloped::angle(a, b);
     default: {
       const Operator first = op == Operator::minimum ? Operator::less_equal : Operator::greater_equal;
       const N weight = sloped::weight<N>(compare(first, a.value, b.value));
