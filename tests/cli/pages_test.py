@@ -27,7 +27,7 @@ SESSIONS = {
     "rules.md": (1, []),
     "simulation.md": (1, ["circle.json"]),
     "sweeps.md": (2, ["circle.json"]),
-    "tutorial/README.md": (8, []),
+    "tutorial/README.md": (7, []),
     "verification.md": (1, ["circle.json"]),
 }
 
