@@ -20,14 +20,14 @@ SESSIONS = {
     "goals-and-memory.md": (1, []),
     "grids.md": (1, []),
     "networks.md": (1, []),
-    "outputs.md": (7, []),
+    "outputs.md": (5, []),
     "queries.md": (2, ["circle.json"]),
     "requirements.md": (1, []),
-    "results.md": (2, ["circle.json"]),
+    "results.md": (1, ["circle.json"]),
     "rules.md": (1, []),
     "simulation.md": (1, ["circle.json"]),
     "sweeps.md": (2, ["circle.json"]),
-    "tutorial/README.md": (10, []),
+    "tutorial/README.md": (7, []),
     "verification.md": (1, ["circle.json"]),
 }
 
