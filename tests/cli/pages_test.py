@@ -28,7 +28,6 @@ SESSIONS = {
     "simulation.md": (1, ["circle.json"]),
     "sweeps.md": (2, ["circle.json"]),
     "tutorial/README.md": (7, []),
-    "verification.md": (1, ["circle.json"]),
 }
 
 
@@ -75,9 +74,6 @@ class Cases(PageCase):
 
     def test_sessions_of_sweeps(self):
         self.assert_sessions("sweeps.md")
-
-    def test_sessions_of_verification(self):
-        self.assert_sessions("verification.md")
 
     def test_sessions_of_the_tutorial(self):
         self.assert_sessions("tutorial/README.md")
