@@ -95,7 +95,8 @@ class Cases(Case):
         self.kill_and_resume(self.config("intersection_requirements"), 3)
 
     def test_a_given_controller(self):
-        self.kill_and_resume(self.config("crossing_first_come_as_is"), 4)
+        controller = {"file": "first_come.h5", "synthesis": "given"}
+        self.kill_and_resume(self.config("crossing_first_come", controller=controller), 4)
 
     def test_a_restricting_controller_and_all_outputs(self):
         output = {"controller": True, "actions": True, "layers": True, "abstraction": True}
@@ -117,9 +118,8 @@ class Cases(Case):
         self.kill_and_resume(self.write("spec.json", spec), 9)
 
     def test_between_samples(self):
-        spec = json.loads(without_comments((CONFIGS / "circle_half_open_inner.json").read_text()))
-        spec["abstraction"]["between_samples"] = True
-        self.kill_and_resume(self.write("spec.json", spec), 10)
+        abstraction = {"cells": "half_open", "safe": "inner", "between_samples": True}
+        self.kill_and_resume(self.config("circle", abstraction=abstraction), 10)
 
     def test_delays_of_more_than_eight_bits(self):
         spec = spec_with(
@@ -163,7 +163,7 @@ class Cases(Case):
 
     def test_killed_in_the_writing(self):
         output = {"controller": True, "actions": True, "layers": True}
-        spec = self.config("crossing_convention", output=output)
+        spec = self.config("crossing", coordination={"convention": True}, output=output)
         expected = self.analyze_to("expected.h5", spec)
         log = ["--progress", "log", "--progress-every", "0"]
         for _ in range(5):

@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 import unittest
 
 from program import CONFIGS, ROOT, Case, without_comments
@@ -24,6 +25,18 @@ class Cases(Case):
                 text = path.read_text()
                 self.assertTrue(text.startswith("// "))
                 self.assertIn("description", json.loads(without_comments(text)))
+
+    def test_settings_that_examples_show_are_valid(self):
+        commands = [
+            shlex.split(command)
+            for path in EXAMPLES
+            for command in re.findall(r"(?m)^// +coordreq analyze (.* --set .*)$", path.read_text())
+        ]
+        self.assertEqual(len(commands), 5)
+        for example, *settings in commands:
+            with self.subTest(example=example, settings=settings):
+                result = self.run_program("validate", str(ROOT / example), *settings)
+                self.assertEqual((result.returncode, result.stderr), (0, b""))
 
     def test_validate_circle(self):
         result = self.run_program("validate", str(CONFIGS / "circle.json"))

@@ -23,6 +23,11 @@ print(os.waitstatus_to_exitcode(status), usage.ru_maxrss)
 """
 # What the promise leaves room for.
 PERMITTED = 1.1
+STORED_ACTIONS = (
+    *("--set", "dynamics.period=0.02"),
+    *("--set", "output.controller=true"),
+    *("--set", "output.actions=true"),
+)
 
 
 def uses_sanitiser():
@@ -58,9 +63,9 @@ class Cases(Case):
         code, kib = map(int, subprocess.run(command, stdout=subprocess.PIPE, check=True).stdout.split())
         return code, kib * 1024
 
-    def assert_kept(self, spec, threads, codes=(0, 1)):
+    def assert_kept(self, spec, threads, codes=(0, 1), settings=()):
         """That analyze accepts what validate tells, and keeps to it. @returns estimate and peak"""
-        options = ("--threads", str(threads))
+        options = (*settings, "--threads", str(threads))
         estimate = self.estimate(spec, *options)
         options += ("--max-memory", str(round(1.02 * estimate)))  # the need is not told to the byte
         code, peak = self.peak("analyze", str(self.folder / spec), "-o", str(self.folder / "o.h5"), "--quiet", *options)
@@ -77,9 +82,15 @@ class Cases(Case):
                 self.assert_kept("s.json", threads, codes=(0, 1, 3))
 
     def test_examples_take_about_what_is_told(self):
-        for name in ("circle_actions", "crossing_convention", "gridworld_coarse", "intersection_network", "platoon"):
+        for name, *settings in (
+            ("circle", *STORED_ACTIONS),
+            ("crossing", "--set", "coordination.convention=true"),
+            ("gridworld_coarse",),
+            ("intersection_network",),
+            ("platoon",),
+        ):
             with self.subTest(name=name):
-                estimate, peak = self.assert_kept(str(CONFIGS / f"{name}.json"), 2)
+                estimate, peak = self.assert_kept(str(CONFIGS / f"{name}.json"), 2, settings=settings)
                 self.assertLessEqual(estimate, max(1.25 * peak, peak + 10 * MEBI))
 
     def test_many_partitions(self):
@@ -97,10 +108,10 @@ class Cases(Case):
 
     def test_a_checkpoint(self):
         """It takes some more than validate can tell."""
-        spec = str(CONFIGS / "circle_actions.json")
-        options = ("--threads", "2", "--quiet", "-o", str(self.folder / "o.h5"))
+        spec = str(CONFIGS / "circle.json")
+        options = (*STORED_ACTIONS, "--threads", "2", "--quiet", "-o", str(self.folder / "o.h5"))
         saved = ("--checkpoint", str(self.folder / "saved"), "--checkpoint-every", "0")
-        estimate = round(1.02 * self.estimate(spec, "--threads", "2"))
+        estimate = round(1.02 * self.estimate(spec, *STORED_ACTIONS, "--threads", "2"))
         self.assertEqual(self.peak("analyze", spec, *options, *saved, "--max-memory", str(estimate))[0], 4)
         limit = estimate + 5 * MEBI
         code, peak = self.peak("analyze", spec, *options, *saved, "--max-memory", str(limit))

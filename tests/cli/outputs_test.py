@@ -115,7 +115,7 @@ class Cases(Case):
             self.assertEqual((file["delay"][(p, *x)], file["trigger"][(p, *x)]), (-2, -2), x)
 
     def test_same_bytes_for_any_number_of_threads_with_everything(self):
-        spec = example("circle_half_open_inner.json")
+        spec = dict(example("circle.json"), abstraction={"cells": "half_open", "safe": "inner"})
         for state in spec["states"]:
             state["step"] = 0.03
         spec["dynamics"]["period"] = 0.03

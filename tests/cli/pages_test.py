@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import unittest
 
@@ -150,10 +151,11 @@ class Cases(PageCase):
             self.assertTrue(np.array_equal(written["controller"][...], stored["controller"][...]))
 
     def test_figures_of_the_crossing(self):
-        rows = re.findall(r"(?m)^\| `(configs/crossing\w*\.json)` \|[^|]*\| (.*) \|$", (DOCS / "rules.md").read_text())
+        rows = re.findall(r"(?m)^\| `(configs/crossing[^`]*)` \|[^|]*\| (.*) \|$", (DOCS / "rules.md").read_text())
         self.assertEqual(len(rows), 4)
-        for config, figures in rows:
-            summary = self.analyze(str(ROOT / config))
+        for command, figures in rows:
+            config, *settings = shlex.split(command)
+            summary = self.analyze(str(ROOT / config), *settings)
             (partition,) = summary["partitions"]
             layers, never = partition["layers"], partition["fixed_point"]
             half = max(k for k, size in enumerate(layers) if 2 * size >= layers[0])

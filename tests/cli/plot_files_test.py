@@ -17,7 +17,7 @@ import h5py
 import numpy as np
 from matplotlib.image import imread
 from plot_case import PlotCase, main, parse
-from program import CONFIGS, ROOT, SPEC
+from program import ROOT, SPEC
 
 MAGIC = {"png": b"\x89PNG\r\n", "svg": b"<?xml", "pdf": b"%PDF"}
 
@@ -171,19 +171,22 @@ class Cases(PlotCase):
         text = (ROOT / "docs/export.md").read_text().split("\n## Pictures\n")[1].split("\n## ")[0]
         text += (ROOT / "docs/goals-and-memory.md").read_text()
         shown = re.findall(r"!\[.*\]\(pictures/(.*)\)", text)
-        commands = [line.split() for line in re.findall(r"(?m)^scripts/plot .*-o .*", text)]
+        lines = [line.split() for line in re.findall(r"(?m)^(?:coordreq analyze|scripts/plot .*-o) .*", text)]
+        commands = [line for line in lines if line[0] == "scripts/plot"]
         self.assertEqual(sorted(command[-1] for command in commands), sorted(shown))
         # A browser made that of the report, and the notebook its own.
         others = {"report_intersection.png", "silence.png"}
         pictures = {path.name for path in (ROOT / "docs/pictures").iterdir()} - others
         self.assertEqual(sorted(shown), sorted(pictures))
-        for command in commands:
+        for command in lines:
+            if command[0] == "coordreq":
+                if command[2] != "configs/intersection.json":  # takes seconds
+                    self.analyze(str(ROOT / command[2]), *command[3:])
+                continue
             self.assertLess((ROOT / "docs/pictures" / command[-1]).stat().st_size, 200_000)
             parse(command[1:])
-            config = command[2].replace(".h5", ".json")
-            if config == "intersection.json":
-                continue  # takes seconds
-            self.analyze(str(CONFIGS / config), "-o", command[2])
+            if command[2] == "intersection.h5":
+                continue
             self.plot(*command[1:])
             found, expected = (imread(folder / command[-1]) for folder in (self.folder, ROOT / "docs/pictures"))
             self.assertEqual(found.shape, expected.shape)

@@ -21,7 +21,9 @@ class Cases(PlotCase):
     # actions
 
     def test_actions_are_the_staircase_of_the_paper(self):
-        self.analyzed(example("circle_actions.json"))
+        spec = example("circle.json", output={"controller": True, "actions": True})
+        spec["dynamics"]["period"] = 0.02
+        self.analyzed(spec)
         data, figure = self.plotted("actions", "--at", "x1=-0.62,x2=-1/2")
         u = self.stored("u1")
         i, j = (int(np.abs(self.stored(name) - x).argmin()) for name, x in (("x1", -0.62), ("x2", -0.5)))
@@ -36,7 +38,7 @@ class Cases(PlotCase):
         box = {a for a, _ in allowed}, {b for _, b in allowed}
         self.assert_arrays_equal(data.independent, np.outer(np.isin(u, list(box[0])), np.isin(u, list(box[1]))))
         self.assertEqual((data.controller.sum(), data.independent.sum()), (600, 900))
-        self.assertEqual(titles(figure), ["circle_actions, horizontal|vertical\nat x1 = -0.62 m, x2 = -0.5 m"])
+        self.assertEqual(titles(figure), ["circle, horizontal|vertical\nat x1 = -0.62 m, x2 = -0.5 m"])
         self.assertEqual(labels(figure.axes[0]), ("u1 [m/s]", "u2 [m/s]"))
         self.assertEqual(legend(figure), ["C(x): 600 of 1681", "IND_C(x): 900 of 1681"])
 

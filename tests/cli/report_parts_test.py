@@ -167,7 +167,7 @@ class Cases(PageCase):
     # conventions
 
     def test_freedom_under_the_convention(self):
-        self.report(self.example("crossing_convention.json"))
+        self.report(dict(self.example("crossing.json"), coordination={"convention": True}))
         self.open()
         self.show("freedom")
         self.assertEqual(self.options(), ["first", "second"])

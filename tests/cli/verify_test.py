@@ -127,8 +127,8 @@ class Cases(Case):
         self.assertEqual((result.returncode, result.stdout), (4, b""))
         self.assertIn(b"verifying needs about", result.stderr)
 
-    def check_example(self, name, basis):
-        self.results(config(name))
+    def check_example(self, name, basis, **changes):
+        self.results(config(name, **changes))
         result = self.verify("results.h5", "--json")
         summary = json.loads(result.stdout)
         wrong = [check for check in summary["checks"] if check["status"] != "holds"]
@@ -136,9 +136,12 @@ class Cases(Case):
         self.assertEqual((summary["reachable_sets"], summary["not_independent"]), (basis, []))
 
     def test_exact_examples_hold(self):
-        for name in ("circle.json", "circle_half_open_inner.json", "lane_change.json", "platoon.json"):
+        for name in ("circle.json", "lane_change.json", "platoon.json"):
             with self.subTest(example=name):
                 self.check_example(name, "exact")
+
+    def test_inner_safe_set_of_half_open_cells_holds(self):
+        self.check_example("circle.json", "exact", abstraction={"cells": "half_open", "safe": "inner"})
 
     def test_gridworld_holds(self):
         self.check_example("gridworld_coarse.json", "exact")
