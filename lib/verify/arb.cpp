@@ -79,4 +79,15 @@ bool is_below(const Arb& a, const Arb& b) {
   return arf_cmp(arb_midref(a.get()), arb_midref(b.get())) < 0;
 }
 
+Arb absolute(const Arb& a) {
+  if (a.is_nonnegative()) return a;
+  if (a.is_nonpositive()) return Arb(0.0) - a;
+  return hull(Arb(0.0), greater(a.upper(), Arb(0.0) - a.lower()));
+}
+
+Arb squared(const Arb& a) {
+  const Arb whole = absolute(a);
+  return hull(whole.lower() * whole.lower(), whole.upper() * whole.upper());
+}
+
 }  // namespace coordreq

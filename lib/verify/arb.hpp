@@ -88,6 +88,10 @@ class Arb {
 /// Whether a's middle is below b's; for ends, which are all but points.
 [[nodiscard]] bool is_below(const Arb& a, const Arb& b);
 
+/// |a| and a^2, without what rounding a ball adds below 0.
+[[nodiscard]] Arb absolute(const Arb& a);
+[[nodiscard]] Arb squared(const Arb& a);
+
 /// A power series with such coefficients, cut off; see arb_poly of FLINT/Arb.
 class ArbSeries {
  public:

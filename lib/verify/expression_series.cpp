@@ -4,6 +4,7 @@
 #include <span>
 
 #include "expression/truth_of.hpp"
+#include "verify/angle_series.hpp"
 
 namespace coordreq {
 namespace {
@@ -17,18 +18,6 @@ Arb constant_term(const ArbSeries& a) {
 /// [0, 1] or [-1, 1].
 Arb unit_range(bool both_sides) {
   return hull(Arb(both_sides ? -1.0 : 0.0), Arb(1.0));
-}
-
-/// |a|, without what rounding a ball adds below 0.
-Arb absolute(const Arb& a) {
-  if (a.is_nonnegative()) return a;
-  if (a.is_nonpositive()) return Arb(0.0) - a;
-  return hull(Arb(0.0), greater(a.upper(), Arb(0.0) - a.lower()));
-}
-
-Arb squared(const Arb& a) {
-  const Arb whole = absolute(a);
-  return hull(whole.lower() * whole.lower(), whole.upper() * whole.upper());
 }
 
 /// Whether it matters that a ball is not the product of one number with itself.
@@ -120,28 +109,6 @@ void square_root(ArbSeries& result, const ArbSeries& a, slong length) {
   Arb root;
   arb_sqrtpos(root.get(), a[0].get(), kArbBits);
   result.assign(root);
-}
-
-/// The series of atan2(y, x) but for its constant term: r' = (x y' - y x') / (x^2 + y^2).
-ArbSeries angle_series(const ArbSeries& y, const ArbSeries& x, slong length) {
-  const auto product = [length](const ArbSeries& a, const ArbSeries& b) {
-    ArbSeries result;
-    arb_poly_mullow(result.get(), a.get(), b.get(), length, kArbBits);
-    return result;
-  };
-  const auto derivative = [](const ArbSeries& a) {
-    ArbSeries result;
-    arb_poly_derivative(result.get(), a.get(), kArbBits);
-    return result;
-  };
-  ArbSeries result, square;
-  arb_poly_add(square.get(), product(x, x).get(), product(y, y).get(), kArbBits);
-  square.set(0, squared(x[0]) + squared(y[0]));
-  arb_poly_sub(result.get(), product(x, derivative(y)).get(), product(y, derivative(x)).get(), kArbBits);
-  arb_poly_div_series(result.get(), result.get(), square.get(), length, kArbBits);
-  arb_poly_integral(result.get(), result.get(), kArbBits);
-  arb_poly_truncate(result.get(), length);
-  return result;
 }
 
 constexpr SmoothFunction kSmooth[] = {
@@ -275,7 +242,8 @@ void ExpressionSeries::run_binary(std::size_t n, slong length) {
     case Operator::power:
       return run_power(n, length);
     case Operator::angle:
-      return run_angle(n, length);
+      if (angle_series(values_[n], values_[node.a], values_[node.b], length)) lose(Smoothness::jumps);
+      return;
     default:
       return run_choice(n, node.op == Operator::minimum, length);
   }
@@ -313,33 +281,6 @@ void ExpressionSeries::run_power(std::size_t n, slong length) {
     const ArbSeries power = result;
     arb_poly_inv_series(result.get(), power.get(), length, kArbBits);
   }
-}
-
-/// atan2(y, x): seen from the origin the extreme points of a box are corners, if it does not meet the cut.
-void ExpressionSeries::run_angle(std::size_t n, slong length) {
-  const Program::Node& node = program_->nodes[n];
-  const ArbSeries& y = values_[node.a];
-  const ArbSeries& x = values_[node.b];
-  const Arb up = constant_term(y), right = constant_term(x);
-  Arb value;
-  if (arb_contains_zero(up.get()) != 0 && arb_contains_zero(right.get()) != 0) {
-    arb_indeterminate(value.get());
-    return values_[n].assign(value);
-  }
-  if (!right.is_nonnegative() && !up.is_nonnegative() && arb_is_negative(up.get()) == 0) {
-    lose(Smoothness::jumps);
-    arb_const_pi(value.get(), kArbBits);
-    return values_[n].assign(hull(value, Arb(0.0) - value));
-  }
-  arb_atan2(value.get(), up.lower().get(), right.lower().get(), kArbBits);
-  for (const auto& [b, a] : {std::pair(up.lower(), right.upper()), std::pair(up.upper(), right.lower()),
-                             std::pair(up.upper(), right.upper())}) {
-    Arb corner;
-    arb_atan2(corner.get(), b.get(), a.get(), kArbBits);
-    value = hull(value, corner);
-  }
-  values_[n] = angle_series(y, x, length);
-  values_[n].set(0, value);
 }
 
 void ExpressionSeries::run_unary(std::size_t n, slong length) {

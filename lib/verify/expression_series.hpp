@@ -39,7 +39,6 @@ class ExpressionSeries {
   void run_absolute(std::size_t n, slong length);
   void run_sign(std::size_t n);
   void run_floor(std::size_t n);
-  void run_angle(std::size_t n, slong length);
   void run_choice(std::size_t n, bool minimum, slong length);
   void run_if(std::size_t n, slong length);
   [[nodiscard]] bool is_same(std::size_t a, std::size_t b) const;
