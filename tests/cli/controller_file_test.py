@@ -248,12 +248,17 @@ class Cases(Case):
         )
 
     def test_the_limit_of_memory_counts_the_file(self):
+        def estimate():
+            """The least of several: what a process holds when it begins differs by some half MiB."""
+            runs = [self.run_program("validate", "spec.json", "--json").stdout for _ in range(8)]
+            return min(json.loads(run)["memory_bytes"] for run in runs)
+
         spec = dict(crossing(), name="x")
         self.write("spec.json", spec)
-        without = json.loads(self.run_program("validate", "spec.json", "--json").stdout)["memory_bytes"]
+        without = estimate()
         self.write("c.h5", (CONFIGS / "first_come.h5").read_bytes())
         self.write("spec.json", dict(spec, controller={"file": "c.h5"}))
-        needed = json.loads(self.run_program("validate", "spec.json", "--json").stdout)["memory_bytes"]
+        needed = estimate()
         # Bytes a cell, and for each joint input a row of 64 bits and its number.
         table = 21609 * 4 + 25 * 1029 * (8 + 4)
         self.assertGreaterEqual(needed - without, table)
