@@ -60,9 +60,9 @@ SYSTEMS = {
     "turning": system([ring("y", 24)], {"y": "2 + sin(y) + 0.1*u"}, 0.25, "true"),
     "escape": system([state("x", -3, 3, 0.25)], {"x": "x^3 + u + d"}, 0.5, "abs(x) <= 2.5", [disturbance("d", 0.1)]),
     "kink": system([state("v", -2, 2, 0.1), state("x", -1, 1, 0.25)], {"v": "abs(x - v^2) + 0.1*u", "x": "0"}, 0.2, "true"),
-    "bearing": system([state("x", -2, 2, 0.25), state("y", -2, 2, 0.25)],
-                      {"x": "u - 0.3*atan2(y, x + 0.1*(x^2 + y^2) - 4)", "y": "0.5*u + 0.2*mod(3*x, 2) + 0.1*floor(2*x)"},
-                      0.25, "x^2 + y^2 >= 0.3"),
+    "bearing": system([state("x", -2, 2, 0.5), state("y", -2, 2, 0.5)],
+                      {"x": "u - 0.5*x - 0.3*atan2(y, x + 0.1*(x^2 + y^2) - 4)",
+                       "y": "0.5*u - y + 0.2*mod(3*x, 2) + 0.1*floor(2*x)"}, 0.25, "x^2 + y^2 <= 3"),
     "corners": system([state("x", -2, 2, 0.25), state("y", -2, 2, 0.25)],
                       {"x": "abs(y) - abs(x) + u", "y": "max(x, y) - min(x^2, y)"}, 0.25, "abs(x) <= 1.6"),
 }  # fmt: skip
