@@ -138,7 +138,7 @@ TEST(PointFlow, PiecewiseLinearMotionIsExact) {
     const std::vector<std::string> pieces{"h",
                                           "abs(h - " + place + ")",
                                           "sign(h - " + place + ")",
-                                          "floor(2*h - 2*" + place + ")",
+                                          "floor(2*min(max(h, 0), 1) - 2*" + place + ")",
                                           "min(h, " + place + ")",
                                           "max(" + place + ", 1 - h)",
                                           "if(h < " + place + ", 1 + h, -2)",
