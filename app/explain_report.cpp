@@ -156,7 +156,7 @@ std::vector<std::string> sentences_of(const Json& found, const ProblemSpec& spec
 std::string delay_text(const Json& found, const ProblemSpec& spec) {
   const std::string status = text_of(found["delay_status"]);
   if (status == "not_safe") return "none: the cell is not safe";
-  if (status == "not_invariant") return "none: no coordination keeps the system safe from here";
+  if (status == "not_invariant") return "none: on this grid no coordination keeps the system safe from here";
   if (status == "unbounded") return "unbounded: safe without coordination for ever";
   return (status == "at_least" ? "at least " : "") + steps_text(number_of(found["delay"]), spec);
 }

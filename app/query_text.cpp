@@ -109,7 +109,7 @@ class AnswerText {
   [[nodiscard]] std::string collision_text(const Json& time) const {
     if (time.is_null()) return "never, with coordination";
     if (time == 0) return "0 steps: not safe now";
-    return "within " + steps_text(time) + ", whatever is coordinated";
+    return "perhaps within " + steps_text(time) + ", whatever is coordinated";
   }
 
   /// A value by its key, or the word that it means.
@@ -125,7 +125,7 @@ class AnswerText {
   [[nodiscard]] std::string delay_text(const Json& partition) const {
     const Json& status = partition["delay_status"];
     if (status == "not_safe") return "none: the cell is not safe";
-    if (status == "not_invariant") return "none: no coordination keeps the system safe from here";
+    if (status == "not_invariant") return "none: on this grid no coordination keeps the system safe from here";
     if (status == "unbounded") return "unbounded: safe without coordination for ever";
     return (status == "at_least" ? "at least " : "") + steps_text(partition["delay"]);
   }

@@ -74,8 +74,8 @@ constexpr std::string_view kTemplate =
   // A connection that takes two steps to establish:
   //? "coordination": { "connection_delay": 2 },
 
-  // A radio that loses at most one of any three messages:
-  //? "network": { "weakly_hard": { "misses": 1, "window": 3 } },
+  // A radio that loses at most one of any three messages, and agents that take care because of it:
+  //? "network": { "weakly_hard": { "misses": 1, "window": 3 }, "resynthesise": true },
 
   // What you need. If it does not hold, the answer says how it goes wrong, and the exit code is 1.
   "requirements": [

@@ -83,8 +83,8 @@ void check_start(const ResultsReader& results, const std::vector<Rational>& stat
   if (steps < 0) {
     throw UsageError(steps == DelayLayers::kOutsideSafe
                          ? "the start is not in the safe set"
-                         : "the start is not in the invariance set: from there not even coordination keeps "
-                           "the system safe",
+                         : "the start is not in the invariance set: on this grid not even coordination keeps "
+                           "the system safe from there",
                      "--from");
   }
 }

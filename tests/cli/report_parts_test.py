@@ -171,7 +171,7 @@ class Cases(PageCase):
         self.open()
         self.show("freedom")
         self.assertEqual(self.options(), ["first", "second"])
-        self.assertEqual(self.legend(), ["not safe", "cannot be kept safe, whatever is coordinated"])
+        self.assertEqual(self.legend(), ["not safe", "cannot be kept safe on this grid, whatever is coordinated"])
         self.assertEqual(self.browser.run("document.getElementById('scale').innerText").split(), ["0", "%", "all"])
         told = set()
         with h5py.File(self.folder / "out.h5") as file:

@@ -339,7 +339,7 @@ $""",
         dynamics = dict(SPEC["dynamics"], equations={"x": "x + 1", "y": "y"})
         self.results(spec_with(safe="x < 3", dynamics=dynamics))
         self.assert_refused(
-            "the start is not in the invariance set: from there not even coordination keeps the system safe"
+            "the start is not in the invariance set: on this grid not even coordination keeps the system safe from there"
             " (--from)",
             *START,
             *("--steps", "3"),

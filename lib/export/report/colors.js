@@ -15,7 +15,7 @@ const kMostNamed = 16; // partitions that have colours of their own
 
 const kLost = [
   [-2, [kColors.notSafe, "not safe"]],
-  [-1, [kColors.notInvariant, "cannot be kept safe, whatever is coordinated"]],
+  [-1, [kColors.notInvariant, "cannot be kept safe on this grid, whatever is coordinated"]],
 ];
 const kMeanings = {
   delay: new Map([...kLost, [Infinity, [kColors.free, "safe without contact for ever"]]]),
