@@ -125,7 +125,8 @@ class AnswerText {
   [[nodiscard]] std::string delay_text(const Json& partition) const {
     const Json& status = partition["delay_status"];
     if (status == "not_safe") return "none: the cell is not safe";
-    if (status == "not_invariant") return "none: on this grid no coordination keeps the system safe from here";
+    if (status == "not_invariant")
+      return "none: on this grid no coordination keeps the system safe from here";
     if (status == "unbounded") return "unbounded: safe without coordination for ever";
     return (status == "at_least" ? "at least " : "") + steps_text(partition["delay"]);
   }

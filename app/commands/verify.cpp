@@ -51,7 +51,8 @@ ExitCode run(const VerifyArguments& own) {
 Run declare_verify(Options& options) {
   const auto own = std::make_shared<VerifyArguments>();
   declare_results(options, own->results);
-  options.option(own->sample, "--sample", "N", "Look at so many cells, the same ones each time (default: all)",
+  options.option(own->sample, "--sample", "N",
+                 "Look at so many cells, the same ones each time (default: all)",
                  WholeNumber<std::int64_t>{1, INT64_MAX});
   options.option(own->budget, "--budget", "SECONDS",
                  "Processor time of each thread for enclosures; 0 confirms only exact posts (default: 60)",

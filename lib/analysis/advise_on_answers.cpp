@@ -177,7 +177,8 @@ std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault
     if (trials.tried == 0) return "";
     const std::string count =
         fmt::format("of {} changes tried one by one{}", trials.tried, place_of_trials(*copy));
-    if (trials.helped.empty()) return fmt::format("; {}, none helps; 'coordreq explain' shows what goes wrong at a state", count);
+    if (trials.helped.empty())
+      return fmt::format("; {}, none helps; 'coordreq explain' shows what goes wrong at a state", count);
     return fmt::format("; {}, it helps if {}", count, fmt::join(trials.helped, ", or if "));
   } catch (const std::exception&) {
     return "";

@@ -69,7 +69,7 @@ class Multiplier {
              const std::vector<Rational>& values)
       : program_(program), variables_(variables), values_(values), context_(variables.size()) {}
 
-  std::optional<AffineForm> run() {
+  std::optional<ExactForm> run() {
     forms_.assign(program_.nodes.size(), std::nullopt);
     truths_.assign(program_.nodes.size(), Truth::undecided);
     for (std::size_t n = 0; n < program_.nodes.size(); ++n) {
@@ -83,7 +83,7 @@ class Multiplier {
     }
     if (!forms_.back() || fmpq_mpoly_total_degree_si(forms_.back()->get(), context_.get()) > 1)
       return std::nullopt;
-    AffineForm result;
+    ExactForm result;
     std::vector<ulong> exponents(variables_.size() + 1, 0);
     const auto coefficient = [&] {
       FlintRational value;
@@ -189,8 +189,8 @@ class Multiplier {
 
 }  // namespace
 
-std::optional<AffineForm> affine_form(const Program& program, const std::vector<std::uint32_t>& variables,
-                                      const std::vector<Rational>& values) {
+std::optional<ExactForm> affine_form(const Program& program, const std::vector<std::uint32_t>& variables,
+                                     const std::vector<Rational>& values) {
   return Multiplier(program, variables, values).run();
 }
 

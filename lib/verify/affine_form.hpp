@@ -9,7 +9,7 @@
 namespace coordreq {
 
 /// constant + sum_j slope[j] x_j, exactly.
-struct AffineForm {
+struct ExactForm {
   Rational constant;
   std::vector<Rational> slope;  ///< one a variable
 };
@@ -19,8 +19,8 @@ struct AffineForm {
 /// @param variables slots of the x_j; @param values of all other slots
 /// @returns nothing if that is no polynomial of degree at most 1, or some constant in it is no rational
 /// number
-[[nodiscard]] std::optional<AffineForm> affine_form(const Program& program,
-                                                    const std::vector<std::uint32_t>& variables,
-                                                    const std::vector<Rational>& values);
+[[nodiscard]] std::optional<ExactForm> affine_form(const Program& program,
+                                                   const std::vector<std::uint32_t>& variables,
+                                                   const std::vector<Rational>& values);
 
 }  // namespace coordreq

@@ -48,7 +48,7 @@ Extremes FlowExtremes::extremes(std::size_t state, const Enough& enough) {
 bool FlowExtremes::enclose(const SpanBox& box, const Effort& effort) {
   box_ = box;
   effort_ = effort;
-  std::optional<std::vector<FlowStep>> steps = enclosed(effort.steps);
+  std::optional<std::vector<TubeStep>> steps = enclosed(effort.steps);
   const ArbBox start = all_of(box);
   const std::optional<ArbMatrix> slopes = steps ? steps->front().slopes : field_.jacobian(start);
   const int finer = slopes ? steps_for(*slopes, effort) : effort.steps;
@@ -61,7 +61,7 @@ bool FlowExtremes::enclose(const SpanBox& box, const Effort& effort) {
   return true;
 }
 
-std::optional<std::vector<FlowStep>> FlowExtremes::enclosed(int steps) {
+std::optional<std::vector<TubeStep>> FlowExtremes::enclosed(int steps) {
   const int pieces = effort_.steps < 8 ? 1 : std::min(effort_.steps / 4, 8);
   return enclose_flow(field_, box_, period_, steps, pieces);
 }
@@ -119,7 +119,7 @@ std::optional<FlowExtremes::Influence> FlowExtremes::find_influence(std::size_t 
 void FlowExtremes::follow(const Influence& influence, std::size_t state, bool greatest, Extreme& extreme) {
   Arb excess;
   for (std::size_t j = 0; j < states_.size(); ++j) {
-    const Choice choice = choose_for_extreme(box_[states_[j]], influence.of_start(state, j), greatest);
+    const EndChoice choice = choose_for_extreme(box_[states_[j]], influence.of_start(state, j), greatest);
     extreme.start[states_[j]] = choice.place;
     extreme.excess[j] = choice.excess.approximately();
     excess = excess + choice.excess;
@@ -128,7 +128,7 @@ void FlowExtremes::follow(const Influence& influence, std::size_t state, bool gr
   for (const ArbMatrix& of_disturbance : influence.of_disturbance) {
     auto& now = signal.emplace_back();
     for (std::size_t l = 0; l < disturbances_.size(); ++l) {
-      Choice choice = choose_for_extreme(box_[disturbances_[l]], of_disturbance(state, l), greatest);
+      EndChoice choice = choose_for_extreme(box_[disturbances_[l]], of_disturbance(state, l), greatest);
       excess = excess + choice.excess * step_;
       now.push_back(std::move(choice.place));
     }

@@ -28,11 +28,11 @@ class FlowExtremes : public NextValue {
   [[nodiscard]] Extremes extremes(std::size_t state, const Enough& enough) override;
   [[nodiscard]] const std::vector<std::uint32_t>& divisible() const override { return states_; }
 
-  [[nodiscard]] const std::vector<FlowStep>& steps() const { return steps_; }
+  [[nodiscard]] const std::vector<TubeStep>& steps() const { return steps_; }
   /// The extreme after so many steps.
   [[nodiscard]] Extreme extreme_after(std::size_t steps, std::size_t state, bool greatest);
   [[nodiscard]] const Arb& duration_of_step() const { return step_; }
-  [[nodiscard]] VectorField& field() { return field_; }
+  [[nodiscard]] SeriesField& field() { return field_; }
 
  private:
   /// On each state (rows), by bounds.
@@ -40,7 +40,7 @@ class FlowExtremes : public NextValue {
     ArbMatrix of_start;                     ///< of each moving state
     std::vector<ArbMatrix> of_disturbance;  ///< [step]: of each disturbance, per time
   };
-  [[nodiscard]] std::optional<std::vector<FlowStep>> enclosed(int steps);
+  [[nodiscard]] std::optional<std::vector<TubeStep>> enclosed(int steps);
   [[nodiscard]] int steps_for(const ArbMatrix& slopes, const Effort& effort) const;
   [[nodiscard]] const std::optional<Influence>& influence_after(std::size_t steps);
   [[nodiscard]] std::optional<Influence> find_influence(std::size_t steps) const;
@@ -48,7 +48,7 @@ class FlowExtremes : public NextValue {
   void follow(const Influence& influence, std::size_t state, bool greatest, Extreme& extreme);
   [[nodiscard]] bool move_on(ArbBox& now, const std::vector<std::vector<Arb>>& signal);
 
-  VectorField field_;
+  SeriesField field_;
   Trajectory trajectory_;
   std::vector<std::uint32_t> states_;
   std::vector<std::uint32_t> disturbances_;
@@ -57,7 +57,7 @@ class FlowExtremes : public NextValue {
   SpanBox box_;
   Effort effort_;
   Arb step_;
-  std::vector<FlowStep> steps_;
+  std::vector<TubeStep> steps_;
   std::vector<std::optional<std::optional<Influence>>> influences_;  ///< [steps]
 };
 

@@ -27,7 +27,7 @@ class RangeFinder {
   }
 
   FlowRange run() {
-    const std::vector<FlowStep>& steps = flow_.steps();
+    const std::vector<TubeStep>& steps = flow_.steps();
     for (std::size_t begin = 0, end = 0; begin < steps.size(); begin = end) {
       const int way = direction(change(begin));
       end = begin + 1;
@@ -65,8 +65,8 @@ class RangeFinder {
   }
 
   [[nodiscard]] bool keeps(int way) const {
-    const std::vector<FlowStep>& steps = flow_.steps();
-    return std::all_of(steps.begin(), steps.end(), [&](const FlowStep& step) {
+    const std::vector<TubeStep>& steps = flow_.steps();
+    return std::all_of(steps.begin(), steps.end(), [&](const TubeStep& step) {
       const int own = direction(step.change[state_]);
       return own == 0 || own == way;
     });
@@ -75,7 +75,7 @@ class RangeFinder {
   /// Whether the state cannot get to where its derivative does not point: had it done so, it would have moved
   /// against its derivative since it was last inside.
   [[nodiscard]] bool is_wall(bool above) {
-    return std::all_of(flow_.steps().begin(), flow_.steps().end(), [&](const FlowStep& step) {
+    return std::all_of(flow_.steps().begin(), flow_.steps().end(), [&](const TubeStep& step) {
       ArbBox beyond = step.tube;
       beyond[own_] = above ? hull(box_[own_].upper, greater(box_[own_].upper, step.tube[own_].upper()))
                            : hull(box_[own_].lower, lesser(box_[own_].lower, step.tube[own_].lower()));
@@ -84,7 +84,7 @@ class RangeFinder {
     });
   }
 
-  VectorField& field_;
+  SeriesField& field_;
   FlowExtremes& flow_;
   std::size_t state_;
   const SpanBox& box_;

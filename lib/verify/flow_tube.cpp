@@ -7,7 +7,7 @@ namespace coordreq {
 namespace {
 
 /// The extreme derivative over a face that is cut where its bound is farthest off.
-Arb extreme_change(VectorField& field, std::size_t i, const SpanBox& face,
+Arb extreme_change(SeriesField& field, std::size_t i, const SpanBox& face,
                    const std::optional<ArbMatrix>& slopes, bool greatest, int pieces) {
   std::optional<std::vector<Arb>> row;
   if (slopes) {
@@ -30,10 +30,10 @@ Arb extreme_change(VectorField& field, std::size_t i, const SpanBox& face,
 
 class StepMaker {
  public:
-  StepMaker(VectorField& field, const Arb& duration, int pieces)
+  StepMaker(SeriesField& field, const Arb& duration, int pieces)
       : field_(field), duration_(duration), pieces_(pieces) {}
 
-  std::optional<FlowStep> make(const SpanBox& start) {
+  std::optional<TubeStep> make(const SpanBox& start) {
     std::optional<Tube> tube = picard_tube(field_, all_of(start), duration_);
     if (!tube) return std::nullopt;
     step_ = {.tube = std::move(tube->box), .change = std::move(tube->change), .end = start};
@@ -88,22 +88,22 @@ class StepMaker {
     return from + duration_ * extreme_change(field_, i, beyond, std::nullopt, greatest, pieces_);
   }
 
-  VectorField& field_;
+  SeriesField& field_;
   const Arb& duration_;
   int pieces_;
-  FlowStep step_;
+  TubeStep step_;
 };
 
 }  // namespace
 
-std::optional<std::vector<FlowStep>> enclose_flow(VectorField& field, const SpanBox& start,
+std::optional<std::vector<TubeStep>> enclose_flow(SeriesField& field, const SpanBox& start,
                                                   const Arb& duration, int steps, int pieces) {
   const Arb share = duration / Arb(static_cast<double>(steps));
-  std::vector<FlowStep> result;
+  std::vector<TubeStep> result;
   const SpanBox* now = &start;
   result.reserve(static_cast<std::size_t>(steps));
   for (int step = 0; step < steps; ++step) {
-    std::optional<FlowStep> next = StepMaker(field, share, pieces).make(*now);
+    std::optional<TubeStep> next = StepMaker(field, share, pieces).make(*now);
     if (!next) return std::nullopt;
     result.push_back(std::move(*next));
     now = &result.back().end;

@@ -9,7 +9,7 @@
 namespace coordreq {
 
 /// One step of an enclosure of all solutions of x' = f(x, w) from a box, for every measurable w.
-struct FlowStep {
+struct TubeStep {
   ArbBox tube;                      ///< holds all solutions during the step
   std::vector<Arb> change;          ///< and this their derivatives
   std::optional<ArbMatrix> slopes;  ///< of f by x and w, all over the tube; none where f jumps
@@ -21,7 +21,7 @@ struct FlowStep {
 /// taken at the beginning of a step, and with a bound of how it changes during the step.
 /// @param duration of the whole, a point; @param pieces that disturbances are cut into where that matters
 /// @returns nothing where some solution may not last so long
-[[nodiscard]] std::optional<std::vector<FlowStep>> enclose_flow(VectorField& field, const SpanBox& start,
+[[nodiscard]] std::optional<std::vector<TubeStep>> enclose_flow(SeriesField& field, const SpanBox& start,
                                                                 const Arb& duration, int steps, int pieces);
 
 }  // namespace coordreq

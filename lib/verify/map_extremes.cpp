@@ -6,7 +6,7 @@
 namespace coordreq {
 namespace {
 
-Extreme natural_extreme(VectorField& field, const SpanBox& box, const Arb& natural, bool greatest) {
+Extreme natural_extreme(SeriesField& field, const SpanBox& box, const Arb& natural, bool greatest) {
   Extreme result{.bound = greatest ? natural.upper() : natural.lower()};
   for (const ArbSpan& span : box) result.start.push_back(span.middle());
   for (const std::uint32_t slot : field.variables()) result.excess.push_back(box[slot].width());
@@ -14,14 +14,14 @@ Extreme natural_extreme(VectorField& field, const SpanBox& box, const Arb& natur
 }
 
 /// From the value at a place that the slopes choose; its bound is not finite where that is not defined.
-Extreme mean_value_extreme(VectorField& field, std::size_t equation, const SpanBox& box,
+Extreme mean_value_extreme(SeriesField& field, std::size_t equation, const SpanBox& box,
                            const std::vector<Arb>& slopes, bool greatest) {
   Extreme result;
   for (const ArbSpan& span : box) result.start.push_back(span.lower);
   Arb excess;
   for (std::size_t j = 0; j < slopes.size(); ++j) {
     const std::uint32_t slot = field.variables()[j];
-    Choice choice = choose_for_extreme(box[slot], slopes[j], greatest);
+    EndChoice choice = choose_for_extreme(box[slot], slopes[j], greatest);
     result.excess.push_back(choice.excess.approximately());
     excess = excess + choice.excess;
     result.start[slot] = std::move(choice.place);
@@ -34,7 +34,7 @@ Extreme mean_value_extreme(VectorField& field, std::size_t equation, const SpanB
 
 }  // namespace
 
-Extreme extreme_of(VectorField& field, std::size_t equation, const SpanBox& box,
+Extreme extreme_of(SeriesField& field, std::size_t equation, const SpanBox& box,
                    const std::optional<std::vector<Arb>>& slopes, bool greatest) {
   std::optional<Extreme> mean;
   if (slopes) mean = mean_value_extreme(field, equation, box, *slopes, greatest);

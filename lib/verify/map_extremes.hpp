@@ -18,14 +18,14 @@ class MapExtremes : public NextValue {
   [[nodiscard]] bool follows(const ArbBox& box, std::uint32_t slot);
 
  private:
-  VectorField map_;
+  SeriesField map_;
   SpanBox box_;
   Arb natural_;                             ///< the range over it
   std::optional<std::vector<Arb>> slopes_;  ///< if they were asked for
 };
 
 /// The extreme of one equation of a vector field over a box.
-[[nodiscard]] Extreme extreme_of(VectorField& field, std::size_t equation, const SpanBox& box,
+[[nodiscard]] Extreme extreme_of(SeriesField& field, std::size_t equation, const SpanBox& box,
                                  const std::optional<std::vector<Arb>>& slopes, bool greatest);
 
 }  // namespace coordreq

@@ -11,7 +11,7 @@ ArbBox all_of(const SpanBox& box) {
 
 /// With slopes in [-a, b] the greatest value is at most b away times what is above the place taken, and a
 /// times what is below it.
-Choice choose_for_extreme(const ArbSpan& span, const Arb& slope, bool greatest) {
+EndChoice choose_for_extreme(const ArbSpan& span, const Arb& slope, bool greatest) {
   const Arb zero;
   const Arb width = (span.upper - span.lower).upper();
   const Arb rising = greater(zero, slope.upper());

@@ -59,11 +59,11 @@ class NextValue {
 };
 
 /// What a variable that moves a value with a slope adds beyond the place that is taken for the extreme.
-struct Choice {
+struct EndChoice {
   Arb place;   ///< a point of the span
   Arb excess;  ///< not negative: how far values for other places are beyond
 };
 /// @param slope of the value by the variable, all over the span
-[[nodiscard]] Choice choose_for_extreme(const ArbSpan& span, const Arb& slope, bool greatest);
+[[nodiscard]] EndChoice choose_for_extreme(const ArbSpan& span, const Arb& slope, bool greatest);
 
 }  // namespace coordreq

@@ -32,7 +32,7 @@ std::vector<std::uint32_t> variables_of(const ProblemSpec& spec, const Influence
 
 std::optional<SampledMap> next_value(const ProblemSpec& spec, const Influences& influences, std::size_t state,
                                      const std::vector<Rational>& slots) {
-  const std::optional<AffineForm> next =
+  const std::optional<ExactForm> next =
       affine_form(spec.dynamics.equations[state], variables_of(spec, influences), slots);
   if (!next) return std::nullopt;
   const std::size_t n = influences.moving.size();
@@ -87,7 +87,7 @@ class RationalMatrix {
 };
 
 /// Positions that `start` depends on, `start` included.
-std::vector<bool> reached_from(std::size_t start, const std::vector<AffineForm>& equations) {
+std::vector<bool> reached_from(std::size_t start, const std::vector<ExactForm>& equations) {
   std::vector<bool> reached(equations.size(), false);
   std::vector<std::size_t> pending = {start};
   while (!pending.empty()) {
@@ -111,7 +111,7 @@ struct LinearFlow {
 };
 
 /// By rows of A^k: `row` of exp(A t) is sum_k row(A^k) t^k / k!.
-std::optional<LinearFlow> solved(const std::vector<AffineForm>& equations, std::size_t row,
+std::optional<LinearFlow> solved(const std::vector<ExactForm>& equations, std::size_t row,
                                  std::size_t disturbances) {
   const std::size_t n = equations.size();
   const std::vector<bool> reached = reached_from(row, equations);
@@ -157,9 +157,9 @@ std::optional<LinearFlow> linear_flow(const ProblemSpec& spec, const Influences&
     return still;
   }
   if (has_stops(spec, influences) || jumps_on_the_way(spec, influences)) return std::nullopt;
-  std::vector<AffineForm> equations;
+  std::vector<ExactForm> equations;
   for (const std::size_t i : influences.moving) {
-    std::optional<AffineForm> equation =
+    std::optional<ExactForm> equation =
         affine_form(spec.dynamics.equations[i], variables_of(spec, influences), slots);
     if (!equation) return std::nullopt;
     equations.push_back(std::move(*equation));

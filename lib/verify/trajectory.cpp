@@ -31,7 +31,7 @@ int compare(const Arb& a, const Arb& b) {
 
 }  // namespace
 
-std::optional<Tube> picard_tube(VectorField& field, const ArbBox& start, const Arb& duration) {
+std::optional<Tube> picard_tube(SeriesField& field, const ArbBox& start, const Arb& duration) {
   Tube tube{.box = start, .change = std::vector<Arb>(field.size())};
   const Arb time = from_zero(duration);
   for (int attempt = 0; attempt < kPicardTries; ++attempt) {

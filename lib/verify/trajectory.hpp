@@ -14,7 +14,7 @@ namespace coordreq {
 class Trajectory {
  public:
   /// REQUIRES: `field` outlives this object.
-  explicit Trajectory(VectorField& field) : field_(&field) {}
+  explicit Trajectory(SeriesField& field) : field_(&field) {}
 
   /// @param duration a point; @param tolerance of the end, in the units of each state; a few halvings later
   /// a step is taken all the same
@@ -36,7 +36,7 @@ class Trajectory {
 
   static constexpr std::uint32_t kFinest = 1U << 12U;  // parts of a duration
 
-  VectorField* field_;
+  SeriesField* field_;
   std::uint32_t parts_ = kFinest;                         ///< that the last step took
   bool may_double_ = true;                                ///< a step of twice its length looks promising
   std::map<ArbBox, std::optional<ArbBox>, Order> known_;  ///< by box and duration
@@ -47,6 +47,6 @@ struct Tube {
   ArbBox box;
   std::vector<Arb> change;
 };
-[[nodiscard]] std::optional<Tube> picard_tube(VectorField& field, const ArbBox& start, const Arb& duration);
+[[nodiscard]] std::optional<Tube> picard_tube(SeriesField& field, const ArbBox& start, const Arb& duration);
 
 }  // namespace coordreq

@@ -4,7 +4,7 @@
 
 namespace coordreq {
 
-VectorField::VectorField(const ProblemSpec& spec, const Influences& influences,
+SeriesField::SeriesField(const ProblemSpec& spec, const Influences& influences,
                          const std::vector<std::size_t>& equations)
     : slots_(spec.slot_count()) {
   for (const std::size_t j : influences.moving) variables_.push_back(spec.state_slot(j));
@@ -19,16 +19,16 @@ VectorField::VectorField(const ProblemSpec& spec, const Influences& influences,
   }
 }
 
-void VectorField::put(const ArbBox& box) {
+void SeriesField::put(const ArbBox& box) {
   for (std::size_t s = 0; s < box.size(); ++s) slots_[s].assign(box[s]);
 }
 
-Arb VectorField::value(std::size_t equation, const ArbBox& box) {
+Arb SeriesField::value(std::size_t equation, const ArbBox& box) {
   put(box);
   return equations_[equation](slots_, 1)[0];
 }
 
-std::optional<std::vector<Arb>> VectorField::slopes(std::size_t equation, const ArbBox& box) {
+std::optional<std::vector<Arb>> SeriesField::slopes(std::size_t equation, const ArbBox& box) {
   put(box);
   std::vector<Arb> result;
   for (std::size_t j = 0; j < variables_.size(); ++j) {
@@ -46,7 +46,7 @@ std::optional<std::vector<Arb>> VectorField::slopes(std::size_t equation, const 
   return result;
 }
 
-std::optional<ArbMatrix> VectorField::jacobian(const ArbBox& box) {
+std::optional<ArbMatrix> SeriesField::jacobian(const ArbBox& box) {
   ArbMatrix result(equations_.size(), variables_.size());
   for (std::size_t i = 0; i < equations_.size(); ++i) {
     const std::optional<std::vector<Arb>> row = slopes(i, box);
@@ -56,7 +56,7 @@ std::optional<ArbMatrix> VectorField::jacobian(const ArbBox& box) {
   return result;
 }
 
-std::optional<std::vector<ArbSeries>> VectorField::taylor(const ArbBox& box, slong length) {
+std::optional<std::vector<ArbSeries>> SeriesField::taylor(const ArbBox& box, slong length) {
   put(box);
   for (slong known = 1; known < length; ++known) {
     std::vector<Arb> next;

@@ -15,11 +15,11 @@ using ArbBox = std::vector<Arb>;
 /// Several equations of a spec as functions of what varies: some states x, then disturbances w. Encloses
 /// their ranges, slopes and, as right-hand sides of x' = f(x, w), Taylor series in time. Scratch inside: one
 /// object a thread.
-class VectorField {
+class SeriesField {
  public:
   /// @param equations indices of states; for taylor() those of all of x
   /// REQUIRES: `spec` outlives this object.
-  VectorField(const ProblemSpec& spec, const Influences& influences,
+  SeriesField(const ProblemSpec& spec, const Influences& influences,
               const std::vector<std::size_t>& equations);
 
   [[nodiscard]] std::size_t size() const { return equations_.size(); }

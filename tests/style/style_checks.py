@@ -101,6 +101,35 @@ def files_are_short(root):
     ]
 
 
+TYPE = re.compile(r"^(?:struct|class|enum class|union) (?:\[\[\w+\]\] )?(\w+)\b(?! *<| *;|::)")
+NAMESPACE = re.compile(r"^(?:inline )?namespace ?([\w:]*) ?\{")
+
+
+def types_by_name(root):
+    """Where each type of a namespace with a name is defined: places by full name. What is indented is a member."""
+    places = {}
+    for path, lines in sources(root, "lib", "app"):
+        namespaces = []
+        for number, line in enumerate(without_comments(lines), 1):
+            if match := NAMESPACE.match(line):
+                namespaces.append(match.group(1))
+            elif line.startswith("}") and not line.rstrip().endswith(";") and namespaces:
+                if "// namespace" in lines[number - 1]:
+                    namespaces.pop()
+            elif (match := TYPE.match(line)) and not line.rstrip().endswith(";") and "" not in namespaces:
+                places.setdefault("::".join([*namespaces, match.group(1)]), []).append(f"{path}:{number}")
+    return places
+
+
+def types_have_names_of_their_own(root):
+    """Two types of one name are undefined behaviour, although compiler and linker take them."""
+    return [
+        f"{places[-1]}: {name} is defined in {places[0]} too"
+        for name, places in types_by_name(root).items()
+        if len(places) > 1
+    ]
+
+
 RULES = {
     rule.__name__: rule
     for rule in (
@@ -109,6 +138,7 @@ RULES = {
         only_results_uses_hdf5,
         library_never_prints,
         files_are_short,
+        types_have_names_of_their_own,
     )
 }
 

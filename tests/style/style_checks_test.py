@@ -113,6 +113,18 @@ class StyleChecks(unittest.TestCase):
             style_checks.files_are_short(self.root), ["app/b.cpp: 401 lines, at most 400 are allowed"]
         )
 
+    def test_types_of_one_name_are_found(self):
+        self.write("lib/base/a.hpp", "namespace coordreq {\n\nstruct Form {\n  int a;\n};\n\n}  // namespace coordreq\n")
+        own = "namespace coordreq {\nnamespace {\n\nclass Form {\n};\n\n}  // namespace\n\nclass Base;\n\n}  // namespace coordreq\n"
+        self.write("lib/numeric/own.cpp", own)
+        self.write("app/other.hpp", "namespace coordreq::other {\nclass Form {\n};\n}  // namespace coordreq::other\n")
+        self.assertEqual(style_checks.types_have_names_of_their_own(self.root), [])
+        self.write("lib/results/a.hpp", "namespace coordreq {\n\nclass Form final\n    : public Base {\n};\n\n}  // namespace coordreq\n")
+        self.assertEqual(
+            style_checks.types_have_names_of_their_own(self.root),
+            ["lib/results/a.hpp:3: coordreq::Form is defined in lib/base/a.hpp:3 too"],
+        )
+
 
 if __name__ == "__main__":
     unittest.main()
