@@ -29,10 +29,10 @@ function(coordreq_precompile target)
   target_precompile_headers(${target} REUSE_FROM coordreq_precompiled)
 endfunction()
 
-# coordreq_unite(<target>): with COORDREQ_UNITY_BUILD twenty sources are compiled as one, so that they share what they
+# coordreq_unite(<target>): with COORDREQ_UNITY_BUILD ten sources are compiled as one, so that they share what they
 # instantiate of the libraries. All presets but tidy do so, that names in two files of one room differ everywhere.
 function(coordreq_unite target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${COORDREQ_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 20)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${COORDREQ_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 10)
 endfunction()
 
 function(coordreq_module name)
