@@ -16,6 +16,7 @@ FREE = "#ffffff"
 NO_PARTITION = "#000000"
 KINDS = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#f0e442"]
 
+_FEW_POINTS = 8  # with a tick each
 _LARGEST_RATIO = 5  # of the sides of a picture in scale
 
 
@@ -79,9 +80,27 @@ def extent_of(cut):
     return (*cut.axes[0].edges[[0, -1]], *y)
 
 
+def point_ticks(axis, points):
+    """Ticks of an axis on which there is nothing between the points, which ascend: at points only.
+
+    All of few points, else those where there are ticks anyway, else every so many.
+    """
+    points = np.asarray(points)
+    if len(points) > _FEW_POINTS:
+        usual = MaxNLocator(_FEW_POINTS, steps=[1, 2, 5, 10]).tick_values(points[0], points[-1])
+        nearest = np.unique(np.abs(points[:, None] - usual).argmin(axis=0))
+        near = np.abs(points[nearest, None] - usual).min(axis=1) < 1e-9 * np.ptp(points)
+        every = range(0, len(points), -(-len(points) // _FEW_POINTS))
+        points = points[nearest[near] if near.sum() > 2 else every]
+    axis.set_major_locator(FixedLocator(points))
+
+
 def label_plane(axes, cut):
     """Axes with units, in scale where that is possible: the same unit and sides that are not too different."""
     axes.set_xlabel(plain(cut.axes[0].label))
+    for axis, along in zip(cut.axes, (axes.xaxis, axes.yaxis)):
+        if axis.is_points:
+            point_ticks(along, axis.points)
     if len(cut.axes) == 1:
         axes.set_yticks([])
         axes.set_box_aspect(0.15)

@@ -191,6 +191,40 @@ class Cases(PlotCase):
         self.assert_arrays_equal(data.histograms[0].cells, [(delay == k).sum() for k in range(3)])
         self.assertEqual([text.get_text() for text in figure.axes[0].texts], ["at least"])
 
+    def test_axes_of_points_have_ticks_at_points_only(self):
+        states = [
+            {"name": "x", "lower": 0, "upper": 2, "step": 1, "discrete": True},
+            {"name": "y", "lower": 0, "upper": 1.5, "step": 0.5, "discrete": True},
+            {"name": "z", "lower": 0, "upper": 20, "step": 2.5, "discrete": True},
+        ]
+        equations = {"x": "x + u", "y": "y + v/2", "z": "z"}
+        dynamics = dict(SPEC["dynamics"], equations=equations)
+        output = {"controller": True, "actions": True}
+        self.analyzed(spec_with(states=states, dynamics=dynamics, safe="x + y <= 3", output=output))
+        _, figure = self.plotted("layers", "--slice", "z=0")
+        self.assert_arrays_equal(figure.axes[0].get_xticks(), [0, 1, 2])
+        self.assert_arrays_equal(figure.axes[0].get_yticks(), [0, 0.5, 1, 1.5])
+        _, figure = self.plotted("unsafe3d")
+        axes = figure.axes[0]
+        self.assert_arrays_equal(axes.get_xticks(), [0, 1, 2])
+        self.assert_arrays_equal(axes.get_zticks(), [0, 5, 10, 15, 20])
+        _, figure = self.plotted("actions", "--at", "x=1,y=0.5,z=0")
+        self.assert_arrays_equal(figure.axes[0].get_xticks(), [-1, 0, 1])
+
+    def test_ticks_of_many_points_are_some_of_them(self):
+        from matplotlib.figure import Figure
+        from plotting.style import point_ticks
+
+        for points, expected in (
+            (range(11), [0, 2, 4, 6, 8, 10]),
+            (range(-3, 40), [0, 10, 20, 30]),
+            ([7], [7]),
+            (np.arange(10) / 3 + 0.1, np.array([0, 2, 4, 6, 8]) / 3 + 0.1),
+        ):
+            axis = Figure().add_subplot().xaxis
+            point_ticks(axis, points)
+            np.testing.assert_allclose(axis.get_majorticklocs(), expected)
+
     def test_colour_bars_have_whole_steps_with_their_times(self):
         self.analyzed(SPEC)
         data, figure = self.plotted("layers")
