@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.textpath import TextPath
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
 NOT_SAFE = "#7f7f7f"
@@ -17,6 +18,7 @@ NO_PARTITION = "#000000"
 KINDS = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#f0e442"]
 
 _FEW_POINTS = 8  # with a tick each
+_LEGEND_FONT = 8.33  # points, "small"
 _LARGEST_RATIO = 5  # of the sides of a picture in scale
 
 
@@ -116,6 +118,32 @@ def add_title(figure, *lines):
     """@param lines those that are empty are left out, those that are too long go on below"""
     width = int(12 * figure.get_figwidth())  # letters, about
     figure.suptitle(plain("\n".join(textwrap.fill(line, width) for line in lines if line)))
+
+
+def legend_above(axes, width):
+    """A legend of what has a label between the axes and their title, where it covers nothing.
+
+    @param width of the axes, inches, about
+    @returns the height that it takes, points
+    """
+    handles, labels = axes.get_legend_handles_labels()
+    if not handles:
+        return 0
+    letters = int(width * 72 / (0.6 * _LEGEND_FONT) - 8)  # that fit into a line beside the sign, about
+    labels = [textwrap.fill(label, max(letters, 10)) for label in labels]
+    columns = _legend_columns(labels, width * 72)
+    place = {"loc": "lower center", "bbox_to_anchor": (0.5, 1), "borderaxespad": 0.2, "frameon": False}
+    axes.legend(handles, labels, ncols=columns, columnspacing=1.5, **place)
+    lines = max(sum(label.count("\n") + 1 for label in column) for column in np.array_split(labels, columns))
+    return (1.5 * lines + 0.6) * _LEGEND_FONT
+
+
+def _legend_columns(labels, width):
+    """The most columns, filled one after another, that are not wider than so many points."""
+    before = 4.3 * _LEGEND_FONT  # sign and gaps
+    widths = [TextPath((0, 0), label, size=_LEGEND_FONT).get_extents().width + before for label in labels]
+    fitting = (c for c in range(len(labels), 1, -1) if sum(map(max, np.array_split(widths, c))) <= width)
+    return next(fitting, 1)
 
 
 def legend_below(figure, entries):

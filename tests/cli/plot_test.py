@@ -1,20 +1,14 @@
 """What figures of scripts/plot show is what the results file holds."""
 
 import itertools
-import json
 import math
 import unittest
 
-import h5py
 import numpy as np
-from plot_case import PlotCase, labels, legend, titles
-from program import CONFIGS, SPEC, spec_with, without_comments
+from plot_case import PlotCase, example, labels, legend, titles
+from program import SPEC, spec_with
 
 UNBOUNDED = np.iinfo(np.int16).max
-
-
-def example(config, **changes):
-    return dict(json.loads(without_comments((CONFIGS / config).read_text())), **changes)
 
 
 class Cases(PlotCase):
@@ -350,76 +344,7 @@ class Cases(PlotCase):
         self.assertTrue(math.isinf(data.steps.slack[0]))
         self.assertEqual([text.get_text() for text in figure.axes[1].texts], ["never"])
 
-    # requirements and coalition
-
-    def rewrite(self, change):
-        """What this version of the program does not write itself."""
-        with h5py.File(self.folder / "out.h5", "r+") as file:
-            change(file)
-
-    def test_requirements_are_lines_in_the_histogram_of_delays(self):
-        spec = example("circle.json")
-        self.analyzed(spec)
-        required = [
-            {"name": "costs $5 // not a comment", "where": "r2 <= 0.01", "min_delay": 20},
-            {"name": "time", "where": "true", "min_delay_time": "R/8 + 0.001", "partition": "horizontal|vertical"},
-            {"name": "start", "where": "r2 <= 0.25", "invariant": True},
-        ]
-        text = "// a comment\n/* another\n one */" + json.dumps(dict(spec, requirements=required))
-
-        def change(file):
-            del file["spec"]
-            file["spec"] = text
-
-        self.rewrite(change)
-        data, figure = self.plotted("requirements")
-        delay = self.stored("delay")[0]
-        axes = figure.axes[0]
-        heights = [bar.get_height() for bar in axes.patches]
-        self.assertEqual(heights, [(delay == k).sum() for k in range(29)])
-        middles = [bar.get_x() + bar.get_width() / 2 for bar in axes.patches]
-        np.testing.assert_allclose(middles, np.arange(29) * 0.01, atol=1e-12)
-        np.testing.assert_allclose([line.get_xdata()[0] for line in axes.lines], [0.195, 0.105, -0.005], atol=1e-12)
-        texts = [text.get_text() for text in axes.get_legend().get_texts()]
-        first = r"costs \$5 // not a comment: 20 steps (0.2 s)"
-        self.assertEqual(texts, [first, "time: 11 steps (0.11 s)", "start: in K"])
-        self.assertEqual(titles(figure), ["circle\n4 safe cells are not invariant", "horizontal|vertical"])
-        self.assertEqual(labels(axes), ("delay [s]", "cells"))
-
-    def test_requirements_that_hold_and_fail(self):
-        required = [
-            {"name": "good", "where": "x <= 0.1 and y <= 0.1 and x > -0.4 and y > -0.4", "min_delay": 3},
-            {"name": "no delay is asked for", "where": "true", "max_arrival": 0},
-            {"name": "bad", "where": "x >= 3 and y >= 2.6", "min_delay": 2},
-        ]
-        self.write("spec.json", spec_with(requirements=required, goal="x <= 1"))
-        self.assertEqual(self.run_program("analyze", "spec.json", "-o", "out.h5").returncode, 1)
-        data, figure = self.plotted("requirements")
-        axes = figure.axes[0]
-        texts = [text.get_text() for text in axes.get_legend().get_texts()]
-        self.assertEqual(texts, ["good: 3 steps (1.5 s), holds", "bad: 2 steps (1 s), FAILS"])
-        self.assertEqual([line.get_linestyle() for line in axes.lines], ["-", "--"])
-
-    def test_requirements_of_several_partitions(self):
-        partitions = [{"classes": []}, {"name": "both", "classes": [["b", "a"]]}]
-        spec = spec_with(coordination={"partitions": partitions})
-        self.analyzed(spec)
-        required = [{"name": "one", "where": "true", "partition": "a+b", "min_delay": 3}]
-
-        def change(file):
-            del file["spec"]
-            file["spec"] = json.dumps(dict(spec, requirements=required))
-
-        self.rewrite(change)
-        data, figure = self.plotted("requirements")
-        delay = self.stored("delay")
-        for p, histogram in enumerate(data.histograms):
-            self.assertEqual(histogram.unbounded, (delay[p] == UNBOUNDED).sum())
-            self.assert_arrays_equal(histogram.cells, [(delay[p] == k).sum() for k in range(len(histogram.cells))])
-            self.assertEqual(histogram.cells.sum() + histogram.unbounded, (delay[p] >= 0).sum())
-        self.assertEqual([[line.name for line in histogram.lines] for histogram in data.histograms], [[], ["one"]])
-        data, figure = self.plotted("requirements", "--partition", "a|b")
-        self.assertEqual([histogram.partition for histogram in data.histograms], ["a|b"])
+    # coalition
 
     def test_coalition_has_a_colour_for_each_partition(self):
         partitions = [{"classes": []}, {"name": "both", "classes": [["a", "b"]]}]
