@@ -7,7 +7,6 @@ it fails. Cells that never need to coordinate have a bar of their own on the rig
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.ticker import MaxNLocator
 
 from . import style
 from .errors import FileError, UsageError, quoted
@@ -126,8 +125,7 @@ def _delay_axis(axes, requirements):
     """Ticks where bars stand: at numbers of steps, and at what is beyond all of them."""
     unit, highest, never = _unit(requirements.results), requirements.highest, never_at(requirements.highest)
     has_never = any(histogram.unbounded > 0 for histogram in requirements.histograms)
-    steps = MaxNLocator(10, integer=True, min_n_ticks=1).tick_values(0, highest)
-    ticks = [int(k) for k in steps if 0 <= k <= highest]
+    ticks = style.whole_steps(highest)
     labels = [f"{k * unit:.6g}" for k in ticks]
     axes.set_xticks([k * unit for k in ticks + [never] * has_never], labels + ["never"] * has_never)
     right = never + 1.5 * _never_width(never) if has_never else highest + 1

@@ -39,12 +39,17 @@ def step_colors(most):
     return matplotlib.colormaps["viridis"].resampled(levels), Normalize(-0.5, most + 0.5)
 
 
+def whole_steps(most):
+    """Some of the numbers 0 to `most`, for ticks."""
+    return [int(k) for k in MaxNLocator(10, integer=True, min_n_ticks=1).tick_values(0, most) if 0 <= k <= most]
+
+
 def add_step_bar(figure, axes, most, label, results, location="right", shrink=1.0, pad=0.02):
     """A colour bar for steps, with times on its other side if the file has a unit of time."""
     cmap, norm = step_colors(most)
     place = {"location": location, "shrink": shrink, "fraction": 0.06, "pad": pad}
     bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, cmap), ax=axes, **place)
-    steps = [k for k in MaxNLocator(integer=True, min_n_ticks=1).tick_values(0, most) if 0 <= k <= most]
+    steps = whole_steps(most)
     bar.ax.yaxis.set_major_locator(FixedLocator(steps))
     bar.ax.minorticks_off()
     bar.set_label(plain(f"{label} [steps]"))

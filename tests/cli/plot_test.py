@@ -1,7 +1,6 @@
 """What figures of scripts/plot show is what the results file holds."""
 
 import itertools
-import math
 import unittest
 
 import numpy as np
@@ -289,60 +288,6 @@ class Cases(PlotCase):
         self.assert_plot_fails(2, "the picture has 3 axes, found 2 states to draw", *words)
         view = "expected an elevation and an azimuth such as 24,-56, found '95,0' (--view)"
         self.assert_plot_fails(2, view, *words, "--view", "95,0")
-
-    # run
-
-    def simulated(self, config, *words):
-        self.analyzed(example(config))
-        result = self.run_program("simulate", "out.h5", *words, "-o", "runs.h5")
-        self.assertEqual((result.returncode, result.stderr), (0, b""))
-
-    def test_run_shows_states_countdown_slack_and_margin(self):
-        self.simulated("circle.json", "--from", "x1=0.1,x2=0", "--steps", "50", "--runs", "2")
-        data, figure = self.plotted("run", "--run", "1", file="runs.h5")
-        time, state = self.stored("time", "runs.h5"), self.stored("state", "runs.h5")[1]
-        curves, steps, margin = figure.axes
-        self.assertEqual(labels(curves)[1], "x1, x2 [m]")
-        for i, name in enumerate(("x1", "x2")):
-            self.assertEqual(curves.lines[i].get_label(), name)
-            self.assert_arrays_equal(curves.lines[i].get_xydata(), np.stack([time, state[:, i]], axis=1))
-        slack, countdown, coordinated = steps.lines
-        self.assert_arrays_equal(countdown.get_ydata(), self.stored("countdown", "runs.h5")[1])
-        self.assert_arrays_equal(slack.get_ydata(), self.stored("delay", "runs.h5")[1])
-        self.assertTrue((countdown.get_ydata() <= slack.get_ydata()).all())
-        self.assert_arrays_equal(coordinated.get_xdata(), time[self.stored("coordinated", "runs.h5")[1] == 1])
-        self.assert_arrays_equal(margin.lines[0].get_ydata(), self.stored("margin", "runs.h5")[1])
-        subtitle = "run 1, policy random, seed 1: completed"
-        self.assertEqual(titles(figure), [f"circle, horizontal|vertical\n{subtitle}"])
-        self.assertEqual((labels(curves)[0], labels(steps)[1]), ("time [s]", "steps"))
-        self.assertEqual(labels(margin), ("time [s]", "margin"))
-        for words, message in (
-            (("--run", "2"), "expected the number of one run, 0 to 1, found '2' (--run)"),
-            (("--run", "0,1"), "expected the number of one run, 0 to 1, found '0,1' (--run)"),
-            (("--plane", "x1"), "expected two states as in x1,y1, found 'x1' (--plane)"),
-            (("--plane", "x1,x3"), "'x3' is no state, expected 'x1' or 'x2' (--plane)"),
-        ):
-            self.assert_plot_fails(2, message, "run", "runs.h5", "-o", "a.png", *words)
-
-    def test_run_has_axes_for_each_unit(self):
-        self.simulated("load.json", "--from", "v=0,p=0.5", "--steps", "20")
-        data, figure = self.plotted("run", file="runs.h5")
-        state = self.stored("state", "runs.h5")[0]
-        for axes, name, i in zip(figure.axes, ("v [m/s]", "p [m]"), (0, 1)):
-            self.assertEqual((labels(axes)[1], len(axes.lines)), (name, 1))
-            self.assert_arrays_equal(axes.lines[0].get_ydata(), state[:, i])
-        self.assertEqual([labels(axes)[0] for axes in figure.axes[:2]], ["", "time [s]"])
-
-    def test_run_in_a_plane_and_for_ever(self):
-        start = "p1=-10,v1=0,v2=1.5,p2=10"
-        self.simulated("intersection_coarse.json", "--from", start, "--steps", "3")
-        data, figure = self.plotted("run", "--plane", "p1,p2", file="runs.h5")
-        samples = self.stored("samples", "runs.h5")[0]
-        state = self.stored("state", "runs.h5")[0, :samples]
-        self.assert_arrays_equal(figure.axes[0].lines[0].get_xydata(), state[:, [0, 3]])
-        self.assertEqual(labels(figure.axes[0]), ("p1 [m]", "p2 [m]"))
-        self.assertTrue(math.isinf(data.steps.slack[0]))
-        self.assertEqual([text.get_text() for text in figure.axes[1].texts], ["never"])
 
     # coalition
 
