@@ -121,6 +121,8 @@ def draw(actions, size=None):
     axes.scatter(x[admitted], y[admitted], s=area, c=style.KINDS[0], linewidths=0)
     axes.set_xlim(*edges[0][[0, -1]])
     axes.set_ylim(*edges[1][[0, -1]])
+    style.point_ticks(axes.xaxis, actions.x)
+    style.point_ticks(axes.yaxis, actions.y)
     axes.set_xlabel(style.plain(actions.axes[0].label))
     axes.set_ylabel(style.plain(actions.axes[1].label))
     if actions.axes[0].unit == actions.axes[1].unit:

@@ -13,7 +13,13 @@ _EPILOG = "Exit codes: 0 done, 2 wrong usage, 3 invalid file, 5 input or output 
 
 
 class _Parser(argparse.ArgumentParser):
-    """Complains in our words."""
+    """Complains in our words; a figure about its own arguments, so that it names its own help."""
+
+    def parse_known_args(self, args=None, namespace=None):
+        found, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return found, unknown
 
     def error(self, message):
         missing = re.fullmatch(r"the following arguments are required: (.*)", message)
@@ -30,7 +36,7 @@ class _Parser(argparse.ArgumentParser):
         raise UsageError(what, option.split("/")[-1])
 
     def _see_help(self):
-        return f"see {self.prog.split()[0]} --help"
+        return f"see {self.prog} --help"
 
 
 def _size(text):
@@ -48,7 +54,8 @@ def _dpi(text):
 
 
 def _parser(modules, program):
-    parser = _Parser(prog=program, description="Draws figures of coordreq results.", epilog=_EPILOG)
+    epilog = f"'{program} FIGURE --help' tells the options of a figure. {_EPILOG}"
+    parser = _Parser(prog=program, description="Draws figures of coordreq results.", epilog=epilog)
     commands = parser.add_subparsers(dest="figure", metavar="FIGURE", required=True)
     for name, module in modules.items():
         text = module.__doc__.strip()

@@ -1,7 +1,8 @@
 """How many cells tolerate how long without coordination, with the lines of the requirements
 
 A histogram of the delay over the cells of the invariance set for each partition. A requirement is a line at the delay
-that it asks for in its region, solid if it holds and dashed if it fails."""
+that it asks for in its region, through the bar of the cells with just that delay; it is solid if it holds and dashed if
+it fails. Cells that never need to coordinate have a bar of their own on the right."""
 
 from dataclasses import dataclass
 
@@ -35,6 +36,12 @@ class Requirements:
     results: Results
     not_invariant: int  # cells of S outside K
     histograms: list[Histogram]
+
+    @property
+    def highest(self):
+        """The largest number of steps with a bar or a line."""
+        ends = [len(histogram.cells) - 1 for histogram in self.histograms]
+        return max([0, *ends, *(line.steps for histogram in self.histograms for line in histogram.lines)])
 
 
 def add_arguments(parser):
@@ -87,15 +94,18 @@ def _histogram(results, partition, lines):
 def draw(requirements, size=None):
     results = requirements.results
     count = len(requirements.histograms)
-    figure = style.new_figure(size, (7.2, 0.9 + 2.9 * count))
-    highest = max(max([len(h.cells)] + [line.steps for line in h.lines]) for h in requirements.histograms)
+    height = 0.9 + sum(2.7 + 0.18 * len(histogram.lines) for histogram in requirements.histograms)
+    figure = style.new_figure(size, (7.2, height))
+    width = figure.get_figwidth() - 0.9
     panels = figure.subplots(count, 1, squeeze=False, sharex=True).flat
     for axes, histogram in zip(panels, requirements.histograms):
-        _draw_histogram(axes, results, histogram, never_at(highest))
-        axes.set_title(style.plain(histogram.partition))
+        _draw_histogram(axes, results, histogram, never_at(requirements.highest))
+        axes.set_title(style.plain(histogram.partition), pad=6 + style.legend_above(axes, width))
         axes.set_ylabel("cells")
         axes.label_outer()
-    figure.axes[count - 1].set_xlabel(style.plain(f"delay [{results.period_unit or 'steps'}]"))
+    last = figure.axes[count - 1]
+    _delay_axis(last, requirements)
+    last.set_xlabel(style.plain(f"delay [{results.period_unit or 'steps'}]"))
     outside = f"{requirements.not_invariant:,} safe cells are not invariant" if requirements.not_invariant else ""
     style.add_title(figure, results.title, outside)
     return figure
@@ -103,31 +113,43 @@ def draw(requirements, size=None):
 
 def never_at(highest):
     """Where the bar of unbounded cells stands, in steps: right of all others."""
-    return highest + 2 + highest // 20
+    return highest + 2 + highest // 12
+
+
+def _unit(results):
+    """Of the axis: the length of a step."""
+    return results.period if results.period_unit else 1.0
+
+
+def _delay_axis(axes, requirements):
+    """Ticks where bars stand: at numbers of steps, and at what is beyond all of them."""
+    unit, highest, never = _unit(requirements.results), requirements.highest, never_at(requirements.highest)
+    has_never = any(histogram.unbounded > 0 for histogram in requirements.histograms)
+    ticks = style.whole_steps(highest)
+    labels = [f"{k * unit:.6g}" for k in ticks]
+    axes.set_xticks([k * unit for k in ticks + [never] * has_never], labels + ["never"] * has_never)
+    right = never + 1.5 * _never_width(never) if has_never else highest + 1
+    axes.set_xlim(-unit, right * unit)
+
+
+def _never_width(never):
+    return max(1, never // 40)
 
 
 def _draw_histogram(axes, results, histogram, never):
-    unit = results.period if results.period_unit else 1.0
+    unit = _unit(results)
     steps = np.arange(len(histogram.cells))
     axes.bar(steps * unit, histogram.cells, width=0.9 * unit, color=style.KINDS[5], zorder=2)
-    width = max(1, never // 40) * unit
     if histogram.unbounded > 0:
+        width = 0.9 * _never_width(never) * unit
         axes.bar([never * unit], [histogram.unbounded], width=width, color=style.NOT_SAFE, zorder=2)
-        _note(axes, never * unit, histogram.unbounded, "never")
     elif histogram.unbounded < 0:
-        _note(axes, steps[-1] * unit, histogram.cells[-1], "at least")
+        place = {"xytext": (0, 2), "textcoords": "offset points", "ha": "center", "fontsize": "small"}
+        axes.annotate("at least", (steps[-1] * unit, histogram.cells[-1]), **place)
     for i, line in enumerate(histogram.lines):
         color, dashes = style.KINDS[(3, 4, 0, 2, 1)[i % 5]], "--" if line.holds is False else "-"
         text = f"{line.name}: {results.seconds(line.steps)}" if line.steps else f"{line.name}: in K"
         text += {True: ", holds", False: ", FAILS", None: ""}[line.holds]
-        # A cell with this delay is good enough, so the line is left of its bar.
-        axes.axvline((line.steps - 0.5) * unit, color=color, linestyle=dashes, label=style.plain(text), zorder=3)
-    axes.set_xlim(-unit, never * unit + 1.5 * width)
+        axes.axvline(line.steps * unit, color=color, linestyle=dashes, label=style.plain(text), zorder=3)
     axes.margins(y=0.15)
     axes.grid(axis="y", alpha=0.3)
-    if histogram.lines:
-        axes.legend()
-
-
-def _note(axes, x, y, text):
-    axes.annotate(text, (x, y), xytext=(0, 2), textcoords="offset points", ha="center", fontsize="small")

@@ -15,12 +15,16 @@ _VERSION = 1
 
 @dataclass(frozen=True)
 class Axis:
-    """Grid points of a state or an input; step is None for listed input values."""
+    """Grid points of a state or an input; step is None for listed input values.
+
+    Where `is_points` is set there is nothing between them.
+    """
 
     name: str
     unit: str
     points: np.ndarray
     step: float
+    is_points: bool
 
     @property
     def label(self):
@@ -105,7 +109,8 @@ class Results(StoredFile):
         unit = self.attribute(f"/{name}", "units")
         points = self.read(f"/{name}")
         step = self._object(f"/{name}").attrs.get("step")
-        return Axis(name, "" if unit == "1" else unit, points, step)
+        # What is no state with cells around its points is a discrete one or an input.
+        return Axis(name, "" if unit == "1" else unit, points, step, self.spec.is_discrete(name))
 
     def partition(self, name):
         """Its number; without a name that of the only one."""

@@ -1,18 +1,21 @@
-"""A simulation: trajectories, and countdown, slack and margin over time
+"""A simulation: trajectories, and countdown, delay and margin over time
 
-FILE is one that `coordreq simulate -o` wrote. The slack is the delay of the cell that the system is in: what the
-agents would find if they looked; their countdown never exceeds it. With --plane x1,y1 --plane x2,y2 trajectories are
-drawn over these pairs of states in one plane, else every state over time."""
+FILE is one that `coordreq simulate -o` wrote. The delay is that of the cell that the system is in: what the agents
+would find if they looked; their countdown never exceeds it. With --plane x1,y1 --plane x2,y2 trajectories are drawn
+over these pairs of states in one plane, else every state over time. What keeps its value until the next sample is drawn
+in steps, the last sample for one period more; lines break at the seam of a periodic state."""
 
 import math
+import textwrap
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.ticker import MaxNLocator
 
 from . import style
 from .errors import UsageError, quoted
+from .path import Side, lone, path, stairs
 from .results import StoredFile
+from .spec import Spec
 from .values import whole_numbers
 
 _NEVER = np.iinfo(np.int32).max
@@ -22,9 +25,10 @@ _COORDINATED = 1
 @dataclass(frozen=True)
 class Curve:
     label: str
-    x: np.ndarray
-    y: np.ndarray
-    state: str  # name of what is along y
+    points: np.ndarray  # the samples, [n, 2]
+    path: np.ndarray  # the line through them, see there
+    jumps: bool  # straight from sample to sample, nothing lies between them
+    states: tuple  # names of what is along x and y, None: time
     unit: str  # curves of one unit share axes
 
 
@@ -34,7 +38,7 @@ class Steps:
 
     time: np.ndarray
     countdown: np.ndarray
-    slack: np.ndarray
+    delay: np.ndarray  # of the cell that the system is in
     coordinated: np.ndarray  # times of the steps that are coordinated
 
 
@@ -43,6 +47,7 @@ class Run:
     title: str
     subtitle: str
     time_unit: str
+    period: float
     x_label: str
     y_label: str
     flat: bool  # trajectories are in a plane
@@ -50,6 +55,8 @@ class Run:
     curves: list[Curve]
     steps: Steps
     margin: np.ndarray
+    margin_jumps: bool
+    spec: Spec
 
 
 def add_arguments(parser):
@@ -67,12 +74,14 @@ def prepare(arguments):
     state = file.read("/state", (run, slice(samples)))
     units = [file.spec.units("states").get(name, "") for name in names]
     planes = [_parse_plane(text, names) for text in arguments.plane]
-    curves = _plane_curves(planes, names, state) if planes else _time_curves(names, units, time, state)
+    sides = [Side(state[:, i], file.spec.jumps(name), file.spec.period(name)) for i, name in enumerate(names)]
+    curves = _plane_curves(planes, names, sides) if planes else _time_curves(names, units, time, sides, file.period)
     x_label, y_label, in_scale = _labels(planes, names, units, file.period_unit)
     return Run(
         title=f"{file.title}, {file.attribute('/', 'partition')}",
         subtitle=_subtitle(file, run),
         time_unit=file.period_unit,
+        period=file.period,
         x_label=x_label,
         y_label=y_label,
         flat=bool(planes),
@@ -80,6 +89,8 @@ def prepare(arguments):
         curves=curves,
         steps=_steps(file, run, time),
         margin=file.read("/margin", (run, slice(samples))),
+        margin_jumps=file.spec.safe_jumps(),
+        spec=file.spec,
     )
 
 
@@ -100,12 +111,22 @@ def _parse_plane(text, names):
     return [names.index(name) for name in pair]
 
 
-def _plane_curves(planes, names, state):
-    return [Curve(f"{names[x]}, {names[y]}", state[:, x], state[:, y], names[y], "") for x, y in planes]
+def _plane_curves(planes, names, sides):
+    curves = []
+    for pair in planes:
+        x, y = (sides[i] for i in pair)
+        points = np.stack([x.values, y.values], axis=1)
+        states = tuple(names[i] for i in pair)
+        curves.append(Curve(", ".join(states), points, path(x, y), x.is_held and y.is_held, states, ""))
+    return curves
 
 
-def _time_curves(names, units, time, state):
-    return [Curve(name, time, state[:, i], name, units[i]) for i, name in enumerate(names)]
+def _time_curves(names, units, time, sides, period):
+    curves = []
+    for name, unit, side in zip(names, units, sides):
+        line = stairs(time, side.values, period, side.period) if side.is_held else path(Side(time), side)
+        curves.append(Curve(name, np.stack([time, side.values], axis=1), line, False, (None, name), unit))
+    return curves
 
 
 def _labels(planes, names, units, time_unit):
@@ -133,8 +154,8 @@ def _subtitle(file, run):
 def _steps(file, run, time):
     part = (run, slice(len(time)))
     coordinated = file.read("/coordinated", part) == _COORDINATED
-    countdown, slack = (_as_steps(file.read(name, part)) for name in ("/countdown", "/delay"))
-    return Steps(time, countdown, slack, time[coordinated])
+    countdown, delay = (_as_steps(file.read(name, part)) for name in ("/countdown", "/delay"))
+    return Steps(time, countdown, delay, time[coordinated])
 
 
 def _as_steps(values):
@@ -142,20 +163,24 @@ def _as_steps(values):
 
 
 def draw(run, size=None):
-    figure = style.new_figure(size, (9.5, 4.6))
-    grid = figure.add_gridspec(2, 2, width_ratios=(1, 1.25), height_ratios=(1.6, 1))
     units = list(dict.fromkeys(curve.unit for curve in run.curves))
+    figure = style.new_figure(size, (9.5, max(4.6, 1 + 1.4 * len(units))))
+    grid = figure.add_gridspec(2, 2, width_ratios=(1, 1.25), height_ratios=(1.6, 1))
     left = grid[:, 0].subgridspec(len(units), 1)
     first = None
     for i, unit in enumerate(units):
         axes = figure.add_subplot(left[i], sharex=first)
         first = first or axes
         _draw_curves(axes, run, unit)
+        letters = int(10 * figure.get_figheight() / len(units))  # that fit along the axis, about
+        axes.set_ylabel(textwrap.fill(axes.get_ylabel(), letters))
+        style.legend_above(axes, 0.36 * figure.get_figwidth())
         if i + 1 < len(units):
             axes.tick_params(labelbottom=False)
             axes.set_xlabel("")
     above = figure.add_subplot(grid[0, 1])
-    _draw_steps(above, run.steps)
+    _draw_steps(above, run)
+    style.legend_above(above, 0.45 * figure.get_figwidth())
     below = figure.add_subplot(grid[1, 1], sharex=above)
     _draw_margin(below, run)
     above.tick_params(labelbottom=False)
@@ -164,52 +189,70 @@ def draw(run, size=None):
 
 
 def _draw_curves(axes, run, unit):
-    names = [curve.state for curve in run.curves if curve.unit == unit]
+    curves = [curve for curve in run.curves if curve.unit == unit]
     for i, curve in enumerate(run.curves):
         if curve.unit != unit:
             continue
         color = style.KINDS[i % len(style.KINDS)]
         dashes = ("-", "--", ":")[i // len(style.KINDS) % 3]
-        axes.plot(curve.x, curve.y, dashes, color=color, label=style.plain(curve.label))
+        pale = {"linewidth": 0.6, "marker": ".", "markersize": 5} if curve.jumps else {}
+        axes.plot(*curve.path.T, dashes, color=color, label=style.plain(curve.label), **pale)
+        axes.scatter(*lone(curve.path).T, s=9, color=color)
         if run.flat:
-            axes.plot(curve.x[:1], curve.y[:1], "o", color=color, fillstyle="none")
-            axes.plot(curve.x[-1:], curve.y[-1:], "s", color=color)
+            axes.plot(*curve.points[:1].T, "o", color=color, fillstyle="none")
+            axes.plot(*curve.points[-1:].T, "s", color=color)
+    if run.flat:
+        axes.plot([], [], "o", color="black", fillstyle="none", label="start")
+        axes.plot([], [], "s", color="black", label="end")
+    names = ", ".join(curve.label for curve in curves)
     axes.set_xlabel(style.plain(run.x_label))
-    axes.set_ylabel(style.plain(run.y_label if run.flat else _with_unit(", ".join(names), unit)))
+    axes.set_ylabel(style.plain(run.y_label if run.flat else _with_unit(names, unit)))
     if run.in_scale:
         axes.set_aspect("equal", adjustable="datalim")
-    axes.legend(title="○ start  ■ end" if run.flat else None)
+    for side, axis in enumerate((axes.xaxis, axes.yaxis)):
+        _tick_points(axis, run.spec, [(curve.states[side], curve.points[:, side]) for curve in curves])
     axes.grid(alpha=0.3)
 
 
-def ceiling_of(steps):
-    """Where "never" is drawn: a little above all numbers of steps."""
-    both = np.concatenate([steps.countdown, steps.slack])
-    highest = both[np.isfinite(both)].max(initial=0)
-    return highest + max(1, math.ceil(highest / 8))
+def _tick_points(axis, spec, states):
+    """@param states (name, values) of what is along the axis"""
+    if not all(name is not None and spec.is_discrete(name) for name, _ in states):
+        return
+    grids = [spec.grid_between(name, values.min(), values.max()) for name, values in states]
+    style.point_ticks(axis, sorted(set().union(*grids)))
 
 
-def _draw_steps(axes, steps):
-    ceiling = ceiling_of(steps)
+def _draw_steps(axes, run):
+    steps = run.steps
+    both = np.concatenate([steps.countdown, steps.delay])
+    highest = int(both[np.isfinite(both)].max(initial=0))
+    never = highest + max(1, math.ceil(highest / 8))
     for values, label, options in (
-        (steps.slack, "slack: delay of the cell", {"color": style.KINDS[1], "linewidth": 1}),
+        (steps.delay, "delay of the cell", {"color": style.KINDS[1], "linewidth": 1}),
         (steps.countdown, "countdown", {"color": style.KINDS[0]}),
     ):
-        shown = np.where(np.isinf(values), ceiling, values)
-        axes.plot(steps.time, shown, drawstyle="steps-post", label=label, **options)
+        shown = np.where(np.isinf(values), never, values)
+        axes.plot(*stairs(steps.time, shown, run.period).T, label=label, **options)
     zeros = np.zeros_like(steps.coordinated)
-    axes.plot(steps.coordinated, zeros, "|", color="black", label="coordinated step", clip_on=False)
+    marks = axes.plot(steps.coordinated, zeros, "|", color="black", label="coordinated step", clip_on=False)
+    marks[0].set_in_layout(False)  # where there are none their place is nowhere
     axes.set_ylabel("steps")
-    axes.yaxis.set_major_locator(MaxNLocator(integer=True))
-    if np.isinf(steps.slack).any() or np.isinf(steps.countdown).any():
-        axes.axhline(ceiling, color="#999999", linewidth=0.5, zorder=0)
-        axes.text(1.01, ceiling, "never", transform=axes.get_yaxis_transform(), va="center", fontsize="small")
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncols=3, frameon=False)
+    _step_ticks(axes, highest, never, np.isinf(both).any())
     axes.grid(alpha=0.3)
+
+
+def _step_ticks(axes, highest, never, has_never):
+    """Whole steps, and at the place of what never ends its name instead of a number."""
+    steps = style.whole_steps(highest)
+    axes.set_yticks(steps + [never] * has_never, [f"{k}" for k in steps] + ["never"] * has_never)
+    top = never if has_never else max(highest, 1)
+    axes.set_ylim(-0.05 * top, 1.05 * top)
 
 
 def _draw_margin(axes, run):
-    axes.plot(run.steps.time, run.margin, color=style.KINDS[2])
+    time, margin = run.steps.time, run.margin
+    line = stairs(time, margin, run.period) if run.margin_jumps else path(Side(time), Side(margin))
+    axes.plot(*line.T, color=style.KINDS[2])
     axes.axhline(0, color="black", linewidth=0.8)
     axes.set_ylabel("margin")
     axes.set_xlabel(style.plain(_with_unit("time", run.time_unit)))

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from fractions import Fraction
 
 from .errors import FileError
@@ -69,6 +70,39 @@ class Spec:
 
     def is_periodic(self, name):
         return self.state(name).get("outside") == "periodic"
+
+    def jumps(self, name):
+        """The state keeps its value until the next sample."""
+        return self._keys["dynamics"].get("time") == "discrete" or self.is_discrete(name)
+
+    def period(self, name):
+        """Of a periodic state, else infinity."""
+        if not self.is_periodic(name):
+            return math.inf
+        state = self.state(name)
+        return float(self._number(state["upper"]) - self._number(state["lower"]))
+
+    def grid_between(self, name, least, most):
+        """The grid points of a discrete state from least to most."""
+        state = self.state(name)
+        origin, step = self._number(state.get("origin", 0)), self._number(state.get("step", 1))
+        if "count" in state:
+            origin = self._number(state["lower"])
+            gaps = self._number(state["count"]) - (not self.is_periodic(name))
+            step = (self._number(state["upper"]) - origin) / max(gaps, 1)
+        first, last = (round((Fraction(value) - origin) / step) for value in (least, most))
+        return [float(origin + k * step) for k in range(first, last + 1)]
+
+    def safe_jumps(self):
+        """Whether "safe" is asked of a state that jumps, also in definitions and memories."""
+        memory = self._keys.get("memory", {})
+        formulas = {**self._keys.get("definitions", {}), **memory, "safe": self._keys.get("safe", "")}
+        names, new = set(), {"safe"}
+        while new:
+            names |= new
+            new = {word for name in new for word in re.findall(r"[A-Za-z_]\w*", str(formulas.get(name, "")))} - names
+        known = {state["name"] for state in self._keys["states"]} | memory.keys()
+        return any(self.jumps(name) for name in names & known)
 
     def units(self, kind):
         """Units of all "states", "inputs" or "disturbances" by name, "" for none."""

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.textpath import TextPath
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
 NOT_SAFE = "#7f7f7f"
@@ -16,6 +17,8 @@ FREE = "#ffffff"
 NO_PARTITION = "#000000"
 KINDS = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#f0e442"]
 
+_FEW_POINTS = 8  # with a tick each
+_LEGEND_FONT = 8.33  # points, "small"
 _LARGEST_RATIO = 5  # of the sides of a picture in scale
 
 
@@ -36,12 +39,17 @@ def step_colors(most):
     return matplotlib.colormaps["viridis"].resampled(levels), Normalize(-0.5, most + 0.5)
 
 
+def whole_steps(most):
+    """Some of the numbers 0 to `most`, for ticks."""
+    return [int(k) for k in MaxNLocator(10, integer=True, min_n_ticks=1).tick_values(0, most) if 0 <= k <= most]
+
+
 def add_step_bar(figure, axes, most, label, results, location="right", shrink=1.0, pad=0.02):
     """A colour bar for steps, with times on its other side if the file has a unit of time."""
     cmap, norm = step_colors(most)
     place = {"location": location, "shrink": shrink, "fraction": 0.06, "pad": pad}
     bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, cmap), ax=axes, **place)
-    steps = [k for k in MaxNLocator(integer=True, min_n_ticks=1).tick_values(0, most) if 0 <= k <= most]
+    steps = whole_steps(most)
     bar.ax.yaxis.set_major_locator(FixedLocator(steps))
     bar.ax.minorticks_off()
     bar.set_label(plain(f"{label} [steps]"))
@@ -79,9 +87,27 @@ def extent_of(cut):
     return (*cut.axes[0].edges[[0, -1]], *y)
 
 
+def point_ticks(axis, points):
+    """Ticks of an axis on which there is nothing between the points, which ascend: at points only.
+
+    All of few points, else those where there are ticks anyway, else every so many.
+    """
+    points = np.asarray(points)
+    if len(points) > _FEW_POINTS:
+        usual = MaxNLocator(_FEW_POINTS, steps=[1, 2, 5, 10]).tick_values(points[0], points[-1])
+        nearest = np.unique(np.abs(points[:, None] - usual).argmin(axis=0))
+        near = np.abs(points[nearest, None] - usual).min(axis=1) < 1e-9 * np.ptp(points)
+        every = range(0, len(points), -(-len(points) // _FEW_POINTS))
+        points = points[nearest[near] if near.sum() > 2 else every]
+    axis.set_major_locator(FixedLocator(points))
+
+
 def label_plane(axes, cut):
     """Axes with units, in scale where that is possible: the same unit and sides that are not too different."""
     axes.set_xlabel(plain(cut.axes[0].label))
+    for axis, along in zip(cut.axes, (axes.xaxis, axes.yaxis)):
+        if axis.is_points:
+            point_ticks(along, axis.points)
     if len(cut.axes) == 1:
         axes.set_yticks([])
         axes.set_box_aspect(0.15)
@@ -97,6 +123,32 @@ def add_title(figure, *lines):
     """@param lines those that are empty are left out, those that are too long go on below"""
     width = int(12 * figure.get_figwidth())  # letters, about
     figure.suptitle(plain("\n".join(textwrap.fill(line, width) for line in lines if line)))
+
+
+def legend_above(axes, width):
+    """A legend of what has a label between the axes and their title, where it covers nothing.
+
+    @param width of the axes, inches, about
+    @returns the height that it takes, points
+    """
+    handles, labels = axes.get_legend_handles_labels()
+    if not handles:
+        return 0
+    letters = int(width * 72 / (0.6 * _LEGEND_FONT) - 8)  # that fit into a line beside the sign, about
+    labels = [textwrap.fill(label, max(letters, 10)) for label in labels]
+    columns = _legend_columns(labels, width * 72)
+    place = {"loc": "lower center", "bbox_to_anchor": (0.5, 1), "borderaxespad": 0.2, "frameon": False}
+    axes.legend(handles, labels, ncols=columns, columnspacing=1.5, **place)
+    lines = max(sum(label.count("\n") + 1 for label in column) for column in np.array_split(labels, columns))
+    return (1.5 * lines + 0.6) * _LEGEND_FONT
+
+
+def _legend_columns(labels, width):
+    """The most columns, filled one after another, that are not wider than so many points."""
+    before = 4.3 * _LEGEND_FONT  # sign and gaps
+    widths = [TextPath((0, 0), label, size=_LEGEND_FONT).get_extents().width + before for label in labels]
+    fitting = (c for c in range(len(labels), 1, -1) if sum(map(max, np.array_split(widths, c))) <= width)
+    return next(fitting, 1)
 
 
 def legend_below(figure, entries):

@@ -136,7 +136,10 @@ def _label_axes(axes, cut, view):
         lengths.append(ends[1] - ends[0])
         getattr(axes, f"set_{name}lim")(*ends)
         getattr(axes, f"set_{name}label")(style.plain(axis.label))
-        getattr(axes, f"{name}axis").set_major_locator(matplotlib.ticker.MaxNLocator(5))
+        along = getattr(axes, f"{name}axis")
+        along.set_major_locator(matplotlib.ticker.MaxNLocator(5))
+        if axis.is_points:
+            style.point_ticks(along, axis.points)
     if len({axis.unit for axis in cut.axes}) > 1 or max(lengths) > _WIDEST * min(lengths):
         lengths = (1, 1, 1)
     axes.set_box_aspect(lengths, zoom=0.95)

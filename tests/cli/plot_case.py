@@ -2,11 +2,12 @@
 
 import contextlib
 import io
+import json
 import sys
 
 import h5py
 import numpy as np
-from program import ROOT, Case
+from program import CONFIGS, ROOT, Case, without_comments
 
 sys.path.insert(0, str(ROOT / "scripts"))
 sys.dont_write_bytecode = True
@@ -22,6 +23,16 @@ class PlotCase(Case):
     def stored(self, name, file="out.h5"):
         with h5py.File(self.folder / file) as stored:
             return stored[name][...]
+
+    def simulated(self, spec, *words):
+        self.analyzed(spec)
+        result = self.run_program("simulate", "out.h5", *words, "-o", "runs.h5")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+
+    def rewrite(self, change):
+        """What this version of the program does not write itself."""
+        with h5py.File(self.folder / "out.h5", "r+") as file:
+            change(file)
 
     def plotted(self, figure, *words, file="out.h5"):
         """What is drawn, and the drawing."""
@@ -42,6 +53,10 @@ class PlotCase(Case):
         np.testing.assert_array_equal(found, expected)
 
 
+def example(config, **changes):
+    return dict(json.loads(without_comments((CONFIGS / config).read_text())), **changes)
+
+
 def titles(figure):
     """The text above the picture, and that above each panel."""
     texts = [figure._suptitle.get_text()] if figure._suptitle else []
@@ -54,3 +69,14 @@ def legend(figure):
 
 def labels(axes):
     return axes.get_xlabel(), axes.get_ylabel()
+
+
+def covered(figure):
+    """The texts of legends that cover axes, titles or other legends of the picture."""
+    figure.canvas.draw()
+    boxes = [axes.get_window_extent() for axes in figure.axes]
+    boxes += [axes.title.get_window_extent() for axes in figure.axes if axes.get_title()]
+    legends = [axes.get_legend() for axes in figure.axes if axes.get_legend()]
+    found = [one for one in legends if any(one.get_window_extent().overlaps(box) for box in boxes)]
+    found += [one for one in legends if not figure.bbox.containsx(one.get_window_extent().x1)]
+    return [[text.get_text() for text in one.get_texts()] for one in found]

@@ -111,10 +111,11 @@ class Cases(PlotCase):
         layers = ("layers", "out.h5", "-o", "a.png")
         for words, message in (
             ((), "no FIGURE, see coordreq-plot --help"),
-            (("layers",), "no FILE, see coordreq-plot --help"),
-            (("layers", "out.h5"), "no --output, see coordreq-plot --help"),
+            (("layers",), "no FILE, see coordreq-plot layers --help"),
+            (("layers", "out.h5"), "no --output, see coordreq-plot layers --help"),
             (("layers", "out.h5", "-o"), "expected a value, found none (--output)"),
-            ((*layers, "more"), "unknown argument 'more', see coordreq-plot --help"),
+            ((*layers, "more"), "unknown argument 'more', see coordreq-plot layers --help"),
+            (("--more", *layers), "unknown argument '--more', see coordreq-plot --help"),
             ((*layers, "--size", "3"), "expected WIDTHxHEIGHT in inches, found '3' (--size)"),
             ((*layers, "--dpi", "5"), "expected a whole number from 10 to 2400, found '5' (--dpi)"),
             ((*layers, "--snapshots", "1,-2"), "expected whole numbers such as 1,14,29, found '1,-2' (--snapshots)"),
@@ -130,15 +131,22 @@ class Cases(PlotCase):
         (self.folder / "coordreq-plot").symlink_to(ROOT / "scripts/plot")
         for command, name in ((ROOT / "scripts/plot", "plot"), ("./coordreq-plot", "coordreq-plot")):
             result = subprocess.run([command, "layers"], cwd=self.folder, capture_output=True, text=True, timeout=100)
-            self.assertEqual((result.returncode, result.stderr), (2, f"{name}: error: no FILE, see {name} --help\n"))
+            message = f"{name}: error: no FILE, see {name} layers --help\n"
+            self.assertEqual((result.returncode, result.stderr), (2, message))
 
-    def test_help_names_the_figures(self):
+    def help(self, *words):
         text = io.StringIO()
         with contextlib.redirect_stdout(text), self.assertRaises(SystemExit) as end:
-            main(["--help"])
+            main([*words, "--help"])
         self.assertEqual(end.exception.code, 0)
+        return text.getvalue()
+
+    def test_help_names_the_figures_and_theirs_the_options(self):
+        text = self.help()
         for figure in ("actions", "layers", "unsafe3d", "run", "requirements", "coalition"):
-            self.assertIn(f"    {figure}", text.getvalue())
+            self.assertIn(f"    {figure}", text)
+            self.assertIn("--output", self.help(figure))
+        self.assertIn("'coordreq-plot FIGURE --help' tells the options of a figure.", text)
 
     def test_numbers_are_exact(self):
         from plotting.values import evaluate

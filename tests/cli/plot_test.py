@@ -1,20 +1,13 @@
 """What figures of scripts/plot show is what the results file holds."""
 
 import itertools
-import json
-import math
 import unittest
 
-import h5py
 import numpy as np
-from plot_case import PlotCase, labels, legend, titles
-from program import CONFIGS, SPEC, spec_with, without_comments
+from plot_case import PlotCase, example, labels, legend, titles
+from program import SPEC, spec_with
 
 UNBOUNDED = np.iinfo(np.int16).max
-
-
-def example(config, **changes):
-    return dict(json.loads(without_comments((CONFIGS / config).read_text())), **changes)
 
 
 class Cases(PlotCase):
@@ -191,6 +184,40 @@ class Cases(PlotCase):
         self.assert_arrays_equal(data.histograms[0].cells, [(delay == k).sum() for k in range(3)])
         self.assertEqual([text.get_text() for text in figure.axes[0].texts], ["at least"])
 
+    def test_axes_of_points_have_ticks_at_points_only(self):
+        states = [
+            {"name": "x", "lower": 0, "upper": 2, "step": 1, "discrete": True},
+            {"name": "y", "lower": 0, "upper": 1.5, "step": 0.5, "discrete": True},
+            {"name": "z", "lower": 0, "upper": 20, "step": 2.5, "discrete": True},
+        ]
+        equations = {"x": "x + u", "y": "y + v/2", "z": "z"}
+        dynamics = dict(SPEC["dynamics"], equations=equations)
+        output = {"controller": True, "actions": True}
+        self.analyzed(spec_with(states=states, dynamics=dynamics, safe="x + y <= 3", output=output))
+        _, figure = self.plotted("layers", "--slice", "z=0")
+        self.assert_arrays_equal(figure.axes[0].get_xticks(), [0, 1, 2])
+        self.assert_arrays_equal(figure.axes[0].get_yticks(), [0, 0.5, 1, 1.5])
+        _, figure = self.plotted("unsafe3d")
+        axes = figure.axes[0]
+        self.assert_arrays_equal(axes.get_xticks(), [0, 1, 2])
+        self.assert_arrays_equal(axes.get_zticks(), [0, 5, 10, 15, 20])
+        _, figure = self.plotted("actions", "--at", "x=1,y=0.5,z=0")
+        self.assert_arrays_equal(figure.axes[0].get_xticks(), [-1, 0, 1])
+
+    def test_ticks_of_many_points_are_some_of_them(self):
+        from matplotlib.figure import Figure
+        from plotting.style import point_ticks
+
+        for points, expected in (
+            (range(11), [0, 2, 4, 6, 8, 10]),
+            (range(-3, 40), [0, 10, 20, 30]),
+            ([7], [7]),
+            (np.arange(10) / 3 + 0.1, np.array([0, 2, 4, 6, 8]) / 3 + 0.1),
+        ):
+            axis = Figure().add_subplot().xaxis
+            point_ticks(axis, points)
+            np.testing.assert_allclose(axis.get_majorticklocs(), expected)
+
     def test_colour_bars_have_whole_steps_with_their_times(self):
         self.analyzed(SPEC)
         data, figure = self.plotted("layers")
@@ -262,130 +289,7 @@ class Cases(PlotCase):
         view = "expected an elevation and an azimuth such as 24,-56, found '95,0' (--view)"
         self.assert_plot_fails(2, view, *words, "--view", "95,0")
 
-    # run
-
-    def simulated(self, config, *words):
-        self.analyzed(example(config))
-        result = self.run_program("simulate", "out.h5", *words, "-o", "runs.h5")
-        self.assertEqual((result.returncode, result.stderr), (0, b""))
-
-    def test_run_shows_states_countdown_slack_and_margin(self):
-        self.simulated("circle.json", "--from", "x1=0.1,x2=0", "--steps", "50", "--runs", "2")
-        data, figure = self.plotted("run", "--run", "1", file="runs.h5")
-        time, state = self.stored("time", "runs.h5"), self.stored("state", "runs.h5")[1]
-        curves, steps, margin = figure.axes
-        self.assertEqual(labels(curves)[1], "x1, x2 [m]")
-        for i, name in enumerate(("x1", "x2")):
-            self.assertEqual(curves.lines[i].get_label(), name)
-            self.assert_arrays_equal(curves.lines[i].get_xydata(), np.stack([time, state[:, i]], axis=1))
-        slack, countdown, coordinated = steps.lines
-        self.assert_arrays_equal(countdown.get_ydata(), self.stored("countdown", "runs.h5")[1])
-        self.assert_arrays_equal(slack.get_ydata(), self.stored("delay", "runs.h5")[1])
-        self.assertTrue((countdown.get_ydata() <= slack.get_ydata()).all())
-        self.assert_arrays_equal(coordinated.get_xdata(), time[self.stored("coordinated", "runs.h5")[1] == 1])
-        self.assert_arrays_equal(margin.lines[0].get_ydata(), self.stored("margin", "runs.h5")[1])
-        subtitle = "run 1, policy random, seed 1: completed"
-        self.assertEqual(titles(figure), [f"circle, horizontal|vertical\n{subtitle}"])
-        self.assertEqual((labels(curves)[0], labels(steps)[1]), ("time [s]", "steps"))
-        self.assertEqual(labels(margin), ("time [s]", "margin"))
-        for words, message in (
-            (("--run", "2"), "expected the number of one run, 0 to 1, found '2' (--run)"),
-            (("--run", "0,1"), "expected the number of one run, 0 to 1, found '0,1' (--run)"),
-            (("--plane", "x1"), "expected two states as in x1,y1, found 'x1' (--plane)"),
-            (("--plane", "x1,x3"), "'x3' is no state, expected 'x1' or 'x2' (--plane)"),
-        ):
-            self.assert_plot_fails(2, message, "run", "runs.h5", "-o", "a.png", *words)
-
-    def test_run_has_axes_for_each_unit(self):
-        self.simulated("load.json", "--from", "v=0,p=0.5", "--steps", "20")
-        data, figure = self.plotted("run", file="runs.h5")
-        state = self.stored("state", "runs.h5")[0]
-        for axes, name, i in zip(figure.axes, ("v [m/s]", "p [m]"), (0, 1)):
-            self.assertEqual((labels(axes)[1], len(axes.lines)), (name, 1))
-            self.assert_arrays_equal(axes.lines[0].get_ydata(), state[:, i])
-        self.assertEqual([labels(axes)[0] for axes in figure.axes[:2]], ["", "time [s]"])
-
-    def test_run_in_a_plane_and_for_ever(self):
-        start = "p1=-10,v1=0,v2=1.5,p2=10"
-        self.simulated("intersection_coarse.json", "--from", start, "--steps", "3")
-        data, figure = self.plotted("run", "--plane", "p1,p2", file="runs.h5")
-        samples = self.stored("samples", "runs.h5")[0]
-        state = self.stored("state", "runs.h5")[0, :samples]
-        self.assert_arrays_equal(figure.axes[0].lines[0].get_xydata(), state[:, [0, 3]])
-        self.assertEqual(labels(figure.axes[0]), ("p1 [m]", "p2 [m]"))
-        self.assertTrue(math.isinf(data.steps.slack[0]))
-        self.assertEqual([text.get_text() for text in figure.axes[1].texts], ["never"])
-
-    # requirements and coalition
-
-    def rewrite(self, change):
-        """What this version of the program does not write itself."""
-        with h5py.File(self.folder / "out.h5", "r+") as file:
-            change(file)
-
-    def test_requirements_are_lines_in_the_histogram_of_delays(self):
-        spec = example("circle.json")
-        self.analyzed(spec)
-        required = [
-            {"name": "costs $5 // not a comment", "where": "r2 <= 0.01", "min_delay": 20},
-            {"name": "time", "where": "true", "min_delay_time": "R/8 + 0.001", "partition": "horizontal|vertical"},
-            {"name": "start", "where": "r2 <= 0.25", "invariant": True},
-        ]
-        text = "// a comment\n/* another\n one */" + json.dumps(dict(spec, requirements=required))
-
-        def change(file):
-            del file["spec"]
-            file["spec"] = text
-
-        self.rewrite(change)
-        data, figure = self.plotted("requirements")
-        delay = self.stored("delay")[0]
-        axes = figure.axes[0]
-        heights = [bar.get_height() for bar in axes.patches]
-        self.assertEqual(heights, [(delay == k).sum() for k in range(29)])
-        middles = [bar.get_x() + bar.get_width() / 2 for bar in axes.patches]
-        np.testing.assert_allclose(middles, np.arange(29) * 0.01, atol=1e-12)
-        np.testing.assert_allclose([line.get_xdata()[0] for line in axes.lines], [0.195, 0.105, -0.005], atol=1e-12)
-        texts = [text.get_text() for text in axes.get_legend().get_texts()]
-        first = r"costs \$5 // not a comment: 20 steps (0.2 s)"
-        self.assertEqual(texts, [first, "time: 11 steps (0.11 s)", "start: in K"])
-        self.assertEqual(titles(figure), ["circle\n4 safe cells are not invariant", "horizontal|vertical"])
-        self.assertEqual(labels(axes), ("delay [s]", "cells"))
-
-    def test_requirements_that_hold_and_fail(self):
-        required = [
-            {"name": "good", "where": "x <= 0.1 and y <= 0.1 and x > -0.4 and y > -0.4", "min_delay": 3},
-            {"name": "no delay is asked for", "where": "true", "max_arrival": 0},
-            {"name": "bad", "where": "x >= 3 and y >= 2.6", "min_delay": 2},
-        ]
-        self.write("spec.json", spec_with(requirements=required, goal="x <= 1"))
-        self.assertEqual(self.run_program("analyze", "spec.json", "-o", "out.h5").returncode, 1)
-        data, figure = self.plotted("requirements")
-        axes = figure.axes[0]
-        texts = [text.get_text() for text in axes.get_legend().get_texts()]
-        self.assertEqual(texts, ["good: 3 steps (1.5 s), holds", "bad: 2 steps (1 s), FAILS"])
-        self.assertEqual([line.get_linestyle() for line in axes.lines], ["-", "--"])
-
-    def test_requirements_of_several_partitions(self):
-        partitions = [{"classes": []}, {"name": "both", "classes": [["b", "a"]]}]
-        spec = spec_with(coordination={"partitions": partitions})
-        self.analyzed(spec)
-        required = [{"name": "one", "where": "true", "partition": "a+b", "min_delay": 3}]
-
-        def change(file):
-            del file["spec"]
-            file["spec"] = json.dumps(dict(spec, requirements=required))
-
-        self.rewrite(change)
-        data, figure = self.plotted("requirements")
-        delay = self.stored("delay")
-        for p, histogram in enumerate(data.histograms):
-            self.assertEqual(histogram.unbounded, (delay[p] == UNBOUNDED).sum())
-            self.assert_arrays_equal(histogram.cells, [(delay[p] == k).sum() for k in range(len(histogram.cells))])
-            self.assertEqual(histogram.cells.sum() + histogram.unbounded, (delay[p] >= 0).sum())
-        self.assertEqual([[line.name for line in histogram.lines] for histogram in data.histograms], [[], ["one"]])
-        data, figure = self.plotted("requirements", "--partition", "a|b")
-        self.assertEqual([histogram.partition for histogram in data.histograms], ["a|b"])
+    # coalition
 
     def test_coalition_has_a_colour_for_each_partition(self):
         partitions = [{"classes": []}, {"name": "both", "classes": [["a", "b"]]}]

@@ -1,0 +1,103 @@
+"""The histogram of delays with the lines of the requirements: all stands at its delay, and no text covers anything."""
+
+import json
+import unittest
+
+import numpy as np
+from plot_case import PlotCase, covered, example, labels, titles
+from program import spec_with
+
+UNBOUNDED = np.iinfo(np.int16).max
+
+
+class Cases(PlotCase):
+    def test_requirements_are_lines_in_the_histogram_of_delays(self):
+        spec = example("circle.json")
+        self.analyzed(spec)
+        required = [
+            {"name": "costs $5 // not a comment", "where": "r2 <= 0.01", "min_delay": 20},
+            {"name": "time", "where": "true", "min_delay_time": "R/8 + 0.001", "partition": "horizontal|vertical"},
+            {"name": "start", "where": "r2 <= 0.25", "invariant": True},
+        ]
+        text = "// a comment\n/* another\n one */" + json.dumps(dict(spec, requirements=required))
+
+        def change(file):
+            del file["spec"]
+            file["spec"] = text
+
+        self.rewrite(change)
+        data, figure = self.plotted("requirements")
+        delay = self.stored("delay")[0]
+        axes = figure.axes[0]
+        heights = [bar.get_height() for bar in axes.patches]
+        self.assertEqual(heights, [(delay == k).sum() for k in range(29)])
+        middles = [bar.get_x() + bar.get_width() / 2 for bar in axes.patches]
+        np.testing.assert_allclose(middles, np.arange(29) * 0.01, atol=1e-12)
+        np.testing.assert_allclose([line.get_xdata()[0] for line in axes.lines], [0.2, 0.11, 0], atol=1e-12)
+        texts = [text.get_text() for text in axes.get_legend().get_texts()]
+        first = r"costs \$5 // not a comment: 20 steps (0.2 s)"
+        self.assertEqual(texts, [first, "time: 11 steps (0.11 s)", "start: in K"])
+        self.assertEqual(titles(figure), ["circle\n4 safe cells are not invariant", "horizontal|vertical"])
+        self.assertEqual(labels(axes), ("delay [s]", "cells"))
+        self.assertEqual(covered(figure), [])
+        # Ticks are where bars are, and without unbounded cells there is no place for them.
+        ticks = axes.get_xticks()
+        self.assertEqual([text.get_text() for text in axes.get_xticklabels()], [f"{tick:.6g}" for tick in ticks])
+        self.assertTrue(all(np.isclose(middles, tick, atol=1e-12).any() for tick in ticks))
+        self.assertGreater(len(ticks), 4)
+
+    def test_requirements_that_hold_and_fail(self):
+        required = [
+            {"name": "good", "where": "x <= 0.1 and y <= 0.1 and x > -0.4 and y > -0.4", "min_delay": 3},
+            {"name": "no delay is asked for", "where": "true", "max_arrival": 0},
+            {"name": "bad", "where": "x >= 3 and y >= 2.6", "min_delay": 2},
+        ]
+        self.write("spec.json", spec_with(requirements=required, goal="x <= 1"))
+        self.assertEqual(self.run_program("analyze", "spec.json", "-o", "out.h5").returncode, 1)
+        data, figure = self.plotted("requirements")
+        axes = figure.axes[0]
+        texts = [text.get_text() for text in axes.get_legend().get_texts()]
+        self.assertEqual(texts, ["good: 3 steps (1.5 s), holds", "bad: 2 steps (1 s), FAILS"])
+        self.assertEqual([line.get_linestyle() for line in axes.lines], ["-", "--"])
+        self.assertEqual(covered(figure), [])
+
+    def test_many_long_requirements_cover_nothing(self):
+        required = [{"name": f"{i}: {'as long as it gets ' * i}", "where": "true", "min_delay": i} for i in range(1, 9)]
+        self.write("spec.json", spec_with(requirements=required))
+        self.assertEqual(self.run_program("analyze", "spec.json", "-o", "out.h5").returncode, 1)
+        _, figure = self.plotted("requirements")
+        self.assertEqual(len(figure.axes[0].get_legend().get_texts()), 8)
+        self.assertEqual(covered(figure), [])
+
+    def test_requirements_of_several_partitions(self):
+        partitions = [{"classes": []}, {"name": "both", "classes": [["b", "a"]]}]
+        spec = spec_with(coordination={"partitions": partitions})
+        self.analyzed(spec)
+        required = [{"name": "one", "where": "true", "partition": "a+b", "min_delay": 3}]
+
+        def change(file):
+            del file["spec"]
+            file["spec"] = json.dumps(dict(spec, requirements=required))
+
+        self.rewrite(change)
+        data, figure = self.plotted("requirements")
+        delay = self.stored("delay")
+        for p, histogram in enumerate(data.histograms):
+            self.assertEqual(histogram.unbounded, (delay[p] == UNBOUNDED).sum())
+            self.assert_arrays_equal(histogram.cells, [(delay[p] == k).sum() for k in range(len(histogram.cells))])
+            self.assertEqual(histogram.cells.sum() + histogram.unbounded, (delay[p] >= 0).sum())
+        self.assertEqual([[line.name for line in histogram.lines] for histogram in data.histograms], [[], ["one"]])
+        # What is unbounded has a place of its own, and a tick there that says so.
+        axes = figure.axes[1]
+        bar = axes.patches[-1]
+        self.assertEqual(bar.get_height(), data.histograms[1].unbounded)
+        self.assertAlmostEqual(bar.get_x() + bar.get_width() / 2, axes.get_xticks()[-1], 12)
+        self.assertEqual([text.get_text() for text in axes.get_xticklabels()][-1], "never")
+        self.assertGreater(bar.get_x(), data.highest * 0.5 + 0.5)
+        self.assertEqual(covered(figure), [])
+        data, figure = self.plotted("requirements", "--partition", "a|b")
+        self.assertEqual([histogram.partition for histogram in data.histograms], ["a|b"])
+
+
+if __name__ == "__main__":
+    unittest.main()
