@@ -46,6 +46,7 @@ struct ThreadTeam::State {
   std::atomic<std::uint64_t> generation{0};  // counts loops; a helper runs each generation once
   std::atomic<int> busy{0};
   std::atomic<bool> stopping{false};
+  std::atomic<std::size_t> started{0};  // helpers
   int sleeping = 0;          // helpers; under the mutex
   bool main_sleeps = false;  // likewise
   ShortWait main_wait;       // of the thread that calls for_each()
@@ -77,6 +78,8 @@ struct ThreadTeam::State {
   }
 
   void help(int worker) {
+    started.fetch_add(1);
+    started.notify_one();
     std::uint64_t seen = 0;
     ShortWait wait;
     for (;;) {
@@ -94,6 +97,11 @@ struct ThreadTeam::State {
       const std::lock_guard lock(mutex);
       if (main_sleeps) finished.notify_one();
     }
+  }
+
+  /// A thread that starts holds locks of the C library or of a sanitiser, and the process may fork.
+  void wait_until_started() {
+    for (std::size_t n = started; n < threads.size(); n = started) started.wait(n);
   }
 
   void call_helpers() {
@@ -125,6 +133,7 @@ ThreadTeam::ThreadTeam(int threads) : state_(std::make_unique<State>()) {
       break;  // the system gives no more threads: work with those that started
     }
   }
+  state_->wait_until_started();
 }
 
 ThreadTeam::~ThreadTeam() {

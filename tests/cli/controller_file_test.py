@@ -6,7 +6,7 @@ import unittest
 
 import h5py
 import numpy as np
-from program import CONFIGS, SPEC, Case, spec_with, without_comments
+from program import CONFIGS, SANITIZED, SPEC, Case, spec_with, without_comments
 
 RESULTS = ["safe", "invariant", "delay", "trigger", "layer_size", "controller"]
 
@@ -247,6 +247,7 @@ class Cases(Case):
             "spec.json",
         )
 
+    @unittest.skipIf(SANITIZED, "measures memory")
     def test_the_limit_of_memory_counts_the_file(self):
         def estimate():
             """The least of several: what a process holds when it begins differs by some half MiB."""

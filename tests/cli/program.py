@@ -12,6 +12,7 @@ import unittest
 PROGRAM = os.environ["COORDREQ_PROGRAM"]
 ROOT = pathlib.Path(os.environ["COORDREQ_ROOT"])
 CONFIGS = ROOT / "configs"
+SANITIZED = "ASAN_OPTIONS" in os.environ  # then measures of memory mean nothing; see scripts/sanitize
 
 # Small and complete; tests change one thing in it.
 SPEC = {
