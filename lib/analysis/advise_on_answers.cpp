@@ -168,8 +168,11 @@ std::string place_of_trials(const CoarseCopy& copy) {
                      copy.factor);
 }
 
-/// What would help, as the end of a sentence.
-std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault, ThreadTeam& team) {
+constexpr std::string_view kAskExplain = "; 'coordreq explain' shows what goes wrong at a state";
+
+/// What would help, as the end of a sentence. @param otherwise is added if nothing does
+std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault, std::string_view otherwise,
+                     ThreadTeam& team) {
   try {
     const std::optional<CoarseCopy> copy = coarse_copy(spec, partition, kMostCells, kMostEntries);
     if (!copy) return "";
@@ -177,8 +180,7 @@ std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault
     if (trials.tried == 0) return "";
     const std::string count =
         fmt::format("of {} changes tried one by one{}", trials.tried, place_of_trials(*copy));
-    if (trials.helped.empty())
-      return fmt::format("; {}, none helps; 'coordreq explain' shows what goes wrong at a state", count);
+    if (trials.helped.empty()) return fmt::format("; {}, none helps{}", count, otherwise);
     return fmt::format("; {}, it helps if {}", count, fmt::join(trials.helped, ", or if "));
   } catch (const std::exception&) {
     return "";
@@ -197,7 +199,7 @@ Warnings advise_on_answers(const Answers& answers, ThreadTeam& team) {
       const bool is_unsafe = answers.ground.safe.count() == 0;
       return {{"empty", is_unsafe ? "/safe" : "",
                fmt::format("the {} set is empty on this grid{}", is_unsafe ? "safe" : "invariance",
-                           remedies(spec, p, fault, team))}};
+                           remedies(spec, p, fault, is_unsafe ? "" : kAskExplain, team))}};
     }
     if (fault == Fault::no_silence) silent.push_back(p);
   }
@@ -209,7 +211,7 @@ Warnings advise_on_answers(const Answers& answers, ThreadTeam& team) {
        fmt::format("with the partition {}{} no state tolerates even one step without coordination on this "
                    "grid{}",
                    partitions[silent.front()].name, others,
-                   remedies(spec, silent.front(), Fault::no_silence, team))}};
+                   remedies(spec, silent.front(), Fault::no_silence, kAskExplain, team))}};
 }
 
 }  // namespace coordreq

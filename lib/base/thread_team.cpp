@@ -47,9 +47,9 @@ struct ThreadTeam::State {
   std::atomic<int> busy{0};
   std::atomic<bool> stopping{false};
   std::atomic<std::size_t> started{0};  // helpers
-  int sleeping = 0;          // helpers; under the mutex
-  bool main_sleeps = false;  // likewise
-  ShortWait main_wait;       // of the thread that calls for_each()
+  int sleeping = 0;                     // helpers; under the mutex
+  bool main_sleeps = false;             // likewise
+  ShortWait main_wait;                  // of the thread that calls for_each()
 
   const Body* body = nullptr;
   std::int64_t count = 0;
@@ -99,7 +99,8 @@ struct ThreadTeam::State {
     }
   }
 
-  /// A thread that starts holds locks of the C library or of a sanitiser, and the process may fork.
+  /// The process may fork, and then the child must not wait for a lock that a thread held as it started: with
+  /// AddressSanitizer it did.
   void wait_until_started() {
     for (std::size_t n = started; n < threads.size(); n = started) started.wait(n);
   }

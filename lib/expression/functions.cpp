@@ -48,15 +48,15 @@ template <class T>
 T minus_a(const T& a, const T& /*b*/) {
   return -a;
 }
-template <Interval (*f)(const Interval&, const Interval&)>
-RationalInterval outward_of_both(const RationalInterval& a, const RationalInterval& b) {
-  return to_rational(f(enclose(a), enclose(b)));
-}
 /// An irrational function of an exact interval; sin(0), exp(0) and the like stay exact, since Interval gives
 /// them as points.
 template <Interval (*f)(const Interval&)>
 RationalInterval outward(const RationalInterval& a, const RationalInterval& /*b*/) {
   return to_rational(f(enclose(a)));
+}
+template <Interval (*f)(const Interval&, const Interval&)>
+RationalInterval outward_of_both(const RationalInterval& a, const RationalInterval& b) {
+  return to_rational(f(enclose(a), enclose(b)));
 }
 
 // Double arithmetic: NaN where undefined.

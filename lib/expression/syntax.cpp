@@ -224,6 +224,7 @@ class Parser {
     if (token_.text == "=") return ", did you mean '=='?";
     if (token_.text == "&") return ", did you mean '&&'?";
     if (token_.text == "|") return ", did you mean '||'?";
+    if (token_.text == "%") return ", did you mean 'mod(a, b)'?";
     const bool is_second_star =
         token_.text == "*" && token_.offset > 0 && place_.text[token_.offset - 1] == '*';
     return is_second_star ? ", did you mean '^'?" : "";

@@ -68,19 +68,20 @@ bool has_followers(const Program& condition, std::span<const ConditionAxis> axes
 /// By Kleene's logic, where a bit that is not set means `not proven`.
 void join_atoms(const ConditionAtoms& atoms, const std::vector<std::span<const Word>>& rows,
                 std::int64_t length, std::vector<std::vector<Word>>& values, std::span<Word> out) {
+  using Join = ConditionAtoms::Join;
   for (std::size_t i = 0; i < atoms.nodes.size(); ++i) {
     const ConditionAtoms::Node& node = atoms.nodes[i];
     std::vector<Word>& value = values[i];
-    if (node.join == ConditionAtoms::Join::atom) {
+    if (node.join == Join::atom) {
       value.assign(rows[node.a].begin(), rows[node.a].end());
-    } else if (node.join == ConditionAtoms::Join::always || node.join == ConditionAtoms::Join::never) {
+    } else if (node.join == Join::always || node.join == Join::never) {
       value.assign(out.size(), 0);
-      if (node.join == ConditionAtoms::Join::always) set_all(value, length);
+      if (node.join == Join::always) set_all(value, length);
     } else {
       value = values[node.a];
       const std::vector<Word>& other = values[node.b];
       for (std::size_t w = 0; w < value.size(); ++w) {
-        value[w] = node.join == ConditionAtoms::Join::both ? value[w] & other[w] : value[w] | other[w];
+        value[w] = node.join == Join::both ? value[w] & other[w] : value[w] | other[w];
       }
     }
   }

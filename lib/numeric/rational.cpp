@@ -114,6 +114,12 @@ std::optional<double> small_integer(const Rational& q) {
   return mpz_get_d(q.get_num_mpz_t());
 }
 
+mpz_class whole_below(const Rational& q) {
+  mpz_class result;
+  mpz_fdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
+  return result;
+}
+
 std::int64_t saturate(const mpz_class& value) {
   static_assert(sizeof(long) == sizeof(std::int64_t));
   if (value > mpz_class(kSaturation)) return kSaturation;
@@ -175,13 +181,11 @@ Rational exact(double value) {
 }
 
 Rational floor(const Rational& q) {
-  mpz_class result;
-  mpz_fdiv_q(result.get_mpz_t(), q.get_num_mpz_t(), q.get_den_mpz_t());
-  return Rational(result);
+  return Rational(whole_below(q));
 }
 
 std::int64_t floor_to_int(const Rational& q) {
-  return saturate(floor(q).get_num());
+  return saturate(whole_below(q));
 }
 
 std::int64_t ceil_to_int(const Rational& q) {

@@ -171,6 +171,11 @@ class Cases(Case):
         text = self.likely_causes(spec, "empty")
         self.assertRegex(text, "^the safe set is empty on this grid; .* it helps if only centres of cells must be safe$")
 
+    def test_an_empty_safe_set_that_nothing_fills(self):
+        """No state is safe, so there is none to explain."""
+        text = self.likely_causes(spec_with(safe="x < -5"), "empty")
+        self.assertRegex(text, "^the safe set is empty on this grid; of [0-9]+ changes tried one by one, none helps$")
+
     def test_no_silence_at_all(self):
         """Only opposite actions keep the sum, so alone nobody may act."""
         spec = spec_with(safe="x + y >= 4 and x + y <= 4", states=[dict(X, outside="saturate"), dict(Y, outside="saturate")])

@@ -224,6 +224,60 @@ class Cases(PageCase):
             with self.subTest(page=page):
                 self.assert_files_exist(page)
 
+    def test_a_vehicle_with_a_discrete_speed_stands_still(self):
+        """What the page on grids says of speeds that are cells, and what it shows instead."""
+        position = {"name": "p", "lower": -4, "upper": 4, "step": 0.5}
+        speed = {"name": "v", "lower": 0, "upper": 2, "step": 1}
+        parked = {}
+        for kind, more, motion in (
+            ("cells", {"outside": "saturate"}, {"equations": {"p": "v", "v": "a"}}),
+            ("set-point", {"discrete": True}, {"equations": {"p": "v"}, "updates": {"v": "min(max(v + a, 0), 2)"}}),
+        ):
+            spec = {
+                "coordreq": 1, "name": kind, "states": [position, {**speed, **more}],
+                "inputs": [{"name": "a", "values": [0, 1]}], "agents": [{"name": "one", "inputs": ["a"]}],
+                "dynamics": {"time": "continuous", "period": 1, **motion}, "safe": "p <= 3",
+                "abstraction": {"cells": "half_open"},
+            }  # fmt: skip
+            self.write("spec.json", spec)
+            self.run_program("analyze", "spec.json", "-o", "out.h5", "--quiet")
+            answer = self.run_program("query", "out.h5", "--at", "p=2,v=0", "--json").stdout
+            parked[kind] = json.loads(answer)["invariant"]
+        self.assertEqual(parked, {"cells": False, "set-point": True})
+
+    def test_a_disturbance_that_decides_a_discrete_state(self):
+        """The way round that the spec reference tells, and the error without it."""
+        cell = {"name": "luck", "lower": 0, "upper": 0, "step": 2, "outside": "unsafe"}
+        spec = {
+            "coordreq": 1, "name": "luck",
+            "states": [{"name": "n", "lower": 0, "upper": 3, "step": 1, "discrete": True, "outside": "saturate"}, cell],
+            "inputs": [{"name": "take", "values": [0, 1]}], "agents": [{"name": "one", "inputs": ["take"]}],
+            "disturbances": [{"name": "w", "lower": -0.5, "upper": 0.5}],
+            "dynamics": {"time": "discrete", "period": 1, "equations": {"n": "n - take + if(luck > 0, 1, 0)", "luck": "w"}},
+            "safe": "n <= 2", "output": {"abstraction": True},
+        }  # fmt: skip
+        self.write("spec.json", spec)
+        self.analyze("spec.json", "-o", "out.h5")
+        with h5py.File(self.folder / "out.h5") as file:
+            self.assertEqual([int(file["abstraction/n"][side][1, 0, 0]) for side in ("first", "last")], [1, 2])
+        self.assertEqual(self.run_program("verify", "out.h5", "--quiet").returncode, 0)
+        spec["dynamics"]["equations"]["n"] = "n - take + if(w > 0, 1, 0)"
+        self.write("spec.json", spec)
+        result = self.run_program("analyze", "spec.json")
+        self.assertIn(b"the next value of the discrete state 'n' is in [0, 1]", result.stderr)
+
+    def test_a_condition_on_angles_loses_the_cells_at_their_cut(self):
+        spec = {
+            "coordreq": 1, "name": "angle", "states": [{"name": n, "lower": -2, "upper": 2, "step": 0.5} for n in "xy"],
+            "inputs": [{"name": "u", "values": [0]}], "agents": [{"name": "one", "inputs": ["u"]}],
+            "dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x", "y": "y"}},
+        }  # fmt: skip
+        safe = []
+        for condition in ("x*cos(pi) + y*sin(pi) >= cos(1)*sqrt(x^2 + y^2)", "cos(pi - atan2(y,x)) >= cos(1)"):
+            self.write("spec.json", dict(spec, safe=condition))
+            safe.append(self.analyze("spec.json")["safe"])
+        self.assertEqual(safe, [20, 16])
+
 
 if __name__ == "__main__":
     unittest.main()

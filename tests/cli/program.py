@@ -12,7 +12,7 @@ import unittest
 PROGRAM = os.environ["COORDREQ_PROGRAM"]
 ROOT = pathlib.Path(os.environ["COORDREQ_ROOT"])
 CONFIGS = ROOT / "configs"
-SANITIZED = "ASAN_OPTIONS" in os.environ  # then measures of memory mean nothing; see scripts/sanitize
+SANITIZED = "COORDREQ_SANITIZED" in os.environ  # by scripts/sanitize; measures of memory mean nothing then
 
 # Small and complete; tests change one thing in it.
 SPEC = {

@@ -38,6 +38,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "expected an operator or the end, found '=', did you mean '=='? (/safe, column 3)"},
         ErrorCase{"x & y",
                   "expected an operator or the end, found '&', did you mean '&&'? (/safe, column 3)"},
+        ErrorCase{"x % 2",
+                  "expected an operator or the end, found '%', did you mean 'mod(a, b)'? (/safe, column 3)"},
         ErrorCase{"x | y",
                   "expected an operator or the end, found '|', did you mean '||'? (/safe, column 3)"},
         ErrorCase{
