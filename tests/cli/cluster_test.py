@@ -1,5 +1,6 @@
 """The job scripts of configs/cluster under a real Slurm."""
 
+import contextlib
 import os
 import pathlib
 import shutil
@@ -24,6 +25,14 @@ def why_no_ranks():
     return ""
 
 
+def processes_of(program):
+    """Those of jobs that run it."""
+    for process in children(os.getpid()):
+        with contextlib.suppress(OSError):
+            if os.readlink(f"/proc/{process}/exe") == os.path.realpath(program):
+                yield process
+
+
 class Cases(Case):
     def setUp(self):
         super().setUp()
@@ -44,7 +53,8 @@ class Cases(Case):
         return self.slurm.submit(*options, SCRIPTS / script, *arguments, folder=self.folder, **environment)
 
     def log(self):
-        return (self.folder / "job.log").read_text()
+        log = self.folder / "job.log"
+        return log.read_text() if log.exists() else ""
 
     def expected(self, spec):
         self.assertEqual(self.run_program("analyze", spec, "-o", "expected.h5", "--quiet").returncode, 0)
@@ -57,14 +67,9 @@ class Cases(Case):
         """The number of a job that has saved a checkpoint, and then stands still."""
         job = self.submit("analyze.sbatch", LONG, "out.h5", "--checkpoint-every", "0.05", options=options)
         poll((self.folder / "out.h5.ckpt").exists, 60, self.log)
-        for process in children(os.getpid()):
-            try:
-                if os.readlink(f"/proc/{process}/exe") == os.path.realpath(PROGRAM):
-                    os.kill(process, signal.SIGSTOP)
-                    return job
-            except OSError:
-                continue
-        self.fail("the analysis has ended")
+        (process,) = processes_of(PROGRAM)
+        os.kill(process, signal.SIGSTOP)
+        return job
 
     def assert_goes_on(self, job):
         expected = self.expected(LONG)
@@ -112,6 +117,15 @@ class Cases(Case):
         job = self.submit("analyze_ranks.sbatch", "none.json", "out.h5", options=options, **SEPARATE)
         self.assertEqual(self.slurm.wait_for(job, "COMPLETED", "FAILED")["ExitCode"], "5:0")
         self.assertIn("coordreq: error: no such file (none.json)\n", self.log())
+
+    @unittest.skipIf(why_no_ranks(), why_no_ranks())
+    def test_a_rank_that_is_killed_ends_the_job(self):
+        options = ("--nodes=2", "--ntasks-per-node=2")
+        job = self.submit("analyze_ranks.sbatch", LONG, "out.h5", options=options, **SEPARATE)
+        poll(lambda: "layers first|second: done" in self.log(), 120, self.log)
+        os.kill(max(processes_of(MPI_PROGRAM)), signal.SIGKILL)
+        self.assertNotEqual(self.slurm.wait_for(job, "COMPLETED", "FAILED")["ExitCode"], "0:0")
+        self.assertFalse((self.folder / "out.h5").exists())
 
     @unittest.skipIf(why_no_ranks(), why_no_ranks())
     def test_a_table_of_numbers_of_ranks(self):
