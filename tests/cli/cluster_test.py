@@ -66,14 +66,14 @@ class Cases(Case):
     def start_long_analysis(self, *options):
         """The number of a job that has saved a checkpoint, and then stands still."""
         job = self.submit("analyze.sbatch", LONG, "out.h5", "--checkpoint-every", "0.05", options=options)
-        poll((self.folder / "out.h5.ckpt").exists, 60, self.log)
+        poll((self.folder / "out.h5.ckpt").exists, 300, self.log)
         (process,) = processes_of(PROGRAM)
         os.kill(process, signal.SIGSTOP)
         return job
 
     def assert_goes_on(self, job):
         expected = self.expected(LONG)
-        poll(lambda: self.slurm.job(job).get("Restarts") == "1", 60, lambda: self.slurm.job(job))
+        poll(lambda: self.slurm.job(job).get("Restarts") == "1", 300, lambda: self.slurm.job(job))
         self.assert_completed(job)
         self.assertEqual((self.folder / "out.h5").read_bytes(), expected)
         started = [line for line in self.log().splitlines() if "checkpoint (" in line or "checkpoint yet" in line]
@@ -122,7 +122,7 @@ class Cases(Case):
     def test_a_rank_that_is_killed_ends_the_job(self):
         options = ("--nodes=2", "--ntasks-per-node=2")
         job = self.submit("analyze_ranks.sbatch", LONG, "out.h5", options=options, **SEPARATE)
-        poll(lambda: "layers first|second: done" in self.log(), 120, self.log)
+        poll(lambda: "layers first|second: done" in self.log(), 300, self.log)
         os.kill(max(processes_of(MPI_PROGRAM)), signal.SIGKILL)
         self.assertNotEqual(self.slurm.wait_for(job, "COMPLETED", "FAILED")["ExitCode"], "0:0")
         self.assertFalse((self.folder / "out.h5").exists())

@@ -184,6 +184,6 @@ class Slurm:
         """The job, once it is in one of these states."""
         return poll(
             lambda: (job := self.job(number)).get("JobState") in states and job,
-            120,
+            600,
             lambda: f"{states}: {self.job(number)}",
         )
