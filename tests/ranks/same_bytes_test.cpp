@@ -45,9 +45,10 @@ struct Outcome {
   Json summary;
 };
 
-/// What does not depend on how the work was done.
+/// What does not depend on how the work was done. Warnings tell what was tried in two seconds.
 Json answer_of(Json summary) {
-  for (const char* key : {"output", "threads", "seconds", "work", "peak_memory_bytes"}) summary.erase(key);
+  for (const char* key : {"output", "threads", "seconds", "work", "peak_memory_bytes", "warnings"})
+    summary.erase(key);
   return summary;
 }
 
