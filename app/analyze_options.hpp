@@ -9,6 +9,7 @@
 #include "app/progress_options.hpp"
 #include "app/sweep.hpp"
 #include "base/error.hpp"
+#include "ranks/ranks.hpp"
 
 namespace coordreq {
 
@@ -20,6 +21,7 @@ struct AnalyzeOptions : CommonOptions {
   std::optional<std::string> output, junit;
   ProgressOptions progress;
   std::optional<CheckpointOptions> checkpoint;
+  Ranks* ranks = nullptr;  ///< the processes that share the work; null: there is one
 
   /// Whether there is more than one analysis to do, or a table of one is asked for.
   [[nodiscard]] bool is_batch() const { return specs.size() > 1 || !sweeps.empty(); }

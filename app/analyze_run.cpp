@@ -35,13 +35,14 @@ class InterruptPolicy {
 
 std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const std::string& output,
                                                   const AnalyzeOptions& asked, const std::string& prefix) {
-  check_memory(spec, asked.memory(), asked.threads, asked.checkpoint.has_value());
+  if (asked.ranks == nullptr) check_memory(spec, asked.memory(), asked.threads, asked.checkpoint.has_value());
   ThreadTeam team(asked.threads);
   InterruptPolicy interrupts;
   ProgressDisplay shown(asked.progress, asked.quiet);
   AnalysisOptions options;
   options.output = output;
   options.checkpoint = asked.checkpoint;
+  options.ranks = asked.ranks;
   options.progress = [&](const Progress& progress) {
     interrupts.obey(progress);
     Progress of_many = progress;

@@ -48,8 +48,12 @@ Warnings advise_before(const ProblemSpec& spec, ThreadTeam& team) {
 
 Warnings advise(const Answers& answers, ThreadTeam& team) {
   Warnings all;
-  add(all, [&] { return advise_on_spec(answers.ground.spec); });
-  add(all, [&] { return advise_on_posts(answers.ground); });
+  if (answers.ground.share) {  // nobody has all of S
+    all = advise_before(answers.ground.spec, team);
+  } else {
+    add(all, [&] { return advise_on_spec(answers.ground.spec); });
+    add(all, [&] { return advise_on_posts(answers.ground); });
+  }
   add(all, [&] { return advise_on_answers(answers, team); });
   add(all, [&] { return advise_on_goal(answers); });
   return all;

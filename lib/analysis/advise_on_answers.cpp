@@ -99,7 +99,7 @@ std::vector<Relaxation> relaxations(const ProblemSpec& spec) {
 enum class Fault : std::uint8_t { nothing, no_silence, empty };
 
 Fault fault_of(const Answers& answers, std::size_t partition) {
-  if (answers.get<Invariance>().invariant.count() == 0) return Fault::empty;
+  if (answers.get<Invariance>().cells == 0) return Fault::empty;
   const std::vector<std::int64_t>& sizes = answers.get<PartitionLayers>().partitions[partition].sizes;
   return sizes.size() > 1 && sizes[1] == 0 ? Fault::no_silence : Fault::nothing;
 }
@@ -196,7 +196,7 @@ Warnings advise_on_answers(const Answers& answers, ThreadTeam& team) {
   for (std::size_t p = 0; p < partitions.size(); ++p) {
     const Fault fault = fault_of(answers, p);
     if (fault == Fault::empty) {
-      const bool is_unsafe = answers.ground.safe.count() == 0;
+      const bool is_unsafe = answers.ground.safe_cells == 0;
       return {{"empty", is_unsafe ? "/safe" : "",
                fmt::format("the {} set is empty on this grid{}", is_unsafe ? "safe" : "invariance",
                            remedies(spec, p, fault, is_unsafe ? "" : kAskExplain, team))}};

@@ -5,11 +5,11 @@ namespace coordreq {
 
 Warnings advise_on_goal(const Answers& answers) {
   const Goal* const goal = answers.find<Goal>();
-  if (goal == nullptr || answers.ground.safe.count() == 0) return {};
-  if (goal->winning.count() == 0)
+  if (goal == nullptr || answers.ground.safe_cells == 0) return {};
+  if (goal->sizes.winning == 0)
     return {
         {"goal", "/goal", "no cell of the invariance set is in the goal on this grid: it cannot be forced"}};
-  if (goal->away.count() > 0) return {};
+  if (goal->sizes.winning > goal->sizes.cells) return {};
   const bool is_closed = answers.ground.spec.abstraction.cells == Cells::closed;
   return {{"goal", "/goal",
            std::string("the goal can be forced from its own cells only") +

@@ -1,5 +1,6 @@
 #include "analysis/analysis_stages.hpp"
 
+#include <span>
 #include <utility>
 
 #include "answers/plan.hpp"
@@ -12,9 +13,31 @@ void append(std::vector<Stage>& stages, std::vector<Stage> more) {
   for (Stage& stage : more) stages.push_back(std::move(stage));
 }
 
+/// What the first process has read.
+void share_listed(Ranks& ranks, ListedController& listed) {
+  const auto text = std::as_bytes(std::span(listed.sha256));
+  const Bytes sum = ranks.from_first({text.begin(), text.end()});
+  listed.sha256.assign(reinterpret_cast<const char*>(sum.data()), sum.size());
+  const auto own = std::as_bytes(std::span(listed.pairs.bytes));
+  Bytes message(own.begin(), own.end());
+  put_numbers<std::int64_t>(message, {&listed.pairs.inputs, 1});
+  const Bytes pairs = ranks.from_first(std::move(message));
+  MessageReader reader(pairs);
+  const auto bytes = reader.take(pairs.size() - sizeof(std::int64_t));
+  listed.pairs.bytes.assign(reinterpret_cast<const std::uint8_t*>(bytes.data()),
+                            reinterpret_cast<const std::uint8_t*>(bytes.data()) + bytes.size());
+  listed.pairs.inputs = reader.number();
+}
+
 /// A file that does not fit is an error that nobody should wait for.
 void read_listed(Answers& answers, const StageWork& /*work*/) {
-  answers.ground.listed = read_controller_file(answers.ground.spec);
+  Ground& ground = answers.ground;
+  if (ground.ranks == nullptr || ground.ranks->rank() == 0) {
+    ground.listed = read_controller_file(ground.spec);
+  } else {
+    ground.listed.emplace();
+  }
+  if (ground.ranks != nullptr) share_listed(*ground.ranks, *ground.listed);
 }
 
 }  // namespace

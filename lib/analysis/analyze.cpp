@@ -8,6 +8,8 @@
 #include "analysis/stage_reporter.hpp"
 #include "answers/field_table.hpp"
 #include "answers/plan.hpp"
+#include "base/error.hpp"
+#include "base/timer.hpp"
 #include "results/write_results.hpp"
 
 namespace coordreq {
@@ -44,7 +46,9 @@ void write(const std::string& path, const Answers& answers, StageReporter& repor
   FieldValues values = found_values(answers, team);
   reporter.watch_writing(answers.ground.spec, values);
   reporter.set_temporary(true);
-  write_results(path, answers.ground.spec, values, team);
+  std::optional<RankChunks> ranks;
+  if (answers.ground.share) ranks.emplace(team, *answers.ground.share, *answers.ground.order);
+  write_results(path, answers.ground.spec, values, team, ranks ? &*ranks : nullptr);
 }
 
 /// What each answer says of itself. @param work what fixed points took
@@ -56,13 +60,21 @@ Json summarise(const Answers& answers, Json& work) {
 
 }  // namespace
 
+void check_divisible(const ProblemSpec& spec) {
+  if (spec.output.layers)
+    throw UsageError("'layers' cannot be divided between ranks yet, expected one rank", "/output/layers");
+}
+
 Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team) {
-  if (!options.output.empty()) check_writable(options.output);
+  Ranks* const ranks = options.ranks != nullptr && options.ranks->count() > 1 ? options.ranks : nullptr;
+  const bool is_first = ranks == nullptr || ranks->rank() == 0;
+  if (ranks != nullptr) check_divisible(spec);
+  if (!options.output.empty() && is_first) check_writable(options.output);
   if (options.checkpoint) check_checkpoint(*options.checkpoint);
   StageReporter reporter(options.progress, team);
   std::optional<Checkpoint> checkpoint;
   open_checkpoint(spec, options, reporter, checkpoint);
-  Answers answers(spec);
+  Answers answers(spec, ranks);
   find_answers(answers, reporter, checkpoint ? &*checkpoint : nullptr, team);
   Json work = Json::object();
   Json summary = summarise(answers, work);
@@ -73,8 +85,9 @@ Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam
   summary["seconds"] = Json::object();
   for (const auto& [stage, seconds] : reporter.finish()) summary["seconds"][stage] = seconds;
   summary["work"] = std::move(work);
-  summary["peak_memory_bytes"] = peak_memory_bytes();
-  summary["warnings"] = warnings_json(advise(answers, team));
+  const auto peak = static_cast<std::int64_t>(peak_memory_bytes());
+  summary["peak_memory_bytes"] = ranks == nullptr ? peak : ranks->greatest(peak);
+  summary["warnings"] = warnings_json(is_first ? advise(answers, team) : Warnings());
   return summary;
 }
 

@@ -11,6 +11,7 @@
 #include "base/json.hpp"
 #include "base/thread_team.hpp"
 #include "model/row_sample.hpp"
+#include "ranks/ranks.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -22,14 +23,20 @@ struct AnalysisOptions {
   std::function<void(const Progress&)> progress;
   std::optional<CheckpointOptions> checkpoint;
   std::function<void(const std::string&)> notice;  ///< a line for the user; may be empty
+  /// The processes that share the work, each of which calls analyze() with the same spec; null: there is one.
+  Ranks* ranks = nullptr;
 };
+
+/// @throws UsageError naming what of a spec several processes cannot divide between them
+void check_divisible(const ProblemSpec& spec);
 
 /// The whole analysis: abstraction, S, K, layers, trigger tables, results file if one is asked for. The file
 /// is the same to the byte whether or not the work was broken off and gone on with from a checkpoint; that is
 /// removed in the end.
 /// @returns the summary of the contract, section 3: what each answer says of itself, and then `output` (null
 ///   if no file was written), `threads`, `seconds` (wall time by stage), `work` (of each fixed point, by
-///   stage), `peak_memory_bytes`, and what is worth a warning, `warnings` (advice.hpp)
+///   stage), `peak_memory_bytes` (of several processes the largest), and what is worth a warning, `warnings`
+///   (advice.hpp; in the first process only). Of several processes the first writes the file
 /// @throws SpecError for what only shows when the system is built (undecidable `allow`, a discrete state off
 ///   its grid, dynamics that this version cannot abstract); IoError
 [[nodiscard]] Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team);

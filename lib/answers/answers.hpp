@@ -14,8 +14,9 @@ namespace coordreq {
 /// Values stay where they are once they have been added, and may refer to one another.
 class Answers {
  public:
-  /// REQUIRES: `spec` outlives this object.
-  explicit Answers(const ProblemSpec& spec) : ground(spec) {}
+  /// @param ranks the processes that share the work; null: there is one
+  /// REQUIRES: both outlive this object.
+  explicit Answers(const ProblemSpec& spec, Ranks* ranks = nullptr) : ground(spec, ranks) {}
   Answers(const Answers&) = delete;
   Answers& operator=(const Answers&) = delete;
 

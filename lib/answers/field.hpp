@@ -47,6 +47,8 @@ using FillArray = std::function<void(std::uint64_t begin, std::uint64_t count, v
 struct ResultArray {
   ElementType type = ElementType::uint8;
   FillArray fill;
+  /// Elements of each cell, of an array over cells of which each of several processes knows its own; 0: none.
+  std::uint64_t of_cell = 0;
 };
 
 /// A value that means a word; kLargestValue stands for the largest value of the type that the field has.

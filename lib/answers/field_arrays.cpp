@@ -177,7 +177,7 @@ ResultArray freedom_array(const ConventionFreedom& convention, const CellOrder& 
             auto* place = static_cast<float*>(out);
             while (count > 0) {
               const std::uint64_t cells = convention.agents.front().freedom.size();
-              const std::vector<float>& freedom = convention.agents[begin / cells].freedom;
+              const ZeroedArray<float>& freedom = convention.agents[begin / cells].freedom;
               const std::uint64_t here = std::min(count, cells - begin % cells);
               order.for_each_run(static_cast<std::int64_t>(begin % cells), static_cast<std::int64_t>(here),
                                  [&](const CellOrder::Run& run) {

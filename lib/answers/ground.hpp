@@ -11,6 +11,7 @@
 #include "engine/tiles.hpp"
 #include "engine/tube_sets.hpp"
 #include "model/cell_order.hpp"
+#include "ranks/row_share.hpp"
 #include "reach/abstraction.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -28,14 +29,18 @@ struct ListedController {
 ///    the model; `order` maps cells of the spec's grid to them. Inputs and agents are the spec's.
 /// 2. Neither copied nor moved: its parts refer to one another. What stages make is there after them.
 struct Ground {
-  explicit Ground(const ProblemSpec& problem) : spec(problem) {}
+  /// @param all the processes that share the work; null: there is one
+  explicit Ground(const ProblemSpec& problem, Ranks* all = nullptr) : spec(problem), ranks(all) {}
   Ground(const Ground&) = delete;
   Ground& operator=(const Ground&) = delete;
 
   const ProblemSpec& spec;
+  Ranks* ranks;
   std::optional<ListedController> listed;  ///< of `controller.file`; then the order is that of the spec
   std::optional<Abstraction> abstraction;  ///< after "abstraction", as all that follows after "safe set"
-  CellSet safe;
+  std::optional<RowShare> share;           ///< which rows are whose, if there are several processes
+  CellSet safe;                            ///< S, in the rows held; all of it where tubes meet it
+  std::int64_t safe_cells = 0;             ///< |S|
   std::optional<PairTable> allow;
   std::optional<CellSet> beyond;  ///< TubeSets::beyond
   std::optional<RowEngine> engine;
@@ -45,11 +50,15 @@ struct Ground {
 
   /// What tubes must stay in, if there are any. REQUIRES: S is there.
   [[nodiscard]] TubeSets tubes() const;
+  /// Which rows are whose, or null.
+  [[nodiscard]] const RowShare* shared_rows() const { return share ? &*share : nullptr; }
+  /// Cells of a set in the rows of all processes. Together.
+  [[nodiscard]] std::int64_t count(const CellSet& set) const;
   /// The tiles or null.
   [[nodiscard]] const Tiles* equal_work() const { return tiles ? &*tiles : nullptr; }
 };
 
-/// S and the engine, on an abstraction that is there.
+/// S and the engine, on an abstraction that is there. Together.
 void lay_ground(Ground& ground, ThreadTeam& team);
 
 }  // namespace coordreq

@@ -3,7 +3,8 @@
 #include <bit>
 #include <cstdint>
 #include <span>
-#include <vector>
+
+#include "base/zeroed_array.hpp"
 
 namespace coordreq {
 
@@ -22,7 +23,7 @@ class CellSet {
       : rows_(rows),
         row_length_(row_length),
         words_per_row_((row_length + kWordBits - 1) / kWordBits),
-        words_(static_cast<std::size_t>(rows * words_per_row_), 0) {}
+        words_(static_cast<std::size_t>(rows * words_per_row_)) {}
 
   [[nodiscard]] std::int64_t rows() const { return rows_; }
   [[nodiscard]] std::int64_t row_length() const { return row_length_; }
@@ -50,20 +51,23 @@ class CellSet {
     row(linear / row_length_)[static_cast<std::size_t>(column / kWordBits)] &=
         ~(Word{1} << (column % kWordBits));
   }
-  [[nodiscard]] std::int64_t count() const {
+  [[nodiscard]] std::int64_t count() const { return count(0, rows_); }
+  /// Cells in the rows [begin, end).
+  [[nodiscard]] std::int64_t count(std::int64_t begin, std::int64_t end) const {
     std::int64_t total = 0;
-    for (const Word word : words_) total += std::popcount(word);
+    for (std::int64_t w = begin * words_per_row_; w < end * words_per_row_; ++w)
+      total += std::popcount(words_[static_cast<std::size_t>(w)]);
     return total;
   }
-  [[nodiscard]] std::span<const Word> words() const { return words_; }
-  [[nodiscard]] std::span<Word> words() { return words_; }
+  [[nodiscard]] std::span<const Word> words() const { return {words_.data(), words_.size()}; }
+  [[nodiscard]] std::span<Word> words() { return {words_.data(), words_.size()}; }
   [[nodiscard]] bool operator==(const CellSet&) const = default;
 
  private:
   std::int64_t rows_ = 0;
   std::int64_t row_length_ = 0;
   std::int64_t words_per_row_ = 0;
-  std::vector<Word> words_;
+  ZeroedArray<Word> words_;
 };
 
 }  // namespace coordreq

@@ -32,8 +32,11 @@ class EqualTiles {
     first_.clear();
     if (rows() == 1) return;
     lists_.clear();
-    contents_.clear();
-    for (std::int64_t tile = 0; tile < classes_.tiles->size(); ++tile) contents_.push_back(content(tile));
+    contents_.assign(static_cast<std::size_t>(classes_.tiles->size()), 0);
+    for (const RowShare::Range run : held_rows(levels_.share(), levels_.rows())) {
+      for (std::int64_t tile = run.begin / rows(); tile < (run.end + rows() - 1) / rows(); ++tile)
+        contents_[static_cast<std::size_t>(tile)] = content(tile);
+    }
   }
 
   /// The tile whose result is that of the one at `place`; the latter itself if it is to be worked out.

@@ -21,12 +21,12 @@ Wide raised(Narrow level) {
   return static_cast<Wide>(LevelRows<Wide>::kTop - (LevelRows<Narrow>::kTop - level));
 }
 
-/// Calls `change(row, cells)` for every row, and puts the cells that it leaves in `levels`.
+/// Calls `change(row, cells)` for every row held, and puts the cells that it leaves in `levels`.
 template <class Level, class Change>
 void change_rows(LevelRows<Level>& levels, ThreadTeam& team, const Change& change) {
   // Rows that are shared are put one after the other.
   const std::int64_t grain = levels.is_shared() ? levels.rows() : 256;
-  team.for_each(levels.rows(), grain, [&](ThreadTeam::Range range, int) {
+  for_each_held_row(team, levels.share(), levels.rows(), grain, [&](ThreadTeam::Range range, int) {
     std::vector<Level> cells(static_cast<std::size_t>(levels.row_length()) + kLevelBlock / sizeof(Level));
     for (std::int64_t r = range.begin; r < range.end; ++r) {
       const Level* const row = std::as_const(levels).row(r);
@@ -59,16 +59,17 @@ void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team)
   });
 }
 
-/// Some cell has this level. Gaps have that of no cell that counts.
+/// Some cell of any process has this level. Gaps have that of no cell that counts.
 template <class Level>
 bool has_level(const LevelRows<Level>& levels, Level level) {
   bool found = false;
-  levels.for_each_held(0, levels.held(), [&](const Level* row, std::int64_t) {
+  const ThreadTeam::Range held = levels.held();
+  levels.for_each_held(held.begin, held.end, [&](const Level* row, std::int64_t) {
     levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
       found = found || std::find(row + lane, row + lane + count, level) != row + lane + count;
     });
   });
-  return found;
+  return sum_of_all(levels.share(), found ? 1 : 0) > 0;
 }
 
 /// False if a cell has the last level of the width: the ones before it may need more.

@@ -1,6 +1,7 @@
 #include "engine/level_map.hpp"
 
 #include <array>
+#include <optional>
 
 namespace coordreq {
 namespace {
@@ -46,29 +47,32 @@ template <class Level>
 std::vector<std::int64_t> count_levels(const LevelRows<Level>& levels, ThreadTeam& team) {
   constexpr std::int64_t kGrain = 1024;
   std::vector<std::vector<std::int64_t>> counts(static_cast<std::size_t>(team.size()));
-  team.for_each(levels.held(), kGrain, [&](ThreadTeam::Range range, int worker) {
-    count_rows(levels, range, counts[static_cast<std::size_t>(worker)]);
+  const ThreadTeam::Range held = levels.held();
+  team.for_each(held.end - held.begin, kGrain, [&](ThreadTeam::Range range, int worker) {
+    count_rows(levels, {held.begin + range.begin, held.begin + range.end},
+               counts[static_cast<std::size_t>(worker)]);
   });
   std::vector<std::int64_t> total(1, 0);
   for (const std::vector<std::int64_t>& own : counts) {
     if (own.size() > total.size()) total.resize(own.size(), 0);
     for (std::size_t k = 0; k < own.size(); ++k) total[k] += own[k];
   }
+  if (levels.share() != nullptr) {
+    Ranks& ranks = levels.share()->ranks();
+    total.resize(static_cast<std::size_t>(ranks.greatest(static_cast<std::int64_t>(total.size()))), 0);
+    ranks.add(total);
+  }
   while (total.size() > 1 && total.back() == 0) total.pop_back();
   return total;
 }
 
-/// Gaps hold what lies beyond the ends of runs, which are no cells.
-void clear_gaps(const RowShape& shape, CellSet& set, ThreadTeam& team) {
-  if (shape.dimensions.size() == 1) return;
-  CellSet cells(1, set.row_length());
+/// The lanes of a row that are cells, if there are gaps: these hold what lies beyond the ends of runs.
+std::optional<CellSet> cells_of_row(const RowShape& shape, std::int64_t row_length) {
+  if (shape.dimensions.size() == 1) return std::nullopt;
+  CellSet cells(1, row_length);
   shape.for_each_run(
       [&](std::int64_t lane, std::int64_t count) { set_bits(cells.row(0), lane, lane + count); });
-  team.for_each(set.rows(), 256, [&](ThreadTeam::Range range, int) {
-    for (std::int64_t r = range.begin; r < range.end; ++r) {
-      for (std::size_t w = 0; w < cells.words().size(); ++w) set.row(r)[w] &= cells.words()[w];
-    }
-  });
+  return cells;
 }
 
 }  // namespace
@@ -90,11 +94,14 @@ CellSet LevelMap::top_cells(ThreadTeam& team) const {
   visit([&]<class Level>(const LevelRows<Level>& levels) {
     const LevelKernels<Level>& kernels = level_kernels<Level>(best_instruction_set());
     const auto lanes = static_cast<std::size_t>(levels.row_length());
-    team.for_each(levels.rows(), 256, [&](ThreadTeam::Range range, int) {
-      for (std::int64_t r = range.begin; r < range.end; ++r)
+    const std::optional<CellSet> cells = cells_of_row(levels.shape(), levels.row_length());
+    for_each_held_row(team, levels.share(), levels.rows(), 256, [&](ThreadTeam::Range range, int) {
+      for (std::int64_t r = range.begin; r < range.end; ++r) {
         kernels.top_bits(levels.row(r), result.row(r).data(), lanes);
+        for (std::size_t w = 0; cells && w < cells->words().size(); ++w)
+          result.row(r)[w] &= cells->words()[w];
+      }
     });
-    clear_gaps(levels.shape(), result, team);
   });
   return result;
 }

@@ -39,15 +39,20 @@ class LevelMap {
     return visit([](const auto& levels) { return levels.row_length(); });
   }
   [[nodiscard]] std::int64_t cells() const { return rows() * row_length(); }
+  /// Which rows are whose; null if there is one process.
+  [[nodiscard]] const RowShare* share() const {
+    return visit([](const auto& levels) { return levels.share(); });
+  }
   /// Level of a cell (row-major linear index), kTop if it is never lost.
   [[nodiscard]] std::int64_t at(std::int64_t cell) const;
   /// Number of cells of each finite level 0, 1, ... up to the greatest that occurs, and of those never lost.
+  /// Of all processes together, as histogram() is called.
   struct Histogram {
     std::vector<std::int64_t> finite;
     std::int64_t top = 0;
   };
   [[nodiscard]] Histogram histogram(ThreadTeam& team) const;
-  /// The cells with level kTop.
+  /// The cells with level kTop, in the rows that this process holds.
   [[nodiscard]] CellSet top_cells(ThreadTeam& team) const;
 
  private:

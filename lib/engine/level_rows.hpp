@@ -4,15 +4,16 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <utility>
 #include <vector>
 
+#include "base/zeroed_array.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/level_kernels.hpp"
 #include "engine/list_numbers.hpp"
 #include "engine/row_shape.hpp"
 #include "engine/slot_book.hpp"
+#include "ranks/row_share.hpp"
 
 namespace coordreq {
 
@@ -28,6 +29,9 @@ namespace coordreq {
 ///
 /// Rows that are equal may be *shared*: held once, and only put(), never written to where they stand. Memory
 /// for all rows is asked for all the same, but what is not used the system never gives.
+///
+/// Where several processes share the work each has rows of all of them, of which only those that it holds
+/// mean something and take memory (RowShare).
 template <class Level>
 class LevelRows {
  public:
@@ -37,23 +41,35 @@ class LevelRows {
   LevelRows(std::int64_t rows, std::int64_t row_length, RowMargins margins, RowEnds ends)
       : LevelRows(rows, {{{row_length, 1, margins, ends}}}) {}
   /// All levels 0. @param shared whether equal rows are held once; then they are closed
-  LevelRows(std::int64_t rows, RowShape shape, bool shared = false)
-      : rows_(rows), shape_(std::move(shape)), length_(shape_.length()), margins_(shape_.margins()) {
+  /// @param share which rows are whose; null: there is one process. REQUIRES: it outlives this object
+  LevelRows(std::int64_t rows, RowShape shape, bool shared = false, const RowShare* share = nullptr)
+      : rows_(rows),
+        share_(share),
+        shape_(std::move(shape)),
+        length_(shape_.length()),
+        margins_(shape_.margins()) {
     constexpr std::int64_t kAlign = 16 / static_cast<std::int64_t>(sizeof(Level));
     stride_ = (margins_.before + length_ + margins_.after + kAlign - 1) / kAlign * kAlign;
     // A row that is put takes a place before the one that stood there leaves its own.
     const auto size = static_cast<std::size_t>((rows + 1) * stride_) + kLevelBlock / sizeof(Level);
-    levels_ = std::make_unique_for_overwrite<Level[]>(size);
-    std::fill_n(levels_.get(), shared ? static_cast<std::size_t>(stride_) : size, Level{0});
+    levels_ = ZeroedArray<Level>(size);
     if (!shared || rows == 0) return;
     lanes_.assign(static_cast<std::size_t>(stride_), 0);
-    Level* const first = levels_.get() + margins_.before;
+    Level* const first = levels_.data() + margins_.before;
     close_row(first);
     slots_.assign(static_cast<std::size_t>(rows), book_.add(hash_of(first)));
     book_.hold(0, rows - 1);
   }
 
+  LevelRows(LevelRows&&) noexcept = default;
+  LevelRows& operator=(LevelRows&&) noexcept = default;
+  LevelRows(const LevelRows&) = delete;
+  LevelRows& operator=(const LevelRows&) = delete;
+  ~LevelRows() = default;
+
   [[nodiscard]] std::int64_t rows() const { return rows_; }
+  /// Null if there is one process.
+  [[nodiscard]] const RowShare* share() const { return share_; }
   /// Lanes of a row, gaps included.
   [[nodiscard]] std::int64_t row_length() const { return length_; }
   /// In lanes.
@@ -71,7 +87,7 @@ class LevelRows {
   /// First cell of a row; margins().before levels stand before it, margins().after after its last.
   [[nodiscard]] const Level* row(std::int64_t r) const { return at(slot(r)); }
   /// REQUIRES: rows are not shared.
-  [[nodiscard]] Level* row(std::int64_t r) { return levels_.get() + r * stride_ + margins_.before; }
+  [[nodiscard]] Level* row(std::int64_t r) { return levels_.data() + r * stride_ + margins_.before; }
   /// The row in the first place, and [row] in which place a row stands; empty: each in its own.
   [[nodiscard]] const Level* first_place() const { return at(0); }
   [[nodiscard]] const std::vector<std::uint32_t>& slots() const { return slots_; }
@@ -94,7 +110,7 @@ class LevelRows {
       book_.hold(place);
     } else {
       place = book_.add(hash);
-      std::copy(lanes_.begin(), lanes_.end(), levels_.get() + place * stride_);
+      std::copy(lanes_.begin(), lanes_.end(), levels_.data() + place * stride_);
     }
     move_to(r, place);
   }
@@ -118,12 +134,17 @@ class LevelRows {
   template <class Visit>
   void for_each_held(std::int64_t begin, std::int64_t end, const Visit& visit) const {
     for (std::int64_t k = begin; k < end; ++k) {
-      const std::int64_t count = is_shared() ? book_.rows(static_cast<std::size_t>(k)) : 1;
-      if (count > 0) visit(at(k), count);
+      if (!is_held_by_places()) {
+        visit(row(k), 1);
+      } else if (const std::int64_t count = book_.rows(static_cast<std::size_t>(k)); count > 0) {
+        visit(at(k), count);
+      }
     }
   }
-  [[nodiscard]] std::int64_t held() const {
-    return is_shared() ? static_cast<std::int64_t>(book_.size()) : rows_;
+  /// What for_each_held() has to go over to have met every row that this process owns.
+  [[nodiscard]] RowShare::Range held() const {
+    return is_held_by_places() ? RowShare::Range{0, static_cast<std::int64_t>(book_.size())}
+                               : own_rows(share_, rows_);
   }
 
   /// Makes the cells of a set in the rows [begin, end) the greatest level, others 0, margins included; as
@@ -155,6 +176,9 @@ class LevelRows {
   }
 
  private:
+  /// Where several processes share the work, rows of others stand in places too.
+  [[nodiscard]] bool is_held_by_places() const { return is_shared() && share_ == nullptr; }
+
   /// The part of a row along the dimensions from k on that begins at `cells`.
   void close_part(Level* cells, std::size_t k) const {
     const RowDimension& dimension = shape_.dimensions[k];
@@ -208,7 +232,7 @@ class LevelRows {
     return slots_.empty() ? r : std::int64_t{slots_[static_cast<std::size_t>(r)]};
   }
   [[nodiscard]] const Level* at(std::int64_t slot) const {
-    return levels_.get() + slot * stride_ + margins_.before;
+    return levels_.data() + slot * stride_ + margins_.before;
   }
   void move_to(std::int64_t r, std::uint32_t place) {
     std::uint32_t& own = slots_[static_cast<std::size_t>(r)];
@@ -232,11 +256,12 @@ class LevelRows {
   }
 
   std::int64_t rows_ = 0;
+  const RowShare* share_ = nullptr;
   RowShape shape_;
   std::int64_t length_ = 0;
   RowMargins margins_;
   std::int64_t stride_ = 0;
-  std::unique_ptr<Level[]> levels_;
+  ZeroedArray<Level> levels_;
   std::vector<std::uint32_t> slots_;  ///< [row]; empty: rows are not shared
   SlotBook book_;
   std::vector<Level> lanes_;  ///< the row to be put, with its margins

@@ -44,8 +44,9 @@ TableProfile profile(const RowSlices& slices) {
 
 }  // namespace
 
-RowEngine::RowEngine(const Abstraction& abstraction, const PairTable* allow, const TubeSets& tubes)
-    : abstraction_(&abstraction), allow_(allow) {
+RowEngine::RowEngine(const Abstraction& abstraction, const PairTable* allow, const TubeSets& tubes,
+                     const RowShare* share)
+    : abstraction_(&abstraction), allow_(allow), share_(share) {
   add_family(abstraction.tables, abstraction.grid.dimensions());
   choose_outer();
   if (tubes.inside == nullptr) return;

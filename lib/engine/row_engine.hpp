@@ -37,8 +37,10 @@ class RowEngine {
  public:
   /// @param allow may be null: everything is allowed
   /// @param tubes what tubes must stay in, if there are any
+  /// @param share which rows are whose; null: there is one process
   /// REQUIRES: they outlive this object.
-  RowEngine(const Abstraction& abstraction, const PairTable* allow, const TubeSets& tubes);
+  RowEngine(const Abstraction& abstraction, const PairTable* allow, const TubeSets& tubes,
+            const RowShare* share = nullptr);
 
   [[nodiscard]] const Abstraction& abstraction() const { return *abstraction_; }
   [[nodiscard]] const UniformGrid& grid() const { return abstraction_->grid; }
@@ -55,6 +57,8 @@ class RowEngine {
   };
   [[nodiscard]] std::vector<Demand> demands() const;
   [[nodiscard]] const PairTable* allow() const { return allow_; }
+  /// Null if there is one process.
+  [[nodiscard]] const RowShare* share() const { return share_; }
   [[nodiscard]] std::int64_t rows() const { return grid().rows(); }
   [[nodiscard]] std::int64_t row_length() const { return grid().row_length(); }
   [[nodiscard]] std::size_t row_words() const {
@@ -77,15 +81,15 @@ class RowEngine {
   /// Levels of all rows, 0, with the margins that a family asks for.
   template <class Level>
   [[nodiscard]] LevelRows<Level> make_levels(const RowFamily& family, bool shared = false) const {
-    return {rows(), family.shape, shared};
+    return {rows(), family.shape, shared, share_};
   }
-  /// The greatest level for the cells of a set, 0 for all others, laid out for the posts.
+  /// The greatest level for the cells of a set, 0 for all others, laid out for the posts, in the rows held.
   template <class Level>
   [[nodiscard]] LevelRows<Level> make_levels(const CellSet& set, ThreadTeam& team,
                                              bool shared = false) const {
     auto levels = make_levels<Level>(posts(), shared);
-    team.for_each(levels.rows(), shared ? levels.rows() : 256,
-                  [&](ThreadTeam::Range range, int) { levels.assign(set, range.begin, range.end); });
+    for_each_held_row(team, share_, levels.rows(), shared ? levels.rows() : 256,
+                      [&](ThreadTeam::Range range, int) { levels.assign(set, range.begin, range.end); });
     return levels;
   }
 
@@ -99,6 +103,7 @@ class RowEngine {
 
   const Abstraction* abstraction_;
   const PairTable* allow_;
+  const RowShare* share_;
   std::vector<RowSlices> slices_;
   std::vector<GridDimension> targets_;           ///< [table of slices]
   std::vector<LevelRows<std::uint8_t>> inside_;  ///< one for each family of tubes

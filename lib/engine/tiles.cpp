@@ -47,6 +47,8 @@ Tiles::Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading)
     : engine_(&engine), hull_(&hull), leading_(leading) {
   rows_ = leading == engine.across() ? 1 : engine.grid().row_stride(leading - 1);
   size_ = engine.rows() / rows_;
+  const RowShare::Range own = own_rows(engine.share(), engine.rows());
+  own_ = {own.begin / rows_, own.end / rows_};
   for (std::size_t t = 0; t < engine.tables(); ++t) {
     const RowSlices& slices = engine.slices()[t];
     add_source(slices.state_stride, slices.input_combinations, number_choices(t));
@@ -109,11 +111,11 @@ void Tiles::add_tables(std::int64_t tile, Numbers& list) const {
 void Tiles::number_tables() {
   ListNumbers<std::uint32_t> lists;
   Numbers list;
-  tables_.clear();
-  for (std::int64_t tile = 0; tile < size_; ++tile) {
+  tables_.assign(static_cast<std::size_t>(size_), 0);
+  for (std::int64_t tile = own_.begin; tile < own_.end; ++tile) {
     list.clear();
     add_tables(tile, list);
-    tables_.push_back(lists.number(list));
+    tables_[static_cast<std::size_t>(tile)] = lists.number(list);
   }
 }
 
@@ -140,13 +142,13 @@ Numbers Tiles::refined(const Numbers& before, const Numbers& content) const {
   const Numbers own = contents_of_tiles(content);
   ListNumbers<std::uint32_t> lists;
   Scratch scratch;
-  Numbers result, list;
-  for (RowPlace place(engine_->grid(), 0); place.row < engine_->rows();) {
+  Numbers result(static_cast<std::size_t>(size_), 0), list;
+  for (RowPlace place(engine_->grid(), own_.begin * rows_); place.row < own_.end * rows_;) {
     const auto tile = static_cast<std::size_t>(place.row / rows_);
     list.assign(1, before[tile]);
     add_contents(
         place, [&](std::int64_t other) { return own[static_cast<std::size_t>(other)]; }, scratch, list);
-    result.push_back(lists.number(list));
+    result[tile] = lists.number(list);
     place = RowPlace(engine_->grid(), place.row + rows_);
   }
   return result;
@@ -156,12 +158,12 @@ Numbers Tiles::refined(const Numbers& before, const Numbers& content) const {
 double Tiles::part_different(const Numbers& content) const {
   const Numbers own = contents_of_tiles(content);
   // Not a divisor of what grids usually have.
-  const std::int64_t step = std::max<std::int64_t>(1, size_ / kSample) | 1;
+  const std::int64_t step = std::max<std::int64_t>(1, (own_.end - own_.begin) / kSample) | 1;
   ListNumbers<std::uint32_t> lists;
   Scratch scratch;
   Numbers list;
   std::int64_t drawn = 0;
-  for (std::int64_t tile = 0; tile < size_; tile += step, ++drawn) {
+  for (std::int64_t tile = own_.begin; tile < own_.end; tile += step, ++drawn) {
     list.clear();
     add_tables(tile, list);
     const RowPlace place(engine_->grid(), tile * rows_);
@@ -180,15 +182,17 @@ std::optional<Tiles> Tiles::make(const RowEngine& engine, const RowHull& hull, s
 }
 
 std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, const CellSet& set) {
-  if (!are_possible(engine) || engine.rows() < kFewRows) return std::nullopt;
-  const Numbers content = number_rows(set);
+  const RowShare::Range own = own_rows(engine.share(), engine.rows());
+  if (!are_possible(engine) || own.end - own.begin < kFewRows) return std::nullopt;
+  const Numbers content = number_rows(set, engine.share());
   std::optional<Tiles> best;
   double least = kMostDifferent;
   // Units first: with equal success they save more looking up.
   for (const std::size_t leading : {engine.outer(), engine.across()}) {
     if (leading == 0 || (best && leading == engine.outer())) continue;
     Tiles tiles(engine, hull, leading);
-    if (tiles.size() < kFewRows) continue;
+    if (tiles.own().end - tiles.own().begin < kFewRows) continue;
+    if (own.begin % tiles.rows() != 0 || own.end % tiles.rows() != 0) continue;
     const double part = tiles.part_different(content);
     if (part >= least) continue;
     least = part;
@@ -198,20 +202,22 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
   return best;
 }
 
-Numbers number_rows(const CellSet& set) {
+Numbers number_rows(const CellSet& set, const RowShare* share) {
   SlotBook book;
   std::vector<std::int64_t> first;  // [number] the row that has come first
-  Numbers result;
-  for (std::int64_t r = 0; r < set.rows(); ++r) {
-    std::uint64_t hash = 0;
-    for (const Word word : set.row(r)) hash = mixed_hash(hash, word);
-    std::uint32_t number = book.find(
-        hash, [&](std::uint32_t other) { return std::ranges::equal(set.row(first[other]), set.row(r)); });
-    if (number == SlotBook::kNone) {
-      number = book.add(hash);
-      first.push_back(r);
+  Numbers result(static_cast<std::size_t>(set.rows()), 0);
+  for (const RowShare::Range run : held_rows(share, set.rows())) {
+    for (std::int64_t r = run.begin; r < run.end; ++r) {
+      std::uint64_t hash = 0;
+      for (const Word word : set.row(r)) hash = mixed_hash(hash, word);
+      std::uint32_t number = book.find(
+          hash, [&](std::uint32_t other) { return std::ranges::equal(set.row(first[other]), set.row(r)); });
+      if (number == SlotBook::kNone) {
+        number = book.add(hash);
+        first.push_back(r);
+      }
+      result[static_cast<std::size_t>(r)] = number;
     }
-    result.push_back(number);
   }
   return result;
 }

@@ -19,7 +19,8 @@ namespace coordreq {
 /// places in these, say the same *seen from the tiles*. So where all that is equal, the result is. Numbers
 /// stand for contents: equal ones mean equal contents, for these have been compared.
 ///
-/// Not for tables that are added up (SumRows), nor where tubes can block a post. Immutable once built.
+/// Not for tables that are added up (SumRows), nor where tubes can block a post. Where several processes
+/// share the work, each knows the tiles that it owns, and no tile is cut. Immutable once built.
 class Tiles {
  public:
   using Numbers = std::vector<std::uint32_t>;
@@ -38,6 +39,8 @@ class Tiles {
                                                  std::size_t leading);
 
   [[nodiscard]] std::int64_t size() const { return size_; }
+  /// The tiles that this process owns.
+  [[nodiscard]] RowShare::Range own() const { return own_; }
   /// Rows of a tile, which have neighbouring numbers.
   [[nodiscard]] std::int64_t rows() const { return rows_; }
   [[nodiscard]] const RowEngine& engine() const { return *engine_; }
@@ -86,6 +89,7 @@ class Tiles {
   std::size_t leading_;
   std::int64_t rows_;
   std::int64_t size_;
+  RowShare::Range own_;
   std::vector<Source> sources_;
   Numbers tables_;
 };
@@ -96,7 +100,7 @@ struct TileClasses {
   const Tiles::Numbers* numbers = nullptr;
 };
 
-/// [row] equal numbers for equal rows of a set.
-[[nodiscard]] Tiles::Numbers number_rows(const CellSet& set);
+/// [row] equal numbers for equal rows of a set. @param share then of those held; null: of all
+[[nodiscard]] Tiles::Numbers number_rows(const CellSet& set, const RowShare* share = nullptr);
 
 }  // namespace coordreq

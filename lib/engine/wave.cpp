@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <deque>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "engine/equal_tiles.hpp"
+#include "engine/exchange_rows.hpp"
 #include "engine/wave_news.hpp"
 
 namespace coordreq {
@@ -29,6 +31,7 @@ class WaveRunner {
              ThreadTeam& team, const TileClasses& equal)
       : levels_(levels),
         engine_(engine),
+        own_(own_rows(engine.share(), engine.rows())),
         limit_(limit),
         settled_(settled),
         op_(op),
@@ -37,7 +40,8 @@ class WaveRunner {
         unit_rows_(std::min(engine.unit_rows(), engine.outer() == 0 ? kBlockRows : engine.unit_rows())),
         news_(engine, hull, unit_rows_),
         equal_(equal, levels) {
-    units_ = (engine.rows() + unit_rows_ - 1) / unit_rows_;
+    first_unit_ = own_.begin / unit_rows_;
+    units_ = (own_.end + unit_rows_ - 1) / unit_rows_ - first_unit_;
     batch_units_ = std::max<std::int64_t>(1, kBatchRows / unit_rows_);
     for (int w = 0; w < team.size(); ++w) workers_.emplace_back(engine, levels);
     find_alive();
@@ -51,7 +55,7 @@ class WaveRunner {
     equal_.begin_sweep();
     std::vector<std::int64_t> batch;
     for (std::int64_t k = 0; k < units_; ++k) {
-      const std::int64_t unit = backwards ? units_ - 1 - k : k;
+      const std::int64_t unit = first_unit_ + (backwards ? units_ - 1 - k : k);
       step.rows_left -= unit_alive_[static_cast<std::size_t>(unit)];
       if (unit_alive_[static_cast<std::size_t>(unit)] > 0 && news_.is_pending(unit)) batch.push_back(unit);
       if (batch.empty() || (static_cast<std::int64_t>(batch.size()) < batch_units_ && k + 1 < units_))
@@ -62,10 +66,27 @@ class WaveRunner {
     }
     // Levels below the lowest to which a cell has sunk in a whole sweep are final: the sets they make have
     // not changed while it was found of each cell that it stays in them.
-    if (lowest_ != kTop) layer_ = std::max<std::int64_t>(layer_, std::int64_t{lowest_} - 1);
+    // Of one process, that is: nobody knows what others have on its way.
+    if (lowest_ != kTop && engine_.share() == nullptr)
+      layer_ = std::max<std::int64_t>(layer_, std::int64_t{lowest_} - 1);
     step.layer = layer_;
     tell(step);
     return step.visited;
+  }
+
+  /// After a sweep: tells the other processes of it and hears of theirs, if there are any. @returns whether
+  /// there may be more to find
+  bool goes_on(std::int64_t visited) {
+    if (engine_.share() == nullptr) return visited > 0;
+    const std::uint32_t told = std::exchange(told_, news_.begin_batch());
+    exchange_rows(
+        levels_, [&](std::int64_t row) { return news_.has_changed_after(told, row); },
+        [&](std::int64_t row, const Level* cells) {
+          levels_.put(row, cells);
+          news_.mark_row(row);
+          news_.mark_unit_of(row);
+        });
+    return engine_.share()->ranks().sum(std::exchange(changed_rows_, 0)) > 0;
   }
 
   [[nodiscard]] std::int64_t alive_rows() const { return alive_rows_; }
@@ -124,11 +145,11 @@ class WaveRunner {
   /// Rows without a cell in the set never change, nor do those that have sunk as deep (risen as high) as
   /// cells in the set can.
   void find_alive() {
-    alive_.assign(static_cast<std::size_t>(engine_.rows()), 0);
-    unit_alive_.assign(static_cast<std::size_t>(units_), 0);
+    alive_ = ZeroedArray<std::uint8_t>(static_cast<std::size_t>(engine_.rows()));
+    unit_alive_.assign(static_cast<std::size_t>(first_unit_ + units_), 0);
     const Level* before = nullptr;  // rows that are shared are often the same ones one after the other
     bool is_alive = false;
-    for (std::int64_t r = 0; r < engine_.rows(); ++r) {
+    for (std::int64_t r = own_.begin; r < own_.end; ++r) {
       const Level* const row = std::as_const(levels_).row(r);
       if (row != before) is_alive = can_change(row);
       before = row;
@@ -160,6 +181,7 @@ class WaveRunner {
     for (const Worker& worker : workers_) {
       visited += worker.visited;
       lowest_ = std::min(lowest_, worker.lowest);
+      changed_rows_ += static_cast<std::int64_t>(worker.changes.size());
       for (const Change& change : worker.changes) news_.mark_unit_of(change.row);
     }
     if (equal_.is_on() && equal_.rows() > 1) {
@@ -172,7 +194,7 @@ class WaveRunner {
     pieces_.clear();
     copies_.clear();
     for (const std::int64_t unit : batch) {
-      const std::int64_t end = std::min((unit + 1) * unit_rows_, engine_.rows());
+      const std::int64_t end = std::min((unit + 1) * unit_rows_, own_.end);
       if (equal_.is_on() && equal_.rows() == 1) {
         choose_rows(unit, end);
         continue;
@@ -182,7 +204,7 @@ class WaveRunner {
         if (other != unit) copies_.push_back({other, unit});
         if (other != unit) continue;
       }
-      for (std::int64_t begin = unit * unit_rows_; begin < end; begin += kPieceRows) {
+      for (std::int64_t begin = std::max(unit * unit_rows_, own_.begin); begin < end; begin += kPieceRows) {
         pieces_.push_back({unit, begin, std::min(begin + kPieceRows, end)});
       }
     }
@@ -283,6 +305,7 @@ class WaveRunner {
       equal_.copy(copy.from, copy.to, [this](std::int64_t row) {
         news_.mark_row(row);
         news_.mark_unit_of(row);
+        ++changed_rows_;
       });
       copied_ += equal_.rows() == 1 ? 1 : unit_alive_[static_cast<std::size_t>(copy.to)];
     }
@@ -290,6 +313,7 @@ class WaveRunner {
 
   LevelRows<Level>& levels_;
   const RowEngine& engine_;
+  RowShare::Range own_;
   Level limit_;
   const std::vector<std::uint8_t>& settled_;
   RowOperator<Level>& op_;
@@ -299,13 +323,16 @@ class WaveRunner {
   WaveNews news_;
   EqualTiles<Level> equal_;
   std::int64_t copied_ = 0;  ///< rows
+  std::int64_t first_unit_ = 0;
   std::int64_t units_ = 0;
   std::int64_t batch_units_ = 1;
   std::int64_t alive_rows_ = 0;
-  std::int64_t layer_ = -1;  ///< levels up to it are final
-  Level lowest_ = kTop;      ///< to which a cell has sunk in this sweep
-  std::uint32_t batch_ = 0;  ///< number of the last batch
-  std::vector<std::uint8_t> alive_;
+  std::int64_t layer_ = -1;        ///< levels up to it are final
+  std::int64_t changed_rows_ = 0;  ///< since the last exchange
+  std::uint32_t told_ = 0;         ///< number of the batch of the last exchange
+  Level lowest_ = kTop;            ///< to which a cell has sunk in this sweep
+  std::uint32_t batch_ = 0;        ///< number of the last batch
+  ZeroedArray<std::uint8_t> alive_;
   std::vector<std::int64_t> unit_alive_;  ///< [unit] rows that are alive
   std::deque<Worker> workers_;
   std::vector<Piece> pieces_;
@@ -326,8 +353,15 @@ WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const Row
     counts.rows_visited += visited;
     counts.rows_skipped += runner.alive_rows() - visited - (runner.copied_rows() - counts.rows_copied);
     counts.rows_copied = runner.copied_rows();
-    if (visited == 0) return counts;
+    if (!runner.goes_on(visited)) break;
   }
+  if (engine.share() != nullptr) {
+    std::int64_t rows[] = {counts.rows_visited, counts.rows_copied, counts.rows_skipped};
+    engine.share()->ranks().add(rows);
+    std::tie(counts.rows_visited, counts.rows_copied, counts.rows_skipped) =
+        std::tie(rows[0], rows[1], rows[2]);
+  }
+  return counts;
 }
 
 template WaveCounts run_wave(LevelRows<std::uint8_t>&, const RowEngine&, const RowHull&, std::uint8_t,

@@ -11,7 +11,7 @@
 
 namespace coordreq {
 
-/// How much work a fixed point took. The same whatever the number of threads.
+/// How much work a fixed point took, of all processes together. The same whatever the number of threads.
 struct WaveCounts {
   std::int64_t sweeps = 0;
   std::int64_t rows_visited = 0;  ///< rows whose levels were worked out, again each time
@@ -52,6 +52,10 @@ class RowOperator {
 /// found: levels travel through the whole grid in one sweep where motion is one way, instead of one
 /// step a sweep. A row is looked at again only after a row that its posts can meet has changed.
 /// REQUIRES: 1 + op(levels) is nowhere above the given levels, so that they only ever sink.
+///
+/// Of several processes (RowEngine::share()) each sweeps the rows that it owns, with what it knows of its
+/// halo, and after each sweep tells the others which rows have changed. What it knows may be too high, never
+/// too low, so that the solution is the same; it is there when nothing has changed anywhere.
 ///
 /// Where the operator says that levels rise, the other way round: the least solution of
 /// level(x) = max(given(x), op(level)(x) - 1). A cell has level kTop - i if it is i steps from a goal, 1 if

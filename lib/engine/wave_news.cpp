@@ -9,7 +9,7 @@ WaveNews::WaveNews(const RowEngine& engine, const RowHull& hull, std::int64_t un
     : engine_(engine),
       hull_(hull),
       unit_rows_(unit_rows),
-      changed_(static_cast<std::size_t>(engine.rows()), 0),
+      changed_(static_cast<std::size_t>(engine.rows())),
       unit_changed_(static_cast<std::size_t>((engine.rows() + unit_rows - 1) / unit_rows), 0),
       seen_(unit_changed_.size(), kBeforeAll) {}
 

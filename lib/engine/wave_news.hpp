@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/zeroed_array.hpp"
 #include "engine/row_hull.hpp"
 
 namespace coordreq {
@@ -40,6 +41,11 @@ class WaveNews {
     last_change_ = batch_;
   }
 
+  /// Whether a row has changed in a batch after this one.
+  [[nodiscard]] bool has_changed_after(std::uint32_t batch, std::int64_t row) const {
+    return changed_[static_cast<std::size_t>(row)] > batch;
+  }
+
   /// Begins with the rows of a unit.
   void enter(std::int64_t unit, Scratch& scratch) const;
   /// True if a row has changed, since the unit entered was looked at, that posts of this row of it can meet.
@@ -56,7 +62,7 @@ class WaveNews {
   std::int64_t unit_rows_;
   std::uint32_t batch_ = 0;                  ///< number of the last batch
   std::uint32_t last_change_ = 0;            ///< the last batch with a change
-  std::vector<std::uint32_t> changed_;       ///< [row] the batch that changed it last
+  ZeroedArray<std::uint32_t> changed_;       ///< [row] the batch that changed it last
   std::vector<std::uint32_t> unit_changed_;  ///< [unit] likewise
   std::vector<std::uint32_t> seen_;          ///< [unit] the batch that looked at it last
   Scratch scratch_;

@@ -6,11 +6,16 @@
 namespace coordreq {
 namespace {
 
+/// @param ranks who knows the array, or null
 void write_whole(const hdf5::Handle& dataset, const std::string& path, std::uint64_t elements,
-                 const ResultArray& array) {
+                 const ResultArray& array, RankChunks* ranks) {
   if (elements == 0) return;
   std::vector<std::byte> data(elements * element_size(array.type));
-  array.fill(0, elements, data.data());
+  if (ranks != nullptr) {
+    data = ranks->take(0);
+  } else {
+    array.fill(0, elements, data.data());
+  }
   hdf5::check(
       H5Dwrite(dataset.get(), hdf5::number_type(array.type), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()),
       "write the dataset " + path);
@@ -38,9 +43,10 @@ double ArrayWriter::bytes(double longest, int threads) {
   return busy * (kCopies * chunk + ChunkCodec::kBytes) + kUsualPacking * batch * chunk;
 }
 
-ArrayWriter::ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver)
+ArrayWriter::ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver, RankChunks* ranks)
     : team_(team),
       driver_(driver),
+      ranks_(ranks),
       scratch_(static_cast<std::size_t>(team.size())),
       packed_(static_cast<std::size_t>(team.size()) * kChunksPerThread) {}
 
@@ -49,10 +55,12 @@ hdf5::Handle ArrayWriter::write(const hdf5::Handle& file, const std::string& pat
   const ChunkLayout layout({shape.begin(), shape.end()}, element_size(array.type));
   hdf5::Handle dataset = hdf5::create_dataset(file, path, hdf5::number_type(array.type),
                                               hdf5::create_space(shape), storage_of(layout, array.type));
+  RankChunks* const ranks = array.of_cell == 0 ? nullptr : ranks_;
+  if (ranks != nullptr) ranks->pack(layout, array);
   if (layout.chunked()) {
     write_chunks(dataset, path, layout, array);
   } else {
-    write_whole(dataset, path, layout.elements(), array);
+    write_whole(dataset, path, layout.elements(), array, ranks);
   }
   driver_.check_written("write the dataset " + path);
   return dataset;
@@ -86,7 +94,11 @@ void ArrayWriter::write_chunks(const hdf5::Handle& dataset, const std::string& p
   const std::uint64_t chunks = layout.chunk_count();
   for (std::uint64_t first = 0; first < chunks; first += packed_.size()) {
     const std::size_t count = std::min<std::uint64_t>(packed_.size(), chunks - first);
-    pack_batch(layout, array, first, count);
+    if (ranks_ != nullptr && array.of_cell != 0) {
+      for (std::size_t i = 0; i < count; ++i) packed_[i] = ranks_->take(first + i);
+    } else {
+      pack_batch(layout, array, first, count);
+    }
     for (std::size_t i = 0; i < count; ++i) {
       const auto offset = layout.stretch(first + i).offset;
       const std::vector<hsize_t> place(offset.begin(), offset.end());

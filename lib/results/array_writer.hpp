@@ -10,6 +10,7 @@
 #include "results/chunk_layout.hpp"
 #include "results/hdf5_handle.hpp"
 #include "results/output_driver.hpp"
+#include "results/rank_chunks.hpp"
 
 namespace coordreq {
 
@@ -25,8 +26,10 @@ class ArrayWriter {
   /// What writing arrays of at most so many bytes takes.
   [[nodiscard]] static double bytes(double longest, int threads);
 
-  /// @param driver the one that the files are written with; must outlive the writer
-  ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver);
+  /// @param driver the one that the files are written with
+  /// @param ranks who knows arrays over cells, if there are several processes; else null
+  /// REQUIRES: both outlive the writer.
+  ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver, RankChunks* ranks = nullptr);
 
   /// Creates the dataset `path` and writes all its elements.
   /// @throws hdf5::Failure, and what `array.fill` throws
@@ -52,6 +55,7 @@ class ArrayWriter {
 
   ThreadTeam& team_;
   const hdf5::OutputDriver& driver_;
+  RankChunks* ranks_;
   std::vector<Scratch> scratch_;                // one a thread
   std::vector<std::vector<std::byte>> packed_;  // one a chunk of the batch
 };

@@ -31,8 +31,8 @@ std::string last_part(const std::string& path) {
 
 }  // namespace
 
-NetcdfWriter::NetcdfWriter(const std::string& path, ThreadTeam& team)
-    : file_(hdf5::create_file(path, driver_)), arrays_(team, driver_) {}
+NetcdfWriter::NetcdfWriter(const std::string& path, ThreadTeam& team, RankChunks* ranks)
+    : file_(hdf5::create_file(path, driver_)), arrays_(team, driver_, ranks) {}
 
 void NetcdfWriter::make_groups(const std::string& path) {
   for (std::size_t end = path.find('/', 1); end != std::string::npos; end = path.find('/', end + 1)) {

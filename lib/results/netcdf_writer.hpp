@@ -26,8 +26,9 @@ namespace coordreq {
 /// rewrites a list for each entry.
 class NetcdfWriter {
  public:
+  /// @param ranks as for ArrayWriter
   /// @throws hdf5::Failure, as all functions here
-  NetcdfWriter(const std::string& path, ThreadTeam& team);
+  NetcdfWriter(const std::string& path, ThreadTeam& team, RankChunks* ranks = nullptr);
 
   NetcdfWriter(const NetcdfWriter&) = delete;
   NetcdfWriter& operator=(const NetcdfWriter&) = delete;

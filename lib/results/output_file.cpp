@@ -156,7 +156,7 @@ void OutputFile::commit() {
 
 bool OutputFile::commit_new() {
   sync(temporary_, O_RDONLY, target_, what_);
-  if (link(temporary_.c_str(), target_.c_str()) == 0) {
+  if (::link(temporary_.c_str(), target_.c_str()) == 0) {
     sync(folder_, O_RDONLY | O_DIRECTORY, target_, what_);
     return true;  // the temporary name goes with this object
   }

@@ -1,9 +1,13 @@
 #include "results/write_results.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
+#include "answers/field_parts.hpp"
 #include "answers/field_table.hpp"
 #include "results/file_header.hpp"
 #include "results/hdf5_handle.hpp"
@@ -74,15 +78,46 @@ ResultArray points(const GridPoints& grid) {
           }};
 }
 
+/// Nothing if the scale is not there. @throws std::invalid_argument if nobody has found it
+std::optional<std::uint64_t> length_of(const Field& field, const FieldValues& values) {
+  const FieldScale& scale = *field.scale;
+  const auto found = values.lengths.find(field.path);
+  if (found != values.lengths.end()) return found->second;
+  if (scale.is_optional) return std::nullopt;
+  if (scale.least != scale.most) throw std::invalid_argument("no length of " + field.path);
+  return scale.least;
+}
+
+/// What was found for a field. @throws std::invalid_argument if that is nothing, or of another type
+const FieldValues::Entry& entry_of(const Field& field, const FieldValues& values) {
+  const auto found = values.entries.find(field.path);
+  if (found == values.entries.end()) throw std::invalid_argument("no values of " + field.path);
+  if (std::find(field.types.begin(), field.types.end(), found->second.array.type) == field.types.end())
+    throw std::invalid_argument("values of another type than " + field.path + " has");
+  return found->second;
+}
+
+/// Elements of a field for each cell, 0 if it is not over all cells. @param shape of the field
+std::uint64_t elements_of_cell(const Field& field, const ProblemSpec& spec,
+                               const std::vector<std::uint64_t>& shape) {
+  const std::vector<std::string> cells = cell_axes(spec);
+  const auto found = std::search(field.axes.begin(), field.axes.end(), cells.begin(), cells.end());
+  if (found == field.axes.end()) return 0;
+  return std::accumulate(
+      shape.begin() + (found - field.axes.begin()) + static_cast<std::ptrdiff_t>(cells.size()), shape.end(),
+      std::uint64_t{1}, std::multiplies<>());
+}
+
 class FieldsWriter {
  public:
-  FieldsWriter(const std::string& path, const FieldValues& values, ThreadTeam& team)
-      : file_(path, team), values_(values) {}
+  /// @param ranks who knows arrays over cells, if there are several processes; else null
+  FieldsWriter(const std::string& path, const FieldValues& values, ThreadTeam& team, RankChunks* ranks)
+      : file_(path, team, ranks), values_(values), has_ranks_(ranks != nullptr) {}
 
   void write(const FileKind& kind, const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec,
              const Fields& fields) {
     write_header(kind, attributes, spec);
-    for (const Field& field : fields) field.scale ? write_scale(field) : write_array(field);
+    for (const Field& field : fields) field.scale ? write_scale(field) : write_array(field, spec);
     file_.finish();
   }
 
@@ -100,15 +135,12 @@ class FieldsWriter {
 
   void write_scale(const Field& field) {
     const FieldScale& scale = *field.scale;
-    const auto found = values_.lengths.find(field.path);
-    if (found == values_.lengths.end() && scale.is_optional) return;
-    if (found == values_.lengths.end() && scale.least != scale.most)
-      throw std::invalid_argument("no length of " + field.path);
-    const std::uint64_t length = found == values_.lengths.end() ? scale.least : found->second;
-    lengths_[field.path] = length;
+    const std::optional<std::uint64_t> length = length_of(field, values_);
+    if (!length) return;
+    lengths_[field.path] = *length;
     if (std::holds_alternative<NoCoordinates>(scale.coordinates))
-      return file_.add_dimension(field.path, length);
-    const hdf5::Handle dataset = add_coordinates(field.path, length, scale);
+      return file_.add_dimension(field.path, *length);
+    const hdf5::Handle dataset = add_coordinates(field.path, *length, scale);
     write_attributes(field, dataset, field.types.empty() ? ElementType::int32 : field.types.front(), nullptr);
   }
 
@@ -119,18 +151,17 @@ class FieldsWriter {
     return file_.add_coordinates(path, length, grid != nullptr ? points(*grid) : numbers());
   }
 
-  void write_array(const Field& field) {
-    if (!shape_of(field, lengths_)) return;
-    const auto found = values_.entries.find(field.path);
-    if (found == values_.entries.end()) throw std::invalid_argument("no values of " + field.path);
-    const FieldValues::Entry& entry = found->second;
+  void write_array(const Field& field, const ProblemSpec& spec) {
+    const auto shape = shape_of(field, lengths_);
+    if (!shape) return;
+    const FieldValues::Entry& entry = entry_of(field, values_);
     const ElementType type = entry.array.type;
-    if (std::find(field.types.begin(), field.types.end(), type) == field.types.end())
-      throw std::invalid_argument("values of another type than " + field.path + " has");
-    const hdf5::Handle dataset = entry.equals.empty()
-                                     ? file_.add_array(field.path, field.axes, entry.array)
-                                     : file_.add_copy(field.path, field.axes, entry.array,
-                                                      hdf5::open_object(file_.file(), entry.equals));
+    ResultArray array = entry.array;
+    array.of_cell = has_ranks_ ? elements_of_cell(field, spec, *shape) : 0;
+    const hdf5::Handle dataset =
+        entry.equals.empty()
+            ? file_.add_array(field.path, field.axes, array)
+            : file_.add_copy(field.path, field.axes, array, hdf5::open_object(file_.file(), entry.equals));
     write_attributes(field, dataset, type, &entry);
   }
 
@@ -146,23 +177,47 @@ class FieldsWriter {
 
   NetcdfWriter file_;
   const FieldValues& values_;
+  bool has_ranks_;
   std::map<std::string, std::uint64_t> lengths_;
 };
+
+/// What ranks but the first do while that writes the fields.
+void hand_over(const ProblemSpec& spec, const Fields& fields, const FieldValues& values, RankChunks& ranks) {
+  std::map<std::string, std::uint64_t> lengths;
+  for (const Field& field : fields) {
+    if (field.scale) {
+      if (const auto length = length_of(field, values)) lengths[field.path] = *length;
+      continue;
+    }
+    const auto shape = shape_of(field, lengths);
+    if (!shape) continue;
+    const FieldValues::Entry& entry = entry_of(field, values);
+    ResultArray array = entry.array;
+    array.of_cell = elements_of_cell(field, spec, *shape);
+    const ChunkLayout layout(*shape, element_size(array.type));
+    const bool is_copied = !entry.equals.empty() && layout.chunked();
+    if (array.of_cell == 0 || is_copied) continue;
+    ranks.pack(layout, array);
+    ranks.hand_over();
+  }
+}
 
 }  // namespace
 
 void write_results(const std::string& path, const ProblemSpec& spec, const FieldValues& values,
-                   ThreadTeam& team) {
+                   ThreadTeam& team, RankChunks* ranks) {
+  const Fields fields = result_fields(spec);
+  if (ranks != nullptr && !ranks->is_first()) return hand_over(spec, fields, values, *ranks);
   const FileKind kind{
       .words = "the results", .filetype = std::string(kResultsFiletype), .version = kResultsVersion};
-  write_fields(path, kind, header_attributes(spec), spec, result_fields(spec), values, team);
+  write_fields(path, kind, header_attributes(spec), spec, fields, values, team, ranks);
 }
 
 void write_fields(const std::string& path, const FileKind& kind,
                   const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec,
-                  const Fields& fields, const FieldValues& values, ThreadTeam& team) {
+                  const Fields& fields, const FieldValues& values, ThreadTeam& team, RankChunks* ranks) {
   write_whole_file(path, kind.words, [&](const std::string& temporary) {
-    FieldsWriter(temporary, values, team).write(kind, attributes, spec, fields);
+    FieldsWriter(temporary, values, team, ranks).write(kind, attributes, spec, fields);
   });
 }
 

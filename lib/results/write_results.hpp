@@ -7,6 +7,7 @@
 
 #include "answers/field.hpp"
 #include "base/thread_team.hpp"
+#include "results/rank_chunks.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -17,11 +18,13 @@ namespace coordreq {
 ///
 /// Where `path` is a symbolic link, the file that it points to is replaced and the link stays. Written is
 /// what result_fields() declares for the spec. Memory: about 7 MiB a thread.
+/// @param ranks who knows arrays over cells, if there are several processes, which then call this together;
+///   the first of them writes the file. Null: there is one
 /// @throws std::invalid_argument if a field has no values, or ones of a type that it does not have;
 ///   IoError naming the path if the folder is missing or not writable, the disk is full, or `path` is a
 ///   folder, a device or a pipe; what a FillArray throws, with nothing left behind
 void write_results(const std::string& path, const ProblemSpec& spec, const FieldValues& values,
-                   ThreadTeam& team);
+                   ThreadTeam& team, RankChunks* ranks = nullptr);
 
 /// A kind of file: what it is in words, for errors, and its first two attributes.
 struct FileKind {
@@ -32,7 +35,8 @@ struct FileKind {
 /// Any file of fields, by the same rules: its attributes, the text of the spec, and fields in their order.
 void write_fields(const std::string& path, const FileKind& kind,
                   const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec,
-                  const Fields& fields, const FieldValues& values, ThreadTeam& team);
+                  const Fields& fields, const FieldValues& values, ThreadTeam& team,
+                  RankChunks* ranks = nullptr);
 
 /// What that takes. @param longest bytes of the longest field, before it is packed
 [[nodiscard]] double write_results_bytes(const ProblemSpec& spec, double longest, int threads);

@@ -1,6 +1,7 @@
 # What `cmake --install` puts where. Nothing installed knows its prefix, so that the tree may be moved.
 #   program      the program, its completions, the examples and the plots
 #   documents    man page, README and licence, as they are
+#   mpi          coordreq-mpi, only when asked for: cmake --install build --component mpi
 #   development  libraries, the headers of the interface, and the package for find_package
 # and, only for packages of Debian, debian and debian-dev: documents the way its policy wants them.
 include(GNUInstallDirs)
@@ -14,6 +15,9 @@ set(support ${PROJECT_SOURCE_DIR}/scripts/cmake)
 
 # program
 install(TARGETS coordreq RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+if(TARGET coordreq-mpi)
+  install(TARGETS coordreq-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi EXCLUDE_FROM_ALL)
+endif()
 install(DIRECTORY configs DESTINATION ${data_dir} COMPONENT program)
 install(PROGRAMS configs/ci/check_specs DESTINATION ${data_dir}/configs/ci COMPONENT program)
 install(FILES lib/spec/schema.json DESTINATION ${data_dir} COMPONENT program)

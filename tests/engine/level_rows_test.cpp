@@ -105,7 +105,8 @@ TEST(LevelRows, SharedRowsAreHeldOnceAndReadAsOthersAre) {
     }
     const RowMargins margins = plain.margins();
     std::int64_t held = 0;
-    shared.for_each_held(0, shared.held(), [&](const std::uint8_t*, std::int64_t rows) { held += rows; });
+    shared.for_each_held(shared.held().begin, shared.held().end,
+                         [&](const std::uint8_t*, std::int64_t rows) { held += rows; });
     RC_ASSERT(held == 5);
     for (std::int64_t r = 0; r < 5; ++r) {
       const std::uint8_t* const a = std::as_const(plain).row(r);

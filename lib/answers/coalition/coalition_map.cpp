@@ -110,8 +110,9 @@ LevelMap choose_all(CoalitionMap& map, const std::vector<std::vector<std::size_t
                     const CellSet& invariant, const std::vector<const DelayLayers*>& layers,
                     ThreadTeam& team) {
   constexpr std::int64_t kGrain = 64;
-  LevelRows<Level> chosen(invariant.rows(), invariant.row_length(), {}, {});
-  team.for_each(invariant.rows(), kGrain, [&](ThreadTeam::Range range, int) {
+  const RowShare* const share = layers.front()->layers_of.share();
+  LevelRows<Level> chosen(invariant.rows(), {{{invariant.row_length(), 1, {}, {}}}}, false, share);
+  for_each_own_row(team, share, invariant.rows(), kGrain, [&](ThreadTeam::Range range, int) {
     RowChooser<Level> chooser(map, chosen, apart, invariant, layers);
     for (std::int64_t row = range.begin; row < range.end; ++row) chooser.choose(row);
   });
@@ -136,7 +137,12 @@ void count_cells(CoalitionMap& map, ThreadTeam& team) {
   map.without = histogram.top;
   map.cells.assign(map.choices.size(), 0);
   for (std::size_t i = 0; i + 1 < histogram.finite.size(); ++i) map.cells[i] = histogram.finite[i + 1];
-  for (const CellSet& cells : map.critical) map.critical_cells.push_back(cells.count());
+  const RowShare* const share = map.chosen.share();
+  for (const CellSet& cells : map.critical) {
+    const RowShare::Range own = own_rows(share, cells.rows());
+    map.critical_cells.push_back(cells.count(own.begin, own.end));
+  }
+  if (share != nullptr) share->ranks().add(map.critical_cells);
 }
 
 }  // namespace
@@ -147,7 +153,8 @@ CoalitionMap find_coalitions(const CoordinationSpec& coordination, std::size_t a
   CoalitionMap map{.horizon = *coordination.horizon,
                    .choices = order_of_preference(coordination),
                    .pairs = agent_pairs(agents)};
-  map.critical.assign(map.pairs.size(), CellSet(invariant.rows(), invariant.row_length()));
+  for (std::size_t pair = 0; pair < map.pairs.size(); ++pair)
+    map.critical.emplace_back(invariant.rows(), invariant.row_length());
   const std::vector<std::vector<std::size_t>> apart = pairs_apart(map, coordination.partitions);
   const bool is_short = map.choices.size() < LevelRows<std::uint8_t>::kTop;
   map.chosen = is_short ? choose_all<std::uint8_t>(map, apart, invariant, layers, team)

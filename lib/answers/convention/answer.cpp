@@ -17,8 +17,8 @@ bool is_share(float freedom) {
 void serialise(Archive& archive, std::int64_t cells, ConventionFreedom& convention) {
   for (ConventionFreedom::Agent& agent : convention.agents) {
     auto& [freedom, mean, full, histogram] = agent;  // all that there is, so that nothing is forgotten
-    if (archive.is_loading()) freedom.resize(static_cast<std::size_t>(cells));
-    archive.list(freedom);
+    if (archive.is_loading()) freedom = ZeroedArray<float>(static_cast<std::size_t>(cells));
+    archive.rows(number_rows(freedom.data(), cells, 1, cells));
     archive.number(mean);
     archive.number(full);
     for (std::int64_t& count : histogram) archive.number(count);
@@ -30,12 +30,14 @@ void serialise(Archive& archive, std::int64_t cells, ConventionFreedom& conventi
 }
 
 /// Of a part of the cells and of others.
-void add(const ConventionFreedom& other, std::int64_t cells, std::int64_t other_cells,
-         ConventionFreedom& result) {
+/// @param rows that are owned, of `length` lanes
+void add(const ConventionFreedom& other, std::int64_t cells, std::int64_t other_cells, RowShare::Range rows,
+         std::int64_t length, ConventionFreedom& result) {
   for (std::size_t i = 0; i < result.agents.size(); ++i) {
     ConventionFreedom::Agent& own = result.agents[i];
     const ConventionFreedom::Agent& more = other.agents[i];
-    for (std::size_t x = 0; x < own.freedom.size(); ++x) {
+    const auto [begin, end] = rows;
+    for (auto x = static_cast<std::size_t>(begin * length); x < static_cast<std::size_t>(end * length); ++x) {
       if (!std::isnan(more.freedom[x])) own.freedom[x] = more.freedom[x];
     }
     const auto n = static_cast<double>(cells), m = static_cast<double>(other_cells);
@@ -45,17 +47,18 @@ void add(const ConventionFreedom& other, std::int64_t cells, std::int64_t other_
   }
 }
 
-ConventionFreedom find_parts(const ConventionAnswer& convention, ThreadTeam& team) {
+ConventionFreedom find_parts(const Ground& ground, const ConventionAnswer& convention, ThreadTeam& team) {
+  const RowEngine& engine = *ground.engine;
   ConventionFreedom result;
   std::int64_t cells = 0;
   for (std::size_t k = 0; k < convention.agents.size(); ++k) {
     const PartialController& part = convention.controller->parts[k];
     ConventionFreedom own = find_convention(part.controller, *part.hull, convention.agents[k], team);
-    const std::int64_t count = part.controller.invariant->count();
+    const std::int64_t count = ground.count(*part.controller.invariant);
     if (k == 0) {
       result = std::move(own);
     } else {
-      add(own, cells, count, result);
+      add(own, cells, count, own_rows(engine.share(), engine.rows()), engine.row_length(), result);
     }
     cells += count;
   }
@@ -76,7 +79,7 @@ void find_a_convention(Answers& answers, const StageWork& work) {
     exchange(archive);
   };
   const bool is_kept = work.store != nullptr && work.store->take(load) == StageStore::Kept::finished;
-  if (!is_kept) result.freedom = find_parts(result, work.team);
+  if (!is_kept) result.freedom = find_parts(ground, result, work.team);
   if (work.store != nullptr) work.store->finish(exchange);
 }
 

@@ -1,6 +1,7 @@
 #include "answers/convention/convention_freedom.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <deque>
 #include <limits>
 #include <numeric>
@@ -71,17 +72,44 @@ class Measure {
   std::vector<std::int32_t> all_;
 };
 
-/// Sums of rows are added in their order, so that the mean does not depend on who has found them.
+/// The sum of the rows of all processes, in their order, so that it does not depend on who has found them.
+double sum_of_rows(const std::vector<double>& rows, const RowShare* share) {
+  if (share == nullptr) return std::accumulate(rows.begin(), rows.end(), 0.0);
+  Ranks& ranks = share->ranks();
+  double sum = 0;
+  if (ranks.rank() > 0) {
+    const Bytes before = ranks.receive(ranks.rank() - 1);
+    std::memcpy(&sum, MessageReader(before).take(sizeof(sum)).data(), sizeof(sum));
+  }
+  sum = std::accumulate(rows.begin(), rows.end(), sum);
+  Bytes message;
+  put_numbers<double>(message, {&sum, 1});
+  const int last = ranks.count() - 1;
+  if (ranks.rank() < last) ranks.send(ranks.rank() + 1, message);
+  // From the last by way of the first to all.
+  if (ranks.rank() == last && last > 0) ranks.send(0, message);
+  if (ranks.rank() == 0 && last > 0) message = ranks.receive(last);
+  message = ranks.from_first(std::move(message));
+  std::memcpy(&sum, message.data(), sizeof(sum));
+  return sum;
+}
+
+/// @param cells of K that were looked at here
 void add_up(const std::vector<std::vector<Count>>& counts, const std::vector<std::vector<double>>& sums,
-            std::int64_t cells, ConventionFreedom& result) {
+            const RowShare* share, std::int64_t cells, ConventionFreedom& result) {
+  cells = sum_of_all(share, cells);
   for (std::size_t i = 0; i < result.agents.size(); ++i) {
     ConventionFreedom::Agent& agent = result.agents[i];
     for (const std::vector<Count>& worker : counts) {
       agent.full += worker[i].full;
       for (std::size_t k = 0; k < agent.histogram.size(); ++k) agent.histogram[k] += worker[i].histogram[k];
     }
+    if (share != nullptr) {
+      agent.full = share->ranks().sum(agent.full);
+      share->ranks().add(agent.histogram);
+    }
     if (cells == 0) continue;
-    agent.mean = std::accumulate(sums[i].begin(), sums[i].end(), 0.0) / static_cast<double>(cells);
+    agent.mean = sum_of_rows(sums[i], share) / static_cast<double>(cells);
   }
 }
 
@@ -90,41 +118,41 @@ void add_up(const std::vector<std::vector<Count>>& counts, const std::vector<std
 ConventionFreedom find_convention(const Controller& controller, const RowHull& hull,
                                   const ActionGrouping& agents, ThreadTeam& team) {
   const RowEngine& engine = *controller.engine;
+  const RowShare::Range own = own_rows(engine.share(), engine.rows());
   ConventionFreedom result;
   result.agents.resize(agents.size());
   for (ConventionFreedom::Agent& agent : result.agents) {
-    agent.freedom.assign(static_cast<std::size_t>(engine.grid().cells()),
-                         std::numeric_limits<float>::quiet_NaN());
+    agent.freedom = ZeroedArray<float>(static_cast<std::size_t>(engine.grid().cells()));
+    std::fill(agent.freedom.begin() + own.begin * engine.row_length(),
+              agent.freedom.begin() + own.end * engine.row_length(), std::numeric_limits<float>::quiet_NaN());
   }
   std::vector<std::vector<Count>> counts(static_cast<std::size_t>(team.size()),
                                          std::vector<Count>(agents.size()));
-  std::vector<std::vector<double>> sums(agents.size(),
-                                        std::vector<double>(static_cast<std::size_t>(engine.rows()), 0));
+  std::vector<std::vector<double>> sums(
+      agents.size(), std::vector<double>(static_cast<std::size_t>(own.end - own.begin), 0));
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<ConventionRows<Level>> finders;
     for (int w = 0; w < team.size(); ++w) finders.emplace_back(controller, hull, agents, levels);
-    team.for_each((engine.rows() + grain - 1) / grain, 1, [&](ThreadTeam::Range range, int worker) {
+    for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
       ConventionRows<Level>& finder = finders[static_cast<std::size_t>(worker)];
       ConventionRow row;
       Measure measure(engine.row_length());
-      const std::int64_t end = std::min(range.end * grain, engine.rows());
-      for (RowPlace place(engine.grid(), range.begin * grain); place.row < end;
-           place.advance(engine.grid())) {
+      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
         // Minima are shared within a unit.
-        if (place.row == range.begin * grain || place.row % engine.unit_rows() == 0) finder.enter();
+        if (place.row == range.begin || place.row % engine.unit_rows() == 0) finder.enter();
         const ConstRow invariant = controller.invariant->row(place.row);
         if (!any_set(invariant)) continue;
         finder.find(place, row);
         for (std::size_t i = 0; i < agents.size(); ++i) {
-          sums[i][static_cast<std::size_t>(place.row)] = measure.measure(
+          sums[i][static_cast<std::size_t>(place.row - own.begin)] = measure.measure(
               row, i, invariant, result.agents[i].freedom.data() + place.row * engine.row_length(),
               counts[static_cast<std::size_t>(worker)][i]);
         }
       }
     });
   });
-  add_up(counts, sums, controller.invariant->count(), result);
+  add_up(counts, sums, engine.share(), controller.invariant->count(own.begin, own.end), result);
   return result;
 }
 

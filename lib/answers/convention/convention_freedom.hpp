@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "answers/invariance/controller.hpp"
+#include "base/zeroed_array.hpp"
 #include "engine/row_hull.hpp"
 
 namespace coordreq {
@@ -14,7 +15,7 @@ namespace coordreq {
 /// that it keeps, |P_i(x)| / |projection of C(x) on agent i|, in (0, 1].
 struct ConventionFreedom {
   struct Agent {
-    std::vector<float> freedom;  ///< [cells of the engine's grid, row-major]; NaN outside K
+    ZeroedArray<float> freedom;  ///< [cells of the engine's grid, row-major]; NaN outside K
     double mean = 0;             ///< over K; 0 if K is empty
     std::int64_t full = 0;       ///< cells in which it keeps everything
     /// Cells with freedom in (k / 10, (k + 1) / 10].

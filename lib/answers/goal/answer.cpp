@@ -15,14 +15,16 @@
 namespace coordreq {
 namespace {
 
-CellSet without(const CellSet& set, const CellSet& other) {
-  CellSet result = set;
-  for (std::size_t w = 0; w < result.words().size(); ++w) result.words()[w] &= ~other.words()[w];
+/// The cells of a set that are in another one, or are not, in the rows held.
+CellSet part_of(const CellSet& set, const CellSet& other, bool is_in, const RowShare* share) {
+  CellSet result(set.rows(), set.row_length());
+  for (const RowShare::Range run : held_rows(share, set.rows())) {
+    for (std::int64_t r = run.begin; r < run.end; ++r) {
+      for (std::size_t w = 0; w < result.row(r).size(); ++w)
+        result.row(r)[w] = set.row(r)[w] & (is_in ? other.row(r)[w] : ~other.row(r)[w]);
+    }
+  }
   return result;
-}
-
-CellSet within(const CellSet& set, const CellSet& other) {
-  return without(set, without(set, other));
 }
 
 void find_arrival(Answers& answers, const StageWork& work) {
@@ -30,9 +32,10 @@ void find_arrival(Answers& answers, const StageWork& work) {
   const auto& controller = answers.get<Controller>();
   Goal& goal = answers.add(Goal{});
   goal.engine = std::make_unique<ProgressEngine>(ground);
-  goal.cells = within(cells_that_satisfy(*ground.spec.goal, ground.spec, ground.abstraction->grid,
-                                         ground.abstraction->inputs, work.team),
-                      *controller.invariant);
+  const RowShare* const share = ground.shared_rows();
+  goal.cells = part_of(cells_that_satisfy(*ground.spec.goal, ground.spec, ground.abstraction->grid,
+                                          ground.abstraction->inputs, work.team, share),
+                       *controller.invariant, true, share);
   const RowEngine& engine = goal.engine->engine();
   const LevelBounds bounds{controller.invariant, INT64_MAX};
   find_or_take_levels(work, engine, bounds, goal.nearness, [&](const WaveWatch& watch) {
@@ -41,7 +44,8 @@ void find_arrival(Answers& answers, const StageWork& work) {
   });
   goal.winning = winning_cells(goal.nearness, work.team);
   goal.longest = longest_arrival(goal.nearness, work.team);
-  goal.away = without(goal.winning, goal.cells);
+  goal.away = part_of(goal.winning, goal.cells, false, share);
+  goal.sizes = {ground.count(goal.cells), ground.count(goal.winning)};
   goal.progress = Controller{&engine, &goal.away, &goal.nearness, controller.synthesis, true};
   goal.approach.resize(ground.spec.coordination.partitions.size());
 }
@@ -91,8 +95,8 @@ std::vector<Stage> goal_stages(const ProblemSpec& spec) {
 void summarise_goal(const Answers& answers, Json& summary, Json& work) {
   const Goal* const goal = answers.find<Goal>();
   if (goal == nullptr) return;
-  summary["goal"] = {{"cells", goal->cells.count()},
-                     {"winning", goal->winning.count()},
+  summary["goal"] = {{"cells", goal->sizes.cells},
+                     {"winning", goal->sizes.winning},
                      {"longest_arrival", goal->longest ? Json(*goal->longest) : Json()}};
   work["arrival"] = work_json(goal->counts);
   for (std::size_t p = 0; p < goal->approach.size(); ++p) {
@@ -110,7 +114,9 @@ std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers, 
     result->parts.push_back({everywhere, &*answers.ground.hull});
     return result;
   }
-  result->rest = is_in_goal_only ? goal->cells : without(*everywhere.invariant, goal->away);
+  result->rest = is_in_goal_only
+                     ? goal->cells
+                     : part_of(*everywhere.invariant, goal->away, false, answers.ground.shared_rows());
   everywhere.invariant = &result->rest;
   result->parts.push_back({everywhere, &*answers.ground.hull});
   result->parts.push_back({goal->progress, &goal->engine->hull()});

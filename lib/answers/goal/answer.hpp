@@ -20,9 +20,14 @@ namespace coordreq {
 /// How soon the goal can be reached, and how long silence costs no time on the way (contract, section 5).
 struct Goal {
   std::unique_ptr<ProgressEngine> engine;
-  CellSet cells;                        ///< G
-  CellSet winning;                      ///< W
-  CellSet away;                         ///< W \ G
+  CellSet cells;    ///< G
+  CellSet winning;  ///< W
+  CellSet away;     ///< W \ G
+  struct Sizes {
+    std::int64_t cells = 0;    ///< |G|
+    std::int64_t winning = 0;  ///< |W|
+  };
+  Sizes sizes;
   LevelMap nearness;                    ///< of all cells, see find_nearness()
   std::optional<std::int32_t> longest;  ///< the greatest finite arrival
   Controller progress;                  ///< P on W \ G

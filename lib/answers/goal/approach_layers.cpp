@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "answers/layers/independent_actions.hpp"
+#include "engine/exchange_rows.hpp"
 #include "engine/find_levels.hpp"
 
 namespace coordreq {
@@ -20,13 +21,11 @@ CellSet nearing_cells(const ApproachSets& sets, const Projections& projections, 
     std::deque<PostReader<Level>> readers;
     for (int w = 0; w < team.size(); ++w) readers.emplace_back(engine, levels);
     const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
-    team.for_each((engine.rows() + grain - 1) / grain, 1, [&](ThreadTeam::Range range, int worker) {
+    for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
       PostReader<Level>& posts = readers[static_cast<std::size_t>(worker)];
       std::vector<Level> least(posts.lanes(), 0);
-      const std::int64_t end = std::min(range.end * grain, engine.rows());
-      for (RowPlace place(engine.grid(), range.begin * grain); place.row < end;
-           place.advance(engine.grid())) {
-        if (place.row == range.begin * grain || place.row % engine.unit_rows() == 0) posts.enter();
+      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
+        if (place.row == range.begin || place.row % engine.unit_rows() == 0) posts.enter();
         const ConstRow away = sets.away->row(place.row);
         if (!any_set(away)) continue;
         actions.find_minimum(place, posts, least.data(), worker);
@@ -78,7 +77,8 @@ LevelMap first_levels(const ApproachSets& sets, const CellSet& nearing, const De
   return layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& safe) {
     auto levels = engine.make_levels<Level>(engine.posts());
     std::vector<Level> cells(static_cast<std::size_t>(levels.row_length()) + kLevelBlock / sizeof(Level));
-    for (std::int64_t r = 0; r < levels.rows(); ++r) {
+    const RowShare::Range rows = own_rows(engine.share(), levels.rows());
+    for (std::int64_t r = rows.begin; r < rows.end; ++r) {
       const Level* const own = safe.row(r);
       std::fill(cells.begin(), cells.end(), Level{0});
       for_each_bit(sets.away->row(r), [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = 1; });
@@ -86,6 +86,11 @@ LevelMap first_levels(const ApproachSets& sets, const CellSet& nearing, const De
                    [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = LevelRows<Level>::kTop; });
       for_each_bit(sets.goal->row(r), [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = own[x]; });
       levels.put(r, cells.data());
+    }
+    if (engine.share() != nullptr) {
+      exchange_rows(
+          levels, [](std::int64_t) { return true; },
+          [&levels](std::int64_t row, const Level* others) { levels.put(row, others); });
     }
     return LevelMap(std::move(levels));
   });

@@ -13,12 +13,15 @@ namespace {
 LevelMap first_nearness(const RowEngine& engine, const CellSet& invariant, const CellSet& goal, bool shared) {
   auto levels = engine.make_levels<std::uint8_t>(engine.posts(), shared);
   std::vector<std::uint8_t> cells(static_cast<std::size_t>(levels.row_length()) + kLevelBlock);
-  for (std::int64_t r = 0; r < levels.rows(); ++r) {
-    std::fill(cells.begin(), cells.end(), 0);
-    for_each_bit(invariant.row(r), [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = 1; });
-    for_each_bit(goal.row(r),
-                 [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = LevelRows<std::uint8_t>::kTop; });
-    levels.put(r, cells.data());
+  for (const RowShare::Range run : held_rows(levels.share(), levels.rows())) {
+    for (std::int64_t r = run.begin; r < run.end; ++r) {
+      std::fill(cells.begin(), cells.end(), 0);
+      for_each_bit(invariant.row(r), [&](std::int64_t x) { cells[static_cast<std::size_t>(x)] = 1; });
+      for_each_bit(goal.row(r), [&](std::int64_t x) {
+        cells[static_cast<std::size_t>(x)] = LevelRows<std::uint8_t>::kTop;
+      });
+      levels.put(r, cells.data());
+    }
   }
   return LevelMap(std::move(levels));
 }
@@ -53,7 +56,7 @@ LevelMap find_nearness(const RowEngine& engine, const RowHull& hull, const CellS
 CellSet winning_cells(const LevelMap& nearness, ThreadTeam& team) {
   CellSet winning(nearness.rows(), nearness.row_length());
   nearness.visit([&](const auto& levels) {
-    team.for_each(levels.rows(), 256, [&](ThreadTeam::Range range, int) {
+    for_each_held_row(team, levels.share(), levels.rows(), 256, [&](ThreadTeam::Range range, int) {
       for (std::int64_t r = range.begin; r < range.end; ++r) {
         const auto* const row = levels.row(r);
         const MutableRow bits = winning.row(r);
@@ -72,18 +75,22 @@ CellSet winning_cells(const LevelMap& nearness, ThreadTeam& team) {
 std::optional<std::int32_t> longest_arrival(const LevelMap& nearness, ThreadTeam& team) {
   std::vector<std::int32_t> longest(static_cast<std::size_t>(team.size()), -1);
   nearness.visit([&](const auto& levels) {
-    team.for_each(levels.held(), 256, [&](ThreadTeam::Range range, int worker) {
+    const ThreadTeam::Range held = levels.held();
+    team.for_each(held.end - held.begin, 256, [&](ThreadTeam::Range range, int worker) {
       std::int32_t& own = longest[static_cast<std::size_t>(worker)];
-      levels.for_each_held(range.begin, range.end, [&](const auto* row, std::int64_t) {
-        levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
-          for (std::int64_t x = lane; x < lane + count; ++x) {
-            if (row[x] > 1) own = std::max(own, arrival_of(row[x]));
-          }
-        });
-      });
+      levels.for_each_held(held.begin + range.begin, held.begin + range.end,
+                           [&](const auto* row, std::int64_t) {
+                             levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+                               for (std::int64_t x = lane; x < lane + count; ++x) {
+                                 if (row[x] > 1) own = std::max(own, arrival_of(row[x]));
+                               }
+                             });
+                           });
     });
   });
-  const std::int32_t all = *std::max_element(longest.begin(), longest.end());
+  const std::int32_t own = *std::max_element(longest.begin(), longest.end());
+  const RowShare* const share = nearness.share();
+  const auto all = share == nullptr ? own : static_cast<std::int32_t>(share->ranks().greatest(own));
   return all < 0 ? std::nullopt : std::optional<std::int32_t>(all);
 }
 

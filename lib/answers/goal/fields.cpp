@@ -180,8 +180,8 @@ void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& val
   values.entries["/arrival"] = {
       .array = {type, type == ElementType::int16 ? fill_arrival<std::int16_t>(*goal, times, order)
                                                  : fill_arrival<std::int32_t>(*goal, times, order)},
-      .attributes = {{"goal_cells", static_cast<std::uint64_t>(goal->cells.count())},
-                     {"winning_cells", static_cast<std::uint64_t>(goal->winning.count())},
+      .attributes = {{"goal_cells", static_cast<std::uint64_t>(goal->sizes.cells)},
+                     {"winning_cells", static_cast<std::uint64_t>(goal->sizes.winning)},
                      {"longest_arrival", std::int64_t{goal->longest.value_or(-1)}}}};
   fill_approach(answers, *goal, values);
   if (!spec.output.controller && !spec.output.actions) return;

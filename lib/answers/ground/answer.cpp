@@ -57,7 +57,7 @@ void summarise_ground(const Answers& answers, Json& summary, Json& /*work*/) {
                              {"sha256", ground.listed->sha256},
                              {"pairs", ground.listed->pairs.count()}};
   }
-  summary["safe"] = ground.safe.count();
+  summary["safe"] = ground.safe_cells;
 }
 
 }  // namespace coordreq

@@ -37,7 +37,7 @@ std::string guarantee_of(const ProblemSpec& spec) {
 
 void summarise_invariance(const Answers& answers, Json& summary, Json& work) {
   const auto& invariance = answers.get<Invariance>();
-  summary["invariant"] = invariance.invariant.count();
+  summary["invariant"] = invariance.cells;
   summary["iterations"] = invariance.iterations;
   summary["guarantee"] = guarantee_of(answers.ground.spec);
   work["invariance"] = work_json(invariance.counts);

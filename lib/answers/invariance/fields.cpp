@@ -55,10 +55,9 @@ void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValue
   const auto& invariance = answers.get<Invariance>();
   const LevelMap& times = invariance.collision_time;
   values.entries["/safe"] = {.array = safe_array(times, *ground.order),
-                             .attributes = {{"cells", static_cast<std::uint64_t>(ground.safe.count())}}};
-  values.entries["/invariant"] = {
-      .array = invariant_array(times, *ground.order),
-      .attributes = {{"cells", static_cast<std::uint64_t>(invariance.invariant.count())}}};
+                             .attributes = {{"cells", static_cast<std::uint64_t>(ground.safe_cells)}}};
+  values.entries["/invariant"] = {.array = invariant_array(times, *ground.order),
+                                  .attributes = {{"cells", static_cast<std::uint64_t>(invariance.cells)}}};
   values.entries["/collision_time"] = {
       .array = collision_array(times, *ground.order, level_type(invariance.iterations - 1)),
       .attributes = {{"iterations", invariance.iterations}}};

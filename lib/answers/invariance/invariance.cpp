@@ -29,8 +29,9 @@ Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const C
 void follow_from_collision_times(Invariance& invariance, ThreadTeam& team) {
   invariance.invariant = invariance.collision_time.top_cells(team);
   // Synchronously, one sweep loses the cells of each collision time, and one more finds nothing to lose.
-  const std::size_t levels = invariance.collision_time.histogram(team).finite.size();
-  invariance.iterations = static_cast<std::int64_t>(std::max<std::size_t>(levels, 1));
+  const LevelMap::Histogram levels = invariance.collision_time.histogram(team);
+  invariance.iterations = static_cast<std::int64_t>(std::max<std::size_t>(levels.finite.size(), 1));
+  invariance.cells = levels.top;
 }
 
 }  // namespace coordreq

@@ -12,7 +12,8 @@ namespace coordreq {
 
 /// The invariance set K and when each cell was lost, contract "Controller".
 struct Invariance {
-  CellSet invariant;
+  CellSet invariant;       ///< in the rows held
+  std::int64_t cells = 0;  ///< |K|
   /// [cells]: 0 outside S, i if the i-th sweep of the synchronous iteration removes the cell, LevelMap::kTop
   /// in K.
   LevelMap collision_time;

@@ -38,44 +38,47 @@ std::optional<ConditionTable> condition_table(const ProblemSpec& spec, const Abs
   return ConditionTable(allow, abstraction.grid, abstraction.inputs, refuse, team);
 }
 
-/// The same cells in rows along several dimensions.
-CellSet joined(const CellSet& runs, const UniformGrid& grid, ThreadTeam& team) {
-  const std::size_t last = grid.size() - 1;
-  std::int64_t runs_of_row = 1;
-  for (std::size_t i = grid.across(); i < last; ++i) runs_of_row *= grid[i].count;
-  CellSet rows(grid.rows(), grid.row_length());
-  team.for_each(rows.rows(), 64, [&](ThreadTeam::Range range, int) {
-    for (std::int64_t r = range.begin; r < range.end; ++r) {
-      for (std::int64_t k = 0; k < runs_of_row; ++k) {
-        std::int64_t lane = 0;
-        std::int64_t rest = k;
-        for (std::size_t i = last; i-- > grid.across(); rest /= grid[i].count)
-          lane += rest % grid[i].count * grid.stride(i);
-        add_bits(runs.row(r * runs_of_row + k), lane, rows.row(r));
-      }
-    }
-  });
-  return rows;
+Sampling sampling_of(const ProblemSpec& spec) {
+  return spec.abstraction.safe == Membership::inner ? Sampling::closed_cells : Sampling::centres;
+}
+
+bool undecided_is_false(const std::vector<std::int64_t>& /*indices*/) {
+  return false;
 }
 
 }  // namespace
 
+CellCondition::CellCondition(const Program& condition, const ProblemSpec& spec, const UniformGrid& grid,
+                             const InputSpace& inputs, ThreadTeam& team)
+    : grid_(grid),
+      plain_(grid.in_rows({})),
+      table_(condition, plain_, inputs, sampling_of(spec), undecided_is_false, team, Question::everywhere) {
+  for (std::size_t i = grid.across(); i + 1 < grid.size(); ++i) runs_of_row_ *= grid[i].count;
+}
+
+void CellCondition::add_cells(const std::vector<RowShare::Range>& runs, ThreadTeam& team,
+                              CellSet& cells) const {
+  const std::size_t last = grid_.size() - 1;
+  for_each_row_of(team, runs, std::max<std::int64_t>(1, 1024 / runs_of_row_),
+                  [&](RowShare::Range range, int) {
+                    for (std::int64_t r = range.begin; r < range.end; ++r) {
+                      for (std::int64_t k = 0; k < runs_of_row_; ++k) {
+                        std::int64_t lane = 0;
+                        std::int64_t rest = k;
+                        for (std::size_t i = last; i-- > grid_.across(); rest /= grid_[i].count)
+                          lane += rest % grid_[i].count * grid_.stride(i);
+                        add_bits(table_.row(r * runs_of_row_ + k, 0), lane, cells.row(r));
+                      }
+                    }
+                  });
+}
+
 CellSet cells_that_satisfy(const Program& condition, const ProblemSpec& spec, const UniformGrid& grid,
-                           const InputSpace& inputs, ThreadTeam& team) {
-  const Sampling sampling =
-      spec.abstraction.safe == Membership::inner ? Sampling::closed_cells : Sampling::centres;
-  const auto undecided_is_false = [](const std::vector<std::int64_t>&) { return false; };
-  const UniformGrid plain = grid.in_rows({});
-  const ConditionTable table(condition, plain, inputs, sampling, undecided_is_false, team,
-                             Question::everywhere);
-  CellSet cells(plain.rows(), plain.row_length());
-  team.for_each(cells.rows(), 1024, [&](ThreadTeam::Range range, int) {
-    for (std::int64_t r = range.begin; r < range.end; ++r) {
-      const auto source = table.row(r, 0);
-      std::copy(source.begin(), source.end(), cells.row(r).begin());
-    }
-  });
-  return grid.across() == plain.across() ? std::move(cells) : joined(cells, grid, team);
+                           const InputSpace& inputs, ThreadTeam& team, const RowShare* share) {
+  const CellCondition found(condition, spec, grid, inputs, team);
+  CellSet cells(grid.rows(), grid.row_length());
+  found.add_cells(held_rows(share, grid.rows()), team, cells);
+  return cells;
 }
 
 std::optional<PairTable> allow_table(const ProblemSpec& spec, const Abstraction& abstraction,

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "base/thread_team.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/pair_table.hpp"
+#include "model/condition_table.hpp"
+#include "ranks/row_share.hpp"
 #include "reach/abstraction.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -15,8 +19,25 @@ namespace coordreq {
 /// widened by the measurement errors, for the true state may be that far outside of the cell that was
 /// measured; on the seam of a periodic dimension both parts count; the half of a boundary cell beyond a
 /// `stop` limit does not. `center`: cells whose centre satisfies it. What cannot be decided counts as false.
+class CellCondition {
+ public:
+  /// REQUIRES: the inputs outlive this object.
+  CellCondition(const Program& condition, const ProblemSpec& spec, const UniformGrid& grid,
+                const InputSpace& inputs, ThreadTeam& team);
+
+  /// Adds the cells in some runs of rows to a set over the grid.
+  void add_cells(const std::vector<RowShare::Range>& runs, ThreadTeam& team, CellSet& cells) const;
+
+ private:
+  UniformGrid grid_;
+  UniformGrid plain_;  ///< its rows run along one dimension
+  std::int64_t runs_of_row_ = 1;
+  ConditionTable table_;
+};
+/// All of them. @param share then those in the rows held; null: there is one process
 [[nodiscard]] CellSet cells_that_satisfy(const Program& condition, const ProblemSpec& spec,
-                                         const UniformGrid& grid, const InputSpace& inputs, ThreadTeam& team);
+                                         const UniformGrid& grid, const InputSpace& inputs, ThreadTeam& team,
+                                         const RowShare* share = nullptr);
 /// S, contract "Safe set".
 [[nodiscard]] inline CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction,
                                       ThreadTeam& team) {

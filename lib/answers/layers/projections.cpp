@@ -166,36 +166,37 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
                          ThreadTeam& team, const Tiles* tiles)
     : grouping_(&grouping), words_(controller.engine->row_words()), tiles_(tiles) {
   const RowEngine& engine = *controller.engine;
-  number_rows_of(*controller.invariant);
+  number_rows_of(*controller.invariant, engine.share());
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<Builder<Level>> builders;
     for (int w = 0; w < team.size(); ++w) builders.emplace_back(controller, grouping, hull, levels);
-    team.for_each((engine.rows() + grain - 1) / grain, 1, [&](ThreadTeam::Range range, int worker) {
+    for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
       Builder<Level>& builder = builders[static_cast<std::size_t>(worker)];
-      const std::int64_t end = std::min(range.end * grain, engine.rows());
-      for (RowPlace place(engine.grid(), range.begin * grain); place.row < end;
-           place.advance(engine.grid())) {
+      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
         // Minima are shared within a unit.
-        if (place.row == range.begin * grain || place.row % engine.unit_rows() == 0) builder.enter();
+        if (place.row == range.begin || place.row % engine.unit_rows() == 0) builder.enter();
         const std::uint32_t number = number_[static_cast<std::size_t>(place.row)];
-        if (number == kNothing || found_[number].row != place.row) continue;
-        Found& found = found_[number];
+        if (number == kNothing || of(place.row).row != place.row) continue;
+        Found& found = found_[number - 1];
         found.is_product = builder.project(place, found.packed, found.is_full);
       }
     });
   });
-  for (const std::uint32_t number : number_)
-    is_full_.push_back(number != kNothing && found_[number].is_full ? 1 : 0);
+  is_full_.assign(number_.size(), 0);
+  const RowShare::Range own = own_rows(engine.share(), engine.rows());
+  for (auto r = static_cast<std::size_t>(own.begin); r < static_cast<std::size_t>(own.end); ++r)
+    is_full_[r] = number_[r] != kNothing && found_[number_[r] - 1].is_full ? 1 : 0;
 }
 
 /// Every row of K is found by itself, or with the first of those that are the same.
-void Projections::number_rows_of(const CellSet& invariant) {
-  number_.assign(static_cast<std::size_t>(invariant.rows()), kNothing);
-  if (tiles_ != nullptr) classes_ = tiles_->refined(tiles_->tables(), number_rows(invariant));
+void Projections::number_rows_of(const CellSet& invariant, const RowShare* share) {
+  const RowShare::Range run = own_rows(share, invariant.rows());
+  number_ = ZeroedArray<std::uint32_t>(static_cast<std::size_t>(invariant.rows()));
+  if (tiles_ != nullptr) classes_ = tiles_->refined(tiles_->tables(), number_rows(invariant, share));
   std::vector<std::int64_t> first;  // [class] its first tile
   const std::int64_t rows = tiles_ == nullptr ? 1 : tiles_->rows();
-  for (std::int64_t r = 0; r < invariant.rows(); ++r) {
+  for (std::int64_t r = run.begin; r < run.end; ++r) {
     if (!any_set(invariant.row(r))) continue;
     const std::int64_t tile = r / rows;
     const std::uint32_t own = tiles_ == nullptr ? 0 : classes_[static_cast<std::size_t>(tile)];
@@ -205,8 +206,8 @@ void Projections::number_rows_of(const CellSet& invariant) {
       number_[static_cast<std::size_t>(r)] = number_[static_cast<std::size_t>(first[own] * rows + r % rows)];
       continue;
     }
-    number_[static_cast<std::size_t>(r)] = static_cast<std::uint32_t>(found_.size());
     found_.push_back({.row = r});
+    number_[static_cast<std::size_t>(r)] = static_cast<std::uint32_t>(found_.size());
   }
 }
 

@@ -6,6 +6,7 @@
 #include "answers/invariance/controller.hpp"
 #include "answers/layers/independent_posts.hpp"
 #include "base/thread_team.hpp"
+#include "base/zeroed_array.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/row_hull.hpp"
 #include "engine/tiles.hpp"
@@ -13,7 +14,8 @@
 namespace coordreq {
 
 /// The projections of C onto the classes of one partition: IND_C(x) is their product (paper, Eq. (4); with
-/// every agent by itself Eq. (3)). Held row by row, in the form that makes the least work of them.
+/// every agent by itself Eq. (3)). Held row by row, of the rows that this process owns, in the form that
+/// makes the least work of them.
 class Projections {
  public:
   /// @param tiles where equal work is looked for; may be null
@@ -28,8 +30,8 @@ class Projections {
   };
   [[nodiscard]] Form form(std::int64_t row) const {
     const std::uint32_t number = number_[static_cast<std::size_t>(row)];
-    if (number == kNothing || found_[number].packed.empty()) return Form::full;
-    return found_[number].is_product ? Form::product : Form::masks;
+    if (number == kNothing || found_[number - 1].packed.empty()) return Form::full;
+    return found_[number - 1].is_product ? Form::product : Form::masks;
   }
   /// [row] not 0 where every action is in C(x) for all x of K in the row, and K has any there: then IND_C is
   /// the same for all partitions.
@@ -52,7 +54,7 @@ class Projections {
   [[nodiscard]] TileClasses tile_classes() const { return {tiles_, &classes_}; }
 
  private:
-  static constexpr std::uint32_t kNothing = UINT32_MAX;
+  static constexpr std::uint32_t kNothing = 0;
   template <class Level>
   class Builder;
   /// What was found for one row, and holds for those that are the same.
@@ -64,15 +66,15 @@ class Projections {
   };
 
   [[nodiscard]] const Found& of(std::int64_t row) const {
-    return found_[number_[static_cast<std::size_t>(row)]];
+    return found_[number_[static_cast<std::size_t>(row)] - 1];
   }
-  void number_rows_of(const CellSet& invariant);
+  void number_rows_of(const CellSet& invariant, const RowShare* share);
 
   const ActionGrouping* grouping_;
   std::size_t words_;
   const Tiles* tiles_;
   Tiles::Numbers classes_;             ///< [tile] equal numbers where projections are the same
-  std::vector<std::uint32_t> number_;  ///< [row] into `found_`, or kNothing where K has no cell
+  ZeroedArray<std::uint32_t> number_;  ///< [row] 1 + its place in `found_`, or kNothing where K has no cell
   std::vector<Found> found_;
   std::vector<std::uint8_t> is_full_;
 };

@@ -1,5 +1,6 @@
 #include "answers/network/answer.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "answers/invariance/answer.hpp"
@@ -44,21 +45,34 @@ void find_safe_sets(Answers& answers, const StageWork& work) {
   });
 }
 
-Json network_json(const NetworkSpec& spec, const NetworkSafety& safety) {
+/// The cells that are safe in every mode, in the rows held.
+CellSet safe_in_every_mode(const NetworkSafety& safety, const RowShare* share) {
+  const CellSet& first = safety.safe.front();
+  CellSet every(first.rows(), first.row_length());
+  for (const RowShare::Range run : held_rows(share, first.rows())) {
+    for (std::int64_t row = run.begin; row < run.end; ++row) {
+      std::ranges::copy(first.row(row), every.row(row).begin());
+      for (const CellSet& safe : safety.safe) {
+        for (std::size_t w = 0; w < every.row(row).size(); ++w) every.row(row)[w] &= safe.row(row)[w];
+      }
+    }
+  }
+  return every;
+}
+
+Json network_json(const Ground& ground, const NetworkSafety& safety) {
+  const NetworkSpec& spec = *ground.spec.network;
   Json json;
   json["kind"] = network_kind_name(spec.kind);
   json["resynthesise"] = spec.resynthesise;
   json["initial"] = spec.modes.front().name;
   json["modes"] = Json::array();
-  CellSet every = safety.safe.front();
   for (std::size_t mode = 0; mode < spec.modes.size(); ++mode) {
-    const CellSet& safe = safety.safe[mode];
     json["modes"].push_back({{"name", spec.modes[mode].name},
                              {"partition", spec.modes[mode].partition.name},
-                             {"cells", safe.count()}});
-    for (std::size_t w = 0; w < safe.words().size(); ++w) every.words()[w] &= safe.words()[w];
+                             {"cells", ground.count(safety.safe[mode])}});
   }
-  json["cells_in_every_mode"] = every.count();
+  json["cells_in_every_mode"] = ground.count(safe_in_every_mode(safety, ground.shared_rows()));
   return json;
 }
 
@@ -72,7 +86,7 @@ std::vector<Stage> network_stages(const ProblemSpec& spec) {
 void summarise_network(const Answers& answers, Json& summary, Json& work) {
   const auto* const safety = answers.find<NetworkSafety>();
   if (safety == nullptr) return;
-  summary["network"] = network_json(*answers.ground.spec.network, *safety);
+  summary["network"] = network_json(answers.ground, *safety);
   work["network"] = work_json(safety->counts);
 }
 

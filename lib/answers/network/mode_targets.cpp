@@ -1,8 +1,11 @@
 #include "answers/network/mode_targets.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 #include "engine/row_box.hpp"
+#include "ranks/exchange_row_bytes.hpp"
 
 namespace coordreq {
 namespace {
@@ -18,11 +21,18 @@ ModeTargets::ModeTargets(const RowEngine& engine, const RowHull& hull, const std
       hull_(hull),
       modes_(modes),
       predecessors_(modes.size()),
-      sets_(modes.size(), start),
       state_(modes.size(), State::untouched),
       changed_(modes.size(), std::vector<Word>(static_cast<std::size_t>(engine.rows() + 63) / 64, 0)),
       levels_(engine.make_levels<std::uint8_t>(engine.posts())),
       loaded_(modes.size()) {
+  if (engine.share() != nullptr) untold_ = changed_;
+  for (std::size_t mode = 0; mode < modes.size(); ++mode) {
+    CellSet& set = sets_.emplace_back(start.rows(), start.row_length());
+    for (const RowShare::Range run : held_rows(engine.share(), start.rows())) {
+      for (std::int64_t row = run.begin; row < run.end; ++row)
+        std::ranges::copy(start.row(row), set.row(row).begin());
+    }
+  }
   for (std::size_t mode = 0; mode < modes.size(); ++mode) {
     for (const std::size_t successor : modes[mode].successors) predecessors_[successor].push_back(mode);
   }
@@ -46,7 +56,7 @@ void ModeTargets::load_row(std::size_t mode, std::int64_t row, std::vector<Word>
 void ModeTargets::load(std::size_t mode, ThreadTeam& team) {
   const bool again = loaded_ == mode;
   loaded_ = mode;
-  team.for_each(engine_.rows(), kGrain, [&](ThreadTeam::Range range, int) {
+  for_each_held_row(team, engine_.share(), engine_.rows(), kGrain, [&](ThreadTeam::Range range, int) {
     std::vector<Word> cells;
     std::vector<std::uint8_t> lanes(static_cast<std::size_t>(engine_.row_length()) + kLevelBlock);
     for (std::int64_t row = range.begin; row < range.end; ++row) {
@@ -59,7 +69,7 @@ std::vector<std::int64_t> ModeTargets::take_pending(std::size_t mode, std::int64
   std::vector<std::uint8_t> is_alive(static_cast<std::size_t>(engine_.rows()), 0);
   std::vector<std::uint8_t> is_pending(is_alive.size(), 0);
   const bool all = state_[mode] == State::untouched;
-  team.for_each(engine_.rows(), kGrain, [&](ThreadTeam::Range range, int) {
+  for_each_own_row(team, engine_.share(), engine_.rows(), kGrain, [&](ThreadTeam::Range range, int) {
     RowBox box;
     std::vector<std::int64_t> counter;
     RowPlace place(engine_.grid(), range.begin);
@@ -86,6 +96,33 @@ std::vector<std::int64_t> ModeTargets::take_pending(std::size_t mode, std::int64
 }
 
 void ModeTargets::shrink(std::size_t mode, std::int64_t row, ConstRow cells) {
+  replace(mode, row, cells);
+  if (!untold_.empty()) untold_[mode][static_cast<std::size_t>(row / 64)] |= Word{1} << (row % 64);
+}
+
+bool ModeTargets::exchange() {
+  if (engine_.share() == nullptr) return false;
+  std::int64_t rows = 0;
+  std::vector<Word> cells(engine_.row_words());
+  for (std::size_t mode = 0; mode < modes(); ++mode) {
+    std::vector<Word>& untold = untold_[mode];
+    for (const Word word : untold) rows += std::popcount(word);
+    exchange_row_bytes(
+        *engine_.share(), cells.size() * sizeof(Word),
+        [&](std::int64_t row) {
+          return (untold[static_cast<std::size_t>(row / 64)] >> (row % 64) & 1U) != 0;
+        },
+        [&](std::int64_t row) { return std::as_bytes(set(mode).row(row)); },
+        [&](std::int64_t row, std::span<const std::byte> bytes) {
+          std::memcpy(cells.data(), bytes.data(), bytes.size());
+          replace(mode, row, cells);
+        });
+    std::fill(untold.begin(), untold.end(), 0);
+  }
+  return engine_.share()->ranks().sum(rows) > 0;
+}
+
+void ModeTargets::replace(std::size_t mode, std::int64_t row, ConstRow cells) {
   std::copy(cells.begin(), cells.end(), sets_[mode].row(row).begin());
   for (const std::size_t before : predecessors_[mode]) {
     changed_[before][static_cast<std::size_t>(row / 64)] |= Word{1} << (row % 64);

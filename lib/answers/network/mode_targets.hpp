@@ -23,13 +23,17 @@ class ModeTargets {
   [[nodiscard]] const CellSet& set(std::size_t mode) const { return sets_[mode]; }
   [[nodiscard]] std::vector<CellSet> take_sets() { return std::move(sets_); }
 
-  /// Whether any row of the target of a mode has changed.
+  /// Brings the rows of the halo up to date: those of other processes that have changed since this was called
+  /// last. Together. @returns whether rows of any have
+  bool exchange();
+
+  /// Whether any row of the target of a mode has changed, of those held.
   [[nodiscard]] bool has_changed(std::size_t mode) const { return state_[mode] != State::settled; }
   /// Makes levels() those of this mode's target.
   void load(std::size_t mode, ThreadTeam& team);
   [[nodiscard]] const LevelRows<std::uint8_t>& levels() const { return levels_; }
-  /// The rows with cells in W(mode) from which a row of the target can be met that has changed, ascending.
-  /// From now on nothing counts as changed for this mode.
+  /// The own rows with cells in W(mode) from which a row of the target can be met that has changed,
+  /// ascending. From now on nothing counts as changed for this mode.
   /// @param alive how many rows have cells in W(mode)
   [[nodiscard]] std::vector<std::int64_t> take_pending(std::size_t mode, std::int64_t& alive,
                                                        ThreadTeam& team);
@@ -39,6 +43,7 @@ class ModeTargets {
  private:
   enum class State : std::uint8_t { untouched, changed, settled };
 
+  void replace(std::size_t mode, std::int64_t row, ConstRow cells);
   void load_row(std::size_t mode, std::int64_t row, std::vector<Word>& cells,
                 std::vector<std::uint8_t>& lanes);
   [[nodiscard]] bool is_changed(std::size_t mode, std::int64_t row) const {
@@ -52,6 +57,7 @@ class ModeTargets {
   std::vector<CellSet> sets_;
   std::vector<State> state_;
   std::vector<std::vector<Word>> changed_;  ///< [mode] a bit a row of its target
+  std::vector<std::vector<Word>> untold_;  ///< [mode] a bit a row of W(mode) that other processes do not know
   LevelRows<std::uint8_t> levels_;
   std::size_t loaded_;
 };

@@ -89,7 +89,7 @@ class Iteration {
   /// In the order that is best; REQUIRES: the operators are monotone.
   void run_in_any_order() {
     const std::vector<std::size_t> order = successors_first(modes_);
-    for (bool changed = true; changed;) {
+    for (bool changed = true; changed || targets_.exchange();) {
       changed = false;
       for (const std::size_t mode : order) {
         while (targets_.has_changed(mode)) {
@@ -112,11 +112,17 @@ class Iteration {
       }
       for (const Losses& losses : lost) commit(losses);
       tell(true);
-      changed = !lost.empty();
+      changed = engine_.share() == nullptr ? !lost.empty() : targets_.exchange();
     }
   }
 
-  NetworkSafety result() { return {targets_.take_sets(), counts_}; }
+  NetworkSafety result() {
+    counts_.rows_visited = sum_of_all(engine_.share(), counts_.rows_visited);
+    counts_.rows_skipped = sum_of_all(engine_.share(), counts_.rows_skipped);
+    counts_.sweeps =
+        engine_.share() == nullptr ? counts_.sweeps : engine_.share()->ranks().greatest(counts_.sweeps);
+    return {targets_.take_sets(), counts_};
+  }
 
  private:
   struct Worker {

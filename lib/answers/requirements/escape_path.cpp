@@ -38,21 +38,78 @@ class EscapeFinder {
 
   EscapePath run(std::int64_t cell) {
     path_.cells.push_back(cell);
-    bool goes_on = true;
-    if (sets_.goal != nullptr && sets_.invariance->invariant.test(cell)) {
-      if (sets_.kind == RequirementKind::max_arrival || !sets_.goal->winning.test(cell)) {
-        while (take_together()) {
-        }
-        return std::move(path_);
-      }
-      while (goes_on && sets_.goal->away.test(path_.cells.back())) goes_on = take_approaching();
+    while (step_of_owner()) {
     }
-    while (goes_on && sets_.invariance->invariant.test(path_.cells.back())) goes_on = take_independent();
-    while (goes_on && level_of(collision_time_, path_.cells.back()) > 0) goes_on = take_evasive();
     return std::move(path_);
   }
 
  private:
+  /// How the path goes on from where it is; before the first step nothing of it is known.
+  enum class Way : std::uint8_t { unknown, together, approaching, independent, evasive };
+
+  /// The step from the last cell, which the process that owns the cell finds for all. @returns whether to go
+  /// on
+  bool step_of_owner() {
+    const RowShare* const share = ground_.shared_rows();
+    if (share == nullptr) return step();
+    Ranks& ranks = share->ranks();
+    const int owner = share->owner(path_.cells.back() / grid_.row_length());
+    Bytes message;
+    if (owner == ranks.rank()) {
+      const std::size_t cells = path_.cells.size(), inputs = path_.joint_inputs.size();
+      const bool goes_on = step();
+      std::vector<std::int64_t> news = {
+          goes_on ? 1 : 0,
+          static_cast<std::int64_t>(way_),
+          static_cast<std::int64_t>(path_.end),
+          path_.joint_inputs.size() > inputs ? path_.joint_inputs.back() : -1,
+          path_.joint_inputs.size() > inputs ? static_cast<std::int64_t>(path_.phases.back()) : -1,
+          path_.cells.size() > cells ? path_.cells.back() : -1};
+      for (const DomainSide& side : path_.sides)
+        news.insert(news.end(), {static_cast<std::int64_t>(side.dimension), side.above ? 1 : 0});
+      put_numbers<std::int64_t>(message, news);
+      for (int other = 0; other < ranks.count(); ++other) {
+        if (other != owner) ranks.send(other, message);
+      }
+      return goes_on;
+    }
+    message = ranks.receive(owner);
+    MessageReader reader(message);
+    const bool goes_on = reader.number() != 0;
+    way_ = static_cast<Way>(reader.number());
+    path_.end = static_cast<EscapeEnd>(reader.number());
+    const std::int64_t input = reader.number(), phase = reader.number(), cell = reader.number();
+    if (input >= 0) path_.joint_inputs.push_back(input);
+    if (input >= 0) path_.phases.push_back(static_cast<EscapePhase>(phase));
+    if (cell >= 0) path_.cells.push_back(cell);
+    while (!reader.is_at_end()) {
+      const auto dimension = static_cast<std::size_t>(reader.number());
+      path_.sides.push_back({dimension, reader.number() != 0});
+    }
+    return goes_on;
+  }
+
+  bool step() {
+    const std::int64_t cell = path_.cells.back();
+    const bool is_invariant = sets_.invariance->invariant.test(cell);
+    if (way_ == Way::unknown) {
+      const bool has_goal = sets_.goal != nullptr && is_invariant;
+      const bool is_lost =
+          has_goal && (sets_.kind == RequirementKind::max_arrival || !sets_.goal->winning.test(cell));
+      way_ = is_lost ? Way::together : has_goal ? Way::approaching : Way::independent;
+    }
+    if (way_ == Way::together) return take_together();
+    if (way_ == Way::approaching) {
+      if (sets_.goal->away.test(cell)) return take_approaching();
+      way_ = Way::independent;
+    }
+    if (way_ == Way::independent) {
+      if (is_invariant) return take_independent();
+      way_ = Way::evasive;
+    }
+    return level_of(collision_time_, cell) > 0 && take_evasive();
+  }
+
   /// A joint input, where it leads to, and the level of the worst cell there.
   struct Choice {
     std::int64_t joint_input = 0;
@@ -251,6 +308,7 @@ class EscapeFinder {
   AdmissibleInputs inputs_;
   ProgressInputs progress_;
   EscapePath path_;
+  Way way_ = Way::unknown;
 };
 
 }  // namespace

@@ -56,6 +56,7 @@ struct EscapeSets {
 ///   K outside W as for `max_arrival`.
 /// REQUIRES: the delay of x is bounded, and known.
 /// Cost: a look at every joint input in every step, and at every cell of each different post.
+/// Of several processes together: each step is found by the one that owns the cell.
 [[nodiscard]] EscapePath find_escape(const EscapeSets& sets, std::int64_t cell);
 
 }  // namespace coordreq

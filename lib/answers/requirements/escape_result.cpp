@@ -20,10 +20,14 @@ struct EscapeWriter {
     }
     path.cell.push_back(static_cast<std::uint64_t>(number));
     path.state.insert(path.state.end(), state.begin(), state.end());
-    const std::int64_t time = asked.collision_time->at(cell);
+    // Of the process that owns the cell.
+    const RowShare* const share = asked.collision_time->share();
+    const bool is_own = share == nullptr || share->owner(cell / grid.row_length()) == share->ranks().rank();
+    const std::int64_t own_time = is_own ? asked.collision_time->at(cell) : 0;
+    const std::int64_t time = sum_of_all(share, own_time);
     path.collision_time.push_back(time == LevelMap::kTop ? DelayLayers::kUnbounded
                                                          : static_cast<std::int32_t>(time));
-    path.delay.push_back(asked.value_of(cell));
+    path.delay.push_back(static_cast<std::int32_t>(sum_of_all(share, is_own ? asked.value_of(cell) : 0)));
   }
 
   void add_step(std::int64_t u) {

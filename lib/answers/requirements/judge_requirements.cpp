@@ -33,7 +33,7 @@ class Judge {
     const RequirementSpec& requirement = ground_.spec.requirements[r];
     asked_ = ask(requirement);
     const UniformGrid& grid = ground_.abstraction->grid;
-    const CellSet region = cells_of_region(requirement.where, grid, team_);
+    const CellSet region = cells_of_region(requirement.where, grid, team_, ground_.shared_rows());
     const CellVerdict verdict = judge_cells(region, grid, asked_, number_stride_, team_);
     ResultRequirement result{.name = requirement.name,
                              .cells = static_cast<std::uint64_t>(verdict.cells),

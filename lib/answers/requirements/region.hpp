@@ -7,6 +7,7 @@
 #include "engine/cell_set.hpp"
 #include "expression/program.hpp"
 #include "model/uniform_grid.hpp"
+#include "ranks/row_share.hpp"
 
 // The region of states that a requirement is about: {x : where(x)} (contract, section 2, `where`).
 namespace coordreq {
@@ -16,7 +17,9 @@ namespace coordreq {
 /// perhaps not defined. Errs towards more cells.
 /// Cost: most of the grid is told from the region in large blocks, the cells at its border one by one.
 /// REQUIRES: `where` is over states only.
-[[nodiscard]] CellSet cells_of_region(const Program& where, const UniformGrid& grid, ThreadTeam& team);
+/// @param share then those in own rows at least; null: all
+[[nodiscard]] CellSet cells_of_region(const Program& where, const UniformGrid& grid, ThreadTeam& team,
+                                      const RowShare* share = nullptr);
 
 /// The first side (in the order of the dimensions, below before above) of those beyond which the region may
 /// reach; nothing if it cannot leave the domain.

@@ -40,9 +40,12 @@ struct Ranges {
 /// Finds the cells of one slab of rows after the other; scratch of one thread.
 class RegionFinder {
  public:
-  RegionFinder(const Program& where, const UniformGrid& grid, const Ranges& ranges, CellSet& cells)
+  /// @param rows what is elsewhere need not be found
+  RegionFinder(const Program& where, const UniformGrid& grid, const Ranges& ranges, RowShare::Range rows,
+               CellSet& cells)
       : grid_(grid),
         ranges_(ranges),
+        rows_(rows),
         cells_(cells),
         natural_(where),
         decider_(where),
@@ -52,6 +55,7 @@ class RegionFinder {
   /// Looks at a block of cells. What natural evaluation decides for all of it is decided for its cells,
   /// because narrower ranges never evaluate to wider ones.
   void visit(std::vector<IndexRange>& block) {
+    if (!meets_rows(block)) return;
     for (std::size_t s = 0; s < ranges_.states.size(); ++s) set_hull(s, block[ranges_.dimension[s]]);
     const Truth truth = natural_.condition(box_);
     if (truth == Truth::no) return;
@@ -71,6 +75,16 @@ class RegionFinder {
   }
 
  private:
+  [[nodiscard]] bool meets_rows(const std::vector<IndexRange>& block) const {
+    std::int64_t first = 0;
+    std::int64_t last = 0;
+    for (std::size_t i = 0; i + 1 < block.size(); ++i) {
+      first += block[i].first * grid_.row_stride(i);
+      last += block[i].last * grid_.row_stride(i);
+    }
+    return first < rows_.end && last >= rows_.begin;
+  }
+
   void set_hull(std::size_t s, const IndexRange& range) {
     const std::vector<Interval>& hulls = ranges_.hull[s];
     Interval all = hulls[static_cast<std::size_t>(range.first)];
@@ -122,6 +136,7 @@ class RegionFinder {
 
   const UniformGrid& grid_;
   const Ranges& ranges_;
+  RowShare::Range rows_;
   CellSet& cells_;
   Evaluator<Interval> natural_;
   ConditionDecider decider_;
@@ -138,13 +153,14 @@ std::vector<IndexRange> whole_grid(const UniformGrid& grid) {
 
 }  // namespace
 
-CellSet cells_of_region(const Program& where, const UniformGrid& grid, ThreadTeam& team) {
+CellSet cells_of_region(const Program& where, const UniformGrid& grid, ThreadTeam& team,
+                        const RowShare* share) {
   CellSet cells(grid.rows(), grid.row_length());
   const Ranges ranges(where, grid);
   // Threads write to different rows: each to those with an index of its own in the first dimension.
   const std::int64_t slabs = grid.size() > 1 ? grid[0].count : 1;
   team.for_each(slabs, 1, [&](ThreadTeam::Range range, int) {
-    RegionFinder finder(where, grid, ranges, cells);
+    RegionFinder finder(where, grid, ranges, own_rows(share, grid.rows()), cells);
     std::vector<IndexRange> block = whole_grid(grid);
     if (grid.size() > 1)
       block[0] = {static_cast<std::int32_t>(range.begin), static_cast<std::int32_t>(range.end - 1)};

@@ -26,6 +26,26 @@ std::int64_t number_of(const UniformGrid& grid, std::int64_t cell, const std::ve
   return sum;
 }
 
+/// Makes what one process has found what all have.
+void join(Ranks& ranks, Part& part) {
+  const auto least = [&ranks](std::int64_t value) { return ~ranks.greatest(~value); };
+  part.verdict.cells = ranks.sum(part.verdict.cells);
+  part.verdict.failing = ranks.sum(part.verdict.failing);
+  const std::int64_t own_rank = part.least_rank;
+  part.least_rank = least(own_rank);
+  part.verdict.worst_value = static_cast<std::int32_t>(
+      ranks.greatest(own_rank == part.least_rank ? std::int64_t{part.verdict.worst_value} : INT64_MIN));
+  // The worst cell: of those with the least rank those of the least collision time, and so on.
+  const auto [rank, time, number] = part.worst;
+  bool is_worst = part.verdict.worst.has_value();
+  for (const std::int64_t own : {rank, time, number}) {
+    const std::int64_t all = least(is_worst ? own : INT64_MAX);
+    is_worst = is_worst && own == all;
+  }
+  const std::int64_t cell = ranks.greatest(is_worst ? *part.verdict.worst : -1);
+  part.verdict.worst = cell < 0 ? std::nullopt : std::optional<std::int64_t>(cell);
+}
+
 }  // namespace
 
 std::int32_t delay_of(std::int64_t cell, std::int64_t collision_time, const DelayLayers* layers) {
@@ -74,25 +94,26 @@ CellVerdict judge_cells(const CellSet& region, const UniformGrid& grid, const Ce
     part.verdict.worst = cell;
     part.worst = own;
   };
-  team.for_each(grid.rows(), 1024, [&](ThreadTeam::Range range, int worker) {
+  const RowShare* const share = requirement.collision_time->share();
+  for_each_own_row(team, share, grid.rows(), 1024, [&](ThreadTeam::Range range, int worker) {
     Part& part = parts[static_cast<std::size_t>(worker)];
     for (std::int64_t r = range.begin; r < range.end; ++r) {
       for_each_bit(region.row(r),
                    [&](std::int64_t column) { look_at(r * grid.row_length() + column, part); });
     }
   });
-  CellVerdict verdict;
-  const Part* worst = nullptr;
-  std::int64_t least_rank = INT64_MAX;
+  Part all;
   for (const Part& part : parts) {
-    verdict.cells += part.verdict.cells;
-    verdict.failing += part.verdict.failing;
-    if (part.least_rank < least_rank) verdict.worst_value = part.verdict.worst_value;
-    least_rank = std::min(least_rank, part.least_rank);
-    if (part.verdict.worst && (worst == nullptr || part.worst < worst->worst)) worst = &part;
+    all.verdict.cells += part.verdict.cells;
+    all.verdict.failing += part.verdict.failing;
+    if (part.least_rank < all.least_rank) all.verdict.worst_value = part.verdict.worst_value;
+    all.least_rank = std::min(all.least_rank, part.least_rank);
+    if (!part.verdict.worst || (all.verdict.worst && all.worst <= part.worst)) continue;
+    all.verdict.worst = part.verdict.worst;
+    all.worst = part.worst;
   }
-  if (worst != nullptr) verdict.worst = worst->verdict.worst;
-  return verdict;
+  if (share != nullptr) join(share->ranks(), all);
+  return all.verdict;
 }
 
 }  // namespace coordreq

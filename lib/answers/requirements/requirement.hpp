@@ -47,6 +47,7 @@ struct CellVerdict {
 [[nodiscard]] std::int32_t delay_of(std::int64_t cell, std::int64_t collision_time,
                                     const DelayLayers* layers);
 
+/// Of the rows of all processes. Together.
 /// @param region over the same grid as the levels
 /// @param number_stride [dimension]: what one index adds to a cell's number
 [[nodiscard]] CellVerdict judge_cells(const CellSet& region, const UniformGrid& grid,

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "base/error.hpp"
+#include "ranks/ranks.hpp"
+
+namespace coordreq {
+
+/// `coordreq-mpi`: what is typed, done by all ranks together. Only the first reads the spec, writes, and
+/// prints. @throws UsageError and as analyze_with_progress()
+[[nodiscard]] ExitCode analyze_on_ranks(int argc, const char* const* argv, Ranks& ranks);
+
+}  // namespace coordreq

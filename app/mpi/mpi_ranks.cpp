@@ -1,0 +1,147 @@
+#include "app/mpi/mpi_ranks.hpp"
+
+#include <mpi.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <utility>
+
+#include "base/error.hpp"
+
+namespace coordreq {
+namespace {
+
+/// MPI counts in ints: longer messages go in pieces of this size, and one that is not longer is the last.
+constexpr std::size_t kPiece = std::size_t{1} << 30;
+/// How long a rank waits for the first one to hear of its error.
+constexpr std::chrono::seconds kPatience{20};
+
+}  // namespace
+
+struct MpiRanks::Sending {
+  Bytes message;
+  std::vector<MPI_Request> requests;
+};
+
+struct MpiRanks::Handles {
+  MPI_Comm work = MPI_COMM_NULL;
+  MPI_Comm errors = MPI_COMM_NULL;
+};
+
+MpiRanks::MpiRanks(int& argc, char**& argv) : handles_(std::make_unique<Handles>()) {
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &count_);
+  MPI_Comm_dup(MPI_COMM_WORLD, &handles_->work);
+  MPI_Comm_dup(MPI_COMM_WORLD, &handles_->errors);
+}
+
+MpiRanks::~MpiRanks() = default;
+
+void MpiRanks::send(int to, Bytes message) {
+  forget_sent();
+  Sending& own = sending_.emplace_back(std::move(message), std::vector<MPI_Request>());
+  for (std::size_t begin = 0;; begin += kPiece) {
+    const std::size_t bytes = std::min(kPiece, own.message.size() - begin);
+    MPI_Isend(own.message.data() + begin, static_cast<int>(bytes), MPI_BYTE, to, 0, handles_->work,
+              &own.requests.emplace_back());
+    if (bytes < kPiece) break;
+  }
+}
+
+Bytes MpiRanks::receive(int from) {
+  Bytes message;
+  for (;;) {
+    int is_there = 0;
+    MPI_Message found = MPI_MESSAGE_NULL;
+    MPI_Status status;
+    for (;;) {
+      MPI_Improbe(from, 0, handles_->work, &is_there, &found, &status);
+      if (is_there != 0) break;
+      idle();
+    }
+    int bytes = 0;
+    MPI_Get_count(&status, MPI_BYTE, &bytes);
+    const std::size_t before = message.size();
+    message.resize(before + static_cast<std::size_t>(bytes));
+    MPI_Mrecv(message.data() + before, bytes, MPI_BYTE, &found, MPI_STATUS_IGNORE);
+    if (static_cast<std::size_t>(bytes) < kPiece) break;
+  }
+  forget_sent();
+  return message;
+}
+
+void MpiRanks::add(std::span<std::int64_t> values) {
+  reduce(values, true);
+}
+
+void MpiRanks::take_greatest(std::span<std::int64_t> values) {
+  reduce(values, false);
+}
+
+void MpiRanks::reduce(std::span<std::int64_t> values, bool is_sum) {
+  const std::vector<std::int64_t> own(values.begin(), values.end());
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Iallreduce(own.data(), values.data(), static_cast<int>(values.size()), MPI_INT64_T,
+                 is_sum ? MPI_SUM : MPI_MAX, handles_->work, &request);
+  for (int is_done = 0;;) {
+    MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+    if (is_done != 0) return;
+    idle();
+  }
+}
+
+void MpiRanks::forget_sent() {
+  std::erase_if(sending_, [](Sending& one) {
+    int is_done = 0;
+    MPI_Testall(static_cast<int>(one.requests.size()), one.requests.data(), &is_done, MPI_STATUSES_IGNORE);
+    return is_done != 0;
+  });
+}
+
+void MpiRanks::idle() {
+  if (rank_ == 0) {
+    int is_there = 0;
+    MPI_Message found = MPI_MESSAGE_NULL;
+    MPI_Status status;
+    MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, handles_->errors, &is_there, &found, &status);
+    if (is_there != 0) {
+      int bytes = 0;
+      MPI_Get_count(&status, MPI_BYTE, &bytes);
+      std::string what(static_cast<std::size_t>(bytes), ' ');
+      MPI_Mrecv(what.data(), bytes, MPI_BYTE, &found, MPI_STATUS_IGNORE);
+      throw Error(static_cast<ExitCode>(status.MPI_TAG), what, "");
+    }
+  }
+  if (watch_) watch_();
+  sched_yield();  // there may be more ranks than cores
+}
+
+void MpiRanks::finish() {
+  while (!sending_.empty()) {
+    forget_sent();
+    idle();
+  }
+  static_cast<void>(sum(0));  // no error is under way any more
+  MPI_Comm_free(&handles_->work);
+  MPI_Comm_free(&handles_->errors);
+  MPI_Finalize();
+}
+
+void MpiRanks::end_all(int exit_code, const std::string& what, const std::function<void()>& say) {
+  if (rank_ != 0) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Isend(what.data(), static_cast<int>(what.size()), MPI_BYTE, 0, exit_code, handles_->errors, &request);
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    for (int is_done = 0; std::chrono::steady_clock::now() < end; sched_yield())
+      MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+    say();
+  }
+  MPI_Abort(MPI_COMM_WORLD, exit_code);
+  std::_Exit(exit_code);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ranks/ranks.hpp"
+
+namespace coordreq {
+
+/// The processes that mpirun has started. At most one object a process: it begins and ends MPI.
+///
+/// An error of one rank ends all of them, and is told once, by the first: see end_all().
+class MpiRanks final : public Ranks {
+ public:
+  MpiRanks(int& argc, char**& argv);
+  ~MpiRanks() override;
+  MpiRanks(const MpiRanks&) = delete;
+  MpiRanks& operator=(const MpiRanks&) = delete;
+
+  [[nodiscard]] int rank() const override { return rank_; }
+  [[nodiscard]] int count() const override { return count_; }
+  void send(int to, Bytes message) override;
+  [[nodiscard]] Bytes receive(int from) override;
+  void add(std::span<std::int64_t> values) override;
+  void take_greatest(std::span<std::int64_t> values) override;
+
+  /// Called while this rank waits; what it throws ends the wait.
+  void set_watch(std::function<void()> watch) { watch_ = std::move(watch); }
+
+  /// Together: the work is done.
+  void finish();
+  /// The work has failed here. The first rank has said so and ends all processes; another one leaves both to
+  /// the first, and if that does not hear of it in some seconds `say` is called here.
+  [[noreturn]] void end_all(int exit_code, const std::string& what, const std::function<void()>& say);
+
+ private:
+  /// The types of MPI are known in the source only.
+  struct Sending;
+  struct Handles;
+
+  void reduce(std::span<std::int64_t> values, bool is_sum);
+  void forget_sent();
+  void idle();
+
+  int rank_ = 0;
+  int count_ = 1;
+  std::function<void()> watch_;
+  std::deque<Sending> sending_;
+  std::unique_ptr<Handles> handles_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "base/thread_team.hpp"
+#include "ranks/ranks.hpp"
+
+namespace coordreq {
+
+/// Which rows of a grid are whose, and which ones of others a rank holds beside its own: its *halo*, the rows
+/// that the posts of its own can meet. Rows keep the numbers that they have in the whole grid.
+class RowShare {
+ public:
+  using Range = ThreadTeam::Range;
+
+  /// @param bounds rank r owns the rows [bounds[r], bounds[r + 1])
+  /// REQUIRES: `ranks` outlives this object.
+  RowShare(Ranks& ranks, std::vector<std::int64_t> bounds);
+
+  [[nodiscard]] Ranks& ranks() const { return *ranks_; }
+  [[nodiscard]] Range own() const { return run_of(ranks_->rank()); }
+  [[nodiscard]] Range run_of(int rank) const {
+    return {bounds_[static_cast<std::size_t>(rank)], bounds_[static_cast<std::size_t>(rank) + 1]};
+  }
+  [[nodiscard]] int owner(std::int64_t row) const {
+    return static_cast<int>(std::upper_bound(bounds_.begin() + 1, bounds_.end() - 1, row) - bounds_.begin()) -
+           1;
+  }
+
+  /// Together: chooses the halo. @param is_met [row] not 0 for the rows that posts of own rows can meet
+  void set_halo(const std::vector<std::uint8_t>& is_met);
+  /// The rows of this rank and of its halo, ascending.
+  [[nodiscard]] const std::vector<Range>& held() const { return held_; }
+
+  /// A rank whose halo has rows of this one, or the other way round.
+  struct Peer {
+    int rank = 0;
+    std::vector<Range> sent;      ///< own rows that it holds too
+    std::vector<Range> received;  ///< rows of its own that are held here
+  };
+  [[nodiscard]] const std::vector<Peer>& peers() const { return peers_; }
+
+ private:
+  Ranks* ranks_;
+  std::vector<std::int64_t> bounds_;
+  std::vector<Range> held_;
+  std::vector<Peer> peers_;
+};
+
+/// The rows that a rank owns, or all of them. @param share null: there is one process
+[[nodiscard]] inline RowShare::Range own_rows(const RowShare* share, std::int64_t rows) {
+  return share == nullptr ? RowShare::Range{0, rows} : share->own();
+}
+
+/// The rows that a rank holds, or all of them, ascending.
+[[nodiscard]] inline std::vector<RowShare::Range> held_rows(const RowShare* share, std::int64_t rows) {
+  return share == nullptr ? std::vector<RowShare::Range>{{0, rows}} : share->held();
+}
+
+/// Calls `body(range, worker)` in pieces of at most `grain` rows for those that a rank owns, or for all.
+void for_each_own_row(ThreadTeam& team, const RowShare* share, std::int64_t rows, std::int64_t grain,
+                      const ThreadTeam::Body& body);
+/// The same for those that it holds. @param grain if it is that of all rows, one run after the other
+void for_each_held_row(ThreadTeam& team, const RowShare* share, std::int64_t rows, std::int64_t grain,
+                       const ThreadTeam::Body& body);
+/// The same for some runs of rows.
+void for_each_row_of(ThreadTeam& team, const std::vector<RowShare::Range>& runs, std::int64_t grain,
+                     const ThreadTeam::Body& body);
+
+/// The sum over all ranks, of what one process has found.
+[[nodiscard]] inline std::int64_t sum_of_all(const RowShare* share, std::int64_t own) {
+  return share == nullptr ? own : share->ranks().sum(own);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,179 @@
+// Several processes write the same bytes as one, on random systems: here processes are threads.
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "analysis/analyze.hpp"
+#include "spec/read_spec.hpp"
+#include "support/random_problem.hpp"
+#include "support/random_requirements.hpp"
+#include "support/thread_ranks.hpp"
+
+namespace coordreq {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "coordreq-ranks-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder");
+    path_ = name;
+  }
+  ~Folder() { fs::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+std::string content(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return (std::ostringstream() << stream.rdbuf()).str();
+}
+
+struct Outcome {
+  std::string file;
+  Json summary;
+};
+
+/// What does not depend on how the work was done.
+Json answer_of(Json summary) {
+  for (const char* key : {"output", "threads", "seconds", "work", "peak_memory_bytes"}) summary.erase(key);
+  return summary;
+}
+
+Outcome alone(const Folder& folder, const ProblemSpec& spec) {
+  ThreadTeam team(1);
+  const std::string path = folder.file("one.h5");
+  const Json summary = analyze(spec, {.output = path}, team);
+  return {content(path), answer_of(summary)};
+}
+
+Outcome together(const Folder& folder, const ProblemSpec& spec, int count, int threads) {
+  const std::string path = folder.file("many.h5");
+  fs::remove(path);
+  Outcome outcome;
+  ThreadRanks::run(count, [&](Ranks& ranks) {
+    ThreadTeam team(threads);
+    AnalysisOptions options{.output = path};
+    options.ranks = &ranks;
+    const Json summary = analyze(spec, options, team);
+    if (ranks.rank() == 0) outcome.summary = answer_of(summary);
+  });
+  outcome.file = content(path);
+  return outcome;
+}
+
+constexpr int kCounts[] = {1, 2, 3, 5, 8};
+
+void expect_same(const Folder& folder, const ProblemSpec& spec) {
+  const Outcome one = alone(folder, spec);
+  EXPECT_FALSE(one.file.empty());
+  for (const int count : kCounts) {
+    const Outcome many = together(folder, spec, count, 1);
+    EXPECT_EQ(many.summary, one.summary) << count << " ranks";
+    EXPECT_TRUE(many.file == one.file) << count << " ranks";
+  }
+}
+
+int draw(int low, int high) {
+  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
+}
+
+Json draw_problem_of_any_kind() {
+  const RandomTime time = draw(0, 3) == 0 ? RandomTime::between_samples : RandomTime::any;
+  const RandomAgents agents = draw(0, 3) == 0 ? RandomAgents::many : RandomAgents::few;
+  Json spec = Json::parse(draw_problem(time, RandomEdges::any, agents));
+  for (const char* part : {"controller", "actions", "abstraction"}) spec["output"][part] = draw(0, 1) == 0;
+  return spec;
+}
+
+/// With more questions than those for delays.
+Json draw_questions() {
+  Json spec = Json::parse(with_requirements(draw(0, 1) == 0 ? draw_team() : draw_problem()));
+  spec["output"]["actions"] = draw(0, 3) == 0;
+  spec["coordination"]["convention"] = draw(0, 1) == 0;
+  const std::string first = spec["states"][0]["name"];
+  if (draw(0, 1) == 0) {
+    const std::string goal = first + (draw(0, 1) == 0 ? " <= " : " >= ") + std::to_string(draw(0, 5)) + ".5";
+    spec["goal"] = goal;
+    spec["requirements"].push_back({{"name", "soon"}, {"where", "true"}, {"max_arrival", draw(0, 3)}});
+    return spec;
+  }
+  const int window = draw(1, 4);
+  Json network;
+  if (draw(0, 1) == 0) {
+    network["delay"] = draw(0, 3);
+  } else {
+    network["weakly_hard"] = {{"misses", draw(0, window)}, {"window", window}};
+  }
+  network["resynthesise"] = draw(0, 1) == 0;
+  spec["network"] = network;
+  return spec;
+}
+
+void check_same(const Folder& folder, const ProblemSpec& spec) {
+  const Outcome one = alone(folder, spec);
+  const int threads = draw(1, 2);
+  for (const int count : kCounts) {
+    const Outcome many = together(folder, spec, count, threads);
+    RC_ASSERT(many.summary == one.summary);
+    RC_ASSERT(many.file == one.file);
+  }
+  RC_CLASSIFY(one.summary["invariant"] > 0, "K is not empty");
+}
+
+TEST(ManyRanks, WriteTheBytesOfOneProcess) {
+  const Folder folder;
+  EXPECT_TRUE(rc::check("results of 1, 2, 3, 5 and 8 ranks",
+                        [&] { check_same(folder, read_spec(draw_problem_of_any_kind().dump(), "random")); }));
+}
+
+TEST(ManyRanks, AnswerAllQuestionsAsOneProcessDoes) {
+  const Folder folder;
+  EXPECT_TRUE(rc::check("goals, networks, conventions and requirements",
+                        [&] { check_same(folder, read_spec(draw_questions().dump(), "random")); }));
+}
+
+/// One cell is lost a step, all of them in the last rank's rows first: more than 8 bits, and in one rank
+/// only.
+TEST(ManyRanks, LevelsBecomeWideEverywhereWhereTheyDoInOne) {
+  const Folder folder;
+  expect_same(folder, read_spec(R"json({"coordreq": 1, "name": "chain",
+    "states": [{"name": "y", "lower": 0, "upper": 7, "step": 1},
+               {"name": "x", "lower": 0, "upper": 599, "step": 1}],
+    "inputs": [{"name": "u", "values": [0]}], "agents": [{"name": "a", "inputs": ["u"]}],
+    "dynamics": {"time": "discrete", "period": 1, "equations": {"y": "y", "x": "x - (1 - min(y, 1)) + u"}},
+    "safe": "x >= 0", "abstraction": {"safe": "center", "cells": "half_open"}})json",
+                                "chain"));
+}
+
+/// Posts of one end lie at the other end: every rank meets rows of others far away.
+TEST(ManyRanks, RowsMayMeetAnyOthers) {
+  const Folder folder;
+  for (const char* equation : {"-p", "p + v", "v"}) {
+    expect_same(folder, read_spec(std::string(R"json({"coordreq": 1, "name": "jump",
+      "states": [{"name": "p", "lower": -9, "upper": 9, "count": 18, "outside": "periodic"},
+                 {"name": "v", "lower": -9, "upper": 9, "step": 1, "outside": "unsafe"}],
+      "inputs": [{"name": "u", "values": [-1, 0, 1]}, {"name": "w", "values": [-1, 0, 2]}],
+      "agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["w"]}],
+      "dynamics": {"time": "discrete", "period": 1, "equations": {"p": ")json") +
+                                      equation + R"json(", "v": "v + u + w"}},
+      "safe": "p + v <= 12 and v >= p - 11", "abstraction": {"safe": "center", "cells": "half_open"},
+      "coordination": {"partitions": "all", "connection_delay": 1},
+      "output": {"actions": true, "controller": true}})json",
+                                  "jump"));
+  }
+}
+
+}  // namespace
+}  // namespace coordreq
