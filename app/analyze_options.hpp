@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct AnalyzeOptions : CommonOptions {
   ProgressOptions progress;
   std::optional<CheckpointOptions> checkpoint;
   Ranks* ranks = nullptr;  ///< the processes that share the work; null: there is one
+  /// Called now and then while the work goes on; what it throws ends it. May be empty.
+  std::function<void()> watch;
 
   /// Whether there is more than one analysis to do, or a table of one is asked for.
   [[nodiscard]] bool is_batch() const { return specs.size() > 1 || !sweeps.empty(); }

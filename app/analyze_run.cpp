@@ -45,6 +45,7 @@ std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const
   options.ranks = asked.ranks;
   options.progress = [&](const Progress& progress) {
     interrupts.obey(progress);
+    if (asked.watch) asked.watch();
     Progress of_many = progress;
     of_many.stage = prefix + progress.stage;
     shown.update(of_many);

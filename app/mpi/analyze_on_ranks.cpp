@@ -94,13 +94,15 @@ ProblemSpec shared_spec(const AnalyzeOptions& own, Ranks& ranks) {
 
 }  // namespace
 
-ExitCode analyze_on_ranks(int argc, const char* const* argv, Ranks& ranks) {
+ExitCode analyze_on_ranks(int argc, const char* const* argv, Ranks& ranks,
+                          const std::function<void()>& watch) {
   AnalyzeOptions own;
   if (const std::optional<std::string> text = parse(argc, argv, own)) {
     if (ranks.rank() == 0) write_output(*text);
     return ExitCode::success;
   }
   own.ranks = &ranks;
+  own.watch = watch;
   if (ranks.rank() != 0) own.quiet = true;
   if (ranks.rank() != 0) own.progress.mode = ProgressMode::none;
   const ProblemSpec spec = shared_spec(own, ranks);

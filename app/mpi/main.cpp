@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
   });
   try {
     coordreq::report_what_terminates();
-    const coordreq::ExitCode code = coordreq::analyze_on_ranks(argc, argv, ranks);
+    const coordreq::ExitCode code = coordreq::analyze_on_ranks(argc, argv, ranks, [&ranks] { ranks.poll(); });
     ranks.finish();
     return static_cast<int>(code);
   } catch (const coordreq::ClosedPipe&) {

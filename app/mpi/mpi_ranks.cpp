@@ -103,6 +103,17 @@ void MpiRanks::forget_sent() {
 }
 
 void MpiRanks::idle() {
+  hear_errors();
+  if (watch_) watch_();
+  sched_yield();  // there may be more ranks than cores
+}
+
+void MpiRanks::poll() {
+  hear_errors();
+  forget_sent();
+}
+
+void MpiRanks::hear_errors() {
   if (rank_ == 0) {
     int is_there = 0;
     MPI_Message found = MPI_MESSAGE_NULL;
@@ -116,8 +127,6 @@ void MpiRanks::idle() {
       throw Error(static_cast<ExitCode>(status.MPI_TAG), what, "");
     }
   }
-  if (watch_) watch_();
-  sched_yield();  // there may be more ranks than cores
 }
 
 void MpiRanks::finish() {

@@ -30,6 +30,9 @@ class MpiRanks final : public Ranks {
   /// Called while this rank waits; what it throws ends the wait.
   void set_watch(std::function<void()> watch) { watch_ = std::move(watch); }
 
+  /// Looks after messages on their way, and for errors of others. @throws Error of another rank
+  void poll();
+
   /// Together: the work is done.
   void finish();
   /// The work has failed here. The first rank has said so and ends all processes; another one leaves both to
@@ -43,6 +46,7 @@ class MpiRanks final : public Ranks {
 
   void reduce(std::span<std::int64_t> values, bool is_sum);
   void forget_sent();
+  void hear_errors();
   void idle();
 
   int rank_ = 0;
