@@ -122,17 +122,17 @@ std::string values_table(const Compared& values, bool tolerant) {
   return table_text(values.found, columns);
 }
 
-/// Whether a delay of the partition is only known to be at least this.
-bool is_cut_off(const Json& value, const Json& partition, const ResultsReader& file) {
+/// Whether steps of the partition are only known to be at least this.
+bool is_lower_bound(const Json& value, const Json& partition, const Field& field, const ResultsReader& file) {
   const auto& all = file.partitions();
-  const auto own = std::find_if(all.begin(), all.end(),
-                                [&](const StoredPartition& stored) { return partition == stored.name; });
-  const std::optional<std::int64_t>& limit = file.spec().coordination.max_delay;
-  return own != all.end() && own->truncated() && limit && value == *limit;
+  for (std::size_t p = 0; p < all.size(); ++p) {
+    if (partition == all[p].name) return value == file.lower_bound(field, p).value_or(-1);
+  }
+  return false;
 }
 
 /// @param partition its name in this file; null if there is none
-std::string value_text(const Json& value, const Json& status, const Json& partition,
+std::string value_text(const Json& value, const Json& status, const Json& partition, const Field& field,
                        const ResultsReader& file) {
   if (status == "number") return grouped(value);
   if (status == "not_invariant") return "not in the invariance set";
@@ -142,7 +142,7 @@ std::string value_text(const Json& value, const Json& status, const Json& partit
     return word;
   }
   const DynamicsSpec& dynamics = file.spec().dynamics;
-  return (is_cut_off(value, partition, file) ? "at least " : "") +
+  return (is_lower_bound(value, partition, field, file) ? "at least " : "") +
          duration(number_of(value), nearest_double(dynamics.period), dynamics.unit);
 }
 
@@ -158,9 +158,9 @@ std::string worst_text(const Json& own, const Field& field, const Files& files) 
                        }});
   }
   const bool is_partition = own.contains("name");
-  const auto value = [](const std::string& when, const Json& partition, const ResultsReader& file) {
-    return [&file, when, partition](const Json& change) {
-      return value_text(change[when], change[when + "_status"], partition, file);
+  const auto value = [&field](const std::string& when, const Json& partition, const ResultsReader& file) {
+    return [&field, &file, when, partition](const Json& change) {
+      return value_text(change[when], change[when + "_status"], partition, field, file);
     };
   };
   columns.push_back(

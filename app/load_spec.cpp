@@ -44,7 +44,7 @@ void declare_settings(Options& options, std::vector<SpecSetting>& settings) {
       settings, "--set", "PATH=VALUE",
       "Take another value in the spec, as constants.R=0.7 or states.0.step=0.02; may be repeated",
       parse_setting);
-  options.option("--refine", "N", "Divide all steps of states by N, after --set",
+  options.option("--refine", "N", "Divide the steps of all states that are not discrete by N, after --set",
                  [&settings](const auto& text, const auto& option) {
                    settings.push_back({kRefine, std::to_string(kFactors(text, option))});
                  });

@@ -1,9 +1,14 @@
 #include "app/options.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
+#include "analysis/estimate_memory.hpp"
 #include "app/memory_limit.hpp"
 #include "app/option_values.hpp"
+#include "app/text.hpp"
+#include "base/error.hpp"
 
 namespace coordreq {
 
@@ -59,6 +64,18 @@ void Options::read_values() {
 
 std::optional<std::uint64_t> CommonOptions::memory() const {
   return max_memory ? max_memory : available_memory();
+}
+
+void CommonOptions::keep_to_memory() const {
+  constexpr double kReadingBytes = 8.0 * 1024 * 1024;  // buffers and tables of the smallest files
+  if (!max_memory) return;
+  const double needed = memory_of_program() + kReadingBytes;
+  if (needed > static_cast<double>(*max_memory)) {
+    throw LimitError(fmt::format("reading results needs at least {} of memory, the limit is {}",
+                                 byte_size(static_cast<std::uint64_t>(needed)), byte_size(*max_memory)),
+                     "--max-memory");
+  }
+  hold_to_memory(*max_memory, threads);
 }
 
 void declare_common(Options& options, CommonOptions& common, const CommonUse& use) {

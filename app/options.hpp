@@ -102,6 +102,9 @@ struct CommonOptions {
 
   /// What the work may use: --max-memory, else what the machine has.
   [[nodiscard]] std::optional<std::uint64_t> memory() const;
+  /// For what reads results: from now on no more than --max-memory is taken, if it was given.
+  /// @throws LimitError if reading any file takes more
+  void keep_to_memory() const;
 };
 
 /// To be declared last.

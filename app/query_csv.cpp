@@ -26,12 +26,21 @@ std::string csv_coalition(const StateAnswer::Coalition& coalition, const Results
   return fmt::format(",{},{}", coalition.partition, pairs);
 }
 
+/// A column that is no state; states may have its name.
+std::string answer_column(const std::string& name, const ResultsReader& results) {
+  const auto& states = results.grid().dimensions();
+  const bool is_taken =
+      std::ranges::any_of(states, [&](const GridDimension& state) { return state.name == name; });
+  return (is_taken ? "answer:" : "") + name;
+}
+
 }  // namespace
 
 std::string answer_csv_header(const ResultsReader& results) {
   std::string line;
   for (const GridDimension& dimension : results.grid().dimensions()) line += dimension.name + ",";
-  line += "inside,cell,safe,invariant,collision_time";
+  line += fmt::format("{},{},safe,invariant,collision_time", answer_column("inside", results),
+                      answer_column("cell", results));
   for (const StoredPartition& partition : results.partitions()) {
     line += fmt::format(",delay:{0},countdown:{0}", partition.name);
     for (const std::string& name : partition.classes)
@@ -41,8 +50,8 @@ std::string answer_csv_header(const ResultsReader& results) {
     for (const std::string& name : partition.classes)
       line += fmt::format(",approach_actions:{}:{}", partition.name, name);
   }
-  if (results.has_coalition()) line += ",coalition,critical_pairs";
-  if (results.spec().network) line += ",safe_modes";
+  if (results.has_coalition()) line += ",coalition," + answer_column("critical_pairs", results);
+  if (results.spec().network) line += "," + answer_column("safe_modes", results);
   if (results.spec().coordination.convention) {
     for (const AgentSpec& agent : results.spec().agents) line += ",convention:" + agent.name;
   }

@@ -72,10 +72,12 @@ Json class_json(const ProblemSpec& spec, const std::string& name, const std::vec
   return json;
 }
 
-/// Whether a delay is a lower bound only: the largest one of a partition that max_delay cut off.
-bool is_lower_bound(std::int32_t delay, const StoredPartition& partition) {
-  return partition.truncated() &&
-         std::int64_t{delay} + 1 == static_cast<std::int64_t>(partition.layer_sizes.size());
+/// Steps of a field over partitions.
+void add_steps(Json& json, const std::string& name, std::int32_t steps, const std::string& path,
+               std::size_t p, const ResultsReader& results) {
+  const Field& field = results.field(path);
+  const bool is_lower_bound = results.lower_bound(field, p) == std::int64_t{steps};
+  add_steps(json, name, steps, is_lower_bound ? "at_least" : status_of(field, steps), results);
 }
 
 Json classes_json(const std::vector<std::vector<bool>>& actions, std::size_t p,
@@ -91,10 +93,8 @@ Json classes_json(const std::vector<std::vector<bool>>& actions, std::size_t p,
 /// On the way to the goal.
 Json approach_json(const StateAnswer::Approach& approach, std::size_t p, const ResultsReader& results) {
   Json json;
-  add_steps(json, "delay", approach.delay, status_of(results.field("/approach_delay"), approach.delay),
-            results);
-  add_steps(json, "countdown", approach.trigger,
-            status_of(results.field("/approach_trigger"), approach.trigger), results);
+  add_steps(json, "delay", approach.delay, "/approach_delay", p, results);
+  add_steps(json, "countdown", approach.trigger, "/approach_trigger", p, results);
   json["classes"] = classes_json(approach.actions, p, results);
   return json;
 }
@@ -103,11 +103,8 @@ Json partition_json(const StateAnswer::Partition& answer, std::size_t p, const R
   const StoredPartition& stored = results.partitions()[p];
   Json json;
   json["name"] = stored.name;
-  add_steps(
-      json, "delay", answer.delay,
-      is_lower_bound(answer.delay, stored) ? "at_least" : status_of(results.field("/delay"), answer.delay),
-      results);
-  add_steps(json, "countdown", answer.trigger, status_of(results.field("/trigger"), answer.trigger), results);
+  add_steps(json, "delay", answer.delay, "/delay", p, results);
+  add_steps(json, "countdown", answer.trigger, "/trigger", p, results);
   json["classes"] = classes_json(answer.actions, p, results);
   if (answer.approach) json["approach"] = approach_json(*answer.approach, p, results);
   return json;

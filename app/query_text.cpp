@@ -115,7 +115,8 @@ class AnswerText {
   /// A value by its key, or the word that it means.
   [[nodiscard]] std::string value_text(const Json& of, const std::string& name) const {
     const std::string status = text_of(of[name + "_status"]);
-    if (status == "steps") return steps_text(of[name]);
+    if (status == "steps" || status == "at_least")
+      return (status == "at_least" ? "at least " : "") + steps_text(of[name]);
     if (status == "number") return grouped(of[name]);
     std::string words = status;
     std::replace(words.begin(), words.end(), '_', ' ');

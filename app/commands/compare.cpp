@@ -27,6 +27,7 @@ ResultsComparison compare_with_progress(const ResultsReader& before, const Resul
 }
 
 ExitCode run(const CompareArguments& own) {
+  own.keep_to_memory();
   const ResultsReader before(own.before, own.max_memory);
   const ResultsReader after(own.after, own.max_memory);
   const ResultsComparison comparison = compare_with_progress(before, after, own);

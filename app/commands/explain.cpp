@@ -20,6 +20,7 @@ struct ExplainOptions : CommonOptions {
 
 ExitCode run(const ExplainOptions& own) {
   if (own.at.empty()) throw UsageError("no state, expected --at NAME=VALUE,...");
+  own.keep_to_memory();
   const ResultsReader results(own.results, own.max_memory);
   const std::size_t partition = find_partition(results.spec(), own.partition);
   const std::vector<Rational> state = parse_state(own.at, state_names(results.spec()), "--at");

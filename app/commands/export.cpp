@@ -114,6 +114,7 @@ Exporter exporter(const ExportOptions& own, const ResultsReader& results, Thread
 ExitCode run(const ExportOptions& own) {
   if (!own.format) throw UsageError("no --format, expected csv, scs, c-header or vtk");
   if (own.output) check_output(own.results, *own.output, "the export");
+  own.keep_to_memory();
   const ResultsReader results(own.results, own.max_memory);
   ThreadTeam team(own.threads);
   const Exporter write = exporter(own, results, team);

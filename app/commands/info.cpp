@@ -123,6 +123,7 @@ Run declare_info(Options& options) {
   declare_results(options, own->results);
   declare_common(options, *own, {.threads = false});
   return [own] {
+    own->keep_to_memory();
     print_answer(*own, read_info(own->results, own->max_memory), info_text);
     return ExitCode::success;
   };

@@ -31,6 +31,7 @@ void answer_standard_input(const ResultsReader& results, StateQuery& query, bool
 }
 
 ExitCode run(const QueryOptions& own) {
+  own.keep_to_memory();
   const ResultsReader results(own.results, own.max_memory);
   ThreadTeam team(own.threads);
   StateQuery query(results, team);

@@ -76,6 +76,7 @@ struct ReportOptions : CommonOptions {
 };
 
 ExitCode run(const ReportOptions& own) {
+  own.keep_to_memory();
   const ResultsReader results(own.results, own.max_memory);
   const std::string path = own.output.value_or(results.spec().name + ".html");
   check_output(own.results, path, "the report");

@@ -82,6 +82,7 @@ ExitCode run(const SimulateOptions& own) {
   if (own.simulation.output) check_output(own.results, *own.simulation.output, "the runs");
   SimulationOptions options = own.simulation;
   options.max_memory = own.memory();
+  own.keep_to_memory();
   const ResultsReader results(own.results, own.max_memory);
   const Simulation simulation = simulate_with_care(results, options, own);
   print_simulation(own, simulation, results, options);

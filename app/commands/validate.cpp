@@ -5,6 +5,7 @@
 
 #include "analysis/advice.hpp"
 #include "analysis/analyze.hpp"
+#include "analysis/estimate_memory.hpp"
 #include "answers/requirements/judge_requirements.hpp"
 #include "app/commands/all.hpp"
 #include "app/load_spec.hpp"
@@ -138,6 +139,14 @@ std::string report_text(const Json& report) {
                      states_table(report["states"]), inputs_table(report["inputs"]), totals_table(report));
 }
 
+/// What cannot be analysed here is not looked at cell by cell.
+Warning too_large_here(const SpecReport& report, std::uint64_t memory) {
+  return {"memory", "/states",
+          fmt::format("analyze needs about {}, and this machine has {}: motions and requirements were not "
+                      "looked at",
+                      byte_size(report.memory_bytes), byte_size(memory))};
+}
+
 struct ValidateOptions : CommonOptions {
   std::string spec;
   std::vector<SpecSetting> settings;
@@ -145,16 +154,17 @@ struct ValidateOptions : CommonOptions {
 
 ExitCode run(const ValidateOptions& own) {
   if (own.max_memory) hold_to_memory(*own.max_memory, own.threads);
-  // What cannot be analysed here need not be looked at closely.
   const std::optional<std::uint64_t> memory = own.memory();
   const ProblemSpec spec = load_spec(own.spec, own.settings, memory);
+  check_memory(spec, own.max_memory, own.threads, false);
   const SpecReport report = inspect(spec, own.threads);
   Json found = report_json(report);
-  found["warnings"] = Json::array();
   if (!memory || report.memory_bytes <= *memory) {
     ThreadTeam team(own.threads);
     check_regions(spec, team);
     found["warnings"] = warnings_json(advise_before(spec, team));
+  } else {
+    found["warnings"] = warnings_json({too_large_here(report, *memory)});
   }
   PrintedWarnings(own).print(found["warnings"]);
   print_answer(own, found, report_text);

@@ -38,6 +38,7 @@ Verification verify_with_progress(const ClaimedFile& file, const VerifyArguments
 
 ExitCode run(const VerifyArguments& own) {
   const Clock::time_point start = Clock::now();
+  own.keep_to_memory();
   const ClaimedFile file = read_claims(own.results, own.memory());
   ThreadTeam team(own.threads);
   const Verification result = verify_with_progress(file, own, team);

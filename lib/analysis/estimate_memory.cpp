@@ -37,10 +37,14 @@ std::string in_words(double bytes) {
 
 }  // namespace
 
+double memory_of_program() {
+  return static_cast<double>(resident_bytes()) + kProgramBytes;
+}
+
 double estimate_memory(const Model& model, int threads) {
   const int team = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const EngineSizes sizes(model);
-  double held = static_cast<double>(resident_bytes()) + kProgramBytes + (team - 1) * kThreadBytes;
+  double held = memory_of_program() + (team - 1) * kThreadBytes;
   double most = static_cast<double>(peak_memory_bytes());
   double written = 0, longest = 0;
   const auto add = [&](const MemoryNeed& need) {

@@ -8,6 +8,10 @@
 
 namespace coordreq {
 
+/// What this process holds now, and the parts of the program and its libraries that any work brings into
+/// memory, in bytes.
+[[nodiscard]] double memory_of_program();
+
 /// About the most that this process will hold at a time if it analyses the problem now, in bytes: what it
 /// holds already, with the spec as it was read, and what the types that will hold the rest tell of
 /// themselves. More rather than less. Counterexamples of usual length and steps that fit 8 bits are taken for

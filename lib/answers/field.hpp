@@ -144,6 +144,8 @@ struct Field {
   std::int64_t least = 0, most = kLargestValue;  ///< values of a field of integers
   std::vector<FieldAttribute> attributes = {};   ///< in the order in which they are written
   FieldShown shown = {};
+  /// Of steps over /partition, the path of their F: where that is negative, `max_delay` is a lower bound.
+  std::string fixed_points = {};
 };
 using Fields = std::vector<Field>;
 

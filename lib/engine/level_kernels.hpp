@@ -51,5 +51,11 @@ inline constexpr std::size_t kLevelBlock = 64;
 /// The kernels for a set. REQUIRES: the processor has it. Level: std::uint8_t, std::uint16_t, std::uint32_t.
 template <class Level>
 [[nodiscard]] const LevelKernels<Level>& level_kernels(InstructionSet set);
+template <>
+const LevelKernels<std::uint8_t>& level_kernels<std::uint8_t>(InstructionSet set);
+template <>
+const LevelKernels<std::uint16_t>& level_kernels<std::uint16_t>(InstructionSet set);
+template <>
+const LevelKernels<std::uint32_t>& level_kernels<std::uint32_t>(InstructionSet set);
 
 }  // namespace coordreq

@@ -53,16 +53,33 @@ inline __attribute__((always_inline)) bool any_before(const Vector& v, size_t co
   return false;
 }
 
+/// Blocks side by side share the look at where a source is, and wait for each other less.
+template <class Level, size_t kBlocks>
+inline __attribute__((always_inline)) void minimum_of_blocks(const Level* const* rows, size_t count, size_t j,
+                                                             Level* out) {
+  constexpr size_t kCount = Lanes<Level>::kCount;
+  typename Lanes<Level>::Vector least[kBlocks];
+  for (size_t b = 0; b < kBlocks; ++b) least[b] = block(rows[0] + j + b * kCount);
+  for (size_t k = 1; k < count; ++k) {
+    const Level* const row = rows[k] + j;
+    for (size_t b = 0; b < kBlocks; ++b) {
+      const typename Lanes<Level>::Vector other = block(row + b * kCount);
+      least[b] = least[b] < other ? least[b] : other;
+    }
+  }
+  for (size_t b = 0; b < kBlocks; ++b) block(out + j + b * kCount) = least[b];
+}
+
 template <class Level>
 void minimum(const Level* const* rows, size_t count, Level* out, size_t n) {
-  for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
-    typename Lanes<Level>::Vector least = block(rows[0] + j);
-    for (size_t k = 1; k < count; ++k) {
-      const typename Lanes<Level>::Vector other = block(rows[k] + j);
-      least = least < other ? least : other;
-    }
-    block(out + j) = least;
+  constexpr size_t kCount = Lanes<Level>::kCount;
+  size_t j = 0;
+  for (; j + 3 * kCount < n; j += 4 * kCount) minimum_of_blocks<Level, 4>(rows, count, j, out);
+  if (j + kCount < n) {
+    minimum_of_blocks<Level, 2>(rows, count, j, out);
+    j += 2 * kCount;
   }
+  if (j < n) minimum_of_blocks<Level, 1>(rows, count, j, out);
 }
 
 template <class Level>

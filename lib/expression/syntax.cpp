@@ -221,13 +221,20 @@ class Parser {
 
   /// For those who write another language.
   [[nodiscard]] std::string_view hint() const {
-    if (token_.text == "=") return ", did you mean '=='?";
+    if (token_.text == "=") return equals_hint();
     if (token_.text == "&") return ", did you mean '&&'?";
     if (token_.text == "|") return ", did you mean '||'?";
     if (token_.text == "%") return ", did you mean 'mod(a, b)'?";
     const bool is_second_star =
         token_.text == "*" && token_.offset > 0 && place_.text[token_.offset - 1] == '*';
     return is_second_star ? ", did you mean '^'?" : "";
+  }
+
+  /// Of a '=' by itself, as in "x => 1".
+  [[nodiscard]] std::string_view equals_hint() const {
+    const std::string_view rest = place_.text.substr(token_.offset + 1);
+    if (rest.starts_with('>')) return ", did you mean '>='?";
+    return rest.starts_with('<') ? ", did you mean '<='?" : ", did you mean '=='?";
   }
 
   [[noreturn, gnu::noinline]] void fail_number() const {

@@ -110,6 +110,7 @@ class TruthTable::Filler {
         variables_(condition.variables()),
         indices_(axes.size(), 0),
         parts_(axes.size(), 0),
+        made_(axes.size()),
         ranges_(axes.size()),
         fast_(axes.size()),
         exact_(axes.size()) {
@@ -123,8 +124,12 @@ class TruthTable::Filler {
   void set(std::size_t slot, std::int64_t index) {
     indices_[slot] = index;
     if (cell_truth_) return;
-    ranges_[slot] = kept_[slot].empty() ? enclosed(axes_[slot].ranges(index))
-                                        : kept_[slot][static_cast<std::size_t>(index)];
+    if (kept_[slot].empty()) {
+      made_[slot] = enclosed(axes_[slot].ranges(index));
+      ranges_[slot] = made_[slot];
+    } else {
+      ranges_[slot] = kept_[slot][static_cast<std::size_t>(index)];
+    }
     set_part(slot, 0);
   }
 
@@ -181,7 +186,8 @@ class TruthTable::Filler {
   std::vector<std::uint32_t> variables_;
   std::vector<std::int64_t> indices_;
   std::vector<std::size_t> parts_;
-  std::vector<FastRanges> ranges_;  ///< of the indices
+  std::vector<FastRanges> made_;                   ///< of indices whose ranges are not kept
+  std::vector<std::span<const Interval>> ranges_;  ///< of the indices
   std::vector<Interval> fast_;
   std::vector<RationalInterval> exact_;
 };

@@ -121,9 +121,7 @@ void compare_values(const ResultsReader& before, const ResultsReader& after, con
                     const Field& field, ValueComparison& result) {
   using Leading = std::optional<std::size_t>;
   const auto& pair = result.partition;
-  const bool truncated = pair && after.partitions()[pair->after].truncated();
-  ValueCounter counter(result, options,
-                       truncated ? after.spec().coordination.max_delay : std::optional<std::int64_t>());
+  ValueCounter counter(result, options, pair ? after.lower_bound(field, pair->after) : std::nullopt);
   const std::string subject = pair ? "partition " + before.partitions()[pair->before].name : result.words;
   const auto read = [&](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool earlier) {
     const Leading leading = pair ? Leading(earlier ? pair->before : pair->after) : std::nullopt;

@@ -69,6 +69,9 @@ ResultsReader::ResultsReader(const std::string& path, std::optional<std::uint64_
       grid_(make_grid(parts_.spec)),
       inputs_(make_input_space(parts_.spec)) {
   for (std::size_t i = 0; i < parts_.fields.size(); ++i) field_of_path_[parts_.fields[i].path] = i;
+  for (const Field& field : parts_.fields) {
+    if (!field.fixed_points.empty()) fixed_points_[field.fixed_points] = integers(field.fixed_points);
+  }
 }
 
 ResultsReader::~ResultsReader() = default;
@@ -100,6 +103,11 @@ std::size_t ResultsReader::leading_length(const Field& field) const {
 
 const std::vector<std::string>& ResultsReader::leading_names(const Field& field) const {
   return std::get<std::vector<std::string>>(this->field(field.axes.front()).scale->coordinates);
+}
+
+std::optional<std::int64_t> ResultsReader::lower_bound(const Field& field, std::size_t partition) const {
+  if (field.fixed_points.empty() || fixed_points_.at(field.fixed_points)[partition] >= 0) return std::nullopt;
+  return parts_.spec.coordination.max_delay;
 }
 
 std::vector<std::uint8_t> ResultsReader::members(const Field& field, std::optional<std::size_t> leading,

@@ -66,6 +66,9 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] std::size_t leading_length(const Field& field) const;
   /// What each entry along that axis is called. REQUIRES: there is one.
   [[nodiscard]] const std::vector<std::string>& leading_names(const Field& field) const;
+  /// The number of steps of a field over partitions that says `at least`, since `max_delay` ended the
+  /// iteration; none if F is known. REQUIRES: partition < partitions().size().
+  [[nodiscard]] std::optional<std::int64_t> lower_bound(const Field& field, std::size_t partition) const;
   /// Integers of a field over cells, kNever where the type's largest value means that there is no end.
   /// @param leading place along an axis before those of the cells, if there is one
   [[nodiscard]] std::vector<std::int32_t> values(const Field& field, std::optional<std::size_t> leading,
@@ -160,6 +163,7 @@ class ResultsReader : public FieldSource {
   std::unique_ptr<ResultsFile> file_;  // HDF5 stays inside this module
   ResultsParts parts_;
   std::map<std::string, std::size_t> field_of_path_;
+  std::map<std::string, std::vector<std::int64_t>> fixed_points_;  ///< by Field::fixed_points
   UniformGrid grid_;
   InputSpace inputs_;
 };

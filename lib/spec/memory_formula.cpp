@@ -92,7 +92,8 @@ class FormulaReader {
     int depth = 0;
     while (true) {
       token = read_token(place_.text, token.offset + token.text.size());
-      if (token.kind == TokenKind::end || token.offset >= end) return {};
+      if (token.kind == TokenKind::end) place_.fail("expected ')', found the end", token.offset);
+      if (token.offset >= end) return {};
       if (token.kind == TokenKind::open) ++depth;
       const bool closes = token.kind == TokenKind::close && depth-- == 0;
       if (!closes && (token.kind != TokenKind::comma || depth > 0)) continue;

@@ -212,7 +212,8 @@ std::int64_t MemoryReader::read_samples(Formula& formula, const FormulaPart& par
   std::string text = part.text;
   text.erase(0, text.find_first_not_of(" \n"));
   text.erase(text.find_last_not_of(" \n") + 1);
-  throw SpecError("expected a constant integer >= 1 as the number of samples, found " + quote_text(text),
+  throw SpecError(fmt::format("expected a constant integer from 1 to {} as the number of samples, found {}",
+                              kMost, quote_text(text)),
                   formula.pointer);
 }
 

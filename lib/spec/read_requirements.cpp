@@ -71,8 +71,8 @@ void check_decidable(const Node& asked, const RequirementSpec& requirement,
     return;
   }
   throw SpecError(
-      fmt::format("expected at most 'max_delay', {} steps, where the analysis stops, found {} steps",
-                  *coordination.max_delay, requirement.steps),
+      fmt::format("expected at most 'max_delay', {} step{}, where the analysis stops, found {} steps",
+                  *coordination.max_delay, *coordination.max_delay == 1 ? "" : "s", requirement.steps),
       asked.pointer());
 }
 

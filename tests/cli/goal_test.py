@@ -216,6 +216,27 @@ class Cases(Case):
         self.assertEqual(result.returncode, 1)
         self.assertGreater(json.loads(result.stdout)["arrival"]["lost"], 0)
 
+    def test_delays_that_were_cut_off_are_lower_bounds(self):
+        """In the goal every delay is unbounded, but `max_delay` ends the approach before that is known."""
+        problem = spec(
+            [state("s", 2, discrete=True)], {"u": [0, 1], "v": [0, 1]}, {"s": "if(s == 1 and u == 0 and v == 0, 1, s - 1)"},
+            "s == 0",
+        )  # fmt: skip
+        for most in (2, 1):
+            self.results({**problem, "coordination": {"max_delay": most}})
+            (self.folder / "r.h5").rename(self.folder / f"r{most}.h5")
+            self.assertEqual(self.run_program("verify", f"r{most}.h5", "--strict").returncode, 0)
+        with h5py.File(self.folder / "r1.h5") as file:
+            self.assertEqual((file["fixed_point_index"][0], file["approach_fixed_point_index"][0]), (0, -1))
+        result = self.run_program("query", "r1.h5", "--at", "s=0", "--json")
+        approach = json.loads(result.stdout)["partitions"][0]["approach"]
+        self.assertEqual((approach["delay"], approach["delay_status"]), (1, "at_least"))
+        text = self.run_program("query", "r1.h5", "--at", "s=0").stdout.decode()
+        self.assertRegex(text, "approach delay +at least 1 step")
+        text = self.run_program("compare", "r2.h5", "r1.h5").stdout.decode()
+        self.assertIn("at least 2 steps", text)
+        self.assertIn("at which max_delay stopped the later analysis: perhaps nothing is lost there", text)
+
     def test_goals_that_nothing_comes_nearer_to(self):
         for goal, text in (
             ("p == 7", "no cell of the invariance set is in the goal on this grid: it cannot be forced"),

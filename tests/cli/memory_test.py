@@ -147,13 +147,30 @@ class Cases(Case):
         self.write("s.json", six_agents(agents=4))
         estimate = self.estimate("s.json", "--threads", "2")
         output = ("-o", str(self.folder / "o.h5"), "--quiet", "--threads", "2")
-        code, _ = self.peak("analyze", str(self.folder / "s.json"), *output, "--max-memory", str(estimate // 2))
-        self.assertEqual(code, 4)
+        for command, options in (("analyze", output), ("validate", output[2:])):
+            code, _ = self.peak(command, str(self.folder / "s.json"), *options, "--max-memory", str(estimate // 2))
+            self.assertEqual(code, 4)
         self.assertEqual(self.files(), ["s.json"])
         limit = round(1.02 * estimate)  # the need is not told to the byte
         code, peak = self.peak("analyze", str(self.folder / "s.json"), *output, "--max-memory", str(limit))
         self.assertEqual(code, 0)
         self.assertLessEqual(peak, PERMITTED * limit)
+
+    def test_what_reads_results_keeps_to_it_too(self):
+        self.write("s.json", six_agents(agents=2))
+        results = str(self.folder / "r.h5")
+        self.assertEqual(self.peak("analyze", str(self.folder / "s.json"), "-o", results, "--quiet")[0], 0)
+        state = ("--at", "x0=0,x1=0", "--threads", "2")
+        for command, options in (
+            ("info", ()), ("query", state), ("explain", (*state, "--partition", "a0|a1")), ("verify", ("--threads", "2")),
+            ("compare", (results,)), ("export", ("--format", "csv", "-o", str(self.folder / "o.csv"))),
+            ("report", ("-o", str(self.folder / "o.html"))), ("simulate", ("--from", "x0=0,x1=0", "--steps", "3", "--partition", "a0|a1")),
+        ):  # fmt: skip
+            with self.subTest(command=command):
+                self.assertEqual(self.peak(command, results, *options, "--max-memory", "10M")[0], 4)
+                code, peak = self.peak(command, results, *options, "--max-memory", "40M")
+                self.assertEqual(code, 0)
+                self.assertLessEqual(peak, PERMITTED * 40 * MEBI)
 
 
 if __name__ == "__main__":

@@ -220,6 +220,17 @@ class Cases(Case):
                 bits = np.unpackbits(file["actions/left|right/left"][state], bitorder="little")
                 self.assertEqual(row["actions:left|right:left"], " ".join(map(str, np.flatnonzero(bits))))
 
+    def test_csv_of_a_state_with_the_name_of_a_column(self):
+        self.analyzed(
+            spec_with(
+                states=[dict(SPEC["states"][0], name="cell"), SPEC["states"][1]],
+                dynamics={"time": "discrete", "period": 0.5, "equations": {"cell": "cell + u", "y": "y + v"}},
+                safe="cell + y <= 6",
+            )
+        )
+        header = self.query("out.h5", stdin=b"cell,y\n0,0\n").splitlines()[0]
+        self.assertTrue(header.startswith("cell,y,inside,answer:cell,safe,"), header)
+
     def test_csv_outside(self):
         self.analyzed()
         self.assert_prints(

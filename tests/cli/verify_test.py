@@ -122,8 +122,8 @@ class Cases(Case):
         self.assert_fails(5, "cannot read the results: No such file or directory (none.h5)", "verify", "none.h5")
 
     def test_memory_is_refused_up_front(self):
-        self.results(config("circle.json"))
-        result = self.verify("results.h5", "--max-memory", "100K")
+        self.results(config("intersection.json"))
+        result = self.verify("results.h5", "--max-memory", "50M")
         self.assertEqual((result.returncode, result.stdout), (4, b""))
         self.assertIn(b"verifying needs about", result.stderr)
 

@@ -66,12 +66,15 @@ TEST(MemoryErrors, OperatorsTakeWhatTheyTake) {
             "within takes 2 arguments, found 1 (/memory/m, column 12)");
   for (const std::string n : {"0", "1.5", "-1", "x1", "2^40"}) {
     EXPECT_EQ(error_of(with_memory("{\"m\": \"for_last(" + n + ", x1 > 0)\"}")),
-              "expected a constant integer >= 1 as the number of samples, found '" + n + "' (/memory/m)");
+              "expected a constant integer from 1 to 2147483646 as the number of samples, found '" + n +
+                  "' (/memory/m)");
   }
   EXPECT_EQ(error_of(test::example_with("/safe", "\"once(x1 > 0)\"")),
             "'once' looks at the past, expected it in a formula of 'memory' only (/safe, column 1)");
-  EXPECT_EQ(error_of(with_memory(R"spec({"m": "once(x1 > 0"})spec")),
-            "'once' looks at the past, expected it in a formula of 'memory' only (/memory/m, column 1)");
+  for (const std::string text : {"once(x1 > 0", "once(within(2, x1 > 0)"}) {
+    EXPECT_EQ(error_of(with_memory("{\"m\": \"" + text + "\"}")),
+              "expected ')', found the end (/memory/m, column " + std::to_string(text.size() + 1) + ")");
+  }
 }
 
 TEST(MemoryErrors, MemoriesHaveNoCycles) {

@@ -114,6 +114,9 @@ class GoalChecker : public CellChecker {
       expected = arrival == kForever ? kNoWayToGoal
                  : arrival == 0      ? ground_.claims->partitions[p].delay[cell.at()]
                                      : approach_by_definition(cell, p);
+      const std::optional<std::int64_t> most = ground_.spec->coordination.max_delay;
+      if (most && ground_.claims->lists.at("/approach_fixed_point_index")[p] < 0)
+        expected = std::min(expected, static_cast<std::int32_t>(*most));
     }
     if (claimed == expected) return;
     // The file does not say which choices there are.
@@ -145,10 +148,7 @@ class GoalChecker : public CellChecker {
     }
     std::int32_t worst = kForever;
     for (const std::int64_t u : choices) worst = std::min(worst, cell.least(u, claims_.delay[p], 0));
-    const std::int32_t delay = one_more(std::max(worst, 0));
-    const std::optional<std::int64_t> most = ground_.spec->coordination.max_delay;
-    const bool truncated = most && ground_.claims->lists.at("/approach_fixed_point_index")[p] < 0;
-    return truncated ? std::min(delay, static_cast<std::int32_t>(*most)) : delay;
+    return one_more(std::max(worst, 0));
   }
 
   void check_trigger(const CheckedCell& cell, std::size_t p) {

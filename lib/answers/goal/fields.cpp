@@ -61,7 +61,8 @@ void add_approach(Fields& fields, const ProblemSpec& spec) {
        .compared = "approach delay",
        .map = {.values = FieldMap::Values::numbers,
                .kind = "approach_delay",
-               .title = "Silence that costs no time to the goal"}}));
+               .title = "Silence that costs no time to the goal"}},
+      "/approach_fixed_point_index"));
   fields.push_back(steps_field(
       "approach_trigger", spec, kOutsideWinning,
       described("steps until the agents must start to connect, so as to lose no time to the goal") +

@@ -34,7 +34,8 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
       {.column = "delay",
        .steps = true,
        .compared = "delay",
-       .map = {.values = FieldMap::Values::numbers, .kind = "delay"}}));
+       .map = {.values = FieldMap::Values::numbers, .kind = "delay"}},
+      "/fixed_point_index"));
   fields.push_back(
       steps_field("trigger", spec, TriggerTable::kMustBeConnected,
                   described("steps until the agents must start to connect") +
@@ -122,14 +123,15 @@ std::string actions(const ProblemSpec& spec, const PartitionSpec& partition, std
 }  // namespace paths
 
 Field steps_field(const std::string& name, const ProblemSpec& spec, std::int64_t least,
-                  std::vector<FieldAttribute> attributes, FieldShown shown) {
+                  std::vector<FieldAttribute> attributes, FieldShown shown, std::string fixed_points) {
   return {.path = "/" + name,
           .section = FieldSection::steps,
           .types = {ElementType::int16, ElementType::int32},
           .axes = cell_axes("/partition", spec),
           .least = least,
           .attributes = std::move(attributes),
-          .shown = std::move(shown)};
+          .shown = std::move(shown),
+          .fixed_points = std::move(fixed_points)};
 }
 
 void add_sizes(Fields& fields, const std::string& prefix, char layer, const ProblemSpec& spec) {

@@ -49,7 +49,9 @@ void fill_sizes(const std::vector<DelayLayers>& partitions, const std::string& p
 /// Type of the delays of all partitions, which share an array.
 [[nodiscard]] ElementType delay_type(const std::vector<DelayLayers>& partitions);
 /// `length` elements of the field of delays, or of triggers, of one partition.
+/// @param fixed_points Field::fixed_points
 [[nodiscard]] Field steps_field(const std::string& name, const ProblemSpec& spec, std::int64_t least,
-                                std::vector<FieldAttribute> attributes, FieldShown shown);
+                                std::vector<FieldAttribute> attributes, FieldShown shown,
+                                std::string fixed_points = {});
 
 }  // namespace coordreq
