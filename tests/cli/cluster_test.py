@@ -133,7 +133,7 @@ class Cases(Case):
         job = self.submit("sweep_ranks.sbatch", str(CONFIGS / "swap.json"), options=("--nodes=2",), **SEPARATE)
         self.assert_completed(job)
         head, *rows = self.log().splitlines()
-        self.assertEqual(head.split(), "ranks nodes seconds MiB of rank 0".split())
+        self.assertEqual(head.split(), "ranks nodes seconds MiB of a rank".split())
         self.assertEqual([row.split()[:2] for row in rows], [["1", "1"], ["2", "1"], ["4", "2"]])
         for row in rows:
             self.assertRegex(row, r"^ +\d+ +\d+ +\d+\.\d +[1-9]\d*$")
