@@ -13,22 +13,24 @@ namespace {
 
 /// The two widths. Types of their own, as a template argument would lose the attributes of a vector.
 struct Whole {
-  typedef uint64_t Vector __attribute__((vector_size(COORDREQ_VECTOR_BYTES), aligned(1), may_alias));
+  typedef uint64_t Vector __attribute__((vector_size(COORDREQ_VECTOR_BYTES), may_alias));
   static constexpr size_t kCount = COORDREQ_VECTOR_BYTES / sizeof(uint64_t);
 };
 struct Single {
-  typedef uint64_t Vector __attribute__((vector_size(8), aligned(1), may_alias));
+  typedef uint64_t Vector __attribute__((vector_size(8), may_alias));
   static constexpr size_t kCount = 1;
 };
 
 template <class Width>
 inline __attribute__((always_inline)) typename Width::Vector load(const uint64_t* row) {
-  return *reinterpret_cast<const typename Width::Vector*>(row);
+  typename Width::Vector v;
+  __builtin_memcpy(&v, row, sizeof(v));
+  return v;
 }
 
 template <class Width>
 inline __attribute__((always_inline)) void store(const typename Width::Vector& v, uint64_t* row) {
-  *reinterpret_cast<typename Width::Vector*>(row) = v;
+  __builtin_memcpy(row, &v, sizeof(v));
 }
 
 template <class Width>

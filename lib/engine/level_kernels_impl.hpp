@@ -18,18 +18,22 @@ namespace {
 
 template <class Level>
 struct Lanes {
-  typedef Level Vector __attribute__((vector_size(COORDREQ_VECTOR_BYTES), aligned(1), may_alias));
+  typedef Level Vector __attribute__((vector_size(COORDREQ_VECTOR_BYTES), may_alias));
   static constexpr size_t kCount = COORDREQ_VECTOR_BYTES / sizeof(Level);
 };
 
+/// Rows need not be aligned. As copies, since clang takes a reference to a vector whose lanes are a
+/// template's parameter for aligned, whatever its type says.
 template <class Level>
-inline __attribute__((always_inline)) typename Lanes<Level>::Vector& block(Level* row) {
-  return *reinterpret_cast<typename Lanes<Level>::Vector*>(row);
+inline __attribute__((always_inline)) typename Lanes<Level>::Vector load(const Level* row) {
+  typename Lanes<Level>::Vector v;
+  __builtin_memcpy(&v, row, sizeof(v));
+  return v;
 }
 
 template <class Level>
-inline __attribute__((always_inline)) const typename Lanes<Level>::Vector& block(const Level* row) {
-  return *reinterpret_cast<const typename Lanes<Level>::Vector*>(row);
+inline __attribute__((always_inline)) void store(const typename Lanes<Level>::Vector& v, Level* row) {
+  __builtin_memcpy(row, &v, sizeof(v));
 }
 
 /// True if any lane is not zero.
@@ -59,15 +63,15 @@ inline __attribute__((always_inline)) void minimum_of_blocks(const Level* const*
                                                              Level* out) {
   constexpr size_t kCount = Lanes<Level>::kCount;
   typename Lanes<Level>::Vector least[kBlocks];
-  for (size_t b = 0; b < kBlocks; ++b) least[b] = block(rows[0] + j + b * kCount);
+  for (size_t b = 0; b < kBlocks; ++b) least[b] = load(rows[0] + j + b * kCount);
   for (size_t k = 1; k < count; ++k) {
     const Level* const row = rows[k] + j;
     for (size_t b = 0; b < kBlocks; ++b) {
-      const typename Lanes<Level>::Vector other = block(row + b * kCount);
+      const typename Lanes<Level>::Vector other = load(row + b * kCount);
       least[b] = least[b] < other ? least[b] : other;
     }
   }
-  for (size_t b = 0; b < kBlocks; ++b) block(out + j + b * kCount) = least[b];
+  for (size_t b = 0; b < kBlocks; ++b) store<Level>(least[b], out + j + b * kCount);
 }
 
 template <class Level>
@@ -85,27 +89,27 @@ void minimum(const Level* const* rows, size_t count, Level* out, size_t n) {
 template <class Level>
 void raise(const Level* source, Level* target, size_t n) {
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
-    const typename Lanes<Level>::Vector a = block(source + j);
-    const typename Lanes<Level>::Vector b = block(target + j);
-    block(target + j) = a > b ? a : b;
+    const typename Lanes<Level>::Vector a = load(source + j);
+    const typename Lanes<Level>::Vector b = load(target + j);
+    store<Level>(a > b ? a : b, target + j);
   }
 }
 
 template <class Level>
 void raise_where(const Level* source, const Level* lanes, Level* target, size_t n) {
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
-    const typename Lanes<Level>::Vector a = block(source + j) & block(lanes + j);
-    const typename Lanes<Level>::Vector b = block(target + j);
-    block(target + j) = a > b ? a : b;
+    const typename Lanes<Level>::Vector a = load(source + j) & load(lanes + j);
+    const typename Lanes<Level>::Vector b = load(target + j);
+    store<Level>(a > b ? a : b, target + j);
   }
 }
 
 template <class Level>
 void lower_where(const Level* source, const Level* lanes, Level* target, size_t n) {
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
-    const typename Lanes<Level>::Vector a = block(source + j) | ~block(lanes + j);
-    const typename Lanes<Level>::Vector b = block(target + j);
-    block(target + j) = a < b ? a : b;
+    const typename Lanes<Level>::Vector a = load(source + j) | ~load(lanes + j);
+    const typename Lanes<Level>::Vector b = load(target + j);
+    store<Level>(a < b ? a : b, target + j);
   }
 }
 
@@ -113,10 +117,10 @@ template <class Level>
 void lower_at(const Level* source, const Level* labels, Level label, Level* target, size_t n) {
   typedef typename Lanes<Level>::Vector Vector;
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
-    const Vector other = reinterpret_cast<Vector>(block(labels + j) != label);
-    const Vector a = block(source + j) | other;
-    const Vector b = block(target + j);
-    block(target + j) = a < b ? a : b;
+    const Vector other = reinterpret_cast<Vector>(load(labels + j) != label);
+    const Vector a = load(source + j) | other;
+    const Vector b = load(target + j);
+    store<Level>(a < b ? a : b, target + j);
   }
 }
 
@@ -124,7 +128,7 @@ template <class Level>
 bool is_top(const Level* row, const Level* lanes, size_t n) {
   constexpr auto kTop = static_cast<Level>(~Level{0});
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
-    const auto below = (block(row + j) != kTop) & (block(lanes + j) != Level{0});
+    const auto below = (load(row + j) != kTop) & (load(lanes + j) != Level{0});
     if (any_before(below, n - j)) return false;
   }
   return true;
@@ -134,8 +138,8 @@ template <class Level>
 bool is_settled(const Level* row, const Level* bound, size_t n) {
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
     // bound <= row + 1 without overflow: bound is 0, or bound - 1 <= row.
-    const typename Lanes<Level>::Vector b = block(bound + j);
-    const auto open = (b != Level{0}) & (b - Level{1} > block(row + j));
+    const typename Lanes<Level>::Vector b = load(bound + j);
+    const auto open = (b != Level{0}) & (b - Level{1} > load(row + j));
     if (any_before(open, n - j)) return false;
   }
   return true;
@@ -161,7 +165,7 @@ void spread(const uint64_t* bits, Level* lanes, size_t n) {
 #else
     const Vector parts = __builtin_shuffle(reinterpret_cast<const Vector&>(word), part);
 #endif
-    block(lanes + j) = reinterpret_cast<Vector>((parts & bit) != Level{0});
+    store<Level>(reinterpret_cast<Vector>((parts & bit) != Level{0}), lanes + j);
   }
 }
 
@@ -191,7 +195,7 @@ inline __attribute__((always_inline)) void put_bits(const typename Lanes<Level>:
                                                     uint64_t* bits, size_t n) {
   constexpr size_t kCount = Lanes<Level>::kCount;
   Level list[kCount];
-  block(list) = lanes;
+  store<Level>(lanes, list);
   uint64_t word = packed(list, kCount);
   if (n - j < kCount) word &= (uint64_t{1} << (n - j)) - 1;
   bits[j / 64] = (j % 64 == 0 ? 0 : bits[j / 64]) | word << (j % 64);
@@ -202,14 +206,14 @@ void top_bits(const Level* row, uint64_t* bits, size_t n) {
   typedef typename Lanes<Level>::Vector Vector;
   constexpr auto kTop = static_cast<Level>(~Level{0});
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount)
-    put_bits<Level>(reinterpret_cast<Vector>(block(row + j) == kTop), j, bits, n);
+    put_bits<Level>(reinterpret_cast<Vector>(load(row + j) == kTop), j, bits, n);
 }
 
 template <class Level>
 void above_bits(const Level* row, const Level* bound, uint64_t* bits, size_t n) {
   typedef typename Lanes<Level>::Vector Vector;
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount)
-    put_bits<Level>(reinterpret_cast<Vector>(block(row + j) > block(bound + j)), j, bits, n);
+    put_bits<Level>(reinterpret_cast<Vector>(load(row + j) > load(bound + j)), j, bits, n);
 }
 
 template <class Level>
@@ -220,13 +224,13 @@ bool advance(const Level* next, const Level* old, Level limit, Level* out, size_
   const Vector bound = zero + limit;
   bool changed = false;
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
-    const Vector before = block(old + j);
-    const Vector value = block(next + j);
+    const Vector before = load(old + j);
+    const Vector value = load(next + j);
     // Not below the limit: one more would be above it.
     const Vector stepped = value < bound ? value + Level{1} : top;
     const Vector result = before == zero ? zero : stepped;
     const Vector difference = result ^ before;
-    block(out + j) = result;
+    store<Level>(result, out + j);
     changed = changed || any_before(difference, n - j);
   }
   return changed;
@@ -238,13 +242,13 @@ bool rise(const Level* next, const Level* old, Level* out, size_t n) {
   const Vector zero = Vector{} + Level{0};
   bool changed = false;
   for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
-    const Vector before = block(old + j);
-    const Vector value = block(next + j);
+    const Vector before = load(old + j);
+    const Vector value = load(next + j);
     const Vector stepped = value == zero ? zero : value - Level{1};
     const Vector risen = stepped > before ? stepped : before;
     const Vector result = before == zero ? zero : risen;
     const Vector difference = result ^ before;
-    block(out + j) = result;
+    store<Level>(result, out + j);
     changed = changed || any_before(difference, n - j);
   }
   return changed;
