@@ -76,7 +76,7 @@ std::string connection_text(const Json& partition, const Json& summary) {
 void add_approach(const Json& approach, Facts& facts) {
   facts.emplace_back("  approach", shortened(approach["layers"].get<std::vector<std::int64_t>>()));
   const Json& layers = approach["layers"];
-  const std::string for_ever = approach["truncated"] ? "unknown" : cells(approach["fixed_point"]);
+  const std::string for_ever = approach["truncated"] ? "an unknown number" : cells(approach["fixed_point"]);
   facts.emplace_back("  loses no time", fmt::format("for a step from {}, for ever from {}",
                                                     cells(layers[layers.size() > 1 ? 1 : 0]), for_ever));
 }

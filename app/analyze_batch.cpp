@@ -7,7 +7,6 @@
 
 #include "app/analyze_run.hpp"
 #include "app/batch_plan.hpp"
-#include "app/batch_report.hpp"
 #include "app/interrupt.hpp"
 #include "app/junit_report.hpp"
 #include "app/print_warnings.hpp"
@@ -17,29 +16,53 @@
 namespace coordreq {
 namespace {
 
-void analyze_into(FinishedRun& run, const AnalyzeOptions& asked, const std::string& prefix) {
-  reset_peak_memory();
-  try {
-    run.summary = analyze_with_progress(*run.plan.spec, run.plan.output, asked, prefix);
-    run.exit_code = static_cast<int>(verdict(*run.summary));
-  } catch (...) {
-    run.failure = describe_current_exception();
-  }
+void fail_if_interrupted(int exit_code, const std::string& place) {
+  if (is_interrupted() || exit_code == static_cast<int>(ExitCode::interrupted))
+    throw Error(ExitCode::interrupted, "interrupted", place);
 }
 
-FinishedRun finish(PlannedRun plan, const AnalyzeOptions& asked, const std::string& prefix,
-                   PrintedWarnings& warnings) {
-  FinishedRun run{.plan = std::move(plan)};
-  run.failure = run.plan.failure;
-  if (run.plan.spec) analyze_into(run, asked, prefix);
-  if (run.failure) run.exit_code = run.failure->exit_code;
-  if (is_interrupted() || run.exit_code == static_cast<int>(ExitCode::interrupted)) {
-    throw Error(ExitCode::interrupted, "interrupted", run_label(run.plan));
+/// Tells of runs in the order of the plan, whenever they end.
+class Results {
+ public:
+  Results(std::vector<PlannedRun> plan, const AnalyzeOptions& asked)
+      : table_(plan, asked), is_text_(!asked.json && !asked.quiet), warnings_(asked) {
+    if (is_text_) write_output(table_.heading());
+    for (PlannedRun& own : plan) {
+      FinishedRun& run = runs_.emplace_back();
+      run.failure = own.failure;
+      is_done_.push_back(!own.spec);
+      run.plan = std::move(own);
+    }
+    tell();
   }
-  if (run.failure) report_failure(run_label(run.plan), *run.failure);
-  if (run.summary) warnings.print((*run.summary)["warnings"], run_label(run.plan));
-  return run;
-}
+
+  void take(std::size_t i, RunOutcome outcome) {
+    static_cast<RunOutcome&>(runs_[i]) = std::move(outcome);
+    is_done_[i] = true;
+    tell();
+  }
+
+  [[nodiscard]] const std::vector<FinishedRun>& runs() const { return runs_; }
+
+ private:
+  void tell() {
+    for (; told_ < runs_.size() && is_done_[told_]; ++told_) {
+      FinishedRun& run = runs_[told_];
+      if (run.failure) run.exit_code = run.failure->exit_code;
+      fail_if_interrupted(run.exit_code, run_label(run.plan));
+      if (run.failure) report_failure(run_label(run.plan), *run.failure);
+      if (run.summary) warnings_.print((*run.summary)["warnings"], run_label(run.plan));
+      if (is_text_) write_output(table_.row(run));
+    }
+  }
+
+  BatchTable table_;
+  bool is_text_;
+  PrintedWarnings warnings_;
+  std::vector<FinishedRun> runs_;
+  std::vector<bool> is_done_;
+  std::size_t told_ = 0;
+};
 
 void write_report(const std::string& path, const std::vector<FinishedRun>& runs) {
   std::vector<JunitSuite> suites;
@@ -57,23 +80,40 @@ void write_report(const std::string& path, const std::vector<FinishedRun>& runs)
 
 }  // namespace
 
-ExitCode run_analyze_batch(const AnalyzeOptions& asked) {
-  std::vector<PlannedRun> plan = plan_runs(asked);
+RunOutcome outcome_of(const ProblemSpec& spec, const std::string& output, const AnalyzeOptions& asked,
+                      const std::string& prefix) {
+  RunOutcome outcome;
+  reset_peak_memory();
+  try {
+    outcome.summary = analyze_with_progress(spec, output, asked, prefix);
+    outcome.exit_code = static_cast<int>(verdict(*outcome.summary));
+  } catch (...) {
+    outcome.failure = describe_current_exception();
+    outcome.exit_code = outcome.failure->exit_code;
+  }
+  return outcome;
+}
+
+void one_after_the_other(const std::vector<PlannedRun>& plan, const AnalyzeOptions& asked,
+                         const std::function<void(std::size_t, RunOutcome)>& done) {
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (!plan[i].spec) continue;
+    const std::string prefix = fmt::format("{} of {}, ", i + 1, plan.size());
+    done(i, outcome_of(*plan[i].spec, plan[i].output, asked, prefix));
+  }
+}
+
+ExitCode run_analyze_batch(const AnalyzeOptions& asked, const BatchWork& work) {
+  const std::vector<PlannedRun> plan = plan_runs(asked);
   if (asked.checkpoint)
     throw UsageError(fmt::format("expected one analysis, found {}", plan.size()), "--checkpoint");
   if (asked.junit) try_to_write(*asked.junit);
-  const BatchTable table(plan, asked);
-  const bool is_text = !asked.json && !asked.quiet;
-  if (is_text) write_output(table.heading());
-  std::vector<FinishedRun> runs;
-  PrintedWarnings warnings(asked);
-  for (std::size_t i = 0; i < plan.size(); ++i) {
-    const std::string prefix = fmt::format("{} of {}, ", i + 1, plan.size());
-    runs.push_back(finish(std::move(plan[i]), asked, prefix, warnings));
-    if (is_text) write_output(table.row(runs.back()));
-  }
+  Results results(plan, asked);
+  work(plan, asked,
+       [&results](std::size_t run, RunOutcome outcome) { results.take(run, std::move(outcome)); });
+  const std::vector<FinishedRun>& runs = results.runs();
   if (asked.junit) write_report(*asked.junit, runs);
-  if (is_text) write_output(closing_text(runs, asked));
+  if (!asked.json && !asked.quiet) write_output(closing_text(runs, asked));
   if (asked.json) write_output(batch_json(runs));
   return static_cast<ExitCode>(worst_exit_code(runs));
 }

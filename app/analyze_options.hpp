@@ -26,8 +26,15 @@ struct AnalyzeOptions : CommonOptions {
   /// Called now and then while the work goes on; what it throws ends it. May be empty.
   std::function<void()> watch;
 
+  /// Whether this process reads, writes and prints.
+  [[nodiscard]] bool is_first() const { return ranks == nullptr || ranks->rank() == 0; }
   /// Whether there is more than one analysis to do, or a table of one is asked for.
   [[nodiscard]] bool is_batch() const { return specs.size() > 1 || !sweeps.empty(); }
 };
+
+/// --output, --junit, --set, --refine and --sweep.
+void declare_files(Options& options, AnalyzeOptions& own);
+/// --checkpoint, --checkpoint-every and --resume. @param takes a word for where it is saved: "FILE"
+void declare_checkpoint(Options& options, std::optional<CheckpointOptions>& checkpoint, const char* takes);
 
 }  // namespace coordreq

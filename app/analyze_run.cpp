@@ -6,7 +6,13 @@
 
 #include "analysis/analyze.hpp"
 #include "analysis/estimate_memory.hpp"
+#include "app/analysis_text.hpp"
+#include "app/files_in_use.hpp"
 #include "app/interrupt.hpp"
+#include "app/junit_report.hpp"
+#include "app/load_spec.hpp"
+#include "app/print_answer.hpp"
+#include "app/print_warnings.hpp"
 #include "app/progress_display.hpp"
 #include "results/write_results.hpp"
 
@@ -31,11 +37,22 @@ class InterruptPolicy {
   std::optional<InterruptDelay> delay_;
 };
 
+/// @throws UsageError if a file would take the place of another
+void check_files(const ProblemSpec& spec, const std::string& output, const AnalyzeOptions& own) {
+  FilesInUse files;
+  add_read_files(own.specs.front(), &spec, files);
+  files.writes(output, "the results", "--output");
+  if (own.junit) files.writes(*own.junit, "the JUnit report", "--junit");
+  if (own.checkpoint) files.writes(own.checkpoint->file, "the checkpoint", "--checkpoint");
+}
+
 }  // namespace
 
 std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const std::string& output,
                                                   const AnalyzeOptions& asked, const std::string& prefix) {
-  if (asked.ranks == nullptr) check_memory(spec, asked.memory(), asked.threads, asked.checkpoint.has_value());
+  // Of several processes each knows what it holds only later.
+  if (asked.ranks == nullptr || asked.ranks->count() == 1)
+    check_memory(spec, asked.memory(), asked.threads, asked.checkpoint.has_value());
   ThreadTeam team(asked.threads);
   InterruptPolicy interrupts;
   ProgressDisplay shown(asked.progress, asked.quiet);
@@ -43,6 +60,7 @@ std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const
   options.output = output;
   options.checkpoint = asked.checkpoint;
   options.ranks = asked.ranks;
+  options.max_memory = asked.memory();
   options.progress = [&](const Progress& progress) {
     interrupts.obey(progress);
     if (asked.watch) asked.watch();
@@ -62,6 +80,22 @@ void check_interrupted(const std::string& place) {
   if (is_interrupted()) {
     throw Error(ExitCode::interrupted, "interrupted when the results were complete", place);
   }
+}
+
+ExitCode analyze_and_print(const ProblemSpec& spec, const AnalyzeOptions& own) {
+  const std::string output = own.output.value_or(spec.name + ".h5");
+  if (own.is_first()) check_files(spec, output, own);
+  if (own.is_first() && own.junit) try_to_write(*own.junit);
+  const std::shared_ptr<const Json> summary = analyze_with_progress(spec, output, own, "");
+  if (!own.is_first()) return ExitCode::success;
+  {
+    const InterruptDelay delay;
+    if (own.junit) write_junit(*own.junit, {{.name = spec.name, .spec = &spec, .summary = summary.get()}});
+    check_interrupted(output);
+  }
+  PrintedWarnings(own).print((*summary)["warnings"]);
+  print_answer(own, *summary, [&spec](const Json& found) { return summary_text(found, spec); });
+  return verdict(*summary);
 }
 
 void try_to_write(const std::string& path) {

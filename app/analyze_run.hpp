@@ -19,6 +19,10 @@ namespace coordreq {
                                                                 const AnalyzeOptions& asked,
                                                                 const std::string& prefix);
 
+/// One analysis as `analyze` does it: nothing takes the place of anything else, and what it finds is written
+/// and printed, by the first process.
+[[nodiscard]] ExitCode analyze_and_print(const ProblemSpec& spec, const AnalyzeOptions& own);
+
 /// @throws Error if a signal waits. @param place what is complete nevertheless
 void check_interrupted(const std::string& place);
 

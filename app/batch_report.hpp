@@ -12,11 +12,14 @@
 namespace coordreq {
 
 /// What has become of a run.
-struct FinishedRun {
-  PlannedRun plan;
+struct RunOutcome {
   std::shared_ptr<const Json> summary;  ///< none if it failed
   std::optional<Failure> failure;
   int exit_code = 0;
+};
+
+struct FinishedRun : RunOutcome {
+  PlannedRun plan;
 };
 
 /// The largest exit code of the runs.

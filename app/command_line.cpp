@@ -10,15 +10,12 @@
 
 #include "app/file_beside_program.hpp"
 #include "app/program_help.hpp"
-#include "app/standard_streams.hpp"
 #include "app/text.hpp"
 #include "results/version.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
 namespace {
-
-constexpr const char* kProgram = "coordreq";
 
 /// The end of a help.
 std::string examples_text(const std::array<const char*, 2>& examples) {
@@ -40,26 +37,27 @@ struct Command {
 
 /// The parser with everything that may be typed.
 struct Parser {
-  Parser() {
+  explicit Parser(const ProgramInfo& own) : program(own), app(own.description, own.name) {
     app.add_flag("--version", version, "Print the version")->disable_flag_override();
     app.require_subcommand(0, 1);
     app.allow_extras();
-    app.footer(examples_text({"coordreq init first.json", "coordreq analyze first.json"}));
-    for (const CommandInfo& info : kCommands) {
-      CLI::App& own = *app.add_subcommand(info.name, info.description)->allow_extras();
-      own.footer(examples_text(info.examples));
-      commands.emplace_back(own, info);
+    app.footer(examples_text(program.examples));
+    for (const CommandInfo& info : program.commands) {
+      CLI::App& command = *app.add_subcommand(info.name, info.description)->allow_extras();
+      command.footer(examples_text(info.examples));
+      commands.emplace_back(command, info);
     }
   }
 
-  CLI::App app{"When must agents that share a safety task communicate?", kProgram};
+  const ProgramInfo& program;
+  CLI::App app;
   bool version = false;
   std::list<Command> commands;
 };
 
-std::vector<std::string> command_names() {
+std::vector<std::string> command_names(const ProgramInfo& program) {
   std::vector<std::string> names;
-  for (const CommandInfo& info : kCommands) names.emplace_back(info.name);
+  for (const CommandInfo& info : program.commands) names.emplace_back(info.name);
   return names;
 }
 
@@ -77,13 +75,14 @@ std::string hint(const std::string& typed, const std::vector<std::string>& known
   return nearest.empty() ? fmt::format(", expected one of {}", fmt::join(known, ", ")) : nearest;
 }
 
-[[noreturn]] void fail_command(const std::string& typed) {
+[[noreturn]] void fail_command(const ProgramInfo& program, const std::string& typed) {
+  const std::vector<std::string> names = command_names(program);
   for (const auto& [ending, command] : {std::pair(".json", "analyze"), std::pair(".h5", "info")}) {
-    if (!typed.ends_with(ending)) continue;
-    const std::string line = fmt::format("{} {} {}", kProgram, command, typed);
+    if (!typed.ends_with(ending) || std::ranges::find(names, command) == names.end()) continue;
+    const std::string line = fmt::format("{} {} {}", program.name, command, typed);
     throw UsageError(fmt::format("no command before {}, did you mean {}?", echoed(typed), echoed(line)));
   }
-  throw UsageError(fmt::format("unknown command {}{}", echoed(typed), hint(typed, command_names())));
+  throw UsageError(fmt::format("unknown command {}{}", echoed(typed), hint(typed, names)));
 }
 
 /// @param typed perhaps "--option=value"
@@ -96,15 +95,18 @@ bool looks_like_option(const std::string& argument) {
   return argument.size() > 1 && argument.front() == '-';
 }
 
-[[noreturn]] void fail_without_command(const CLI::App& app) {
-  const std::vector<std::string> extra = app.remaining();
-  if (extra.empty())
-    throw UsageError(fmt::format("no command, expected one of {}", fmt::join(command_names(), ", ")));
+[[noreturn]] void fail_without_command(const Parser& parser) {
+  const std::vector<std::string> extra = parser.app.remaining();
+  const std::vector<std::string> names = command_names(parser.program);
+  if (extra.empty()) {
+    throw UsageError(
+        fmt::format("no command, expected {}{}", names.size() == 1 ? "" : "one of ", fmt::join(names, ", ")));
+  }
   if (looks_like_option(extra.front())) {
     throw UsageError(fmt::format("unknown option {}, expected a command ({}) or {}", echoed(extra.front()),
-                                 fmt::join(command_names(), ", "), fmt::join(option_names(app), ", ")));
+                                 fmt::join(names, ", "), fmt::join(option_names(parser.app), ", ")));
   }
-  fail_command(extra.front());
+  fail_command(parser.program, extra.front());
 }
 
 /// "compare A B"
@@ -128,7 +130,7 @@ std::string taken(const Command& command) {
   return fmt::format("takes two arguments, {} and {}", arguments.front().name, arguments.back().name);
 }
 
-void check_arguments_are_there(const Command& command) {
+void check_arguments_are_there(const ProgramInfo& program, const Command& command) {
   for (const Options::Argument& argument : command.options.argument_list()) {
     const bool is_there = argument.one != nullptr ? !argument.one->empty()
                                                   : !argument.all->empty() &&
@@ -137,13 +139,13 @@ void check_arguments_are_there(const Command& command) {
     if (is_there || !argument.is_required) continue;
     const bool is_file = argument.takes.find('|') == std::string::npos;
     throw UsageError(fmt::format("no {}, expected {}: {} {}", argument.name,
-                                 is_file ? "the name of a file" : "one of " + argument.takes, kProgram,
+                                 is_file ? "the name of a file" : "one of " + argument.takes, program.name,
                                  usage(command)));
   }
 }
 
-void check_arguments(const CLI::App& root, const Command& command) {
-  if (const std::vector<std::string> before = root.remaining(); !before.empty()) {
+void check_arguments(const Parser& parser, const Command& command) {
+  if (const std::vector<std::string> before = parser.app.remaining(); !before.empty()) {
     throw UsageError(fmt::format("{} stands before the command {}, expected it after", echoed(before.front()),
                                  command.name));
   }
@@ -154,12 +156,12 @@ void check_arguments(const CLI::App& root, const Command& command) {
     throw UsageError(
         fmt::format("unexpected argument {}, {} {}", echoed(extra.front()), command.name, taken(command)));
   }
-  check_arguments_are_there(command);
+  check_arguments_are_there(parser.program, command);
 }
 
-Run print(std::string text) {
-  return [text = std::move(text)] {
-    write_output(text);
+Run print(const ProgramInfo& program, std::string text) {
+  return [write = program.write, text = std::move(text)] {
+    write(text);
     return ExitCode::success;
   };
 }
@@ -178,38 +180,49 @@ UsageError translated(const CLI::ParseError& error) {
 
 }  // namespace
 
-Run parse_command_line(int argc, const char* const* argv) {
-  Parser parser;
+ProgramInfo coordreq_program() {
+  return {.name = "coordreq",
+          .description = "When must agents that share a safety task communicate?",
+          .examples = {"coordreq init first.json", "coordreq analyze first.json"},
+          .commands = kCommands};
+}
+
+Run parse_command_line(int argc, const char* const* argv, const ProgramInfo& program) {
+  Parser parser(program);
   try {
     parser.app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    return print(parser.app.help());
+    return print(program, parser.app.help());
   } catch (const CLI::RequiredError&) {
     // Noticed again below, where the message can name the command.
   } catch (const CLI::ParseError& error) {
     throw translated(error);
   }
-  if (parser.version) return print(fmt::format("coordreq {} ({})\n", program_version(), program_git_sha1()));
+  if (parser.version) {
+    return print(program, fmt::format("{} {} ({})\n", program.name, program_version(), program_git_sha1()));
+  }
   for (Command& command : parser.commands) {
     if (!command.app.parsed()) continue;
-    check_arguments(parser.app, command);
+    check_arguments(parser, command);
     command.options.read_values();
     return command.run;
   }
-  fail_without_command(parser.app);
+  fail_without_command(parser);
 }
 
 std::string help_text(const std::string& command) {
-  const Parser parser;
+  const ProgramInfo program = coordreq_program();
+  const Parser parser(program);
   if (command.empty()) return parser.app.help();
   for (const Command& own : parser.commands) {
-    if (own.name == command) return own.app.help("coordreq");
+    if (own.name == command) return own.app.help(program.name);
   }
-  fail_command(command);
+  fail_command(program, command);
 }
 
 ProgramHelp program_help() {
-  return read_help(Parser().app);
+  const ProgramInfo program = coordreq_program();
+  return read_help(Parser(program).app);
 }
 
 }  // namespace coordreq

@@ -63,7 +63,10 @@ void Options::read_values() {
 }
 
 std::optional<std::uint64_t> CommonOptions::memory() const {
-  return max_memory ? max_memory : available_memory();
+  std::optional<std::uint64_t> memory = max_memory;
+  if (!memory) memory = available_memory();
+  if (memory && !max_memory) *memory /= static_cast<std::uint64_t>(sharers);
+  return memory;
 }
 
 void CommonOptions::keep_to_memory() const {
@@ -78,11 +81,13 @@ void CommonOptions::keep_to_memory() const {
   hold_to_memory(*max_memory, threads);
 }
 
-void declare_common(Options& options, CommonOptions& common, const CommonUse& use) {
+void declare_threads(Options& options, int& threads, const char* description) {
   constexpr int kMostThreads = 1024;
-  if (use.threads)
-    options.option(common.threads, "--threads", "N", "Threads to work with (default: all cores)",
-                   WholeNumber<int>{1, kMostThreads});
+  options.option(threads, "--threads", "N", description, WholeNumber<int>{1, kMostThreads});
+}
+
+void declare_common(Options& options, CommonOptions& common, const CommonUse& use) {
+  if (use.threads) declare_threads(options, common.threads, "Threads to work with (default: all cores)");
   if (use.memory)
     options.option(common.max_memory, "--max-memory", "SIZE",
                    "Refuse what would need more, as 500M or 1.5G (default: the memory of the machine)",

@@ -100,13 +100,17 @@ struct CommonOptions {
   bool json = false;
   bool quiet = false;
 
-  /// What the work may use: --max-memory, else what the machine has.
+  int sharers = 1;  ///< processes that share the memory of the machine
+
+  /// What the work may use: --max-memory, else what the machine has for each of those that share it.
   [[nodiscard]] std::optional<std::uint64_t> memory() const;
   /// For what reads results: from now on no more than --max-memory is taken, if it was given.
   /// @throws LimitError if reading any file takes more
   void keep_to_memory() const;
 };
 
+/// Of the common options, --threads by itself.
+void declare_threads(Options& options, int& threads, const char* description);
 /// To be declared last.
 void declare_common(Options& options, CommonOptions& common, const CommonUse& use = {});
 /// The argument RESULTS.

@@ -129,7 +129,7 @@ class AnswerText {
     if (status == "not_invariant")
       return "none: on this grid no coordination keeps the system safe from here";
     if (status == "unbounded") return "unbounded: safe without coordination for ever";
-    return (status == "at_least" ? "at least " : "") + steps_text(partition["delay"]);
+    return value_text(partition, "delay");
   }
 
   [[nodiscard]] std::string countdown_text(const Json& partition) const {

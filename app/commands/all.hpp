@@ -31,12 +31,12 @@ Run declare_help(Options& options);
 struct CommandInfo {
   const char* name;
   const char* description;
-  Run (*declare)(Options&);
+  std::function<Run(Options&)> declare;
   std::array<const char*, 2> examples;  ///< lines for a shell
 };
 
 /// In the order of the help.
-inline constexpr CommandInfo kCommands[] = {
+inline const CommandInfo kCommands[] = {
     {"init",
      "Write a spec to begin with: small, commented, ready to be analysed",
      declare_init,

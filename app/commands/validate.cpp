@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "analysis/advice.hpp"
 #include "analysis/analyze.hpp"
@@ -10,6 +11,7 @@
 #include "app/commands/all.hpp"
 #include "app/load_spec.hpp"
 #include "app/memory_limit.hpp"
+#include "app/option_values.hpp"
 #include "app/print_answer.hpp"
 #include "app/print_warnings.hpp"
 #include "app/render.hpp"
@@ -57,6 +59,13 @@ Json report_json(const SpecReport& report) {
   return json;
 }
 
+Json ranks_json(int ranks, const FullestRank& fullest) {
+  return {{"ranks", ranks},
+          {"rows", fullest.own_rows},
+          {"halo_rows", fullest.halo_rows},
+          {"memory_bytes", fullest.memory_bytes}};
+}
+
 std::string dependencies(const Json& state) {
   std::vector<std::string> all;
   for (const Json& kind : state["depends_on"]) {
@@ -69,6 +78,8 @@ const char* table_kind(const Json& state) {
   if (state["sum"]) return "sum";
   return state["shift"] ? "shift" : "full";
 }
+
+constexpr int kMostRanks = 10000;
 
 using Align = Table::Align;
 
@@ -131,6 +142,13 @@ std::string totals_table(const Json& report) {
                {{"reachable sets", report["exact"] ? "exact interval hulls" : "outward rounded"},
                 {"guarantee", guarantee_text(text_of(report["guarantee"]))},
                 {"memory of analyze", "about " + byte_size(report["memory_bytes"].get<std::uint64_t>())}});
+  if (report.contains("fullest_rank")) {
+    const Json& rank = report["fullest_rank"];
+    facts.emplace_back(fmt::format("fullest of {} ranks", rank["ranks"].get<int>()),
+                       fmt::format("about {}, {} rows of its own and {} of others",
+                                   byte_size(rank["memory_bytes"].get<std::uint64_t>()),
+                                   grouped(rank["rows"]), grouped(rank["halo_rows"])));
+  }
   return facts_text(facts);
 }
 
@@ -150,6 +168,7 @@ Warning too_large_here(const SpecReport& report, std::uint64_t memory) {
 struct ValidateOptions : CommonOptions {
   std::string spec;
   std::vector<SpecSetting> settings;
+  std::optional<int> ranks;
 };
 
 ExitCode run(const ValidateOptions& own) {
@@ -166,6 +185,10 @@ ExitCode run(const ValidateOptions& own) {
   } else {
     found["warnings"] = warnings_json({too_large_here(report, *memory)});
   }
+  if (own.ranks) {
+    ThreadTeam team(own.threads);
+    found["fullest_rank"] = ranks_json(*own.ranks, inspect_ranks(spec, *own.ranks, own.threads, team));
+  }
   PrintedWarnings(own).print(found["warnings"]);
   print_answer(own, found, report_text);
   return ExitCode::success;
@@ -177,6 +200,10 @@ Run declare_validate(Options& options) {
   const auto own = std::make_shared<ValidateOptions>();
   options.argument(own->spec, "SPEC", kSpecDescription);
   declare_settings(options, own->settings);
+  options.option(
+      own->ranks, "--ranks", "N",
+      "Also tell what the fullest of so many processes of coordreq-mpi would need, each with --threads",
+      WholeNumber<int>{1, kMostRanks});
   declare_common(options, *own);
   return [own] { return run(*own); };
 }

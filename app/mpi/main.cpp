@@ -18,13 +18,13 @@ void obey_signals(bool is_first) {
 
 int main(int argc, char** argv) {
   coordreq::hold_standard_streams();
+  coordreq::report_what_terminates();
   coordreq::MpiRanks ranks(argc, argv);
   obey_signals(ranks.rank() == 0);
   ranks.set_watch([] {
     if (coordreq::is_interrupted()) throw coordreq::Error(coordreq::ExitCode::interrupted, "interrupted", "");
   });
   try {
-    coordreq::report_what_terminates();
     const coordreq::ExitCode code = coordreq::analyze_on_ranks(argc, argv, ranks, [&ranks] { ranks.poll(); });
     ranks.finish();
     return static_cast<int>(code);

@@ -33,8 +33,14 @@ struct MpiRanks::Handles {
 MpiRanks::MpiRanks(int& argc, char**& argv) : handles_(std::make_unique<Handles>()) {
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  if (provided < MPI_THREAD_FUNNELED)
+    throw Error(ExitCode::limit, "this MPI does not allow threads, expected MPI_THREAD_FUNNELED", "");
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
+  MPI_Comm here = MPI_COMM_NULL;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
+  MPI_Comm_size(here, &on_this_machine_);
+  MPI_Comm_free(&here);
   MPI_Comm_dup(MPI_COMM_WORLD, &handles_->work);
   MPI_Comm_dup(MPI_COMM_WORLD, &handles_->errors);
 }
@@ -43,7 +49,8 @@ MpiRanks::~MpiRanks() = default;
 
 void MpiRanks::send(int to, Bytes message) {
   forget_sent();
-  Sending& own = sending_.emplace_back(std::move(message), std::vector<MPI_Request>());
+  sent_bytes_ += static_cast<std::int64_t>(message.size());
+  Sending& own = sending_.emplace_back(Sending{std::move(message), {}});
   for (std::size_t begin = 0;; begin += kPiece) {
     const std::size_t bytes = std::min(kPiece, own.message.size() - begin);
     MPI_Isend(own.message.data() + begin, static_cast<int>(bytes), MPI_BYTE, to, 0, handles_->work,
@@ -72,6 +79,13 @@ Bytes MpiRanks::receive(int from) {
   }
   forget_sent();
   return message;
+}
+
+bool MpiRanks::has_message(int from) {
+  poll();
+  int is_there = 0;
+  MPI_Iprobe(from, 0, handles_->work, &is_there, MPI_STATUS_IGNORE);
+  return is_there != 0;
 }
 
 void MpiRanks::add(std::span<std::int64_t> values) {
@@ -114,19 +128,17 @@ void MpiRanks::poll() {
 }
 
 void MpiRanks::hear_errors() {
-  if (rank_ == 0) {
-    int is_there = 0;
-    MPI_Message found = MPI_MESSAGE_NULL;
-    MPI_Status status;
-    MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, handles_->errors, &is_there, &found, &status);
-    if (is_there != 0) {
-      int bytes = 0;
-      MPI_Get_count(&status, MPI_BYTE, &bytes);
-      std::string what(static_cast<std::size_t>(bytes), ' ');
-      MPI_Mrecv(what.data(), bytes, MPI_BYTE, &found, MPI_STATUS_IGNORE);
-      throw Error(static_cast<ExitCode>(status.MPI_TAG), what, "");
-    }
-  }
+  if (rank_ != 0) return;
+  int is_there = 0;
+  MPI_Message found = MPI_MESSAGE_NULL;
+  MPI_Status status;
+  MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, handles_->errors, &is_there, &found, &status);
+  if (is_there == 0) return;
+  int bytes = 0;
+  MPI_Get_count(&status, MPI_BYTE, &bytes);
+  std::string what(static_cast<std::size_t>(bytes), ' ');
+  MPI_Mrecv(what.data(), bytes, MPI_BYTE, &found, MPI_STATUS_IGNORE);
+  throw Error(static_cast<ExitCode>(status.MPI_TAG), what, "");
 }
 
 void MpiRanks::finish() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -24,6 +25,9 @@ class MpiRanks final : public Ranks {
   [[nodiscard]] int count() const override { return count_; }
   void send(int to, Bytes message) override;
   [[nodiscard]] Bytes receive(int from) override;
+  [[nodiscard]] bool has_message(int from) override;
+  [[nodiscard]] int on_this_machine() const override { return on_this_machine_; }
+  [[nodiscard]] std::int64_t sent_bytes() const override { return sent_bytes_; }
   void add(std::span<std::int64_t> values) override;
   void take_greatest(std::span<std::int64_t> values) override;
 
@@ -51,6 +55,8 @@ class MpiRanks final : public Ranks {
 
   int rank_ = 0;
   int count_ = 1;
+  int on_this_machine_ = 1;
+  std::int64_t sent_bytes_ = 0;
   std::function<void()> watch_;
   std::deque<Sending> sending_;
   std::unique_ptr<Handles> handles_;

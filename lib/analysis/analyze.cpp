@@ -1,15 +1,22 @@
 #include "analysis/analyze.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "analysis/advice.hpp"
 #include "analysis/analysis_stages.hpp"
 #include "analysis/checkpoint.hpp"
+#include "analysis/estimate_memory.hpp"
 #include "analysis/stage_reporter.hpp"
 #include "answers/field_table.hpp"
 #include "answers/plan.hpp"
 #include "base/error.hpp"
 #include "base/timer.hpp"
+#include "reach/table_shapes.hpp"
 #include "results/write_results.hpp"
 
 namespace coordreq {
@@ -25,15 +32,79 @@ void open_checkpoint(const ProblemSpec& spec, const AnalysisOptions& options, St
             if (options.notice) options.notice(text);
           }};
   reporter.enter("checkpoint");
-  checkpoint.emplace(*options.checkpoint, spec, listener);
+  checkpoint.emplace(*options.checkpoint, spec, listener, options.ranks);
 }
 
-void find_answers(Answers& answers, StageReporter& reporter, Checkpoint* checkpoint, ThreadTeam& team) {
+/// What one of several processes may use, and has used before anything else.
+struct RankMemory {
+  std::optional<std::uint64_t> limit;
+  double before = memory_of_program();
+};
+
+/// As soon as it is known who holds what. Together. @throws LimitError
+void check_rank_memory(const Ground& ground, const RankMemory& memory, int threads) {
+  if (!memory.limit || !ground.share) return;
+  std::int64_t held = 0;
+  for (const RowShare::Range run : ground.share->held()) held += run.end - run.begin;
+  const double part = static_cast<double>(held) / static_cast<double>(ground.abstraction->grid.rows());
+  const Model model(ground.spec, table_shapes(ground.spec));
+  const double needed = estimate_memory_of_rank(model, threads, memory.before, part);
+  const std::int64_t most = ground.ranks->greatest(static_cast<std::int64_t>(std::min(needed, 9e18)));
+  check_memory_limit(ground.spec, static_cast<double>(most), static_cast<double>(*memory.limit),
+                     fmt::format("on the fullest of {} ranks, ", ground.ranks->count()));
+}
+
+/// Bytes that all processes have exchanged, by stage.
+class ExchangeMeter {
+ public:
+  explicit ExchangeMeter(Ranks* ranks) : ranks_(ranks) {}
+
+  void enter(const std::string& stage) {
+    end();
+    stage_ = stage;
+  }
+  /// Adds them to what fixed points took. Together.
+  void tell(Json& work) {
+    if (ranks_ == nullptr) return;
+    end();
+    std::vector<std::int64_t> bytes;
+    for (const auto& [stage, own] : stages_) bytes.push_back(own);
+    ranks_->add(bytes);
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      if (work.contains(stages_[i].first)) work[stages_[i].first]["exchanged_bytes"] = bytes[i];
+    }
+  }
+
+ private:
+  void end() {
+    if (ranks_ == nullptr) return;
+    const std::int64_t sent = ranks_->sent_bytes();
+    if (!stage_.empty()) stages_.emplace_back(stage_, sent - before_);
+    before_ = sent;
+    stage_.clear();
+  }
+
+  Ranks* ranks_;
+  std::string stage_;
+  std::int64_t before_ = 0;
+  std::vector<std::pair<std::string, std::int64_t>> stages_;
+};
+
+void find_answers(Answers& answers, StageReporter& reporter, Checkpoint* checkpoint, const RankMemory& memory,
+                  ExchangeMeter& meter, ThreadTeam& team) {
   const StageWork work{.team = team,
                        .part = [&reporter](const std::string& part) { reporter.enter_part(part); },
                        .step = [&reporter](const WaveStep& step,
                                            std::int64_t row_length) { reporter.step(step, row_length); }};
-  const PlanWatch watch{.enter = [&reporter](const std::string& stage) { reporter.enter(stage); },
+  bool is_checked = false;
+  const PlanWatch watch{.enter =
+                            [&](const std::string& stage) {
+                              reporter.enter(stage);
+                              meter.enter(stage);
+                              if (is_checked || !answers.ground.engine) return;
+                              check_rank_memory(answers.ground, memory, team.size());
+                              is_checked = true;
+                            },
                         .store = [checkpoint](const std::string& stage) -> StageStore* {
                           return checkpoint == nullptr ? nullptr : checkpoint->enter(stage);
                         }};
@@ -70,14 +141,17 @@ Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam
   const bool is_first = ranks == nullptr || ranks->rank() == 0;
   if (ranks != nullptr) check_divisible(spec);
   if (!options.output.empty() && is_first) check_writable(options.output);
-  if (options.checkpoint) check_checkpoint(*options.checkpoint);
+  if (options.checkpoint && is_first) check_checkpoint(*options.checkpoint, options.ranks != nullptr);
+  const RankMemory memory{.limit = ranks == nullptr ? std::nullopt : options.max_memory};
   StageReporter reporter(options.progress, team);
   std::optional<Checkpoint> checkpoint;
   open_checkpoint(spec, options, reporter, checkpoint);
   Answers answers(spec, ranks);
-  find_answers(answers, reporter, checkpoint ? &*checkpoint : nullptr, team);
+  ExchangeMeter meter(ranks);
+  find_answers(answers, reporter, checkpoint ? &*checkpoint : nullptr, memory, meter, team);
   Json work = Json::object();
   Json summary = summarise(answers, work);
+  meter.tell(work);
   if (!options.output.empty()) write(options.output, answers, reporter, team);
   if (checkpoint) checkpoint->remove();
   summary["output"] = options.output.empty() ? Json() : Json(options.output);

@@ -25,6 +25,8 @@ struct AnalysisOptions {
   std::function<void(const std::string&)> notice;  ///< a line for the user; may be empty
   /// The processes that share the work, each of which calls analyze() with the same spec; null: there is one.
   Ranks* ranks = nullptr;
+  /// Of several processes what each may use, in bytes; looked at as soon as it is known who holds what.
+  std::optional<std::uint64_t> max_memory;
 };
 
 /// @throws UsageError naming what of a spec several processes cannot divide between them
@@ -37,6 +39,7 @@ void check_divisible(const ProblemSpec& spec);
 ///   if no file was written), `threads`, `seconds` (wall time by stage), `work` (of each fixed point, by
 ///   stage), `peak_memory_bytes` (of several processes the largest), and what is worth a warning, `warnings`
 ///   (advice.hpp; in the first process only). Of several processes the first writes the file
+/// @throws LimitError if one of several processes needs more than `max_memory`
 /// @throws SpecError for what only shows when the system is built (undecidable `allow`, a discrete state off
 ///   its grid, dynamics that this version cannot abstract); IoError
 [[nodiscard]] Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team);
@@ -83,5 +86,16 @@ struct SpecReport {
 
 /// @param threads that an analysis would have; 0: all cores
 [[nodiscard]] SpecReport inspect(const ProblemSpec& spec, int threads);
+
+/// What the fullest of several processes would have.
+struct FullestRank {
+  std::int64_t own_rows = 0;
+  std::int64_t halo_rows = 0;
+  std::uint64_t memory_bytes = 0;
+};
+
+/// Makes the abstraction and S, as the processes would; of S no more at a time than one of them.
+/// @param threads that each would have
+[[nodiscard]] FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads, ThreadTeam& team);
 
 }  // namespace coordreq

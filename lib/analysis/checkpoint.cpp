@@ -17,8 +17,6 @@
 namespace coordreq {
 namespace {
 
-constexpr const char* kWhat = "the checkpoint";
-constexpr const char* kSuffix = ".new";
 constexpr const char* kFiletype = "coordreq-checkpoint 2";
 /// Saving takes at most one part in so many of the time.
 constexpr double kShare = 10;
@@ -39,10 +37,15 @@ std::string sha256_of_controller(const ProblemSpec& spec) {
 
 class Checkpoint::Saving : public Archive {
  public:
-  explicit Saving(CheckpointWriter& file) : file_(file) {}
+  /// @param file null: only parts are written here @param parts null: there are none
+  Saving(CheckpointWriter* file, CheckpointParts* parts) : file_(file), parts_(parts) {}
   [[nodiscard]] bool is_loading() const override { return false; }
   void rows(const NumberRows& rows) override {
-    if (rows.rows > 0 && rows.row_length > 0) file_.add(rows);
+    if (file_ != nullptr && rows.rows > 0 && rows.row_length > 0) file_->add(rows);
+  }
+  void grid_rows(const NumberRows& all, ThreadTeam::Range own,
+                 std::span<const ThreadTeam::Range> /*held*/) override {
+    parts_ == nullptr ? rows(all) : parts_->add(all, own);
   }
 
  private:
@@ -50,16 +53,22 @@ class Checkpoint::Saving : public Archive {
     throw std::logic_error(std::string(what));
   }
 
-  CheckpointWriter& file_;
+  CheckpointWriter* file_;
+  CheckpointParts* parts_;
 };
 
 class Checkpoint::Loading : public Archive {
  public:
-  explicit Loading(const Checkpoint& checkpoint) : checkpoint_(checkpoint) {}
+  explicit Loading(Checkpoint& checkpoint) : checkpoint_(checkpoint) {}
   [[nodiscard]] bool is_loading() const override { return true; }
   void rows(const NumberRows& rows) override {
     if (rows.rows > 0 && rows.row_length > 0)
       expect(checkpoint_.reader_->read(rows), "a list has another length or other numbers");
+  }
+  void grid_rows(const NumberRows& all, ThreadTeam::Range /*own*/,
+                 std::span<const ThreadTeam::Range> held) override {
+    if (!checkpoint_.parts_) return rows(all);
+    expect(checkpoint_.parts_->read(all, held), "its parts have other rows or other numbers");
   }
 
  private:
@@ -67,31 +76,53 @@ class Checkpoint::Loading : public Archive {
     checkpoint_.refuse(fmt::format("does not fit the spec: {} in the stage '{}'", what, checkpoint_.stage_));
   }
 
-  const Checkpoint& checkpoint_;
+  Checkpoint& checkpoint_;
 };
 
-Checkpoint::Checkpoint(CheckpointOptions options, const ProblemSpec& spec, Listener listener)
+Checkpoint::Checkpoint(CheckpointOptions options, const ProblemSpec& spec, Listener listener, Ranks* ranks)
     : options_(std::move(options)),
-      identity_{sha256_hex(spec.text), sha256_of_controller(spec), program()},
+      parts_(ranks == nullptr ? std::nullopt
+                              : std::optional<CheckpointParts>(std::in_place, options_.file, *ranks)),
+      file_(parts_ ? CheckpointParts::manifest(options_.file) : options_.file),
+      identity_{sha256_hex(spec.text), is_first() ? sha256_of_controller(spec) : "", program()},
       listener_(std::move(listener)),
       saved_(Clock::now()) {
-  lock_ = FileLock::take(options_.file, kWhat);
-  const bool is_there = lock_.has_value();
-  is_there ? open() : make_first();
-  remove_unfinished(options_.file, kSuffix);
-  if (!options_.resume) return;
+  bool is_there = is_first() && take_or_make();
+  if (parts_) {
+    is_there = parts_->ranks().sum(is_there ? 1 : 0) > 0;
+    if (is_there && !is_first()) open();
+    parts_->check();
+  }
+  if (!options_.resume || !is_first()) return;
   listener_.notice(
       fmt::format("{} ({})", is_there ? "continuing from the checkpoint" : "no checkpoint yet, starting anew",
                   options_.file));
+}
+
+/// @returns whether it was there
+bool Checkpoint::take_or_make() {
+  lock_ = FileLock::take(file_, kCheckpointName);
+  const bool is_there = lock_.has_value();
+  if (is_there) {
+    static_cast<void>(check_checkpoint_file(file_));
+    open();
+  } else {
+    make_first();
+  }
+  remove_unfinished(file_, kUnfinished);
+  if (parts_) parts_->remove_others();
+  return is_there;
 }
 
 /// Two processes that begin at once must not both take it for theirs.
 void Checkpoint::make_first() {
   listener_.progress(true);
   try {
-    OutputFile output(options_.file, kWhat, kSuffix);
-    write(output.temporary(), nullptr);
-    std::optional<FileLock> lock = FileLock::take(output.temporary(), kWhat);
+    OutputFile output(file_, kCheckpointName, kUnfinished);
+    CheckpointWriter file(output.temporary(), options_.file, [this] { listener_.progress(true); });
+    write_identity(file);
+    file.finish();
+    std::optional<FileLock> lock = FileLock::take(output.temporary(), kCheckpointName);
     if (output.commit_new()) lock_ = std::move(lock);
   } catch (const IoError& error) {
     listener_.notice(fmt::format("warning: continuing without a new checkpoint: {}", error.what()));
@@ -103,9 +134,20 @@ void Checkpoint::make_first() {
 }
 
 void Checkpoint::open() {
-  reader_ = std::make_unique<CheckpointReader>(options_.file);
+  reader_ = std::make_unique<CheckpointReader>(file_);
+  if (is_first()) check_identity();
+  if (parts_ && !parts_->take(*reader_)) refuse("has parts that are none");
+  if (!next_record()) close();
+}
+
+void Checkpoint::close() {
+  reader_.reset();
+  if (parts_) parts_->close();
+}
+
+void Checkpoint::check_identity() {
   if (!reader_->begin("identity") || reader_->read_text() != kFiletype)
-    throw ResultsError("this is no checkpoint", options_.file);
+    throw ResultsError("this is no checkpoint", file_);
   const std::string spec = reader_->read_text();
   const std::string controller = reader_->read_text();
   const std::string version = reader_->read_text();
@@ -116,7 +158,6 @@ void Checkpoint::open() {
   if (controller != identity_.controller)
     differ("with another controller", "SHA-256 " + controller, identity_.controller);
   if (version != identity_.program) differ("by another coordreq", version, identity_.program);
-  if (!next_record()) reader_.reset();
 }
 
 void Checkpoint::refuse(const std::string& reason) const {
@@ -126,6 +167,7 @@ void Checkpoint::refuse(const std::string& reason) const {
 /// Goes to the next record. @returns false if there is none
 bool Checkpoint::next_record() {
   if (!reader_->begin(group_name(taken_))) return false;
+  if (parts_) parts_->read_from(group_name(taken_));
   ++taken_;
   next_stage_ = reader_->read_text();
   std::uint8_t is_finished = 0;
@@ -146,7 +188,7 @@ StageStore::Kept Checkpoint::take(const Serialise& load) {
   Loading archive(*this);
   load(archive);
   // What was under way is the last that the file has.
-  if (!next_record()) reader_.reset();
+  if (!next_record()) close();
   if (!is_finished && reader_)
     refuse(fmt::format("continues after the stage '{}', which is not finished", stage_));
   return is_finished ? Kept::finished : Kept::unfinished;
@@ -168,14 +210,15 @@ bool Checkpoint::is_due() const {
   if (reader_) return false;
   if (options_.every_seconds <= 0) return true;
   const double pause = std::max(options_.every_seconds, (kShare - 1) * cost_.count());
-  return Clock::now() - saved_ >= std::chrono::duration<double>(pause);
+  const bool is_due = Clock::now() - saved_ >= std::chrono::duration<double>(pause);
+  return parts_ ? parts_->ranks().sum(is_first() && is_due ? 1 : 0) > 0 : is_due;
 }
 
 void Checkpoint::save(const Record* under_way) {
   const Clock::time_point begin = Clock::now();
   listener_.progress(true);
   try {
-    replace(under_way);
+    parts_ ? replace_together(under_way) : replace(under_way);
     is_failing_ = false;
   } catch (const IoError& error) {
     if (!is_failing_)
@@ -187,46 +230,101 @@ void Checkpoint::save(const Record* under_way) {
   cost_ = saved_ - begin;
 }
 
-/// The new file is locked before it has its name.
 void Checkpoint::replace(const Record* under_way) {
-  OutputFile output(options_.file, kWhat, kSuffix);
-  write(output.temporary(), under_way);
-  std::optional<FileLock> lock = FileLock::take(output.temporary(), kWhat);
+  OutputFile output(file_, kCheckpointName, kUnfinished);
+  CheckpointWriter file(output.temporary(), options_.file, [this] { listener_.progress(true); });
+  write_identity(file);
+  write_records(&file, under_way);
+  file.finish();
+  commit(output);
+}
+
+/// Whatever fails in one process, all of them hear of it.
+void Checkpoint::replace_together(const Record* under_way) {
+  std::optional<OutputFile> output;
+  std::optional<CheckpointWriter> file;
+  std::optional<IoError> failure;
+  const auto attempt = [&failure](const std::function<void()>& work) {
+    try {
+      if (!failure) work();
+    } catch (const IoError& error) {
+      failure = error;
+    }
+  };
+  attempt([&] {
+    const auto progress = [this] { listener_.progress(true); };
+    if (is_first()) {
+      output.emplace(file_, kCheckpointName, kUnfinished);
+      write_identity(file.emplace(output->temporary(), options_.file, progress));
+    }
+    parts_->start(progress);
+    write_records(file ? &*file : nullptr, under_way);
+    parts_->finish();
+  });
+  const bool are_written = parts_->agree(!failure);
+  if (!are_written && !failure) failure.emplace("another rank cannot write its part", options_.file);
+  attempt([&] {
+    if (!is_first()) return;
+    parts_->describe(*file);
+    file->finish();
+    commit(*output);
+  });
+  parts_->settle(parts_->ranks().sum(failure ? 1 : 0) == 0);
+  if (failure) throw IoError(*failure);
+}
+
+/// The new file is locked before it has its name.
+void Checkpoint::commit(OutputFile& output) {
+  std::optional<FileLock> lock = FileLock::take(output.temporary(), kCheckpointName);
   output.commit();
   lock_ = std::move(lock);
 }
 
-void Checkpoint::write(const std::string& temporary, const Record* under_way) {
-  CheckpointWriter file(temporary, options_.file, [this] { listener_.progress(true); });
+void Checkpoint::write_identity(CheckpointWriter& file) const {
   file.begin("identity");
   for (const std::string& part :
        {std::string(kFiletype), identity_.spec, identity_.controller, identity_.program})
     file.add(part);
+}
+
+/// @param file null: this process writes a part alone
+void Checkpoint::write_records(CheckpointWriter* file, const Record* under_way) {
   std::size_t count = 0;
   const auto add = [&](const Record& record) {
-    file.begin(group_name(count++));
-    file.add(record.stage);
-    const auto is_finished = static_cast<std::uint8_t>(record.is_finished ? 1 : 0);
-    file.add(number_rows(&is_finished, 1, 1, 1));
-    Saving archive(file);
+    const std::string group = group_name(count++);
+    if (parts_) parts_->begin(group);
+    if (file != nullptr) {
+      file->begin(group);
+      file->add(record.stage);
+      const auto is_finished = static_cast<std::uint8_t>(record.is_finished ? 1 : 0);
+      file->add(number_rows(&is_finished, 1, 1, 1));
+    }
+    Saving archive(file, parts_ ? &*parts_ : nullptr);
     record.save(archive);
   };
   for (const Record& record : finished_) add(record);
   if (under_way != nullptr) add(*under_way);
-  file.finish();
 }
 
 // A symbolic link stays, as it does when the file is written.
 void Checkpoint::remove() {
+  if (!is_first()) return;
   std::error_code error;
-  const std::filesystem::path file = std::filesystem::canonical(options_.file, error);
+  const std::filesystem::path file = std::filesystem::canonical(file_, error);
   if (!error) static_cast<void>(std::filesystem::remove(file, error));
-  remove_unfinished(options_.file, kSuffix);
+  remove_unfinished(file_, kUnfinished);
+  if (!parts_) return;
+  parts_->remove_all();
+  // With what the user has put there it stays.
+  static_cast<void>(std::filesystem::remove(options_.file, error));
 }
 
-void check_checkpoint(const CheckpointOptions& options) {
-  const OutputFile probe(options.file, kWhat, kSuffix);
-  if (options.resume || !std::filesystem::exists(options.file)) return;
+void check_checkpoint(const CheckpointOptions& options, bool is_folder) {
+  std::error_code ignored;  // what cannot be made cannot be written to either
+  if (is_folder) std::filesystem::create_directory(options.file, ignored);
+  const std::string file = is_folder ? CheckpointParts::manifest(options.file) : options.file;
+  const OutputFile probe(file, kCheckpointName, kUnfinished);
+  if (options.resume || !std::filesystem::exists(file)) return;
   throw UsageError("the checkpoint is there already, expected --resume to continue from it, or another file",
                    options.file);
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/checkpoint_options.hpp"
+#include "analysis/checkpoint_parts.hpp"
 #include "answers/stage.hpp"
 #include "base/archive.hpp"
 #include "results/checkpoint_file.hpp"
@@ -27,6 +28,9 @@ namespace coordreq {
 ///    trusted, right checksums or not: see Archive.
 /// 4. Saving takes at most a tenth of the time, however long it takes. Where it fails, work goes on.
 /// 5. One process at a time has the file, from the construction of this object on.
+///
+/// Of several processes it is a folder with a manifest and parts (see CheckpointParts), and all that is done
+/// is done together. The first one has the manifest, decides when to save, and tells the user.
 class Checkpoint : public StageStore {
  public:
   struct Listener {
@@ -40,7 +44,8 @@ class Checkpoint : public StageStore {
   /// REQUIRES: check_checkpoint(options) has passed.
   /// @throws IoError if the file cannot be read, or another process has it; ResultsError if it is damaged,
   ///   none of ours, or of something else
-  Checkpoint(CheckpointOptions options, const ProblemSpec& spec, Listener listener);
+  /// @param ranks the processes that share the folder; null: there is one, and a file
+  Checkpoint(CheckpointOptions options, const ProblemSpec& spec, Listener listener, Ranks* ranks = nullptr);
 
   /// From now on the stage under way is this one. @returns this object
   StageStore* enter(const std::string& stage);
@@ -61,13 +66,20 @@ class Checkpoint : public StageStore {
   class Loading;
   class Saving;
 
+  [[nodiscard]] bool is_first() const { return !parts_ || parts_->ranks().rank() == 0; }
+  [[nodiscard]] bool take_or_make();
   void make_first();
   void open();
+  void close();
+  void check_identity();
   [[nodiscard]] bool next_record();
   [[nodiscard]] bool is_due() const;
   void save(const Record* under_way);
-  void write(const std::string& temporary, const Record* under_way);
+  void write_identity(CheckpointWriter& file) const;
+  void write_records(CheckpointWriter* file, const Record* under_way);
   void replace(const Record* under_way);
+  void replace_together(const Record* under_way);
+  void commit(OutputFile& output);
   [[noreturn]] void refuse(const std::string& reason) const;
 
   /// What it belongs to.
@@ -78,6 +90,8 @@ class Checkpoint : public StageStore {
   };
 
   CheckpointOptions options_;
+  std::optional<CheckpointParts> parts_;
+  std::string file_;  ///< or manifest
   Identity identity_;
   Listener listener_;
   std::optional<FileLock> lock_;
@@ -92,8 +106,9 @@ class Checkpoint : public StageStore {
   std::chrono::duration<double> cost_{0};  ///< how long it took
 };
 
-/// Tries whether the file can be written; leaves nothing behind.
+/// Tries whether the file can be written; leaves nothing behind. A folder is made if there is none.
+/// @param is_folder whether several processes have a folder
 /// @throws IoError if not; UsageError if the file is there already and not to be resumed
-void check_checkpoint(const CheckpointOptions& options);
+void check_checkpoint(const CheckpointOptions& options, bool is_folder);
 
 }  // namespace coordreq

@@ -42,11 +42,15 @@ double memory_of_program() {
 }
 
 double estimate_memory(const Model& model, int threads) {
+  return std::max(static_cast<double>(peak_memory_bytes()),
+                  estimate_memory_of_rank(model, threads, memory_of_program(), 1));
+}
+
+double estimate_memory_of_rank(const Model& model, int threads, double before, double held_rows) {
   const int team = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const EngineSizes sizes(model);
-  double held = memory_of_program() + (team - 1) * kThreadBytes;
-  double most = static_cast<double>(peak_memory_bytes());
-  double written = 0, longest = 0;
+  const EngineSizes sizes(model, held_rows);
+  double held = before + (team - 1) * kThreadBytes;
+  double most = 0, written = 0, longest = 0;
   const auto add = [&](const MemoryNeed& need) {
     most = std::max(most, held + need.kept + need.work);
     held += need.kept;
@@ -57,15 +61,20 @@ double estimate_memory(const Model& model, int threads) {
   return std::max(most, held + written + write_results_bytes(model.spec(), longest, team));
 }
 
+void check_memory_limit(const ProblemSpec& spec, double needed, double limit, const std::string& by_whom) {
+  if (needed <= limit) return;
+  std::int64_t cells = 1;
+  for (const StateSpec& state : spec.states) cells *= state.grid.count;
+  throw LimitError(fmt::format("{} cells need about {} of memory, {}the limit is {}", grouped(cells),
+                               in_words(needed), by_whom, in_words(limit)),
+                   "--max-memory");
+}
+
 void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit, int threads, bool saves) {
   if (!limit) return;
   const Model model(spec, table_shapes(spec));
-  const double bytes = estimate_memory(model, threads) + (saves ? kCheckpointBytes : 0);
-  if (bytes <= static_cast<double>(*limit)) return;
-  throw LimitError(
-      fmt::format("{} cells need about {} of memory, the limit is {}", grouped(model.grid().points()),
-                  in_words(bytes), in_words(static_cast<double>(*limit))),
-      "--max-memory");
+  check_memory_limit(spec, estimate_memory(model, threads) + (saves ? kCheckpointBytes : 0),
+                     static_cast<double>(*limit), "");
 }
 
 }  // namespace coordreq

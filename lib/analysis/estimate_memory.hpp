@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "model/model.hpp"
 #include "spec/problem_spec.hpp"
@@ -18,6 +19,17 @@ namespace coordreq {
 /// granted.
 /// @param threads that will work, none of which is there yet; 0: all cores
 [[nodiscard]] double estimate_memory(const Model& model, int threads);
+
+/// The same of one of several processes that share the work.
+/// @param before what it holds before any of it, as memory_of_program() tells
+/// @param held the part of the rows that it holds
+[[nodiscard]] double estimate_memory_of_rank(const Model& model, int threads, double before, double held);
+/// What an MPI takes, measured with Open MPI 4.1, in bytes.
+inline constexpr double kMpiBytes = 11.0 * 1024 * 1024;
+
+/// @param needed bytes @param by_whom "on the fullest of 8 ranks, ", or nothing
+/// @throws LimitError with the two if more is needed than the limit
+void check_memory_limit(const ProblemSpec& spec, double needed, double limit, const std::string& by_whom);
 
 /// @param saves whether the work will be saved in a checkpoint now and then
 /// @throws LimitError with the estimate if that is above the limit

@@ -1,5 +1,7 @@
 #include "analysis/analyze.hpp"
 #include "analysis/estimate_memory.hpp"
+#include "answers/answers.hpp"
+#include "answers/ground/answer.hpp"
 #include "answers/invariance/answer.hpp"
 #include "engine/engine_sizes.hpp"
 #include "model/model.hpp"
@@ -74,6 +76,22 @@ SpecReport inspect(const ProblemSpec& spec, int threads) {
   report.guarantee = guarantee_of(spec);
   report.memory_bytes = to_bytes(estimate_memory(model, threads));
   return report;
+}
+
+FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads, ThreadTeam& team) {
+  const Model model(spec, table_shapes(spec));
+  const double before = memory_of_program();
+  Answers answers(spec, nullptr);
+  ground_stages(spec).front().run(answers, {.team = team});
+  FullestRank fullest;
+  for (const RankRows& rows : rows_of_ranks(answers.ground, ranks, team)) {
+    if (rows.own + rows.halo > fullest.own_rows + fullest.halo_rows)
+      fullest = {.own_rows = rows.own, .halo_rows = rows.halo};
+  }
+  const auto rows = static_cast<double>(answers.ground.abstraction->grid.rows());
+  const double held = static_cast<double>(fullest.own_rows + fullest.halo_rows) / rows;
+  fullest.memory_bytes = to_bytes(estimate_memory_of_rank(model, threads, before + kMpiBytes, held));
+  return fullest;
 }
 
 }  // namespace coordreq

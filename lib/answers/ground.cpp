@@ -14,23 +14,49 @@ constexpr std::int64_t kBlocksOfRank = 64;
 /// Units a rank that are not cut: equal ones are found among whole ones only.
 constexpr std::int64_t kUnitsOfRank = 8;
 
-/// Runs of rows with about as many rows in which S has cells; of whole units, if these are not too large.
+/// Cuts the rows into runs with about as many in which S has cells; of whole units, if these are not too
+/// large.
+class SafeRows {
+ public:
+  SafeRows(const RowEngine& engine, const CellCondition& condition, int parts, ThreadTeam& team)
+      : engine_(engine), condition_(condition), parts_(parts), team_(team) {
+    const std::int64_t rows = engine.rows(), most = kBlocksOfRank * parts, unit = engine.unit_rows();
+    block_rows_ = (rows + most - 1) / most;
+    if (unit * kUnitsOfRank * parts <= rows) block_rows_ = (block_rows_ + unit - 1) / unit * unit;
+    weights.assign(static_cast<std::size_t>((rows + block_rows_ - 1) / block_rows_), 0);
+    even_ = cut();
+  }
+
+  /// Each weighs as many.
+  void weigh(int part) {
+    const std::int64_t begin = even_[static_cast<std::size_t>(part)];
+    const std::int64_t end = even_[static_cast<std::size_t>(part) + 1];
+    CellSet safe(engine_.rows(), engine_.row_length());
+    condition_.add_cells({{begin, end}}, team_, safe);
+    for (std::int64_t r = begin; r < end; ++r)
+      weights[static_cast<std::size_t>(r / block_rows_)] += any_set(safe.row(r)) ? 1 : 0;
+  }
+  [[nodiscard]] std::vector<std::int64_t> cut() const {
+    return cut_rows(weights, block_rows_, engine_.rows(), parts_);
+  }
+
+  std::vector<std::int64_t> weights;  ///< of blocks of rows
+
+ private:
+  const RowEngine& engine_;
+  const CellCondition& condition_;
+  int parts_;
+  ThreadTeam& team_;
+  std::int64_t block_rows_ = 1;
+  std::vector<std::int64_t> even_;
+};
+
 RowShare cut_by_safe_rows(Ranks& ranks, const RowEngine& engine, const CellCondition& condition,
                           ThreadTeam& team) {
-  const std::int64_t rows = engine.rows();
-  const std::int64_t most = kBlocksOfRank * ranks.count();
-  std::int64_t block_rows = (rows + most - 1) / most;
-  const std::int64_t unit = engine.unit_rows();
-  if (unit * kUnitsOfRank * ranks.count() <= rows) block_rows = (block_rows + unit - 1) / unit * unit;
-  std::vector<std::int64_t> weights(static_cast<std::size_t>((rows + block_rows - 1) / block_rows), 0);
-  // Each looks at as many.
-  const RowShare even(ranks, cut_rows(weights, block_rows, rows, ranks.count()));
-  CellSet safe(rows, engine.row_length());
-  condition.add_cells({even.own()}, team, safe);
-  for (std::int64_t r = even.own().begin; r < even.own().end; ++r)
-    weights[static_cast<std::size_t>(r / block_rows)] += any_set(safe.row(r)) ? 1 : 0;
-  ranks.add(weights);
-  return {ranks, cut_rows(weights, block_rows, rows, ranks.count())};
+  SafeRows safe(engine, condition, ranks.count(), team);
+  safe.weigh(ranks.rank());
+  ranks.add(safe.weights);
+  return {ranks, safe.cut()};
 }
 
 }  // namespace
@@ -71,6 +97,26 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
   ground.safe_cells = ground.count(ground.safe);
   ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
   ground.order.emplace(abstraction.grid);
+}
+
+std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks, ThreadTeam& team) {
+  const Abstraction& abstraction = *ground.abstraction;
+  const CellCondition condition(ground.spec.safe, ground.spec, abstraction.grid, abstraction.inputs, team);
+  const RowEngine engine(abstraction, nullptr, {});
+  const RowHull hull(engine);
+  SafeRows rows(engine, condition, ranks, team);
+  for (int r = 0; r < ranks; ++r) rows.weigh(r);
+  const std::vector<std::int64_t> bounds = rows.cut();
+  std::vector<RankRows> result;
+  for (std::size_t r = 0; r + 1 < bounds.size(); ++r) {
+    const RowShare::Range own{bounds[r], bounds[r + 1]};
+    CellSet safe(engine.rows(), engine.row_length());
+    condition.add_cells({own}, team, safe);
+    std::vector<std::uint8_t> is_met = hull.rows_met(safe, own);
+    std::fill(is_met.begin() + own.begin, is_met.begin() + own.end, std::uint8_t{0});
+    result.push_back({own.end - own.begin, std::count(is_met.begin(), is_met.end(), 1)});
+  }
+  return result;
 }
 
 }  // namespace coordreq

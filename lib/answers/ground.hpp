@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/thread_team.hpp"
 #include "engine/packed_pairs.hpp"
@@ -60,5 +61,13 @@ struct Ground {
 
 /// S and the engine, on an abstraction that is there. Together.
 void lay_ground(Ground& ground, ThreadTeam& team);
+
+/// Rows that a process would own, and hold of others.
+struct RankRows {
+  std::int64_t own = 0;
+  std::int64_t halo = 0;
+};
+/// Of so many processes, on an abstraction that is there; holds no more of S than one of them.
+[[nodiscard]] std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks, ThreadTeam& team);
 
 }  // namespace coordreq

@@ -8,11 +8,18 @@
 namespace coordreq {
 namespace {
 
+template <class Level, class Body>
+void for_each_held(const LevelRows<Level>& levels, const Body& body) {
+  for (const RowShare::Range run : held_rows(levels.share(), levels.rows())) {
+    for (std::int64_t row = run.begin; row < run.end; ++row) body(row);
+  }
+}
+
 /// Whether every level is one that a cell can have. Gaps of rows do not count.
 template <class Level>
 bool are_possible(const LevelRows<Level>& levels, const LevelBounds& bounds) {
   bool possible = true;
-  for (std::int64_t r = 0; r < levels.rows(); ++r) {
+  for_each_held(levels, [&](std::int64_t r) {
     const Level* const row = levels.row(r);
     levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
       for (std::int64_t i = lane; i < lane + count; ++i) {
@@ -21,30 +28,34 @@ bool are_possible(const LevelRows<Level>& levels, const LevelBounds& bounds) {
         possible = possible && (row[i] == LevelRows<Level>::kTop || std::int64_t{row[i]} <= bounds.most);
       }
     });
-  }
+  });
   return possible;
 }
 
 template <class Level>
 LevelMap load_levels(Archive& archive, const RowEngine& engine, const LevelBounds& bounds) {
   LevelRows<Level> levels = engine.make_levels<Level>(engine.posts());
-  archive.rows(rows_of(levels));
+  serialise_rows(archive, levels.share(), rows_of(levels));
   archive.expect(are_possible(levels, bounds), "a cell has a level that it cannot have");
-  for (std::int64_t r = 0; r < levels.rows(); ++r) {
+  for_each_held(levels, [&](std::int64_t r) {
     levels.clear_gaps(levels.row(r));
     levels.close(r);
-  }
+  });
   return LevelMap(std::move(levels));
 }
 
 /// As serialise() does.
-void save_levels(Archive& archive, std::span<const NumberRows> state) {
-  auto width = static_cast<std::uint8_t>(state.front().number_bytes);
+void save_levels(Archive& archive, const RowShare* share, const NumberRows& state) {
+  auto width = static_cast<std::uint8_t>(state.number_bytes);
   archive.number(width);
-  archive.rows(state.front());
+  serialise_rows(archive, share, state);
 }
 
 }  // namespace
+
+void serialise_rows(Archive& archive, const RowShare* share, const NumberRows& rows) {
+  archive.grid_rows(rows, own_rows(share, rows.rows), held_rows(share, rows.rows));
+}
 
 std::function<void(const WaveStep&)> step_of(const StageWork& work, const RowEngine& engine,
                                              const SaveState& save) {
@@ -60,15 +71,16 @@ void serialise(Archive& archive, const RowEngine& engine, const LevelBounds& bou
   std::uint8_t width = levels.visit(
       []<class Level>(const LevelRows<Level>&) { return static_cast<std::uint8_t>(sizeof(Level)); });
   archive.number(width);
-  if (!archive.is_loading()) return levels.visit([&](const auto& own) { archive.rows(rows_of(own)); });
+  if (!archive.is_loading())
+    return levels.visit([&](const auto& own) { serialise_rows(archive, own.share(), rows_of(own)); });
   archive.expect(width == 1 || width == 2 || width == 4, "levels have another width");
   levels = width == 1   ? load_levels<std::uint8_t>(archive, engine, bounds)
            : width == 2 ? load_levels<std::uint16_t>(archive, engine, bounds)
                         : load_levels<std::uint32_t>(archive, engine, bounds);
 }
 
-void serialise(Archive& archive, const CellSet& within, CellSet& set) {
-  archive.rows(rows_of(set));
+void serialise(Archive& archive, const RowShare* share, const CellSet& within, CellSet& set) {
+  serialise_rows(archive, share, rows_of(set));
   bool is_part = true;
   for (std::size_t w = 0; archive.is_loading() && w < set.words().size(); ++w)
     is_part = is_part && (set.words()[w] & ~within.words()[w]) == 0;
@@ -81,7 +93,10 @@ void find_or_take_levels(const StageWork& work, const RowEngine& engine, const L
   const StageStore::Kept kept = work.store == nullptr ? StageStore::Kept::nothing : work.store->take(load);
   if (kept != StageStore::Kept::finished) {
     LevelMap start = std::move(place);
-    place = find({.step = step_of(work, engine, save_levels),
+    const SaveState save = [&engine](Archive& archive, std::span<const NumberRows> state) {
+      save_levels(archive, engine.share(), state.front());
+    };
+    place = find({.step = step_of(work, engine, save),
                   .resumed = kept == StageStore::Kept::unfinished ? &start : nullptr});
   }
   if (work.store != nullptr)

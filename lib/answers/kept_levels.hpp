@@ -25,11 +25,13 @@ struct LevelBounds {
   std::int64_t most = 0;             ///< the greatest level but LevelMap::kTop
 };
 
+/// Rows of the grid, which processes may share. @param share null: there is one
+void serialise_rows(Archive& archive, const RowShare* share, const NumberRows& rows);
 /// Saves levels, or makes those that were saved.
 void serialise(Archive& archive, const RowEngine& engine, const LevelBounds& bounds, LevelMap& levels);
 /// Saves a set, or loads it to where it is. REQUIRES: it has the shape of `within`.
 /// @param within the set is a part of
-void serialise(Archive& archive, const CellSet& within, CellSet& set);
+void serialise(Archive& archive, const RowShare* share, const CellSet& within, CellSet& set);
 
 /// The levels of a stage: those that are kept if they are the last, else what `find` makes of them, or finds
 /// from the start on.

@@ -2,9 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <type_traits>
 #include <vector>
+
+#include "base/thread_team.hpp"
 
 namespace coordreq {
 
@@ -24,6 +27,18 @@ struct NumberRows {
     return first + (places == nullptr ? r : std::int64_t{places[r]}) * stride;
   }
   [[nodiscard]] std::int64_t row_bytes() const { return row_length * number_bytes; }
+
+  /// Some of them.
+  [[nodiscard]] NumberRows part(std::int64_t begin, std::int64_t end) const {
+    NumberRows result = *this;
+    result.rows = end - begin;
+    if (places == nullptr) {
+      result.first = row(begin);
+    } else {
+      result.places += begin;
+    }
+    return result;
+  }
 };
 
 template <class Number>
@@ -60,6 +75,12 @@ class Archive {
 
   /// Saves the numbers, or loads them to where they stand.
   virtual void rows(const NumberRows& rows) = 0;
+  /// The same for rows of a grid that several processes may have divided between them.
+  /// @param own which ones this process answers for @param held which ones it has to know, ascending
+  virtual void grid_rows(const NumberRows& all, ThreadTeam::Range /*own*/,
+                         std::span<const ThreadTeam::Range> /*held*/) {
+    rows(all);
+  }
 
   template <class Number>
   void number(Number& number) {

@@ -33,8 +33,9 @@ bool has_common(const std::vector<std::int32_t>& list, const InputClass& inputs)
 
 }  // namespace
 
-EngineSizes::EngineSizes(const Model& model)
-    : model_(&model), offsets_(usual_offsets(model.spec())), grid_(join_rows(model, offsets_)) {
+EngineSizes::EngineSizes(const Model& model, double held)
+    : model_(&model), held_(held), offsets_(usual_offsets(model.spec())), grid_(join_rows(model, offsets_)) {
+  held_ = std::max(held_, 1 / in_double(grid_.rows()));
   for (std::size_t i = grid_.across(); i < grid_.size(); ++i) {
     const GridDimension& dimension = grid_[i];
     const RowMargins margins = window_margins({&offsets_[grid_.state(i)], 1}, dimension);
@@ -75,7 +76,7 @@ double EngineSizes::slices(std::size_t t) const {
 
 double EngineSizes::hull() const {
   constexpr double kBytesOfRow = 80;
-  return rows() * kBytesOfRow;
+  return in_double(grid_.rows()) * kBytesOfRow;
 }
 
 double EngineSizes::condition(const Program& condition) const {
@@ -92,7 +93,7 @@ double EngineSizes::condition(const Program& condition) const {
 }
 
 double EngineSizes::packed_pairs(std::int64_t actions) const {
-  return cells() * in_double(PackedPairs::bytes_for(actions));
+  return held_ * cells() * in_double(PackedPairs::bytes_for(actions));
 }
 
 double EngineSizes::pair_table() const {

@@ -16,14 +16,16 @@ namespace coordreq {
 /// tables are (join_rows()). Where it depends on what is found, on the high side of what is usual.
 class EngineSizes {
  public:
+  /// @param held the part of the rows that a process holds, of several that share the work; 1: there is one.
+  ///   At least a row counts
   /// REQUIRES: `model` outlives this object.
-  explicit EngineSizes(const Model& model);
+  explicit EngineSizes(const Model& model, double held = 1);
 
   [[nodiscard]] const Model& model() const { return *model_; }
   [[nodiscard]] double cells() const { return static_cast<double>(grid_.points()); }
-  /// With the gaps in rows.
-  [[nodiscard]] double lanes() const { return static_cast<double>(grid_.cells()); }
-  [[nodiscard]] double rows() const { return static_cast<double>(grid_.rows()); }
+  /// Of the rows that are held, with the gaps in them.
+  [[nodiscard]] double lanes() const { return held_ * static_cast<double>(grid_.cells()); }
+  [[nodiscard]] double rows() const { return held_ * static_cast<double>(grid_.rows()); }
   [[nodiscard]] const UniformGrid& grid() const { return grid_; }
 
   [[nodiscard]] double set() const;     ///< CellSet
@@ -49,6 +51,7 @@ class EngineSizes {
   [[nodiscard]] RowMargins reach_of(std::size_t i) const;
 
   const Model* model_;
+  double held_;
   std::vector<IndexRange> offsets_;  ///< by state, usual_offsets()
   UniformGrid grid_;
   RowShape shape_;  ///< of the rows of posts

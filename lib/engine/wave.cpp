@@ -62,7 +62,7 @@ class WaveRunner {
         continue;
       step.visited += run(batch);
       batch.clear();
-      tell(step);
+      tell(step, engine_.share() == nullptr);
     }
     // Levels below the lowest to which a cell has sunk in a whole sweep are final: the sets they make have
     // not changed while it was found of each cell that it stays in them.
@@ -70,7 +70,7 @@ class WaveRunner {
     if (lowest_ != kTop && engine_.share() == nullptr)
       layer_ = std::max<std::int64_t>(layer_, std::int64_t{lowest_} - 1);
     step.layer = layer_;
-    tell(step);
+    tell(step, true);
     return step.visited;
   }
 
@@ -274,10 +274,11 @@ class WaveRunner {
     worker.lowest = lowest;
   }
 
-  void tell(WaveStep& step) const {
+  /// @param is_together whether all processes do so now
+  void tell(WaveStep& step, bool is_together) const {
     if (!watch_.step) return;
     const NumberRows state = rows_of(levels_);
-    step.state = {&state, 1};
+    step.state = {&state, is_together ? std::size_t{1} : std::size_t{0}};
     watch_.step(step);
   }
 

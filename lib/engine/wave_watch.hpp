@@ -18,7 +18,8 @@ struct WaveStep {
   /// The greatest i such that the first i sets of the sequence (see RowOperator) are known to be final: no
   /// cell will have another level up to i than it has now. -1: nothing is known.
   std::int64_t layer = -1;
-  /// What the work can be taken up from later; empty where it is not at such a point.
+  /// What the work can be taken up from later; empty where it is not at such a point. Several processes are
+  /// at one together, each with what it holds.
   std::span<const NumberRows> state;
 };
 

@@ -26,6 +26,14 @@ class Ranks {
   /// Waits for the next message of a rank.
   [[nodiscard]] virtual Bytes receive(int from) = 0;
 
+  /// Whether the next message of a rank has arrived.
+  [[nodiscard]] virtual bool has_message(int from) = 0;
+
+  /// How many of them, this one included, are on the machine of this one.
+  [[nodiscard]] virtual int on_this_machine() const = 0;
+  /// Bytes of all messages that this one has sent.
+  [[nodiscard]] virtual std::int64_t sent_bytes() const = 0;
+
   /// Together: every value becomes the sum of that of all ranks, or the greatest.
   virtual void add(std::span<std::int64_t> values) = 0;
   virtual void take_greatest(std::span<std::int64_t> values) = 0;

@@ -10,10 +10,11 @@ namespace {
 void write_whole(const hdf5::Handle& dataset, const std::string& path, std::uint64_t elements,
                  const ResultArray& array, RankChunks* ranks) {
   if (elements == 0) return;
-  std::vector<std::byte> data(elements * element_size(array.type));
+  std::vector<std::byte> data;
   if (ranks != nullptr) {
     data = ranks->take(0);
   } else {
+    data.resize(elements * element_size(array.type));
     array.fill(0, elements, data.data());
   }
   hdf5::check(

@@ -4,19 +4,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/error.hpp"
+#include "results/appended_digest.hpp"
 #include "results/child_trial.hpp"
 #include "results/hdf5_handle.hpp"
 #include "results/output_driver.hpp"
-#include "results/sha256.hpp"
 
 namespace coordreq {
 namespace {
@@ -30,7 +28,6 @@ constexpr hsize_t kCompactBytes = 1024;
 constexpr std::uint64_t kLongestText = 4096;
 constexpr hsize_t kMostNumbers = hsize_t{1} << 48U;
 constexpr unsigned kQuickDeflate = 1;  // it has to be done again in a minute
-constexpr std::uint64_t kDigestBytes = 64;
 /// Deflate packs no more than so many bytes into one.
 constexpr double kMostPacked = 1100;
 constexpr std::string_view kSignature = "\x89HDF\r\n\x1a\n";
@@ -289,16 +286,13 @@ void CheckpointWriter::add(const std::string& text) {
   if (length > 0) add(number_rows(reinterpret_cast<const unsigned char*>(text.data()), length, 1, length));
 }
 
-void CheckpointWriter::finish() {
+std::string CheckpointWriter::finish() {
   guarded([this] {
     open_->file.close("close the file");
     open_->driver.check_written("write");
   });
   open_.reset();
-  std::ofstream end(path_, std::ios::binary | std::ios::app);
-  end << sha256_of_file(path_);
-  end.close();
-  if (!end) throw IoError("cannot write: " + std::string(std::strerror(errno)), where_);
+  return append_digest(path_, where_);
 }
 
 struct CheckpointReader::Open {
@@ -313,44 +307,33 @@ struct CheckpointReader::Open {
 
 namespace {
 
-/// That the digest at the end is that of what is before. @throws ResultsError unless it is
-void check_digest(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string signature(kSignature.size(), '\0');
-  file.read(signature.data(), static_cast<std::streamsize>(signature.size()));
-  if (file.bad()) throw IoError("cannot be read: " + std::string(std::strerror(errno)), path);
-  file.clear();
-  file.seekg(0, std::ios::end);
-  const auto size = static_cast<std::uint64_t>(file.tellg());
-  std::string digest(kDigestBytes, '\0');
-  if (size > kDigestBytes) file.seekg(static_cast<std::streamoff>(size - kDigestBytes));
-  file.read(digest.data(), static_cast<std::streamsize>(digest.size()));
-  const bool is_digest = digest.find_first_not_of("0123456789abcdef") == std::string::npos;
-  if (size <= kDigestBytes || signature != kSignature || !is_digest)
-    throw ResultsError("this is no checkpoint, or a part of one", path);
-  if (sha256_of_file(path, kDigestBytes) != digest)
-    throw ResultsError("this checkpoint is damaged: its checksum is wrong", path);
+[[noreturn]] void fail_to_read(const std::string& path) {
+  throw ResultsError("this checkpoint is damaged: the HDF5 library cannot read it", path);
 }
 
 }  // namespace
 
-CheckpointReader::CheckpointReader(std::string path) : path_(std::move(path)) {
-  check_digest(path_);
+std::string check_checkpoint_file(const std::string& path) {
+  const std::optional<std::string> digest = checked_digest(path, kSignature);
+  if (!digest) throw ResultsError("this is no checkpoint, or a part of one", path);
+  if (digest->empty()) throw ResultsError("this checkpoint is damaged: its checksum is wrong", path);
   try {
-    try_in_child(path_, [this] { read_all(path_); });
-    open_ = std::make_unique<Open>(path_);
+    try_in_child(path, [&path] { read_all(path); });
   } catch (const ResultsError&) {
-    fail("the HDF5 library cannot read it");
+    fail_to_read(path);
+  }
+  return *digest;
+}
+
+CheckpointReader::CheckpointReader(std::string path) : path_(std::move(path)) {
+  try {
+    open_ = std::make_unique<Open>(path_);
   } catch (const hdf5::Failure&) {
-    fail("the HDF5 library cannot read it");
+    fail_to_read(path_);
   }
 }
 
 CheckpointReader::~CheckpointReader() = default;
-
-void CheckpointReader::fail(const std::string& reason) const {
-  throw ResultsError("this checkpoint is damaged: " + reason, path_);
-}
 
 bool CheckpointReader::begin(const std::string& group) {
   open_->group = group;
@@ -359,8 +342,14 @@ bool CheckpointReader::begin(const std::string& group) {
 }
 
 bool CheckpointReader::read(const NumberRows& rows) {
-  const std::string name = item_path(open_->group, open_->items++);
-  const Shape shape = shape_of(rows);
+  return read_some(open_->items++, rows, 0, rows.rows);
+}
+
+bool CheckpointReader::read_some(std::size_t item, const NumberRows& rows, std::int64_t first,
+                                 std::int64_t count) {
+  const std::string name = item_path(open_->group, item);
+  const Shape shape = {static_cast<hsize_t>(count), static_cast<hsize_t>(rows.row_length)};
+  const auto begin = static_cast<hsize_t>(first), end = static_cast<hsize_t>(first + rows.rows);
   const auto bytes = static_cast<hsize_t>(rows.number_bytes);
   try {
     if (!is_plain_link(open_->file, name)) return false;
@@ -368,15 +357,19 @@ bool CheckpointReader::read(const NumberRows& rows) {
     if (numbers_of(dataset) != std::pair(rows.kind, rows.number_bytes)) return false;
     if (shape_of_ours(dataset, rows.number_bytes) != shape) return false;
     List list(std::move(dataset), shape, type_of(rows.kind, rows.number_bytes));
-    for_each_part(shape, bytes, [&](const Shape& first, const Shape& size) {
+    for_each_part(shape, bytes, [&](const Shape& at, const Shape& whole) {
+      const hsize_t top = std::max(at[0], begin), bottom = std::min(at[0] + whole[0], end);
+      if (top >= bottom) return;
+      const Shape size = {bottom - top, whole[1]};
       open_->part.resize(size[0] * size[1] * bytes);
-      list.read(first, size, open_->part.data());
-      for_each_piece(rows, first, size, [&](std::byte* row, std::size_t place, std::size_t count) {
-        std::memcpy(row, open_->part.data() + place, count);
-      });
+      list.read({top, at[1]}, size, open_->part.data());
+      const auto copy = [&](std::byte* row, std::size_t place, std::size_t length) {
+        std::memcpy(row, open_->part.data() + place, length);
+      };
+      for_each_piece(rows, {top - begin, at[1]}, size, copy);
     });
   } catch (const hdf5::Failure&) {
-    fail("the HDF5 library cannot read it");
+    fail_to_read(path_);
   }
   return true;
 }

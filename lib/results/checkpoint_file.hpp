@@ -28,8 +28,8 @@ class CheckpointWriter {
   void begin(const std::string& group);
   void add(const NumberRows& rows);
   void add(const std::string& text);
-  /// REQUIRES: all has been added.
-  void finish();
+  /// REQUIRES: all has been added. @returns the SHA-256 at the end of the file
+  std::string finish();
 
  private:
   struct Open;
@@ -41,12 +41,17 @@ class CheckpointWriter {
   std::unique_ptr<Open> open_;
 };
 
+/// Reads a whole file once, part of it in a child process (see try_in_child()), so that no later read finds
+/// it damaged.
+/// @returns the SHA-256 at its end
+/// @throws IoError if it cannot be read; ResultsError if it is something else, or damaged
+std::string check_checkpoint_file(const std::string& path);
+
 /// Reads such a file: groups by name, and their lists in the order in which they were added.
 class CheckpointReader {
  public:
-  /// Reads the whole file once, part of it in a child process (see try_in_child()), so that no later read
-  /// finds it damaged.
-  /// @throws IoError if it cannot be read; ResultsError if it is something else, or damaged
+  /// REQUIRES: check_checkpoint_file() has passed, here or in another process.
+  /// @throws IoError if it cannot be read; ResultsError if it is something else
   explicit CheckpointReader(std::string path);
   ~CheckpointReader();
   CheckpointReader(const CheckpointReader&) = delete;
@@ -56,13 +61,15 @@ class CheckpointReader {
   [[nodiscard]] bool begin(const std::string& group);
   /// Fills in the next list. @returns false if it has other numbers, or another count of them
   [[nodiscard]] bool read(const NumberRows& rows);
+  /// Fills in rows of a list of the group. @param item number of the list @param first of its rows
+  /// @param count of its rows. @returns false if it has other numbers, or another count of them
+  [[nodiscard]] bool read_some(std::size_t item, const NumberRows& rows, std::int64_t first,
+                               std::int64_t count);
   /// The next list as a text; nothing if it is none.
   [[nodiscard]] std::string read_text();
 
  private:
   struct Open;
-  [[noreturn]] void fail(const std::string& reason) const;
-
   std::string path_;
   std::unique_ptr<Open> open_;
 };

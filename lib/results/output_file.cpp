@@ -4,12 +4,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -74,11 +77,48 @@ std::optional<mode_t> check_target(const std::string& target, const std::string&
   return info.st_mode & 07777U;
 }
 
+constexpr std::string_view kTemporary = ".tmp";
+
+/// How names of temporary files begin that this machine makes. Numbers of processes are those of a namespace.
+std::string temporary_beginning() {
+  std::array<char, HOST_NAME_MAX + 1> host{};
+  if (gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
+  struct stat space {};
+  if (stat("/proc/self/ns/pid", &space) != 0) space.st_ino = 0;
+  return std::string(".coordreq-") + host.data() + "-" + std::to_string(space.st_ino) + "-";
+}
+
+/// Whether `name` is `beginning`, the number of a process that is no more, another number, and `end`.
+bool is_left_over(std::string_view name, std::string_view beginning, std::string_view end) {
+  if (name.size() <= beginning.size() + end.size() || !name.starts_with(beginning) || !name.ends_with(end))
+    return false;
+  name.remove_prefix(beginning.size());
+  name.remove_suffix(end.size());
+  const std::string numbers(name);
+  int process = 0, attempt = 0, length = 0;
+  if (std::sscanf(numbers.c_str(), "%d-%d%n", &process, &attempt, &length) != 2) return false;
+  return static_cast<std::size_t>(length) == numbers.size() && process > 0 && kill(process, 0) != 0 &&
+         errno == ESRCH;
+}
+
+/// Removes files of a folder that processes that were killed have left.
+void remove_left_over(const fs::path& folder, const std::string& beginning, std::string_view end) {
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), last; !error && it != last; it.increment(error)) {
+    std::error_code ignored;
+    if (is_left_over(it->path().filename().string(), beginning, end) && it->is_regular_file(ignored))
+      static_cast<void>(fs::remove(it->path(), ignored));
+  }
+}
+
 /// A new file in `folder` under a name that nobody else has. Its name does not depend on the target's, which
 /// may already be as long as names can be.
 std::string create_temporary(const fs::path& folder, std::optional<mode_t> mode) {
+  const std::string beginning = temporary_beginning();
+  remove_left_over(folder, beginning, kTemporary);
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-    const std::string name = ".coordreq-" + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".tmp";
+    const std::string name =
+        beginning + std::to_string(getpid()) + "-" + std::to_string(attempt) + std::string(kTemporary);
     const std::string path = (folder / name).string();
     const int file = open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (file < 0 && errno == EEXIST) continue;
@@ -103,18 +143,6 @@ std::string create_beside(const std::string& target, const std::string& suffix, 
     return path;
   }
   throw IoError("cannot create a file in the folder: too many temporary files", target);
-}
-
-/// Whether `name` is what create_beside() makes of `target`, by a process that is no more.
-bool is_unfinished(const std::string& name, const std::string& target, const std::string& suffix) {
-  const std::size_t length = target.size() + 1 + suffix.size();
-  if (name.size() <= length || name.compare(0, target.size() + 1, target + ".") != 0) return false;
-  if (name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0) return false;
-  int process = 0, attempt = 0, end = 0;
-  const std::string numbers = name.substr(target.size() + 1, name.size() - length);
-  if (std::sscanf(numbers.c_str(), "%d-%d%n", &process, &attempt, &end) != 2) return false;
-  return static_cast<std::size_t>(end) == numbers.size() && process > 0 && kill(process, 0) != 0 &&
-         errno == ESRCH;
 }
 
 /// @param flags of open()
@@ -167,14 +195,8 @@ bool OutputFile::commit_new() {
 
 void remove_unfinished(const std::string& path, const std::string& suffix) {
   const fs::path target = resolve_links(path, "the file");
-  std::error_code error;
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    std::error_code ignored;
-    if (it->is_regular_file(ignored) &&
-        is_unfinished(it->path().filename().string(), target.filename().string(), suffix))
-      static_cast<void>(fs::remove(it->path(), ignored));
-  }
+  remove_left_over(target.has_parent_path() ? target.parent_path() : fs::path("."),
+                   target.filename().string() + ".", suffix);
 }
 
 }  // namespace coordreq

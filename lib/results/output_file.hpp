@@ -8,6 +8,8 @@ namespace coordreq {
 /// which commit() syncs and gives its name. Without commit() the destructor removes it, and what was there
 /// before stays untouched.
 ///
+/// What processes of this machine that were killed have left of temporary files in the folder is removed.
+///
 /// Where `path` is a symbolic link, the file that it points to is replaced and the link stays. A replaced
 /// file keeps its permission bits.
 class OutputFile {

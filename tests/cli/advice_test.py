@@ -176,6 +176,15 @@ class Cases(Case):
         text = self.likely_causes(spec_with(safe="x < -5"), "empty")
         self.assertRegex(text, "^the safe set is empty on this grid; of [0-9]+ changes tried one by one, none helps$")
 
+    def test_a_problem_that_this_machine_cannot_hold(self):
+        """It is valid all the same, and what it would need is told."""
+        self.write("spec.json", spec_with(states=[dict(X, step="1e-7"), dict(Y, step="1e-7")]))
+        result = self.run_program("validate", "spec.json", "--json")
+        self.assertEqual(result.returncode, 0)
+        (warning,) = json.loads(result.stdout)["warnings"]
+        self.assertEqual((warning["kind"], warning["place"]), ("memory", "/states"))
+        self.assertRegex(warning["message"], "^analyze needs about [0-9.]+ .iB, and this machine has [0-9.]+ .iB: ")
+
     def test_no_silence_at_all(self):
         """Only opposite actions keep the sum, so alone nobody may act."""
         spec = spec_with(safe="x + y >= 4 and x + y <= 4", states=[dict(X, outside="saturate"), dict(Y, outside="saturate")])

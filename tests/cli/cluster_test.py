@@ -63,12 +63,11 @@ class Cases(Case):
     def assert_completed(self, job):
         self.assertEqual(self.slurm.wait_for(job, "COMPLETED", "FAILED", "CANCELLED")["ExitCode"], "0:0", self.log())
 
-    def start_long_analysis(self, *options):
+    def start_long_analysis(self, *options, script="analyze.sbatch", program=PROGRAM, **environment):
         """The number of a job that has saved a checkpoint, and then stands still."""
-        job = self.submit("analyze.sbatch", LONG, "out.h5", "--checkpoint-every", "0.05", options=options)
-        poll((self.folder / "out.h5.ckpt").exists, 300, self.log)
-        (process,) = processes_of(PROGRAM)
-        os.kill(process, signal.SIGSTOP)
+        job = self.submit(script, LONG, "out.h5", "--checkpoint-every", "0.05", options=options, **environment)
+        poll(lambda: "checkpoint yet" in self.log() and (self.folder / "out.h5.ckpt").exists(), 300, self.log)
+        os.kill(max(processes_of(program)), signal.SIGSTOP)
         return job
 
     def assert_goes_on(self, job):
@@ -117,6 +116,13 @@ class Cases(Case):
         job = self.submit("analyze_ranks.sbatch", "none.json", "out.h5", options=options, **SEPARATE)
         self.assertEqual(self.slurm.wait_for(job, "COMPLETED", "FAILED")["ExitCode"], "5:0")
         self.assertIn("coordreq: error: no such file (none.json)\n", self.log())
+
+    @unittest.skipIf(why_no_ranks(), why_no_ranks())
+    def test_ranks_near_their_time_limit_go_on_in_another_run(self):
+        options = ("--nodes=2", "--ntasks-per-node=2")
+        job = self.start_long_analysis(*options, script="analyze_ranks.sbatch", program=MPI_PROGRAM, **SEPARATE)
+        self.slurm.tool("scancel", "--batch", "--signal=USR1", job)
+        self.assert_goes_on(job)
 
     @unittest.skipIf(why_no_ranks(), why_no_ranks())
     def test_a_rank_that_is_killed_ends_the_job(self):

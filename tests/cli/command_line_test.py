@@ -47,7 +47,7 @@ class Cases(Case):
     def test_unknown_option_of_a_command(self):
         self.assert_fails(
             2,
-            "unknown option '--fast' of validate, expected one of --help, --set, --refine, --threads, --max-memory, --json, --quiet",
+            "unknown option '--fast' of validate, expected one of --help, --set, --refine, --ranks, --threads, --max-memory, --json, --quiet",
             "validate",
             "--fast",
             "spec.json",

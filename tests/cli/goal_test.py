@@ -228,6 +228,9 @@ class Cases(Case):
             self.assertEqual(self.run_program("verify", f"r{most}.h5", "--strict").returncode, 0)
         with h5py.File(self.folder / "r1.h5") as file:
             self.assertEqual((file["fixed_point_index"][0], file["approach_fixed_point_index"][0]), (0, -1))
+        self.write("spec.json", {**problem, "coordination": {"max_delay": 1}})
+        text = self.run_program("analyze", "spec.json").stdout.decode()
+        self.assertRegex(text, "loses no time +for a step from 2 cells, for ever from an unknown number")
         result = self.run_program("query", "r1.h5", "--at", "s=0", "--json")
         approach = json.loads(result.stdout)["partitions"][0]["approach"]
         self.assertEqual((approach["delay"], approach["delay_status"]), (1, "at_least"))

@@ -3,65 +3,24 @@
 import json
 import os
 import pathlib
-import shutil
-import signal
-import subprocess
-import time
+import re
 import unittest
 
-from program import CONFIGS, PROGRAM, SPEC, Case, spec_with
+from program import CONFIGS, SPEC, spec_with
+from ranks_case import RanksCase, cells
 
-MPI_PROGRAM = os.environ.get("COORDREQ_MPI_PROGRAM", "")
-MPIRUN = shutil.which("mpirun")
-
-# As root and on few cores; what is not for the MPI at hand it does not look at.
-ENVIRONMENT = dict(
-    os.environ,
-    OMPI_ALLOW_RUN_AS_ROOT="1",
-    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-    OMPI_MCA_rmaps_base_oversubscribe="1",
-    OMPI_MCA_hwloc_base_binding_policy="none",
-    PRTE_MCA_rmaps_default_mapping_policy=":oversubscribe",
-)
+FINE = spec_with(states=[{"name": name, "lower": 0, "upper": 1500, "step": 1, "outside": "unsafe"} for name in "xy"], safe="true")
 
 # The others take long, and show no more.
 MOST_CELLS = 300_000
 
 
-def cells(path):
-    summary = subprocess.run([PROGRAM, "validate", str(path), "--json"], capture_output=True, check=True)
-    return json.loads(summary.stdout)["cells"]
+def without_costs(table):
+    """Lines of a table without the seconds and the memory that runs took, and without the width of columns."""
+    return [" ".join(re.sub(r"\d+\.\d\d +\d+ .iB", "", line).split()) for line in table.decode().splitlines()]
 
 
-@unittest.skipUnless(MPI_PROGRAM, "coordreq-mpi was not built: there is no MPI, or COORDREQ_MPI is OFF")
-@unittest.skipUnless(MPIRUN, "there is no mpirun")
-class Cases(Case):
-    def command(self, ranks, *arguments):
-        return [MPIRUN, "-n", str(ranks), MPI_PROGRAM, *arguments]
-
-    def run_ranks(self, ranks, *arguments, **options):
-        return subprocess.run(
-            self.command(ranks, *arguments), capture_output=True, cwd=self.folder, timeout=280, env=ENVIRONMENT, **options
-        )
-
-    def errors(self, result):
-        """Our lines; mpirun adds some of its own."""
-        return [line for line in result.stderr.decode().splitlines() if line.startswith("coordreq: error: ")]
-
-    def assert_same_bytes(self, path, counts, *arguments):
-        one = self.run_program("analyze", str(path), "-o", "one.h5", "--json", *arguments)
-        for ranks in counts:
-            with self.subTest(example=path, ranks=ranks):
-                many = self.run_ranks(ranks, "analyze", str(path), "-o", "many.h5", "--json", *arguments)
-                self.assertEqual(many.returncode, one.returncode, many.stderr.decode())
-                self.assertEqual((self.folder / "many.h5").read_bytes(), (self.folder / "one.h5").read_bytes())
-                answers = [json.loads(result.stdout) for result in (one, many)]
-                for answer in answers:
-                    for key in ("output", "threads", "seconds", "work", "peak_memory_bytes", "warnings"):
-                        del answer[key]
-                self.assertEqual(*answers)
-                (self.folder / "many.h5").unlink()
-
+class Cases(RanksCase):
     def test_examples_have_the_bytes_of_one_process(self):
         examples = sorted([*CONFIGS.glob("*.json"), *CONFIGS.glob("tutorial/*.json")])
         for path in examples:
@@ -78,18 +37,16 @@ class Cases(Case):
         self.write("small.json", SPEC)
         self.assert_same_bytes(pathlib.Path("small.json"), [8])
 
-    def assert_refused(self, code, line, *arguments):
-        before = self.files()
-        result = self.run_ranks(3, *arguments)
-        self.assertEqual(self.errors(result), ["coordreq: error: " + line])
-        self.assertEqual((result.returncode, result.stdout), (code, b""))
-        self.assertEqual(self.files(), before)
-
     def test_what_is_wrong_is_said_once(self):
         self.write("bad.json", spec_with(safe="x + z <= 6"))
         self.assert_refused(3, "'z' is not defined (/safe, column 5)", "analyze", "bad.json")
         self.assert_refused(5, "no such file (none.json)", "analyze", "none.json")
         self.assert_refused(2, "no command, expected analyze")
+
+    def test_words_are_read_as_one_process_reads_them(self):
+        self.assert_refused(2, "unknown command 'analyse', did you mean 'analyze'?", "analyse", "spec.json")
+        self.assert_refused(2, "no SPEC, expected the name of a file: coordreq-mpi analyze SPEC...", "analyze")
+        self.assert_refused(2, "unknown option '--refien' of analyze, did you mean '--refine'?", "analyze", "a.json", "--refien")
 
     def test_what_cannot_be_divided_is_refused_by_name(self):
         self.write("lists.json", spec_with(output={"layers": True}))
@@ -105,59 +62,84 @@ class Cases(Case):
         self.assertEqual(self.errors(result), one.stderr.decode().splitlines())
         self.assertEqual(result.returncode, one.returncode)
 
-    def start_long_run(self):
-        """With several ranks that are at work for some seconds."""
+    def told_of_ranks(self, ranks, *arguments):
+        result = self.run_program("validate", *arguments, "--json", "--ranks", str(ranks), "--threads", "1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return json.loads(result.stdout)["fullest_rank"]
+
+    def test_rows_of_the_fullest_rank_are_told(self):
+        """Posts of this grid go to the rows before and after."""
+        self.write("fine.json", FINE)
+        for ranks, own, halos in ((1, 1501, {0}), (2, 751, {1}), (3, 501, {1, 2})):
+            told = self.told_of_ranks(ranks, "fine.json")
+            self.assertAlmostEqual(told["rows"], own, delta=30)
+            self.assertEqual(told["ranks"], ranks)
+            self.assertIn(told["halo_rows"], halos)
+        text = self.run_program("validate", "fine.json", "--ranks", "3").stdout.decode()
+        self.assertRegex(text, r"fullest of 3 ranks +about \d+ MiB, \d+ rows of its own and [12] of others\n")
+
+    @unittest.skipIf(os.environ.get("COORDREQ_SANITIZED"), "sanitisers take memory of their own")
+    def test_memory_of_the_fullest_rank_is_kept(self):
+        example = (str(CONFIGS / "intersection_network.json"), "--refine", "4")
+        before = None
+        for ranks in (1, 2, 4):
+            told = self.told_of_ranks(ranks, *example)["memory_bytes"]
+            result = self.run_ranks(ranks, "analyze", *example, "-o", "o.h5", "--json", "--max-memory", str(told + 2**20))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertLess(json.loads(result.stdout)["peak_memory_bytes"], 1.1 * told)
+            self.assertTrue(before is None or told < before)
+            before = told
+
+    def test_what_needs_more_memory_is_refused(self):
         spec = str(CONFIGS / "intersection_network.json")
-        process = subprocess.Popen(
-            self.command(3, "analyze", spec, "-o", "long.h5", "--refine", "2", "--progress", "none"),
-            cwd=self.folder,
-            env=ENVIRONMENT,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-        )
-        self.addCleanup(process.kill)
-        ranks = []
-        for _ in range(300):
-            time.sleep(0.1)
-            ranks = self.ranks_of(process.pid)
-            if len(ranks) == 3:
-                break
-        self.assertEqual(len(ranks), 3)
-        time.sleep(1)
-        return process, ranks
+        result = self.run_ranks(3, "analyze", spec, "--max-memory", "20M")
+        (line,) = self.errors(result)
+        need = "284,089 cells need about [0-9.]+ MiB of memory, on the fullest of 3 ranks, the limit is 20.0 MiB"
+        self.assertRegex(line, rf"^coordreq: error: {need} \(--max-memory\)$")
+        self.assertEqual((result.returncode, self.files()), (4, []))
 
-    @staticmethod
-    def ranks_of(launcher):
-        """The processes below mpirun that run our program."""
-        found, open_list = [], [launcher]
-        while open_list:
-            parent = open_list.pop()
-            try:
-                for task in os.listdir(f"/proc/{parent}/task"):
-                    children = pathlib.Path(f"/proc/{parent}/task/{task}/children").read_text().split()
-                    open_list += [int(child) for child in children]
-                if os.readlink(f"/proc/{parent}/exe") == os.path.realpath(MPI_PROGRAM):
-                    found.append(parent)
-            except OSError:
-                continue
-        return sorted(found)
+    def test_what_ranks_have_exchanged_is_told(self):
+        spec = str(CONFIGS / "circle.json")
+        for ranks in (1, 3):
+            result = self.run_ranks(ranks, "analyze", spec, "-o", "o.h5", "--json")
+            sent = [work.get("exchanged_bytes") for work in json.loads(result.stdout)["work"].values()]
+            self.assertEqual(sum(filter(None, sent)) > 0, ranks > 1)
+            self.assertEqual(None in sent, ranks == 1)
 
-    def assert_nothing_is_left(self, process):
-        process.communicate(timeout=60)
-        self.assertNotEqual(process.returncode, 0)
-        self.assertEqual(self.files(), [])
+    def report(self, name):
+        return re.sub(r'time="[0-9.]*"', "", (self.folder / name).read_text())
 
-    def test_a_rank_that_is_killed_ends_all(self):
-        for which in (0, -1):
-            with self.subTest(which=which):
-                process, ranks = self.start_long_run()
-                os.kill(ranks[which], signal.SIGKILL)
-                self.assert_nothing_is_left(process)
+    def test_several_analyses_one_by_one(self):
+        """Whoever has done one gets the next; the table is that of one process."""
+        fast, slow = str(CONFIGS / "circle.json"), str(CONFIGS / "swap.json")
+        self.write("bad.json", spec_with(safe="x + z <= 6"))
+        (self.folder / "one").mkdir()
+        (self.folder / "many").mkdir()
+        sweep = (fast, "bad.json", slow, "none.json", "--sweep", "coordination.max_delay=1,2,3", "--junit")
+        one = self.run_program("analyze", *sweep, "one.xml", "-o", "one")
+        for ranks in (1, 2, 5):
+            many = self.run_ranks(ranks, "analyze", *sweep, "many.xml", "-o", "many")
+            self.assertEqual(many.returncode, one.returncode)
+            self.assertEqual(without_costs(many.stdout), [line.replace("files in one", "files in many") for line in without_costs(one.stdout)])
+            self.assertEqual(self.errors(many), one.stderr.decode().splitlines())
+            self.assertEqual(self.report("many.xml"), self.report("one.xml"))
+            names = sorted(path.name for path in (self.folder / "one").iterdir())
+            self.assertEqual(len(names), 6)
+            for name in names:
+                bytes_of = [(self.folder / folder / name).read_bytes() for folder in ("one", "many")]
+                self.assertEqual(*bytes_of)
+                (self.folder / "many" / name).unlink()
+            self.assertEqual(list((self.folder / "many").iterdir()), [])
+        self.assert_refused(2, "expected one analysis, found 3 (--checkpoint)", "analyze", *sweep[:1], *sweep[4:6], "--checkpoint", "c")
 
-    def test_an_interrupt_ends_all(self):
-        process, _ = self.start_long_run()
-        process.send_signal(signal.SIGTERM)
-        self.assert_nothing_is_left(process)
+    def test_requirements_as_a_junit_report(self):
+        self.write("spec.json", spec_with(requirements=[{"name": "two", "where": "true", "min_delay": 2}]))
+        one = self.run_program("analyze", "spec.json", "--junit", "one.xml")
+        many = self.run_ranks(3, "analyze", "spec.json", "--junit", "many.xml")
+        self.assertEqual((one.returncode, many.returncode), (1, 1))
+        self.assertEqual(self.report("many.xml"), self.report("one.xml"))
+        message = "expected another file than the results, found 'x.xml' (--junit)"
+        self.assert_refused(2, message, "analyze", "spec.json", "-o", "x.xml", "--junit", "x.xml")
 
 
 if __name__ == "__main__":

@@ -100,6 +100,24 @@ class Cases(Case):
         result = self.run_program("analyze", "fine.json", "-o", "o.h5", "--quiet")
         self.assertEqual((result.returncode, result.stderr), (0, b""))
         self.assertEqual(self.run_program("info", "o.h5", "--quiet").returncode, 0)
+        self.assertEqual(self.files(), ["fine.json", "o.h5", "s.json"])
+
+    def test_temporary_files_of_others_stay(self):
+        """Of another machine or another name space, of a process that lives, and what only looks so."""
+        process = self.start("analyze", "/dev/stdin", "--quiet", stdin=subprocess.PIPE)
+        self.addCleanup(process.stdin.close)
+        space, host, dead = os.stat("/proc/self/ns/pid").st_ino, socket.gethostname(), 2**22 + 1
+        stay = [
+            f".coordreq-other-{host}-{space}-{dead}-0.tmp",
+            f".coordreq-{host}-{space + 1}-{dead}-0.tmp",
+            f".coordreq-{host}-{space}-{process.pid}-0.tmp",
+            f".coordreq-{host}-{space}-{dead}-0-1.tmp",
+            ".coordreq-abcdef.tmp",
+        ]
+        for name in [*stay, f".coordreq-{host}-{space}-{dead}-0.tmp"]:
+            self.write(name, "")
+        self.analyze("s.json", "-o", "o.h5")
+        self.assertEqual(self.files(), sorted([*stay, "o.h5", "s.json"]))
 
     def test_two_writers_of_one_file(self):
         self.analyze("s.json", "-o", "expected.h5")

@@ -71,6 +71,10 @@ class ThreadRanks {
       if (found->second.empty()) waiting_.erase(found);
       return message;
     }
+    bool has(int from, int to) {
+      const std::lock_guard lock(mutex_);
+      return waiting_.contains({from, to});
+    }
     void reduce(std::span<std::int64_t> values, std::int64_t (*join)(std::int64_t, std::int64_t)) {
       std::unique_lock lock(mutex_);
       const std::int64_t turn = turn_;
@@ -111,8 +115,14 @@ class ThreadRanks {
 
     [[nodiscard]] int rank() const override { return rank_; }
     [[nodiscard]] int count() const override { return board_.count(); }
-    void send(int to, Bytes message) override { board_.put(rank_, to, std::move(message)); }
+    [[nodiscard]] int on_this_machine() const override { return board_.count(); }
+    [[nodiscard]] std::int64_t sent_bytes() const override { return sent_bytes_; }
+    void send(int to, Bytes message) override {
+      sent_bytes_ += static_cast<std::int64_t>(message.size());
+      board_.put(rank_, to, std::move(message));
+    }
     [[nodiscard]] Bytes receive(int from) override { return board_.take(from, rank_); }
+    [[nodiscard]] bool has_message(int from) override { return board_.has(from, rank_); }
     void add(std::span<std::int64_t> values) override {
       board_.reduce(values, [](std::int64_t a, std::int64_t b) { return a + b; });
     }
@@ -123,6 +133,7 @@ class ThreadRanks {
    private:
     Board& board_;
     int rank_;
+    std::int64_t sent_bytes_ = 0;
   };
 };
 

@@ -14,18 +14,22 @@ bool is_share(float freedom) {
 }
 
 /// REQUIRES: the agents are there.
-void serialise(Archive& archive, std::int64_t cells, ConventionFreedom& convention) {
+void serialise(Archive& archive, const RowEngine& engine, ConventionFreedom& convention) {
+  const std::int64_t cells = engine.grid().cells(), length = engine.row_length();
+  const RowShare::Range own = own_rows(engine.share(), engine.rows());
   for (ConventionFreedom::Agent& agent : convention.agents) {
     auto& [freedom, mean, full, histogram] = agent;  // all that there is, so that nothing is forgotten
     if (archive.is_loading()) freedom = ZeroedArray<float>(static_cast<std::size_t>(cells));
-    archive.rows(number_rows(freedom.data(), cells, 1, cells));
+    archive.grid_rows(number_rows(freedom.data(), length, engine.rows(), length), own, {&own, 1});
     archive.number(mean);
     archive.number(full);
     for (std::int64_t& count : histogram) archive.number(count);
     const auto is_count = [cells](std::int64_t count) { return 0 <= count && count <= cells; };
-    archive.expect(std::all_of(freedom.begin(), freedom.end(), is_share) && mean >= 0 && mean <= 1.0000001 &&
-                       is_count(full) && std::all_of(histogram.begin(), histogram.end(), is_count),
-                   "an agent keeps a part of its actions that is none");
+    archive.expect(
+        std::all_of(freedom.begin() + own.begin * length, freedom.begin() + own.end * length, is_share) &&
+            mean >= 0 && mean <= 1.0000001 && is_count(full) &&
+            std::all_of(histogram.begin(), histogram.end(), is_count),
+        "an agent keeps a part of its actions that is none");
   }
 }
 
@@ -72,7 +76,7 @@ void find_a_convention(Answers& answers, const StageWork& work) {
   for (const PartialController& part : result.controller->parts)
     result.agents.emplace_back(*part.controller.engine, agents, work.team);
   const auto exchange = [&answers](Archive& archive) {
-    serialise(archive, answers.ground.engine->grid().cells(), answers.get<ConventionAnswer>().freedom);
+    serialise(archive, *answers.ground.engine, answers.get<ConventionAnswer>().freedom);
   };
   const auto load = [&](Archive& archive) {
     result.freedom.agents.resize(ground.spec.agents.size());

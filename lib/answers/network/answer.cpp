@@ -14,8 +14,9 @@ namespace coordreq {
 namespace {
 
 /// The sets of all modes, each a part of K.
-void serialise(Archive& archive, const CellSet& invariant, std::vector<CellSet>& sets) {
-  for (CellSet& set : sets) serialise(archive, invariant, set);
+void serialise(Archive& archive, const RowShare* share, const CellSet& invariant,
+               std::vector<CellSet>& sets) {
+  for (CellSet& set : sets) serialise(archive, share, invariant, set);
 }
 
 void find_safe_sets(Answers& answers, const StageWork& work) {
@@ -25,14 +26,15 @@ void find_safe_sets(Answers& answers, const StageWork& work) {
   std::vector<CellSet> sets;
   const auto load = [&](Archive& archive) {
     sets.assign(ground.spec.network->modes.size(), CellSet(invariant.rows(), invariant.row_length()));
-    serialise(archive, invariant, sets);
+    serialise(archive, ground.shared_rows(), invariant, sets);
   };
   const StageStore::Kept kept = work.store == nullptr ? StageStore::Kept::nothing : work.store->take(load);
   if (kept == StageStore::Kept::finished) {
     result.safe = std::move(sets);
   } else {
-    const SaveState save = [](Archive& archive, std::span<const NumberRows> state) {
-      for (const NumberRows& set : state) archive.rows(set);
+    const SaveState save = [share = ground.shared_rows()](Archive& archive,
+                                                          std::span<const NumberRows> state) {
+      for (const NumberRows& set : state) serialise_rows(archive, share, set);
     };
     const NetworkWatch watch{.step = step_of(work, *ground.engine, save),
                              .resumed = kept == StageStore::Kept::unfinished ? &sets : nullptr};
@@ -41,7 +43,8 @@ void find_safe_sets(Answers& answers, const StageWork& work) {
   }
   if (work.store == nullptr) return;
   work.store->finish([&](Archive& archive) {
-    serialise(archive, answers.get<Invariance>().invariant, answers.get<NetworkSafety>().safe);
+    serialise(archive, answers.ground.shared_rows(), answers.get<Invariance>().invariant,
+              answers.get<NetworkSafety>().safe);
   });
 }
 

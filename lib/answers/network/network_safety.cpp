@@ -89,12 +89,12 @@ class Iteration {
   /// In the order that is best; REQUIRES: the operators are monotone.
   void run_in_any_order() {
     const std::vector<std::size_t> order = successors_first(modes_);
-    for (bool changed = true; changed || targets_.exchange();) {
+    for (bool changed = true; changed || hears_of_others();) {
       changed = false;
       for (const std::size_t mode : order) {
         while (targets_.has_changed(mode)) {
           commit(sweep(mode));
-          tell(true);
+          tell(engine_.share() == nullptr);
           changed = true;
         }
       }
@@ -159,13 +159,21 @@ class Iteration {
 
   void resume(std::vector<CellSet>& sets) {
     for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
-      for (std::int64_t row = 0; row < engine_.rows(); ++row)
-        targets_.shrink(mode, row, std::as_const(sets[mode]).row(row));
+      for (const RowShare::Range run : held_rows(engine_.share(), engine_.rows())) {
+        for (std::int64_t row = run.begin; row < run.end; ++row)
+          targets_.shrink(mode, row, std::as_const(sets[mode]).row(row));
+      }
       sets[mode] = {};
     }
   }
 
-  /// @param whole whether the sets are such that the work can be taken up from them
+  bool hears_of_others() {
+    if (engine_.share() == nullptr) return false;
+    tell(true);
+    return targets_.exchange();
+  }
+
+  /// @param whole whether the sets are such that the work can be taken up from them, those of all processes
   void tell(bool whole) {
     if (!watch_.step) return;
     std::vector<NumberRows> sets;

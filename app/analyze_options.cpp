@@ -1,0 +1,42 @@
+#include "app/analyze_options.hpp"
+
+#include <fmt/format.h>
+
+#include "app/load_spec.hpp"
+#include "app/option_values.hpp"
+
+namespace coordreq {
+
+void declare_files(Options& options, AnalyzeOptions& own) {
+  options.option(own.output, "-o,--output", "FILE",
+                 "Results file (default: NAME.h5 in the current folder), or a folder for several", file_name);
+  options.option(own.junit, "--junit", "FILE", "Also write the requirements as a JUnit report", file_name);
+  declare_settings(options, own.settings);
+  options.repeatable(
+      own.sweeps, "--sweep", "PATH=VALUE,VALUE",
+      "Analyse with each of these values and print a table, refine=1,2,4 with finer grids; repeated: "
+      "with each combination; results files are only written with -o",
+      parse_sweep);
+}
+
+/// The other two come after it, so that they can ask whether it was given.
+void declare_checkpoint(Options& options, std::optional<CheckpointOptions>& checkpoint, const char* takes) {
+  options.option("--checkpoint", takes,
+                 "Save the work there now and then; removed when the results are written",
+                 [&checkpoint](const auto& text, const auto& option) {
+                   checkpoint = {.file = file_name(text, option)};
+                 });
+  options.option("--checkpoint-every", "SECONDS", "How often (default: 60)",
+                 [&checkpoint, takes](const auto& text, const auto& option) {
+                   if (!checkpoint)
+                     throw UsageError(fmt::format("save where? expected --checkpoint {}", takes), option);
+                   checkpoint->every_seconds = seconds(text, option);
+                 });
+  options.flag("--resume", "Continue from the checkpoint, if there is one", [&checkpoint, takes] {
+    if (!checkpoint)
+      throw UsageError(fmt::format("resume from what? expected --checkpoint {}", takes), "--resume");
+    checkpoint->resume = true;
+  });
+}
+
+}  // namespace coordreq

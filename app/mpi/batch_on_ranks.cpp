@@ -1,0 +1,129 @@
+#include "app/mpi/batch_on_ranks.hpp"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "app/interrupt.hpp"
+#include "app/mpi/text_messages.hpp"
+#include "spec/read_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr std::chrono::milliseconds kPause{1};
+
+Bytes message_of(const Json& json) {
+  return bytes_of(json.dump());
+}
+
+Json json_of(const Bytes& message) {
+  return Json::parse(text_of(message));
+}
+
+Json request_of(const PlannedRun& run) {
+  return {{"text", run.spec->text}, {"path", run.path}, {"folder", run.spec->folder}, {"output", run.output}};
+}
+
+Json answer_of(const RunOutcome& outcome) {
+  Json answer{{"exit_code", outcome.exit_code}};
+  if (outcome.summary) answer["summary"] = *outcome.summary;
+  if (outcome.failure) answer["failure"] = {{"what", outcome.failure->what}, {"more", outcome.failure->more}};
+  return answer;
+}
+
+RunOutcome outcome_from(const Json& answer) {
+  RunOutcome outcome{.exit_code = answer["exit_code"].get<int>()};
+  if (answer.contains("summary")) outcome.summary = std::make_shared<const Json>(answer["summary"]);
+  if (answer.contains("failure"))
+    outcome.failure = Failure{answer["failure"]["what"], outcome.exit_code, answer["failure"]["more"]};
+  return outcome;
+}
+
+/// Does what the first rank asks for, until that is nothing.
+void serve(const AnalyzeOptions& asked, Ranks& ranks) {
+  for (;;) {
+    const Bytes message = ranks.receive(0);
+    if (message.empty()) return;
+    const Json request = json_of(message);
+    const ProblemSpec spec =
+        read_spec({.text = request["text"], .name = request["path"], .folder = request["folder"]});
+    ranks.send(0, message_of(answer_of(outcome_of(spec, request["output"], asked, ""))));
+  }
+}
+
+/// Hands out the runs.
+class Dispatcher {
+ public:
+  Dispatcher(const std::vector<PlannedRun>& plan, Ranks& ranks,
+             const std::function<void(std::size_t, RunOutcome)>& done)
+      : plan_(plan), ranks_(ranks), done_(done), runs_of_(static_cast<std::size_t>(ranks.count())) {}
+
+  void run(AnalyzeOptions asked) {
+    asked.watch = [this] { look(); };
+    for (int rank = 1; rank < ranks_.count(); ++rank) give(rank);
+    while (const std::optional<std::size_t> own = take())
+      done_(*own, outcome_of(*plan_[*own].spec, plan_[*own].output, asked, ""));
+    while (at_work_ > 0) {
+      if (is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
+      look();
+      std::this_thread::sleep_for(kPause);
+    }
+  }
+
+ private:
+  /// The next run.
+  std::optional<std::size_t> take() {
+    while (next_ < plan_.size() && !plan_[next_].spec) ++next_;
+    return next_ < plan_.size() ? std::optional(next_++) : std::nullopt;
+  }
+
+  /// @param rank that has nothing to do
+  void give(int rank) {
+    std::optional<std::size_t>& run = runs_of_[static_cast<std::size_t>(rank)];
+    run = take();
+    ranks_.send(rank, run ? message_of(request_of(plan_[*run])) : Bytes());
+    at_work_ += run ? 1 : 0;
+  }
+
+  /// Whether anybody has done his.
+  void look() {
+    for (int rank = 1; rank < ranks_.count(); ++rank) {
+      const std::optional<std::size_t> run = runs_of_[static_cast<std::size_t>(rank)];
+      if (!run || !ranks_.has_message(rank)) continue;
+      --at_work_;
+      RunOutcome outcome = outcome_from(json_of(ranks_.receive(rank)));
+      give(rank);
+      done_(*run, std::move(outcome));
+    }
+  }
+
+  const std::vector<PlannedRun>& plan_;
+  Ranks& ranks_;
+  const std::function<void(std::size_t, RunOutcome)>& done_;
+  std::vector<std::optional<std::size_t>> runs_of_;  ///< [rank] what it does
+  std::size_t next_ = 0;
+  int at_work_ = 0;
+};
+
+}  // namespace
+
+ExitCode run_batch_on_ranks(const AnalyzeOptions& asked) {
+  Ranks& ranks = *asked.ranks;
+  AnalyzeOptions alone = asked;
+  alone.ranks = nullptr;
+  if (ranks.rank() != 0) {
+    serve(alone, ranks);
+    return ExitCode::success;
+  }
+  // A bar would be in the way of the lines that others cause.
+  if (alone.progress.mode != ProgressMode::log) alone.progress.mode = ProgressMode::none;
+  return run_analyze_batch(alone, [&ranks](const std::vector<PlannedRun>& plan, const AnalyzeOptions& own,
+                                           const std::function<void(std::size_t, RunOutcome)>& done) {
+    Dispatcher(plan, ranks, done).run(own);
+  });
+}
+
+}  // namespace coordreq

@@ -1,0 +1,177 @@
+#include "analysis/checkpoint_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "base/error.hpp"
+
+namespace coordreq {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kBeginning = "coordreq-part-";
+constexpr const char* kGroup = "parts";
+constexpr std::int64_t kMostParts = std::int64_t{1} << 20;
+/// Characters of a SHA-256, and the numbers in which they travel.
+constexpr std::size_t kDigestBytes = 64;
+constexpr std::size_t kDigestNumbers = kDigestBytes / sizeof(std::int64_t);
+
+}  // namespace
+
+std::string CheckpointParts::manifest(const std::string& folder) {
+  return (fs::path(folder) / "coordreq-manifest").string();
+}
+
+std::string CheckpointParts::path(std::int64_t set, std::size_t part) const {
+  return (fs::path(folder_) / fmt::format("{}{}-{}", kBeginning, set, part)).string();
+}
+
+void CheckpointParts::start(std::function<void()> progress) {
+  end_ = 0;
+  const std::string file = path(set_.number + 1, static_cast<std::size_t>(ranks_->rank()));
+  output_.emplace(file, kCheckpointName, kUnfinished);
+  writer_.emplace(output_->temporary(), file, std::move(progress));
+}
+
+void CheckpointParts::begin(const std::string& group) {
+  writer_->begin(group);
+}
+
+void CheckpointParts::add(const NumberRows& all, ThreadTeam::Range own) {
+  end_ = own.end;
+  if (own.begin < own.end && all.row_length > 0) writer_->add(all.part(own.begin, own.end));
+}
+
+void CheckpointParts::finish() {
+  digest_ = writer_->finish();
+  writer_.reset();
+  output_->commit();
+}
+
+bool CheckpointParts::agree(bool is_well) {
+  const auto count = static_cast<std::size_t>(ranks_->count()),
+             rank = static_cast<std::size_t>(ranks_->rank());
+  next_ = {.number = set_.number + 1, .bounds = {}, .digests = std::vector<std::string>(count)};
+  // Of each process the end of its rows and the digest, and how many have failed.
+  constexpr std::size_t kOfEach = 1 + kDigestNumbers;
+  std::vector<std::int64_t> told(kOfEach * count + 1, 0);
+  if (is_well) {
+    told[kOfEach * rank] = end_;
+    std::memcpy(&told[kOfEach * rank + 1], digest_.data(), kDigestBytes);
+  }
+  told.back() = is_well ? 0 : 1;
+  ranks_->add(told);
+  next_.bounds = {0};
+  for (std::size_t part = 0; part < count; ++part) {
+    next_.bounds.push_back(told[kOfEach * part]);
+    const auto* const digest = reinterpret_cast<const char*>(&told[kOfEach * part + 1]);
+    next_.digests[part].assign(digest, kDigestBytes);
+  }
+  return told.back() == 0;
+}
+
+void CheckpointParts::describe(CheckpointWriter& manifest) const {
+  manifest.begin(kGroup);
+  const std::int64_t numbers[] = {next_.number, static_cast<std::int64_t>(next_.digests.size())};
+  manifest.add(number_rows(numbers, 2, 1, 2));
+  const auto bounds = static_cast<std::int64_t>(next_.bounds.size());
+  manifest.add(number_rows(next_.bounds.data(), bounds, 1, bounds));
+  for (const std::string& digest : next_.digests) manifest.add(digest);
+}
+
+void CheckpointParts::settle(bool is_kept) {
+  writer_.reset();
+  output_.reset();
+  if (is_kept) set_ = std::move(next_);
+  next_ = {};
+  if (ranks_->rank() == 0) remove_others();
+  static_cast<void>(ranks_->sum(0));  // before anybody begins another one
+}
+
+bool CheckpointParts::take(CheckpointReader& manifest) {
+  if (!manifest.begin(kGroup)) return true;
+  std::int64_t numbers[] = {0, 0};
+  if (!manifest.read(number_rows(numbers, 2, 1, 2))) return false;
+  const std::int64_t number = numbers[0], count = numbers[1];
+  if (number < 1 || count < 1 || count > kMostParts) return false;
+  set_ = {.number = number,
+          .bounds = std::vector<std::int64_t>(static_cast<std::size_t>(count) + 1),
+          .digests = {}};
+  if (!manifest.read(number_rows(set_.bounds.data(), count + 1, 1, count + 1))) return false;
+  for (std::int64_t part = 0; part < count; ++part) set_.digests.push_back(manifest.read_text());
+  return set_.bounds.front() == 0 && std::ranges::is_sorted(set_.bounds);
+}
+
+void CheckpointParts::check() const {
+  for (auto part = static_cast<std::size_t>(ranks_->rank()); part < set_.digests.size();
+       part += static_cast<std::size_t>(ranks_->count())) {
+    const std::string file = path(set_.number, part);
+    if (!fs::exists(file)) throw ResultsError("a part of the checkpoint is missing", file);
+    if (check_checkpoint_file(file) != set_.digests[part])
+      throw ResultsError("this part of a checkpoint does not belong to its manifest", file);
+  }
+  static_cast<void>(ranks_->sum(0));  // nobody reads before all have looked
+}
+
+void CheckpointParts::read_from(const std::string& group) {
+  group_ = group;
+  item_ = 0;
+}
+
+bool CheckpointParts::read_part(std::size_t part, const NumberRows& all, ThreadTeam::Range run) {
+  const auto found = readers_.find(part);
+  CheckpointReader& reader = found != readers_.end()
+                                 ? found->second
+                                 : readers_.try_emplace(part, path(set_.number, part)).first->second;
+  if (!reader.begin(group_)) return false;
+  const std::int64_t begin = set_.bounds[part];
+  return reader.read_some(item_, all.part(run.begin, run.end), run.begin - begin,
+                          set_.bounds[part + 1] - begin);
+}
+
+bool CheckpointParts::read(const NumberRows& all, std::span<const ThreadTeam::Range> held) {
+  if (set_.bounds.back() != all.rows) return false;
+  for (std::size_t part = 0; part + 1 < set_.bounds.size(); ++part) {
+    for (const ThreadTeam::Range run : held) {
+      const ThreadTeam::Range both{std::max(run.begin, set_.bounds[part]),
+                                   std::min(run.end, set_.bounds[part + 1])};
+      if (both.begin < both.end && !read_part(part, all, both)) return false;
+    }
+  }
+  ++item_;
+  return true;
+}
+
+void CheckpointParts::close() {
+  readers_.clear();
+}
+
+/// @param is_kept is asked of the names of parts, also of unfinished ones
+template <class IsKept>
+void CheckpointParts::remove_unless(const IsKept& is_kept) const {
+  std::error_code error;
+  for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    std::error_code ignored;
+    if (name.starts_with(kBeginning) && !is_kept(name)) static_cast<void>(fs::remove(it->path(), ignored));
+  }
+}
+
+void CheckpointParts::remove_others() const {
+  const std::string kept = fmt::format("{}{}-", kBeginning, set_.number);
+  remove_unless(
+      [&kept](const std::string& name) { return name.starts_with(kept) && !name.ends_with(kUnfinished); });
+}
+
+void CheckpointParts::remove_all() const {
+  remove_unless([](const std::string& /*name*/) { return false; });
+}
+
+}  // namespace coordreq
