@@ -24,14 +24,15 @@ void fail_if_interrupted(int exit_code, const std::string& place) {
 /// Tells of runs in the order of the plan, whenever they end.
 class Results {
  public:
-  Results(std::vector<PlannedRun> plan, const AnalyzeOptions& asked)
+  /// REQUIRES: `plan` outlives this object.
+  Results(const std::vector<PlannedRun>& plan, const AnalyzeOptions& asked)
       : table_(plan, asked), is_text_(!asked.json && !asked.quiet), warnings_(asked) {
     if (is_text_) write_output(table_.heading());
-    for (PlannedRun& own : plan) {
+    for (const PlannedRun& own : plan) {
       FinishedRun& run = runs_.emplace_back();
       run.failure = own.failure;
+      run.plan = &own;
       is_done_.push_back(!own.spec);
-      run.plan = std::move(own);
     }
     tell();
   }
@@ -49,9 +50,9 @@ class Results {
     for (; told_ < runs_.size() && is_done_[told_]; ++told_) {
       FinishedRun& run = runs_[told_];
       if (run.failure) run.exit_code = run.failure->exit_code;
-      fail_if_interrupted(run.exit_code, run_label(run.plan));
-      if (run.failure) report_failure(run_label(run.plan), *run.failure);
-      if (run.summary) warnings_.print((*run.summary)["warnings"], run_label(run.plan));
+      fail_if_interrupted(run.exit_code, run_label(*run.plan));
+      if (run.failure) report_failure(run_label(*run.plan), *run.failure);
+      if (run.summary) warnings_.print((*run.summary)["warnings"], run_label(*run.plan));
       if (is_text_) write_output(table_.row(run));
     }
   }
@@ -67,11 +68,11 @@ class Results {
 void write_report(const std::string& path, const std::vector<FinishedRun>& runs) {
   std::vector<JunitSuite> suites;
   for (const FinishedRun& run : runs) {
-    suites.push_back({.name = run_name(run.plan)});
+    suites.push_back({.name = run_name(*run.plan)});
     if (run.failure) suites.back().error = run.failure->what;
     if (!run.summary) continue;
     suites.back().summary = &*run.summary;
-    suites.back().spec = &*run.plan.spec;
+    suites.back().spec = &*run.plan->spec;
   }
   const InterruptDelay delay;
   write_junit(path, suites);

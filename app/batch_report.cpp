@@ -107,9 +107,9 @@ Json value_json(const std::string& value) {
 
 Json run_json(const FinishedRun& run) {
   Json json;
-  json["spec"] = run.plan.path;
+  json["spec"] = run.plan->path;
   json["values"] = Json::object();
-  for (const SpecSetting& value : run.plan.values) json["values"][value.path] = value_json(value.value);
+  for (const SpecSetting& value : run.plan->values) json["values"][value.path] = value_json(value.value);
   json["exit_code"] = run.exit_code;
   if (run.failure) json["error"] = run.failure->what;
   if (run.summary) json["summary"] = *run.summary;
@@ -140,7 +140,7 @@ BatchTable::BatchTable(const std::vector<PlannedRun>& runs, const AnalyzeOptions
 }
 
 std::string BatchTable::row(const FinishedRun& run) const {
-  std::vector<std::string> row = labels(run.plan, has_path_);
+  std::vector<std::string> row = labels(*run.plan, has_path_);
   if (run.summary) {
     const std::vector<std::string> own = figures(*run.summary);
     row.insert(row.end(), own.begin(), own.end());
@@ -152,7 +152,7 @@ std::string BatchTable::row(const FinishedRun& run) const {
 
 std::string closing_text(const std::vector<FinishedRun>& runs, const AnalyzeOptions& asked) {
   const auto written = std::count_if(runs.begin(), runs.end(), [](const FinishedRun& run) {
-    return run.summary && !run.plan.output.empty();
+    return run.summary && !run.plan->output.empty();
   });
   if (!asked.output && !asked.sweeps.empty()) return "\nno results files: --output names a folder for them\n";
   return fmt::format("\nresults in {} file{} in {}\n", grouped(std::int64_t{written}),

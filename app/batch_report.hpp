@@ -19,7 +19,7 @@ struct RunOutcome {
 };
 
 struct FinishedRun : RunOutcome {
-  PlannedRun plan;
+  const PlannedRun* plan = nullptr;
 };
 
 /// The largest exit code of the runs.

@@ -187,7 +187,8 @@ ExitCode run(const ValidateOptions& own) {
   }
   if (own.ranks) {
     ThreadTeam team(own.threads);
-    found["fullest_rank"] = ranks_json(*own.ranks, inspect_ranks(spec, *own.ranks, own.threads, team));
+    found["fullest_rank"] =
+        ranks_json(*own.ranks, inspect_ranks(spec, *own.ranks, own.threads, memory, team));
   }
   PrintedWarnings(own).print(found["warnings"]);
   print_answer(own, found, report_text);

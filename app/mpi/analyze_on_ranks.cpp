@@ -23,7 +23,7 @@ namespace {
 ProblemSpec shared_spec(const AnalyzeOptions& own, Ranks& ranks) {
   SpecSource source;
   if (ranks.rank() == 0) {
-    source = with_settings(load_source(own.specs.front(), std::nullopt), own.settings);
+    source = with_settings(load_source(own.specs.front(), own.memory()), own.settings);
     // Before anybody else knows of it: whatever is wrong is said once.
     const ProblemSpec spec = read_spec(source);
     if (ranks.count() > 1) check_divisible(spec);

@@ -38,7 +38,8 @@ void open_checkpoint(const ProblemSpec& spec, const AnalysisOptions& options, St
 /// What one of several processes may use, and has used before anything else.
 struct RankMemory {
   std::optional<std::uint64_t> limit;
-  double before = memory_of_program();
+  bool saves = false;  ///< a checkpoint
+  double before = memory_of_program() + (saves ? kCheckpointBytes : 0);
 };
 
 /// As soon as it is known who holds what. Together. @throws LimitError
@@ -142,7 +143,8 @@ Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam
   if (ranks != nullptr) check_divisible(spec);
   if (!options.output.empty() && is_first) check_writable(options.output);
   if (options.checkpoint && is_first) check_checkpoint(*options.checkpoint, options.ranks != nullptr);
-  const RankMemory memory{.limit = ranks == nullptr ? std::nullopt : options.max_memory};
+  const RankMemory memory{.limit = ranks == nullptr ? std::nullopt : options.max_memory,
+                          .saves = options.checkpoint.has_value()};
   StageReporter reporter(options.progress, team);
   std::optional<Checkpoint> checkpoint;
   open_checkpoint(spec, options, reporter, checkpoint);

@@ -94,8 +94,10 @@ struct FullestRank {
   std::uint64_t memory_bytes = 0;
 };
 
-/// Makes the abstraction and S, as the processes would; of S no more at a time than one of them.
+/// Makes the abstraction as the processes would, and nothing that they divide.
 /// @param threads that each would have
-[[nodiscard]] FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads, ThreadTeam& team);
+/// @param limit of memory, in bytes. @throws LimitError if what is not divided alone takes more
+[[nodiscard]] FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads,
+                                        std::optional<std::uint64_t> limit, ThreadTeam& team);
 
 }  // namespace coordreq

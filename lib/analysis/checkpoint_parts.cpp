@@ -105,7 +105,10 @@ bool CheckpointParts::take(CheckpointReader& manifest) {
           .bounds = std::vector<std::int64_t>(static_cast<std::size_t>(count) + 1),
           .digests = {}};
   if (!manifest.read(number_rows(set_.bounds.data(), count + 1, 1, count + 1))) return false;
-  for (std::int64_t part = 0; part < count; ++part) set_.digests.push_back(manifest.read_text());
+  for (std::int64_t part = 0; part < count; ++part) {
+    set_.digests.push_back(manifest.read_text());
+    if (set_.digests.back().size() != kDigestBytes) return false;
+  }
   return set_.bounds.front() == 0 && std::ranges::is_sorted(set_.bounds);
 }
 

@@ -22,8 +22,6 @@ constexpr double kProgramBytes = 8.5 * 1024 * 1024;
 /// What a thread takes before it does anything: the part of its stack that is touched, and what the allocator
 /// keeps for it.
 constexpr double kThreadBytes = 108.0 * 1024;
-/// What stands in the buffers of a checkpoint: a part of a list, and what the library keeps of its chunks.
-constexpr double kCheckpointBytes = 4.5 * 1024 * 1024;
 
 std::string in_words(double bytes) {
   const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB"};

@@ -26,6 +26,8 @@ namespace coordreq {
 [[nodiscard]] double estimate_memory_of_rank(const Model& model, int threads, double before, double held);
 /// What an MPI takes, measured with Open MPI 4.1, in bytes.
 inline constexpr double kMpiBytes = 11.0 * 1024 * 1024;
+/// What stands in the buffers of a checkpoint: a part of a list, and what the library keeps of its chunks.
+inline constexpr double kCheckpointBytes = 4.5 * 1024 * 1024;
 
 /// @param needed bytes @param by_whom "on the fullest of 8 ranks, ", or nothing
 /// @throws LimitError with the two if more is needed than the limit

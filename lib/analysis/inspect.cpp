@@ -78,9 +78,14 @@ SpecReport inspect(const ProblemSpec& spec, int threads) {
   return report;
 }
 
-FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads, ThreadTeam& team) {
+FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads,
+                          std::optional<std::uint64_t> limit, ThreadTeam& team) {
   const Model model(spec, table_shapes(spec));
   const double before = memory_of_program();
+  if (limit) {
+    check_memory_limit(spec, estimate_memory_of_rank(model, threads, before + kMpiBytes, 0),
+                       static_cast<double>(*limit), "on each rank of however many, ");
+  }
   Answers answers(spec, nullptr);
   ground_stages(spec).front().run(answers, {.team = team});
   FullestRank fullest;

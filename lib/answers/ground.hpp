@@ -67,7 +67,7 @@ struct RankRows {
   std::int64_t own = 0;
   std::int64_t halo = 0;
 };
-/// Of so many processes, on an abstraction that is there; holds no more of S than one of them.
+/// Of so many processes, on an abstraction that is there. Halos are those of all cells, of S or not.
 [[nodiscard]] std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks, ThreadTeam& team);
 
 }  // namespace coordreq

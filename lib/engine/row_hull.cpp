@@ -26,13 +26,13 @@ void RowHull::box(const RowPlace& place, RowBox& box) const {
   }
 }
 
-std::vector<std::uint8_t> RowHull::rows_met(const CellSet& set, RowShare::Range rows) const {
+std::vector<std::uint8_t> RowHull::rows_met(const CellSet* set, RowShare::Range rows) const {
   std::vector<std::uint8_t> met(static_cast<std::size_t>(engine_->rows()), 0);
   std::vector<std::int64_t> counter;
   RowBox own;
   RowPlace place(engine_->grid(), rows.begin);
   for (; place.row < rows.end; place.advance(engine_->grid())) {
-    if (!any_set(set.row(place.row))) continue;
+    if (set != nullptr && !any_set(set->row(place.row))) continue;
     box(place, own);
     for_each_row(engine_->grid(), 0, own.ranges, counter,
                  [&](std::int64_t row) { met[static_cast<std::size_t>(row)] = 1; });

@@ -79,13 +79,12 @@ std::optional<mode_t> check_target(const std::string& target, const std::string&
 
 constexpr std::string_view kTemporary = ".tmp";
 
-/// How names of temporary files begin that this machine makes. Numbers of processes are those of a namespace.
-std::string temporary_beginning() {
+/// The machine and the namespace to which numbers of processes belong; nothing if it is not known.
+std::optional<std::string> process_space() {
   std::array<char, HOST_NAME_MAX + 1> host{};
-  if (gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
   struct stat space {};
-  if (stat("/proc/self/ns/pid", &space) != 0) space.st_ino = 0;
-  return std::string(".coordreq-") + host.data() + "-" + std::to_string(space.st_ino) + "-";
+  if (gethostname(host.data(), host.size() - 1) != 0 || stat("/proc/self/ns/pid", &space) != 0) return {};
+  return std::string(host.data()) + "-" + std::to_string(space.st_ino);
 }
 
 /// Whether `name` is `beginning`, the number of a process that is no more, another number, and `end`.
@@ -114,8 +113,9 @@ void remove_left_over(const fs::path& folder, const std::string& beginning, std:
 /// A new file in `folder` under a name that nobody else has. Its name does not depend on the target's, which
 /// may already be as long as names can be.
 std::string create_temporary(const fs::path& folder, std::optional<mode_t> mode) {
-  const std::string beginning = temporary_beginning();
-  remove_left_over(folder, beginning, kTemporary);
+  const std::optional<std::string> space = process_space();
+  const std::string beginning = ".coordreq-" + space.value_or("unknown") + "-";
+  if (space) remove_left_over(folder, beginning, kTemporary);
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     const std::string name =
         beginning + std::to_string(getpid()) + "-" + std::to_string(attempt) + std::string(kTemporary);

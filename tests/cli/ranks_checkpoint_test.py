@@ -121,11 +121,14 @@ class Cases(RanksCase):
 
     def test_two_runs_with_one_folder(self):
         spec = str(CONFIGS / "intersection_network.json")
-        process, _ = self.start(2, "analyze", spec, "-o", "a.h5", "--refine", "2", *EVERY)
+        process, ranks = self.start(2, "analyze", spec, "-o", "a.h5", "--refine", "3", *EVERY)
         while process.poll() is None and self.changes_of_manifest() is None:
             time.sleep(0.01)
-        result = self.run_ranks(2, "analyze", spec, "-o", "b.h5", "--refine", "2", *EVERY, "--resume")
-        self.assertIsNone(process.poll())
+        for rank in ranks:  # so that it is at work for as long as the other one tries
+            os.kill(rank, signal.SIGSTOP)
+        result = self.run_ranks(2, "analyze", spec, "-o", "b.h5", "--refine", "3", *EVERY, "--resume")
+        for rank in ranks:
+            os.kill(rank, signal.SIGCONT)
         self.assert_one_error(result, 5, "the checkpoint is in use, expected one run at a time to use it (saved/coordreq-manifest)")
 
     def test_a_rank_that_cannot_save(self):

@@ -73,6 +73,14 @@ void CellCondition::add_cells(const std::vector<RowShare::Range>& runs, ThreadTe
                   });
 }
 
+bool CellCondition::has_cells(std::int64_t row) const {
+  for (std::int64_t k = 0; k < runs_of_row_; ++k) {
+    if (std::ranges::any_of(table_.row(row * runs_of_row_ + k, 0), [](auto word) { return word != 0; }))
+      return true;
+  }
+  return false;
+}
+
 CellSet cells_that_satisfy(const Program& condition, const ProblemSpec& spec, const UniformGrid& grid,
                            const InputSpace& inputs, ThreadTeam& team, const RowShare* share) {
   const CellCondition found(condition, spec, grid, inputs, team);

@@ -27,6 +27,8 @@ class CellCondition {
 
   /// Adds the cells in some runs of rows to a set over the grid.
   void add_cells(const std::vector<RowShare::Range>& runs, ThreadTeam& team, CellSet& cells) const;
+  /// Whether any cell of a row satisfies it.
+  [[nodiscard]] bool has_cells(std::int64_t row) const;
 
  private:
   UniformGrid grid_;
@@ -34,6 +36,7 @@ class CellCondition {
   std::int64_t runs_of_row_ = 1;
   ConditionTable table_;
 };
+
 /// All of them. @param share then those in the rows held; null: there is one process
 [[nodiscard]] CellSet cells_that_satisfy(const Program& condition, const ProblemSpec& spec,
                                          const UniformGrid& grid, const InputSpace& inputs, ThreadTeam& team,
