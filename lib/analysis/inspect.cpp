@@ -78,8 +78,8 @@ SpecReport inspect(const ProblemSpec& spec, int threads) {
   return report;
 }
 
-FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads,
-                          std::optional<std::uint64_t> limit, ThreadTeam& team) {
+FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads, std::optional<std::uint64_t> limit,
+                          ThreadTeam& team) {
   const Model model(spec, table_shapes(spec));
   const double before = memory_of_program();
   if (limit) {
@@ -89,7 +89,7 @@ FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads,
   Answers answers(spec, nullptr);
   ground_stages(spec).front().run(answers, {.team = team});
   FullestRank fullest;
-  for (const RankRows& rows : rows_of_ranks(answers.ground, ranks, team)) {
+  for (const RankRows& rows : rows_of_ranks(answers.ground, ranks)) {
     if (rows.own + rows.halo > fullest.own_rows + fullest.halo_rows)
       fullest = {.own_rows = rows.own, .halo_rows = rows.halo};
   }

@@ -68,6 +68,6 @@ struct RankRows {
   std::int64_t halo = 0;
 };
 /// Of so many processes, on an abstraction that is there. Halos are those of all cells, of S or not.
-[[nodiscard]] std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks, ThreadTeam& team);
+[[nodiscard]] std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks);
 
 }  // namespace coordreq

@@ -19,7 +19,8 @@ double entries_in_full(const Model& model, const TableShape& shape) {
 MemoryNeed ground_memory(const EngineSizes& sizes, int /*threads*/) {
   const Model& model = sizes.model();
   const ProblemSpec& spec = model.spec();
-  MemoryNeed need{.kept = sizes.set() + sizes.hull(), .work = sizes.set() + sizes.condition(spec.safe)};
+  MemoryNeed need{.kept = sizes.set() + sizes.hull(),
+                  .work = sizes.set() + sizes.condition_of_held(spec.safe)};
   for (std::size_t t = 0; t < model.grid().size(); ++t) {
     need.kept += sizes.table(t) + sizes.slices(t);
     // Tubes are as large, and cut into rows twice where states saturate.

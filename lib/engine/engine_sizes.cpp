@@ -92,6 +92,13 @@ double EngineSizes::condition(const Program& condition) const {
   return choices * row_of_words(grid.row_length());
 }
 
+double EngineSizes::condition_of_held(const Program& condition) const {
+  const UniformGrid& grid = model_->grid();
+  const std::vector<std::uint32_t> slots = condition.variables();
+  const bool is_cut = grid.size() > 1 && std::ranges::find(slots, grid.state(0)) != slots.end();
+  return this->condition(condition) * (is_cut ? std::max(held_, 1 / in_double(grid[0].count)) : 1);
+}
+
 double EngineSizes::packed_pairs(std::int64_t actions) const {
   return held_ * cells() * in_double(PackedPairs::bytes_for(actions));
 }

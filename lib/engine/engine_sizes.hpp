@@ -35,7 +35,9 @@ class EngineSizes {
   [[nodiscard]] double table(std::size_t t) const { return model_->arranged_shapes()[t].bytes; }
   /// RowHull, and what else is kept of each row.
   [[nodiscard]] double hull() const;
-  [[nodiscard]] double condition(const Program& condition) const;  ///< ConditionTable
+  /// ConditionTable; and one of no other leading indices than the rows that are held have.
+  [[nodiscard]] double condition(const Program& condition) const;
+  [[nodiscard]] double condition_of_held(const Program& condition) const;
   /// PackedPairs of so many inputs or actions; PairTable of all joint inputs.
   [[nodiscard]] double packed_pairs(std::int64_t actions) const;
   [[nodiscard]] double pair_table() const;

@@ -19,6 +19,18 @@ ConditionAxis::Ranges ranges_of_cell(const GridDimension& dimension, std::int64_
   return ranges;
 }
 
+/// As condition_axes(), of some indices of the first dimension.
+std::vector<ConditionAxis> leading_axes(const UniformGrid& grid, const InputSpace& inputs, Sampling sampling,
+                                        std::optional<ThreadTeam::Range> leading) {
+  std::vector<ConditionAxis> axes = condition_axes(grid, inputs, sampling);
+  if (!leading) return axes;
+  axes[grid.state(0)] = {leading->end - leading->begin,
+                         [&grid, sampling, first = leading->begin](std::int64_t k) {
+                           return ranges_of_cell(grid[0], first + k, sampling);
+                         }};
+  return axes;
+}
+
 }  // namespace
 
 std::vector<ConditionAxis> condition_axes(const UniformGrid& grid, const InputSpace& inputs,
@@ -51,11 +63,12 @@ std::vector<ConditionAxis> allow_axes(const UniformGrid& grid, const InputSpace&
 
 ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid, const InputSpace& inputs,
                                Sampling sampling, const Undecided& undecided, ThreadTeam& team,
-                               Question question)
-    : table_(condition, condition_axes(grid, inputs, sampling),
+                               Question question, std::optional<ThreadTeam::Range> leading)
+    : table_(condition, leading_axes(grid, inputs, sampling, leading),
              static_cast<std::uint32_t>(grid.state(grid.size() - 1)), undecided, team, question),
       positions_{.grid = &grid, .input_space = &inputs} {
   find_positions();
+  if (leading) before_ = leading->begin * positions_.state_stride.front();
 }
 
 ConditionTable::ConditionTable(const Program& allow, const UniformGrid& grid, const InputSpace& inputs,

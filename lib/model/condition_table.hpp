@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,17 +37,20 @@ class ConditionTable {
   using Undecided = TruthTable::Undecided;
 
   /// @param undecided and @param question as for TruthTable
-  /// REQUIRES: grid and inputs outlive this object; the rows of the grid run along its last dimension.
+  /// @param leading indices of the first dimension, or all; no row with another one may be asked for
+  /// REQUIRES: grid and inputs outlive this object; the rows of the grid run along its last dimension, and
+  /// `leading` is all if that is the first one too.
   ConditionTable(const Program& condition, const UniformGrid& grid, const InputSpace& inputs,
                  Sampling sampling, const Undecided& undecided, ThreadTeam& team,
-                 Question question = Question::truth);
+                 Question question = Question::truth,
+                 std::optional<ThreadTeam::Range> leading = std::nullopt);
   /// Of `allow`.
   ConditionTable(const Program& allow, const UniformGrid& grid, const InputSpace& inputs,
                  const Undecided& undecided, ThreadTeam& team);
 
   /// The bits of all cells of grid row `row` under joint input `u` (any u if no input is in use).
   [[nodiscard]] std::span<const TruthTable::Word> row(std::int64_t row, std::int64_t u) const {
-    return table_.row(positions_.of(row, u));
+    return table_.row(positions_.of(row, u) - before_);
   }
   [[nodiscard]] const RowPositions& positions() const { return positions_; }
   /// The rows by position.
@@ -57,6 +61,7 @@ class ConditionTable {
 
   TruthTable table_;
   RowPositions positions_;
+  std::int64_t before_ = 0;  ///< positions of leading indices that are left out
 };
 
 }  // namespace coordreq

@@ -57,6 +57,13 @@ void RowShare::set_halo(const std::vector<std::uint8_t>& is_met) {
   std::erase_if(peers_, [](const Peer& peer) { return peer.sent.empty() && peer.received.empty(); });
 }
 
+std::vector<Range> halo_rows(const RowShare& share) {
+  std::vector<Range> runs = share.held();
+  std::erase_if(runs,
+                [own = share.own()](Range run) { return own.begin <= run.begin && run.end <= own.end; });
+  return runs;
+}
+
 void for_each_row_of(ThreadTeam& team, const std::vector<Range>& runs, std::int64_t grain,
                      const ThreadTeam::Body& body) {
   std::vector<Range> pieces;

@@ -49,6 +49,9 @@ class RowShare {
   std::vector<Peer> peers_;
 };
 
+/// The rows that a rank holds beside its own, ascending.
+[[nodiscard]] std::vector<RowShare::Range> halo_rows(const RowShare& share);
+
 /// The rows that a rank owns, or all of them. @param share null: there is one process
 [[nodiscard]] inline RowShare::Range own_rows(const RowShare* share, std::int64_t rows) {
   return share == nullptr ? RowShare::Range{0, rows} : share->own();

@@ -79,5 +79,24 @@ TEST(ConditionTable, NumbersVariablesAsTheSpecWhateverTheOrderOfTheGrid) {
   }
 }
 
+TEST(ConditionTable, SomeLeadingIndicesGiveTheSameRows) {
+  const GridDimension y{.name = "y", .first = 0, .step = 1, .count = 6};
+  const GridDimension z{.name = "z", .first = 0, .step = 1, .count = 4};
+  const UniformGrid grid({ring(), y, z});
+  const InputSpace inputs({});
+  const auto undecided = [](const std::vector<std::int64_t>&) { return false; };
+  ThreadTeam team(1);
+  const auto table_of = [&](const Program& condition, std::optional<ThreadTeam::Range> leading) {
+    return ConditionTable(condition, grid, inputs, Sampling::closed_cells, undecided, team,
+                          Question::everywhere, leading);
+  };
+  for (const char* text : {"x + z < y", "x < 2 and y > 1", "y >= 2", "true"}) {
+    const Program condition = test::condition(text);
+    const ConditionTable whole = table_of(condition, std::nullopt);
+    const ConditionTable some = table_of(condition, ThreadTeam::Range{1, 3});
+    for (std::int64_t row = 6; row < 18; ++row) EXPECT_EQ(some.row(row, 0)[0], whole.row(row, 0)[0]) << text;
+  }
+}
+
 }  // namespace
 }  // namespace coordreq

@@ -135,9 +135,10 @@ MemoryNeed goal_memory(const EngineSizes& sizes, int threads) {
   const ProblemSpec& spec = sizes.model().spec();
   if (!spec.goal) return {};
   const auto partitions = static_cast<double>(spec.coordination.partitions.size());
-  MemoryNeed need{.kept = (partitions + 1) * sizes.levels() + 3 * sizes.set(),
-                  .work = sizes.groups(single_classes(sizes.model().inputs())) + sizes.condition(*spec.goal),
-                  .array = partitions * sizes.cells() * sizeof(std::int16_t)};
+  MemoryNeed need{
+      .kept = (partitions + 1) * sizes.levels() + 3 * sizes.set(),
+      .work = sizes.groups(single_classes(sizes.model().inputs())) + sizes.condition_of_held(*spec.goal),
+      .array = partitions * sizes.cells() * sizeof(std::int16_t)};
   if (has_safe_side(spec)) {
     const double families = spec.abstraction.between_samples ? 2 : 1;  // of posts, of tubes
     need.kept += sizes.hull();

@@ -46,46 +46,67 @@ bool undecided_is_false(const std::vector<std::int64_t>& /*indices*/) {
   return false;
 }
 
+/// Runs of rows, and the indices of the first dimension that they have.
+struct LeadingRuns {
+  RowShare::Range leading;
+  std::vector<RowShare::Range> runs;
+};
+
+/// Runs are together as long as no index between them is without rows; or where such an index does not
+/// matter.
+std::vector<LeadingRuns> leading_runs(const Program& condition, const UniformGrid& grid,
+                                      const std::vector<RowShare::Range>& runs) {
+  const std::vector<std::uint32_t> slots = condition.variables();
+  if (grid.across() == 0 || !std::ranges::binary_search(slots, static_cast<std::uint32_t>(grid.state(0))))
+    return {{{0, grid[0].count}, runs}};
+  const std::int64_t rows = grid.row_stride(0);
+  std::vector<LeadingRuns> groups;
+  for (const RowShare::Range run : runs) {
+    if (run.begin == run.end) continue;
+    const RowShare::Range own{run.begin / rows, (run.end - 1) / rows + 1};
+    if (groups.empty() || groups.back().leading.end < own.begin) groups.push_back({own, {}});
+    groups.back().leading.end = own.end;
+    groups.back().runs.push_back(run);
+  }
+  return groups;
+}
+
+/// @param grid whose rows the table tells of, in pieces
+void add_rows(const ConditionTable& table, const UniformGrid& grid, const std::vector<RowShare::Range>& runs,
+              ThreadTeam& team, CellSet& cells) {
+  const std::size_t last = grid.size() - 1;
+  std::int64_t pieces = 1;
+  for (std::size_t i = grid.across(); i < last; ++i) pieces *= grid[i].count;
+  for_each_row_of(team, runs, std::max<std::int64_t>(1, 1024 / pieces), [&](RowShare::Range range, int) {
+    for (std::int64_t r = range.begin; r < range.end; ++r) {
+      for (std::int64_t k = 0; k < pieces; ++k) {
+        std::int64_t lane = 0;
+        std::int64_t rest = k;
+        for (std::size_t i = last; i-- > grid.across(); rest /= grid[i].count)
+          lane += rest % grid[i].count * grid.stride(i);
+        add_bits(table.row(r * pieces + k, 0), lane, cells.row(r));
+      }
+    }
+  });
+}
+
 }  // namespace
 
-CellCondition::CellCondition(const Program& condition, const ProblemSpec& spec, const UniformGrid& grid,
-                             const InputSpace& inputs, ThreadTeam& team)
-    : grid_(grid),
-      plain_(grid.in_rows({})),
-      table_(condition, plain_, inputs, sampling_of(spec), undecided_is_false, team, Question::everywhere) {
-  for (std::size_t i = grid.across(); i + 1 < grid.size(); ++i) runs_of_row_ *= grid[i].count;
-}
-
-void CellCondition::add_cells(const std::vector<RowShare::Range>& runs, ThreadTeam& team,
-                              CellSet& cells) const {
-  const std::size_t last = grid_.size() - 1;
-  for_each_row_of(team, runs, std::max<std::int64_t>(1, 1024 / runs_of_row_),
-                  [&](RowShare::Range range, int) {
-                    for (std::int64_t r = range.begin; r < range.end; ++r) {
-                      for (std::int64_t k = 0; k < runs_of_row_; ++k) {
-                        std::int64_t lane = 0;
-                        std::int64_t rest = k;
-                        for (std::size_t i = last; i-- > grid_.across(); rest /= grid_[i].count)
-                          lane += rest % grid_[i].count * grid_.stride(i);
-                        add_bits(table_.row(r * runs_of_row_ + k, 0), lane, cells.row(r));
-                      }
-                    }
-                  });
-}
-
-bool CellCondition::has_cells(std::int64_t row) const {
-  for (std::int64_t k = 0; k < runs_of_row_; ++k) {
-    if (std::ranges::any_of(table_.row(row * runs_of_row_ + k, 0), [](auto word) { return word != 0; }))
-      return true;
+void add_cells_that_satisfy(const Program& condition, const ProblemSpec& spec, const UniformGrid& grid,
+                            const InputSpace& inputs, const std::vector<RowShare::Range>& runs,
+                            ThreadTeam& team, CellSet& cells) {
+  const UniformGrid plain = grid.in_rows({});  // its rows run along one dimension
+  for (const LeadingRuns& group : leading_runs(condition, grid, runs)) {
+    const ConditionTable table(condition, plain, inputs, sampling_of(spec), undecided_is_false, team,
+                               Question::everywhere, group.leading);
+    add_rows(table, grid, group.runs, team, cells);
   }
-  return false;
 }
 
 CellSet cells_that_satisfy(const Program& condition, const ProblemSpec& spec, const UniformGrid& grid,
                            const InputSpace& inputs, ThreadTeam& team, const RowShare* share) {
-  const CellCondition found(condition, spec, grid, inputs, team);
   CellSet cells(grid.rows(), grid.row_length());
-  found.add_cells(held_rows(share, grid.rows()), team, cells);
+  add_cells_that_satisfy(condition, spec, grid, inputs, held_rows(share, grid.rows()), team, cells);
   return cells;
 }
 

@@ -14,29 +14,16 @@
 
 namespace coordreq {
 
-/// The cells that satisfy a condition over states as `abstraction.safe` asks. `inner`: cells whose whole
-/// closed box provably satisfies it (see ConditionDecider), never one with a point that does not. The box is
-/// widened by the measurement errors, for the true state may be that far outside of the cell that was
-/// measured; on the seam of a periodic dimension both parts count; the half of a boundary cell beyond a
-/// `stop` limit does not. `center`: cells whose centre satisfies it. What cannot be decided counts as false.
-class CellCondition {
- public:
-  /// REQUIRES: the inputs outlive this object.
-  CellCondition(const Program& condition, const ProblemSpec& spec, const UniformGrid& grid,
-                const InputSpace& inputs, ThreadTeam& team);
-
-  /// Adds the cells in some runs of rows to a set over the grid.
-  void add_cells(const std::vector<RowShare::Range>& runs, ThreadTeam& team, CellSet& cells) const;
-  /// Whether any cell of a row satisfies it.
-  [[nodiscard]] bool has_cells(std::int64_t row) const;
-
- private:
-  UniformGrid grid_;
-  UniformGrid plain_;  ///< its rows run along one dimension
-  std::int64_t runs_of_row_ = 1;
-  ConditionTable table_;
-};
-
+/// Adds the cells in some runs of rows that satisfy a condition over states as `abstraction.safe` asks.
+/// `inner`: cells whose whole closed box provably satisfies it (see ConditionDecider), never one with a point
+/// that does not. The box is widened by the measurement errors, for the true state may be that far outside of
+/// the cell that was measured; on the seam of a periodic dimension both parts count; the half of a boundary
+/// cell beyond a `stop` limit does not. `center`: cells whose centre satisfies it. What cannot be decided
+/// counts as false.
+/// @param runs ascending @param cells over the grid
+void add_cells_that_satisfy(const Program& condition, const ProblemSpec& spec, const UniformGrid& grid,
+                            const InputSpace& inputs, const std::vector<RowShare::Range>& runs,
+                            ThreadTeam& team, CellSet& cells);
 /// All of them. @param share then those in the rows held; null: there is one process
 [[nodiscard]] CellSet cells_that_satisfy(const Program& condition, const ProblemSpec& spec,
                                          const UniformGrid& grid, const InputSpace& inputs, ThreadTeam& team,
