@@ -35,9 +35,11 @@ function(coordreq_unite target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${COORDREQ_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 10)
 endfunction()
 
-# coordreq_compile_quickly(<target>): what runs once a run is not compiled for speed.
-function(coordreq_compile_quickly target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+# coordreq_compile_quickly(<target>...): what works through no cells is not compiled for speed.
+function(coordreq_compile_quickly)
+  foreach(target ${ARGN})
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endforeach()
 endfunction()
 
 function(coordreq_module name)
