@@ -28,6 +28,10 @@ struct MpiRanks::Sending {
 struct MpiRanks::Handles {
   MPI_Comm work = MPI_COMM_NULL;
   MPI_Comm errors = MPI_COMM_NULL;
+  // Of the sum that has begun.
+  MPI_Request sum = MPI_REQUEST_NULL;
+  std::int64_t own = 0;
+  std::int64_t all = 0;
 };
 
 MpiRanks::MpiRanks(int& argc, char**& argv) : handles_(std::make_unique<Handles>()) {
@@ -101,6 +105,21 @@ void MpiRanks::reduce(std::span<std::int64_t> values, bool is_sum) {
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Iallreduce(own.data(), values.data(), static_cast<int>(values.size()), MPI_INT64_T,
                  is_sum ? MPI_SUM : MPI_MAX, handles_->work, &request);
+  wait(request);
+}
+
+void MpiRanks::begin_sum(std::int64_t value) {
+  handles_->own = value;
+  MPI_Iallreduce(&handles_->own, &handles_->all, 1, MPI_INT64_T, MPI_SUM, handles_->work, &handles_->sum);
+}
+
+std::int64_t MpiRanks::finish_sum() {
+  wait(handles_->sum);
+  return handles_->all;
+}
+
+template <class Request>
+void MpiRanks::wait(Request& request) {
   for (int is_done = 0;;) {
     MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
     if (is_done != 0) return;

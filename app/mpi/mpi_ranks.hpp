@@ -30,6 +30,8 @@ class MpiRanks final : public Ranks {
   [[nodiscard]] std::int64_t sent_bytes() const override { return sent_bytes_; }
   void add(std::span<std::int64_t> values) override;
   void take_greatest(std::span<std::int64_t> values) override;
+  void begin_sum(std::int64_t value) override;
+  [[nodiscard]] std::int64_t finish_sum() override;
 
   /// Called while this rank waits; what it throws ends the wait.
   void set_watch(std::function<void()> watch) { watch_ = std::move(watch); }
@@ -48,6 +50,8 @@ class MpiRanks final : public Ranks {
   struct Sending;
   struct Handles;
 
+  template <class Request>
+  void wait(Request& request);
   void reduce(std::span<std::int64_t> values, bool is_sum);
   void forget_sent();
   void hear_errors();

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "engine/equal_tiles.hpp"
-#include "engine/exchange_rows.hpp"
+#include "engine/halo_news.hpp"
 #include "engine/wave_news.hpp"
 
 namespace coordreq {
@@ -45,11 +46,13 @@ class WaveRunner {
     batch_units_ = std::max<std::int64_t>(1, kBatchRows / unit_rows_);
     for (int w = 0; w < team.size(); ++w) workers_.emplace_back(engine, levels);
     find_alive();
+    if (engine.share() != nullptr) halo_.emplace(levels, engine, hull, news_, unit_rows_);
   }
 
   /// @returns rows visited
   std::int64_t sweep(std::int64_t number) {
     const bool backwards = number % 2 == 1;
+    if (halo_) halo_->begin_sweep(number, backwards);
     WaveStep step{.sweep = number, .rows_left = alive_rows_, .rows = alive_rows_, .layer = layer_};
     lowest_ = kTop;
     equal_.begin_sweep();
@@ -57,13 +60,19 @@ class WaveRunner {
     for (std::int64_t k = 0; k < units_; ++k) {
       const std::int64_t unit = first_unit_ + (backwards ? units_ - 1 - k : k);
       step.rows_left -= unit_alive_[static_cast<std::size_t>(unit)];
+      if (halo_) halo_->before(unit, [this](std::int64_t row) { hear_of(row); });
       if (unit_alive_[static_cast<std::size_t>(unit)] > 0 && news_.is_pending(unit)) batch.push_back(unit);
-      if (batch.empty() || (static_cast<std::int64_t>(batch.size()) < batch_units_ && k + 1 < units_))
+      if (static_cast<std::int64_t>(batch.size()) < batch_units_ && (!batch.empty() && k + 1 < units_))
         continue;
-      step.visited += run(batch);
-      batch.clear();
-      tell(step, engine_.share() == nullptr);
+      if (!batch.empty()) {
+        step.visited += run(batch);
+        batch.clear();
+        tell(step, !halo_);
+        if (halo_) halo_->listen();
+      }
+      if (halo_) halo_->after(unit);
     }
+    if (halo_) halo_->end_sweep([this](std::int64_t row) { hear_of(row); });
     // Levels below the lowest to which a cell has sunk in a whole sweep are final: the sets they make have
     // not changed while it was found of each cell that it stays in them.
     // Of one process, that is: nobody knows what others have on its way.
@@ -74,19 +83,17 @@ class WaveRunner {
     return step.visited;
   }
 
-  /// After a sweep: tells the other processes of it and hears of theirs, if there are any. @returns whether
-  /// there may be more to find
-  bool goes_on(std::int64_t visited) {
-    if (engine_.share() == nullptr) return visited > 0;
-    const std::uint32_t told = std::exchange(told_, news_.begin_batch());
-    exchange_rows(
-        levels_, [&](std::int64_t row) { return news_.has_changed_after(told, row); },
-        [&](std::int64_t row, const Level* cells) {
-          levels_.put(row, cells);
-          news_.mark_row(row);
-          news_.mark_unit_of(row);
-        });
-    return engine_.share()->ranks().sum(std::exchange(changed_rows_, 0)) > 0;
+  /// After a sweep. @returns whether there may be more to find. Of several processes each knows that one
+  /// sweep late, so that none waits for the sum.
+  bool goes_on(std::int64_t sweep, std::int64_t visited) {
+    if (!halo_) return visited > 0;
+    Ranks& ranks = engine_.share()->ranks();
+    if (sweep > 1 && ranks.finish_sum() == 0) {
+      halo_->end();
+      return false;
+    }
+    ranks.begin_sum(std::exchange(changed_rows_, 0));
+    return true;
   }
 
   [[nodiscard]] std::int64_t alive_rows() const { return alive_rows_; }
@@ -188,6 +195,13 @@ class WaveRunner {
       for (const std::int64_t unit : batch) equal_.update(unit);
     }
     return visited;
+  }
+
+  /// A row of the halo has changed.
+  void hear_of(std::int64_t row) {
+    news_.mark_row(row);
+    news_.mark_unit_of(row);
+    if (equal_.is_on() && equal_.rows() > 1) equal_.update(row / unit_rows_);
   }
 
   void cut_into_pieces(const std::vector<std::int64_t>& batch) {
@@ -323,14 +337,14 @@ class WaveRunner {
   std::int64_t unit_rows_;
   WaveNews news_;
   EqualTiles<Level> equal_;
-  std::int64_t copied_ = 0;  ///< rows
+  std::optional<HaloNews<Level>> halo_;  ///< of several processes
+  std::int64_t copied_ = 0;              ///< rows
   std::int64_t first_unit_ = 0;
   std::int64_t units_ = 0;
   std::int64_t batch_units_ = 1;
   std::int64_t alive_rows_ = 0;
   std::int64_t layer_ = -1;        ///< levels up to it are final
-  std::int64_t changed_rows_ = 0;  ///< since the last exchange
-  std::uint32_t told_ = 0;         ///< number of the batch of the last exchange
+  std::int64_t changed_rows_ = 0;  ///< since the last sum
   Level lowest_ = kTop;            ///< to which a cell has sunk in this sweep
   std::uint32_t batch_ = 0;        ///< number of the last batch
   ZeroedArray<std::uint8_t> alive_;
@@ -354,7 +368,7 @@ WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const Row
     counts.rows_visited += visited;
     counts.rows_skipped += runner.alive_rows() - visited - (runner.copied_rows() - counts.rows_copied);
     counts.rows_copied = runner.copied_rows();
-    if (!runner.goes_on(visited)) break;
+    if (!runner.goes_on(counts.sweeps, visited)) break;
   }
   if (engine.share() != nullptr) {
     std::int64_t rows[] = {counts.rows_visited, counts.rows_copied, counts.rows_skipped};

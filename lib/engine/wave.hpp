@@ -54,8 +54,8 @@ class RowOperator {
 /// REQUIRES: 1 + op(levels) is nowhere above the given levels, so that they only ever sink.
 ///
 /// Of several processes (RowEngine::share()) each sweeps the rows that it owns, with what it knows of its
-/// halo, and after each sweep tells the others which rows have changed. What it knows may be too high, never
-/// too low, so that the solution is the same; it is there when nothing has changed anywhere.
+/// halo (HaloNews). What it knows may be too high, never too low, so that the solution is the same; it is
+/// there when nothing has changed anywhere in a whole sweep.
 ///
 /// Where the operator says that levels rise, the other way round: the least solution of
 /// level(x) = max(given(x), op(level)(x) - 1). A cell has level kTop - i if it is i steps from a goal, 1 if

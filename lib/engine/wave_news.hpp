@@ -34,6 +34,7 @@ class WaveNews {
 
   /// Begins with the next batch. @returns its number
   std::uint32_t begin_batch() { return ++batch_; }
+  [[nodiscard]] std::uint32_t batch() const { return batch_; }
   void mark_seen(std::int64_t unit) { seen_[static_cast<std::size_t>(unit)] = batch_; }
   void mark_row(std::int64_t row) { changed_[static_cast<std::size_t>(row)] = batch_; }
   void mark_unit_of(std::int64_t row) {

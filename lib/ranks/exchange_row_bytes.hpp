@@ -7,32 +7,40 @@
 
 namespace coordreq {
 
+/// A message with what stands in the rows that a peer holds too.
+/// @param is_sent is asked of own rows @param bytes_of an own row
+template <class IsSent, class BytesOf>
+[[nodiscard]] Bytes rows_message(const RowShare::Peer& peer, const IsSent& is_sent, const BytesOf& bytes_of) {
+  Bytes message;
+  for (const RowShare::Range run : peer.sent) {
+    for (std::int64_t row = run.begin; row < run.end; ++row) {
+      if (!is_sent(row)) continue;
+      put_numbers<std::int64_t>(message, {&row, 1});
+      put_numbers<std::byte>(message, bytes_of(row));
+    }
+  }
+  return message;
+}
+
+/// Takes such a message in. @param row_bytes of every row @param take is given the number of a row of the
+/// halo and its bytes
+template <class Take>
+void take_rows(const Bytes& message, std::size_t row_bytes, const Take& take) {
+  for (MessageReader reader(message); !reader.is_at_end();) {
+    const std::int64_t row = reader.number();
+    take(row, reader.take(row_bytes));
+  }
+}
+
 /// Sends what stands in rows to the ranks in whose halo they are, and takes in what these send. Together.
-/// @param row_bytes of every row
-/// @param is_sent is asked of own rows, perhaps several times @param bytes_of an own row
-/// @param take is given the number of a row of the halo and its bytes
 template <class IsSent, class BytesOf, class Take>
 void exchange_row_bytes(const RowShare& share, std::size_t row_bytes, const IsSent& is_sent,
                         const BytesOf& bytes_of, const Take& take) {
   for (const RowShare::Peer& peer : share.peers()) {
-    if (peer.sent.empty()) continue;
-    Bytes message;
-    for (const RowShare::Range run : peer.sent) {
-      for (std::int64_t row = run.begin; row < run.end; ++row) {
-        if (!is_sent(row)) continue;
-        put_numbers<std::int64_t>(message, {&row, 1});
-        put_numbers<std::byte>(message, bytes_of(row));
-      }
-    }
-    share.ranks().send(peer.rank, std::move(message));
+    if (!peer.sent.empty()) share.ranks().send(peer.rank, rows_message(peer, is_sent, bytes_of));
   }
   for (const RowShare::Peer& peer : share.peers()) {
-    if (peer.received.empty()) continue;
-    const Bytes message = share.ranks().receive(peer.rank);
-    for (MessageReader reader(message); !reader.is_at_end();) {
-      const std::int64_t row = reader.number();
-      take(row, reader.take(row_bytes));
-    }
+    if (!peer.received.empty()) take_rows(share.ranks().receive(peer.rank), row_bytes, take);
   }
 }
 

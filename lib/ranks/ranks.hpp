@@ -38,6 +38,11 @@ class Ranks {
   virtual void add(std::span<std::int64_t> values) = 0;
   virtual void take_greatest(std::span<std::int64_t> values) = 0;
 
+  /// Together: a sum of which begin_sum() waits for nobody; finish_sum() tells it. One at a time, and add()
+  /// may be called between both.
+  virtual void begin_sum(std::int64_t value) = 0;
+  [[nodiscard]] virtual std::int64_t finish_sum() = 0;
+
   /// Together: the sum of the values of all ranks.
   [[nodiscard]] std::int64_t sum(std::int64_t value) {
     add({&value, 1});

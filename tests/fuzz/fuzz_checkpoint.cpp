@@ -45,7 +45,8 @@ std::vector<std::string> checkpoints(const ProblemSpec& spec, ThreadTeam& team) 
 
 std::string changed(std::string bytes, const std::uint8_t* data, std::size_t size) {
   for (std::size_t at = 0; at + 4 <= size;) {
-    const std::size_t place = (data[at] | data[at + 1] << 8U | data[at + 2] << 16U) % bytes.size();
+    const std::size_t place =
+        (data[at] | std::size_t{data[at + 1]} << 8U | std::size_t{data[at + 2]} << 16U) % bytes.size();
     const std::uint8_t count = data[at + 3];
     at += 4;
     if (count >= kCut) {

@@ -129,10 +129,13 @@ class ThreadRanks {
     void take_greatest(std::span<std::int64_t> values) override {
       board_.reduce(values, [](std::int64_t a, std::int64_t b) { return a < b ? b : a; });
     }
+    void begin_sum(std::int64_t value) override { begun_ = value; }
+    [[nodiscard]] std::int64_t finish_sum() override { return sum(begun_); }
 
    private:
     Board& board_;
     int rank_;
+    std::int64_t begun_ = 0;
     std::int64_t sent_bytes_ = 0;
   };
 };

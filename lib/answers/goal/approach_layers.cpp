@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "answers/layers/independent_actions.hpp"
-#include "engine/exchange_rows.hpp"
 #include "engine/find_levels.hpp"
+#include "engine/level_messages.hpp"
 
 namespace coordreq {
 namespace {
@@ -88,8 +88,8 @@ LevelMap first_levels(const ApproachSets& sets, const CellSet& nearing, const De
       levels.put(r, cells.data());
     }
     if (engine.share() != nullptr) {
-      exchange_rows(
-          levels, [](std::int64_t) { return true; },
+      LevelMessages<Level>(levels).exchange(
+          [](std::int64_t) { return true; },
           [&levels](std::int64_t row, const Level* others) { levels.put(row, others); });
     }
     return LevelMap(std::move(levels));

@@ -52,7 +52,8 @@ Rational cost_by_trying_all_graphs(const PartitionSpec& one, const std::vector<L
     Rational cost = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if ((graph >> i & 1U) == 0) continue;
-      const auto [a, b] = pairs[i];
+      const auto [first, second] = pairs[i];
+      const std::int32_t a = first, b = second;
       const auto link = std::find_if(links.begin(), links.end(),
                                      [&](const LinkCostSpec& l) { return l.first == a && l.second == b; });
       cost += link == links.end() ? Rational(1) : link->cost;

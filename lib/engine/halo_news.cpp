@@ -1,0 +1,64 @@
+#include "engine/halo_news.hpp"
+
+namespace coordreq {
+namespace {
+
+/// The numbers of all rows of a box lie between two. @param ranges as for for_each_row()
+RowShare::Range span_of(const UniformGrid& grid, std::span<const IndexRange> ranges) {
+  RowShare::Range rows{0, 1};
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const IndexRange range = ranges[i];
+    if (range.first > range.last) return {0, 0};
+    const bool is_around = range.last >= grid[i].count;  // on a ring, beyond its end
+    rows.begin += grid.row_stride(i) * (is_around ? 0 : range.first);
+    rows.end += grid.row_stride(i) * (is_around ? grid[i].count - 1 : range.last);
+  }
+  return rows;
+}
+
+/// The same for all that posts of the rows of a unit can meet.
+RowShare::Range span_met(const RowEngine& engine, const RowHull& hull, std::int64_t unit_rows,
+                         RowShare::Range rows, RowBox& box) {
+  RowPlace place(engine.grid(), rows.begin);
+  if (engine.outer() > 0) {
+    hull.box(place, box);
+    RowShare::Range span = span_of(engine.grid(), std::span(box.ranges).first(engine.outer()));
+    span.end += span.begin == span.end ? 0 : unit_rows - 1;
+    return span;
+  }
+  RowShare::Range all{0, 0};
+  for (; place.row < rows.end; place.advance(engine.grid())) {
+    hull.box(place, box);
+    const RowShare::Range one = span_of(engine.grid(), box.ranges);
+    if (one.begin == one.end) continue;
+    all = all.begin == all.end ? one
+                               : RowShare::Range{std::min(all.begin, one.begin), std::max(all.end, one.end)};
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<RowShare::Range> units_that_meet_peers(const RowEngine& engine, const RowHull& hull,
+                                                   std::int64_t unit_rows) {
+  const std::vector<RowShare::Peer>& peers = engine.share()->peers();
+  std::vector<RowShare::Range> met(peers.size());
+  const RowShare::Range own = engine.share()->own();
+  RowBox box;
+  for (std::int64_t begin = own.begin; begin < own.end;) {
+    const std::int64_t unit = begin / unit_rows;
+    const std::int64_t end = std::min((unit + 1) * unit_rows, own.end);
+    const RowShare::Range span = span_met(engine, hull, unit_rows, {begin, end}, box);
+    begin = end;
+    if (own.begin <= span.begin && span.end <= own.end) continue;
+    for (std::size_t p = 0; p < peers.size(); ++p) {
+      const RowShare::Range run = engine.share()->run_of(peers[p].rank);
+      if (span.end <= run.begin || run.end <= span.begin) continue;
+      if (met[p].begin == met[p].end) met[p].begin = unit;
+      met[p].end = unit + 1;
+    }
+  }
+  return met;
+}
+
+}  // namespace coordreq
