@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "base/sanitizers.hpp"
 #include "base/timer.hpp"
 
 namespace coordreq {
@@ -47,7 +48,7 @@ void lower_by_groups(std::optional<std::uint64_t>& limit, const fs::path& mount,
 }  // namespace
 
 void hold_to_memory(std::uint64_t bytes, int threads) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  if (kIsSanitized) return;
   constexpr std::uint64_t kAlwaysGranted = std::uint64_t{16} << 20U;
   const std::uint64_t data = status_bytes("VmData");
   if (data == 0) return;
@@ -69,10 +70,6 @@ void hold_to_memory(std::uint64_t bytes, int threads) {
   const rlim_t wanted = std::max(accepted - program + untouched, data + kAlwaysGranted) + stacks;
   limit.rlim_cur = std::min(limit.rlim_max, wanted);
   static_cast<void>(setrlimit(RLIMIT_DATA, &limit));
-#else
-  static_cast<void>(bytes);
-  static_cast<void>(threads);
-#endif
 }
 
 bool is_held_to_memory() {

@@ -17,17 +17,14 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/sanitizers.hpp"
 
 namespace coordreq {
 namespace {
 
 constexpr char kDone = '+';
 /// A damaged list can be endless, and a name in a file can lead to a pipe.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr auto kMostTime = std::chrono::seconds(60);
-#else
-constexpr auto kMostTime = std::chrono::seconds(5);
-#endif
+constexpr auto kMostTime = std::chrono::seconds(kIsSanitized ? 20 : 5);
 /// What the library may take more than this process has already, damaged as a file may be.
 constexpr rlim_t kMostBytes = rlim_t{1} << 30U;
 

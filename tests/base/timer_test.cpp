@@ -5,13 +5,13 @@
 #include <fstream>
 #include <vector>
 
+#include "base/sanitizers.hpp"
+
 namespace coordreq {
 namespace {
 
 TEST(PeakMemory, BeginsAnewFromWhatIsLeft) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers keep memory that was freed";
-#endif
+  if (kIsSanitized) GTEST_SKIP() << "sanitizers keep memory that was freed";
   if (!std::ofstream("/proc/self/clear_refs")) GTEST_SKIP() << "the system cannot count anew";
   constexpr std::size_t kBytes = std::size_t{256} << 20U;
   const std::uint64_t before = peak_memory_bytes();

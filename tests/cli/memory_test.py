@@ -9,7 +9,7 @@ import subprocess
 import sys
 import unittest
 
-from program import CONFIGS, PROGRAM, SPEC, Case, spec_with
+from program import CONFIGS, PROGRAM, SANITIZED, SPEC, Case, spec_with
 from random_systems import random_analysis
 
 MEBI = 2**20
@@ -30,11 +30,6 @@ STORED_ACTIONS = (
 )
 
 
-def uses_sanitiser():
-    libraries = subprocess.run(["ldd", PROGRAM], capture_output=True, check=False).stdout
-    return b"libasan" in libraries or b"libtsan" in libraries
-
-
 def six_agents(**changes):
     """All 203 partitions of six agents, each of which moves along a line."""
     numbers = range(changes.pop("agents", 6))
@@ -50,7 +45,7 @@ def six_agents(**changes):
     )
 
 
-@unittest.skipIf(uses_sanitiser(), "sanitisers take memory of their own")
+@unittest.skipIf(SANITIZED, "sanitisers take memory of their own")
 class Cases(Case):
     def estimate(self, spec, *options):
         result = self.run_program("validate", spec, "--json", *options)
