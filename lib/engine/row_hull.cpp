@@ -1,6 +1,53 @@
 #include "engine/row_hull.hpp"
 
+#include <algorithm>
+
 namespace coordreq {
+namespace {
+
+/// Counts for each row the boxes of rows that hold it. A box costs its corners and not its rows: a sum along
+/// each dimension in turn spreads what was added at the corners.
+class BoxCount {
+ public:
+  explicit BoxCount(const UniformGrid& grid) : grid_(grid), counts_(static_cast<std::size_t>(grid.rows())) {}
+
+  void add(std::span<const IndexRange> ranges) { add_from(0, 0, 1, ranges); }
+
+  /// [row]. Of fewer than 2^32 boxes; only once.
+  [[nodiscard]] std::vector<std::uint32_t>& spread() {
+    for (std::size_t i = 0; i < grid_.across(); ++i) {
+      const auto stride = static_cast<std::size_t>(grid_.row_stride(i));
+      const std::size_t block = stride * static_cast<std::size_t>(grid_[i].count);
+      for (std::size_t begin = 0; begin < counts_.size(); begin += block) {
+        for (std::size_t row = begin + stride; row < begin + block; ++row)
+          counts_[row] += counts_[row - stride];
+      }
+    }
+    return counts_;
+  }
+
+ private:
+  /// From dimension i on; `change` wraps around, as the counts do.
+  void add_from(std::size_t i, std::int64_t row, std::uint32_t change, std::span<const IndexRange> ranges) {
+    if (i == ranges.size()) {
+      counts_[static_cast<std::size_t>(row)] += change;
+      return;
+    }
+    const std::int64_t count = grid_[i].count, stride = grid_.row_stride(i);
+    const auto [first, last] = ranges[i];
+    if (first > last) return;
+    add_from(i + 1, row + first * stride, change, ranges);
+    // On a ring what is beyond the last index begins anew.
+    if (last >= count) add_from(i + 1, row, change, ranges);
+    const std::int64_t end = last + 1 - (last >= count ? count : 0);
+    if (end < count) add_from(i + 1, row + end * stride, 0U - change, ranges);
+  }
+
+  const UniformGrid& grid_;
+  std::vector<std::uint32_t> counts_;
+};
+
+}  // namespace
 
 RowHull::RowHull(const RowEngine& engine) : engine_(&engine), is_bound_(engine.demands().empty()) {
   const RowFamily posts = engine.posts();
@@ -27,16 +74,18 @@ void RowHull::box(const RowPlace& place, RowBox& box) const {
 }
 
 std::vector<std::uint8_t> RowHull::rows_met(const CellSet* set, RowShare::Range rows) const {
-  std::vector<std::uint8_t> met(static_cast<std::size_t>(engine_->rows()), 0);
-  std::vector<std::int64_t> counter;
+  if (rows.end - rows.begin > UINT32_MAX)
+    return std::vector<std::uint8_t>(static_cast<std::size_t>(engine_->rows()), 1);
+  BoxCount boxes(engine_->grid());
   RowBox own;
   RowPlace place(engine_->grid(), rows.begin);
   for (; place.row < rows.end; place.advance(engine_->grid())) {
     if (set != nullptr && !any_set(set->row(place.row))) continue;
     box(place, own);
-    for_each_row(engine_->grid(), 0, own.ranges, counter,
-                 [&](std::int64_t row) { met[static_cast<std::size_t>(row)] = 1; });
+    boxes.add(own.ranges);
   }
+  std::vector<std::uint8_t> met(static_cast<std::size_t>(engine_->rows()));
+  std::ranges::transform(boxes.spread(), met.begin(), [](std::uint32_t count) { return count > 0 ? 1 : 0; });
   return met;
 }
 

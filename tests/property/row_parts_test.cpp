@@ -119,6 +119,34 @@ bool says(const RowSegment& segment, const ResolvedRange& range, const GridDimen
   return moved.inside == range.inside || (moved.all_left() && range.all_left());
 }
 
+/// What ranks tell each other rests on this.
+TEST(RowHull, RowsMetAreThoseInTheBoxes) {
+  EXPECT_TRUE(rc::check("of some rows, with cells of a set or all", [] {
+    const RandomEngine random;
+    const UniformGrid& grid = random.engine.grid();
+    const RowHull hull(random.engine);
+    CellSet set(grid.rows(), grid.row_length());
+    for (std::int64_t r = 0; r < grid.rows(); ++r) {
+      if (draw(0, 2) > 0) set.set(r * grid.row_length() + draw(0, static_cast<int>(grid.row_length()) - 1));
+    }
+    const CellSet* looked_at = draw(0, 1) == 0 ? &set : nullptr;
+    const std::int64_t begin = draw(0, static_cast<int>(grid.rows()) - 1);
+    const RowShare::Range rows{begin, draw(static_cast<int>(begin), static_cast<int>(grid.rows()))};
+    std::vector<std::uint8_t> expected(static_cast<std::size_t>(grid.rows()), 0);
+    RowBox box;
+    std::vector<std::int64_t> counter;
+    for (RowPlace place(grid, rows.begin); place.row < rows.end; place.advance(grid)) {
+      if (looked_at != nullptr && !any_set(set.row(place.row))) continue;
+      hull.box(place, box);
+      for_each_row(grid, 0, box.ranges, counter,
+                   [&](std::int64_t row) { expected[static_cast<std::size_t>(row)] = 1; });
+    }
+    RC_CLASSIFY(grid.across() > 1, "more than one dimension across");
+    RC_CLASSIFY(std::ranges::count(expected, 0) > 0, "not all");
+    RC_ASSERT(hull.rows_met(looked_at, rows) == expected);
+  }));
+}
+
 TEST(TupleWalk, GoesThroughAllJointGroupsOfARow) {
   EXPECT_TRUE(rc::check("slices and `allow` of every choice of groups", [] {
     const RandomEngine random;
