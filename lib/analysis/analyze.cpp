@@ -132,15 +132,9 @@ Json summarise(const Answers& answers, Json& work) {
 
 }  // namespace
 
-void check_divisible(const ProblemSpec& spec) {
-  if (spec.output.layers)
-    throw UsageError("'layers' cannot be divided between ranks yet, expected one rank", "/output/layers");
-}
-
 Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team) {
   Ranks* const ranks = options.ranks != nullptr && options.ranks->count() > 1 ? options.ranks : nullptr;
   const bool is_first = ranks == nullptr || ranks->rank() == 0;
-  if (ranks != nullptr) check_divisible(spec);
   if (!options.output.empty() && is_first) check_writable(options.output);
   if (options.checkpoint && is_first) check_checkpoint(*options.checkpoint, options.ranks != nullptr);
   const RankMemory memory{.limit = ranks == nullptr ? std::nullopt : options.max_memory,

@@ -44,11 +44,23 @@ enum class ElementType : std::uint8_t { uint8, int16, int32, uint32, int64, uint
 /// Called from several threads at once.
 using FillArray = std::function<void(std::uint64_t begin, std::uint64_t count, void* out)>;
 
+/// Lists of cells, each ascending, one after the other; no cell is in two of them.
+struct CellLists {
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+  std::size_t count = 0;
+  FillArray of_cell;  ///< uint32 [cells], the list that a cell is in, or kNone
+};
+
 struct ResultArray {
   ElementType type = ElementType::uint8;
   FillArray fill;
   /// Elements of each cell, of an array over cells of which each of several processes knows its own; 0: none.
   std::uint64_t of_cell = 0;
+  /// What the elements are, if they are lists of cells, of which several processes make one together.
+  std::shared_ptr<const CellLists> lists = {};
+
+  /// Each of several processes knows something of it.
+  [[nodiscard]] bool is_divided() const { return of_cell != 0 || lists != nullptr; }
 };
 
 /// A value that means a word; kLargestValue stands for the largest value of the type that the field has.

@@ -63,40 +63,47 @@ ResultArray delays_or_triggers(const DelayLayers& layers, const LevelMap& collis
 }
 
 /// The layer T(k) that each cell of K is in.
-template <class Visit>
-void for_each_in_layers(const DelayLayers& layers, const CellOrder& order, const Visit& visit) {
-  const auto cells = static_cast<std::uint64_t>(order.cells());
-  const std::size_t last = layers.sizes.size() - 1;
-  layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& levels) {
-    std::vector<Level> stretch(static_cast<std::size_t>(levels.row_length()));
-    for (std::uint64_t begin = 0; begin < cells; begin += stretch.size()) {
-      const std::uint64_t count = std::min<std::uint64_t>(stretch.size(), cells - begin);
-      convert_stretch(levels, order, begin, count, stretch.data(), [](Level level) { return level; });
-      for (std::uint64_t i = 0; i < count; ++i) {
-        if (stretch[i] == 0) continue;
-        visit(begin + i, stretch[i] == LevelRows<Level>::kTop ? last : std::size_t{stretch[i]} - 1);
-      }
-    }
-  });
+FillArray fill_layers(const DelayLayers& layers, const CellOrder& order) {
+  return [&layers, &order](std::uint64_t begin, std::uint64_t count, void* out) {
+    const auto last = static_cast<std::uint32_t>(layers.sizes.size() - 1);
+    layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& levels) {
+      convert_stretch(levels, order, begin, count, static_cast<std::uint32_t*>(out), [last](Level level) {
+        if (level == 0) return CellLists::kNone;
+        return level == LevelRows<Level>::kTop ? last : std::uint32_t{level} - 1;
+      });
+    });
+  };
 }
 
 template <class Index>
-FillArray cells_by_layer(const DelayLayers& layers, const CellOrder& order) {
-  std::vector<std::uint64_t> next = layer_starts(layers);
-  std::vector<Index> cells(next.back());
-  for_each_in_layers(layers, order, [&](std::uint64_t cell, std::size_t layer) {
-    cells[next[layer]++] = static_cast<Index>(cell);
-  });
-  return owned_array({}, std::move(cells)).fill;
+FillArray cells_by_list(const CellLists& lists, std::vector<std::uint64_t> next, std::uint64_t cells) {
+  constexpr std::uint64_t kAtATime = 1 << 16U;
+  std::vector<Index> sorted(next.back());
+  std::vector<std::uint32_t> list_of(std::min(cells, kAtATime));
+  for (std::uint64_t begin = 0; begin < cells; begin += kAtATime) {
+    const std::uint64_t count = std::min(kAtATime, cells - begin);
+    lists.of_cell(begin, count, list_of.data());
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (list_of[i] != CellLists::kNone) sorted[next[list_of[i]]++] = static_cast<Index>(begin + i);
+    }
+  }
+  return owned_array({}, std::move(sorted)).fill;
 }
 
 template <class Index>
 ResultArray cells_of(ElementType type, const DelayLayers& layers, const CellOrder& order,
                      const std::shared_ptr<LatestCells>& latest) {
-  return {type, [&layers, &order, latest](std::uint64_t begin, std::uint64_t count, void* out) {
-            const auto fill = latest->get(&layers, [&] { return cells_by_layer<Index>(layers, order); });
-            (*fill)(begin, count, out);
-          }};
+  const auto lists = std::make_shared<CellLists>(
+      CellLists{.count = layers.sizes.size(), .of_cell = fill_layers(layers, order)});
+  const auto cells = static_cast<std::uint64_t>(order.cells());
+  return {.type = type,
+          .fill =
+              [&layers, latest, lists, cells](std::uint64_t begin, std::uint64_t count, void* out) {
+                const auto fill = latest->get(
+                    &layers, [&] { return cells_by_list<Index>(*lists, layer_starts(layers), cells); });
+                (*fill)(begin, count, out);
+              },
+          .lists = lists};
 }
 
 /// A stretch of one set.

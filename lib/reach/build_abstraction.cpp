@@ -39,13 +39,13 @@ std::vector<std::vector<std::size_t>> group_by_flow(const ProblemSpec& spec,
 }
 
 void build_in_full(const ProblemSpec& spec, const std::vector<TableShape>& shapes, Abstraction& abstraction,
-                   const std::vector<std::size_t>& states, ThreadTeam& team) {
+                   const std::vector<std::size_t>& states, ThreadTeam& team, Ranks* ranks) {
   const AffineDynamics dynamics(spec);
   std::vector<std::size_t> others;
   for (const std::size_t i : states) {
     abstraction.tables[i] = {};
     if (spec.dynamics.update(i) != nullptr) {
-      build_update_table(spec, abstraction, i, team);
+      build_update_table(spec, abstraction, i, team, ranks);
       continue;
     }
     const std::optional<bool> exact = build_affine_table(spec, dynamics, abstraction, i, team);
@@ -53,14 +53,14 @@ void build_in_full(const ProblemSpec& spec, const std::vector<TableShape>& shape
     if (!exact) others.push_back(i);
   }
   for (const std::vector<std::size_t>& group : group_by_flow(spec, shapes, others)) {
-    build_enclosure_tables(spec, dynamics, abstraction, group, team);
+    build_enclosure_tables(spec, dynamics, abstraction, group, team, {}, ranks);
   }
 }
 
 }  // namespace
 
 Abstraction build_abstraction(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
-                              ThreadTeam& team) {
+                              ThreadTeam& team, Ranks* ranks) {
   Abstraction abstraction{.grid = make_grid(spec), .inputs = make_input_space(spec)};
   abstraction.tables.resize(spec.states.size());
   if (spec.abstraction.between_samples) {
@@ -71,14 +71,14 @@ Abstraction build_abstraction(const ProblemSpec& spec, const std::vector<TableSh
   std::vector<std::size_t> full;
   for (std::size_t i = 0; i < spec.states.size(); ++i) (shapes[i].sum ? sums : full).push_back(i);
   for (const std::vector<std::size_t>& states : group_by_flow(spec, shapes, sums)) {
-    if (build_sum_tables(spec, shapes, abstraction, states, team)) {
+    if (build_sum_tables(spec, shapes, abstraction, states, team, ranks)) {
       abstraction.exact = false;
     } else {
       full.insert(full.end(), states.begin(), states.end());
     }
   }
   std::sort(full.begin(), full.end());
-  build_in_full(spec, shapes, abstraction, full, team);
+  build_in_full(spec, shapes, abstraction, full, team, ranks);
   for (std::size_t i = 0; i < spec.states.size(); ++i)
     include_measurements_of_saturated(spec, abstraction, i);
   return abstraction;
@@ -89,7 +89,7 @@ void check_discrete_states(const ProblemSpec& spec, const std::vector<TableShape
     if (!spec.states[i].discrete || shapes[i].entries > kMostCheckedEntries) continue;
     Abstraction alone{.grid = make_grid(spec), .inputs = make_input_space(spec)};
     alone.tables.resize(spec.states.size());
-    build_in_full(spec, shapes, alone, {i}, team);
+    build_in_full(spec, shapes, alone, {i}, team, nullptr);
   }
 }
 

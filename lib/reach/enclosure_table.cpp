@@ -6,11 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "base/error.hpp"
 #include "base/index.hpp"
 #include "expression/place.hpp"
 #include "model/pieces.hpp"
+#include "ranks/divided_loop.hpp"
 #include "reach/affine_table.hpp"
 #include "reach/box_choices.hpp"
 #include "reach/cells_meeting.hpp"
@@ -59,6 +61,12 @@ class EnclosureTable {
     };
     widen(table_, indices(result, enclosure, choice));
     if (tube_ != nullptr) widen(*tube_, tube_indices(result, choice, piece));
+  }
+
+  /// Together: takes in the entries that other processes have filled.
+  void join(Ranks* ranks) {
+    join_parts(ranks, std::span(table_.entries));
+    if (tube_ != nullptr) join_parts(ranks, std::span(tube_->entries));
   }
 
  private:
@@ -157,7 +165,7 @@ class EnclosureTable {
 
 void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
                             const std::vector<std::size_t>& states, ThreadTeam& team,
-                            std::optional<std::int64_t> own) {
+                            std::optional<std::int64_t> own, Ranks* ranks) {
   const Dependencies& dependencies = dynamics.dependencies(states.front());
   const StateEnclosure enclosure(spec, dependencies, states.front());
   BoxChoices choices;
@@ -189,7 +197,7 @@ void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynam
 
   std::vector<StateEnclosure> enclosures(static_cast<std::size_t>(team.size()), enclosure);
   const Odometer all = choices.odometer();
-  team.for_each(all.size(), 64, [&](ThreadTeam::Range range, int worker) {
+  for_each_divided(ranks, team, all.size(), 64, [&](ThreadTeam::Range range, int worker) {
     StateEnclosure& mine = enclosures[static_cast<std::size_t>(worker)];
     Odometer choice = all;
     choice.seek(range.begin);
@@ -206,6 +214,7 @@ void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynam
       });
     }
   });
+  for (EnclosureTable& table : tables) table.join(ranks);
   for (const std::size_t state : states) fill_cells_off_limits(spec, dynamics, abstraction, state, team);
 }
 

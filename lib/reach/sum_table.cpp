@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <span>
 
 #include "base/index.hpp"
+#include "ranks/divided_loop.hpp"
 #include "reach/box_choices.hpp"
 #include "reach/scaled_number.hpp"
 #include "reach/shift.hpp"
@@ -59,6 +61,12 @@ class SumTable {
     base_lower = first ? low : std::min(base_lower, low);
     base_upper = first ? high : std::max(base_upper, high);
     return true;
+  }
+
+  /// Together: takes in the bases that other processes have filled.
+  void join(Ranks* ranks) {
+    join_parts(ranks, std::span(table_.base_lower));
+    join_parts(ranks, std::span(table_.base_upper));
   }
 
   /// Fills in all terms for one choice of what Phi depends on. @returns false if one is too large
@@ -132,7 +140,7 @@ class SumTables {
     }
   }
 
-  bool build(ThreadTeam& team) { return fill_terms(team) && fill_bases(team); }
+  bool build(ThreadTeam& team, Ranks* ranks) { return fill_terms(team) && fill_bases(team, ranks); }
 
  private:
   bool fill_terms(ThreadTeam& team) {
@@ -167,18 +175,21 @@ class SumTables {
                        [&](SumTable& table) { return table.add_terms(coefficients, choice); });
   }
 
-  bool fill_bases(ThreadTeam& team) {
+  bool fill_bases(ThreadTeam& team, Ranks* ranks) {
     std::vector<StateEnclosure> enclosures(static_cast<std::size_t>(team.size()), enclosure_);
     const Odometer all = rest_.odometer();
     std::atomic<bool> found = true;
-    team.for_each(all.size(), 64, [&](ThreadTeam::Range range, int worker) {
+    for_each_divided(ranks, team, all.size(), 64, [&](ThreadTeam::Range range, int worker) {
       Odometer choice = all;
       choice.seek(range.begin);
       for (std::int64_t i = range.begin; i < range.end && found; ++i, choice.advance()) {
         if (!fill_base(choice.indices(), enclosures[static_cast<std::size_t>(worker)])) found = false;
       }
     });
-    return found;
+    if (ranks != nullptr) found = ranks->sum(found ? 0 : 1) == 0;
+    if (!found) return false;
+    for (SumTable& table : tables_) table.join(ranks);
+    return true;
   }
 
   bool fill_base(const std::vector<std::int64_t>& choice, StateEnclosure& enclosure) {
@@ -230,9 +241,10 @@ std::vector<std::int32_t> summed_states(const ProblemSpec& spec, const Dependenc
 }
 
 bool build_sum_tables(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
-                      Abstraction& abstraction, const std::vector<std::size_t>& states, ThreadTeam& team) {
+                      Abstraction& abstraction, const std::vector<std::size_t>& states, ThreadTeam& team,
+                      Ranks* ranks) {
   const AffinePart part = find_affine_part(spec, shapes[states.front()], states.front());
-  return SumTables(spec, shapes, part, abstraction, states).build(team);
+  return SumTables(spec, shapes, part, abstraction, states).build(team, ranks);
 }
 
 }  // namespace coordreq

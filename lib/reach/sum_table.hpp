@@ -4,6 +4,7 @@
 
 #include "base/thread_team.hpp"
 #include "model/table_shape.hpp"
+#include "ranks/ranks.hpp"
 #include "reach/abstraction.hpp"
 #include "reach/affine_part.hpp"
 
@@ -23,10 +24,11 @@ namespace coordreq {
 /// Over-approximates.
 /// @param states sums: in continuous time all with the same dependencies, as they share one flow; in discrete
 ///   time one
+/// @param ranks processes that divide the work, together; null: there is one
 /// @returns false if some enclosure was not found or a number is too large; the tables are then unspecified,
 ///   and cell by cell it may go better, or there is an error to report
 [[nodiscard]] bool build_sum_tables(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
                                     Abstraction& abstraction, const std::vector<std::size_t>& states,
-                                    ThreadTeam& team);
+                                    ThreadTeam& team, Ranks* ranks = nullptr);
 
 }  // namespace coordreq

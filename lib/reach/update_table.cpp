@@ -1,18 +1,20 @@
 #include "reach/update_table.hpp"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/index.hpp"
 #include "model/dependencies.hpp"
 #include "model/odometer.hpp"
+#include "ranks/divided_loop.hpp"
 #include "reach/table_layout.hpp"
 #include "reach/update_ranges.hpp"
 
 namespace coordreq {
 
 void build_update_table(const ProblemSpec& spec, Abstraction& abstraction, std::size_t state,
-                        ThreadTeam& team) {
+                        ThreadTeam& team, Ranks* ranks) {
   const Dependencies dependencies = find_dependencies(spec, state);
   const UniformGrid& grid = abstraction.grid;
   const InputSpace& inputs = abstraction.inputs;
@@ -42,7 +44,7 @@ void build_update_table(const ProblemSpec& spec, Abstraction& abstraction, std::
   add_states(false);
   const Odometer boxes({counts.begin() + static_cast<std::ptrdiff_t>(first_box), counts.end()});
   std::vector<std::unique_ptr<UpdateRanges>> scratch(static_cast<std::size_t>(team.size()));
-  team.for_each(points.size(), 1, [&](ThreadTeam::Range range, int worker) {
+  for_each_divided(ranks, team, points.size(), 1, [&](ThreadTeam::Range range, int worker) {
     std::unique_ptr<UpdateRanges>& ranges = scratch[static_cast<std::size_t>(worker)];
     if (!ranges) ranges = std::make_unique<UpdateRanges>(spec, grid, inputs, state);
     std::vector<std::int64_t> indices(spec.slot_count(), 0);
@@ -69,6 +71,8 @@ void build_update_table(const ProblemSpec& spec, Abstraction& abstraction, std::
       } while (box.advance());
     }
   });
+  join_parts(ranks, std::span(table.entries));
+  if (tube != nullptr) join_parts(ranks, std::span(tube->entries));
 }
 
 }  // namespace coordreq

@@ -56,7 +56,7 @@ hdf5::Handle ArrayWriter::write(const hdf5::Handle& file, const std::string& pat
   const ChunkLayout layout({shape.begin(), shape.end()}, element_size(array.type));
   hdf5::Handle dataset = hdf5::create_dataset(file, path, hdf5::number_type(array.type),
                                               hdf5::create_space(shape), storage_of(layout, array.type));
-  RankChunks* const ranks = array.of_cell == 0 ? nullptr : ranks_;
+  RankChunks* const ranks = array.is_divided() ? ranks_ : nullptr;
   if (ranks != nullptr) ranks->pack(layout, array);
   if (layout.chunked()) {
     write_chunks(dataset, path, layout, array);
@@ -95,7 +95,7 @@ void ArrayWriter::write_chunks(const hdf5::Handle& dataset, const std::string& p
   const std::uint64_t chunks = layout.chunk_count();
   for (std::uint64_t first = 0; first < chunks; first += packed_.size()) {
     const std::size_t count = std::min<std::uint64_t>(packed_.size(), chunks - first);
-    if (ranks_ != nullptr && array.of_cell != 0) {
+    if (ranks_ != nullptr && array.is_divided()) {
       for (std::size_t i = 0; i < count; ++i) packed_[i] = ranks_->take(first + i);
     } else {
       pack_batch(layout, array, first, count);

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "answers/field.hpp"
@@ -11,12 +13,15 @@
 #include "ranks/row_share.hpp"
 #include "results/chunk_codec.hpp"
 #include "results/chunk_layout.hpp"
+#include "results/element_owners.hpp"
+#include "results/rank_lists.hpp"
 
 namespace coordreq {
 
-/// The chunks of arrays over cells of which several processes know their own. Each chunk is packed by one of
-/// them, one that owns cells of it; what others know of it they send. Then rank 0 takes the chunks in the
-/// order of the file. No rank ever holds more than some chunks and what it has packed.
+/// The chunks of arrays over cells, or of lists of them, of which several processes know their own. Each
+/// chunk is packed by one of them, one that owns elements of it; what others know of it they send. Then rank
+/// 0 takes the chunks in the order of the file. No rank ever holds more than some chunks, what it has packed,
+/// and its part of the lists at work.
 ///
 /// Chunks do not depend on the number of processes. All functions are called by all ranks together, but for
 /// take() and hand_over().
@@ -28,35 +33,18 @@ class RankChunks {
   [[nodiscard]] bool is_first() const { return share_.ranks().rank() == 0; }
 
   /// Fills all chunks of an array and packs them; one that is not chunked is one piece that is not packed.
-  /// REQUIRES: array.of_cell is not 0.
+  /// REQUIRES: the array is divided.
   void pack(const ChunkLayout& layout, const ResultArray& array);
   /// Rank 0 takes every chunk, in their order, or the whole; meanwhile the others hand theirs over.
   [[nodiscard]] Bytes take(std::uint64_t chunk);
   void hand_over();
 
  private:
-  /// Elements of a chunk, all of one owner.
-  struct Part {
-    int owner = 0;
-    std::uint64_t begin = 0;
-    std::uint64_t count = 0;
-  };
-  struct Work {
-    int packer = 0;
-    std::uint64_t chunk = 0;
-    std::vector<Part> parts = {};
-    Bytes bytes = {};  ///< the chunk, or own parts of it for somebody else
-  };
-
   [[nodiscard]] std::uint64_t chunk_count() const { return layout_->chunked() ? layout_->chunk_count() : 1; }
   [[nodiscard]] ChunkLayout::Stretch stretch(std::uint64_t chunk) const;
   [[nodiscard]] int packer_of(std::uint64_t chunk) const;
-  [[nodiscard]] int owner_of(std::uint64_t element) const;
   void choose_packers();
-  void pack_group(std::size_t group);
-  [[nodiscard]] std::vector<Part> parts_of(const ChunkLayout::Stretch& stretch) const;
-  void fill_own(Work& work) const;
-  void swap_parts(std::vector<Work>& works) const;
+  void pack_group(const ResultArray& array, std::size_t group);
 
   ThreadTeam& team_;
   const RowShare& share_;
@@ -64,7 +52,9 @@ class RankChunks {
   std::size_t group_size_;          ///< chunks that a rank has at work at a time
   std::vector<ChunkCodec> codecs_;  ///< one a thread
   const ChunkLayout* layout_ = nullptr;
-  const ResultArray* array_ = nullptr;
+  std::optional<RankLists> lists_;   ///< of the array at work, if it is one
+  std::optional<CellOwners> cells_;  ///< else
+  const ElementOwners* owners_ = nullptr;
   std::vector<std::vector<std::uint64_t>> chunks_of_;  ///< [rank] that it packs, ascending
   std::deque<Bytes> packed_;                           ///< own ones, not handed over yet
   std::vector<std::deque<Bytes>> received_;            ///< [rank] in rank 0: of the group asked for last

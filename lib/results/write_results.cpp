@@ -196,7 +196,7 @@ void hand_over(const ProblemSpec& spec, const Fields& fields, const FieldValues&
     array.of_cell = elements_of_cell(field, spec, *shape);
     const ChunkLayout layout(*shape, element_size(array.type));
     const bool is_copied = !entry.equals.empty() && layout.chunked();
-    if (array.of_cell == 0 || is_copied) continue;
+    if (!array.is_divided() || is_copied) continue;
     ranks.pack(layout, array);
     ranks.hand_over();
   }

@@ -94,7 +94,8 @@ Json draw_problem_of_any_kind() {
   const RandomTime time = draw(0, 3) == 0 ? RandomTime::between_samples : RandomTime::any;
   const RandomAgents agents = draw(0, 3) == 0 ? RandomAgents::many : RandomAgents::few;
   Json spec = Json::parse(draw_problem(time, RandomEdges::any, agents));
-  for (const char* part : {"controller", "actions", "abstraction"}) spec["output"][part] = draw(0, 1) == 0;
+  for (const char* part : {"controller", "actions", "layers", "abstraction"})
+    spec["output"][part] = draw(0, 1) == 0;
   return spec;
 }
 
@@ -171,8 +172,30 @@ TEST(ManyRanks, RowsMayMeetAnyOthers) {
                                       equation + R"json(", "v": "v + u + w"}},
       "safe": "p + v <= 12 and v >= p - 11", "abstraction": {"safe": "center", "cells": "half_open"},
       "coordination": {"partitions": "all", "connection_delay": 1},
-      "output": {"actions": true, "controller": true}})json",
+      "output": {"actions": true, "controller": true, "layers": true}})json",
                                   "jump"));
+  }
+}
+
+/// Enclosures of flows are found in parts: in full, as a sum, with tubes, and with a discrete state.
+TEST(ManyRanks, DivideTheAbstraction) {
+  const Folder folder;
+  const auto spec = [](const std::string& equation, const std::string& more) {
+    return read_spec(R"json({"coordreq": 1, "name": "flow",
+      "states": [{"name": "x", "lower": -1, "upper": 1, "step": 0.25},
+                 {"name": "v", "lower": -1, "upper": 1, "step": 0.5}],
+      "inputs": [{"name": "u", "values": [-0.5, 0, 0.5]}, {"name": "w", "values": [-0.5, 0.5]}],
+      "agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["w"]}],
+      "dynamics": {"time": "continuous", "period": 0.5, "equations": {"x": ")json" +
+                         equation + R"json(", "v": "u * w"}},
+      "safe": "x + v <= 1.5", "abstraction": {"safe": "center")json" +
+                         more + R"json(},
+      "output": {"abstraction": true, "layers": true}})json",
+                     "flow");
+  };
+  for (const char* equation : {"sin(x) * v + u", "v + sin(u) - x", "v * v + w", "sin(v) - x"}) {
+    expect_same(folder, spec(equation, ""));
+    expect_same(folder, spec(equation, R"(, "between_samples": true)"));
   }
 }
 

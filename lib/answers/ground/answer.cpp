@@ -29,7 +29,7 @@ void find_abstraction(Ground& ground, const StageWork& work) {
   };
   const bool is_kept = work.store != nullptr && work.store->take(load) == StageStore::Kept::finished;
   const std::vector<TableShape> shapes = table_shapes(spec);
-  if (!is_kept) abstraction = build_abstraction(spec, shapes, work.team);
+  if (!is_kept) abstraction = build_abstraction(spec, shapes, work.team, ground.ranks);
   abstraction = in_order(Model(spec, shapes), std::move(*abstraction));
   if (work.store == nullptr) return;
   work.store->finish([&ground](Archive& archive) { serialise(archive, ground.spec, *ground.abstraction); });

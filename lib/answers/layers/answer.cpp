@@ -139,7 +139,8 @@ MemoryNeed layers_memory(const EngineSizes& sizes, int threads) {
   }
   need.work += sizes.wave(threads);
   if (spec.output.actions) need.written += actions + sizes.readers(threads);
-  if (spec.output.layers) need.written += sizes.cells() * sizeof(std::uint32_t);
+  // Processes sort equal parts of the cells, of which each is told its layer.
+  if (spec.output.layers) need.written += std::min(sizes.cells(), 2 * sizes.lanes()) * sizeof(std::uint32_t);
   return need;
 }
 
