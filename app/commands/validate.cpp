@@ -175,7 +175,7 @@ ExitCode run(const ValidateOptions& own) {
   if (own.max_memory) hold_to_memory(*own.max_memory, own.threads);
   const std::optional<std::uint64_t> memory = own.memory();
   const ProblemSpec spec = load_spec(own.spec, own.settings, memory);
-  check_memory(spec, own.max_memory, own.threads, false);
+  if (!own.ranks) check_memory(spec, own.max_memory, own.threads, false);
   const SpecReport report = inspect(spec, own.threads);
   Json found = report_json(report);
   if (!memory || report.memory_bytes <= *memory) {
@@ -187,8 +187,9 @@ ExitCode run(const ValidateOptions& own) {
   }
   if (own.ranks) {
     ThreadTeam team(own.threads);
-    found["fullest_rank"] =
-        ranks_json(*own.ranks, inspect_ranks(spec, *own.ranks, own.threads, memory, team));
+    found["fullest_rank"] = ranks_json(
+        *own.ranks,
+        inspect_ranks(spec, *own.ranks, own.threads, {.of_rank = own.max_memory, .here = memory}, team));
   }
   PrintedWarnings(own).print(found["warnings"]);
   print_answer(own, found, report_text);

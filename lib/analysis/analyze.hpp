@@ -29,9 +29,6 @@ struct AnalysisOptions {
   std::optional<std::uint64_t> max_memory;
 };
 
-/// @throws UsageError naming what of a spec several processes cannot divide between them
-void check_divisible(const ProblemSpec& spec);
-
 /// The whole analysis: abstraction, S, K, layers, trigger tables, results file if one is asked for. The file
 /// is the same to the byte whether or not the work was broken off and gone on with from a checkpoint; that is
 /// removed in the end.
@@ -94,10 +91,16 @@ struct FullestRank {
   std::uint64_t memory_bytes = 0;
 };
 
+/// Of memory, in bytes; empty: none.
+struct RankLimits {
+  std::optional<std::uint64_t> of_rank;  ///< of each of the processes
+  std::optional<std::uint64_t> here;     ///< of this one: what is not divided is made here
+};
+
 /// Makes the abstraction as the processes would, and nothing that they divide.
 /// @param threads that each would have
-/// @param limit of memory, in bytes. @throws LimitError if what is not divided alone takes more
+/// @throws LimitError if a limit is too low, before anything is made if that can be told then
 [[nodiscard]] FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads,
-                                        std::optional<std::uint64_t> limit, ThreadTeam& team);
+                                        const RankLimits& limits, ThreadTeam& team);
 
 }  // namespace coordreq

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "analysis/analyze.hpp"
 #include "analysis/estimate_memory.hpp"
 #include "answers/answers.hpp"
@@ -78,14 +80,16 @@ SpecReport inspect(const ProblemSpec& spec, int threads) {
   return report;
 }
 
-FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads, std::optional<std::uint64_t> limit,
+FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads, const RankLimits& limits,
                           ThreadTeam& team) {
   const Model model(spec, table_shapes(spec));
-  const double before = memory_of_program();
-  if (limit) {
-    check_memory_limit(spec, estimate_memory_of_rank(model, threads, before + kMpiBytes, 0),
-                       static_cast<double>(*limit), "on each rank of however many, ");
-  }
+  const double before = memory_of_program() + kMpiBytes;
+  const auto need = [&](double held) { return estimate_memory_of_rank(model, threads, before, held); };
+  const auto check = [&](double needed, std::optional<std::uint64_t> limit, const std::string& by_whom) {
+    if (limit) check_memory_limit(spec, needed, static_cast<double>(*limit), by_whom);
+  };
+  check(need(1.0 / ranks), limits.of_rank, fmt::format("on the fullest of {} ranks at least, ", ranks));
+  check(need(0), limits.here, "on each rank of however many, ");
   Answers answers(spec, nullptr);
   ground_stages(spec).front().run(answers, {.team = team});
   FullestRank fullest;
@@ -95,7 +99,8 @@ FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads, std::
   }
   const auto rows = static_cast<double>(answers.ground.abstraction->grid.rows());
   const double held = static_cast<double>(fullest.own_rows + fullest.halo_rows) / rows;
-  fullest.memory_bytes = to_bytes(estimate_memory_of_rank(model, threads, before + kMpiBytes, held));
+  check(need(held), limits.of_rank, fmt::format("on the fullest of {} ranks, ", ranks));
+  fullest.memory_bytes = to_bytes(need(held));
   return fullest;
 }
 

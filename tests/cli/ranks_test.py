@@ -1,12 +1,11 @@
 """`mpirun -n N coordreq-mpi analyze`: the bytes of one process, and one line where that cannot be."""
 
 import json
-import os
 import pathlib
 import re
 import unittest
 
-from program import CONFIGS, SPEC, spec_with
+from program import CONFIGS, SANITIZED, SPEC, spec_with
 from ranks_case import RanksCase, cells
 
 FINE = spec_with(states=[{"name": name, "lower": 0, "upper": 1500, "step": 1, "outside": "unsafe"} for name in "xy"], safe="true")
@@ -48,11 +47,6 @@ class Cases(RanksCase):
         self.assert_refused(2, "no SPEC, expected the name of a file: coordreq-mpi analyze SPEC...", "analyze")
         self.assert_refused(2, "unknown option '--refien' of analyze, did you mean '--refine'?", "analyze", "a.json", "--refien")
 
-    def test_what_cannot_be_divided_is_refused_by_name(self):
-        self.write("lists.json", spec_with(output={"layers": True}))
-        message = "'layers' cannot be divided between ranks yet, expected one rank (/output/layers)"
-        self.assert_refused(2, message, "analyze", "lists.json")
-
     def test_an_error_that_shows_late_is_said_once(self):
         spec = spec_with(controller={"allow": "sqrt(x - 1) >= 0"})
         self.write("late.json", spec)
@@ -78,13 +72,27 @@ class Cases(RanksCase):
         text = self.run_program("validate", "fine.json", "--ranks", "3").stdout.decode()
         self.assertRegex(text, r"fullest of 3 ranks +about \d+ MiB, \d+ rows of its own and [12] of others\n")
 
-    @unittest.skipIf(os.environ.get("COORDREQ_SANITIZED"), "sanitisers take memory of their own")
+    def test_memory_of_the_fullest_rank_has_a_limit(self):
+        """Far too much is refused at once: these tables would take minutes."""
+        circle = (str(CONFIGS / "circle.json"), "--set", "/states/0/step=1e-7", "--set", "/states/1/step=1e-7")
+        result = self.run_program("validate", *circle, "--ranks", "4", "--max-memory", "1G")
+        need = "400,000,040,000,001 cells need about [0-9.]+ TiB of memory, on the fullest of 4 ranks at least, the limit is 1.0 GiB"
+        self.assertRegex(result.stderr.decode(), rf"^coordreq: error: {need} \(--max-memory\)\n$")
+        self.assertEqual((result.returncode, result.stdout), (4, b""))
+
+        self.write("fine.json", FINE)
+        told = self.told_of_ranks(2, "fine.json")["memory_bytes"]
+        for most, code in ((told + 2**20, 0), (told - 2**20, 4)):
+            result = self.run_program("validate", "fine.json", "--ranks", "2", "--threads", "1", "--max-memory", str(most))
+            self.assertEqual(result.returncode, code, result.stderr)
+
+    @unittest.skipIf(SANITIZED, "sanitisers take memory of their own")
     def test_memory_of_the_fullest_rank_is_kept(self):
         example = (str(CONFIGS / "intersection_network.json"), "--refine", "4")
         before = None
         for ranks in (1, 2, 4):
             told = self.told_of_ranks(ranks, *example)["memory_bytes"]
-            result = self.run_ranks(ranks, "analyze", *example, "-o", "o.h5", "--json", "--max-memory", str(told + 2**20))
+            result = self.run_ranks(ranks, "analyze", *example, "-o", "o.h5", "--json", "--max-memory", str(told + 2**22))
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertLess(json.loads(result.stdout)["peak_memory_bytes"], 1.1 * told)
             self.assertTrue(before is None or told < before)
