@@ -51,28 +51,50 @@ bool tells_rows_apart(const std::vector<TableShape>& shapes, std::size_t state) 
   return false;
 }
 
+/// A grid point of one state.
+struct Coordinate {
+  std::size_t state;
+  std::int64_t index;
+  Interval value;
+};
+
 /// S at grid points.
 class SafeAt {
  public:
   explicit SafeAt(const ProblemSpec& spec)
-      : spec_(spec), decider_(spec.safe), exact_(spec.slot_count()), fast_(spec.slot_count()) {}
+      : spec_(spec), decider_(spec.safe), index_(spec.states.size(), 0), value_(spec.slot_count()) {}
 
-  void place(std::size_t state, std::int64_t index) {
-    const GridSpec& grid = spec_.states[state].grid;
-    const Rational point = grid.first + grid.step * Rational(static_cast<long>(index));
-    exact_[state] = {.lower = point, .upper = point};
-    fast_[state] = enclose(point);
+  [[nodiscard]] Coordinate coordinate(std::size_t state, std::int64_t index) const {
+    return {state, index, enclose(point(state, index))};
+  }
+  void place(const std::vector<Coordinate>& coordinates) {
+    for (const Coordinate& one : coordinates) {
+      index_[one.state] = one.index;
+      value_[spec_.state_slot(one.state)] = one.value;
+    }
   }
   [[nodiscard]] Truth holds() {
-    return decider_.decide(std::span<const Interval>(fast_),
-                           [&] { return std::span<const RationalInterval>(exact_); });
+    std::vector<RationalInterval> exact;
+    return decider_.decide(std::span<const Interval>(value_), [&] {
+      exact.resize(value_.size());
+      for (std::size_t state = 0; state < index_.size(); ++state) {
+        const Rational at = point(state, index_[state]);
+        exact[spec_.state_slot(state)] = {.lower = at, .upper = at};
+      }
+      return std::span<const RationalInterval>(exact);
+    });
   }
 
  private:
+  [[nodiscard]] Rational point(std::size_t state, std::int64_t index) const {
+    const GridSpec& grid = spec_.states[state].grid;
+    return grid.first + grid.step * Rational(static_cast<long>(index));
+  }
+
   const ProblemSpec& spec_;
   ConditionDecider decider_;
-  std::vector<RationalInterval> exact_;
-  std::vector<Interval> fast_;
+  std::vector<std::int64_t> index_;  ///< by state
+  std::vector<Interval> value_;      ///< by slot
 };
 
 /// Work is counted in cells of rows that are worked out; beyond half of the sample all are taken as
@@ -106,24 +128,25 @@ RowSample sample_rows(const ProblemSpec& spec, const std::vector<TableShape>& sh
   RowSample result{.rows = cells_of(spec, across), .lanes = cells_of(spec, along)};
   result.drawn = std::min(result.rows, kDrawnRows);
   Draw draw;
+  SafeAt safe(spec);
   const auto any_place = [&](const std::vector<std::size_t>& states) {
-    std::vector<std::int64_t> place;
-    for (const std::size_t i : states) place.push_back(draw.below(spec.states[i].grid.count));
+    std::vector<Coordinate> place;
+    for (const std::size_t i : states)
+      place.push_back(safe.coordinate(i, draw.below(spec.states[i].grid.count)));
     return place;
   };
-  std::vector<std::vector<std::int64_t>> lanes;
+  std::vector<std::vector<Coordinate>> lanes;
   for (std::int64_t k = 0; k < kDrawnLanes; ++k) lanes.push_back(any_place(along));
-  SafeAt safe(spec);
   std::set<std::vector<std::int64_t>> found;
   for (std::int64_t k = 0; k < result.drawn; ++k) {
-    const std::vector<std::int64_t> row = any_place(across);
+    const std::vector<Coordinate> row = any_place(across);
+    safe.place(row);
     std::vector<std::int64_t> content;
-    for (std::size_t i = 0; i < across.size(); ++i) {
-      safe.place(across[i], row[i]);
-      if (tells_rows_apart(shapes, across[i])) content.push_back(row[i]);
+    for (const Coordinate& one : row) {
+      if (tells_rows_apart(shapes, one.state)) content.push_back(one.index);
     }
-    for (const std::vector<std::int64_t>& lane : lanes) {
-      for (std::size_t i = 0; i < along.size(); ++i) safe.place(along[i], lane[i]);
+    for (const std::vector<Coordinate>& lane : lanes) {
+      safe.place(lane);
       content.push_back(static_cast<std::int64_t>(safe.holds()));
     }
     found.insert(std::move(content));
