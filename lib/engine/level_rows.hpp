@@ -99,10 +99,22 @@ class LevelRows {
       std::copy_n(cells, length_, row(r));
       return close(r);
     }
-    Level* const own = lanes_.data() + margins_.before;
-    std::copy_n(cells, length_, own);
-    close_row(own);
-    const std::uint64_t hash = hash_of(own);
+    std::copy_n(cells, length_, lanes_.data() + margins_.before);
+    put_ready(r, lanes_.data(), make_ready(lanes_.data()));
+  }
+  /// put() in two parts, of which the first is for any number of threads: gives margins to the cells of a row
+  /// that stands elsewhere. @param lanes stride() of them, margins().before before the first cell
+  /// @returns what put_ready() is to know
+  [[nodiscard]] std::uint64_t make_ready(Level* lanes) const {
+    close_row(lanes + margins_.before);
+    return is_shared() ? hash_of(lanes + margins_.before) : 0;
+  }
+  void put_ready(std::int64_t r, const Level* lanes, std::uint64_t hash) {
+    if (!is_shared()) {
+      std::copy_n(lanes, stride_, levels_.data() + r * stride_);
+      return;
+    }
+    const Level* const own = lanes + margins_.before;
     const auto cells_bytes = static_cast<std::size_t>(length_) * sizeof(Level);
     std::uint32_t place =
         book_.find(hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), own, cells_bytes) == 0; });
@@ -110,7 +122,7 @@ class LevelRows {
       book_.hold(place);
     } else {
       place = book_.add(hash);
-      std::copy(lanes_.begin(), lanes_.end(), levels_.data() + place * stride_);
+      std::copy_n(lanes, stride_, levels_.data() + place * stride_);
     }
     move_to(r, place);
   }

@@ -105,6 +105,7 @@ class WaveRunner {
   struct Change {
     std::int64_t row;
     std::size_t position;  ///< in the worker's storage
+    std::uint64_t ready;   ///< LevelRows::make_ready()
   };
   /// Rows of one unit that one thread looks at.
   struct Piece {
@@ -274,9 +275,11 @@ class WaveRunner {
                     : kernels.advance(worker.next.data(), worker.old.data(), limit_, worker.result.data(), n);
     if (!is_changed) return;
     if (!op_.rises()) find_lowest(worker, n);
-    worker.changes.push_back({place.row, worker.storage.size()});
-    worker.storage.insert(worker.storage.end(), worker.result.begin(),
-                          worker.result.begin() + static_cast<std::ptrdiff_t>(n));
+    const std::size_t position = worker.storage.size();
+    worker.storage.resize(position + static_cast<std::size_t>(levels_.stride()));
+    Level* const lanes = worker.storage.data() + position;
+    std::copy_n(worker.result.begin(), n, lanes + levels_.margins().before);
+    worker.changes.push_back({place.row, position, levels_.make_ready(lanes)});
   }
 
   static void find_lowest(Worker& worker, std::size_t n) {
@@ -310,7 +313,7 @@ class WaveRunner {
 
   void commit(const Worker& worker) {
     for (const Change& change : worker.changes) {
-      levels_.put(change.row, worker.storage.data() + change.position);
+      levels_.put_ready(change.row, worker.storage.data() + change.position, change.ready);
       news_.mark_row(change.row);
     }
   }
