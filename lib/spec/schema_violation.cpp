@@ -1,10 +1,11 @@
 #include "spec/schema_violation.hpp"
 
 #include <fmt/format.h>
+#include <regex.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
@@ -38,13 +39,22 @@ std::size_t code_points(const std::string& text) {
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
+/// @param pattern of those that POSIX's extended expressions and the schema's mean alike
+bool has_pattern(const std::string& pattern, const std::string& text) {
+  regex_t compiled;
+  if (regcomp(&compiled, pattern.c_str(), REG_EXTENDED | REG_NOSUB) != 0)
+    throw std::logic_error("no regular expression: " + pattern);
+  regmatch_t whole{.rm_so = 0, .rm_eo = static_cast<regoff_t>(text.size())};
+  const bool is_match = regexec(&compiled, text.c_str(), 1, &whole, REG_STARTEND) == 0;
+  regfree(&compiled);
+  return is_match;
+}
+
 bool string_matches(const Json& schema, const std::string& text) {
   const std::size_t length = code_points(text);
   if (schema.contains("minLength") && length < schema["minLength"].get<std::size_t>()) return false;
-  // Before the pattern: the library's matcher needs stack in proportion to the length.
   if (schema.contains("maxLength") && length > schema["maxLength"].get<std::size_t>()) return false;
-  return !schema.contains("pattern") ||
-         std::regex_search(text, std::regex(schema["pattern"].get<std::string>()));
+  return !schema.contains("pattern") || has_pattern(schema["pattern"].get<std::string>(), text);
 }
 
 bool number_matches(const Json& schema, const Json& value) {
