@@ -15,6 +15,19 @@ endforeach()
 find_library(HDF5_HL_LIBRARY hdf5_serial_hl REQUIRED)  # dimension scales; has no pkg-config file
 add_library(coordreq::hdf5_hl UNKNOWN IMPORTED GLOBAL)
 set_target_properties(coordreq::hdf5_hl PROPERTIES IMPORTED_LOCATION ${HDF5_HL_LIBRARY})
+# Debian's shared library loads thirty others, for files that lie in a cloud: longer work than a small analysis.
+if(COORDREQ_STATIC_HDF5)
+  find_library(HDF5_ARCHIVE libhdf5_serial.a)
+  find_library(HDF5_HL_ARCHIVE libhdf5_serial_hl.a)
+  find_library(SZIP_LIBRARY sz)
+  mark_as_advanced(HDF5_ARCHIVE HDF5_HL_ARCHIVE SZIP_LIBRARY)
+  if(HDF5_ARCHIVE AND HDF5_HL_ARCHIVE AND SZIP_LIBRARY)
+    set_target_properties(PkgConfig::HDF5 PROPERTIES
+      INTERFACE_LINK_LIBRARIES "${HDF5_ARCHIVE};${SZIP_LIBRARY};z;m;${CMAKE_DL_LIBS}")
+    set_target_properties(coordreq::hdf5_hl PROPERTIES
+      IMPORTED_LOCATION ${HDF5_HL_ARCHIVE} INTERFACE_LINK_LIBRARIES PkgConfig::HDF5)
+  endif()
+endif()
 # Ball arithmetic of the verifier; neither has a pkg-config file.
 foreach(library flint flint-arb)
   string(REPLACE - _ name ${library})
