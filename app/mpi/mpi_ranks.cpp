@@ -2,10 +2,14 @@
 
 #include <mpi.h>
 #include <sched.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <thread>
 #include <utility>
 
 #include "base/error.hpp"
@@ -17,6 +21,20 @@ namespace {
 constexpr std::size_t kPiece = std::size_t{1} << 30;
 /// How long a rank waits for the first one to hear of its error.
 constexpr std::chrono::seconds kPatience{20};
+/// How long it waits for somebody to read its last line.
+constexpr std::chrono::seconds kLineIsRead{2};
+
+/// The launcher reads standard error from a pipe, and that of MPICH drops what it has not read when it ends
+/// the ranks.
+void wait_until_line_is_read() {
+  struct stat found {};
+  if (fstat(STDERR_FILENO, &found) != 0 || !S_ISFIFO(found.st_mode)) return;
+  const auto end = std::chrono::steady_clock::now() + kLineIsRead;
+  for (int unread = 0; std::chrono::steady_clock::now() < end;) {
+    if (ioctl(STDERR_FILENO, FIONREAD, &unread) != 0 || unread == 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
 
 }  // namespace
 
@@ -180,6 +198,7 @@ void MpiRanks::end_all(int exit_code, const std::string& what, const std::functi
       MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
     say();
   }
+  wait_until_line_is_read();
   MPI_Abort(MPI_COMM_WORLD, exit_code);
   std::_Exit(exit_code);
 }

@@ -11,7 +11,7 @@ import unittest
 from program import PROGRAM, Case
 
 MPI_PROGRAM = os.environ.get("COORDREQ_MPI_PROGRAM", "")
-MPIRUN = shutil.which("mpirun")
+MPIRUN = shutil.which(os.environ.get("COORDREQ_MPIRUN", "mpirun"))
 
 # As root and on few cores; what is not for the MPI at hand it does not look at.
 ENVIRONMENT = dict(
