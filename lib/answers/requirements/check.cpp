@@ -19,7 +19,7 @@ using Rank = std::tuple<std::int64_t, std::int32_t, std::int64_t>;  // of the va
 /// round.
 std::int64_t rank_of(RequirementKind kind, std::int32_t value) {
   if (value == kNoWayToGoal) return -1;
-  if (value < 0) return INT64_MIN + 2 + value;
+  if (value < 0) return INT64_MIN / 2 + value;  // a claim can be any number
   return kind == RequirementKind::max_arrival ? -std::int64_t{value} : std::int64_t{value};
 }
 
