@@ -105,7 +105,8 @@ class Cases(unittest.TestCase):
         shutil.copytree(self.prefix / "share/coordreq/examples/library", source)
         build = source / "build"
         run(CMAKE, "-G", "Ninja", "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}",
-            "-DCMAKE_CXX_FLAGS=" + os.environ["COORDREQ_CXX_FLAGS"])
+            "-DCMAKE_CXX_FLAGS=" + os.environ["COORDREQ_CXX_FLAGS"],
+            "-DCMAKE_CXX_COMPILER=" + os.environ["COORDREQ_CXX_COMPILER"])
         run(CMAKE, "--build", build)
         spec = self.prefix / "share/coordreq/configs/circle.json"
         text = run(build / "analyze_and_ask", spec, self.folder / "library.h5", "x1=0.1,x2=0")
