@@ -60,9 +60,9 @@ void hold_to_memory(std::uint64_t bytes, int threads) {
   constexpr std::uint64_t kUsualStack = std::uint64_t{8} << 20U;
   constexpr std::uint64_t kArena = std::uint64_t{256} << 10U;  // what the allocator sets aside for a thread
   const std::uint64_t of_thread = (stack.rlim_cur == RLIM_INFINITY ? kUsualStack : stack.rlim_cur) + kArena;
-  const auto stacks =
-      std::uint64_t{threads > 0 ? static_cast<unsigned>(threads) : std::thread::hardware_concurrency()} *
-      of_thread;
+  const auto all = threads > 0 ? static_cast<unsigned>(threads) : std::thread::hardware_concurrency();
+  const std::uint64_t stacks =
+      std::uint64_t{std::max(all, 1U) - 1} * of_thread;  // the first one does not count
   rlimit limit{};
   if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
   const std::uint64_t counted = std::min(bytes, std::uint64_t{1} << 62U);
