@@ -14,6 +14,7 @@
 #include "app/print_answer.hpp"
 #include "app/print_warnings.hpp"
 #include "app/progress_display.hpp"
+#include "reach/table_shapes.hpp"
 #include "results/write_results.hpp"
 
 namespace coordreq {
@@ -50,9 +51,10 @@ void check_files(const ProblemSpec& spec, const std::string& output, const Analy
 
 std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const std::string& output,
                                                   const AnalyzeOptions& asked, const std::string& prefix) {
+  const Model model = make_model(spec);
   // Of several processes each knows what it holds only later.
   if (asked.ranks == nullptr || asked.ranks->count() == 1)
-    check_memory(spec, asked.memory(), asked.threads, asked.checkpoint.has_value());
+    check_memory(model, asked.memory(), asked.threads, asked.checkpoint.has_value());
   ThreadTeam team(asked.threads);
   InterruptPolicy interrupts;
   ProgressDisplay shown(asked.progress, asked.quiet);
@@ -71,7 +73,7 @@ std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const
   options.notice = [&](const std::string& text) {
     if (!asked.quiet) shown.notice(text);
   };
-  auto summary = std::make_shared<const Json>(analyze(spec, options, team));
+  auto summary = std::make_shared<const Json>(analyze(model, options, team));
   shown.finish();
   return summary;
 }

@@ -16,6 +16,7 @@
 #include "app/print_warnings.hpp"
 #include "app/render.hpp"
 #include "model/outside_word.hpp"
+#include "reach/table_shapes.hpp"
 
 namespace coordreq {
 namespace {
@@ -175,13 +176,14 @@ ExitCode run(const ValidateOptions& own) {
   if (own.max_memory) hold_to_memory(*own.max_memory, own.threads);
   const std::optional<std::uint64_t> memory = own.memory();
   const ProblemSpec spec = load_spec(own.spec, own.settings, memory);
-  if (!own.ranks) check_memory(spec, own.max_memory, own.threads, false);
-  const SpecReport report = inspect(spec, own.threads);
+  const Model model = make_model(spec);
+  if (!own.ranks) check_memory(model, own.max_memory, own.threads, false);
+  const SpecReport report = inspect(model, own.threads);
   Json found = report_json(report);
   if (!memory || report.memory_bytes <= *memory) {
     ThreadTeam team(own.threads);
     check_regions(spec, team);
-    found["warnings"] = warnings_json(advise_before(spec, team));
+    found["warnings"] = warnings_json(advise_before(model, team));
   } else {
     found["warnings"] = warnings_json({too_large_here(report, *memory)});
   }
@@ -189,7 +191,7 @@ ExitCode run(const ValidateOptions& own) {
     ThreadTeam team(own.threads);
     found["fullest_rank"] = ranks_json(
         *own.ranks,
-        inspect_ranks(spec, *own.ranks, own.threads, {.of_rank = own.max_memory, .here = memory}, team));
+        inspect_ranks(model, *own.ranks, own.threads, {.of_rank = own.max_memory, .here = memory}, team));
   }
   PrintedWarnings(own).print(found["warnings"]);
   print_answer(own, found, report_text);

@@ -6,18 +6,17 @@
 
 #include "answers/ground/answer.hpp"
 #include "answers/plan.hpp"
-#include "reach/table_shapes.hpp"
 
 namespace coordreq {
 namespace {
 
 /// Whether posts can be had in less than a second.
-bool has_few_posts(const ProblemSpec& spec) {
+bool has_few_posts(const Model& model) {
   constexpr double kMostCells = 1e6, kMostEntries = 2e4;
   double cells = 1, entries = 0;
-  for (const StateSpec& state : spec.states) cells *= static_cast<double>(state.grid.count);
-  for (const TableShape& shape : table_shapes(spec)) entries += shape.entries;
-  return cells <= kMostCells && entries <= kMostEntries && !spec.controller.file;
+  for (const StateSpec& state : model.spec().states) cells *= static_cast<double>(state.grid.count);
+  for (const TableShape& shape : model.shapes()) entries += shape.entries;
+  return cells <= kMostCells && entries <= kMostEntries && !model.spec().controller.file;
 }
 
 /// Advice that cannot be had, for want of memory or for an error that is for somebody else to report, is not
@@ -34,13 +33,13 @@ void add(Warnings& all, const Advise& advise) {
 
 }  // namespace
 
-Warnings advise_before(const ProblemSpec& spec, ThreadTeam& team) {
+Warnings advise_before(const Model& model, ThreadTeam& team) {
   Warnings all;
-  add(all, [&] { return advise_on_spec(spec); });
+  add(all, [&] { return advise_on_spec(model.spec()); });
   add(all, [&] {
-    if (!has_few_posts(spec)) return Warnings();
-    Answers answers(spec);
-    run_stages(ground_stages(spec), answers, {.team = team});
+    if (!has_few_posts(model)) return Warnings();
+    Answers answers(model);
+    run_stages(ground_stages(model.spec()), answers, {.team = team});
     return advise_on_posts(answers.ground);
   });
   return all;
@@ -49,7 +48,7 @@ Warnings advise_before(const ProblemSpec& spec, ThreadTeam& team) {
 Warnings advise(const Answers& answers, ThreadTeam& team) {
   Warnings all;
   if (answers.ground.share) {  // nobody has all of S
-    all = advise_before(answers.ground.spec, team);
+    all = advise_before(answers.ground.model, team);
   } else {
     add(all, [&] { return advise_on_spec(answers.ground.spec); });
     add(all, [&] { return advise_on_posts(answers.ground); });

@@ -38,7 +38,7 @@ using Warnings = std::vector<Warning>;
 [[nodiscard]] Warnings advise_on_goal(const Answers& answers);
 
 /// All that is known without the answer; what posts show only where they are few.
-[[nodiscard]] Warnings advise_before(const ProblemSpec& spec, ThreadTeam& team);
+[[nodiscard]] Warnings advise_before(const Model& model, ThreadTeam& team);
 /// All of them. Neither of the two throws what others do not. REQUIRES: as advise_on_answers()
 [[nodiscard]] Warnings advise(const Answers& answers, ThreadTeam& team);
 

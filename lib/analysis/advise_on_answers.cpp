@@ -13,6 +13,7 @@
 #include "answers/layers/answer.hpp"
 #include "answers/plan.hpp"
 #include "base/grouped.hpp"
+#include "reach/table_shapes.hpp"
 
 namespace coordreq {
 namespace {
@@ -105,7 +106,8 @@ Fault fault_of(const Answers& answers, std::size_t partition) {
 }
 
 Fault fault_of(const ProblemSpec& spec, ThreadTeam& team) {
-  Answers answers(spec);
+  const Model model = make_model(spec);
+  Answers answers(model);
   std::vector<Stage> stages = ground_stages(spec);
   for (const auto& more : {invariance_stages(spec), layers_stages(spec)})
     stages.insert(stages.end(), more.begin(), more.end());

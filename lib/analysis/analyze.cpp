@@ -48,8 +48,7 @@ void check_rank_memory(const Ground& ground, const RankMemory& memory, int threa
   std::int64_t held = 0;
   for (const RowShare::Range run : ground.share->held()) held += run.end - run.begin;
   const double part = static_cast<double>(held) / static_cast<double>(ground.abstraction->grid.rows());
-  const Model model(ground.spec, table_shapes(ground.spec));
-  const double needed = estimate_memory_of_rank(model, threads, memory.before, part);
+  const double needed = estimate_memory_of_rank(ground.model, threads, memory.before, part);
   const std::int64_t most = ground.ranks->greatest(static_cast<std::int64_t>(std::min(needed, 9e18)));
   check_memory_limit(ground.spec, static_cast<double>(most), static_cast<double>(*memory.limit),
                      fmt::format("on the fullest of {} ranks, ", ground.ranks->count()));
@@ -132,7 +131,7 @@ Json summarise(const Answers& answers, Json& work) {
 
 }  // namespace
 
-Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team) {
+Json analyze(const Model& model, const AnalysisOptions& options, ThreadTeam& team) {
   Ranks* const ranks = options.ranks != nullptr && options.ranks->count() > 1 ? options.ranks : nullptr;
   const bool is_first = ranks == nullptr || ranks->rank() == 0;
   if (!options.output.empty() && is_first) check_writable(options.output);
@@ -141,8 +140,8 @@ Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam
                           .saves = options.checkpoint.has_value()};
   StageReporter reporter(options.progress, team);
   std::optional<Checkpoint> checkpoint;
-  open_checkpoint(spec, options, reporter, checkpoint);
-  Answers answers(spec, ranks);
+  open_checkpoint(model.spec(), options, reporter, checkpoint);
+  Answers answers(model, ranks);
   ExchangeMeter meter(ranks);
   find_answers(answers, reporter, checkpoint ? &*checkpoint : nullptr, memory, meter, team);
   Json work = Json::object();
@@ -159,6 +158,10 @@ Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam
   summary["peak_memory_bytes"] = ranks == nullptr ? peak : ranks->greatest(peak);
   summary["warnings"] = warnings_json(is_first ? advise(answers, team) : Warnings());
   return summary;
+}
+
+Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team) {
+  return analyze(make_model(spec), options, team);
 }
 
 }  // namespace coordreq

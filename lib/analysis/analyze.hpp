@@ -10,6 +10,7 @@
 #include "analysis/progress.hpp"
 #include "base/json.hpp"
 #include "base/thread_team.hpp"
+#include "model/model.hpp"
 #include "model/row_sample.hpp"
 #include "ranks/ranks.hpp"
 #include "spec/problem_spec.hpp"
@@ -39,6 +40,7 @@ struct AnalysisOptions {
 /// @throws LimitError if one of several processes needs more than `max_memory`
 /// @throws SpecError for what only shows when the system is built (undecidable `allow`, a discrete state off
 ///   its grid, dynamics that this version cannot abstract); IoError
+[[nodiscard]] Json analyze(const Model& model, const AnalysisOptions& options, ThreadTeam& team);
 [[nodiscard]] Json analyze(const ProblemSpec& spec, const AnalysisOptions& options, ThreadTeam& team);
 
 /// What `validate` prints, known before the analysis runs.
@@ -82,6 +84,7 @@ struct SpecReport {
 };
 
 /// @param threads that an analysis would have; 0: all cores
+[[nodiscard]] SpecReport inspect(const Model& model, int threads);
 [[nodiscard]] SpecReport inspect(const ProblemSpec& spec, int threads);
 
 /// What the fullest of several processes would have.
@@ -100,7 +103,7 @@ struct RankLimits {
 /// Makes the abstraction as the processes would, and nothing that they divide.
 /// @param threads that each would have
 /// @throws LimitError if a limit is too low, before anything is made if that can be told then
-[[nodiscard]] FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads,
-                                        const RankLimits& limits, ThreadTeam& team);
+[[nodiscard]] FullestRank inspect_ranks(const Model& model, int ranks, int threads, const RankLimits& limits,
+                                        ThreadTeam& team);
 
 }  // namespace coordreq

@@ -11,7 +11,6 @@
 #include "base/error.hpp"
 #include "base/grouped.hpp"
 #include "base/timer.hpp"
-#include "reach/table_shapes.hpp"
 #include "results/write_results.hpp"
 
 namespace coordreq {
@@ -68,10 +67,9 @@ void check_memory_limit(const ProblemSpec& spec, double needed, double limit, co
                    "--max-memory");
 }
 
-void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit, int threads, bool saves) {
+void check_memory(const Model& model, std::optional<std::uint64_t> limit, int threads, bool saves) {
   if (!limit) return;
-  const Model model(spec, table_shapes(spec));
-  check_memory_limit(spec, estimate_memory(model, threads) + (saves ? kCheckpointBytes : 0),
+  check_memory_limit(model.spec(), estimate_memory(model, threads) + (saves ? kCheckpointBytes : 0),
                      static_cast<double>(*limit), "");
 }
 

@@ -35,6 +35,6 @@ void check_memory_limit(const ProblemSpec& spec, double needed, double limit, co
 
 /// @param saves whether the work will be saved in a checkpoint now and then
 /// @throws LimitError with the estimate if that is above the limit
-void check_memory(const ProblemSpec& spec, std::optional<std::uint64_t> limit, int threads, bool saves);
+void check_memory(const Model& model, std::optional<std::uint64_t> limit, int threads, bool saves);
 
 }  // namespace coordreq

@@ -6,8 +6,8 @@
 #include "answers/ground/answer.hpp"
 #include "answers/invariance/answer.hpp"
 #include "engine/engine_sizes.hpp"
-#include "model/model.hpp"
 #include "reach/build_abstraction.hpp"
+#include "reach/table_shapes.hpp"
 #include "results/controller_file.hpp"
 
 namespace coordreq {
@@ -41,9 +41,13 @@ std::uint64_t to_bytes(double bytes) {
 }  // namespace
 
 SpecReport inspect(const ProblemSpec& spec, int threads) {
+  return inspect(make_model(spec), threads);
+}
+
+SpecReport inspect(const Model& model, int threads) {
+  const ProblemSpec& spec = model.spec();
   if (spec.controller.file) check_controller_file(spec);
   SpecReport report{.name = spec.name, .cells = 1, .joint_inputs = 1};
-  const Model model(spec, table_shapes(spec));
   const std::vector<TableShape>& shapes = model.shapes();
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     const StateSpec& state = spec.states[i];
@@ -80,9 +84,9 @@ SpecReport inspect(const ProblemSpec& spec, int threads) {
   return report;
 }
 
-FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads, const RankLimits& limits,
+FullestRank inspect_ranks(const Model& model, int ranks, int threads, const RankLimits& limits,
                           ThreadTeam& team) {
-  const Model model(spec, table_shapes(spec));
+  const ProblemSpec& spec = model.spec();
   const double before = memory_of_program() + kMpiBytes;
   const auto need = [&](double held) { return estimate_memory_of_rank(model, threads, before, held); };
   const auto check = [&](double needed, std::optional<std::uint64_t> limit, const std::string& by_whom) {
@@ -90,7 +94,7 @@ FullestRank inspect_ranks(const ProblemSpec& spec, int ranks, int threads, const
   };
   check(need(1.0 / ranks), limits.of_rank, fmt::format("on the fullest of {} ranks at least, ", ranks));
   check(need(0), limits.here, "on each rank of however many, ");
-  Answers answers(spec, nullptr);
+  Answers answers(model);
   ground_stages(spec).front().run(answers, {.team = team});
   FullestRank fullest;
   for (const RankRows& rows : rows_of_ranks(answers.ground, ranks)) {

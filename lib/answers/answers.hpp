@@ -16,7 +16,7 @@ class Answers {
  public:
   /// @param ranks the processes that share the work; null: there is one
   /// REQUIRES: both outlive this object.
-  explicit Answers(const ProblemSpec& spec, Ranks* ranks = nullptr) : ground(spec, ranks) {}
+  explicit Answers(const Model& model, Ranks* ranks = nullptr) : ground(model, ranks) {}
   Answers(const Answers&) = delete;
   Answers& operator=(const Answers&) = delete;
 

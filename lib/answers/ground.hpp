@@ -12,6 +12,7 @@
 #include "engine/tiles.hpp"
 #include "engine/tube_sets.hpp"
 #include "model/cell_order.hpp"
+#include "model/model.hpp"
 #include "ranks/row_share.hpp"
 #include "reach/abstraction.hpp"
 #include "spec/problem_spec.hpp"
@@ -31,10 +32,12 @@ struct ListedController {
 /// 2. Neither copied nor moved: its parts refer to one another. What stages make is there after them.
 struct Ground {
   /// @param all the processes that share the work; null: there is one
-  explicit Ground(const ProblemSpec& problem, Ranks* all = nullptr) : spec(problem), ranks(all) {}
+  explicit Ground(const Model& problem, Ranks* all = nullptr)
+      : model(problem), spec(problem.spec()), ranks(all) {}
   Ground(const Ground&) = delete;
   Ground& operator=(const Ground&) = delete;
 
+  const Model& model;
   const ProblemSpec& spec;
   Ranks* ranks;
   std::optional<ListedController> listed;  ///< of `controller.file`; then the order is that of the spec

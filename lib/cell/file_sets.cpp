@@ -7,6 +7,7 @@
 #include "base/grouped.hpp"
 #include "base/timer.hpp"
 #include "reach/build_abstraction.hpp"
+#include "reach/table_shapes.hpp"
 
 namespace coordreq {
 namespace {
@@ -23,11 +24,12 @@ std::uint32_t level_of_steps(std::int32_t steps, std::int32_t first) {
 
 FileSets::FileSets(const ResultsReader& results, std::size_t partition,
                    std::optional<std::uint64_t> max_memory, ThreadTeam& team)
-    : results_(results), ground_(results.spec()) {
+    : results_(results), model_(make_model(results.spec())), ground_(model_) {
   check_memory(max_memory);
   // Tubes are not stored.
   const bool is_stored = results.has_abstraction() && !results.spec().abstraction.between_samples;
-  ground_.abstraction = is_stored ? results.abstraction() : build_abstraction(results.spec(), team);
+  ground_.abstraction =
+      is_stored ? results.abstraction() : build_abstraction(model_.spec(), model_.shapes(), team);
   read_cells(partition);
   if (results.spec().controller.file) read_listed();
   ground_.beyond = safe_beyond_limits(results.spec(), *ground_.abstraction, ground_.safe, team);
@@ -36,7 +38,7 @@ FileSets::FileSets(const ResultsReader& results, std::size_t partition,
 void FileSets::check_memory(std::optional<std::uint64_t> max_memory) const {
   if (!max_memory) return;
   double bytes = 9.0 * static_cast<double>(results_.grid().cells());
-  for (const TableShape& shape : table_shapes(results_.spec())) bytes += shape.bytes;
+  for (const TableShape& shape : model_.shapes()) bytes += shape.bytes;
   if (results_.spec().controller.file)
     bytes += static_cast<double>(results_.grid().cells()) *
              static_cast<double>(PackedPairs::bytes_for(results_.inputs().count()));

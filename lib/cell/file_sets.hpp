@@ -33,6 +33,7 @@ class FileSets {
   void read_listed();
 
   const ResultsReader& results_;
+  Model model_;
   Ground ground_;
   Invariance invariance_;
   DelayLayers layers_;

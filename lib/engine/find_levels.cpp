@@ -4,6 +4,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "engine/different_rows.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -63,8 +65,8 @@ void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team)
 template <class Level>
 bool has_level(const LevelRows<Level>& levels, Level level) {
   bool found = false;
-  const ThreadTeam::Range held = levels.held();
-  levels.for_each_held(held.begin, held.end, [&](const Level* row, std::int64_t) {
+  const DifferentRows<Level> rows(levels);
+  rows.for_each({0, rows.size()}, [&](const Level* row, std::int64_t) {
     levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
       found = found || std::find(row + lane, row + lane + count, level) != row + lane + count;
     });

@@ -3,6 +3,8 @@
 #include <array>
 #include <optional>
 
+#include "engine/different_rows.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -11,11 +13,12 @@ std::int64_t decoded(Level level) {
   return level == LevelRows<Level>::kTop ? LevelMap::kTop : static_cast<std::int64_t>(level);
 }
 
-/// Adds the cells of some of the rows held to the counts of their levels.
+/// Adds the cells of some rows to the counts of their levels.
 template <class Level>
-void count_rows(const LevelRows<Level>& levels, ThreadTeam::Range rows, std::vector<std::int64_t>& counts) {
-  levels.for_each_held(rows.begin, rows.end, [&](const Level* row, std::int64_t times) {
-    levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+void count_rows(const RowShape& shape, const DifferentRows<Level>& rows, ThreadTeam::Range range,
+                std::vector<std::int64_t>& counts) {
+  rows.for_each(range, [&](const Level* row, std::int64_t times) {
+    shape.for_each_run([&](std::int64_t lane, std::int64_t count) {
       for (std::int64_t c = lane; c < lane + count; ++c) {
         const std::size_t level = row[c] == LevelRows<Level>::kTop ? 0 : std::size_t{row[c]} + 1;
         if (level >= counts.size()) counts.resize(level + 1, 0);
@@ -27,11 +30,11 @@ void count_rows(const LevelRows<Level>& levels, ThreadTeam::Range rows, std::vec
 
 /// 8-bit levels need no look at the size; four counters a level, so that equal neighbours do not wait for
 /// each other.
-void count_rows(const LevelRows<std::uint8_t>& levels, ThreadTeam::Range rows,
+void count_rows(const RowShape& shape, const DifferentRows<std::uint8_t>& rows, ThreadTeam::Range range,
                 std::vector<std::int64_t>& counts) {
   std::array<std::array<std::int64_t, 256>, 4> part{};
-  levels.for_each_held(rows.begin, rows.end, [&](const std::uint8_t* row, std::int64_t times) {
-    levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+  rows.for_each(range, [&](const std::uint8_t* row, std::int64_t times) {
+    shape.for_each_run([&](std::int64_t lane, std::int64_t count) {
       const std::uint8_t* cells = row + lane;
       for (std::int64_t c = 0; c < count; ++c) part[static_cast<std::size_t>(c % 4)][cells[c]] += times;
     });
@@ -47,10 +50,9 @@ template <class Level>
 std::vector<std::int64_t> count_levels(const LevelRows<Level>& levels, ThreadTeam& team) {
   constexpr std::int64_t kGrain = 1024;
   std::vector<std::vector<std::int64_t>> counts(static_cast<std::size_t>(team.size()));
-  const ThreadTeam::Range held = levels.held();
-  team.for_each(held.end - held.begin, kGrain, [&](ThreadTeam::Range range, int worker) {
-    count_rows(levels, {held.begin + range.begin, held.begin + range.end},
-               counts[static_cast<std::size_t>(worker)]);
+  const DifferentRows<Level> rows(levels);
+  team.for_each(rows.size(), kGrain, [&](ThreadTeam::Range range, int worker) {
+    count_rows(levels.shape(), rows, range, counts[static_cast<std::size_t>(worker)]);
   });
   std::vector<std::int64_t> total(1, 0);
   for (const std::vector<std::int64_t>& own : counts) {

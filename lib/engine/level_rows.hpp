@@ -141,24 +141,6 @@ class LevelRows {
   }
   void renumber() { book_.renumber(); }
 
-  /// Calls `visit(row, count)` for rows [begin, end) of those held: first cell, and how many rows are like
-  /// it.
-  template <class Visit>
-  void for_each_held(std::int64_t begin, std::int64_t end, const Visit& visit) const {
-    for (std::int64_t k = begin; k < end; ++k) {
-      if (!is_held_by_places()) {
-        visit(row(k), 1);
-      } else if (const std::int64_t count = book_.rows(static_cast<std::size_t>(k)); count > 0) {
-        visit(at(k), count);
-      }
-    }
-  }
-  /// What for_each_held() has to go over to have met every row that this process owns.
-  [[nodiscard]] RowShare::Range held() const {
-    return is_held_by_places() ? RowShare::Range{0, static_cast<std::int64_t>(book_.size())}
-                               : own_rows(share_, rows_);
-  }
-
   /// Makes the cells of a set in the rows [begin, end) the greatest level, others 0, margins included; as
   /// put() does.
   void assign(const CellSet& set, std::int64_t begin, std::int64_t end) {
@@ -188,9 +170,6 @@ class LevelRows {
   }
 
  private:
-  /// Where several processes share the work, rows of others stand in places too.
-  [[nodiscard]] bool is_held_by_places() const { return is_shared() && share_ == nullptr; }
-
   /// The part of a row along the dimensions from k on that begins at `cells`.
   void close_part(Level* cells, std::size_t k) const {
     const RowDimension& dimension = shape_.dimensions[k];

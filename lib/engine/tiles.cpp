@@ -1,6 +1,7 @@
 #include "engine/tiles.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "engine/slot_book.hpp"
 
@@ -154,11 +155,17 @@ Numbers Tiles::refined(const Numbers& before, const Numbers& content) const {
   return result;
 }
 
-/// Of a sample, drawn with equal distances.
+/// Of a sample, drawn with equal distances that have no factor in common with a dimension: else all of it
+/// would be at the same place along that.
 double Tiles::part_different(const Numbers& content) const {
   const Numbers own = contents_of_tiles(content);
-  // Not a divisor of what grids usually have.
-  const std::int64_t step = std::max<std::int64_t>(1, (own_.end - own_.begin) / kSample) | 1;
+  const auto has_common_factor = [this](std::int64_t step) {
+    const std::vector<GridDimension>& dimensions = engine_->grid().dimensions();
+    return std::any_of(dimensions.begin(), dimensions.begin() + static_cast<std::ptrdiff_t>(leading_),
+                       [&](const GridDimension& one) { return std::gcd(one.count, step) > 1; });
+  };
+  std::int64_t step = std::max<std::int64_t>(1, (own_.end - own_.begin) / kSample);
+  while (has_common_factor(step)) ++step;
   ListNumbers<std::uint32_t> lists;
   Scratch scratch;
   Numbers list;

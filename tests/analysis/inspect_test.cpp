@@ -4,6 +4,7 @@
 #include "analysis/estimate_memory.hpp"
 #include "base/error.hpp"
 #include "reach/abstraction.hpp"
+#include "reach/table_shapes.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {
@@ -59,10 +60,10 @@ TEST(Inspect, MemoryGrowsWithTheCells) {
 }
 
 TEST(CheckMemory, RefusesWithTheEstimateBeforeAnythingRuns) {
-  EXPECT_NO_THROW(check_memory(spec_of("99"), std::nullopt, 1, false));
-  EXPECT_NO_THROW(check_memory(spec_of("99"), std::uint64_t{1} << 30, 1, false));
+  EXPECT_NO_THROW(check_memory(make_model(spec_of("99")), std::nullopt, 1, false));
+  EXPECT_NO_THROW(check_memory(make_model(spec_of("99")), std::uint64_t{1} << 30, 1, false));
   try {
-    check_memory(spec_of("99999999"), std::uint64_t{1} << 30, 1, false);
+    check_memory(make_model(spec_of("99999999")), std::uint64_t{1} << 30, 1, false);
     FAIL() << "expected a LimitError";
   } catch (const LimitError& error) {
     EXPECT_EQ(std::string(error.what()).substr(0, 30), "1,000,000,000 cells need about");

@@ -4,7 +4,10 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
+
+#include "engine/different_rows.hpp"
 
 namespace coordreq {
 namespace {
@@ -104,9 +107,13 @@ TEST(LevelRows, SharedRowsAreHeldOnceAndReadAsOthersAre) {
       if (k % 7 == 0) shared.renumber();
     }
     const RowMargins margins = plain.margins();
+    const DifferentRows<std::uint8_t> different(shared);
     std::int64_t held = 0;
-    shared.for_each_held(shared.held().begin, shared.held().end,
-                         [&](const std::uint8_t*, std::int64_t rows) { held += rows; });
+    std::set<const std::uint8_t*> met;
+    different.for_each({0, different.size()}, [&](const std::uint8_t* row, std::int64_t rows) {
+      held += rows;
+      RC_ASSERT(met.insert(row).second);
+    });
     RC_ASSERT(held == 5);
     for (std::int64_t r = 0; r < 5; ++r) {
       const std::uint8_t* const a = std::as_const(plain).row(r);

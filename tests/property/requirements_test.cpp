@@ -16,6 +16,7 @@
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
 #include "reach/build_abstraction.hpp"
+#include "reach/table_shapes.hpp"
 #include "spec/read_spec.hpp"
 #include "support/analysed_file.hpp"
 #include "support/plain_engine.hpp"
@@ -41,7 +42,8 @@ struct Both {
         plain(analyze_plainly(spec, abstraction, members(safe), members(beyond.value_or(safe)))) {}
 
   static std::vector<ResultRequirement> judged(const ProblemSpec& spec, ThreadTeam& team) {
-    Answers answers(spec);
+    const Model model = make_model(spec);
+    Answers answers(model);
     run_stages(analysis_stages(spec), answers, {.team = team});
     return answers.get<RequirementVerdicts>().requirements;
   }

@@ -10,6 +10,7 @@
 #include "answers/layers/answer.hpp"
 #include "answers/plan.hpp"
 #include "reach/build_abstraction.hpp"
+#include "reach/table_shapes.hpp"
 
 namespace coordreq {
 
@@ -21,7 +22,8 @@ struct FastAnalysis {
   /// @param listed the pairs of a controller file; null: there is none
   FastAnalysis(const ProblemSpec& spec, Abstraction given, ThreadTeam& team,
                const PackedPairs* listed = nullptr)
-      : answers(found(spec, std::move(given), team, listed)),
+      : model(make_model(spec)),
+        answers(found(model, std::move(given), team, listed)),
         abstraction(*answers->ground.abstraction),
         safe(answers->ground.safe),
         beyond(answers->ground.beyond),
@@ -57,6 +59,7 @@ struct FastAnalysis {
   FastAnalysis(const FastAnalysis&) = delete;
   FastAnalysis& operator=(const FastAnalysis&) = delete;
 
+  Model model;
   std::unique_ptr<Answers> answers;
   const Abstraction& abstraction;
   const CellSet& safe;
@@ -69,13 +72,13 @@ struct FastAnalysis {
   std::deque<PartitionActions> actions;  ///< of each partition
 
  private:
-  static std::unique_ptr<Answers> found(const ProblemSpec& spec, Abstraction given, ThreadTeam& team,
+  static std::unique_ptr<Answers> found(const Model& model, Abstraction given, ThreadTeam& team,
                                         const PackedPairs* listed) {
-    auto result = std::make_unique<Answers>(spec);
+    auto result = std::make_unique<Answers>(model);
     Ground& ground = result->ground;
     if (listed != nullptr) ground.listed = ListedController{.pairs = *listed};
     ground.abstraction = std::move(given);
-    std::vector<Stage> stages = answer_stages(spec);
+    std::vector<Stage> stages = answer_stages(model.spec());
     stages.erase(stages.begin());  // "abstraction", which is there already
     run_stages(stages, *result, {.team = team});
     return result;

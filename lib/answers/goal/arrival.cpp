@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "answers/invariance/joint_actions.hpp"
+#include "engine/different_rows.hpp"
 #include "engine/find_levels.hpp"
 
 namespace coordreq {
@@ -74,18 +75,17 @@ CellSet winning_cells(const LevelMap& nearness, ThreadTeam& team) {
 
 std::optional<std::int32_t> longest_arrival(const LevelMap& nearness, ThreadTeam& team) {
   std::vector<std::int32_t> longest(static_cast<std::size_t>(team.size()), -1);
-  nearness.visit([&](const auto& levels) {
-    const ThreadTeam::Range held = levels.held();
-    team.for_each(held.end - held.begin, 256, [&](ThreadTeam::Range range, int worker) {
+  nearness.visit([&]<class Level>(const LevelRows<Level>& levels) {
+    const DifferentRows<Level> rows(levels);
+    team.for_each(rows.size(), 256, [&](ThreadTeam::Range range, int worker) {
       std::int32_t& own = longest[static_cast<std::size_t>(worker)];
-      levels.for_each_held(held.begin + range.begin, held.begin + range.end,
-                           [&](const auto* row, std::int64_t) {
-                             levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
-                               for (std::int64_t x = lane; x < lane + count; ++x) {
-                                 if (row[x] > 1) own = std::max(own, arrival_of(row[x]));
-                               }
-                             });
-                           });
+      rows.for_each(range, [&](const Level* row, std::int64_t) {
+        levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+          for (std::int64_t x = lane; x < lane + count; ++x) {
+            if (row[x] > 1) own = std::max(own, arrival_of(row[x]));
+          }
+        });
+      });
     });
   });
   const std::int32_t own = *std::max_element(longest.begin(), longest.end());

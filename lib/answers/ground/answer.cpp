@@ -28,9 +28,8 @@ void find_abstraction(Ground& ground, const StageWork& work) {
     serialise(archive, spec, *abstraction);
   };
   const bool is_kept = work.store != nullptr && work.store->take(load) == StageStore::Kept::finished;
-  const std::vector<TableShape> shapes = table_shapes(spec);
-  if (!is_kept) abstraction = build_abstraction(spec, shapes, work.team, ground.ranks);
-  abstraction = in_order(Model(spec, shapes), std::move(*abstraction));
+  if (!is_kept) abstraction = build_abstraction(spec, ground.model.shapes(), work.team, ground.ranks);
+  abstraction = in_order(ground.model, std::move(*abstraction));
   if (work.store == nullptr) return;
   work.store->finish([&ground](Archive& archive) { serialise(archive, ground.spec, *ground.abstraction); });
 }
