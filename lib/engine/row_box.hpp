@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -59,37 +60,57 @@ struct RowBox {
   }
 };
 
-/// Calls `visit(row number)` for a box of rows: `ranges` in the dimensions from `first` on, as in
-/// ResolvedRange, index 0 in those it does not name. On a ring indices beyond the last begin anew.
+/// Whether `test(row number)` is true for some row of a box, which ends there: `ranges` in the dimensions
+/// from `first` on, as in ResolvedRange, index 0 in those it does not name. On a ring indices beyond the last
+/// begin anew.
 /// @param counter scratch memory
-template <class Visit>
-void for_each_row(const UniformGrid& grid, std::size_t first, std::span<const IndexRange> ranges,
-                  std::vector<std::int64_t>& counter, const Visit& visit) {
-  const std::size_t size = ranges.size();
-  counter.resize(size);
+template <class Test>
+bool any_row(const UniformGrid& grid, std::size_t first, std::span<const IndexRange> ranges,
+             std::vector<std::int64_t>& counter, const Test& test) {
+  if (ranges.empty()) return test(std::int64_t{0});
+  const std::size_t last = ranges.size() - 1;
+  const IndexRange run = ranges[last];
+  if (run.first > run.last) return false;
+  counter.resize(last);
   std::int64_t row = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    if (ranges[i].first > ranges[i].last) return;
+  for (std::size_t i = 0; i < last; ++i) {
+    if (ranges[i].first > ranges[i].last) return false;
     counter[i] = ranges[i].first;
     row += counter[i] * grid.row_stride(first + i);
   }
+  const std::int64_t stride = grid.row_stride(first + last), count = grid[first + last].count;
+  const std::int64_t end = std::min<std::int64_t>(count, std::int64_t{run.last} + 1);
   for (;;) {
-    visit(row);
-    std::size_t i = size;
+    for (std::int64_t k = run.first; k < end; ++k) {
+      if (test(row + k * stride)) return true;
+    }
+    for (std::int64_t k = count; k <= run.last; ++k) {
+      if (test(row + (k - count) * stride)) return true;
+    }
+    std::size_t i = last;
     for (;;) {
-      if (i == 0) return;
+      if (i == 0) return false;
       --i;
-      const std::int64_t stride = grid.row_stride(first + i);
-      const std::int64_t count = grid[first + i].count;
+      const std::int64_t own_stride = grid.row_stride(first + i), own_count = grid[first + i].count;
       if (++counter[i] <= ranges[i].last) {
-        row += counter[i] == count ? stride * (1 - count) : stride;
+        row += counter[i] == own_count ? own_stride * (1 - own_count) : own_stride;
         break;
       }
-      const std::int64_t last = ranges[i].last < count ? ranges[i].last : ranges[i].last - count;
-      row -= (last - ranges[i].first) * stride;
+      const std::int64_t back = ranges[i].last < own_count ? ranges[i].last : ranges[i].last - own_count;
+      row -= (back - ranges[i].first) * own_stride;
       counter[i] = ranges[i].first;
     }
   }
+}
+
+/// Calls `visit(row number)` for all rows of a box.
+template <class Visit>
+void for_each_row(const UniformGrid& grid, std::size_t first, std::span<const IndexRange> ranges,
+                  std::vector<std::int64_t>& counter, const Visit& visit) {
+  static_cast<void>(any_row(grid, first, ranges, counter, [&](std::int64_t row) {
+    visit(row);
+    return false;
+  }));
 }
 
 }  // namespace coordreq

@@ -19,11 +19,9 @@ bool WaveNews::is_pending(std::int64_t unit) {
   if (engine_.outer() == 0) return last_change_ >= seen;
   hull_.box(RowPlace(engine_.grid(), unit * unit_rows_), scratch_.box);
   const std::span<const IndexRange> outer(scratch_.box.ranges.data(), engine_.outer());
-  bool pending = false;
-  for_each_row(engine_.grid(), 0, outer, scratch_.counter, [&](std::int64_t row) {
-    pending = pending || unit_changed_[static_cast<std::size_t>(row / unit_rows_)] >= seen;
+  return any_row(engine_.grid(), 0, outer, scratch_.counter, [&](std::int64_t row) {
+    return unit_changed_[static_cast<std::size_t>(row / unit_rows_)] >= seen;
   });
-  return pending;
 }
 
 void WaveNews::enter(std::int64_t unit, Scratch& scratch) const {
@@ -45,10 +43,8 @@ bool WaveNews::meets_change(const RowPlace& place, std::int64_t unit, Scratch& s
   const std::span<const IndexRange> inner(scratch.box.ranges.data() + outer,
                                           scratch.box.ranges.size() - outer);
   const std::uint32_t* changed = outer == 0 ? changed_.data() : scratch.merged.data();
-  bool meets = false;
-  for_each_row(engine_.grid(), outer, inner, scratch.counter,
-               [&](std::int64_t row) { meets = meets || changed[row] >= seen; });
-  return meets;
+  return any_row(engine_.grid(), outer, inner, scratch.counter,
+                 [&](std::int64_t row) { return changed[row] >= seen; });
 }
 
 }  // namespace coordreq
