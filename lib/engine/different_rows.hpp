@@ -33,8 +33,8 @@ class DifferentRows {
     for (std::int64_t k = range.begin; k < range.end; ++k) {
       if (!levels_.is_shared()) {
         visit(levels_.row(own_.begin + k), std::int64_t{1});
-      } else if (const std::int64_t count = rows_of_slot_[static_cast<std::size_t>(k)]; count > 0) {
-        visit(levels_.first_place() + k * levels_.stride(), count);
+      } else if (const std::uint32_t count = rows_of_slot_[static_cast<std::size_t>(k)]; count > 0) {
+        visit(levels_.first_place() + k * levels_.stride(), std::int64_t{count});
       }
     }
   }
@@ -42,7 +42,7 @@ class DifferentRows {
  private:
   const LevelRows<Level>& levels_;
   RowShare::Range own_;
-  std::vector<std::int64_t> rows_of_slot_;
+  std::vector<std::uint32_t> rows_of_slot_;
 };
 
 }  // namespace coordreq
