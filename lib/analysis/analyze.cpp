@@ -47,7 +47,10 @@ void check_rank_memory(const Ground& ground, const RankMemory& memory, int threa
   if (!memory.limit || !ground.share) return;
   std::int64_t held = 0;
   for (const RowShare::Range run : ground.share->held()) held += run.end - run.begin;
-  const double part = static_cast<double>(held) / static_cast<double>(ground.abstraction->grid.rows());
+  const auto rows = static_cast<double>(ground.abstraction->grid.rows());
+  const RowShare::Range own = ground.share->own();
+  const RowPart part{.held = static_cast<double>(held) / rows,
+                     .own = static_cast<double>(own.end - own.begin) / rows};
   const double needed = estimate_memory_of_rank(ground.model, threads, memory.before, part);
   const std::int64_t most = ground.ranks->greatest(static_cast<std::int64_t>(std::min(needed, 9e18)));
   check_memory_limit(ground.spec, static_cast<double>(most), static_cast<double>(*memory.limit),

@@ -40,12 +40,12 @@ double memory_of_program() {
 
 double estimate_memory(const Model& model, int threads) {
   return std::max(static_cast<double>(peak_memory_bytes()),
-                  estimate_memory_of_rank(model, threads, memory_of_program(), 1));
+                  estimate_memory_of_rank(model, threads, memory_of_program(), {}));
 }
 
-double estimate_memory_of_rank(const Model& model, int threads, double before, double held_rows) {
+double estimate_memory_of_rank(const Model& model, int threads, double before, const RowPart& part) {
   const int team = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const EngineSizes sizes(model, held_rows);
+  const EngineSizes sizes(model, part);
   double held = before + (team - 1) * kThreadBytes;
   double most = 0, written = 0, longest = 0;
   const auto add = [&](const MemoryNeed& need) {

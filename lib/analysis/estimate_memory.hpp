@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/engine_sizes.hpp"
 #include "model/model.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -22,8 +23,8 @@ namespace coordreq {
 
 /// The same of one of several processes that share the work.
 /// @param before what it holds before any of it, as memory_of_program() tells
-/// @param held the part of the rows that it holds
-[[nodiscard]] double estimate_memory_of_rank(const Model& model, int threads, double before, double held);
+[[nodiscard]] double estimate_memory_of_rank(const Model& model, int threads, double before,
+                                             const RowPart& part);
 /// What an MPI takes, measured with Open MPI 4.1, in bytes.
 inline constexpr double kMpiBytes = 11.0 * 1024 * 1024;
 /// What stands in the buffers of a checkpoint: a part of a list, and what the library keeps of its chunks.

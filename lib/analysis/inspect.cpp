@@ -88,12 +88,15 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
                           ThreadTeam& team) {
   const ProblemSpec& spec = model.spec();
   const double before = memory_of_program() + kMpiBytes;
-  const auto need = [&](double held) { return estimate_memory_of_rank(model, threads, before, held); };
+  const auto need = [&](const RowPart& part) {
+    return estimate_memory_of_rank(model, threads, before, part);
+  };
   const auto check = [&](double needed, std::optional<std::uint64_t> limit, const std::string& by_whom) {
     if (limit) check_memory_limit(spec, needed, static_cast<double>(*limit), by_whom);
   };
-  check(need(1.0 / ranks), limits.of_rank, fmt::format("on the fullest of {} ranks at least, ", ranks));
-  check(need(0), limits.here, "on each rank of however many, ");
+  check(need({1.0 / ranks, 1.0 / ranks}), limits.of_rank,
+        fmt::format("on the fullest of {} ranks at least, ", ranks));
+  check(need({0, 0}), limits.here, "on each rank of however many, ");
   Answers answers(model);
   ground_stages(spec).front().run(answers, {.team = team});
   FullestRank fullest;
@@ -102,7 +105,8 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
       fullest = {.own_rows = rows.own, .halo_rows = rows.halo};
   }
   const auto rows = static_cast<double>(answers.ground.abstraction->grid.rows());
-  const double held = static_cast<double>(fullest.own_rows + fullest.halo_rows) / rows;
+  const RowPart held{.held = static_cast<double>(fullest.own_rows + fullest.halo_rows) / rows,
+                     .own = static_cast<double>(fullest.own_rows) / rows};
   check(need(held), limits.of_rank, fmt::format("on the fullest of {} ranks, ", ranks));
   fullest.memory_bytes = to_bytes(need(held));
   return fullest;

@@ -42,9 +42,10 @@ struct Ground {
   Ranks* ranks;
   std::optional<ListedController> listed;  ///< of `controller.file`; then the order is that of the spec
   std::optional<Abstraction> abstraction;  ///< after "abstraction", as all that follows after "safe set"
-  std::optional<RowShare> share;           ///< which rows are whose, if there are several processes
-  CellSet safe;                            ///< S, in the rows held; all of it where tubes meet it
-  std::int64_t safe_cells = 0;             ///< |S|
+  /// Which rows are whose, if there are several processes; there with the abstraction if that is divided.
+  std::optional<RowShare> share;
+  CellSet safe;                 ///< S, in the rows held
+  std::int64_t safe_cells = 0;  ///< |S|
   std::optional<PairTable> allow;
   std::optional<CellSet> beyond;  ///< TubeSets::beyond
   std::optional<RowEngine> engine;

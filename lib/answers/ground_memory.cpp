@@ -21,7 +21,9 @@ MemoryNeed ground_memory(const EngineSizes& sizes, int /*threads*/) {
   const ProblemSpec& spec = model.spec();
   MemoryNeed need{.kept = sizes.set() + sizes.hull(),
                   .work = sizes.set() + sizes.condition_of_held(spec.safe)};
+  double slices = sizes.set() + sizes.hull();
   for (std::size_t t = 0; t < model.grid().size(); ++t) {
+    slices += sizes.slices(t);
     need.kept += sizes.table(t) + sizes.slices(t);
     // Tubes are as large, and cut into rows twice where states saturate.
     if (spec.abstraction.between_samples) need.kept += sizes.table(t) + 2 * sizes.slices(t);
@@ -30,6 +32,9 @@ MemoryNeed ground_memory(const EngineSizes& sizes, int /*threads*/) {
     need.array = std::max(need.array, entries * sizeof(std::int32_t));
     need.written = std::max(need.written, entries * sizeof(IndexRange));
   }
+  // They are there before tables are cut into rows.
+  const double tubes = spec.abstraction.between_samples ? 2 : 1;
+  need.work = std::max(need.work, tubes * (sizes.untold_entries() - slices));
   if (spec.abstraction.between_samples) need.kept += 2 * sizes.levels() + sizes.set();
   if (spec.controller.allow) {
     need.work += sizes.condition(*spec.controller.allow);

@@ -158,6 +158,18 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
   }
 }
 
+/// The choices that own rows have, which are neighbours: those of all states, or of some leading indices.
+RowShare::Range ActionGrouping::held_choices(const ClassData& data, std::int64_t choices) const {
+  const RowShare* const share = engine_->share();
+  const RowShare::Range own = own_rows(share, engine_->rows());
+  if (own.begin == own.end) return {0, 0};
+  const std::int64_t of_leading = data.state_stride.front();
+  if (share == nullptr || of_leading == 0) return {0, choices};
+  if (choices == engine_->rows()) return own;
+  const std::int64_t rows = engine_->grid().row_stride(0);
+  return {own.begin / rows * of_leading, ((own.end - 1) / rows + 1) * of_leading};
+}
+
 void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
   const UniformGrid& grid = engine_->abstraction().grid;
   data.state_stride.assign(grid.size(), 0);
@@ -171,6 +183,8 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
     choices *= grid[i].count;
   }
   if (choices > most_shared_choices(data.inputs.actions())) return;
+  const RowShare::Range held = held_choices(data, choices);
+  data.before = held.begin;
   const auto find = [&](std::int64_t choice) {
     std::int64_t row = 0;  // any row with these states
     for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
@@ -180,8 +194,8 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
     return find_groups(data, RowPlace(grid, row));
   };
   std::map<std::tuple<std::vector<std::uint32_t>, std::vector<std::uint8_t>>, std::uint32_t> numbers;
-  for (std::int64_t first = 0; first < choices; first += kGroupsFoundAtOnce) {
-    std::vector<ActionGroups> found(static_cast<std::size_t>(std::min(kGroupsFoundAtOnce, choices - first)));
+  for (std::int64_t first = held.begin; first < held.end; first += kGroupsFoundAtOnce) {
+    std::vector<ActionGroups> found(static_cast<std::size_t>(std::min(kGroupsFoundAtOnce, held.end - first)));
     team.for_each(std::ssize(found), 16, [&](ThreadTeam::Range range, int) {
       for (std::int64_t i = range.begin; i < range.end; ++i)
         found[static_cast<std::size_t>(i)] = find(first + i);
@@ -205,7 +219,7 @@ void ActionGrouping::group(const RowPlace& place, RowGroups& groups) const {
       groups.classes[c] = &groups.own[c];
       continue;
     }
-    const std::int64_t choice = place.offset(data.state_stride);
+    const std::int64_t choice = place.offset(data.state_stride) - data.before;
     groups.classes[c] = &data.distinct[data.shared[static_cast<std::size_t>(choice)]];
   }
 }

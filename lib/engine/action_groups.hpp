@@ -87,12 +87,14 @@ class ActionGrouping {
     std::vector<std::int64_t>
         state_stride;                   ///< into `shared`, by state; 0 where the class does not depend on it
     std::vector<std::uint32_t> shared;  ///< choice of those states -> number in `distinct`; empty: not shared
+    std::int64_t before = 0;            ///< choices in front of those that are held
     std::vector<ActionGroups> distinct;
   };
 
   [[nodiscard]] ClassData make_class(const InputClass& inputs) const;
   [[nodiscard]] View make_view(std::size_t table, const ClassData& data) const;
   void share_groups(ClassData& data, ThreadTeam& team) const;
+  [[nodiscard]] RowShare::Range held_choices(const ClassData& data, std::int64_t choices) const;
   [[nodiscard]] ActionGroups find_groups(const ClassData& data, const RowPlace& place) const;
   void compare_groups(const ClassData& data, const RowPlace& place, ActionGroups& groups) const;
   /// Numbers of the combinations in a row; null where they are their own.

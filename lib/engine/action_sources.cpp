@@ -10,6 +10,7 @@ std::vector<ActionSource> action_sources(const RowEngine& engine) {
     source.ids = slices.all_distinct() ? nullptr : &slices.ids;
     source.state_stride = slices.state_stride;
     source.input_stride = slices.input_stride;
+    source.before = slices.before;
     source.inputs = slices.inputs;
     source.input_combinations = slices.input_combinations;
   }
@@ -19,6 +20,7 @@ std::vector<ActionSource> action_sources(const RowEngine& engine) {
   source.ids = &allow->ids();
   source.state_stride = allow->positions().state_stride;
   source.input_stride = allow->positions().input_stride;
+  source.before = allow->positions().before;
   source.inputs = allow->positions().inputs;
   for (const std::int32_t i : source.inputs) {
     source.input_combinations *= engine.abstraction().inputs[static_cast<std::size_t>(i)].count();

@@ -14,6 +14,7 @@ struct ActionSource {
   const std::vector<std::uint32_t>* ids = nullptr;  ///< [entry]; null: every entry is its own number
   std::vector<std::int64_t> state_stride;
   std::vector<std::int64_t> input_stride;
+  std::int64_t before = 0;           ///< entries in front of those that are held
   std::vector<std::int32_t> inputs;  ///< in use, ascending
   std::int64_t input_combinations = 1;
 
@@ -23,7 +24,7 @@ struct ActionSource {
     return all_distinct() ? static_cast<std::uint32_t>(entry) : (*ids)[static_cast<std::size_t>(entry)];
   }
   /// Where the entries of a row of the grid begin.
-  [[nodiscard]] std::int64_t base(const RowPlace& place) const { return place.offset(state_stride); }
+  [[nodiscard]] std::int64_t base(const RowPlace& place) const { return place.offset(state_stride) - before; }
 };
 
 /// The engine's slices in order (posts, then tubes), then `allow` if there is one. They refer to the engine.

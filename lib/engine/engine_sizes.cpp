@@ -33,9 +33,10 @@ bool has_common(const std::vector<std::int32_t>& list, const InputClass& inputs)
 
 }  // namespace
 
-EngineSizes::EngineSizes(const Model& model, double held)
-    : model_(&model), held_(held), offsets_(usual_offsets(model.spec())), grid_(join_rows(model, offsets_)) {
-  held_ = std::max(held_, 1 / in_double(grid_.rows()));
+EngineSizes::EngineSizes(const Model& model, RowPart part)
+    : model_(&model), part_(part), offsets_(usual_offsets(model.spec())), grid_(join_rows(model, offsets_)) {
+  part_.held = std::max(part_.held, 1 / in_double(grid_.rows()));
+  part_.own = std::max(part_.own, 1 / in_double(grid_.rows()));
   for (std::size_t i = grid_.across(); i < grid_.size(); ++i) {
     const GridDimension& dimension = grid_[i];
     const RowMargins margins = window_margins({&offsets_[grid_.state(i)], 1}, dimension);
@@ -71,7 +72,18 @@ double EngineSizes::slices(std::size_t t) const {
   for (const std::int32_t j : shape.inputs) choices *= in_double(model_->inputs()[at(j)].count());
   const double segments = std::min(kUsualSegments, in_double(grid_.row_length()));
   const double slice = is_cut ? segments * sizeof(RowSegment) + kBytesOfSlice : 0;
-  return choices * (sizeof(std::uint32_t) + slice);
+  return part_of_table(t) * choices * (sizeof(std::uint32_t) + slice);
+}
+
+double EngineSizes::part_of_table(std::size_t t) const {
+  return model_->arranged_shapes()[t].is_by_cells(grid_.size()) ? part_.own : 1;
+}
+
+double EngineSizes::untold_entries() const {
+  if (part_.own == 1) return 0;
+  double bytes = 0;
+  for (const TableShape& shape : model_->shapes()) bytes += shape.sum ? 0 : shape.bytes;
+  return part_.own * bytes;
 }
 
 double EngineSizes::hull() const {
@@ -96,11 +108,11 @@ double EngineSizes::condition_of_held(const Program& condition) const {
   const UniformGrid& grid = model_->grid();
   const std::vector<std::uint32_t> slots = condition.variables();
   const bool is_cut = grid.size() > 1 && std::ranges::find(slots, grid.state(0)) != slots.end();
-  return this->condition(condition) * (is_cut ? std::max(held_, 1 / in_double(grid[0].count)) : 1);
+  return this->condition(condition) * (is_cut ? std::max(part_.held, 1 / in_double(grid[0].count)) : 1);
 }
 
 double EngineSizes::packed_pairs(std::int64_t actions) const {
-  return held_ * cells() * in_double(PackedPairs::bytes_for(actions));
+  return part_.held * cells() * in_double(PackedPairs::bytes_for(actions));
 }
 
 double EngineSizes::pair_table() const {

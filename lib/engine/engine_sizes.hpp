@@ -11,28 +11,37 @@
 
 namespace coordreq {
 
+/// The parts of all rows that one of several processes holds, the halo among them, and that it owns.
+struct RowPart {
+  double held = 1;
+  double own = 1;
+};
+
 /// What the types of the engine will take for a problem, in bytes, told before there is any of them; maybe
 /// more than this machine has. Rows are those that the engine will make, as far as that is known before
 /// tables are (join_rows()). Where it depends on what is found, on the high side of what is usual.
 class EngineSizes {
  public:
-  /// @param held the part of the rows that a process holds, of several that share the work; 1: there is one.
-  ///   At least a row counts
+  /// @param part of a process, of several that share the work; all: there is one. At least a row counts
   /// REQUIRES: `model` outlives this object.
-  explicit EngineSizes(const Model& model, double held = 1);
+  explicit EngineSizes(const Model& model, RowPart part = {});
 
   [[nodiscard]] const Model& model() const { return *model_; }
   [[nodiscard]] double cells() const { return static_cast<double>(grid_.points()); }
   /// Of the rows that are held, with the gaps in them.
-  [[nodiscard]] double lanes() const { return held_ * static_cast<double>(grid_.cells()); }
-  [[nodiscard]] double rows() const { return held_ * static_cast<double>(grid_.rows()); }
+  [[nodiscard]] double lanes() const { return part_.held * static_cast<double>(grid_.cells()); }
+  [[nodiscard]] double rows() const { return part_.held * static_cast<double>(grid_.rows()); }
   [[nodiscard]] const UniformGrid& grid() const { return grid_; }
 
   [[nodiscard]] double set() const;     ///< CellSet
   [[nodiscard]] double levels() const;  ///< LevelRows of 8 bits
   /// RowSlices of the table of dimension t; and that table itself.
   [[nodiscard]] double slices(std::size_t t) const;
-  [[nodiscard]] double table(std::size_t t) const { return model_->arranged_shapes()[t].bytes; }
+  [[nodiscard]] double table(std::size_t t) const {
+    return part_of_table(t) * model_->arranged_shapes()[t].bytes;
+  }
+  /// What a process of several keeps of tables in full before all of them are told of it.
+  [[nodiscard]] double untold_entries() const;
   /// RowHull, and what else is kept of each row.
   [[nodiscard]] double hull() const;
   /// ConditionTable; and one of no other leading indices than the rows that are held have.
@@ -51,9 +60,11 @@ class EngineSizes {
  private:
   [[nodiscard]] double groups_of_class(const InputClass& inputs) const;
   [[nodiscard]] RowMargins reach_of(std::size_t i) const;
+  /// That the process has: of tables by cells the entries of its own rows.
+  [[nodiscard]] double part_of_table(std::size_t t) const;
 
   const Model* model_;
-  double held_;
+  RowPart part_;
   std::vector<IndexRange> offsets_;  ///< by state, usual_offsets()
   UniformGrid grid_;
   RowShape shape_;  ///< of the rows of posts

@@ -48,7 +48,7 @@ PairTable::PairTable(const ConditionTable& allow) : positions_(allow.positions()
 }
 
 PairTable::PairTable(const UniformGrid& grid, const InputSpace& inputs, const PackedPairs& listed,
-                     const ConditionTable* allow, ThreadTeam& team)
+                     const ConditionTable* allow, ThreadTeam::Range rows, ThreadTeam& team)
     : positions_{.grid = &grid,
                  .input_space = &inputs,
                  .inputs = std::vector<std::int32_t>(inputs.size()),
@@ -57,14 +57,15 @@ PairTable::PairTable(const UniformGrid& grid, const InputSpace& inputs, const Pa
   for (std::size_t i = 0; i < inputs.size(); ++i) positions_.input_stride.push_back(inputs.stride(i));
   for (std::size_t i = 0; i + 1 < grid.size(); ++i)
     positions_.state_stride[i] = grid.stride(i) / grid.row_length() * inputs.count();
-  ids_.reserve(static_cast<std::size_t>(grid.rows() * inputs.count()));
+  positions_.before = rows.begin * inputs.count();
+  ids_.reserve(static_cast<std::size_t>((rows.end - rows.begin) * inputs.count()));
 
   const std::size_t words = words_for(grid);
   const std::int64_t bytes = listed.bytes_per_cell();
   std::vector<std::vector<Word>> turned(64);  // so many rows at a time: turning is work for all threads
   const auto block = static_cast<std::int64_t>(turned.size());
-  for (std::int64_t first = 0; first < grid.rows(); first += block) {
-    const std::int64_t count = std::min(block, grid.rows() - first);
+  for (std::int64_t first = rows.begin; first < rows.end; first += block) {
+    const std::int64_t count = std::min(block, rows.end - first);
     team.for_each(count, 4, [&](ThreadTeam::Range range, int) {
       for (std::int64_t r = range.begin; r < range.end; ++r) {
         std::vector<Word>& own = turned[static_cast<std::size_t>(r)];

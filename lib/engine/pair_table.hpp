@@ -12,19 +12,21 @@
 namespace coordreq {
 
 /// Pairs of states and joint inputs that are kept: one bit row along the last state dimension for each
-/// choice of the other states and the inputs in use, equal rows held once. Laid out as ConditionTable is.
+/// choice of the other states and the inputs in use, equal rows held once. Laid out as ConditionTable is, of
+/// which some leading rows may be left out.
 class PairTable {
  public:
   /// What a condition permits.
   explicit PairTable(const ConditionTable& allow);
   /// What is listed, and permitted by a condition too. It depends on all states and inputs.
   /// @param allow may be null: everything is permitted
+  /// @param rows of the grid that it is asked for
   /// REQUIRES: `listed` is over the cells of `grid` in its order, and over all joint inputs; grid and inputs
   /// outlive this object.
   PairTable(const UniformGrid& grid, const InputSpace& inputs, const PackedPairs& listed,
-            const ConditionTable* allow, ThreadTeam& team);
+            const ConditionTable* allow, ThreadTeam::Range rows, ThreadTeam& team);
 
-  /// The bits at a position of the table.
+  /// The bits at a position of the table, of those that there are.
   [[nodiscard]] ConstRow row(std::int64_t position) const {
     return rows_[ids_[static_cast<std::size_t>(position)]];
   }

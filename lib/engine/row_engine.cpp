@@ -1,6 +1,8 @@
 #include "engine/row_engine.hpp"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <set>
 
 namespace coordreq {
@@ -19,27 +21,31 @@ struct TableProfile {
   double width = 1;
 };
 
-TableProfile profile(const RowSlices& slices) {
+/// Together: several processes look at what each has, and find the same.
+TableProfile profile(const RowSlices& slices, const RowShare* share) {
   constexpr std::size_t kSamples = 32;
   const auto combinations = static_cast<std::size_t>(slices.input_combinations);
   const std::size_t bases = slices.ids.size() / combinations;
   const std::size_t step = std::max<std::size_t>(1, bases / kSamples);
-  TableProfile result{0, 0};
-  double ranges = 0;
-  double samples = 0;
+  std::array<std::int64_t, 4> sums{};
+  auto& [samples, choices, ranges, width] = sums;
   for (std::size_t b = 0; b < bases; b += step, ++samples) {
     const auto* begin = slices.ids.data() + b * combinations;
     const std::set<std::uint32_t> distinct(begin, begin + combinations);
-    result.choices += static_cast<double>(distinct.size());
+    choices += std::ssize(distinct);
     for (const std::uint32_t id : distinct) {
       for (const RowSegment& segment : slices.slices[id]) {
         if (segment.kind == Kind::blocked || segment.kind == Kind::gone) continue;
-        result.width += 1.0 + segment.range.last - segment.range.first;
+        width += std::int64_t{1} + segment.range.last - segment.range.first;
         ++ranges;
       }
     }
   }
-  return {result.choices / samples, std::max(1.0, result.width / std::max(1.0, ranges))};
+  if (share != nullptr) share->ranks().add(sums);
+  const auto mean = [](std::int64_t sum, std::int64_t count) {
+    return static_cast<double>(sum) / static_cast<double>(std::max<std::int64_t>(1, count));
+  };
+  return {mean(choices, samples), std::max(1.0, mean(width, ranges))};
 }
 
 }  // namespace
@@ -53,19 +59,29 @@ RowEngine::RowEngine(const Abstraction& abstraction, const PairTable* allow, con
   std::vector<GridDimension> dimensions =
       (tubes.grid == nullptr ? abstraction.grid : *tubes.grid).dimensions();
   add_demand(tubes.beyond != nullptr ? *tubes.beyond : *tubes.inside, dimensions);
-  if (tubes.beyond == nullptr) return;
+  if (tubes.beyond != nullptr) add_inner_demand(*tubes.inside, std::move(dimensions));
+  take_tube_sets();
+}
+
+void RowEngine::add_inner_demand(const CellSet& inside, std::vector<GridDimension> dimensions) {
   // The same tubes again, now blocked where they pass a limit: what is left need not be safe beyond it.
   for (GridDimension& dimension : dimensions) {
     if (traits(dimension.below).resets) dimension.below = Outside::unsafe;
     if (traits(dimension.above).resets) dimension.above = Outside::unsafe;
   }
-  add_demand(*tubes.inside, dimensions);
+  add_demand(inside, dimensions);
 }
 
 void RowEngine::add_demand(const CellSet& inside, const std::vector<GridDimension>& targets) {
   add_family(abstraction_->tubes, targets);
   inside_.push_back(make_levels<std::uint8_t>(family(inside_.size() + 1)));
-  inside_.back().assign(inside, 0, rows());
+  inside_sets_.push_back(&inside);
+}
+
+void RowEngine::take_tube_sets() {
+  for (const RowShare::Range run : held_rows(share_, rows())) {
+    for (std::size_t k = 0; k < inside_.size(); ++k) inside_[k].assign(*inside_sets_[k], run.begin, run.end);
+  }
 }
 
 /// The inner dimensions' tables as sums, if all of them are, and if what is left out moves all cells of a
@@ -161,7 +177,7 @@ void RowEngine::choose_outer() {
   }
   const std::size_t last = across();
   std::vector<TableProfile> profiles;
-  for (const RowSlices& slices : posts().slices) profiles.push_back(profile(slices));
+  for (const RowSlices& slices : posts().slices) profiles.push_back(profile(slices, share_));
   const auto cost = [&](std::size_t outer) {
     double shared = outer == 0 ? 0 : 1;
     double choices = 1;

@@ -37,10 +37,15 @@ class RowEngine {
  public:
   /// @param allow may be null: everything is allowed
   /// @param tubes what tubes must stay in, if there are any
-  /// @param share which rows are whose; null: there is one process
+  /// @param share which rows are whose, together; null: there is one process
   /// REQUIRES: they outlive this object.
   RowEngine(const Abstraction& abstraction, const PairTable* allow, const TubeSets& tubes,
             const RowShare* share = nullptr);
+
+  /// Only what is allowed counts from now on. REQUIRES: nobody has asked; `allow` outlives this object.
+  void set_allow(const PairTable& allow) { allow_ = &allow; }
+  /// Takes in, once more, what tubes must stay in: in the rows held, which may not be there before.
+  void take_tube_sets();
 
   [[nodiscard]] const Abstraction& abstraction() const { return *abstraction_; }
   [[nodiscard]] const UniformGrid& grid() const { return abstraction_->grid; }
@@ -97,6 +102,7 @@ class RowEngine {
   [[nodiscard]] std::vector<RowSlices> summed_slices() const;
   void add_family(const std::vector<TransitionTable>& tables, const std::vector<GridDimension>& targets);
   void add_demand(const CellSet& inside, const std::vector<GridDimension>& targets);
+  void add_inner_demand(const CellSet& inside, std::vector<GridDimension> dimensions);
   [[nodiscard]] RowFamily family(std::size_t number) const;
   void choose_outer();
   [[nodiscard]] RowMargins margins_of(RowSlices& slices, std::int64_t count, RowEnds ends) const;
@@ -107,6 +113,7 @@ class RowEngine {
   std::vector<RowSlices> slices_;
   std::vector<GridDimension> targets_;           ///< [table of slices]
   std::vector<LevelRows<std::uint8_t>> inside_;  ///< one for each family of tubes
+  std::vector<const CellSet*> inside_sets_;      ///< their cells
   std::vector<RowShape> shapes_;                 ///< one a family: posts; tubes; tubes that pass no limit
   std::size_t outer_ = 0;
   std::int64_t unit_rows_ = 1;

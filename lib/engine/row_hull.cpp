@@ -1,6 +1,7 @@
 #include "engine/row_hull.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace coordreq {
 namespace {
@@ -47,6 +48,30 @@ class BoxCount {
   std::vector<std::uint32_t> counts_;
 };
 
+/// Where the tubes of rows lie in one dimension across rows.
+struct TubeHull {
+  const RowSlices* slices;
+  std::vector<SliceHull> hulls;
+
+  [[nodiscard]] IndexRange range(const RowPlace& place) const {
+    return hulls[static_cast<std::size_t>(slices->base(place) / slices->input_combinations)].range;
+  }
+};
+using TubeHulls = std::vector<TubeHull>;
+
+/// [demand][dimension across rows]
+std::vector<TubeHulls> hulls_of_tubes(const RowEngine& engine) {
+  std::vector<TubeHulls> result;
+  for (const RowEngine::Demand& demand : engine.demands()) {
+    TubeHulls& hulls = result.emplace_back();
+    for (std::size_t i = 0; i < engine.across(); ++i) {
+      const RowSlices& slices = demand.family.slices[i];
+      hulls.push_back({&slices, slice_hulls(slices, engine.grid()[i], nullptr)});
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 RowHull::RowHull(const RowEngine& engine) : engine_(&engine), is_bound_(engine.demands().empty()) {
@@ -60,7 +85,7 @@ RowHull::RowHull(const RowEngine& engine) : engine_(&engine), is_bound_(engine.d
 
 const SliceHull& RowHull::hull(const RowPlace& place, std::size_t i) const {
   const RowSlices& slices = engine_->slices()[i];
-  return hulls_[i][static_cast<std::size_t>(place.offset(slices.state_stride) / slices.input_combinations)];
+  return hulls_[i][static_cast<std::size_t>(slices.base(place) / slices.input_combinations)];
 }
 
 void RowHull::box(const RowPlace& place, RowBox& box) const {
@@ -74,15 +99,20 @@ void RowHull::box(const RowPlace& place, RowBox& box) const {
 }
 
 std::vector<std::uint8_t> RowHull::rows_met(const CellSet* set, RowShare::Range rows) const {
-  if (rows.end - rows.begin > UINT32_MAX)
+  if (rows.end - rows.begin > UINT32_MAX / (1 + std::ssize(engine_->demands())))
     return std::vector<std::uint8_t>(static_cast<std::size_t>(engine_->rows()), 1);
   BoxCount boxes(engine_->grid());
   RowBox own;
+  const std::vector<TubeHulls> tubes = hulls_of_tubes(*engine_);
   RowPlace place(engine_->grid(), rows.begin);
   for (; place.row < rows.end; place.advance(engine_->grid())) {
     if (set != nullptr && !any_set(set->row(place.row))) continue;
     box(place, own);
     boxes.add(own.ranges);
+    for (const TubeHulls& hulls : tubes) {
+      for (std::size_t i = 0; i < hulls.size(); ++i) own.ranges[i] = hulls[i].range(place);
+      boxes.add(own.ranges);
+    }
   }
   std::vector<std::uint8_t> met(static_cast<std::size_t>(engine_->rows()));
   std::ranges::transform(boxes.spread(), met.begin(), [](std::uint32_t count) { return count > 0 ? 1 : 0; });

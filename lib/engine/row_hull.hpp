@@ -25,7 +25,8 @@ class RowHull {
     return hulls_[i][choice].range;
   }
 
-  /// [row] not 0 for the rows that posts of cells in some rows can meet. @param set of these; null: all
+  /// [row] not 0 for the rows that posts and tubes of cells in some rows can meet. @param set of these; null:
+  /// all
   [[nodiscard]] std::vector<std::uint8_t> rows_met(const CellSet* set, RowShare::Range rows) const;
 
   [[nodiscard]] std::uint64_t bytes() const;

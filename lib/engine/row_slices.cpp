@@ -1,8 +1,10 @@
 #include "engine/row_slices.hpp"
 
+#include <iterator>
 #include <unordered_set>
 #include <utility>
 
+#include "base/thread_team.hpp"
 #include "model/odometer.hpp"
 #include "reach/table_rows.hpp"
 
@@ -103,8 +105,21 @@ class RowChoices {
 
   [[nodiscard]] std::int64_t size() const { return counter_.size(); }
 
-  bool advance() {
-    const bool more = counter_.advance();
+  void seek(std::int64_t number) {
+    counter_.seek(number);
+    take_indices();
+  }
+  void advance() {
+    counter_.advance();
+    take_indices();
+  }
+
+  /// Indices of all states and inputs, 0 where not in use.
+  [[nodiscard]] const std::vector<std::int64_t>& states() const { return states_; }
+  [[nodiscard]] const std::vector<std::int64_t>& inputs() const { return inputs_; }
+
+ private:
+  void take_indices() {
     std::size_t v = 0;
     for (const std::int32_t i : table_.states) {
       if (static_cast<std::size_t>(i) < across_)
@@ -113,14 +128,8 @@ class RowChoices {
     for (const std::int32_t i : table_.inputs) {
       inputs_[static_cast<std::size_t>(i)] = counter_.indices()[v++];
     }
-    return more;
   }
 
-  /// Indices of all states and inputs, 0 where not in use.
-  [[nodiscard]] const std::vector<std::int64_t>& states() const { return states_; }
-  [[nodiscard]] const std::vector<std::int64_t>& inputs() const { return inputs_; }
-
- private:
   static std::vector<std::int64_t> counts(const Abstraction& abstraction, const TransitionTable& table) {
     std::vector<std::int64_t> result;
     for (const std::int32_t i : table.states) {
@@ -178,6 +187,13 @@ class SliceNumbers {
   std::unordered_set<std::uint32_t, Hash, Equal> known_;
 };
 
+/// The choices of the rows that are held.
+ThreadTeam::Range held_choices(const UniformGrid& grid, const TransitionTable& table, std::int64_t all) {
+  if (!table.is_by_cells(grid.size())) return {0, all};
+  const std::int64_t row = grid.row_length();
+  return {table.before / row, (table.before + std::ssize(table.entries)) / row};
+}
+
 /// Strides into `ids`, over what RowChoices counts.
 void lay_out_ids(RowSlices& slices, const UniformGrid& grid, const InputSpace& inputs,
                  const TransitionTable& table) {
@@ -221,8 +237,11 @@ RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& t
   std::vector<IndexRange> row(one_range ? 1 : static_cast<std::size_t>(grid[along].count));
   std::vector<IndexRange> before;
   RowChoices choice(abstraction, table);
-  result.ids.reserve(static_cast<std::size_t>(choice.size()));
-  do {
+  const ThreadTeam::Range held = held_choices(grid, table, choice.size());
+  result.before = held.begin;
+  result.ids.reserve(static_cast<std::size_t>(held.end - held.begin));
+  choice.seek(held.begin);
+  for (std::int64_t i = held.begin; i < held.end; ++i, choice.advance()) {
     rows.read(choice.states(), choice.inputs(), row);
     if (row == before) {  // neighbouring inputs often mean the same
       result.ids.push_back(result.ids.back());
@@ -232,7 +251,7 @@ RowSlices cut_into_rows(const Abstraction& abstraction, const TransitionTable& t
         numbers.number(rows.is_shift() ? std::vector{cutter.cut_shift(row[0])} : cutter.cut(row)));
     before.swap(row);
     row.resize(before.size());
-  } while (choice.advance());
+  }
   return result;
 }
 

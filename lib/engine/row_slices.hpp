@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/row_box.hpp"
 #include "engine/row_shape.hpp"
 #include "engine/sum_rows.hpp"
 #include "reach/abstraction.hpp"
@@ -39,15 +40,20 @@ struct RowSegment {
 ///
 /// Or rows are not cut at all but added up when they are read (`sums`); then each row is a slice of its own,
 /// whose number is its position, and `ids` and `slices` are empty.
+///
+/// Positions are those of the rows that are held (HeldCells).
 struct RowSlices {
   std::vector<std::uint32_t> ids;  ///< row-major over states (those across rows), then inputs
   std::vector<std::vector<RowSegment>> slices;
   std::vector<std::int64_t> state_stride;  ///< into `ids`; 0 where not in use, and along rows
   std::vector<std::int64_t> input_stride;
+  std::int64_t before = 0;              ///< positions in front of those that are held
   std::vector<std::int32_t> inputs;     ///< in use, ascending
   std::int64_t input_combinations = 1;  ///< product of their counts; divides every state stride
   std::optional<SumRows> sums;
 
+  /// Where the positions of a row begin; it is held.
+  [[nodiscard]] std::int64_t base(const RowPlace& place) const { return place.offset(state_stride) - before; }
   /// Number of positions.
   [[nodiscard]] std::int64_t size() const {
     return sums ? sums->size() : static_cast<std::int64_t>(ids.size());

@@ -52,25 +52,27 @@ Tiles::Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading)
   own_ = {own.begin / rows_, own.end / rows_};
   for (std::size_t t = 0; t < engine.tables(); ++t) {
     const RowSlices& slices = engine.slices()[t];
-    add_source(slices.state_stride, slices.input_combinations, number_choices(t));
+    add_source(slices.state_stride, slices.before, slices.input_combinations, number_choices(t));
   }
   const PairTable* const allow = engine.allow();
   if (allow == nullptr) return;
   std::int64_t combinations = 1;
   for (const std::int32_t i : allow->positions().inputs)
     combinations *= engine.abstraction().inputs[static_cast<std::size_t>(i)].count();
-  add_source(allow->positions().state_stride, combinations, number_lists(allow->ids(), combinations));
+  add_source(allow->positions().state_stride, allow->positions().before, combinations,
+             number_lists(allow->ids(), combinations));
 }
 
-void Tiles::add_source(const std::vector<std::int64_t>& state_stride, std::int64_t combinations,
-                       Numbers numbers) {
+void Tiles::add_source(const std::vector<std::int64_t>& state_stride, std::int64_t before,
+                       std::int64_t combinations, Numbers numbers) {
   const auto is_used = [&](std::size_t begin, std::size_t end) {
     return std::any_of(state_stride.begin() + static_cast<std::ptrdiff_t>(begin),
                        state_stride.begin() + static_cast<std::ptrdiff_t>(end),
                        [](std::int64_t stride) { return stride != 0; });
   };
   if (!is_used(0, leading_)) return;  // it says the same of all tiles
-  sources_.push_back({&state_stride, combinations, is_used(leading_, engine_->across()), std::move(numbers)});
+  sources_.push_back(
+      {&state_stride, before, combinations, is_used(leading_, engine_->across()), std::move(numbers)});
 }
 
 /// In the dimensions that tell tiles apart, ranges count from where the box of all posts begins.
@@ -103,7 +105,7 @@ void Tiles::add_tables(std::int64_t tile, Numbers& list) const {
   for (const Source& source : sources_) {
     RowPlace place(engine_->grid(), first);
     for (; place.row < first + (source.by_rows ? rows_ : 1); place.advance(engine_->grid())) {
-      const std::int64_t choice = place.offset(*source.state_stride) / source.combinations;
+      const std::int64_t choice = (place.offset(*source.state_stride) - source.before) / source.combinations;
       list.push_back(source.numbers[static_cast<std::size_t>(choice)]);
     }
   }

@@ -72,12 +72,14 @@ class Tiles {
   /// A table, or `allow`.
   struct Source {
     const std::vector<std::int64_t>* state_stride;
+    std::int64_t before;  ///< offsets in front of those that are held
     std::int64_t combinations;
     bool by_rows;     ///< it says something else of each row of a tile
     Numbers numbers;  ///< [choice of its states] equal ones for what means the same under all inputs
   };
 
-  void add_source(const std::vector<std::int64_t>& state_stride, std::int64_t combinations, Numbers numbers);
+  void add_source(const std::vector<std::int64_t>& state_stride, std::int64_t before,
+                  std::int64_t combinations, Numbers numbers);
   [[nodiscard]] Numbers number_choices(std::size_t t) const;
   void add_tables(std::int64_t tile, Numbers& list) const;
   void number_tables();

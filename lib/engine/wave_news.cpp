@@ -17,19 +17,24 @@ bool WaveNews::is_pending(std::int64_t unit) {
   if (is_unseen(unit)) return true;
   const std::uint32_t seen = seen_[static_cast<std::size_t>(unit)];
   if (engine_.outer() == 0) return last_change_ >= seen;
-  hull_.box(RowPlace(engine_.grid(), unit * unit_rows_), scratch_.box);
-  const std::span<const IndexRange> outer(scratch_.box.ranges.data(), engine_.outer());
-  return any_row(engine_.grid(), 0, outer, scratch_.counter, [&](std::int64_t row) {
+  enclose_unit(unit, scratch_);
+  return any_row(engine_.grid(), 0, scratch_.box.ranges, scratch_.counter, [&](std::int64_t row) {
     return unit_changed_[static_cast<std::size_t>(row / unit_rows_)] >= seen;
   });
 }
 
+/// The same for all rows of a unit, of which the first need not be held.
+void WaveNews::enclose_unit(std::int64_t unit, Scratch& scratch) const {
+  const RowPlace place(engine_.grid(), unit * unit_rows_);
+  scratch.box.ranges.clear();
+  for (std::size_t i = 0; i < engine_.outer(); ++i) scratch.box.ranges.push_back(hull_.range(place, i));
+}
+
 void WaveNews::enter(std::int64_t unit, Scratch& scratch) const {
   if (engine_.outer() == 0) return;
-  hull_.box(RowPlace(engine_.grid(), unit * unit_rows_), scratch.box);
+  enclose_unit(unit, scratch);
   scratch.merged.assign(static_cast<std::size_t>(unit_rows_), 0);
-  const std::span<const IndexRange> outer(scratch.box.ranges.data(), engine_.outer());
-  for_each_row(engine_.grid(), 0, outer, scratch.counter, [&](std::int64_t row) {
+  for_each_row(engine_.grid(), 0, scratch.box.ranges, scratch.counter, [&](std::int64_t row) {
     const std::uint32_t* changed = changed_.data() + row;
     for (std::size_t i = 0; i < scratch.merged.size(); ++i)
       scratch.merged[i] = std::max(scratch.merged[i], changed[i]);

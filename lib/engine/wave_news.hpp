@@ -53,6 +53,9 @@ class WaveNews {
   [[nodiscard]] bool meets_change(const RowPlace& place, std::int64_t unit, Scratch& scratch) const;
 
  private:
+  /// The box of rows that a unit can meet, in the shared dimensions.
+  void enclose_unit(std::int64_t unit, Scratch& scratch) const;
+
   /// As what a unit has been looked at in: in no batch, or in one whose changes, and all after, are news to
   /// it.
   static constexpr std::uint32_t kNever = 0;

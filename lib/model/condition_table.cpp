@@ -19,27 +19,17 @@ ConditionAxis::Ranges ranges_of_cell(const GridDimension& dimension, std::int64_
   return ranges;
 }
 
-/// As condition_axes(), of some indices of the first dimension.
-std::vector<ConditionAxis> leading_axes(const UniformGrid& grid, const InputSpace& inputs, Sampling sampling,
-                                        std::optional<ThreadTeam::Range> leading) {
-  std::vector<ConditionAxis> axes = condition_axes(grid, inputs, sampling);
-  if (!leading) return axes;
-  axes[grid.state(0)] = {leading->end - leading->begin,
-                         [&grid, sampling, first = leading->begin](std::int64_t k) {
-                           return ranges_of_cell(grid[0], first + k, sampling);
-                         }};
-  return axes;
-}
-
 }  // namespace
 
 std::vector<ConditionAxis> condition_axes(const UniformGrid& grid, const InputSpace& inputs,
-                                          Sampling sampling) {
+                                          Sampling sampling, std::optional<ThreadTeam::Range> leading) {
   std::vector<ConditionAxis> axes(grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const GridDimension& dimension = grid[i];
-    axes[grid.state(i)] = {dimension.count, [&dimension, sampling](std::int64_t k) {
-                             return ranges_of_cell(dimension, k, sampling);
+    const ThreadTeam::Range range = i == 0 && leading ? *leading : ThreadTeam::Range{0, dimension.count};
+    axes[grid.state(i)] = {range.end - range.begin,
+                           [&dimension, sampling, first = range.begin](std::int64_t k) {
+                             return ranges_of_cell(dimension, first + k, sampling);
                            }};
   }
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -51,9 +41,10 @@ std::vector<ConditionAxis> condition_axes(const UniformGrid& grid, const InputSp
   return axes;
 }
 
-std::vector<ConditionAxis> allow_axes(const UniformGrid& grid, const InputSpace& inputs) {
-  std::vector<ConditionAxis> axes = condition_axes(grid, inputs, Sampling::centres);
-  std::vector<ConditionAxis> cells = condition_axes(grid, inputs, Sampling::closed_cells);
+std::vector<ConditionAxis> allow_axes(const UniformGrid& grid, const InputSpace& inputs,
+                                      std::optional<ThreadTeam::Range> leading) {
+  std::vector<ConditionAxis> axes = condition_axes(grid, inputs, Sampling::centres, leading);
+  std::vector<ConditionAxis> cells = condition_axes(grid, inputs, Sampling::closed_cells, leading);
   for (std::uint32_t i = 0; i < grid.size(); ++i) {
     cells[i].follows = i;
     axes.push_back(std::move(cells[i]));
@@ -64,22 +55,22 @@ std::vector<ConditionAxis> allow_axes(const UniformGrid& grid, const InputSpace&
 ConditionTable::ConditionTable(const Program& condition, const UniformGrid& grid, const InputSpace& inputs,
                                Sampling sampling, const Undecided& undecided, ThreadTeam& team,
                                Question question, std::optional<ThreadTeam::Range> leading)
-    : table_(condition, leading_axes(grid, inputs, sampling, leading),
+    : table_(condition, condition_axes(grid, inputs, sampling, leading),
              static_cast<std::uint32_t>(grid.state(grid.size() - 1)), undecided, team, question),
       positions_{.grid = &grid, .input_space = &inputs} {
-  find_positions();
-  if (leading) before_ = leading->begin * positions_.state_stride.front();
+  find_positions(leading);
 }
 
 ConditionTable::ConditionTable(const Program& allow, const UniformGrid& grid, const InputSpace& inputs,
-                               const Undecided& undecided, ThreadTeam& team)
-    : table_(allow, allow_axes(grid, inputs), static_cast<std::uint32_t>(grid.state(grid.size() - 1)),
-             undecided, team),
+                               const Undecided& undecided, ThreadTeam& team,
+                               std::optional<ThreadTeam::Range> leading)
+    : table_(allow, allow_axes(grid, inputs, leading),
+             static_cast<std::uint32_t>(grid.state(grid.size() - 1)), undecided, team),
       positions_{.grid = &grid, .input_space = &inputs} {
-  find_positions();
+  find_positions(leading);
 }
 
-void ConditionTable::find_positions() {
+void ConditionTable::find_positions(std::optional<ThreadTeam::Range> leading) {
   const UniformGrid& grid = *positions_.grid;
   const InputSpace& inputs = *positions_.input_space;
   const std::vector<std::int64_t>& strides = table_.strides();
@@ -88,6 +79,7 @@ void ConditionTable::find_positions() {
     positions_.input_stride.push_back(strides[grid.size() + i]);
     if (positions_.input_stride[i] != 0) positions_.inputs.push_back(static_cast<std::int32_t>(i));
   }
+  if (leading) positions_.before = leading->begin * positions_.state_stride.front();
 }
 
 }  // namespace coordreq

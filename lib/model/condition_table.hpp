@@ -21,11 +21,14 @@ enum class Sampling : std::uint8_t {
 };
 
 /// What states and inputs can be, by slot. REQUIRES: grid and inputs outlive the axes.
-[[nodiscard]] std::vector<ConditionAxis> condition_axes(const UniformGrid& grid, const InputSpace& inputs,
-                                                        Sampling sampling);
+/// @param leading indices of the first dimension, or all
+[[nodiscard]] std::vector<ConditionAxis> condition_axes(
+    const UniformGrid& grid, const InputSpace& inputs, Sampling sampling,
+    std::optional<ThreadTeam::Range> leading = std::nullopt);
 /// The same for `allow`: grid points, and then each state once more as the whole cell that memories are asked
 /// of (ControllerSpec::allow).
-[[nodiscard]] std::vector<ConditionAxis> allow_axes(const UniformGrid& grid, const InputSpace& inputs);
+[[nodiscard]] std::vector<ConditionAxis> allow_axes(const UniformGrid& grid, const InputSpace& inputs,
+                                                    std::optional<ThreadTeam::Range> leading = std::nullopt);
 
 /// The truth of a condition over the grid, tabulated over only the states and inputs that it depends on. The
 /// condition numbers variables as the spec does; all else here is about dimensions of the grid.
@@ -46,22 +49,22 @@ class ConditionTable {
                  std::optional<ThreadTeam::Range> leading = std::nullopt);
   /// Of `allow`.
   ConditionTable(const Program& allow, const UniformGrid& grid, const InputSpace& inputs,
-                 const Undecided& undecided, ThreadTeam& team);
+                 const Undecided& undecided, ThreadTeam& team,
+                 std::optional<ThreadTeam::Range> leading = std::nullopt);
 
   /// The bits of all cells of grid row `row` under joint input `u` (any u if no input is in use).
   [[nodiscard]] std::span<const TruthTable::Word> row(std::int64_t row, std::int64_t u) const {
-    return table_.row(positions_.of(row, u) - before_);
+    return table_.row(positions_.of(row, u));
   }
   [[nodiscard]] const RowPositions& positions() const { return positions_; }
   /// The rows by position.
   [[nodiscard]] const TruthTable& table() const { return table_; }
 
  private:
-  void find_positions();
+  void find_positions(std::optional<ThreadTeam::Range> leading);
 
   TruthTable table_;
   RowPositions positions_;
-  std::int64_t before_ = 0;  ///< positions of leading indices that are left out
 };
 
 }  // namespace coordreq

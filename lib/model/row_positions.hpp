@@ -16,10 +16,11 @@ struct RowPositions {
   std::vector<std::int32_t> inputs;        ///< in use, ascending
   std::vector<std::int64_t> state_stride;  ///< by dimension: what one index adds; 0 where not in use
   std::vector<std::int64_t> input_stride;  ///< the same by input
+  std::int64_t before = 0;                 ///< positions in front of those that there are
 
   /// Of the cells of grid row `row` under joint input `u` (any u if no input is in use).
   [[nodiscard]] std::int64_t of(std::int64_t row, std::int64_t u) const {
-    std::int64_t position = 0;
+    std::int64_t position = -before;
     for (std::size_t i = 0; i + 1 < grid->size(); ++i) {
       if (state_stride[i] != 0) position += grid->index(row * grid->row_length(), i) * state_stride[i];
     }

@@ -16,6 +16,9 @@ struct TableShape : Dependencies {
   bool sum = false;    ///< there are terms; if that fails it is in full after all
   double entries = 1;  ///< that are stored; may be beyond what an integer holds
   double bytes = 0;
+
+  /// Entries are for every cell, if it is in full. @param all states there are
+  [[nodiscard]] bool is_by_cells(std::size_t all) const { return !shift && !sum && states.size() == all; }
 };
 
 }  // namespace coordreq

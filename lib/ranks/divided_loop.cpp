@@ -4,16 +4,22 @@
 
 namespace coordreq {
 
+ThreadTeam::Range divided_range(const Ranks* ranks, std::int64_t count) {
+  if (ranks == nullptr) return {0, count};
+  const std::int64_t all = ranks->count();
+  const auto first = [&](std::int64_t rank) { return count / all * rank + count % all * rank / all; };
+  return {first(ranks->rank()), first(ranks->rank() + 1)};
+}
+
 void for_each_divided(Ranks* ranks, ThreadTeam& team, std::int64_t count, std::int64_t grain,
                       const ThreadTeam::Body& body) {
   if (ranks == nullptr) return team.for_each(count, grain, body);
   const std::int64_t all = ranks->count();
-  const auto first = [&](std::int64_t rank) { return count / all * rank + count % all * rank / all; };
-  const std::int64_t begin = first(ranks->rank());
+  const auto [begin, end] = divided_range(ranks, count);
   std::exception_ptr error;
   try {
-    team.for_each(first(ranks->rank() + 1) - begin, grain, [&](ThreadTeam::Range range, int worker) {
-      body({begin + range.begin, begin + range.end}, worker);
+    team.for_each(end - begin, grain, [&, first = begin](ThreadTeam::Range range, int worker) {
+      body({first + range.begin, first + range.end}, worker);
     });
   } catch (...) {
     error = std::current_exception();

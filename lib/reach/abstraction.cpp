@@ -44,9 +44,10 @@ ResolvedRange Abstraction::resolved_tube(std::size_t i, std::int64_t x, std::int
   return resolve(raw_tube(i, x, u), grid[i].count, grid[i].below, grid[i].above);
 }
 
-std::int64_t lay_out(TransitionTable& table, std::size_t state, const UniformGrid& grid,
-                     const InputSpace& inputs) {
-  table.state_stride.assign(grid.size(), 0);
+namespace {
+
+/// They run fastest. @returns entries of one choice of states
+std::int64_t lay_out_inputs(TransitionTable& table, const InputSpace& inputs) {
   table.input_stride.assign(inputs.size(), 0);
   std::int64_t entries = 1;
   for (auto it = table.inputs.rbegin(); it != table.inputs.rend(); ++it) {
@@ -54,11 +55,31 @@ std::int64_t lay_out(TransitionTable& table, std::size_t state, const UniformGri
     table.input_stride[j] = entries;
     entries *= inputs[j].count();
   }
+  return entries;
+}
+
+}  // namespace
+
+std::int64_t lay_out(TransitionTable& table, std::size_t state, const UniformGrid& grid,
+                     const InputSpace& inputs) {
+  table.state_stride.assign(grid.size(), 0);
+  std::int64_t entries = lay_out_inputs(table, inputs);
   for (auto it = table.states.rbegin(); it != table.states.rend(); ++it) {
     const auto j = static_cast<std::size_t>(*it);
     if ((table.shift && j == state) || table.has_term(j)) continue;
     table.state_stride[j] = entries;
     entries *= grid[j].count;
+  }
+  return entries;
+}
+
+std::int64_t lay_out_by_cells(TransitionTable& table, const std::vector<std::size_t>& order,
+                              const UniformGrid& grid, const InputSpace& inputs) {
+  table.state_stride.assign(grid.size(), 0);
+  std::int64_t entries = lay_out_inputs(table, inputs);
+  for (std::size_t d = order.size(); d-- > 0;) {
+    table.state_stride[order[d]] = entries;
+    entries *= grid[order[d]].count;
   }
   return entries;
 }

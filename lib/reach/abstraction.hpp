@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <iterator>
+#include <optional>
 #include <vector>
 
 #include "model/input_space.hpp"
@@ -40,21 +42,33 @@ struct TransitionTable {
   std::vector<TransitionTerm> terms;     ///< of a sum
   std::vector<std::int64_t> base_lower;  ///< of a sum, laid out like `entries`
   std::vector<std::int64_t> base_upper;
+  std::int64_t before = 0;  ///< entries in front of those that are held (HeldCells)
   /// Position of an entry: sum of state index * state_stride over all states, plus the same over inputs; the
   /// stride of a variable that the entries do not depend on, or that has a term, is 0.
   std::vector<std::int64_t> state_stride;
   std::vector<std::int64_t> input_stride;
 
   [[nodiscard]] bool is_sum() const { return !terms.empty(); }
+  /// In full and of all states: entries for every cell (HeldCells).
+  /// @param all states there are
+  [[nodiscard]] bool is_by_cells(std::size_t all) const {
+    return !is_sum() && !shift && states.size() == all;
+  }
   [[nodiscard]] bool has_term(std::size_t state) const;
   /// What is stored, in bytes.
   [[nodiscard]] std::uint64_t bytes() const;
+
+  /// The entry at a position; null if it is not held.
+  [[nodiscard]] IndexRange* held(std::int64_t position) {
+    const std::int64_t place = position - before;
+    return place >= 0 && place < std::ssize(entries) ? &entries[static_cast<std::size_t>(place)] : nullptr;
+  }
 
   /// Raw range of state `own` where `state(i)` and `input(i)` are the indices of states and inputs.
   template <class State, class Input>
   [[nodiscard]] IndexRange range(std::size_t own, const State& state, const Input& input) const {
     const std::int64_t offset = shift ? state(own) : 0;
-    const auto place = static_cast<std::size_t>(position(*this, state, input));
+    const auto place = static_cast<std::size_t>(position(*this, state, input) - before);
     if (!is_sum()) return shift ? moved(entries[place], offset) : entries[place];
     std::int64_t lower = base_lower[place];
     std::int64_t upper = base_upper[place];
@@ -89,6 +103,13 @@ struct TransitionTable {
   }
 };
 
+/// Tables in full that depend on all states have entries for every cell. Then cells come in this order, and
+/// a process may hold no more than the entries of some neighbours.
+struct HeldCells {
+  std::vector<std::size_t> order;  ///< of the states, as for UniformGrid::arranged()
+  std::int64_t begin = 0, end = 0;
+};
+
 /// The finite abstraction f: for every cell x and joint input u a box of cells that meets a guaranteed
 /// enclosure of all states reachable at the next sample (contract, "Abstraction"). Immutable once built.
 struct Abstraction {
@@ -98,7 +119,8 @@ struct Abstraction {
   /// One a state if safety is asked for between the samples, else none: the fewest cells that together cover
   /// (cells_covering()) an enclosure of all states at any time in [0, tau]; laid out as `tables`, no sums.
   std::vector<TransitionTable> tubes;
-  bool exact = true;  ///< every post is the exact hull
+  bool exact = true;                   ///< every post is the exact hull
+  std::optional<HeldCells> held = {};  ///< nothing: all, in the order of the states
 
   /// Raw range of state `i` at the next sample from cell `x` (linear index) under joint input `u`.
   [[nodiscard]] IndexRange raw(std::size_t i, std::int64_t x, std::int64_t u) const;
@@ -115,6 +137,9 @@ struct Abstraction {
 /// and returns its number of entries.
 std::int64_t lay_out(TransitionTable& table, std::size_t state, const UniformGrid& grid,
                      const InputSpace& inputs);
+/// The same with states in another order, of a table in full that depends on all of them.
+std::int64_t lay_out_by_cells(TransitionTable& table, const std::vector<std::size_t>& order,
+                              const UniformGrid& grid, const InputSpace& inputs);
 
 /// The same abstraction with its states in another order, `order` as for UniformGrid::arranged(). Entries
 /// stay where they are; only strides change places.

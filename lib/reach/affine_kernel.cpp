@@ -8,7 +8,7 @@ namespace {
 using outward::add_up;
 using outward::multiply_up;
 
-constexpr std::uint32_t kParts = 1U << 26U;
+constexpr std::uint32_t kKernelParts = 1U << 26U;
 
 /// What may be left out of the kernel, relative to it.
 constexpr double kPrecision = 1e-17;
@@ -32,12 +32,12 @@ double AffineKernel::integral(const Jacobian& jacobian, const Interval& tau, std
   find_derivatives(static_cast<Eigen::Index>(l));
   row_ = IntervalRow::Unit(system_.rows(), static_cast<Eigen::Index>(i));
   double sum = 0.0;
-  std::uint32_t left = kParts;
-  std::uint32_t parts = kParts;
+  std::uint32_t left = kKernelParts;
+  std::uint32_t parts = kKernelParts;
   expand();
   while (left > 0) {
     parts = std::min(parts, left);
-    const double duration = multiply_up(tau.upper, static_cast<double>(parts) / kParts);
+    const double duration = multiply_up(tau.upper, static_cast<double>(parts) / kKernelParts);
     if (add_piece(duration, parts == 1, sum)) {
       left -= parts;
       parts *= 2;

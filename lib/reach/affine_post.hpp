@@ -62,10 +62,26 @@ struct AffinePost {
     } while (choice.advance());
   }
 
-  /// Fills the entries of all cells from position `base` on; `entry` is called with the indices of the moving
-  /// states.
+  /// Fills the entries of all cells from position `base` on, as far as they are held; `entry` is called with
+  /// the indices of the moving states.
   template <class Entry>
   void fill(TransitionTable& table, std::int64_t base, const Entry& entry) const {
+    for_each_entry(table, base, [&](IndexRange* held, const std::vector<std::int64_t>& cell) {
+      if (held != nullptr) *held = entry(cell);
+    });
+  }
+  /// The same, but `entry` is called for those that are not held too.
+  template <class Entry>
+  void fill_and_check(TransitionTable& table, std::int64_t base, const Entry& entry) const {
+    for_each_entry(table, base, [&](IndexRange* held, const std::vector<std::int64_t>& cell) {
+      const IndexRange range = entry(cell);
+      if (held != nullptr) *held = range;
+    });
+  }
+
+ private:
+  template <class Visit>
+  void for_each_entry(TransitionTable& table, std::int64_t base, const Visit& visit) const {
     std::vector<std::int64_t> counts;
     for (const std::int32_t j : moving) counts.push_back(filled_count(static_cast<std::size_t>(j)));
     Odometer cell(counts);
@@ -75,7 +91,7 @@ struct AffinePost {
       for (std::size_t j = 0; j < counts.size(); ++j) {
         position += cell.indices()[j] * table.state_stride[static_cast<std::size_t>(moving[j])];
       }
-      table.entries[static_cast<std::size_t>(position)] = entry(cell.indices());
+      visit(table.held(position), cell.indices());
     } while (cell.advance());
   }
 };

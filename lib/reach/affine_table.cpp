@@ -24,6 +24,7 @@ class TableBuilder {
                std::size_t state)
       : spec_(spec),
         dynamics_(dynamics),
+        abstraction_(abstraction),
         grid_(abstraction.grid),
         inputs_(abstraction.inputs),
         dependencies_(dynamics.dependencies(state)),
@@ -33,7 +34,7 @@ class TableBuilder {
         state_(state) {}
 
   std::optional<bool> build(ThreadTeam& team) {
-    table_ = full_layout(spec_, dependencies_, state_, grid_, inputs_);
+    table_ = full_layout(spec_, dependencies_, state_, abstraction_);
     if (tube_ != nullptr) *tube_ = table_;
     return fill_all(team);
   }
@@ -205,7 +206,8 @@ class TableBuilder {
       if (row.coefficient[j] != 0 && !grid_[at(dependencies_.moving[j])].discrete) spread = true;
     }
     const IndexForm form = end_form(row, false, 0);
-    post.fill(table_, base, [&](const std::vector<std::int64_t>& cell) {
+    // All processes are to find the same fault.
+    post.fill_and_check(table_, base, [&](const std::vector<std::int64_t>& cell) {
       if (spread || !form.integral(cell)) throw off_grid(row, slots, cell, spread);
       const std::int64_t index = form.floor(cell);
       return raw_range(grid_[state_], index, index);
@@ -239,6 +241,7 @@ class TableBuilder {
 
   const ProblemSpec& spec_;
   const AffineDynamics& dynamics_;
+  const Abstraction& abstraction_;
   const UniformGrid& grid_;
   const InputSpace& inputs_;
   const Dependencies& dependencies_;

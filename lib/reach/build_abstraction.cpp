@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "reach/affine_dynamics.hpp"
 #include "reach/affine_table.hpp"
@@ -60,8 +61,8 @@ void build_in_full(const ProblemSpec& spec, const std::vector<TableShape>& shape
 }  // namespace
 
 Abstraction build_abstraction(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
-                              ThreadTeam& team, Ranks* ranks) {
-  Abstraction abstraction{.grid = make_grid(spec), .inputs = make_input_space(spec)};
+                              ThreadTeam& team, std::optional<HeldCells> held, Ranks* ranks) {
+  Abstraction abstraction{.grid = make_grid(spec), .inputs = make_input_space(spec), .held = std::move(held)};
   abstraction.tables.resize(spec.states.size());
   if (spec.abstraction.between_samples) {
     check_between_samples(spec);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/thread_team.hpp"
@@ -13,12 +14,14 @@ namespace coordreq {
 /// Builds the finite abstraction. Each post is the exact interval hull in rational arithmetic where the
 /// system is exact (contract, "Cells"), else rounded outward: never too small.
 /// @param shapes of table_shapes()
-/// @param ranks processes that divide the work and all have the whole of it then, together; null: there is
-/// one
+/// @param held Abstraction::held
+/// @param ranks processes that divide the work and all have the whole of it then, but for what is not held,
+/// together; null: there is one
 /// @throws SpecError if a discrete state's next value can be off its grid (naming state and input), if an
 ///   equation is undefined somewhere, or if the dynamics are beyond this version
 [[nodiscard]] Abstraction build_abstraction(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
-                                            ThreadTeam& team, Ranks* ranks = nullptr);
+                                            ThreadTeam& team, std::optional<HeldCells> held = {},
+                                            Ranks* ranks = nullptr);
 [[nodiscard]] Abstraction build_abstraction(const ProblemSpec& spec, ThreadTeam& team);
 
 /// Works out the tables of discrete states, unless they are very large: what else could be wrong with a spec

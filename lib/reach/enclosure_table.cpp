@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 
 #include "base/error.hpp"
 #include "base/index.hpp"
@@ -16,6 +15,7 @@
 #include "reach/affine_table.hpp"
 #include "reach/box_choices.hpp"
 #include "reach/cells_meeting.hpp"
+#include "reach/divided_entries.hpp"
 #include "reach/state_enclosure.hpp"
 #include "reach/table_layout.hpp"
 
@@ -37,12 +37,18 @@ class EnclosureTable {
         tube_(abstraction.tubes.empty() ? nullptr : &abstraction.tubes[state]),
         state_(state),
         differences_(differences) {
-    table_ = full_layout(spec, dependencies, state, abstraction.grid, abstraction.inputs);
+    table_ = full_layout(spec, dependencies, state, abstraction);
     if (tube_ != nullptr) *tube_ = table_;
   }
 
   [[nodiscard]] std::size_t state() const { return state_; }
   [[nodiscard]] const TransitionTable& table() const { return table_; }
+
+  /// Says where entries lie and which choices are those of this process; null: there is one.
+  void divide(const DividedEntries::Places& places, ThreadTeam::Range own, Ranks* ranks) {
+    entries_.emplace(table_, places, own, ranks);
+    if (tube_ != nullptr) tube_entries_.emplace(*tube_, places, own, ranks);
+  }
 
   /// Says where the state itself is among the choices; only a tube asks for it, and not of differences.
   void set_own(std::size_t place, std::int64_t first, std::int64_t count) {
@@ -51,22 +57,27 @@ class EnclosureTable {
     for (std::int64_t k = first; k < first + count; ++k) own_pieces_.push_back(pieces(target_, k));
   }
 
+  /// A choice that is worked on: its number, and the position of its entry.
+  struct Place {
+    std::int64_t choice = 0;
+    std::int64_t position = 0;
+  };
   /// Widens the entry by an enclosure of one choice of pieces.
-  void add(std::int64_t entry, bool first, const StateEnclosure& enclosure,
+  void add(const Place& place, bool first, const StateEnclosure& enclosure,
            const std::vector<std::int64_t>& choice, const std::vector<std::int64_t>& piece) {
     const StateEnclosure::Result result = enclosure.result(state_);
-    const auto widen = [&](TransitionTable& table, IndexRange next) {
-      IndexRange& range = table.entries[static_cast<std::size_t>(entry)];
+    const auto widen = [&](DividedEntries& entries, IndexRange next) {
+      IndexRange& range = entries.at(place.choice, place.position);
       range = first ? next : merge_ranges(range, next, target_);
     };
-    widen(table_, indices(result, enclosure, choice));
-    if (tube_ != nullptr) widen(*tube_, tube_indices(result, choice, piece));
+    widen(*entries_, indices(result, enclosure, choice));
+    if (tube_entries_) widen(*tube_entries_, tube_indices(result, choice, piece));
   }
 
   /// Together: takes in the entries that other processes have filled.
-  void join(Ranks* ranks) {
-    join_parts(ranks, std::span(table_.entries));
-    if (tube_ != nullptr) join_parts(ranks, std::span(tube_->entries));
+  void join() {
+    entries_->join();
+    if (tube_entries_) tube_entries_->join();
   }
 
  private:
@@ -155,6 +166,7 @@ class EnclosureTable {
   const GridDimension& target_;
   TransitionTable& table_;
   TransitionTable* tube_;  ///< null if not asked for
+  std::optional<DividedEntries> entries_, tube_entries_;
   std::size_t state_;
   bool differences_;                            ///< enclosures are of the next value less the present one
   std::size_t own_ = 0;                         ///< its place among the choices, unless these are differences
@@ -174,8 +186,7 @@ void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynam
     tables.emplace_back(spec, dependencies, abstraction, choices, state, enclosure.shifts());
   }
   const TransitionTable& layout = tables.front().table();
-  std::vector<std::int64_t> strides;
-  std::int64_t first_entry = 0;
+  DividedEntries::Places places;
   for (const std::int32_t j : layout.states) {
     const bool own_of_shift = layout.shift && at(j) == states.front();
     if (own_of_shift && enclosure.shifts()) continue;
@@ -184,37 +195,41 @@ void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynam
     const std::int64_t from = only_one && !own_of_shift ? *own : 0;
     const std::int64_t count = only_one || own_of_shift ? 1 : dimension.count;
     for (EnclosureTable& table : tables) {
-      if (table.state() == at(j)) table.set_own(strides.size(), from, count);
+      if (table.state() == at(j)) table.set_own(places.counts.size(), from, count);
     }
     choices.add_state(dimension, spec.state_slot(at(j)), count, from);
-    first_entry += from * layout.state_stride[at(j)];
-    strides.push_back(layout.state_stride[at(j)]);
+    places.first += from * layout.state_stride[at(j)];
+    places.strides.push_back(layout.state_stride[at(j)]);
+    places.counts.push_back(count);
   }
   for (const std::int32_t j : layout.inputs) {
     choices.add_input(abstraction.inputs[at(j)], spec.input_slot(at(j)));
-    strides.push_back(layout.input_stride[at(j)]);
+    places.strides.push_back(layout.input_stride[at(j)]);
+    places.counts.push_back(abstraction.inputs[at(j)].count());
   }
 
   std::vector<StateEnclosure> enclosures(static_cast<std::size_t>(team.size()), enclosure);
   const Odometer all = choices.odometer();
+  for (EnclosureTable& table : tables) table.divide(places, divided_range(ranks, all.size()), ranks);
   for_each_divided(ranks, team, all.size(), 64, [&](ThreadTeam::Range range, int worker) {
     StateEnclosure& mine = enclosures[static_cast<std::size_t>(worker)];
     Odometer choice = all;
     choice.seek(range.begin);
     for (std::int64_t i = range.begin; i < range.end; ++i, choice.advance()) {
-      std::int64_t entry = first_entry;
-      for (std::size_t v = 0; v < strides.size(); ++v) entry += choice.indices()[v] * strides[v];
+      EnclosureTable::Place place{i, places.first};
+      for (std::size_t v = 0; v < places.strides.size(); ++v)
+        place.position += choice.indices()[v] * places.strides[v];
       bool first = true;
       choices.for_each_piece(choice.indices(), mine, [&](const std::vector<std::int64_t>& piece) {
         mine.enclose();
         for (EnclosureTable& table : tables) {
-          table.add(entry, first, mine, choice.indices(), piece);
+          table.add(place, first, mine, choice.indices(), piece);
         }
         first = false;
       });
     }
   });
-  for (EnclosureTable& table : tables) table.join(ranks);
+  for (EnclosureTable& table : tables) table.join();
   for (const std::size_t state : states) fill_cells_off_limits(spec, dynamics, abstraction, state, team);
 }
 

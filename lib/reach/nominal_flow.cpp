@@ -7,14 +7,15 @@ namespace coordreq {
 namespace {
 
 /// A step is divided into at most so many; crossing an event costs an error of the order of a part's square.
-constexpr std::uint32_t kParts = 256;
+constexpr std::uint32_t kNominalParts = 256;
 /// Longer sub-steps are tried again after so many that went well.
-constexpr int kPatience = 3;
+constexpr int kNominalPatience = 3;
 /// Relative to the magnitude: what a step's remainder may add.
 constexpr double kNominalTolerance = 1e-14;
 
 Interval part(const Interval& duration, std::uint32_t parts) {
-  return duration * Interval{static_cast<double>(parts) / kParts, static_cast<double>(parts) / kParts};
+  return duration *
+         Interval{static_cast<double>(parts) / kNominalParts, static_cast<double>(parts) / kNominalParts};
 }
 
 /// Whether the limit that `derivative` points out of is reached within the duration for sure.
@@ -61,14 +62,14 @@ bool NominalFlow::advance(const Interval& duration, const Choices& choices, std:
                           State& state) {
   choices_ = choices;
   field_->pin(&choices_);
-  std::uint32_t left = kParts;
-  std::uint32_t parts = kParts;
+  std::uint32_t left = kNominalParts;
+  std::uint32_t parts = kNominalParts;
   int successes = 0;
   while (left > 0) {
     parts = std::min(parts, left);
     if (try_step(part(duration, parts), parts == 1, tolerance, state)) {
       left -= parts;
-      if (++successes % kPatience == 0) parts *= 2;
+      if (++successes % kNominalPatience == 0) parts *= 2;
     } else if (parts > 1) {
       parts /= 2;
       successes = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "reach/affine_dynamics.hpp"
@@ -13,11 +14,31 @@
 namespace coordreq {
 namespace {
 
-void serialise(Archive& archive, std::vector<IndexRange>& entries) {
-  static_assert(sizeof(IndexRange) == 2 * sizeof(std::int32_t));
+constexpr std::int64_t kNumbersOfEntry = 2;
+static_assert(sizeof(IndexRange) == kNumbersOfEntry * sizeof(std::int32_t));
+
+/// Rows of cells along the last state, with all their entries.
+void serialise_by_cells(Archive& archive, const UniformGrid& grid, const HeldCells& held,
+                        TransitionTable& table) {
+  const std::size_t last = grid.dimension_of(held.order.back());
+  const std::int64_t row = grid[last].count, entries = table.state_stride[last] * row;
+  const ThreadTeam::Range own{held.begin / row, held.end / row};
+  NumberRows rows = number_rows<std::int32_t>(nullptr, kNumbersOfEntry * entries, grid.points() / row,
+                                              kNumbersOfEntry * entries);
+  if (own.begin < own.end)
+    rows.first = reinterpret_cast<std::byte*>(table.entries.data()) - own.begin * rows.stride;
+  archive.grid_rows(rows, own, {&own, 1});
+}
+
+void serialise_entries(Archive& archive, const UniformGrid& grid, const std::optional<HeldCells>& held,
+                       TransitionTable& table) {
+  std::vector<IndexRange>& entries = table.entries;
   const auto count = static_cast<std::int64_t>(entries.size());
-  if (count == 0) return;
-  archive.rows(number_rows(&entries.front().first, 2 * count, 1, 2 * count));
+  if (held && table.is_by_cells(grid.size())) {
+    serialise_by_cells(archive, grid, *held, table);
+  } else if (count > 0) {
+    archive.rows(number_rows(&entries.front().first, kNumbersOfEntry * count, 1, kNumbersOfEntry * count));
+  }
   archive.expect(
       std::all_of(entries.begin(), entries.end(), [](IndexRange entry) { return entry.first <= entry.last; }),
       "a range of indices ends before it begins");
@@ -35,12 +56,15 @@ void serialise(Archive& archive, std::vector<std::int64_t>& lower, std::vector<s
 }
 
 /// The structure is known from the spec.
-void serialise(Archive& archive, TransitionTable& table) {
+void serialise(Archive& archive, const UniformGrid& grid, const std::optional<HeldCells>& held,
+               TransitionTable& table) {
   // All members have a name here, so that one that is added does not compile before it is dealt with.
-  auto& [states, inputs, shift, entries, terms, base_lower, base_upper, state_stride, input_stride] = table;
+  auto& [states, inputs, shift, entries, terms, base_lower, base_upper, before, state_stride, input_stride] =
+      table;
   static_cast<void>(states), static_cast<void>(inputs), static_cast<void>(shift);
-  static_cast<void>(state_stride), static_cast<void>(input_stride);
-  serialise(archive, entries);
+  static_cast<void>(before), static_cast<void>(state_stride), static_cast<void>(input_stride);
+  static_cast<void>(entries);
+  serialise_entries(archive, grid, held, table);
   for (TransitionTerm& term : terms) {
     auto& [of_state, term_state_stride, term_input_stride, lower, upper] = term;
     static_cast<void>(of_state), static_cast<void>(term_state_stride), static_cast<void>(term_input_stride);
@@ -52,7 +76,7 @@ void serialise(Archive& archive, TransitionTable& table) {
 }  // namespace
 
 void serialise(Archive& archive, const ProblemSpec& spec, Abstraction& abstraction) {
-  auto& [grid, inputs, tables, tubes, exact] = abstraction;
+  auto& [grid, inputs, tables, tubes, exact, held] = abstraction;
   const AffineDynamics dynamics(spec);
   tables.resize(grid.size());
   if (spec.abstraction.between_samples) tubes.resize(grid.size());
@@ -67,13 +91,13 @@ void serialise(Archive& archive, const ProblemSpec& spec, Abstraction& abstracti
       const Dependencies& dependencies = dynamics.dependencies(d);
       const AffinePart part = find_affine_part(spec, dependencies, d);
       archive.expect(is_sum == 0 || !summed_states(spec, dependencies, part, d).empty(), "a table is a sum");
-      tables[d] = is_sum == 0 ? full_layout(spec, dependencies, d, grid, inputs)
+      tables[d] = is_sum == 0 ? full_layout(spec, dependencies, d, abstraction)
                               : sum_layout(spec, dependencies, part, d, grid, inputs);
     }
-    serialise(archive, tables[d]);
+    serialise(archive, grid, held, tables[d]);
     if (tubes.empty()) continue;
-    if (archive.is_loading()) tubes[d] = full_layout(spec, dynamics.dependencies(d), d, grid, inputs);
-    serialise(archive, tubes[d]);
+    if (archive.is_loading()) tubes[d] = full_layout(spec, dynamics.dependencies(d), d, abstraction);
+    serialise(archive, grid, held, tubes[d]);
   }
 }
 

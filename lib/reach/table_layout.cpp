@@ -37,9 +37,18 @@ TransitionTerm term_layout(std::int32_t state, const AffinePart& part, const Uni
 }  // namespace
 
 TransitionTable full_layout(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state,
-                            const UniformGrid& grid, const InputSpace& inputs) {
+                            const Abstraction& abstraction) {
+  const auto& [grid, inputs, tables, tubes, exact, held] = abstraction;
   TransitionTable table = bare_table(spec, dependencies, state);
-  table.entries.resize(static_cast<std::size_t>(lay_out(table, state, grid, inputs)));
+  std::int64_t entries = 0;
+  if (held && table.is_by_cells(grid.size())) {
+    const std::int64_t of_cell = lay_out_by_cells(table, held->order, grid, inputs) / grid.points();
+    table.before = held->begin * of_cell;
+    entries = (held->end - held->begin) * of_cell;
+  } else {
+    entries = lay_out(table, state, grid, inputs);
+  }
+  table.entries.resize(static_cast<std::size_t>(entries));
   return table;
 }
 

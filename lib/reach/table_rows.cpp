@@ -87,7 +87,7 @@ void TableRows::read(std::span<const std::int64_t> states, std::span<const std::
     read_sum(states, inputs, base, offset, out);
     return;
   }
-  const IndexRange* entry = table_->entries.data() + base;
+  const IndexRange* entry = table_->entries.data() + (static_cast<std::int64_t>(base) - table_->before);
   for (std::size_t c = 0; c < out.size(); ++c, entry += stride_) {
     out[c] =
         table_->shift ? moved(*entry, offset + (shifts_along_ ? static_cast<std::int64_t>(c) : 0)) : *entry;

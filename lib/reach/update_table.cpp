@@ -1,13 +1,14 @@
 #include "reach/update_table.hpp"
 
 #include <memory>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "base/index.hpp"
 #include "model/dependencies.hpp"
 #include "model/odometer.hpp"
 #include "ranks/divided_loop.hpp"
+#include "reach/divided_entries.hpp"
 #include "reach/table_layout.hpp"
 #include "reach/update_ranges.hpp"
 
@@ -19,7 +20,7 @@ void build_update_table(const ProblemSpec& spec, Abstraction& abstraction, std::
   const UniformGrid& grid = abstraction.grid;
   const InputSpace& inputs = abstraction.inputs;
   TransitionTable& table = abstraction.tables[state];
-  table = full_layout(spec, dependencies, state, grid, inputs);
+  table = full_layout(spec, dependencies, state, abstraction);
   TransitionTable* const tube = abstraction.tubes.empty() ? nullptr : &abstraction.tubes[state];
   if (tube != nullptr) *tube = table;
   std::vector<std::uint32_t> slots;  // points first: they are read outside of conditions
@@ -43,6 +44,12 @@ void build_update_table(const ProblemSpec& spec, Abstraction& abstraction, std::
   const std::size_t first_box = counts.size();
   add_states(false);
   const Odometer boxes({counts.begin() + static_cast<std::ptrdiff_t>(first_box), counts.end()});
+  const std::int64_t boxes_of_point = boxes.size();
+  const ThreadTeam::Range own_points = divided_range(ranks, points.size());
+  const ThreadTeam::Range own{own_points.begin * boxes_of_point, own_points.end * boxes_of_point};
+  DividedEntries entries(table, {counts, strides}, own, ranks);
+  std::optional<DividedEntries> tube_entries;
+  if (tube != nullptr) tube_entries.emplace(*tube, DividedEntries::Places{counts, strides}, own, ranks);
   std::vector<std::unique_ptr<UpdateRanges>> scratch(static_cast<std::size_t>(team.size()));
   for_each_divided(ranks, team, points.size(), 1, [&](ThreadTeam::Range range, int worker) {
     std::unique_ptr<UpdateRanges>& ranges = scratch[static_cast<std::size_t>(worker)];
@@ -57,6 +64,7 @@ void build_update_table(const ProblemSpec& spec, Abstraction& abstraction, std::
         base += point[v] * strides[v];
       }
       Odometer box = boxes;
+      std::int64_t choice = i * boxes_of_point;
       bool is_new = true;
       do {
         std::int64_t place = base;
@@ -64,15 +72,16 @@ void build_update_table(const ProblemSpec& spec, Abstraction& abstraction, std::
           indices[slots[v]] = box[v - first_box];
           place += box[v - first_box] * strides[v];
         }
-        table.entries[static_cast<std::size_t>(place)] = ranges->at(indices, is_new);
+        entries.at(choice, place) = ranges->at(indices, is_new);
         is_new = false;
-        const auto own = static_cast<std::int32_t>(indices[spec.state_slot(state)]);
-        if (tube != nullptr) tube->entries[static_cast<std::size_t>(place)] = {own, own};
+        const auto present = static_cast<std::int32_t>(indices[spec.state_slot(state)]);
+        if (tube_entries) tube_entries->at(choice, place) = {present, present};
+        ++choice;
       } while (box.advance());
     }
   });
-  join_parts(ranks, std::span(table.entries));
-  if (tube != nullptr) join_parts(ranks, std::span(tube->entries));
+  entries.join();
+  if (tube_entries) tube_entries->join();
 }
 
 }  // namespace coordreq

@@ -15,6 +15,8 @@ from ranks_case import RanksCase
 
 EXAMPLES = ("circle.json", "intersection_network.json", "swap_deadline.json", "platoon_coalition.json", "lane_change.json")
 GOAL = spec_with(goal="x >= 2 and y >= 2", coordination={"convention": True, "partitions": "all"})
+# Tables with entries for every cell, of which each rank saves its own.
+COUPLED = spec_with(dynamics={"time": "discrete", "period": 1, "equations": {"x": "x - 0.1*x*y + u", "y": "y - 0.1*x*x + v"}})
 EVERY = ("--checkpoint", "saved", "--checkpoint-every", "0", "--progress", "none")
 
 
@@ -62,6 +64,8 @@ class Cases(RanksCase):
                 kills += self.assert_goes_on(str(CONFIGS / example), seed)
         self.write("goal.json", GOAL)
         kills += self.assert_goes_on("goal.json", len(EXAMPLES))
+        self.write("coupled.json", COUPLED)
+        kills += self.assert_goes_on("coupled.json", len(EXAMPLES) + 1)
         self.assertGreater(kills, len(EXAMPLES))
 
     def save(self, ranks=3):

@@ -31,6 +31,24 @@ TEST(DividedLoop, EveryIndexIsRunByOneRankAndKnownToAll) {
   }
 }
 
+TEST(DividedLoop, AllAreToldAllParts) {
+  for (const std::int64_t count : kCounts) {
+    ThreadRanks::run(3, [&](Ranks& ranks) {
+      const ThreadTeam::Range own = divided_range(&ranks, count);
+      std::vector<IndexRange> part;
+      for (std::int64_t i = own.begin; i < own.end; ++i)
+        part.push_back({static_cast<std::int32_t>(-i), ranks.rank()});
+      std::int64_t told = 0, first_of_rank = 0;
+      tell_all(ranks, count, own.begin, std::span<const IndexRange>(part), [&](IndexRange one) {
+        EXPECT_EQ(one.first, -told++);
+        EXPECT_GE(one.last, first_of_rank);
+        first_of_rank = one.last;
+      });
+      EXPECT_EQ(told, count);
+    });
+  }
+}
+
 TEST(DividedLoop, OfSeveralErrorsThatOfTheLowestIndexCounts) {
   for (const int lowest : {0, 13, 14, 99}) {
     const auto run = [&] {

@@ -177,6 +177,37 @@ TEST(ManyRanks, RowsMayMeetAnyOthers) {
   }
 }
 
+/// Tables with entries for every cell: affine, of a map, of an update, in another order than that of the
+/// spec, with fewer rows than ranks.
+TEST(ManyRanks, DivideTablesByCells) {
+  const Folder folder;
+  const auto spec = [](const std::string& equations, const std::string& more) {
+    return read_spec(R"json({"coordreq": 1, "name": "coupled",
+      "states": [{"name": "q", "lower": 0, "upper": 12, "step": 1, "outside": "safe"},
+                 {"name": "x", "lower": -1, "upper": 1, "step": 0.25, "outside": "saturate"},
+                 {"name": "m", "lower": 0, "upper": 2, "step": 1, "discrete": true},
+                 {"name": "v", "lower": -1, "upper": 1, "step": 0.5}],
+      "inputs": [{"name": "u", "values": [-0.5, 0, 0.5]}, {"name": "w", "values": [-0.5, 0.5]}],
+      "agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["w"]}],
+      "dynamics": {"time": "discrete", "period": 1, "equations": )json" +
+                         equations + R"json(},
+      "safe": "x + v <= 1.25 and q + m > 0", "abstraction": {"safe": "center"},
+      "coordination": {"partitions": "all"})json" +
+                         more + "}",
+                     "coupled");
+  };
+  const char* const equations[] = {
+      R"json({"q": "q + v", "m": "m", "x": "0.5 * x + 0.25 * v + 0.03 * q - 0.1 * m", "v": "v * 0.5 + u * w"})json",
+      R"json({"q": "q + v", "m": "m", "x": "sin(x) * v + 0.03 * q * m", "v": "v * x + u * w"})json",
+      R"json({"q": "q + u", "m": "if(q >= 3 and x + v > 0.5 and u > 0, 2, m)", "x": "x * v * q / 15", "v": "v"})json"};
+  for (const char* equation : equations) {
+    SCOPED_TRACE(equation);
+    expect_same(folder, spec(equation, ""));
+    expect_same(folder, spec(equation, R"json(, "output": {"abstraction": true, "controller": true})json"));
+    expect_same(folder, spec(equation, R"json(, "controller": {"allow": "u <= 0 or x < 0.5"})json"));
+  }
+}
+
 /// Enclosures of flows are found in parts: in full, as a sum, with tubes, and with a discrete state.
 TEST(ManyRanks, DivideTheAbstraction) {
   const Folder folder;

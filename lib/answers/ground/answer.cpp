@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "answers/row_cut.hpp"
 #include "engine/join_rows.hpp"
 #include "model/model.hpp"
 #include "reach/build_abstraction.hpp"
@@ -19,16 +20,29 @@ Abstraction in_order(const Model& model, Abstraction abstraction) {
   return abstraction;
 }
 
-/// What is kept of it is in the order of the spec.
+/// Which entries of tables by cells this process has. Together: the rows are cut if that is done before there
+/// are tables.
+HeldCells held_cells(Ground& ground) {
+  const Model& model = ground.model;
+  if (ground.ranks == nullptr || !is_cut_before_tables(model))
+    return {.order = model.order(), .begin = 0, .end = model.grid().points()};
+  ground.share.emplace(*ground.ranks, cut_into_shares(model, nullptr, ground.ranks->count()));
+  const RowShare::Range rows = ground.share->own();
+  const std::int64_t row = model.grid().row_length();
+  return {.order = model.order(), .begin = rows.begin * row, .end = rows.end * row};
+}
+
+/// What is kept of it is in the order of the spec, but for tables by cells.
 void find_abstraction(Ground& ground, const StageWork& work) {
   const ProblemSpec& spec = ground.spec;
   std::optional<Abstraction>& abstraction = ground.abstraction;
+  const HeldCells held = held_cells(ground);
   const auto load = [&](Archive& archive) {
-    abstraction = Abstraction{.grid = make_grid(spec), .inputs = make_input_space(spec)};
+    abstraction = Abstraction{.grid = make_grid(spec), .inputs = make_input_space(spec), .held = held};
     serialise(archive, spec, *abstraction);
   };
   const bool is_kept = work.store != nullptr && work.store->take(load) == StageStore::Kept::finished;
-  if (!is_kept) abstraction = build_abstraction(spec, ground.model.shapes(), work.team, ground.ranks);
+  if (!is_kept) abstraction = build_abstraction(spec, ground.model.shapes(), work.team, held, ground.ranks);
   abstraction = in_order(ground.model, std::move(*abstraction));
   if (work.store == nullptr) return;
   work.store->finish([&ground](Archive& archive) { serialise(archive, ground.spec, *ground.abstraction); });

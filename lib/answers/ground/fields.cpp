@@ -63,14 +63,19 @@ void add_abstraction(Fields& fields, const ProblemSpec& spec) {
 
 using WrittenOut = Latest<std::size_t, TransitionTable>;
 
-/// One end of all ranges of the table of a state, which is written out when it is asked for.
+/// One end of all ranges of the table of a state, which is written out when it is asked for, unless it is in
+/// full: then the states have the order of the spec, and several processes are asked each for its own cells.
 ResultArray ends_array(const Answers& answers, std::size_t state, std::int32_t IndexRange::*end,
                        const std::shared_ptr<WrittenOut>& tables) {
   return {ElementType::int32,
           [&answers, state, end, tables](std::uint64_t begin, std::uint64_t count, void* out) {
-            const auto table =
-                tables->get(state, [&] { return written_out(*answers.ground.abstraction, state); });
-            const auto first = table->entries.begin() + static_cast<std::ptrdiff_t>(begin);
+            const TransitionTable& own = answers.ground.abstraction->tables[state];
+            const bool is_in_full = !own.shift && !own.is_sum();
+            std::shared_ptr<const TransitionTable> written;
+            if (!is_in_full)
+              written = tables->get(state, [&] { return written_out(*answers.ground.abstraction, state); });
+            const TransitionTable& table = is_in_full ? own : *written;
+            const auto first = table.entries.begin() + (static_cast<std::int64_t>(begin) - table.before);
             std::transform(first, first + static_cast<std::ptrdiff_t>(count), static_cast<std::int32_t*>(out),
                            [end](const IndexRange& range) { return range.*end; });
           }};

@@ -13,7 +13,7 @@ namespace {
 
 /// `allow` at all grid points; nothing if it permits everything.
 std::optional<ConditionTable> condition_table(const ProblemSpec& spec, const Abstraction& abstraction,
-                                              ThreadTeam& team) {
+                                              std::optional<RowShare::Range> leading, ThreadTeam& team) {
   if (!spec.controller.allow) return std::nullopt;
   const Program& allow = *spec.controller.allow;
   if (allow.nodes.back().op == Operator::literal_true) return std::nullopt;
@@ -27,7 +27,8 @@ std::optional<ConditionTable> condition_table(const ProblemSpec& spec, const Abs
       if (slot >= spec.states.size() + spec.inputs.size()) continue;  // a state's cell
       const bool is_state = slot < spec.states.size();
       const std::size_t i = is_state ? slot : slot - spec.states.size();
-      const auto k = indices[slot];
+      const bool is_leading = leading && is_state && abstraction.grid.dimension_of(i) == 0;
+      const std::int64_t k = indices[slot] + (is_leading ? leading->begin : 0);
       const Rational value = is_state ? abstraction.grid[abstraction.grid.dimension_of(i)].point(k)
                                       : abstraction.inputs[i].values[static_cast<std::size_t>(k)];
       place += fmt::format("{}{} = {}", place.empty() ? "" : ", ",
@@ -35,7 +36,7 @@ std::optional<ConditionTable> condition_table(const ProblemSpec& spec, const Abs
     }
     throw SpecError(fmt::format("'allow' cannot be decided at {}", place), "/controller/allow");
   };
-  return ConditionTable(allow, abstraction.grid, abstraction.inputs, refuse, team);
+  return ConditionTable(allow, abstraction.grid, abstraction.inputs, refuse, team, leading);
 }
 
 Sampling sampling_of(const ProblemSpec& spec) {
@@ -44,6 +45,12 @@ Sampling sampling_of(const ProblemSpec& spec) {
 
 bool undecided_is_false(const std::vector<std::int64_t>& /*indices*/) {
   return false;
+}
+
+/// The indices of the first dimension that some rows have; at least one.
+RowShare::Range leading_indices(const UniformGrid& grid, RowShare::Range rows) {
+  const std::int64_t first = std::min(rows.begin / grid.row_stride(0), grid[0].count - 1);
+  return {first, std::max(first, (rows.end - 1) / grid.row_stride(0)) + 1};
 }
 
 /// Runs of rows, and the indices of the first dimension that they have.
@@ -59,11 +66,10 @@ std::vector<LeadingRuns> leading_runs(const Program& condition, const UniformGri
   const std::vector<std::uint32_t> slots = condition.variables();
   if (grid.across() == 0 || !std::ranges::binary_search(slots, static_cast<std::uint32_t>(grid.state(0))))
     return {{{0, grid[0].count}, runs}};
-  const std::int64_t rows = grid.row_stride(0);
   std::vector<LeadingRuns> groups;
   for (const RowShare::Range run : runs) {
     if (run.begin == run.end) continue;
-    const RowShare::Range own{run.begin / rows, (run.end - 1) / rows + 1};
+    const RowShare::Range own = leading_indices(grid, run);
     if (groups.empty() || groups.back().leading.end < own.begin) groups.push_back({own, {}});
     groups.back().leading.end = own.end;
     groups.back().runs.push_back(run);
@@ -111,10 +117,14 @@ CellSet cells_that_satisfy(const Program& condition, const ProblemSpec& spec, co
 }
 
 std::optional<PairTable> allow_table(const ProblemSpec& spec, const Abstraction& abstraction,
-                                     ThreadTeam& team, const PackedPairs* listed) {
-  const std::optional<ConditionTable> allow = condition_table(spec, abstraction, team);
+                                     ThreadTeam& team, const PackedPairs* listed, const RowShare* share) {
+  const UniformGrid& grid = abstraction.grid;
+  const RowShare::Range rows = own_rows(share, grid.rows());
+  std::optional<RowShare::Range> leading;
+  if (share != nullptr && grid.across() > 0) leading = leading_indices(grid, rows);
+  const std::optional<ConditionTable> allow = condition_table(spec, abstraction, leading, team);
   if (listed != nullptr)
-    return PairTable(abstraction.grid, abstraction.inputs, *listed, allow ? &*allow : nullptr, team);
+    return PairTable(grid, abstraction.inputs, *listed, allow ? &*allow : nullptr, rows, team);
   if (!allow) return std::nullopt;
   return PairTable(*allow);
 }

@@ -1,9 +1,8 @@
 #include "answers/invariance/safe_tubes.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
-#include <utility>
-#include <vector>
 
 #include "answers/invariance/safe_set.hpp"
 
@@ -18,7 +17,7 @@ struct Excess {
   std::int64_t above = 0;
 };
 
-Excess find_excess(const TransitionTable& tube, const GridDimension& dimension) {
+Excess find_excess(const TransitionTable& tube, const GridDimension& dimension, Ranks* ranks) {
   Excess excess;
   const auto add = [&](IndexRange raw) {
     if (resolve(raw, dimension.count, dimension.below, dimension.above).blocked) return;
@@ -32,7 +31,8 @@ Excess find_excess(const TransitionTable& tube, const GridDimension& dimension) 
     // The entry of a shift serves every index of its own.
     for (std::int64_t own = 0; tube.shift && own < dimension.count; ++own) add(moved(entry, own));
   }
-  return excess;
+  if (ranks == nullptr) return excess;
+  return {ranks->greatest(excess.below), ranks->greatest(excess.above)};
 }
 
 /// A place that 32 bits do not hold: nobody knows how far it goes.
@@ -40,36 +40,54 @@ bool is_lost(std::int64_t excess, std::int64_t count) {
   return excess + count > Limits::max();
 }
 
-void remove_cells(CellSet& set, const UniformGrid& grid, std::size_t dimension, std::int64_t index) {
-  for (std::int64_t x = 0; x < grid.cells(); ++x) {
+void remove_cells(CellSet& set, const UniformGrid& grid, RowShare::Range rows, std::size_t dimension,
+                  std::int64_t index) {
+  for (std::int64_t x = rows.begin * grid.row_length(); x < rows.end * grid.row_length(); ++x) {
     if (grid.index(x, dimension) == index) set.reset(x);
   }
 }
 
 }  // namespace
 
-std::optional<CellSet> safe_beyond_limits(const ProblemSpec& spec, const Abstraction& abstraction,
-                                          const CellSet& safe, ThreadTeam& team) {
+std::optional<TubeLimits> find_tube_limits(const ProblemSpec& spec, const Abstraction& abstraction,
+                                           Ranks* ranks) {
   if (abstraction.tubes.empty() || spec.abstraction.safe == Membership::center) return std::nullopt;
-  std::vector<GridDimension> dimensions = abstraction.grid.dimensions();
-  std::vector<std::pair<std::size_t, std::int64_t>> lost;
+  TubeLimits limits{.dimensions = abstraction.grid.dimensions(), .unknown = {}};
   bool stretched = false;
   for (const std::uint32_t state : spec.safe.variables()) {
     const std::size_t i = abstraction.grid.dimension_of(state);
-    GridDimension& dimension = dimensions[i];
-    const Excess excess = find_excess(abstraction.tubes[i], dimension);
+    GridDimension& dimension = limits.dimensions[i];
+    const Excess excess = find_excess(abstraction.tubes[i], dimension, ranks);
     dimension.stretch_below = dimension.step * Rational(static_cast<long>(excess.below));
     dimension.stretch_above = dimension.step * Rational(static_cast<long>(excess.above));
     stretched = stretched || excess.below > 0 || excess.above > 0;
-    if (is_lost(excess.below, dimension.count)) lost.emplace_back(i, 0);
-    if (is_lost(excess.above, dimension.count)) lost.emplace_back(i, dimension.count - 1);
+    if (is_lost(excess.below, dimension.count)) limits.unknown.emplace_back(i, 0);
+    if (is_lost(excess.above, dimension.count)) limits.unknown.emplace_back(i, dimension.count - 1);
   }
   if (!stretched) return std::nullopt;
-  CellSet result = cells_that_satisfy(spec.safe, spec, abstraction.grid.with(std::move(dimensions)),
-                                      abstraction.inputs, team);
-  for (const auto& [dimension, index] : lost) remove_cells(result, abstraction.grid, dimension, index);
-  // More is asked of these cells, but a sharper evaluation may have more luck with a larger box.
-  for (std::size_t w = 0; w < result.words().size(); ++w) result.words()[w] &= safe.words()[w];
+  return limits;
+}
+
+void add_safe_beyond(const TubeLimits& limits, const ProblemSpec& spec, const Abstraction& abstraction,
+                     const CellSet& safe, const std::vector<RowShare::Range>& runs, ThreadTeam& team,
+                     CellSet& beyond) {
+  const UniformGrid& grid = abstraction.grid;
+  add_cells_that_satisfy(spec.safe, spec, grid.with(limits.dimensions), abstraction.inputs, runs, team,
+                         beyond);
+  for (const RowShare::Range run : runs) {
+    for (const auto& [dimension, index] : limits.unknown) remove_cells(beyond, grid, run, dimension, index);
+    // More is asked of these cells, but a sharper evaluation may have more luck with a larger box.
+    for (std::int64_t row = run.begin; row < run.end; ++row)
+      std::ranges::transform(beyond.row(row), safe.row(row), beyond.row(row).begin(), std::bit_and<>());
+  }
+}
+
+std::optional<CellSet> safe_beyond_limits(const ProblemSpec& spec, const Abstraction& abstraction,
+                                          const CellSet& safe, ThreadTeam& team) {
+  const std::optional<TubeLimits> limits = find_tube_limits(spec, abstraction);
+  if (!limits) return std::nullopt;
+  CellSet result(safe.rows(), safe.row_length());
+  add_safe_beyond(*limits, spec, abstraction, safe, {{0, safe.rows()}}, team, result);
   return result;
 }
 

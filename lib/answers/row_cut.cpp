@@ -1,0 +1,88 @@
+#include "answers/row_cut.hpp"
+
+#include <algorithm>
+
+#include "engine/row_box.hpp"
+#include "expression/evaluate.hpp"
+#include "ranks/cut_rows.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Blocks of rows a rank between which it is cut: shares differ by a hundredth or so.
+constexpr std::int64_t kBlocksOfRank = 64;
+/// Rows of a block that are looked at.
+constexpr std::int64_t kLooksAtBlock = 8;
+/// Units a rank that are not cut: equal ones are found among whole ones only.
+constexpr std::int64_t kUnitsOfRank = 8;
+
+std::int64_t block_rows_of(std::int64_t rows, std::int64_t unit, int parts) {
+  const std::int64_t most = kBlocksOfRank * parts;
+  const std::int64_t block = (rows + most - 1) / most;
+  return unit * kUnitsOfRank * parts <= rows ? (block + unit - 1) / unit * unit : block;
+}
+
+/// Tells rows in which S has no cell, by intervals around the centres of a row; not all of them.
+class SafeRows {
+ public:
+  SafeRows(const ProblemSpec& spec, const UniformGrid& grid)
+      : grid_(grid), safe_(spec.safe), box_(spec.slot_count()) {
+    for (std::size_t i = grid.across(); i < grid.size(); ++i)
+      box_[grid.state(i)] = enclose(grid[i].point(0), grid[i].point(grid[i].count - 1));
+  }
+
+  [[nodiscard]] bool may_hold(std::int64_t row) {
+    const RowPlace place(grid_, row);
+    for (std::size_t i = 0; i < grid_.across(); ++i)
+      box_[grid_.state(i)] = enclose(grid_[i].point(place.index[i]));
+    return safe_.condition(box_) != Truth::no;
+  }
+
+ private:
+  const UniformGrid& grid_;
+  Evaluator<Interval> safe_;
+  std::vector<Interval> box_;  ///< by slot
+};
+
+/// The least unit that an engine may choose (RowEngine::outer()): units that are larger are made of these.
+std::int64_t least_unit(const Model& model) {
+  const UniformGrid& grid = model.grid();
+  const std::vector<TableShape>& shapes = model.arranged_shapes();
+  std::size_t closed = 0, depends_up_to = 0;
+  for (std::size_t i = 0; i < grid.across(); ++i) {
+    for (const std::int32_t j : shapes[i].states)
+      depends_up_to = std::max(depends_up_to, static_cast<std::size_t>(j));
+    if (depends_up_to <= i) closed = i + 1;
+  }
+  return closed == 0 ? grid.rows() : grid.row_stride(closed - 1);
+}
+
+}  // namespace
+
+std::vector<std::int64_t> cut_by_safe_rows(const ProblemSpec& spec, const UniformGrid& grid,
+                                           std::int64_t unit_rows, int parts) {
+  const std::int64_t rows = grid.rows(), block = block_rows_of(rows, unit_rows, parts);
+  SafeRows safe_rows(spec, grid);
+  std::vector<std::int64_t> weights;
+  for (std::int64_t begin = 0; begin < rows; begin += block) {
+    const std::int64_t own = std::min(block, rows - begin), looks = std::min(own, kLooksAtBlock);
+    std::int64_t safe = 0;
+    for (std::int64_t look = 0; look < looks; ++look)
+      safe += safe_rows.may_hold((2 * look + 1) * own / (2 * looks) + begin) ? 1 : 0;
+    weights.push_back(safe * own / looks);
+  }
+  return cut_rows(weights, block, rows, parts);
+}
+
+bool is_cut_before_tables(const Model& model) {
+  return std::ranges::any_of(
+      model.shapes(), [&](const TableShape& shape) { return shape.is_by_cells(model.shapes().size()); });
+}
+
+std::vector<std::int64_t> cut_into_shares(const Model& model, const RowEngine* engine, int parts) {
+  return is_cut_before_tables(model)
+             ? cut_by_safe_rows(model.spec(), model.grid(), least_unit(model), parts)
+             : cut_by_safe_rows(model.spec(), engine->grid(), engine->unit_rows(), parts);
+}
+
+}  // namespace coordreq

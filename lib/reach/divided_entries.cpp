@@ -1,0 +1,28 @@
+#include "reach/divided_entries.hpp"
+
+#include <span>
+#include <utility>
+
+#include "ranks/divided_loop.hpp"
+
+namespace coordreq {
+
+DividedEntries::DividedEntries(TransitionTable& table, Places places, ThreadTeam::Range own, Ranks* ranks)
+    : table_(&table), places_(std::move(places)), own_(own), ranks_(ranks) {
+  if (ranks != nullptr) part_.resize(static_cast<std::size_t>(own.end - own.begin));
+}
+
+void DividedEntries::join() {
+  if (ranks_ == nullptr) return;
+  Odometer choice(places_.counts);
+  tell_all(*ranks_, choice.size(), own_.begin, std::span<const IndexRange>(part_), [&](IndexRange entry) {
+    std::int64_t position = places_.first;
+    for (std::size_t v = 0; v < places_.strides.size(); ++v)
+      position += choice.indices()[v] * places_.strides[v];
+    if (IndexRange* const held = table_->held(position)) *held = entry;
+    choice.advance();
+  });
+  part_ = {};
+}
+
+}  // namespace coordreq

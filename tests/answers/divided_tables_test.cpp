@@ -1,0 +1,70 @@
+// Tables with entries for every cell are cut as the cells are.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <mutex>
+
+#include "answers/answers.hpp"
+#include "answers/ground/answer.hpp"
+#include "answers/plan.hpp"
+#include "reach/build_abstraction.hpp"
+#include "reach/table_shapes.hpp"
+#include "spec/read_spec.hpp"
+#include "support/thread_ranks.hpp"
+
+namespace coordreq {
+namespace {
+
+/// a is read by cells, b is a shift, which no other state depends on; c is a table of c alone.
+ProblemSpec coupled() {
+  return read_spec(R"json({"coordreq": 1, "name": "coupled",
+    "states": [{"name": "a", "lower": 0, "upper": 8, "step": 1, "outside": "saturate"},
+               {"name": "b", "lower": 0, "upper": 6, "step": 1, "outside": "saturate"},
+               {"name": "c", "lower": 0, "upper": 4, "step": 1, "outside": "saturate"}],
+    "inputs": [{"name": "u", "values": [-1, 0, 2]}], "agents": [{"name": "one", "inputs": ["u"]}],
+    "dynamics": {"time": "discrete", "period": 1,
+                 "equations": {"a": "a * b * c / 100 + u", "b": "b + u", "c": "c * c / 4"}},
+    "safe": "a + b >= 1"})json",
+                   "coupled");
+}
+
+TEST(DividedTables, HoldWhatTheRowsOfARankNeed) {
+  const ProblemSpec spec = coupled();
+  const Model model = make_model(spec);
+  ThreadTeam one(1);
+  const Abstraction whole = arranged(build_abstraction(spec, one), model.order());
+  constexpr int kRanks = 4;
+  std::mutex mutex;
+  std::map<int, std::size_t> entries;
+  ThreadRanks::run(kRanks, [&](Ranks& ranks) {
+    ThreadTeam team(2);
+    Answers answers(model, &ranks);
+    run_stages(ground_stages(spec), answers, {.team = team});
+    const Ground& ground = answers.ground;
+    const Abstraction& own = *ground.abstraction;
+    const std::size_t a = own.grid.dimension_of(0), c = own.grid.dimension_of(2);
+    const RowShare::Range rows = ground.share->own();
+    const std::int64_t cells = (rows.end - rows.begin) * own.grid.row_length();
+    EXPECT_EQ(std::ssize(own.tables[a].entries), 3 * cells);
+    EXPECT_EQ(std::ssize(ground.engine->slices()[a].ids), 3 * (rows.end - rows.begin));
+    EXPECT_EQ(own.tables[c].entries.size(), whole.tables[c].entries.size());
+    for (std::int64_t x = rows.begin * own.grid.row_length(); x < rows.end * own.grid.row_length(); ++x) {
+      for (std::int64_t u = 0; u < 3; ++u) {
+        for (std::size_t i = 0; i < own.grid.size(); ++i) EXPECT_EQ(own.raw(i, x, u), whole.raw(i, x, u));
+      }
+    }
+    const std::lock_guard lock(mutex);
+    entries[ranks.rank()] = own.tables[a].entries.size();
+  });
+  std::size_t sum = 0, most = 0;
+  for (const auto& [rank, own] : entries) {
+    sum += own;
+    most = std::max(most, own);
+  }
+  EXPECT_EQ(sum, whole.tables[whole.grid.dimension_of(0)].entries.size());
+  EXPECT_LT(most, sum / 2);
+}
+
+}  // namespace
+}  // namespace coordreq
