@@ -94,21 +94,24 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
   const auto check = [&](double needed, std::optional<std::uint64_t> limit, const std::string& by_whom) {
     if (limit) check_memory_limit(spec, needed, static_cast<double>(*limit), by_whom);
   };
-  check(need({1.0 / ranks, 1.0 / ranks}), limits.of_rank,
+  check(need({.held = 1.0 / ranks, .own = 1.0 / ranks}), limits.of_rank,
         fmt::format("on the fullest of {} ranks at least, ", ranks));
-  check(need({0, 0}), limits.here, "on each rank of however many, ");
+  check(need({.held = 0, .own = 0}), limits.here, "on each rank of however many, ");
   Answers answers(model);
   ground_stages(spec).front().run(answers, {.team = team});
+  const auto all = static_cast<double>(answers.ground.abstraction->grid.rows());
   FullestRank fullest;
+  double most = 0;
   for (const RankRows& rows : rows_of_ranks(answers.ground, ranks)) {
-    if (rows.own + rows.halo > fullest.own_rows + fullest.halo_rows)
-      fullest = {.own_rows = rows.own, .halo_rows = rows.halo};
+    const double needed = need({.held = static_cast<double>(rows.own + rows.halo) / all,
+                                .own = static_cast<double>(rows.own) / all,
+                                .slices = rows.slices});
+    if (needed <= most) continue;
+    most = needed;
+    fullest = {.own_rows = rows.own, .halo_rows = rows.halo};
   }
-  const auto rows = static_cast<double>(answers.ground.abstraction->grid.rows());
-  const RowPart held{.held = static_cast<double>(fullest.own_rows + fullest.halo_rows) / rows,
-                     .own = static_cast<double>(fullest.own_rows) / rows};
-  check(need(held), limits.of_rank, fmt::format("on the fullest of {} ranks, ", ranks));
-  fullest.memory_bytes = to_bytes(need(held));
+  check(most, limits.of_rank, fmt::format("on the fullest of {} ranks, ", ranks));
+  fullest.memory_bytes = to_bytes(most);
   return fullest;
 }
 

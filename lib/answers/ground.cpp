@@ -5,6 +5,7 @@
 #include "answers/invariance/safe_set.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/row_cut.hpp"
+#include "engine/engine_sizes.hpp"
 
 namespace coordreq {
 TubeSets Ground::tubes() const {
@@ -53,15 +54,25 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
 }
 
 std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks) {
-  const RowEngine engine(*ground.abstraction, nullptr, {});
+  const UniformGrid& grid = ground.abstraction->grid;
+  const CellSet unknown(grid.rows(), grid.row_length());
+  TubeSets tubes;
+  if (!ground.abstraction->tubes.empty()) tubes = {.inside = &unknown, .are_known = false};
+  const RowEngine engine(*ground.abstraction, nullptr, tubes);
   const RowHull hull(engine);
   const std::vector<std::int64_t> bounds = cut_into_shares(ground.model, &engine, ranks);
+  const std::vector<double> slices = bytes_of_slices(engine);
   std::vector<RankRows> result;
   for (std::size_t r = 0; r + 1 < bounds.size(); ++r) {
     const RowShare::Range own{bounds[r], bounds[r + 1]};
     std::vector<std::uint8_t> is_met = hull.rows_met(nullptr, own);
     std::fill(is_met.begin() + own.begin, is_met.begin() + own.end, std::uint8_t{0});
-    result.push_back({own.end - own.begin, std::count(is_met.begin(), is_met.end(), 1)});
+    RankRows& rows = result.emplace_back(
+        RankRows{own.end - own.begin, std::count(is_met.begin(), is_met.end(), 1), slices});
+    for (std::size_t t = 0; t < slices.size(); ++t) {
+      if (ground.abstraction->tables[t].is_by_cells(grid.size()))
+        rows.slices[t] *= static_cast<double>(rows.own) / static_cast<double>(grid.rows());
+    }
   }
   return result;
 }

@@ -70,6 +70,7 @@ void lay_ground(Ground& ground, ThreadTeam& team);
 struct RankRows {
   std::int64_t own = 0;
   std::int64_t halo = 0;
+  std::vector<double> slices = {};  ///< RowPart::slices
 };
 /// Of so many processes, on an abstraction that is there. Halos are those of all cells, of S or not.
 [[nodiscard]] std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks);

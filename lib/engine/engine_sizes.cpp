@@ -1,6 +1,7 @@
 #include "engine/engine_sizes.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/index.hpp"
 #include "engine/action_groups.hpp"
@@ -33,8 +34,20 @@ bool has_common(const std::vector<std::int32_t>& list, const InputClass& inputs)
 
 }  // namespace
 
+std::vector<double> bytes_of_slices(const RowEngine& engine) {
+  constexpr double kBytesBesideSlice = 64;  // where it stands among others, and what the allocator adds
+  std::vector<double> result;
+  for (const RowSlices& slices : engine.posts().slices)
+    result.push_back(static_cast<double>(slices.bytes()) +
+                     kBytesBesideSlice * static_cast<double>(slices.slices.size()));
+  return result;
+}
+
 EngineSizes::EngineSizes(const Model& model, RowPart part)
-    : model_(&model), part_(part), offsets_(usual_offsets(model.spec())), grid_(join_rows(model, offsets_)) {
+    : model_(&model),
+      part_(std::move(part)),
+      offsets_(usual_offsets(model.spec())),
+      grid_(join_rows(model, offsets_)) {
   part_.held = std::max(part_.held, 1 / in_double(grid_.rows()));
   part_.own = std::max(part_.own, 1 / in_double(grid_.rows()));
   for (std::size_t i = grid_.across(); i < grid_.size(); ++i) {
@@ -59,6 +72,7 @@ double EngineSizes::levels() const {
 double EngineSizes::slices(std::size_t t) const {
   constexpr double kUsualSegments = 12;  // that a row is cut into where cells do not move alike
   constexpr double kBytesOfSlice = 240;  // its list, and where it stands while equal ones are looked for
+  if (!part_.slices.empty()) return part_.slices[t];
   const TableShape& shape = model_->arranged_shapes()[t];
   if (model_->keeps_sums() && shape.sum) return shape.bytes;  // the same numbers laid out for reading
   double choices = 1;
@@ -81,8 +95,13 @@ double EngineSizes::part_of_table(std::size_t t) const {
 
 double EngineSizes::untold_entries() const {
   if (part_.own == 1) return 0;
+  // One flow serves several states, one map one.
+  const bool are_together = model_->spec().dynamics.time == Time::continuous;
   double bytes = 0;
-  for (const TableShape& shape : model_->shapes()) bytes += shape.sum ? 0 : shape.bytes;
+  for (const TableShape& shape : model_->shapes()) {
+    if (shape.sum) continue;
+    bytes = are_together ? bytes + shape.bytes : std::max(bytes, shape.bytes);
+  }
   return part_.own * bytes;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/row_engine.hpp"
 #include "engine/row_shape.hpp"
 #include "expression/program.hpp"
 #include "model/input_class.hpp"
@@ -15,7 +16,11 @@ namespace coordreq {
 struct RowPart {
   double held = 1;
   double own = 1;
+  std::vector<double> slices = {};  ///< [table] bytes of EngineSizes::slices(), once they are known
 };
+
+/// What the slices of posts of an engine take, and what tells equal ones while they are cut, by table.
+[[nodiscard]] std::vector<double> bytes_of_slices(const RowEngine& engine);
 
 /// What the types of the engine will take for a problem, in bytes, told before there is any of them; maybe
 /// more than this machine has. Rows are those that the engine will make, as far as that is known before

@@ -60,7 +60,7 @@ RowEngine::RowEngine(const Abstraction& abstraction, const PairTable* allow, con
       (tubes.grid == nullptr ? abstraction.grid : *tubes.grid).dimensions();
   add_demand(tubes.beyond != nullptr ? *tubes.beyond : *tubes.inside, dimensions);
   if (tubes.beyond != nullptr) add_inner_demand(*tubes.inside, std::move(dimensions));
-  take_tube_sets();
+  if (tubes.are_known) take_tube_sets();
 }
 
 void RowEngine::add_inner_demand(const CellSet& inside, std::vector<GridDimension> dimensions) {

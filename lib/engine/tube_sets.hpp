@@ -12,6 +12,7 @@ struct TubeSets {
   const CellSet* inside = nullptr;    ///< null: there are no tubes
   const CellSet* beyond = nullptr;    ///< a part of `inside`; null: the same
   const UniformGrid* grid = nullptr;  ///< with the rules for tubes, if those for posts are others; or null
+  bool are_known = true;              ///< else the sets are filled later: RowEngine::take_tube_sets()
 };
 
 /// True if the tube of `state` with this raw range passes a limit that the sample puts it back on.

@@ -21,7 +21,7 @@ class Cases(RanksCase):
     def start_long_run(self):
         """With several ranks that are at work for some seconds."""
         spec = str(CONFIGS / "intersection_network.json")
-        process, ranks = self.start(3, "analyze", spec, "-o", "long.h5", "--refine", "2", "--progress", "none")
+        process, ranks = self.start(3, "analyze", spec, "-o", "long.h5", "--refine", "3", "--progress", "none")
         self.assertEqual(len(ranks), 3)
         time.sleep(1)
         return process, ranks
