@@ -57,8 +57,7 @@ std::int64_t least_unit(const Model& model) {
   return closed == 0 ? grid.rows() : grid.row_stride(closed - 1);
 }
 
-}  // namespace
-
+/// @param unit_rows rows that are not cut, if these are not too many
 std::vector<std::int64_t> cut_by_safe_rows(const ProblemSpec& spec, const UniformGrid& grid,
                                            std::int64_t unit_rows, int parts) {
   const std::int64_t rows = grid.rows(), block = block_rows_of(rows, unit_rows, parts);
@@ -73,6 +72,8 @@ std::vector<std::int64_t> cut_by_safe_rows(const ProblemSpec& spec, const Unifor
   }
   return cut_rows(weights, block, rows, parts);
 }
+
+}  // namespace
 
 bool is_cut_before_tables(const Model& model) {
   return std::ranges::any_of(

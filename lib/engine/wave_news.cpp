@@ -23,7 +23,7 @@ bool WaveNews::is_pending(std::int64_t unit) {
   });
 }
 
-/// The same for all rows of a unit, of which the first need not be held.
+/// It is the same for all rows of the unit. In other dimensions the first one has no box if it is not held.
 void WaveNews::enclose_unit(std::int64_t unit, Scratch& scratch) const {
   const RowPlace place(engine_.grid(), unit * unit_rows_);
   scratch.box.ranges.clear();

@@ -177,8 +177,8 @@ TEST(ManyRanks, RowsMayMeetAnyOthers) {
   }
 }
 
-/// Tables with entries for every cell: affine, of a map, of an update, in another order than that of the
-/// spec, with fewer rows than ranks.
+/// Tables with entries for every cell: affine, of a map, of an update; in another order than that of the
+/// spec, but where `output` binds it.
 TEST(ManyRanks, DivideTablesByCells) {
   const Folder folder;
   const auto spec = [](const std::string& equations, const std::string& more) {
