@@ -193,12 +193,13 @@ double EngineSizes::readers(int threads) const {
   }
   constexpr double kUsualSlots = 40;
   constexpr double kUsualSizes = 9;
-  constexpr double kUsualMargins = 6;
+  constexpr double kUsualMargins = 14;
   double block = 1;
   for (std::size_t i = 0; i < grid_.size(); ++i) {
     if (model_->arranged_shapes()[i].sum) block *= in_double(grid_[i].count) + kUsualMargins;
   }
-  return threads * (one + std::min(static_cast<double>(kBlockBytes), kUsualSlots * kUsualSizes * block));
+  const double of_all_sizes = std::min(static_cast<double>(kBlockBytes), kUsualSlots * kUsualSizes * block);
+  return threads * (one + of_all_sizes + kJoinedBlocks * block);
 }
 
 double EngineSizes::wave(int threads) const {

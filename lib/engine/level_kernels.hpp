@@ -8,6 +8,13 @@ namespace coordreq {
 /// The instruction sets that the row kernels are built for. Every one gives the same bits.
 enum class InstructionSet : std::uint8_t { portable, avx2, avx512 };
 
+/// Lanes of a row: begin, ..., end - 1.
+struct LaneRange {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  [[nodiscard]] std::size_t size() const { return end - begin; }
+};
+
 /// Operations on rows of levels: small unsigned integers, one a cell, see LevelRows.
 ///
 /// A row operation works on whole blocks of `kLevelBlock` bytes: REQUIRES that every row handed in may be
@@ -29,6 +36,8 @@ struct LevelKernels {
   bool (*is_top)(const Level* row, const Level* lanes, std::size_t n);
   /// True if row[j] + 1 >= bound[j] in every lane, counted without overflow.
   bool (*is_settled)(const Level* row, const Level* bound, std::size_t n);
+  /// From the first to the last lane where lanes[j] is all ones and row[j] < bound[j].
+  LaneRange (*below)(const Level* row, const Level* lanes, const Level* bound, std::size_t n);
   /// lanes[j] = all ones where bit j % 64 of bits[j / 64] is set, else 0.
   void (*spread)(const std::uint64_t* bits, Level* lanes, std::size_t n);
   /// Bit j % 64 of bits[j / 64] = whether row[j] is the greatest level, for j < n; further bits of the last

@@ -146,6 +146,22 @@ bool is_settled(const Level* row, const Level* bound, size_t n) {
 }
 
 template <class Level>
+LaneRange below(const Level* row, const Level* lanes, const Level* bound, size_t n) {
+  const auto is_below = [=](size_t j) { return lanes[j] != 0 && row[j] < bound[j]; };
+  LaneRange range;
+  for (size_t j = 0; j < n; j += Lanes<Level>::kCount) {
+    const auto found = (load(row + j) < load(bound + j)) & (load(lanes + j) != Level{0});
+    if (!any_before(found, n - j)) continue;
+    if (range.end == 0) range.begin = j;
+    range.end = j + Lanes<Level>::kCount < n ? j + Lanes<Level>::kCount : n;
+  }
+  if (range.end == 0) return range;
+  while (!is_below(range.begin)) ++range.begin;
+  while (!is_below(range.end - 1)) --range.end;
+  return range;
+}
+
+template <class Level>
 void spread(const uint64_t* bits, Level* lanes, size_t n) {
   typedef typename Lanes<Level>::Vector Vector;
   constexpr size_t kCount = Lanes<Level>::kCount;
@@ -256,8 +272,9 @@ bool rise(const Level* next, const Level* old, Level* out, size_t n) {
 
 template <class Level>
 constexpr LevelKernels<Level> kKernels{
-    minimum<Level>,    raise<Level>,  raise_where<Level>, lower_where<Level>, lower_at<Level>, is_top<Level>,
-    is_settled<Level>, spread<Level>, top_bits<Level>,    above_bits<Level>,  advance<Level>,  rise<Level>};
+    minimum<Level>,    raise<Level>,      raise_where<Level>, lower_where<Level>, lower_at<Level>,
+    is_top<Level>,     is_settled<Level>, below<Level>,       spread<Level>,      top_bits<Level>,
+    above_bits<Level>, advance<Level>,    rise<Level>};
 
 }  // namespace
 

@@ -28,4 +28,7 @@ inline constexpr std::int64_t kSharedBytes = std::int64_t{1} << 20;
 /// All eroded blocks of one thread together; a unit of the aircraft needs 41 of 0.1 MiB.
 inline constexpr std::size_t kBlockBytes = std::size_t{1} << 24;
 
+/// Blocks of one thread that are eroded by a single size, for bounds of several choices.
+inline constexpr std::size_t kJoinedBlocks = 128;
+
 }  // namespace coordreq

@@ -38,6 +38,28 @@ class PostReader {
     const Level* levels = posts_->minimum(own);
     return tubes_.empty() ? levels : with_tubes(ids, levels);
   }
+  /// In some lanes of the row alone, the first of them first.
+  /// @param rest what the rest of their last block holds, unless it holds the minima there
+  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids, LaneRange lanes, Level rest) {
+    return has_bounds() ? sums_->minimum(ids, lanes, rest) : minimum(ids) + lanes.begin;
+  }
+
+  /// Takes in several choices of slices, from now on called 0, 1, ...: the same as minimum() of each, but
+  /// that the least of several at once may have a bound that costs no more than one of them.
+  /// @param ids for each choice as in minimum(), one choice after the other; to be there until the next call
+  void take(std::span<const std::uint32_t> ids) {
+    taken_ = ids;
+    if (has_bounds()) sums_->take(ids);
+  }
+  [[nodiscard]] const Level* minimum_of(std::size_t choice, LaneRange lanes, Level rest) {
+    if (has_bounds()) return sums_->minimum_of(choice, lanes, rest);
+    const std::size_t size = engine_.slices().size();
+    return minimum(taken_.subspan(choice * size, size)) + lanes.begin;
+  }
+  /// Of the first of the choices [begin, end), in some lanes of the row.
+  [[nodiscard]] LevelBound<Level> bound(std::size_t begin, std::size_t end, LaneRange lanes) {
+    return has_bounds() ? sums_->bound(begin, end, lanes) : LevelBound<Level>();
+  }
   /// Least levels of the box around all posts of a row. REQUIRES box.covers.
   [[nodiscard]] const Level* minimum(const RowBox& box) {
     return boxes_.minimum(box, 0, engine_.row_length());
@@ -52,6 +74,7 @@ class PostReader {
   [[nodiscard]] std::size_t lanes() const { return boxes_.lanes(); }
 
  private:
+  [[nodiscard]] bool has_bounds() const { return sums_ && tubes_.empty(); }
   [[nodiscard]] const Level* with_tubes(std::span<const std::uint32_t> ids, const Level* levels);
 
   const RowEngine& engine_;
@@ -59,6 +82,7 @@ class PostReader {
   std::optional<SumReader<Level>> sums_;
   RowReader<Level>* posts_;  ///< one of these two
   std::vector<BoxReader<std::uint8_t>> tubes_;
+  std::span<const std::uint32_t> taken_;
   std::vector<Word> safe_;
   std::vector<Word> one_;
   std::vector<Level> lanes_;

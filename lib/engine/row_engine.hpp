@@ -66,6 +66,7 @@ class RowEngine {
   [[nodiscard]] const RowShare* share() const { return share_; }
   [[nodiscard]] std::int64_t rows() const { return grid().rows(); }
   [[nodiscard]] std::int64_t row_length() const { return grid().row_length(); }
+  [[nodiscard]] LaneRange all_lanes() const { return {0, static_cast<std::size_t>(row_length())}; }
   [[nodiscard]] std::size_t row_words() const {
     return static_cast<std::size_t>((row_length() + CellSet::kWordBits - 1) / CellSet::kWordBits);
   }

@@ -12,6 +12,9 @@ namespace coordreq {
 struct SplitRow {
   const std::int32_t* whole = nullptr;
   const std::uint32_t* fraction = nullptr;
+
+  /// Without what stands before a place.
+  [[nodiscard]] SplitRow from(std::size_t place) const { return {whole + place, fraction + place}; }
 };
 
 /// One dimension of the boxes of a row of cells: first = (lower + lower_run[c]) >> 32, last = (upper +

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/limits.hpp"
+#include "engine/list_numbers.hpp"
 #include "engine/row_box.hpp"
 
 namespace coordreq {
@@ -11,6 +12,21 @@ namespace {
 using Kind = RowSegment::Kind;
 
 constexpr std::size_t kMostSlots = 1024;
+
+/// By how many indices a joined box may be wider than the widest of one choice.
+constexpr std::int32_t kMostWider = 4;
+
+/// A range that holds two, on a ring from an index of the domain on.
+IndexRange around_both(IndexRange one, IndexRange other, const GridDimension& dimension) {
+  const auto n = static_cast<std::int32_t>(dimension.count);
+  if (dimension.periodic() && other.first - one.first > n / 2) other = {other.first - n, other.last - n};
+  if (dimension.periodic() && one.first - other.first > n / 2) other = {other.first + n, other.last + n};
+  IndexRange both{std::min(one.first, other.first), std::max(one.last, other.last)};
+  if (!dimension.periodic()) return both;
+  if (both.last - both.first + 1 >= n) return {0, n - 1};
+  if (both.first < 0) both = {both.first + n, both.last + n};
+  return both;
+}
 
 }  // namespace
 
@@ -29,6 +45,7 @@ SumReader<Level>::SumReader(const RowEngine& engine, const LevelRows<Level>& lev
   result_.resize(n + kLevelBlock / sizeof(Level));
   const std::size_t bytes = variants_ * static_cast<std::size_t>(block_cells_) * sizeof(Level);
   slots_.resize(std::clamp<std::size_t>(kBlockBytes / bytes, 2, kMostSlots));
+  joined_slots_.resize(kJoinedBlocks);
 }
 
 /// Room beyond the domain for the largest box on either side, sizes row-major over the dimensions.
@@ -39,21 +56,25 @@ void SumReader<Level>::lay_out_block() {
   sides_.resize(inner);
   sizes_.resize(inner);
   size_stride_.resize(inner);
-  widest_.resize(inner);
+  narrowest_.resize(inner);
+  reach_.resize(inner);
+  widths_.resize(inner);
+  wider_.resize(inner);
   std::int64_t stride = 1;
   for (std::size_t i = inner; i-- > 0;) {
     const SumRows& sums = *family_.slices[outer + i].sums;
     const IndexRange widths = sums.widths();
     const auto count = static_cast<std::int32_t>(engine_.grid()[outer + i].count);
     readers_.emplace_back(sums);
-    widest_[i] = widths.last;
+    narrowest_[i] = widths.first;
+    reach_[i] = widths.last + kMostWider;
     sizes_[i] = widths.last - widths.first + 1;
     size_stride_[i] = variants_;
     variants_ *= static_cast<std::size_t>(sizes_[i]);
     sides_[i].count = count;
     sides_[i].stride = static_cast<std::int32_t>(stride);
-    origin_ += (widths.last + 1) * sides_[i].stride;
-    stride *= count + 2 * (widths.last + 1);
+    origin_ += (reach_[i] + 1) * sides_[i].stride;
+    stride *= count + 2 * (reach_[i] + 1);
   }
   std::reverse(readers_.begin(), readers_.end());
   // Kernels write whole blocks of levels: the next size begins after the last of them.
@@ -61,9 +82,8 @@ void SumReader<Level>::lay_out_block() {
   block_cells_ = (stride + kBlock - 1) / kBlock * kBlock;
   first_place_ = origin_;
   for (std::size_t i = 0; i < inner; ++i) {
-    sides_[i].width_stride =
-        static_cast<std::int32_t>(static_cast<std::int64_t>(size_stride_[i]) * block_cells_);
-    first_place_ -= (widest_[i] - sizes_[i] + 1) * sides_[i].width_stride;
+    const std::int64_t size = static_cast<std::int64_t>(size_stride_[i]) * block_cells_;
+    first_place_ -= narrowest_[i] * static_cast<std::int32_t>(size);
   }
 }
 
@@ -72,7 +92,7 @@ void SumReader<Level>::find_margins() {
   const std::size_t outer = engine_.outer();
   const std::size_t inner = sides_.size();
   std::vector<std::int32_t> index(inner);
-  for (std::size_t i = 0; i < inner; ++i) index[i] = -(widest_[i] + 1);
+  for (std::size_t i = 0; i < inner; ++i) index[i] = -(reach_[i] + 1);
   for (std::int32_t cell = 0;; ++cell) {
     bool outside = false;
     bool unsafe = false;
@@ -95,82 +115,172 @@ void SumReader<Level>::find_margins() {
     if (outside) margins_.push_back({cell, unsafe || safe ? -1 : nearest, unsafe ? Level{0} : kTop});
     std::size_t i = inner;
     while (i-- > 0) {
-      if (++index[i] < sides_[i].count + widest_[i] + 1) break;
+      if (++index[i] < sides_[i].count + reach_[i] + 1) break;
       if (i == 0) return;
-      index[i] = -(widest_[i] + 1);
+      index[i] = -(reach_[i] + 1);
     }
   }
 }
 
 template <class Level>
-const Level* SumReader<Level>::minimum(std::span<const std::uint32_t> ids) {
-  const std::size_t outer = engine_.outer();
-  const auto n = static_cast<std::size_t>(levels_.row_length());
-  bool gone = false;
-  if (!choose_outer(ids, gone)) {
-    std::fill(result_.begin(), result_.end(), Level{0});
+const Level* SumReader<Level>::minimum(std::span<const std::uint32_t> ids, LaneRange lanes, Level rest) {
+  read(ids, one_);
+  return minimum(one_, 0, lanes, rest);
+}
+
+template <class Level>
+void SumReader<Level>::read(std::span<const std::uint32_t> ids, Choices& choices) {
+  const std::size_t outer = engine_.outer(), inner = sides_.size();
+  const std::size_t count = ids.size() / engine_.tables();
+  choices.kinds.resize(count);
+  choices.ranges.resize(count * outer);
+  choices.rows.resize(count * inner);
+  for (std::size_t k = 0; k < count; ++k, ids = ids.subspan(engine_.tables())) {
+    choices.kinds[k] = Kind::fixed;
+    for (std::size_t t = 0; t < outer; ++t) {
+      const RowSegment& segment = family_.slices[t].slices[ids[t]][0];
+      if (segment.kind == Kind::blocked || (segment.kind == Kind::gone && choices.kinds[k] == Kind::fixed))
+        choices.kinds[k] = segment.kind;
+      choices.ranges[k * outer + t] = segment.range;
+    }
+    for (std::size_t i = 0; i < inner; ++i) choices.rows[k * inner + i] = readers_[i].row(ids[outer + i]);
+  }
+}
+
+template <class Level>
+const Level* SumReader<Level>::minimum(const Choices& choices, std::size_t choice, LaneRange lanes,
+                                       Level rest) {
+  const Kind kind = choices.kinds[choice];
+  if (kind == Kind::blocked) {
+    std::fill_n(result_.begin(), lanes.size(), Level{0});
+    fill_rest(lanes, rest);
     return result_.data();
   }
-  Slot& taken = slot(gone);
-  for (std::size_t i = 0; i < sides_.size(); ++i) {
-    const SumRows::Row row = readers_[i].row(ids[outer + i]);
-    sides_[i].lower_run = row.run_lower;
-    sides_[i].upper_run = row.run_upper;
-    sides_[i].lower = row.lower;
-    sides_[i].upper = row.upper;
-  }
-  sums_->find_places(sides_.data(), sides_.size(), first_place_, place_.data(), n);
-  const Level* levels = taken.levels.data();
-  for (std::size_t c = 0; c < n; ++c) result_[c] = levels[place_[c]];
+  const IndexRange* const ranges = choices.ranges.data() + choice * engine_.outer();
+  ranges_.assign(ranges, ranges + engine_.outer());
+  // All that has left for good is alike, but for what else leaves through an unsafe side.
+  if (kind == Kind::gone) ranges_.assign(ranges_.size(), {0, -1});
+  fetch(slot(slots_, {}, kind == Kind::gone), choices.rows.data() + choice * sides_.size(), lanes, rest);
   return result_.data();
 }
 
-/// Sets ranges_ to the box of the leading dimensions. @returns false if it is blocked
 template <class Level>
-bool SumReader<Level>::choose_outer(std::span<const std::uint32_t> ids, bool& gone) {
-  ranges_.resize(engine_.outer());
-  for (std::size_t t = 0; t < engine_.outer(); ++t) {
-    const RowSegment& segment = family_.slices[t].slices[ids[t]][0];
-    if (segment.kind == Kind::blocked) return false;
-    gone = gone || segment.kind == Kind::gone;
-    ranges_[t] = segment.range;
+LevelBound<Level> SumReader<Level>::bound(std::size_t begin, std::size_t end, LaneRange lanes) {
+  if (taken_.kinds[begin] != Kind::fixed) return {};
+  begin_box(begin);
+  std::size_t choices = 1;
+  while (begin + choices < end && widen_box(begin + choices)) ++choices;
+  if (choices < 2) return {};
+  for (std::size_t i = 0; i < widths_.size(); ++i) widths_[i] = greatest_width(i, rows_[i]);
+  fetch(slot(joined_slots_, widths_, false), rows_.data(), lanes, kTop);
+  return {.levels = result_.data(), .choices = choices};
+}
+
+template <class Level>
+void SumReader<Level>::begin_box(std::size_t choice) {
+  const IndexRange* const ranges = taken_.ranges.data() + choice * engine_.outer();
+  const SumRows::Row* const rows = taken_.rows.data() + choice * sides_.size();
+  ranges_.assign(ranges, ranges + engine_.outer());
+  rows_.assign(rows, rows + sides_.size());
+}
+
+/// Takes one more choice in. @returns false, with the box as it was, if it would not be small
+template <class Level>
+bool SumReader<Level>::widen_box(std::size_t choice) {
+  if (taken_.kinds[choice] != Kind::fixed) return false;
+  const SumRows::Row* const own = taken_.rows.data() + choice * sides_.size();
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    if (own[i].run != rows_[i].run) return false;
+    SumRows::Row& wider = wider_[i];
+    wider.lower = std::min(rows_[i].lower, own[i].lower);
+    wider.upper = std::max(rows_[i].upper, own[i].upper);
+    wider.run = own[i].run;
+    if (greatest_width(i, wider) > reach_[i]) return false;
   }
-  // All that has left for good is alike, but for what else leaves through an unsafe side.
-  if (gone) ranges_.assign(ranges_.size(), {0, -1});
+  rows_.swap(wider_);
+  const IndexRange* const ranges = taken_.ranges.data() + choice * engine_.outer();
+  for (std::size_t t = 0; t < ranges_.size(); ++t)
+    ranges_[t] = around_both(ranges_[t], ranges[t], engine_.grid()[t]);
   return true;
 }
 
-/// The block for the leading ranges.
+/// Of a cell's last - first in an inner dimension: floor(a + d) - floor(a) is floor(d) or one more.
 template <class Level>
-typename SumReader<Level>::Slot& SumReader<Level>::slot(bool gone) {
-  std::uint64_t hash = 0;
-  for (const IndexRange& range : ranges_) {
-    hash = (hash ^ static_cast<std::uint32_t>(range.first)) * 0x9E3779B97F4A7C15U;
-    hash = (hash ^ static_cast<std::uint32_t>(range.last)) * 0x9E3779B97F4A7C15U;
-  }
-  // A few places to look; where all are taken the last gives way.
-  constexpr std::size_t kProbes = 4;
-  std::size_t at = (hash >> 32) % slots_.size();
-  for (std::size_t probe = 0; probe < kProbes; ++probe, at = (at + 1) % slots_.size()) {
-    Slot& candidate = slots_[at];
-    if (candidate.epoch == epoch_ && candidate.ranges == ranges_) return candidate;
-    if (candidate.epoch == epoch_ && probe + 1 < kProbes) continue;
-    candidate.epoch = epoch_;
-    candidate.ranges = ranges_;
-    fill_block(candidate, gone);
-    return candidate;
-  }
-  return slots_[at];  // not reached
+std::int32_t SumReader<Level>::greatest_width(std::size_t i, const SumRows::Row& row) const {
+  const SumRows& sums = *family_.slices[engine_.outer() + i].sums;
+  const std::int64_t difference = row.upper - row.lower + sums.widest(row.run);
+  return static_cast<std::int32_t>((difference >> TransitionTable::kFractionBits) + 1);
 }
 
-/// The minima over the leading dimensions, with margins, eroded by the smallest boxes.
+/// The levels of the boxes of some lanes of a row.
+template <class Level>
+void SumReader<Level>::fetch(const Slot& slot, const SumRows::Row* rows, LaneRange lanes, Level rest) {
+  const bool has_all_sizes = slot.widths.empty();
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    BoxSides& side = sides_[i];
+    const SumRows& sums = *family_.slices[engine_.outer() + i].sums;
+    side.lower_run = sums.run_lower(rows[i].run).from(lanes.begin);
+    side.upper_run = sums.run_upper(rows[i].run).from(lanes.begin);
+    side.lower = rows[i].lower;
+    side.upper = rows[i].upper;
+    const std::int64_t stride = static_cast<std::int64_t>(size_stride_[i]) * block_cells_;
+    side.width_stride = has_all_sizes ? static_cast<std::int32_t>(stride) : 0;
+  }
+  const std::size_t n = lanes.size();
+  sums_->find_places(sides_.data(), sides_.size(), has_all_sizes ? first_place_ : origin_, place_.data(), n);
+  const Level* const levels = slot.levels.data();
+  for (std::size_t c = 0; c < n; ++c) result_[c] = levels[place_[c]];
+  fill_rest(lanes, rest);
+}
+
+template <class Level>
+void SumReader<Level>::fill_rest(LaneRange lanes, Level rest) {
+  std::fill_n(result_.begin() + static_cast<std::ptrdiff_t>(lanes.size()), kLevelBlock / sizeof(Level), rest);
+}
+
+/// The block for the leading ranges_, eroded by boxes of one size, or of all.
+template <class Level>
+typename SumReader<Level>::Slot& SumReader<Level>::slot(Slots& slots, const std::vector<std::int32_t>& widths,
+                                                        bool gone) {
+  std::uint64_t hash = 0;
+  for (const IndexRange& range : ranges_) {
+    hash = mixed_hash(hash, static_cast<std::uint32_t>(range.first));
+    hash = mixed_hash(hash, static_cast<std::uint32_t>(range.last));
+  }
+  for (const std::int32_t width : widths) hash = mixed_hash(hash, static_cast<std::uint32_t>(width));
+  // A few places to look; where all are taken the last gives way.
+  constexpr std::size_t kProbes = 4;
+  std::size_t at = (hash >> 32) % slots.size();
+  for (std::size_t probe = 0; probe < kProbes; ++probe, at = (at + 1) % slots.size()) {
+    Slot& candidate = slots[at];
+    const bool is_taken = candidate.epoch == epoch_;
+    if (is_taken && candidate.ranges == ranges_ && candidate.widths == widths) return candidate;
+    if (is_taken && probe + 1 < kProbes) continue;
+    candidate.epoch = epoch_;
+    candidate.ranges = ranges_;
+    candidate.widths = widths;
+    fill(candidate, gone);
+    return candidate;
+  }
+  return slots[at];  // not reached
+}
+
+template <class Level>
+void SumReader<Level>::fill(Slot& slot, bool gone) {
+  const std::size_t sizes = slot.widths.empty() ? variants_ : 1;
+  // What erosion reads beyond a block is in the one after it, and makes no difference.
+  std::int64_t beyond = 0;
+  for (std::size_t i = 0; i < sides_.size(); ++i) beyond += std::int64_t{reach_[i] + 1} * sides_[i].stride;
+  slot.levels.resize(sizes * static_cast<std::size_t>(block_cells_) + static_cast<std::size_t>(beyond) +
+                     kLevelBlock);
+  fill_block(slot, gone);
+  erode_block(slot, slot.widths.empty() ? narrowest_ : slot.widths);
+  for (std::size_t size = 1; size < sizes; ++size) erode(slot, size);
+}
+
+/// The minima over the leading dimensions, with margins.
 template <class Level>
 void SumReader<Level>::fill_block(Slot& slot, bool gone) {
-  // What erosion reads beyond a block is in the one after it, and makes no difference.
-  std::int64_t reach = 0;
-  for (std::size_t i = 0; i < sides_.size(); ++i) reach += std::int64_t{widest_[i] + 1} * sides_[i].stride;
-  slot.levels.resize(variants_ * static_cast<std::size_t>(block_cells_) + static_cast<std::size_t>(reach) +
-                     kLevelBlock);
   const auto n = static_cast<std::size_t>(levels_.row_length());
   for (std::size_t inner = 0; inner < places_of_rows_.size(); ++inner) {
     Level* target = slot.levels.data() + places_of_rows_[inner];
@@ -188,18 +298,16 @@ void SumReader<Level>::fill_block(Slot& slot, bool gone) {
     slot.levels[static_cast<std::size_t>(margin.cell)] =
         margin.source < 0 ? margin.constant : slot.levels[static_cast<std::size_t>(margin.source)];
   }
-  erode_from_block(slot);
-  for (std::size_t size = 1; size < variants_; ++size) erode(slot, size);
 }
 
-/// Each cell becomes the minimum of the smallest box that begins there, a dimension at a time, by doubling.
+/// Each cell of the first block becomes the minimum of the box that begins there, a dimension at a time, by
+/// doubling.
 template <class Level>
-void SumReader<Level>::erode_from_block(Slot& slot) {
+void SumReader<Level>::erode_block(Slot& slot, const std::vector<std::int32_t>& widths) {
   Level* block = slot.levels.data();
   for (std::size_t i = 0; i < sides_.size(); ++i) {
-    const std::int32_t width = widest_[i] - sizes_[i] + 2;
-    for (std::int32_t done = 1; done < width;) {
-      const std::int32_t step = std::min(done, width - done);
+    for (std::int32_t done = 1; done < widths[i] + 1;) {
+      const std::int32_t step = std::min(done, widths[i] + 1 - done);
       const Level* pair[] = {block, block + std::int64_t{step} * sides_[i].stride};
       kernels_->minimum(pair, 2, block, static_cast<std::size_t>(block_cells_));
       done += step;

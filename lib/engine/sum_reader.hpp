@@ -11,6 +11,13 @@
 
 namespace coordreq {
 
+/// Levels that are nowhere above the minima of some choices of slices.
+template <class Level>
+struct LevelBound {
+  const Level* levels = nullptr;  ///< in the lanes asked about
+  std::size_t choices = 0;        ///< that it holds for, of those asked about; below 2: there is none
+};
+
 /// Reads rows that are added up, where the last states are coupled: each cell of a row goes to a box of its
 /// own, given by sums (SumRows). Then nothing is one window for a whole row, and levels are fetched cell by
 /// cell.
@@ -29,7 +36,19 @@ class SumReader final : public RowReader<Level> {
   SumReader(const RowEngine& engine, const LevelRows<Level>& levels);
 
   void enter() override { ++epoch_; }
-  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) override;
+  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) override {
+    return minimum(ids, {0, static_cast<std::size_t>(levels_.row_length())}, kTop);
+  }
+  /// In some lanes of the row alone, the first of them first, and after them a block of `rest`.
+  [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids, LaneRange lanes, Level rest);
+  /// Takes in several choices of slices, from now on called 0, 1, ..., one after the other.
+  void take(std::span<const std::uint32_t> ids) { read(ids, taken_); }
+  [[nodiscard]] const Level* minimum_of(std::size_t choice, LaneRange lanes, Level rest) {
+    return minimum(taken_, choice, lanes, rest);
+  }
+  /// For the choices from `begin` on whose sums differ by the same for all cells of the row, as long as they
+  /// do not differ much: the least levels of one box a cell that holds all of its boxes.
+  [[nodiscard]] LevelBound<Level> bound(std::size_t begin, std::size_t end, LaneRange lanes);
 
  private:
   /// A cell of a block outside the domain, and what it holds: the level of another cell, or a constant.
@@ -38,20 +57,35 @@ class SumReader final : public RowReader<Level> {
     std::int32_t source;  ///< -1: the constant
     Level constant;
   };
-  /// The block for one choice in the leading dimensions, eroded by boxes of every size.
+  /// The block for one choice in the leading dimensions, eroded by boxes of every size, or of one.
   struct Slot {
     std::vector<IndexRange> ranges;
+    std::vector<std::int32_t> widths;  ///< last - first of the one size; empty: there are all
     std::uint64_t epoch = 0;
     std::vector<Level> levels;  ///< [size][cell of the block]
+  };
+  using Slots = std::vector<Slot>;
+  /// What the slices of some choices say, one choice after the other.
+  struct Choices {
+    std::vector<RowSegment::Kind> kinds;  ///< in the leading dimensions together; `fixed`: there are cells
+    std::vector<IndexRange> ranges;       ///< of the leading dimensions
+    std::vector<SumRows::Row> rows;       ///< of the inner dimensions
   };
 
   void lay_out_block();
   void find_margins();
-  [[nodiscard]] bool choose_outer(std::span<const std::uint32_t> ids, bool& gone);
-  [[nodiscard]] Slot& slot(bool gone);
+  void read(std::span<const std::uint32_t> ids, Choices& choices);
+  [[nodiscard]] const Level* minimum(const Choices& choices, std::size_t choice, LaneRange lanes, Level rest);
+  void begin_box(std::size_t choice);
+  [[nodiscard]] bool widen_box(std::size_t choice);
+  [[nodiscard]] std::int32_t greatest_width(std::size_t i, const SumRows::Row& row) const;
+  void fetch(const Slot& slot, const SumRows::Row* rows, LaneRange lanes, Level rest);
+  void fill_rest(LaneRange lanes, Level rest);
+  [[nodiscard]] Slot& slot(Slots& slots, const std::vector<std::int32_t>& widths, bool gone);
+  void fill(Slot& slot, bool gone);
   void fill_block(Slot& slot, bool gone);
   void erode(Slot& slot, std::size_t size);
-  void erode_from_block(Slot& slot);
+  void erode_block(Slot& slot, const std::vector<std::int32_t>& widths);
 
   const RowEngine& engine_;
   RowFamily family_;
@@ -62,19 +96,26 @@ class SumReader final : public RowReader<Level> {
   std::vector<BoxSides> sides_;           ///< likewise
   std::vector<std::int32_t> sizes_;       ///< likewise: widths there are
   std::vector<std::size_t> size_stride_;  ///< likewise: into the sizes
-  std::vector<std::int32_t> widest_;      ///< likewise: greatest last - first
+  std::vector<std::int32_t> narrowest_;   ///< likewise: least last - first
+  std::vector<std::int32_t> reach_;       ///< likewise: greatest last - first of joined boxes
   std::int64_t block_cells_ = 0;
   std::size_t variants_ = 1;
   std::int32_t origin_ = 0;       ///< place of the cell with index 0 everywhere
   std::int32_t first_place_ = 0;  ///< the same in the block of boxes of width 0, if there were one
   std::vector<Margin> margins_;
   std::vector<std::int64_t> places_of_rows_;  ///< [row of a unit] its first cell
-  std::vector<IndexRange> ranges_;
+  std::vector<IndexRange> ranges_;            ///< of the leading dimensions, of the box in question
+  std::vector<SumRows::Row> rows_;  ///< of a box around some choices: the least lower and greatest upper ends
+  std::vector<std::int32_t> widths_;  ///< greatest last - first of a cell in that
+  std::vector<SumRows::Row> wider_;   ///< rows_ with one choice more
+  Choices one_;
+  Choices taken_;
   std::vector<std::int64_t> counter_;
   std::vector<const Level*> sources_;
   std::vector<std::int32_t> place_;
   std::vector<Level> result_;
-  std::vector<Slot> slots_;
+  Slots slots_;
+  Slots joined_slots_;
   std::uint64_t epoch_ = 1;
 };
 

@@ -96,6 +96,7 @@ class SumRows::Builder {
     for (const std::int32_t j : table_.inputs) {
       if (!is_used(at(j), &SumSource::input_stride)) continue;
       run_inputs_.push_back(at(j));
+      rows_.run_inputs_.push_back(j);
       counts.push_back(inputs_[at(j)].count());
     }
     runs_ = Odometer(counts);
@@ -180,12 +181,13 @@ std::int64_t SumRows::SplitRuns::operator[](std::size_t i) const {
 
 void SumRows::find_bounds() {
   for (std::size_t first = 0; first < lower_.whole.size(); first += static_cast<std::size_t>(run_stride_)) {
-    Bounds& bounds = bounds_.emplace_back(Bounds{INT64_MAX, INT64_MIN, INT64_MAX, INT64_MIN});
+    Bounds& bounds = bounds_.emplace_back(Bounds{INT64_MAX, INT64_MIN, INT64_MAX, INT64_MIN, 0});
     for (std::int64_t c = 0; c < length_; ++c) {
       const std::int64_t lower = lower_[first + static_cast<std::size_t>(c)];
       const std::int64_t upper = upper_[first + static_cast<std::size_t>(c)];
       bounds.least = std::min(bounds.least, lower);
       bounds.greatest = std::max(bounds.greatest, upper);
+      bounds.widest = std::max(bounds.widest, upper - lower);
       bounds.least_offset = std::min(bounds.least_offset, lower - (c << kFractionBits));
       bounds.greatest_offset = std::max(bounds.greatest_offset, upper - (c << kFractionBits));
     }
@@ -227,10 +229,10 @@ std::uint64_t SumRows::bytes() const {
 SumRows::Reader::Reader(const SumRows& rows) : rows_(&rows), base_(rows.parts_.size()) {}
 
 SumRows::Row SumRows::Reader::row(std::uint32_t number) {
-  const std::int64_t choice = number / rows_->combinations_;
-  const auto combination = static_cast<std::size_t>(number - choice * rows_->combinations_);
-  if (choice != choice_) {
-    choice_ = choice;
+  // Rows are asked for choice by choice: a division for each would take longer than the rest.
+  if (number < first_ || number >= first_ + rows_->combinations_) {
+    const std::int64_t choice = number / rows_->combinations_;
+    first_ = choice * rows_->combinations_;
     std::fill(base_.begin(), base_.end(), 0);
     run_base_ = 0;
     own_ = 0;
@@ -243,6 +245,7 @@ SumRows::Row SumRows::Reader::row(std::uint32_t number) {
       if (v == rows_->own_) own_ = index << kFractionBits;
     }
   }
+  const auto combination = static_cast<std::size_t>(number - first_);
   Row row{.lower = own_, .upper = own_};
   for (std::size_t p = 0; p < base_.size(); ++p) {
     const Part& part = rows_->parts_[p];
@@ -251,9 +254,6 @@ SumRows::Row SumRows::Reader::row(std::uint32_t number) {
     row.upper += part.upper[place];
   }
   row.run = static_cast<std::size_t>(run_base_ + rows_->run_strides_.input[combination]);
-  const std::size_t first = row.run * static_cast<std::size_t>(rows_->run_stride_);
-  row.run_lower = rows_->lower_.row(first);
-  row.run_upper = rows_->upper_.row(first);
   return row;
 }
 

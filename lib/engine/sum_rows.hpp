@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -26,12 +27,16 @@ class SumRows {
 
   /// Ends of the ranges of a row: cell c goes to [(lower + run_lower[c]) >> kFractionBits, likewise upper].
   struct Row {
-    SplitRow run_lower;
-    SplitRow run_upper;
     std::int64_t lower = 0;
     std::int64_t upper = 0;
     std::size_t run = 0;  ///< number of the run
   };
+  [[nodiscard]] SplitRow run_lower(std::size_t run) const {
+    return lower_.row(run * static_cast<std::size_t>(run_stride_));
+  }
+  [[nodiscard]] SplitRow run_upper(std::size_t run) const {
+    return upper_.row(run * static_cast<std::size_t>(run_stride_));
+  }
 
   /// Adds up rows, one after the other. One object a thread.
   class Reader {
@@ -42,8 +47,9 @@ class SumRows {
 
    private:
     const SumRows* rows_;
-    std::int64_t choice_ = -1;        ///< of states, that the bases below belong to
-    std::vector<std::int64_t> base_;  ///< by part
+    std::int64_t first_ =
+        UINT32_MAX + std::int64_t{1};  ///< row of the choice of states that the bases below belong to
+    std::vector<std::int64_t> base_;   ///< by part
     std::int64_t run_base_ = 0;
     std::int64_t own_ = 0;  ///< the state's own index, for a shift
   };
@@ -57,6 +63,12 @@ class SumRows {
   /// A range that holds those of all cells of a row: of indices, or of offsets from the cell's own index.
   [[nodiscard]] IndexRange hull(const Row& row) const;
   [[nodiscard]] IndexRange offset_hull(const Row& row) const;
+  /// Greatest run_upper[c] - run_lower[c].
+  [[nodiscard]] std::int64_t widest(std::size_t run) const { return bounds_[run].widest; }
+  /// Whether rows under different values of an input have different runs.
+  [[nodiscard]] bool tells_runs_apart(std::int32_t input) const {
+    return std::find(run_inputs_.begin(), run_inputs_.end(), input) != run_inputs_.end();
+  }
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
@@ -83,6 +95,7 @@ class SumRows {
   struct Bounds {
     std::int64_t least, greatest;                ///< of lower, of upper
     std::int64_t least_offset, greatest_offset;  ///< the same less the cell's own index
+    std::int64_t widest;                         ///< greatest upper - lower of a cell
   };
 
   class Builder;
@@ -94,6 +107,7 @@ class SumRows {
   std::int64_t run_stride_ = 0;  ///< length_ and a block, rounded up to whole blocks
   SplitRuns lower_, upper_;
   Strides run_strides_;
+  std::vector<std::int32_t> run_inputs_;
   std::vector<Bounds> bounds_;        ///< by run
   std::vector<Part> parts_;           ///< views of the table
   std::vector<std::int64_t> counts_;  ///< of the states in use but the last one

@@ -3,7 +3,7 @@
 namespace coordreq {
 
 void TupleWalk::begin(const ActionGrouping& grouping, const RowPlace& place, const RowGroups& groups,
-                      const Candidates& candidates) {
+                      const Candidates& candidates, std::size_t fastest) {
   grouping_ = &grouping;
   candidates_ = candidates;
   sources_ = grouping.sources().size();
@@ -11,43 +11,71 @@ void TupleWalk::begin(const ActionGrouping& grouping, const RowPlace& place, con
   sum_.resize((grouping.size() + 1) * sources_);
   position_.assign(grouping.size(), 0);
   ids_.resize(grouping.engine().slices().size());
+  order_.clear();
   for (std::size_t t = 0; t < sources_; ++t) sum_[t] = grouping.sources()[t].base(place);
   for (std::size_t c = 0; c < grouping.size(); ++c) {
+    if (c != fastest) order_.push_back(c);
     offset_[c].clear();
     for (const std::uint32_t g : candidates_[c]) {
       const std::uint32_t action = groups.classes[c]->representative[g];
       for (std::size_t t = 0; t < sources_; ++t) offset_[c].push_back(grouping.contribution(c, t, action));
     }
   }
+  order_.push_back(fastest);
   add_up(0);
 }
 
-void TupleWalk::add_up(std::size_t from_class) {
-  for (std::size_t c = from_class; c < position_.size(); ++c) {
-    const std::int64_t* offset = offset_[c].data() + position_[c] * sources_;
+/// From a place in the order on.
+void TupleWalk::add_up(std::size_t from) {
+  for (std::size_t k = from; k < order_.size(); ++k) {
+    const std::int64_t* offset = offset_[order_[k]].data() + position_[order_[k]] * sources_;
     for (std::size_t t = 0; t < sources_; ++t)
-      sum_[(c + 1) * sources_ + t] = sum_[c * sources_ + t] + offset[t];
+      sum_[(k + 1) * sources_ + t] = sum_[k * sources_ + t] + offset[t];
   }
 }
 
+void TupleWalk::find_ids(std::uint32_t* ids) const {
+  const std::int64_t* sum = sum_.data() + order_.size() * sources_;
+  for (std::size_t t = 0; t < ids_.size(); ++t) ids[t] = grouping_->sources()[t].id(sum[t]);
+}
+
 std::span<const std::uint32_t> TupleWalk::slice_ids() {
-  const std::int64_t* sum = sum_.data() + position_.size() * sources_;
-  for (std::size_t t = 0; t < ids_.size(); ++t) {
-    ids_[t] = grouping_->sources()[t].id(sum[t]);
-  }
+  find_ids(ids_.data());
   return ids_;
+}
+
+std::span<const std::uint32_t> TupleWalk::all_slice_ids() {
+  all_ids_.resize(candidates_[order_.back()].size() * ids_.size());
+  for (std::size_t k = 0; k * ids_.size() < all_ids_.size(); ++k) {
+    choose_fastest(k);
+    find_ids(all_ids_.data() + k * ids_.size());
+  }
+  return all_ids_;
 }
 
 ConstRow TupleWalk::allowed() const {
   const PairTable* allow = grouping_->engine().allow();
   if (allow == nullptr) return {};
-  return allow->row(sum_[position_.size() * sources_ + ids_.size()]);
+  return allow->row(sum_[order_.size() * sources_ + ids_.size()]);
+}
+
+void TupleWalk::choose_fastest(std::size_t position) {
+  position_[order_.back()] = position;
+  add_up(order_.size() - 1);
 }
 
 bool TupleWalk::next() {
-  for (std::size_t c = position_.size(); c-- > 0;) {
+  if (position_[order_.back()] + 1 == candidates_[order_.back()].size()) return next_of_others();
+  choose_fastest(position_[order_.back()] + 1);
+  return true;
+}
+
+bool TupleWalk::next_of_others() {
+  position_[order_.back()] = 0;
+  for (std::size_t k = order_.size() - 1; k-- > 0;) {
+    const std::size_t c = order_[k];
     if (++position_[c] < candidates_[c].size()) {
-      add_up(c);
+      add_up(k);
       return true;
     }
     position_[c] = 0;

@@ -8,8 +8,8 @@
 
 namespace coordreq {
 
-/// Visits all choices of one candidate group a class in one row, the last class fastest. Keeps its memory
-/// from row to row. One object a thread.
+/// Visits all choices of one candidate group a class in one row, one class (the last, if nobody asks for
+/// another one) faster than all others. Keeps its memory from row to row. One object a thread.
 class TupleWalk {
  public:
   /// Groups of each class to choose from.
@@ -17,27 +17,41 @@ class TupleWalk {
 
   /// Stands at the first choice. REQUIRES: no class is without a candidate; the arguments outlive the walk.
   void begin(const ActionGrouping& grouping, const RowPlace& place, const RowGroups& groups,
-             const Candidates& candidates);
+             const Candidates& candidates) {
+    begin(grouping, place, groups, candidates, grouping.size() - 1);
+  }
+  void begin(const ActionGrouping& grouping, const RowPlace& place, const RowGroups& groups,
+             const Candidates& candidates, std::size_t fastest);
   /// @returns false after the last choice
   bool next();
+
+  /// To the next choice of all classes but the fastest, with its first candidate. @returns false after the
+  /// last one
+  bool next_of_others();
 
   /// Group chosen in class c.
   [[nodiscard]] std::uint32_t chosen(std::size_t c) const { return candidates_[c][position_[c]]; }
   /// Numbers of the slices, one for each of RowEngine::slices(), for PostReader::minimum.
   [[nodiscard]] std::span<const std::uint32_t> slice_ids();
+  /// slice_ids() under all candidates of the fastest class, one after the other.
+  [[nodiscard]] std::span<const std::uint32_t> all_slice_ids();
   /// Allowed cells of the row; empty if everything is allowed.
   [[nodiscard]] ConstRow allowed() const;
 
  private:
-  void add_up(std::size_t from_class);
+  void add_up(std::size_t from);
+  void choose_fastest(std::size_t position);
+  void find_ids(std::uint32_t* ids) const;
 
   const ActionGrouping* grouping_ = nullptr;
   Candidates candidates_;
   std::size_t sources_ = 0;                        ///< tables of slices, and one more if there is `allow`
   std::vector<std::vector<std::int64_t>> offset_;  ///< [class][position of the candidate * sources_ + source]
-  std::vector<std::int64_t> sum_;                  ///< [classes added up * sources_ + source], bases first
-  std::vector<std::size_t> position_;
+  std::vector<std::size_t> order_;                 ///< classes, the fastest last
+  std::vector<std::int64_t> sum_;      ///< [classes of the order added up * sources_ + source], bases first
+  std::vector<std::size_t> position_;  ///< [class]
   std::vector<std::uint32_t> ids_;
+  std::vector<std::uint32_t> all_ids_;
 };
 
 /// Which of the groups of each class are worth a look.

@@ -130,6 +130,32 @@ TYPED_TEST(LevelKernelsTest, TopAndSettled) {
   });
 }
 
+TYPED_TEST(LevelKernelsTest, BelowIsFromTheFirstToTheLastLane) {
+  this->check("below", [](const auto& kernels, std::size_t n) {
+    Row<TypeParam> row(n);
+    Row<TypeParam> where = TestFixture::lanes(n);
+    Row<TypeParam> bound(n);
+    if (*rc::gen::arbitrary<bool>()) {  // nowhere, or in a lane or two
+      for (std::size_t j = 0; j < n; ++j)
+        if (where[j] != 0) bound.data()[j] = row[j];
+      for (int k = *rc::gen::inRange(0, 3); k > 0; --k) {
+        const auto j = *rc::gen::inRange<std::size_t>(0, n);
+        row.data()[j] = 0;
+        bound.data()[j] = TestFixture::kMost;
+      }
+    }
+    std::size_t first = n, last = 0;
+    for (std::size_t j = 0; j < n; ++j) {
+      if (where[j] == 0 || row[j] >= bound[j]) continue;
+      first = std::min(first, j);
+      last = j + 1;
+    }
+    const LaneRange found = kernels.below(row.data(), where.data(), bound.data(), n);
+    RC_ASSERT(found.size() == (first < last ? last - first : 0));
+    RC_ASSERT(found.size() == 0 || found.begin == first);
+  });
+}
+
 TYPED_TEST(LevelKernelsTest, BitsToLanesAndBack) {
   this->check("spread, top_bits", [](const auto& kernels, std::size_t n) {
     std::vector<std::uint64_t> bits(n / 64 + 2);

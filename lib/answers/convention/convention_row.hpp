@@ -63,7 +63,8 @@ class ConventionRows {
     numbers_.clear();
     std::vector<Word> members(words_);
     do {
-      controller_row(controller_, levels_, place.row, tuple_, posts_, members);
+      controller_row(controller_, levels_, place.row, tuple_, posts_, controller_.engine->all_lanes(),
+                     members);
       admissible_.insert(admissible_.end(), members.begin(), members.end());
       std::int64_t number = 0;
       for (std::size_t i = 0; i < agents_.size(); ++i) {

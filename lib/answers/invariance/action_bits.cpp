@@ -20,7 +20,7 @@ void write_row(const Controller& controller, const ActionGrouping& grouping, std
   TupleWalk tuple;
   tuple.begin(grouping, place, groups, candidates);
   do {
-    controller_row(controller, levels, place.row, tuple, posts, members);
+    controller_row(controller, levels, place.row, tuple, posts, controller.engine->all_lanes(), members);
     std::vector<Word>& target = projection[tuple.chosen(c)];
     for (std::size_t w = 0; w < members.size(); ++w) target[w] |= members[w];
   } while (tuple.next());

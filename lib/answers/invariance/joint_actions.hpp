@@ -20,6 +20,8 @@ struct JointWorkspace {
   TupleWalk tuple;
   RowBox box;
   std::vector<Level> lanes;
+  std::vector<Level> everywhere;
+  std::vector<Level> most;
   std::vector<Word> some_allowed;
 };
 
@@ -45,25 +47,40 @@ class SomeAction final : public RowOperator<Level> {
     // A larger post is never of use where a smaller one of the same class is allowed alike.
     choose_groups(work.groups, GroupChoice::minimal, work.candidates);
     work.tuple.begin(grouping_, place, work.groups, work.candidates);
+    LaneRange open = grouping_.engine().all_lanes();
+    if (!rises_) allow_at_most(old, posts.lanes(), work);
     do {
-      raise(work, posts, next);
+      raise(open, work, posts, next);
+      if (rises_) continue;
       // No action can do better than to leave all as it was.
-      if (!rises_ && kernels.is_settled(next, old, n)) return false;
+      const LaneRange still = kernels.below(next + open.begin, work.everywhere.data(),
+                                            work.most.data() + open.begin, open.size());
+      if (still.size() == 0) return false;
+      open = {open.begin + still.begin, open.begin + still.end};
     } while (work.tuple.next());
     return true;
   }
   [[nodiscard]] bool rises() const override { return rises_; }
 
  private:
-  void raise(JointWorkspace<Level>& work, PostReader<Level>& posts, Level* next) const {
-    const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
+  /// Levels below which a cell may still sink.
+  void allow_at_most(const Level* old, std::size_t lanes, JointWorkspace<Level>& work) const {
+    work.everywhere.resize(lanes, PostReader<Level>::kTop);
+    work.most.resize(lanes);
+    std::transform(old, old + lanes, work.most.begin(),
+                   [](Level level) { return static_cast<Level>(level == 0 ? 0 : level - 1); });
+  }
+
+  void raise(LaneRange lanes, JointWorkspace<Level>& work, PostReader<Level>& posts, Level* next) const {
     const ConstRow allowed = work.tuple.allowed();
+    Level* const open = next + lanes.begin;
     if (allowed.empty()) {
-      posts.kernels().raise(posts.minimum(work.tuple.slice_ids()), next, n);
+      posts.kernels().raise(posts.minimum(work.tuple.slice_ids(), lanes, 0), open, lanes.size());
     } else if (any_set(allowed)) {
       work.lanes.resize(posts.lanes(), 0);
-      posts.kernels().spread(allowed.data(), work.lanes.data(), n);
-      posts.kernels().raise_where(posts.minimum(work.tuple.slice_ids()), work.lanes.data(), next, n);
+      posts.kernels().spread(allowed.data(), work.lanes.data(), grouping_.engine().all_lanes().size());
+      posts.kernels().raise_where(posts.minimum(work.tuple.slice_ids(), lanes, 0),
+                                  work.lanes.data() + lanes.begin, open, lanes.size());
     }
   }
 

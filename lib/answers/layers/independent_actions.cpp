@@ -3,6 +3,27 @@
 #include <algorithm>
 
 namespace coordreq {
+namespace {
+
+/// Below so many choices a bound of them together saves too little.
+constexpr std::size_t kFewChoices = 3;
+
+/// The class whose choices are tried one after the other: where rows are added up one that moves the cells of
+/// a row alike, so that there are bounds of several choices.
+std::size_t choose_fastest(const ActionGrouping& grouping) {
+  const auto is_steady = [&](const InputClass& inputs) {
+    return std::ranges::none_of(grouping.engine().posts().slices, [&](const RowSlices& slices) {
+      return slices.sums && std::ranges::any_of(inputs.inputs(), [&](std::int32_t input) {
+               return slices.sums->tells_runs_apart(input);
+             });
+    });
+  };
+  std::size_t fastest = grouping.size() - 1;
+  while (fastest > 0 && !is_steady(grouping[fastest])) --fastest;
+  return is_steady(grouping[fastest]) ? fastest : grouping.size() - 1;
+}
+
+}  // namespace
 
 template <class Level>
 IndependentActions<Level>::IndependentActions(const Projections& projections, const RowHull& hull,
@@ -12,6 +33,7 @@ IndependentActions<Level>::IndependentActions(const Projections& projections, co
       hull_(hull),
       boxes_(grouping_),
       invariant_(invariant),
+      fastest_(choose_fastest(grouping_)),
       work_(static_cast<std::size_t>(workers)) {}
 
 template <class Level>
@@ -21,15 +43,25 @@ bool IndependentActions<Level>::next_levels(const RowPlace& place, PostReader<Le
   const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
   hull_.box(place, work.box);
   if (work.box.covers && posts.kernels().is_settled(posts.minimum(work.box), old, n)) return false;
-  find_minimum(place, posts, next, worker);
+  // No level rises: what cannot lower a cell is not looked at.
+  constexpr Level kTop = PostReader<Level>::kTop;
+  std::transform(old, old + posts.lanes(), next, [](Level level) {
+    return level == 0 || level == kTop ? level : static_cast<Level>(level - 1);
+  });
+  lower(place, posts, next, work);
   return true;
 }
 
 template <class Level>
 void IndependentActions<Level>::find_minimum(const RowPlace& place, PostReader<Level>& posts, Level* next,
                                              int worker) {
-  Workspace& work = work_[static_cast<std::size_t>(worker)];
   std::fill_n(next, posts.lanes(), PostReader<Level>::kTop);
+  lower(place, posts, next, work_[static_cast<std::size_t>(worker)]);
+}
+
+template <class Level>
+void IndependentActions<Level>::lower(const RowPlace& place, PostReader<Level>& posts, Level* next,
+                                      Workspace& work) const {
   switch (projections_.form(place.row)) {
     case Projections::Form::product:
       lower_by_boxes(place, posts, next, work);
@@ -104,19 +136,14 @@ void IndependentActions<Level>::lower_by_box(const IndependentPosts::Part& part,
 template <class Level>
 void IndependentActions<Level>::lower_by_all(const RowPlace& place, PostReader<Level>& posts, Level* next,
                                              Workspace& work) const {
-  const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
   choose_groups(work.groups, GroupChoice::maximal, work.candidates);
-  work.tuple.begin(grouping_, place, work.groups, work.candidates);
-  do {
-    const Level* pair[] = {next, posts.minimum(work.tuple.slice_ids())};
-    posts.kernels().minimum(pair, 2, next, n);
-  } while (work.tuple.next());
+  work.lanes_of_others.assign(posts.lanes(), PostReader<Level>::kTop);
+  lower_by_tuples(place, {.number = place.row, .is_full = true, .posts = posts, .next = next}, work);
 }
 
 template <class Level>
 void IndependentActions<Level>::lower_by_projections(const RowPlace& place, PostReader<Level>& posts,
                                                      Level* next, Workspace& work) const {
-  const auto n = grouping_.engine().row_length();
   work.worst.resize(grouping_.size());
   work.candidates.clear();
   for (std::size_t c = 0; c < grouping_.size(); ++c) {
@@ -125,19 +152,78 @@ void IndependentActions<Level>::lower_by_projections(const RowPlace& place, Post
     work.candidates.emplace_back(work.worst[c]);
   }
   work.lanes.resize(posts.lanes(), 0);
-  work.tuple.begin(grouping_, place, work.groups, work.candidates);
+  work.lanes_of_others.resize(posts.lanes(), 0);
+  lower_by_tuples(place, {.number = place.row, .is_full = false, .posts = posts, .next = next}, work);
+}
+
+template <class Level>
+void IndependentActions<Level>::lower_by_tuples(const RowPlace& place, const Row& row,
+                                                Workspace& work) const {
+  work.tuple.begin(grouping_, place, work.groups, work.candidates, fastest_);
   do {
-    const ConstRow invariant = invariant_.row(place.row);
-    work.reasonable.assign(invariant.begin(), invariant.end());
-    for (std::size_t c = 0; c < grouping_.size(); ++c) {
-      const ConstRow projection = projections_.mask(place.row, work.groups, c, work.tuple.chosen(c));
-      for (std::size_t w = 0; w < projection.size(); ++w) work.reasonable[w] &= projection[w];
+    if (!row.is_full && !is_some_reasonable(row, work)) continue;
+    row.posts.take(work.tuple.all_slice_ids());
+    lower_by_several(row, 0, work.candidates[fastest_].size(), grouping_.engine().all_lanes(), work);
+  } while (work.tuple.next_of_others());
+}
+
+/// Finds where what the other classes have chosen is reasonable.
+template <class Level>
+bool IndependentActions<Level>::is_some_reasonable(const Row& row, Workspace& work) const {
+  const ConstRow invariant = invariant_.row(row.number);
+  work.reasonable_for_others.assign(invariant.begin(), invariant.end());
+  for (std::size_t c = 0; c < grouping_.size(); ++c) {
+    if (c == fastest_) continue;
+    const ConstRow projection = projections_.mask(row.number, work.groups, c, work.tuple.chosen(c));
+    for (std::size_t w = 0; w < projection.size(); ++w) work.reasonable_for_others[w] &= projection[w];
+  }
+  if (!any_set(work.reasonable_for_others)) return false;
+  row.posts.kernels().spread(work.reasonable_for_others.data(), work.lanes_of_others.data(),
+                             static_cast<std::size_t>(grouping_.engine().row_length()));
+  return true;
+}
+
+/// Lowers some lanes by the candidates [begin, end) of the fastest class: where a bound of several does not
+/// say that they lower nothing, by each half of them.
+template <class Level>
+void IndependentActions<Level>::lower_by_several(const Row& row, std::size_t begin, std::size_t end,
+                                                 LaneRange lanes, Workspace& work) const {
+  while (begin < end) {
+    const auto bound = end - begin < kFewChoices ? LevelBound<Level>() : row.posts.bound(begin, end, lanes);
+    if (bound.choices < kFewChoices) {
+      lower_by_one(row, begin++, lanes, work);
+      continue;
     }
-    if (!any_set(work.reasonable)) continue;
-    posts.kernels().spread(work.reasonable.data(), work.lanes.data(), static_cast<std::size_t>(n));
-    posts.kernels().lower_where(posts.minimum(work.tuple.slice_ids()), work.lanes.data(), next,
-                                static_cast<std::size_t>(n));
-  } while (work.tuple.next());
+    LaneRange open = row.posts.kernels().below(bound.levels, work.lanes_of_others.data() + lanes.begin,
+                                               row.next + lanes.begin, lanes.size());
+    if (open.size() > 0) {
+      open = {open.begin + lanes.begin, open.end + lanes.begin};
+      lower_by_several(row, begin, begin + bound.choices / 2, open, work);
+      lower_by_several(row, begin + bound.choices / 2, begin + bound.choices, open, work);
+    }
+    begin += bound.choices;
+  }
+}
+
+template <class Level>
+void IndependentActions<Level>::lower_by_one(const Row& row, std::size_t position, LaneRange lanes,
+                                             Workspace& work) const {
+  const LevelKernels<Level>& kernels = row.posts.kernels();
+  Level* const next = row.next + lanes.begin;
+  if (row.is_full) {
+    const Level* pair[] = {next, row.posts.minimum_of(position, lanes, PostReader<Level>::kTop)};
+    kernels.minimum(pair, 2, next, lanes.size());
+    return;
+  }
+  const std::uint32_t group = work.candidates[fastest_][position];
+  const ConstRow projection = projections_.mask(row.number, work.groups, fastest_, group);
+  work.reasonable.assign(projection.begin(), projection.end());
+  for (std::size_t w = 0; w < projection.size(); ++w) work.reasonable[w] &= work.reasonable_for_others[w];
+  if (!any_set(work.reasonable)) return;
+  kernels.spread(work.reasonable.data(), work.lanes.data(),
+                 static_cast<std::size_t>(grouping_.engine().row_length()));
+  kernels.lower_where(row.posts.minimum_of(position, lanes, PostReader<Level>::kTop),
+                      work.lanes.data() + lanes.begin, next, lanes.size());
 }
 
 /// The groups of class c that can make a difference: reasonable somewhere, and not with a post inside that

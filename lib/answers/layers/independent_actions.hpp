@@ -35,9 +35,20 @@ class IndependentActions final : public RowOperator<Level> {
     const Level* labels = nullptr;  ///< of the page at hand; null: there is one part, all of K
     Level label = 0;
     std::vector<Word> reasonable;
-    std::vector<Level> lanes;
+    std::vector<Word> reasonable_for_others;  ///< the choice of all classes but the fastest is
+    std::vector<Level> lanes;                 ///< the same
+    std::vector<Level> lanes_of_others;
+  };
+  /// A row that is lowered.
+  struct Row {
+    std::int64_t number;
+    bool is_full;  ///< every action is reasonable in all cells that count
+    PostReader<Level>& posts;
+    Level* next;
   };
 
+  /// Lowers `next`, which is nowhere below it, to the minimum.
+  void lower(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const;
   void lower_by_boxes(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const;
   void enter_page(const std::uint8_t* labels, std::size_t lanes, Workspace& work) const;
   void lower_by_class(const IndependentPosts::Part& part, std::size_t c, PostReader<Level>& posts,
@@ -47,6 +58,11 @@ class IndependentActions final : public RowOperator<Level> {
   void lower_by_all(const RowPlace& place, PostReader<Level>& posts, Level* next, Workspace& work) const;
   void lower_by_projections(const RowPlace& place, PostReader<Level>& posts, Level* next,
                             Workspace& work) const;
+  void lower_by_tuples(const RowPlace& place, const Row& row, Workspace& work) const;
+  [[nodiscard]] bool is_some_reasonable(const Row& row, Workspace& work) const;
+  void lower_by_several(const Row& row, std::size_t begin, std::size_t end, LaneRange lanes,
+                        Workspace& work) const;
+  void lower_by_one(const Row& row, std::size_t position, LaneRange lanes, Workspace& work) const;
   void find_worst(std::int64_t row, const RowGroups& groups, std::size_t c,
                   std::vector<std::uint32_t>& result) const;
 
@@ -55,6 +71,7 @@ class IndependentActions final : public RowOperator<Level> {
   const RowHull& hull_;
   RowBoxes boxes_;
   const CellSet& invariant_;
+  std::size_t fastest_;  ///< class
   std::vector<Workspace> work_;
 };
 

@@ -1,6 +1,7 @@
 #include "answers/layers/projections.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <deque>
 
 #include "answers/layers/free_rows.hpp"
@@ -13,6 +14,19 @@ std::size_t group_offset(const RowGroups& groups, std::size_t c) {
   std::size_t offset = 0;
   for (std::size_t i = 0; i < c; ++i) offset += groups.classes[i]->size();
   return offset;
+}
+
+/// From the first to the last lane of a set that another one lacks.
+LaneRange missing_lanes(ConstRow set, ConstRow other) {
+  LaneRange range;
+  for (std::size_t w = 0; w < set.size(); ++w) {
+    const Word missing = set[w] & ~other[w];
+    if (missing == 0) continue;
+    const std::size_t lane = w * CellSet::kWordBits;
+    if (range.end == 0) range.begin = lane + static_cast<std::size_t>(std::countr_zero(missing));
+    range.end = lane + static_cast<std::size_t>(std::bit_width(missing));
+  }
+  return range;
 }
 
 }  // namespace
@@ -102,10 +116,12 @@ class Projections::Builder {
       return;
     }
     tuple_.begin(grouping_, place, groups_, candidates_);
+    LaneRange missing = missing_lanes(reachable_, mask);
     do {
-      controller_row(controller_, levels_, place.row, tuple_, posts_, members_);
+      controller_row(controller_, levels_, place.row, tuple_, posts_, missing, members_);
       for (std::size_t w = 0; w < mask.size(); ++w) mask[w] |= members_[w];
-    } while (!is_subset(reachable_, mask) && tuple_.next());
+      missing = missing_lanes(reachable_, mask);
+    } while (missing.size() > 0 && tuple_.next());
   }
 
   /// The cells of K whose post under group g does not leave an unsafe end of the row, whatever the others do:
