@@ -32,6 +32,20 @@ struct RowPlace {
     }
   }
 
+  /// To the row that begins the next or the last `dimensions`-dimensional block of rows, as advance() does.
+  /// REQUIRES: this row begins one; there is such a block.
+  void step(const UniformGrid& grid, std::size_t dimensions, bool backwards) {
+    row += backwards ? -grid.row_stride(dimensions - 1) : grid.row_stride(dimensions - 1);
+    for (std::size_t i = dimensions; i-- > 0;) {
+      const std::int64_t last = grid[i].count - 1;
+      if (index[i] != (backwards ? 0 : last)) {
+        index[i] += backwards ? -1 : 1;
+        return;
+      }
+      index[i] = backwards ? last : 0;
+    }
+  }
+
   /// Sum of index times stride.
   [[nodiscard]] std::int64_t offset(const std::vector<std::int64_t>& stride) const {
     std::int64_t sum = 0;
@@ -60,13 +74,13 @@ struct RowBox {
   }
 };
 
-/// Whether `test(row number)` is true for some row of a box, which ends there: `ranges` in the dimensions
-/// from `first` on, as in ResolvedRange, index 0 in those it does not name. On a ring indices beyond the last
-/// begin anew.
+/// Whether `test(sum of index times stride)` is true for some indices of a box, which ends there: `ranges` as
+/// in ResolvedRange. On a ring indices beyond the last begin anew.
+/// @param count, stride of the i-th of the ranges
 /// @param counter scratch memory
-template <class Test>
-bool any_row(const UniformGrid& grid, std::size_t first, std::span<const IndexRange> ranges,
-             std::vector<std::int64_t>& counter, const Test& test) {
+template <class Count, class Stride, class Test>
+bool any_in_box(std::span<const IndexRange> ranges, const Count& count, const Stride& stride,
+                std::vector<std::int64_t>& counter, const Test& test) {
   if (ranges.empty()) return test(std::int64_t{0});
   const std::size_t last = ranges.size() - 1;
   const IndexRange run = ranges[last];
@@ -76,22 +90,22 @@ bool any_row(const UniformGrid& grid, std::size_t first, std::span<const IndexRa
   for (std::size_t i = 0; i < last; ++i) {
     if (ranges[i].first > ranges[i].last) return false;
     counter[i] = ranges[i].first;
-    row += counter[i] * grid.row_stride(first + i);
+    row += counter[i] * stride(i);
   }
-  const std::int64_t stride = grid.row_stride(first + last), count = grid[first + last].count;
-  const std::int64_t end = std::min<std::int64_t>(count, std::int64_t{run.last} + 1);
+  const std::int64_t run_stride = stride(last), run_count = count(last);
+  const std::int64_t end = std::min<std::int64_t>(run_count, std::int64_t{run.last} + 1);
   for (;;) {
     for (std::int64_t k = run.first; k < end; ++k) {
-      if (test(row + k * stride)) return true;
+      if (test(row + k * run_stride)) return true;
     }
-    for (std::int64_t k = count; k <= run.last; ++k) {
-      if (test(row + (k - count) * stride)) return true;
+    for (std::int64_t k = run_count; k <= run.last; ++k) {
+      if (test(row + (k - run_count) * run_stride)) return true;
     }
     std::size_t i = last;
     for (;;) {
       if (i == 0) return false;
       --i;
-      const std::int64_t own_stride = grid.row_stride(first + i), own_count = grid[first + i].count;
+      const std::int64_t own_stride = stride(i), own_count = count(i);
       if (++counter[i] <= ranges[i].last) {
         row += counter[i] == own_count ? own_stride * (1 - own_count) : own_stride;
         break;
@@ -101,6 +115,16 @@ bool any_row(const UniformGrid& grid, std::size_t first, std::span<const IndexRa
       counter[i] = ranges[i].first;
     }
   }
+}
+
+/// Whether `test(row number)` is true for some row of a box, which ends there: `ranges` in the dimensions
+/// from `first` on, index 0 in those it does not name.
+template <class Test>
+bool any_row(const UniformGrid& grid, std::size_t first, std::span<const IndexRange> ranges,
+             std::vector<std::int64_t>& counter, const Test& test) {
+  return any_in_box(
+      ranges, [&](std::size_t i) { return std::int64_t{grid[first + i].count}; },
+      [&](std::size_t i) { return grid.row_stride(first + i); }, counter, test);
 }
 
 /// Calls `visit(row number)` for all rows of a box.

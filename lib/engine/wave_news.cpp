@@ -11,28 +11,54 @@ WaveNews::WaveNews(const RowEngine& engine, const RowHull& hull, std::int64_t un
       unit_rows_(unit_rows),
       changed_(static_cast<std::size_t>(engine.rows())),
       unit_changed_(static_cast<std::size_t>((engine.rows() + unit_rows - 1) / unit_rows), 0),
-      seen_(unit_changed_.size(), kBeforeAll) {}
+      seen_(unit_changed_.size(), kBeforeAll),
+      leading_(engine.outer() / 2),
+      leading_rows_(leading_ == 0 ? 1 : engine.grid().row_stride(leading_ - 1)),
+      place_(engine.grid(), 0) {
+  for (std::size_t i = 0; i < engine.outer(); ++i)
+    unit_strides_.push_back(engine.grid().row_stride(i) / unit_rows_);
+  if (leading_ == 0) return;
+  for (std::size_t i = 0; i < leading_; ++i)
+    leading_strides_.push_back(engine.grid().row_stride(i) / leading_rows_);
+  leading_changed_.assign(static_cast<std::size_t>(engine.rows() / leading_rows_), 0);
+}
 
 bool WaveNews::is_pending(std::int64_t unit) {
   if (is_unseen(unit)) return true;
   const std::uint32_t seen = seen_[static_cast<std::size_t>(unit)];
-  if (engine_.outer() == 0) return last_change_ >= seen;
-  enclose_unit(unit, scratch_);
-  return any_row(engine_.grid(), 0, scratch_.box.ranges, scratch_.counter, [&](std::int64_t row) {
-    return unit_changed_[static_cast<std::size_t>(row / unit_rows_)] >= seen;
-  });
+  if (last_change_ < seen) return false;
+  if (engine_.outer() == 0) return true;
+  go_to(unit);
+  enclose_unit(place_, scratch_);
+  const auto any_since = [&](std::size_t dimensions, const std::vector<std::uint32_t>& changed,
+                             const std::vector<std::int64_t>& strides) {
+    const std::span<const IndexRange> ranges(scratch_.box.ranges.data(), dimensions);
+    return any_in_box(
+        ranges, [&](std::size_t i) { return std::int64_t{engine_.grid()[i].count}; },
+        [&](std::size_t i) { return strides[i]; }, scratch_.counter,
+        [&](std::int64_t block) { return changed[static_cast<std::size_t>(block)] >= seen; });
+  };
+  if (leading_ > 0 && !any_since(leading_, leading_changed_, leading_strides_)) return false;
+  return any_since(engine_.outer(), unit_changed_, unit_strides_);
+}
+
+void WaveNews::go_to(std::int64_t unit) {
+  const std::int64_t row = unit * unit_rows_;
+  const std::int64_t steps = (row - place_.row) / unit_rows_;
+  constexpr std::int64_t kFewSteps = 4;
+  if (steps > kFewSteps || steps < -kFewSteps) place_ = RowPlace(engine_.grid(), row);
+  while (place_.row != row) place_.step(engine_.grid(), engine_.outer(), row < place_.row);
 }
 
 /// It is the same for all rows of the unit. In other dimensions the first one has no box if it is not held.
-void WaveNews::enclose_unit(std::int64_t unit, Scratch& scratch) const {
-  const RowPlace place(engine_.grid(), unit * unit_rows_);
+void WaveNews::enclose_unit(const RowPlace& place, Scratch& scratch) const {
   scratch.box.ranges.clear();
   for (std::size_t i = 0; i < engine_.outer(); ++i) scratch.box.ranges.push_back(hull_.range(place, i));
 }
 
 void WaveNews::enter(std::int64_t unit, Scratch& scratch) const {
   if (engine_.outer() == 0) return;
-  enclose_unit(unit, scratch);
+  enclose_unit(RowPlace(engine_.grid(), unit * unit_rows_), scratch);
   scratch.merged.assign(static_cast<std::size_t>(unit_rows_), 0);
   for_each_row(engine_.grid(), 0, scratch.box.ranges, scratch.counter, [&](std::int64_t row) {
     const std::uint32_t* changed = changed_.data() + row;

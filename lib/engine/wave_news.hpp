@@ -30,6 +30,7 @@ class WaveNews {
     return seen_[static_cast<std::size_t>(unit)] == kNever;
   }
   /// True if it is unseen, or if a unit that its posts can meet has changed since it was looked at last.
+  /// Asked about units in order, to or fro, as a wave does.
   [[nodiscard]] bool is_pending(std::int64_t unit);
 
   /// Begins with the next batch. @returns its number
@@ -39,6 +40,7 @@ class WaveNews {
   void mark_row(std::int64_t row) { changed_[static_cast<std::size_t>(row)] = batch_; }
   void mark_unit_of(std::int64_t row) {
     unit_changed_[static_cast<std::size_t>(row / unit_rows_)] = batch_;
+    if (leading_ > 0) leading_changed_[static_cast<std::size_t>(row / leading_rows_)] = batch_;
     last_change_ = batch_;
   }
 
@@ -54,7 +56,9 @@ class WaveNews {
 
  private:
   /// The box of rows that a unit can meet, in the shared dimensions.
-  void enclose_unit(std::int64_t unit, Scratch& scratch) const;
+  void enclose_unit(const RowPlace& place, Scratch& scratch) const;
+  /// place_ = that of the unit.
+  void go_to(std::int64_t unit);
 
   /// As what a unit has been looked at in: in no batch, or in one whose changes, and all after, are news to
   /// it.
@@ -69,6 +73,14 @@ class WaveNews {
   ZeroedArray<std::uint32_t> changed_;       ///< [row] the batch that changed it last
   std::vector<std::uint32_t> unit_changed_;  ///< [unit] likewise
   std::vector<std::uint32_t> seen_;          ///< [unit] the batch that looked at it last
+  /// Of the dimensions that units share, so many together tell blocks of units apart, of which few are to be
+  /// looked at before it is known that none has changed; 0: none.
+  std::size_t leading_ = 0;
+  std::int64_t leading_rows_ = 1;               ///< of a block
+  std::vector<std::int64_t> unit_strides_;      ///< [shared dimension] in units
+  std::vector<std::int64_t> leading_strides_;   ///< [leading dimension] in blocks
+  std::vector<std::uint32_t> leading_changed_;  ///< [block] the batch that changed it last
+  RowPlace place_;                              ///< of the unit asked about last
   Scratch scratch_;
 };
 
