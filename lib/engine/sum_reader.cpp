@@ -13,8 +13,11 @@ using Kind = RowSegment::Kind;
 
 constexpr std::size_t kMostSlots = 1024;
 
-/// By how many indices a joined box may be wider than the widest of one choice.
-constexpr std::int32_t kMostWider = 4;
+/// By how many indices a joined box may be wider than the widest of one choice, on a side of so many: blocks
+/// have room for it beyond the domain, which must not cost more than it saves.
+std::int32_t most_wider(std::int32_t count) {
+  return std::min(4, count / 8);
+}
 
 /// A range that holds two, on a ring from an index of the domain on.
 IndexRange around_both(IndexRange one, IndexRange other, const GridDimension& dimension) {
@@ -67,7 +70,7 @@ void SumReader<Level>::lay_out_block() {
     const auto count = static_cast<std::int32_t>(engine_.grid()[outer + i].count);
     readers_.emplace_back(sums);
     narrowest_[i] = widths.first;
-    reach_[i] = widths.last + kMostWider;
+    reach_[i] = widths.last + most_wider(count);
     sizes_[i] = widths.last - widths.first + 1;
     size_stride_[i] = variants_;
     variants_ *= static_cast<std::size_t>(sizes_[i]);

@@ -64,6 +64,11 @@ class SumRows::Builder {
     }
     rows_.find_bounds();
     rows_.find_widths(table_);
+    // Blocks are read from any lane on.
+    for (std::int64_t c = 0; c < kRunBlock; ++c) {
+      rows_.lower_.add(0);
+      rows_.upper_.add(0);
+    }
     return std::move(rows_);
   }
 

@@ -72,7 +72,8 @@ class SumRows {
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
-  /// Numbers of 64 bits in halves, as SumKernels take them; each run with room for whole blocks.
+  /// Numbers of 64 bits in halves, as SumKernels take them; each run with room for whole blocks, and one
+  /// block after the last.
   struct SplitRuns {
     std::vector<std::int32_t> whole;
     std::vector<std::uint32_t> fraction;
@@ -104,7 +105,7 @@ class SumRows {
   void find_widths(const TransitionTable& table);
 
   std::int64_t length_ = 0;
-  std::int64_t run_stride_ = 0;  ///< length_ and a block, rounded up to whole blocks
+  std::int64_t run_stride_ = 0;  ///< length_ rounded up to whole blocks
   SplitRuns lower_, upper_;
   Strides run_strides_;
   std::vector<std::int32_t> run_inputs_;
