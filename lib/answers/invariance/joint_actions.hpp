@@ -48,11 +48,15 @@ class SomeAction final : public RowOperator<Level> {
     choose_groups(work.groups, GroupChoice::minimal, work.candidates);
     work.tuple.begin(grouping_, place, work.groups, work.candidates);
     LaneRange open = grouping_.engine().all_lanes();
-    if (!rises_) allow_at_most(old, posts.lanes(), work);
+    // Rows that are cut are read as a whole.
+    const bool is_cut = grouping_.engine().posts().is_cut();
+    if (!is_cut) allow_at_most(old, posts.lanes(), work);
     do {
       raise(open, work, posts, next);
       if (rises_) continue;
       // No action can do better than to leave all as it was.
+      if (is_cut && kernels.is_settled(next, old, n)) return false;
+      if (is_cut) continue;
       const LaneRange still = kernels.below(next + open.begin, work.everywhere.data(),
                                             work.most.data() + open.begin, open.size());
       if (still.size() == 0) return false;
