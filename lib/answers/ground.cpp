@@ -1,6 +1,7 @@
 #include "answers/ground.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "answers/invariance/safe_set.hpp"
 #include "answers/invariance/safe_tubes.hpp"
@@ -8,6 +9,45 @@
 #include "engine/engine_sizes.hpp"
 
 namespace coordreq {
+namespace {
+
+/// Of like agents the most that change places within the classes, or with whole classes; ascending.
+std::vector<std::size_t> alike_in_classes(const std::vector<AgentPart>& agents,
+                                          const std::vector<InputClass>& classes) {
+  std::set<std::vector<std::int32_t>> all;
+  for (const InputClass& own : classes) all.insert(own.inputs());
+  const auto are_alike = [&](const AgentPart& a, const AgentPart& b) {
+    return std::ranges::all_of(all, [&](std::vector<std::int32_t> inputs) {
+      for (std::int32_t& input : inputs) input = exchanged(a.inputs, b.inputs, input);
+      std::ranges::sort(inputs);
+      return all.contains(inputs);
+    });
+  };
+  std::vector<std::size_t> most;
+  for (std::size_t a = 0; a < agents.size(); ++a) {
+    std::vector<std::size_t> like{a};
+    for (std::size_t b = a + 1; b < agents.size(); ++b) {
+      if (are_alike(agents[a], agents[b])) like.push_back(b);
+    }
+    if (like.size() > most.size()) most = std::move(like);
+  }
+  return most;
+}
+
+/// Of one process, where everything is allowed.
+void find_like_agents(Ground& ground) {
+  if (ground.ranks != nullptr || ground.allow) return;
+  std::vector<std::vector<std::int32_t>> inputs;
+  for (const InputClass& own : agent_classes(ground.spec, ground.abstraction->inputs))
+    inputs.push_back(own.inputs());
+  std::vector<const CellSet*> sets{&ground.safe};
+  if (ground.beyond) sets.push_back(&*ground.beyond);
+  const std::vector<AgentPart> parts = parts_of_agents(*ground.abstraction, inputs);
+  ground.like_agents = find_like_agents(*ground.abstraction, parts, sets);
+}
+
+}  // namespace
+
 TubeSets Ground::tubes() const {
   if (abstraction->tubes.empty()) return {};
   return {&safe, beyond ? &*beyond : nullptr};
@@ -16,6 +56,20 @@ TubeSets Ground::tubes() const {
 std::int64_t Ground::count(const CellSet& set) const {
   const RowShare::Range own = own_rows(shared_rows(), set.rows());
   return sum_of_all(shared_rows(), set.count(own.begin, own.end));
+}
+
+std::optional<RowMirror> Ground::mirror(const std::vector<InputClass>& classes) const {
+  std::vector<std::vector<std::size_t>> blocks;
+  for (const std::size_t a : alike_in_classes(like_agents, classes))
+    blocks.push_back(like_agents[a].dimensions);
+  if (blocks.size() < 2) return std::nullopt;
+  // Tiles of many rows are worked out as a whole.
+  const auto is_in_tile = [&](std::size_t d) { return d >= tiles->leading(); };
+  const bool is_any_in_tile =
+      tiles && tiles->rows() > 1 &&
+      std::ranges::any_of(blocks, [&](const auto& block) { return std::ranges::any_of(block, is_in_tile); });
+  if (is_any_in_tile) return std::nullopt;
+  return RowMirror(abstraction->grid, blocks);
 }
 
 void lay_ground(Ground& ground, ThreadTeam& team) {
@@ -50,6 +104,7 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
   if (ground.allow) ground.engine->set_allow(*ground.allow);
   ground.safe_cells = ground.count(ground.safe);
   ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
+  find_like_agents(ground);
   ground.order.emplace(abstraction.grid);
 }
 

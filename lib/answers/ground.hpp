@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
+#include "engine/equal_work.hpp"
+#include "engine/like_agents.hpp"
 #include "engine/packed_pairs.hpp"
 #include "engine/pair_table.hpp"
 #include "engine/row_engine.hpp"
 #include "engine/row_hull.hpp"
-#include "engine/tiles.hpp"
 #include "engine/tube_sets.hpp"
 #include "model/cell_order.hpp"
+#include "model/input_class.hpp"
 #include "model/model.hpp"
 #include "ranks/row_share.hpp"
 #include "reach/abstraction.hpp"
@@ -50,7 +52,8 @@ struct Ground {
   std::optional<CellSet> beyond;  ///< TubeSets::beyond
   std::optional<RowEngine> engine;
   std::optional<RowHull> hull;
-  std::optional<Tiles> tiles;  ///< where equal work is looked for, if there seems to be much of it
+  std::optional<Tiles> tiles;          ///< where equal work is looked for, if there seems to be much of it
+  std::vector<AgentPart> like_agents;  ///< that can change places, in S too; two or more, or none
   std::optional<CellOrder> order;
 
   /// What tubes must stay in, if there are any. REQUIRES: S is there.
@@ -61,6 +64,9 @@ struct Ground {
   [[nodiscard]] std::int64_t count(const CellSet& set) const;
   /// The tiles or null.
   [[nodiscard]] const Tiles* equal_work() const { return tiles ? &*tiles : nullptr; }
+  /// Where answers are the same but for the order of like agents, if the inputs of each class are chosen
+  /// together. Nothing if there is no such place.
+  [[nodiscard]] std::optional<RowMirror> mirror(const std::vector<InputClass>& classes) const;
 };
 
 /// S and the engine, on an abstraction that is there. Together.

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/equal_work.hpp"
 #include "engine/level_rows.hpp"
-#include "engine/tiles.hpp"
 
 namespace coordreq {
 
@@ -16,13 +16,13 @@ template <class Level>
 class EqualTiles {
  public:
   /// REQUIRES: all outlive this object.
-  EqualTiles(const TileClasses& classes, LevelRows<Level>& levels)
-      : classes_(classes), levels_(levels), is_on_(classes.tiles != nullptr && levels.is_shared()) {}
+  EqualTiles(const EqualWork& equal, LevelRows<Level>& levels)
+      : equal_(equal), levels_(levels), is_on_(equal.tiles != nullptr && levels.is_shared()) {}
 
   /// False where too little has been found: looking up costs more than it saves.
   [[nodiscard]] bool is_on() const { return is_on_; }
   /// Rows of a tile.
-  [[nodiscard]] std::int64_t rows() const { return classes_.tiles->rows(); }
+  [[nodiscard]] std::int64_t rows() const { return equal_.tiles->rows(); }
 
   void begin_sweep() {
     is_on_ = is_on_ && (looked_up_ < kEnough || kLeastFound * found_ >= looked_up_);
@@ -32,7 +32,7 @@ class EqualTiles {
     first_.clear();
     if (rows() == 1) return;
     lists_.clear();
-    contents_.assign(static_cast<std::size_t>(classes_.tiles->size()), 0);
+    contents_.assign(static_cast<std::size_t>(equal_.tiles->size()), 0);
     for (const RowShare::Range run : held_rows(levels_.share(), levels_.rows())) {
       for (std::int64_t tile = run.begin / rows(); tile < (run.end + rows() - 1) / rows(); ++tile)
         contents_[static_cast<std::size_t>(tile)] = content(tile);
@@ -43,8 +43,8 @@ class EqualTiles {
   /// REQUIRES: it is asked once a sweep.
   [[nodiscard]] std::int64_t find(const RowPlace& place) {
     const std::int64_t tile = place.row / rows();
-    key_.assign(1, (*classes_.numbers)[static_cast<std::size_t>(tile)]);
-    classes_.tiles->add_contents(
+    key_.assign(1, (*equal_.numbers)[static_cast<std::size_t>(tile)]);
+    equal_.tiles->add_contents(
         place,
         [this](std::int64_t other) {
           return rows() == 1 ? levels_.content(other) : contents_[static_cast<std::size_t>(other)];
@@ -80,7 +80,7 @@ class EqualTiles {
     return lists_.number(key_);
   }
 
-  TileClasses classes_;
+  EqualWork equal_;
   LevelRows<Level>& levels_;
   bool is_on_;
   std::int64_t looked_up_ = 0;

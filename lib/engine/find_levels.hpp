@@ -26,7 +26,7 @@ struct LevelProblem {
   /// [row] not 0 where 1 + op(B) = B, see run_wave(); null: unknown.
   const std::vector<std::uint8_t>* settled = nullptr;
   /// What the operator says depends on these and on the levels alone; see run_wave().
-  TileClasses equal = {};
+  EqualWork equal = {};
   /// Finite levels go up to this; cells that would have more count as never lost. Negative: no limit.
   std::int64_t limit = -1;
   std::function<std::unique_ptr<RowOperator<std::uint8_t>>()> make8;

@@ -43,6 +43,8 @@ class Tiles {
   [[nodiscard]] RowShare::Range own() const { return own_; }
   /// Rows of a tile, which have neighbouring numbers.
   [[nodiscard]] std::int64_t rows() const { return rows_; }
+  /// Number of leading dimensions that tell tiles apart.
+  [[nodiscard]] std::size_t leading() const { return leading_; }
   [[nodiscard]] const RowEngine& engine() const { return *engine_; }
   /// [tile] equal numbers where the tables say the same, seen from the tiles.
   [[nodiscard]] const Numbers& tables() const { return tables_; }
@@ -94,12 +96,6 @@ class Tiles {
   RowShare::Range own_;
   std::vector<Source> sources_;
   Numbers tables_;
-};
-
-/// Tiles, and [tile] equal numbers where an operator asks the same of the levels, seen from the tiles.
-struct TileClasses {
-  const Tiles* tiles = nullptr;  ///< null: nobody looks for equal work
-  const Tiles::Numbers* numbers = nullptr;
 };
 
 /// [row] equal numbers for equal rows of a set. @param share then of those held; null: of all

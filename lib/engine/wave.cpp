@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/alive_rows.hpp"
 #include "engine/equal_tiles.hpp"
 #include "engine/halo_news.hpp"
 #include "engine/wave_news.hpp"
@@ -29,7 +30,7 @@ class WaveRunner {
  public:
   WaveRunner(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
              const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,
-             ThreadTeam& team, const TileClasses& equal)
+             ThreadTeam& team, const EqualWork& equal)
       : levels_(levels),
         engine_(engine),
         own_(own_rows(engine.share(), engine.rows())),
@@ -40,12 +41,16 @@ class WaveRunner {
         team_(team),
         unit_rows_(std::min(engine.unit_rows(), engine.outer() == 0 ? kBlockRows : engine.unit_rows())),
         news_(engine, hull, unit_rows_),
-        equal_(equal, levels) {
+        equal_(equal, levels),
+        mirror_(equal.mirror),
+        alive_(levels, own_, unit_rows_, op.rises(), mirror_) {
     first_unit_ = own_.begin / unit_rows_;
     units_ = (own_.end + unit_rows_ - 1) / unit_rows_ - first_unit_;
     batch_units_ = std::max<std::int64_t>(1, kBatchRows / unit_rows_);
     for (int w = 0; w < team.size(); ++w) workers_.emplace_back(engine, levels);
-    find_alive();
+    for (std::int64_t row = own_.begin; row < own_.end; ++row) {
+      if (alive_.has(row) && !is_settled(row)) news_.set_unseen(row / unit_rows_);
+    }
     if (engine.share() != nullptr) halo_.emplace(levels, engine, hull, news_, unit_rows_);
   }
 
@@ -53,15 +58,15 @@ class WaveRunner {
   std::int64_t sweep(std::int64_t number) {
     const bool backwards = number % 2 == 1;
     if (halo_) halo_->begin_sweep(number, backwards);
-    WaveStep step{.sweep = number, .rows_left = alive_rows_, .rows = alive_rows_, .layer = layer_};
+    WaveStep step{.sweep = number, .rows_left = alive_.count(), .rows = alive_.count(), .layer = layer_};
     lowest_ = kTop;
     equal_.begin_sweep();
     std::vector<std::int64_t> batch;
     for (std::int64_t k = 0; k < units_; ++k) {
       const std::int64_t unit = first_unit_ + (backwards ? units_ - 1 - k : k);
-      step.rows_left -= unit_alive_[static_cast<std::size_t>(unit)];
+      step.rows_left -= alive_.of_unit(unit);
       if (halo_) halo_->before(unit, [this](std::int64_t row) { hear_of(row); });
-      if (unit_alive_[static_cast<std::size_t>(unit)] > 0 && news_.is_pending(unit)) batch.push_back(unit);
+      if (alive_.of_unit(unit) > 0 && news_.is_pending(unit)) batch.push_back(unit);
       if (static_cast<std::int64_t>(batch.size()) < batch_units_ && (!batch.empty() && k + 1 < units_))
         continue;
       if (!batch.empty()) {
@@ -96,8 +101,9 @@ class WaveRunner {
     return true;
   }
 
-  [[nodiscard]] std::int64_t alive_rows() const { return alive_rows_; }
+  [[nodiscard]] std::int64_t alive_rows() const { return alive_.count(); }
   [[nodiscard]] std::int64_t copied_rows() const { return copied_; }
+  [[nodiscard]] std::int64_t mirrored_rows() const { return mirrored_; }
 
  private:
   static constexpr Level kTop = LevelRows<Level>::kTop;
@@ -139,37 +145,6 @@ class WaveRunner {
     return !settled_.empty() && settled_[static_cast<std::size_t>(row)] != 0;
   }
 
-  [[nodiscard]] bool can_change(const Level* row) const {
-    const auto is_open = [rises = op_.rises()](Level level) {
-      return rises ? level > 0 && level < kTop : level > 1;
-    };
-    bool can = false;
-    levels_.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
-      can = can || std::any_of(row + lane, row + lane + count, is_open);
-    });
-    return can;
-  }
-
-  /// Rows without a cell in the set never change, nor do those that have sunk as deep (risen as high) as
-  /// cells in the set can.
-  void find_alive() {
-    alive_ = ZeroedArray<std::uint8_t>(static_cast<std::size_t>(engine_.rows()));
-    unit_alive_.assign(static_cast<std::size_t>(first_unit_ + units_), 0);
-    const Level* before = nullptr;  // rows that are shared are often the same ones one after the other
-    bool is_alive = false;
-    for (std::int64_t r = own_.begin; r < own_.end; ++r) {
-      const Level* const row = std::as_const(levels_).row(r);
-      if (row != before) is_alive = can_change(row);
-      before = row;
-      alive_[static_cast<std::size_t>(r)] = is_alive ? 1 : 0;
-      if (!is_alive) continue;
-      const auto unit = static_cast<std::size_t>(r / unit_rows_);
-      ++unit_alive_[unit];
-      if (!is_settled(r)) news_.set_unseen(r / unit_rows_);
-      ++alive_rows_;
-    }
-  }
-
   std::int64_t run(const std::vector<std::int64_t>& batch) {
     batch_ = news_.begin_batch();
     for (Worker& worker : workers_) {
@@ -190,10 +165,19 @@ class WaveRunner {
       visited += worker.visited;
       lowest_ = std::min(lowest_, worker.lowest);
       changed_rows_ += static_cast<std::int64_t>(worker.changes.size());
-      for (const Change& change : worker.changes) news_.mark_unit_of(change.row);
+      for (const Change& change : worker.changes) {
+        news_.mark_unit_of(change.row);
+        for_each_image(change.row, [this](std::int64_t image) {
+          news_.mark_unit_of(image);
+          ++mirrored_;
+        });
+      }
     }
     if (equal_.is_on() && equal_.rows() > 1) {
-      for (const std::int64_t unit : batch) equal_.update(unit);
+      for (const std::int64_t unit : batch) {
+        equal_.update(unit);
+        for_each_image(unit * unit_rows_, [this](std::int64_t image) { equal_.update(image / unit_rows_); });
+      }
     }
     return visited;
   }
@@ -242,7 +226,7 @@ class WaveRunner {
 
   [[nodiscard]] bool is_to_be_looked_at(const RowPlace& place, std::int64_t unit,
                                         WaveNews::Scratch& scratch) const {
-    if (alive_[static_cast<std::size_t>(place.row)] == 0) return false;
+    if (!alive_.has(place.row)) return false;
     const bool is_new = news_.is_unseen(unit) && !is_settled(place.row);
     return is_new || news_.meets_change(place, unit, scratch);
   }
@@ -315,17 +299,37 @@ class WaveRunner {
     for (const Change& change : worker.changes) {
       levels_.put_ready(change.row, worker.storage.data() + change.position, change.ready);
       news_.mark_row(change.row);
+      for_each_image(change.row, [&](std::int64_t image) {
+        if (levels_.is_shared()) {
+          static_cast<void>(levels_.copy_row(change.row, image));
+        } else {
+          levels_.put_ready(image, worker.storage.data() + change.position, change.ready);
+        }
+        news_.mark_row(image);
+      });
     }
   }
 
+  template <class Visit>
+  void for_each_image(std::int64_t row, const Visit& visit) const {
+    if (mirror_ != nullptr) mirror_->for_each_image(row, visit);
+  }
+
   void copy_all() {
+    const auto mark = [this](std::int64_t row) {
+      news_.mark_row(row);
+      news_.mark_unit_of(row);
+      ++changed_rows_;
+    };
     for (const Copy& copy : copies_) {
-      equal_.copy(copy.from, copy.to, [this](std::int64_t row) {
-        news_.mark_row(row);
-        news_.mark_unit_of(row);
-        ++changed_rows_;
+      equal_.copy(copy.from, copy.to, [&](std::int64_t row) {
+        mark(row);
+        for_each_image(row, [&](std::int64_t image) {
+          if (levels_.copy_row(row, image)) mark(image);
+          ++mirrored_;
+        });
       });
-      copied_ += equal_.rows() == 1 ? 1 : unit_alive_[static_cast<std::size_t>(copy.to)];
+      copied_ += equal_.rows() == 1 ? 1 : alive_.of_unit(copy.to);
     }
   }
 
@@ -341,17 +345,17 @@ class WaveRunner {
   WaveNews news_;
   EqualTiles<Level> equal_;
   std::optional<HaloNews<Level>> halo_;  ///< of several processes
-  std::int64_t copied_ = 0;              ///< rows
+  const RowMirror* mirror_;
+  AliveRows alive_;
+  std::int64_t copied_ = 0;    ///< rows that would have been worked out
+  std::int64_t mirrored_ = 0;  ///< rows that would not, as they are images
   std::int64_t first_unit_ = 0;
   std::int64_t units_ = 0;
   std::int64_t batch_units_ = 1;
-  std::int64_t alive_rows_ = 0;
   std::int64_t layer_ = -1;        ///< levels up to it are final
   std::int64_t changed_rows_ = 0;  ///< since the last sum
   Level lowest_ = kTop;            ///< to which a cell has sunk in this sweep
   std::uint32_t batch_ = 0;        ///< number of the last batch
-  ZeroedArray<std::uint8_t> alive_;
-  std::vector<std::int64_t> unit_alive_;  ///< [unit] rows that are alive
   std::deque<Worker> workers_;
   std::vector<Piece> pieces_;
   std::vector<Copy> copies_;
@@ -363,7 +367,7 @@ class WaveRunner {
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
                     const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,
-                    ThreadTeam& team, const TileClasses& equal) {
+                    ThreadTeam& team, const EqualWork& equal) {
   WaveRunner<Level> runner(levels, engine, hull, limit, settled, op, watch, team, equal);
   WaveCounts counts;
   for (;;) {
@@ -373,6 +377,7 @@ WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const Row
     counts.rows_copied = runner.copied_rows();
     if (!runner.goes_on(counts.sweeps, visited)) break;
   }
+  counts.rows_copied += runner.mirrored_rows();
   if (engine.share() != nullptr) {
     std::int64_t rows[] = {counts.rows_visited, counts.rows_copied, counts.rows_skipped};
     engine.share()->ranks().add(rows);
@@ -384,12 +389,12 @@ WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const Row
 
 template WaveCounts run_wave(LevelRows<std::uint8_t>&, const RowEngine&, const RowHull&, std::uint8_t,
                              const std::vector<std::uint8_t>&, RowOperator<std::uint8_t>&, const WaveWatch&,
-                             ThreadTeam&, const TileClasses&);
+                             ThreadTeam&, const EqualWork&);
 template WaveCounts run_wave(LevelRows<std::uint16_t>&, const RowEngine&, const RowHull&, std::uint16_t,
                              const std::vector<std::uint8_t>&, RowOperator<std::uint16_t>&, const WaveWatch&,
-                             ThreadTeam&, const TileClasses&);
+                             ThreadTeam&, const EqualWork&);
 template WaveCounts run_wave(LevelRows<std::uint32_t>&, const RowEngine&, const RowHull&, std::uint32_t,
                              const std::vector<std::uint8_t>&, RowOperator<std::uint32_t>&, const WaveWatch&,
-                             ThreadTeam&, const TileClasses&);
+                             ThreadTeam&, const EqualWork&);
 
 }  // namespace coordreq

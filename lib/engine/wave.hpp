@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
+#include "engine/equal_work.hpp"
 #include "engine/post_reader.hpp"
 #include "engine/row_hull.hpp"
-#include "engine/tiles.hpp"
 #include "engine/wave_watch.hpp"
 
 namespace coordreq {
@@ -15,7 +15,7 @@ namespace coordreq {
 struct WaveCounts {
   std::int64_t sweeps = 0;
   std::int64_t rows_visited = 0;  ///< rows whose levels were worked out, again each time
-  std::int64_t rows_copied = 0;   ///< rows that got the levels of one worked out in the same sweep
+  std::int64_t rows_copied = 0;   ///< rows that got the levels of one worked out just before
   std::int64_t rows_skipped =
       0;  ///< rows whose levels can still sink, passed over as nothing near them had changed
 
@@ -66,11 +66,13 @@ class RowOperator {
 /// at
 ///   before a row that its posts can meet has changed. Empty: nothing is known
 /// @param watch its `resumed` is not looked at
-/// @param equal what the operator says depends on these, and on the levels, alone. Where rows of levels are
-///   shared, work that would be equal to some done in the same sweep is not done again
+/// @param equal what the operator says depends on the tiles' numbers, and on the levels, alone. Where rows of
+///   levels are shared, work that would be equal to some done in the same sweep is not done again. Of rows
+///   that are images of each other only the first is worked out. REQUIRES: then levels are the same in all
+///   images, and there is one process
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
                     const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,
-                    ThreadTeam& team, const TileClasses& equal = {});
+                    ThreadTeam& team, const EqualWork& equal = {});
 
 }  // namespace coordreq

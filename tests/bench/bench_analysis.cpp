@@ -66,8 +66,8 @@ void equal_work(benchmark::State& state, const std::string& name) {
   for (auto _ : state) {
     const std::optional<Tiles> tiles =
         state.range(0) == 0 ? std::nullopt : Tiles::make(engine, hull, engine.across());
-    benchmark::DoNotOptimize(
-        find_invariance(engine, hull, safe, Synthesis::maximal, {}, team, tiles ? &*tiles : nullptr));
+    benchmark::DoNotOptimize(find_invariance(engine, hull, safe, Synthesis::maximal, {}, team,
+                                             {.tiles = tiles ? &*tiles : nullptr}));
   }
 }
 BENCHMARK_CAPTURE(equal_work, gridworld, "gridworld")

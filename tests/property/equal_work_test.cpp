@@ -46,7 +46,8 @@ CellSet corner(const FastAnalysis& fast, const CellSet& invariant) {
 Found find(const FastAnalysis& fast, const Tiles* tiles, ThreadTeam& team) {
   const ProblemSpec& spec = fast.answers->ground.spec;
   const Synthesis synthesis = spec.controller.synthesis;
-  const Invariance k = find_invariance(fast.engine, fast.hull, fast.safe, synthesis, {}, team, tiles);
+  const Invariance k =
+      find_invariance(fast.engine, fast.hull, fast.safe, synthesis, {}, team, {.tiles = tiles});
   Found found{.levels = {levels_of(k.collision_time, fast.safe)}, .copied = k.counts.rows_copied};
   const Controller controller{&fast.engine, &k.invariant, &k.collision_time, synthesis};
   WaveCounts arrival;
@@ -56,7 +57,7 @@ Found find(const FastAnalysis& fast, const Tiles* tiles, ThreadTeam& team) {
   found.copied += arrival.rows_copied;
   for (const PartitionActions& actions : fast.actions) {
     if (actions.grouping.size() < 2) continue;
-    const Projections projections(controller, actions.grouping, fast.hull, team, tiles);
+    const Projections projections(controller, actions.grouping, fast.hull, team, {.tiles = tiles});
     const DelayLayers layers = find_delay_layers(fast.engine, fast.hull, k.invariant, projections, {},
                                                  spec.coordination.max_delay, {}, team);
     found.levels.push_back(levels_of(layers.layers_of, k.invariant));

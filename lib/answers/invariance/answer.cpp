@@ -1,6 +1,7 @@
 #include "answers/invariance/answer.hpp"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "answers/kept_levels.hpp"
 #include "answers/work_json.hpp"
@@ -14,9 +15,10 @@ void find_invariance_set(Answers& answers, const StageWork& work) {
   Invariance& result = answers.add(Invariance{});
   // No cell is lost later than all others one after the other.
   const LevelBounds bounds{&ground.safe, ground.engine->grid().points() + 1};
+  const std::optional<RowMirror> mirror = ground.mirror(single_classes(ground.abstraction->inputs));
   find_or_take_levels(work, *ground.engine, bounds, result.collision_time, [&](const WaveWatch& watch) {
     Invariance found = find_invariance(*ground.engine, *ground.hull, ground.safe, synthesis, watch, work.team,
-                                       ground.equal_work());
+                                       {.tiles = ground.equal_work(), .mirror = mirror ? &*mirror : nullptr});
     result.counts = found.counts;
     return std::move(found.collision_time);
   });

@@ -23,10 +23,10 @@ struct Invariance {
 
 /// K: for `maximal` the greatest K with K = {x in K n S : some allowed u has empty != f(x,u) subset of K};
 /// for `given` the limit of SPRE_S^i(X), C(x) being all that `allow` permits (paper, Eq. (10) and Lemma 1).
-/// @param tiles where equal work is looked for; may be null
+/// @param equal its `numbers` are not looked at
 [[nodiscard]] Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
                                          Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
-                                         const Tiles* tiles = nullptr);
+                                         const EqualWork& equal = {});
 
 /// Fills in all that follows from the collision times.
 void follow_from_collision_times(Invariance& invariance, ThreadTeam& team);

@@ -80,8 +80,10 @@ PartitionActions::PartitionActions(const Answers& answers, std::size_t p, Thread
                input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
                              answers.ground.spec.coordination.partitions[p]),
                team),
+      mirror(answers.ground.mirror(input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
+                                                 answers.ground.spec.coordination.partitions[p]))),
       projections(answers.get<Controller>(), grouping, *answers.ground.hull, team,
-                  answers.ground.equal_work()) {}
+                  {.tiles = answers.ground.equal_work(), .mirror = mirror ? &*mirror : nullptr}) {}
 
 std::vector<Stage> layers_stages(const ProblemSpec& spec) {
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;

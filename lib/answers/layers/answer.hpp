@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "answers/answers.hpp"
@@ -26,7 +27,8 @@ struct PartitionActions {
   PartitionActions& operator=(const PartitionActions&) = delete;
 
   ActionGrouping grouping;
-  Projections projections;
+  std::optional<RowMirror> mirror;
+  Projections projections;  ///< of the first rows alone, if there is a mirror
 };
 
 /// Adds PartitionLayers: "layers PARTITION" for each partition, coarser ones before finer ones.

@@ -33,7 +33,7 @@ DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, cons
       .start = &invariant,
       .bounds = coarser,
       .settled = &projections.full_rows(),
-      .equal = projections.tile_classes(),
+      .equal = projections.equal_work(),
       .limit = max_delay.value_or(-1),
       .make8 = [&] { return make_operator<std::uint8_t>(projections, hull, invariant, workers); },
       .make16 = [&] { return make_operator<std::uint16_t>(projections, hull, invariant, workers); },

@@ -179,8 +179,9 @@ class Projections::Builder {
 };
 
 Projections::Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
-                         ThreadTeam& team, const Tiles* tiles)
-    : grouping_(&grouping), words_(controller.engine->row_words()), tiles_(tiles) {
+                         ThreadTeam& team, const EqualWork& equal)
+    : grouping_(&grouping), words_(controller.engine->row_words()), equal_(equal) {
+  equal_.numbers = &classes_;
   const RowEngine& engine = *controller.engine;
   number_rows_of(*controller.invariant, engine.share());
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
@@ -209,15 +210,16 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
 void Projections::number_rows_of(const CellSet& invariant, const RowShare* share) {
   const RowShare::Range run = own_rows(share, invariant.rows());
   number_ = ZeroedArray<std::uint32_t>(static_cast<std::size_t>(invariant.rows()));
-  if (tiles_ != nullptr) classes_ = tiles_->refined(tiles_->tables(), number_rows(invariant, share));
+  const Tiles* const tiles = equal_.tiles;
+  if (tiles != nullptr) classes_ = tiles->refined(tiles->tables(), number_rows(invariant, share));
   std::vector<std::int64_t> first;  // [class] its first tile
-  const std::int64_t rows = tiles_ == nullptr ? 1 : tiles_->rows();
+  const std::int64_t rows = tiles == nullptr ? 1 : tiles->rows();
   for (std::int64_t r = run.begin; r < run.end; ++r) {
-    if (!any_set(invariant.row(r))) continue;
+    if (!has_cells(invariant, r)) continue;
     const std::int64_t tile = r / rows;
-    const std::uint32_t own = tiles_ == nullptr ? 0 : classes_[static_cast<std::size_t>(tile)];
+    const std::uint32_t own = tiles == nullptr ? 0 : classes_[static_cast<std::size_t>(tile)];
     if (own >= first.size()) first.resize(own + 1, -1);
-    if (tiles_ == nullptr || first[own] < 0) first[own] = tile;
+    if (tiles == nullptr || first[own] < 0) first[own] = tile;
     if (first[own] != tile) {
       number_[static_cast<std::size_t>(r)] = number_[static_cast<std::size_t>(first[own] * rows + r % rows)];
       continue;
@@ -225,6 +227,12 @@ void Projections::number_rows_of(const CellSet& invariant, const RowShare* share
     found_.push_back({.row = r});
     number_[static_cast<std::size_t>(r)] = static_cast<std::uint32_t>(found_.size());
   }
+}
+
+/// Of which anything will be asked.
+bool Projections::has_cells(const CellSet& invariant, std::int64_t row) const {
+  if (equal_.mirror != nullptr && !equal_.mirror->is_first(row)) return false;
+  return any_set(invariant.row(row));
 }
 
 ConstRow Projections::mask(std::int64_t row, const RowGroups& groups, std::size_t c, std::uint32_t g) const {

@@ -8,8 +8,8 @@
 #include "base/thread_team.hpp"
 #include "base/zeroed_array.hpp"
 #include "engine/cell_set.hpp"
+#include "engine/equal_work.hpp"
 #include "engine/row_hull.hpp"
-#include "engine/tiles.hpp"
 
 namespace coordreq {
 
@@ -18,9 +18,11 @@ namespace coordreq {
 /// makes the least work of them.
 class Projections {
  public:
-  /// @param tiles where equal work is looked for; may be null
+  /// @param equal where C is the same, but for the order of agents, nothing is held, and nothing may be
+  /// asked,
+  ///   of rows that are not the first. Its `numbers` are not looked at
   Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
-              ThreadTeam& team, const Tiles* tiles = nullptr);
+              ThreadTeam& team, const EqualWork& equal = {});
 
   [[nodiscard]] const ActionGrouping& grouping() const { return *grouping_; }
   enum class Form : std::uint8_t {
@@ -46,12 +48,12 @@ class Projections {
   /// @returns whether boxes have to be moved at all
   bool find_shift(std::int64_t row, std::vector<std::int32_t>& shift) const {
     if (of(row).row == row) return false;
-    tiles_->find_shift(of(row).row, row, shift);
+    equal_.tiles->find_shift(of(row).row, row, shift);
     return true;
   }
 
   /// What the operator of IND_C depends on, but for levels.
-  [[nodiscard]] TileClasses tile_classes() const { return {tiles_, &classes_}; }
+  [[nodiscard]] const EqualWork& equal_work() const { return equal_; }
 
  private:
   static constexpr std::uint32_t kNothing = 0;
@@ -69,10 +71,11 @@ class Projections {
     return found_[number_[static_cast<std::size_t>(row)] - 1];
   }
   void number_rows_of(const CellSet& invariant, const RowShare* share);
+  [[nodiscard]] bool has_cells(const CellSet& invariant, std::int64_t row) const;
 
   const ActionGrouping* grouping_;
   std::size_t words_;
-  const Tiles* tiles_;
+  EqualWork equal_;
   Tiles::Numbers classes_;             ///< [tile] equal numbers where projections are the same
   ZeroedArray<std::uint32_t> number_;  ///< [row] 1 + its place in `found_`, or kNothing where K has no cell
   std::vector<Found> found_;

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/zeroed_array.hpp"
+#include "engine/level_rows.hpp"
+#include "engine/row_mirror.hpp"
+
+namespace coordreq {
+
+/// The rows that a wave has to look at. Rows without a cell in the set never change, nor do those that have
+/// sunk as deep (risen as high) as cells in the set can; of rows that are images of each other the first is
+/// enough.
+class AliveRows {
+ public:
+  /// @param own the rows to choose from
+  /// @param unit_rows rows of a unit, for each of which the rows are counted
+  /// @param mirror may be null
+  template <class Level>
+  AliveRows(const LevelRows<Level>& levels, RowShare::Range own, std::int64_t unit_rows, bool rises,
+            const RowMirror* mirror)
+      : is_alive_(static_cast<std::size_t>(levels.rows())),
+        of_unit_(static_cast<std::size_t>((own.end + unit_rows - 1) / unit_rows), 0) {
+    const Level* before = nullptr;  // rows that are shared are often the same ones one after the other
+    bool can = false;
+    for (std::int64_t r = own.begin; r < own.end; ++r) {
+      const Level* const row = levels.row(r);
+      if (row != before) can = can_change(levels, row, rises);
+      before = row;
+      if (!can || (mirror != nullptr && !mirror->is_first(r))) continue;
+      is_alive_[static_cast<std::size_t>(r)] = 1;
+      ++of_unit_[static_cast<std::size_t>(r / unit_rows)];
+      ++count_;
+    }
+  }
+
+  [[nodiscard]] bool has(std::int64_t row) const { return is_alive_[static_cast<std::size_t>(row)] != 0; }
+  [[nodiscard]] std::int64_t of_unit(std::int64_t unit) const {
+    return of_unit_[static_cast<std::size_t>(unit)];
+  }
+  [[nodiscard]] std::int64_t count() const { return count_; }
+
+ private:
+  template <class Level>
+  [[nodiscard]] static bool can_change(const LevelRows<Level>& levels, const Level* row, bool rises) {
+    const auto is_open = [rises](Level level) {
+      return rises ? level > 0 && level < LevelRows<Level>::kTop : level > 1;
+    };
+    bool can = false;
+    levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+      can = can || std::any_of(row + lane, row + lane + count, is_open);
+    });
+    return can;
+  }
+
+  ZeroedArray<std::uint8_t> is_alive_;  ///< [row]
+  std::vector<std::int64_t> of_unit_;   ///< [unit]
+  std::int64_t count_ = 0;
+};
+
+}  // namespace coordreq

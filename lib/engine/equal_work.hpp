@@ -1,0 +1,18 @@
+#pragma once
+
+#include "engine/row_mirror.hpp"
+#include "engine/tiles.hpp"
+
+namespace coordreq {
+
+/// Work of an operator on levels that is known to be equal.
+struct EqualWork {
+  /// Tiles, and [tile] equal numbers where an operator asks the same of the levels, seen from the tiles.
+  const Tiles* tiles = nullptr;  ///< null: nobody looks for equal work
+  const Tiles::Numbers* numbers = nullptr;
+  /// Rows of which an operator says the same where levels are the same in all images; null: there are none.
+  /// REQUIRES: all rows of a tile of many are first, or none is.
+  const RowMirror* mirror = nullptr;
+};
+
+}  // namespace coordreq

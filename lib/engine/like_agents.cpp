@@ -1,0 +1,164 @@
+#include "engine/like_agents.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "engine/row_mirror.hpp"
+#include "model/odometer.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Sets of dimensions of which none moves, or is moved by, one of another set: [dimension] the first of its
+/// own.
+std::vector<std::size_t> find_components(const Abstraction& abstraction) {
+  std::vector<std::size_t> first(abstraction.tables.size());
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  const auto join = [&first](std::size_t a, std::size_t b) {
+    const std::size_t from = std::max(first[a], first[b]), to = std::min(first[a], first[b]);
+    std::replace(first.begin(), first.end(), from, to);
+  };
+  for (const auto* tables : {&abstraction.tables, &abstraction.tubes}) {
+    for (std::size_t t = 0; t < tables->size(); ++t) {
+      for (const std::int32_t state : (*tables)[t].states) join(t, static_cast<std::size_t>(state));
+    }
+  }
+  return first;
+}
+
+bool contains(const std::vector<std::int32_t>& list, std::int32_t one) {
+  return std::find(list.begin(), list.end(), one) != list.end();
+}
+
+/// Table `a` says of an agent what table `b` says of the other one.
+bool are_alike(const Abstraction& abstraction, const TransitionTable& a, const TransitionTable& b,
+               const AgentPart& one, const AgentPart& other) {
+  if (a.is_sum() || b.is_sum() || a.shift != b.shift || a.before != 0 || b.before != 0) return false;
+  if (a.entries.size() != b.entries.size()) return false;
+  std::vector<std::int64_t> counts, strides, other_strides;
+  for (std::size_t d = 0; d < a.state_stride.size(); ++d) {
+    const std::int64_t stride = b.state_stride[exchanged(one.dimensions, other.dimensions, d)];
+    if ((a.state_stride[d] == 0) != (stride == 0)) return false;
+    if (stride == 0) continue;
+    counts.push_back(abstraction.grid[d].count);
+    strides.push_back(a.state_stride[d]);
+    other_strides.push_back(stride);
+  }
+  for (std::size_t i = 0; i < a.input_stride.size(); ++i) {
+    const auto like = exchanged(one.inputs, other.inputs, static_cast<std::int32_t>(i));
+    const std::int64_t stride = b.input_stride[static_cast<std::size_t>(like)];
+    if ((a.input_stride[i] == 0) != (stride == 0)) return false;
+    if (stride == 0) continue;
+    counts.push_back(abstraction.inputs[i].count());
+    strides.push_back(a.input_stride[i]);
+    other_strides.push_back(stride);
+  }
+  Odometer choice(counts);
+  do {
+    std::int64_t at = 0, like = 0;
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      at += choice[k] * strides[k];
+      like += choice[k] * other_strides[k];
+    }
+    if (a.entries[static_cast<std::size_t>(at)] != b.entries[static_cast<std::size_t>(like)]) return false;
+  } while (choice.advance());
+  return true;
+}
+
+bool are_alike(const GridDimension& a, const GridDimension& b) {
+  return a.count == b.count && a.below == b.below && a.above == b.above;
+}
+
+/// With their dimensions, and inputs, in this order.
+bool are_alike(const Abstraction& abstraction, const AgentPart& a, const AgentPart& b) {
+  for (std::size_t i = 0; i < a.inputs.size(); ++i) {
+    const auto points = [&](std::int32_t input) {
+      return abstraction.inputs[static_cast<std::size_t>(input)].count();
+    };
+    if (points(a.inputs[i]) != points(b.inputs[i])) return false;
+  }
+  for (std::size_t k = 0; k < a.dimensions.size(); ++k) {
+    if (!are_alike(abstraction.grid[a.dimensions[k]], abstraction.grid[b.dimensions[k]])) return false;
+  }
+  for (std::size_t k = 0; k < a.dimensions.size(); ++k) {
+    for (const auto* tables : {&abstraction.tables, &abstraction.tubes}) {
+      if (tables->empty()) continue;
+      if (!are_alike(abstraction, (*tables)[a.dimensions[k]], (*tables)[b.dimensions[k]], a, b)) return false;
+    }
+  }
+  return true;
+}
+
+/// More dimensions of one agent are not tried in all orders.
+constexpr std::size_t kMostDimensions = 6;
+
+}  // namespace
+
+std::optional<AgentPart> part_like(const Abstraction& abstraction, const AgentPart& one,
+                                   const AgentPart& other) {
+  if (one.dimensions.empty() || one.dimensions.size() > kMostDimensions ||
+      one.dimensions.size() != other.dimensions.size() || one.inputs.size() != other.inputs.size())
+    return std::nullopt;
+  AgentPart part = other;
+  std::ranges::sort(part.dimensions);
+  do {
+    if (are_alike(abstraction, one, part)) return part;
+  } while (std::ranges::next_permutation(part.dimensions).found);
+  return std::nullopt;
+}
+
+std::vector<AgentPart> parts_of_agents(const Abstraction& abstraction,
+                                       const std::vector<std::vector<std::int32_t>>& inputs) {
+  const std::vector<std::size_t> component = find_components(abstraction);
+  const auto uses = [&](std::size_t d, const auto& test) {
+    return std::ranges::any_of(abstraction.tables[d].inputs, test) ||
+           (!abstraction.tubes.empty() && std::ranges::any_of(abstraction.tubes[d].inputs, test));
+  };
+  std::vector<AgentPart> parts;
+  for (const std::vector<std::int32_t>& own : inputs) {
+    const auto is_own = [&own](std::int32_t input) { return contains(own, input); };
+    const auto is_of_others = [&own](std::int32_t input) { return !contains(own, input); };
+    std::vector<std::uint8_t> is_moved(component.size(), 0), is_shared(component.size(), 0);
+    for (std::size_t d = 0; d < component.size(); ++d) {
+      if (uses(d, is_own)) is_moved[component[d]] = 1;
+      if (uses(d, is_of_others)) is_shared[component[d]] = 1;
+    }
+    AgentPart& part = parts.emplace_back(AgentPart{own, {}});
+    bool is_apart = true;
+    for (std::size_t d = 0; d < component.size(); ++d) {
+      if (is_moved[component[d]] == 0) continue;
+      is_apart = is_apart && is_shared[component[d]] == 0;
+      part.dimensions.push_back(d);
+    }
+    if (!is_apart) part.dimensions.clear();
+  }
+  return parts;
+}
+
+std::vector<AgentPart> find_like_agents(const Abstraction& abstraction, std::span<const AgentPart> parts,
+                                        std::span<const CellSet* const> sets) {
+  const auto is_across = [&](const AgentPart& part) {
+    return !part.dimensions.empty() &&
+           std::ranges::all_of(part.dimensions, [&](std::size_t d) { return d < abstraction.grid.across(); });
+  };
+  std::vector<AgentPart> most;
+  std::vector<std::uint8_t> is_known(parts.size(), 0);
+  // Being alike is transitive, so that each agent is in one set of such.
+  for (std::size_t a = 0; a < parts.size(); ++a) {
+    if (is_known[a] != 0 || !is_across(parts[a])) continue;
+    std::vector<AgentPart> like{parts[a]};
+    for (std::size_t b = a + 1; b < parts.size() && like.size() < RowMirror::kMostAgents; ++b) {
+      if (is_known[b] != 0 || !is_across(parts[b])) continue;
+      std::optional<AgentPart> part = part_like(abstraction, parts[a], parts[b]);
+      if (!part) continue;
+      const RowMirror mirror(abstraction.grid, {parts[a].dimensions, part->dimensions});
+      if (!std::ranges::all_of(sets, [&](const CellSet* set) { return mirror.is_same(*set); })) continue;
+      like.push_back(*std::move(part));
+      is_known[b] = 1;
+    }
+    if (like.size() > std::max<std::size_t>(1, most.size())) most = std::move(like);
+  }
+  return most;
+}
+
+}  // namespace coordreq
