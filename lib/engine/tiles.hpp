@@ -98,6 +98,28 @@ class Tiles {
   Numbers tables_;
 };
 
+/// Calls `visit(row, first)` for the rows of which `has(row)` is true, in order; `first` is the first of them
+/// in whose tile the same is said, at the same place in it, or the row itself.
+/// @param tiles null: of each row something else is said. @param classes [tile] equal numbers where it is the
+/// same REQUIRES: `has` says the same of the rows of two such tiles.
+template <class Has, class Visit>
+void for_each_with_first(const Tiles* tiles, const Tiles::Numbers& classes, RowShare::Range rows,
+                         const Has& has, const Visit& visit) {
+  std::vector<std::int64_t> first;  // [class] its first tile
+  for (std::int64_t r = rows.begin; r < rows.end; ++r) {
+    if (!has(r)) continue;
+    if (tiles == nullptr) {
+      visit(r, r);
+      continue;
+    }
+    const std::int64_t tile = r / tiles->rows();
+    const std::uint32_t own = classes[static_cast<std::size_t>(tile)];
+    if (own >= first.size()) first.resize(own + 1, -1);
+    if (first[own] < 0) first[own] = tile;
+    visit(r, first[own] * tiles->rows() + r % tiles->rows());
+  }
+}
+
 /// [row] equal numbers for equal rows of a set. @param share then of those held; null: of all
 [[nodiscard]] Tiles::Numbers number_rows(const CellSet& set, const RowShare* share = nullptr);
 

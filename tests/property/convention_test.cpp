@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <optional>
 #include <random>
 
 #include "answers/convention/convention.hpp"
@@ -61,12 +64,35 @@ bool is_maximal(Sets sets, const std::vector<bool>& admissible, const std::vecto
   return true;
 }
 
+/// Rows that are alike, found once. @returns whether there are any
+bool expect_same_with_tiles(const FastAnalysis& fast, const ActionGrouping& agents,
+                            const ConventionFreedom& plain, ThreadTeam& team) {
+  bool are_any = false;
+  for (const std::size_t leading : {fast.engine.outer(), fast.engine.across()}) {
+    const std::optional<Tiles> tiles = Tiles::make(fast.engine, fast.hull, leading);
+    if (!tiles) continue;
+    const Tiles::Numbers classes = tiles->refined(tiles->tables(), number_rows(fast.invariance.invariant));
+    are_any = are_any || *std::ranges::max_element(classes) + 1 < classes.size();
+    const ConventionFreedom found = find_convention(fast.controller, fast.hull, agents, team, &*tiles);
+    for (std::size_t i = 0; i < agents.size(); ++i) {
+      const ConventionFreedom::Agent &own = found.agents[i], &other = plain.agents[i];
+      RC_ASSERT(own.mean == other.mean);
+      RC_ASSERT(own.full == other.full);
+      RC_ASSERT(own.histogram == other.histogram);
+      RC_ASSERT(std::memcmp(own.freedom.data(), other.freedom.data(), own.freedom.size() * sizeof(float)) ==
+                0);
+    }
+  }
+  return are_any;
+}
+
 /// The rows of the fast path against the definition, cell by cell.
 void expect_convention(const ProblemSpec& spec, const FastAnalysis& fast, const PlainAnalysis& plain,
                        ThreadTeam& team) {
   const std::vector<InputClass> agents = agent_classes(spec, fast.abstraction.inputs);
   const ActionGrouping grouping(fast.engine, agents, team);
   const ConventionFreedom found = find_convention(fast.controller, fast.hull, grouping, team);
+  RC_CLASSIFY(expect_same_with_tiles(fast, grouping, found, team), "rows alike");
   std::vector<double> sums(agents.size(), 0);
   std::vector<std::int64_t> full(agents.size(), 0);
   std::int64_t cells = 0;

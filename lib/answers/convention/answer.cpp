@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "answers/invariance/answer.hpp"
 
@@ -57,8 +58,13 @@ ConventionFreedom find_parts(const Ground& ground, const ConventionAnswer& conve
   std::int64_t cells = 0;
   for (std::size_t k = 0; k < convention.agents.size(); ++k) {
     const PartialController& part = convention.controller->parts[k];
-    ConventionFreedom own = find_convention(part.controller, *part.hull, convention.agents[k], team);
-    const std::int64_t count = ground.count(*part.controller.invariant);
+    const CellSet& invariant = *part.controller.invariant;
+    std::optional<Tiles> tiles;
+    // What comes nearer to a goal depends on more than on which cells there are.
+    if (!part.controller.approaches) tiles = Tiles::find(*part.controller.engine, *part.hull, invariant);
+    ConventionFreedom own =
+        find_convention(part.controller, *part.hull, convention.agents[k], team, tiles ? &*tiles : nullptr);
+    const std::int64_t count = ground.count(invariant);
     if (k == 0) {
       result = std::move(own);
     } else {
@@ -112,11 +118,12 @@ MemoryNeed convention_memory(const EngineSizes& sizes, int threads) {
   const double freedom = agents * sizes.lanes() * sizeof(float);
   // With a goal in two parts, one after the other.
   const double parts = spec.goal ? 2 : 1;
-  return {.kept = parts * sizes.groups(agent_classes(spec, sizes.model().inputs())) + freedom +
-                  (parts - 1) * sizes.set(),
-          .work = sizes.readers(threads) + agents * sizes.rows() * sizeof(double) + (parts - 1) * freedom,
-          .written = sizes.readers(threads),
-          .array = freedom};
+  return {
+      .kept = parts * sizes.groups(agent_classes(spec, sizes.model().inputs())) + freedom +
+              (parts - 1) * sizes.set(),
+      .work = sizes.readers(threads) + (agents + 4) * sizes.rows() * sizeof(double) + (parts - 1) * freedom,
+      .written = sizes.readers(threads),
+      .array = freedom};
 }
 
 }  // namespace coordreq

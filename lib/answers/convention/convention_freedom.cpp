@@ -38,17 +38,18 @@ class Measure {
   explicit Measure(std::int64_t row_length)
       : kept_(static_cast<std::size_t>(row_length)), all_(static_cast<std::size_t>(row_length)) {}
 
+  /// @param rows how many there are like this one
   /// @returns the sum over the row, from the first cell on
-  double measure(const ConventionRow& row, std::size_t agent, ConstRow invariant, float* freedom,
-                 Count& count) {
+  double measure(const ConventionRow& row, std::size_t agent, ConstRow invariant, std::int64_t rows,
+                 float* freedom, Count& count) {
     if (row.is_free) {
       std::int64_t cells = 0;
       for_each_bit(invariant, [&](std::int64_t x) {
         freedom[x] = 1;
         ++cells;
       });
-      count.full += cells;
-      count.histogram.back() += cells;
+      count.full += rows * cells;
+      count.histogram.back() += rows * cells;
       return static_cast<double>(cells);
     }
     const ActionGroups& groups = *row.groups.classes[agent];
@@ -61,8 +62,8 @@ class Measure {
       const double part = static_cast<double>(kept) / static_cast<double>(all);
       freedom[x] = static_cast<float>(part);
       sum += part;
-      if (kept == all) ++count.full;
-      ++count.histogram[static_cast<std::size_t>((10 * kept + all - 1) / all - 1)];
+      if (kept == all) count.full += rows;
+      count.histogram[static_cast<std::size_t>((10 * kept + all - 1) / all - 1)] += rows;
     });
     return sum;
   }
@@ -113,10 +114,47 @@ void add_up(const std::vector<std::vector<Count>>& counts, const std::vector<std
   }
 }
 
+/// Rows of which the same is found.
+struct LikeRows {
+  std::vector<std::int64_t> first;  ///< [own row] the first row like it; -1: it has no cell of K
+  std::vector<std::int64_t> count;  ///< [own row] how many there are, of a first one
+};
+
+LikeRows find_like_rows(const CellSet& invariant, RowShare::Range own, const RowShare* share,
+                        const Tiles* tiles) {
+  const auto rows = static_cast<std::size_t>(own.end - own.begin);
+  LikeRows like{std::vector<std::int64_t>(rows, -1), std::vector<std::int64_t>(rows, 0)};
+  Tiles::Numbers classes;
+  if (tiles != nullptr) classes = tiles->refined(tiles->tables(), number_rows(invariant, share));
+  const auto has = [&](std::int64_t row) { return any_set(invariant.row(row)); };
+  for_each_with_first(tiles, classes, own, has, [&](std::int64_t row, std::int64_t first) {
+    like.first[static_cast<std::size_t>(row - own.begin)] = first;
+    ++like.count[static_cast<std::size_t>(first - own.begin)];
+  });
+  return like;
+}
+
+/// What has been found for the first of rows that are alike, for all others.
+void copy_to_like_rows(const LikeRows& like, std::int64_t begin, std::int64_t length, ThreadTeam& team,
+                       std::vector<std::vector<double>>& sums, ConventionFreedom& result) {
+  const auto rows = static_cast<std::int64_t>(like.first.size());
+  team.for_each(rows, 64, [&](ThreadTeam::Range range, int) {
+    for (std::int64_t k = range.begin; k < range.end; ++k) {
+      const std::int64_t row = begin + k, first = like.first[static_cast<std::size_t>(k)];
+      if (first < 0 || first == row) continue;
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        float* const freedom = result.agents[i].freedom.data();
+        std::copy_n(freedom + first * length, length, freedom + row * length);
+        sums[i][static_cast<std::size_t>(k)] = sums[i][static_cast<std::size_t>(first - begin)];
+      }
+    }
+  });
+}
+
 }  // namespace
 
 ConventionFreedom find_convention(const Controller& controller, const RowHull& hull,
-                                  const ActionGrouping& agents, ThreadTeam& team) {
+                                  const ActionGrouping& agents, ThreadTeam& team, const Tiles* tiles) {
   const RowEngine& engine = *controller.engine;
   const RowShare::Range own = own_rows(engine.share(), engine.rows());
   ConventionFreedom result;
@@ -130,6 +168,7 @@ ConventionFreedom find_convention(const Controller& controller, const RowHull& h
                                          std::vector<Count>(agents.size()));
   std::vector<std::vector<double>> sums(
       agents.size(), std::vector<double>(static_cast<std::size_t>(own.end - own.begin), 0));
+  const LikeRows like = find_like_rows(*controller.invariant, own, engine.share(), tiles);
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<ConventionRows<Level>> finders;
@@ -141,17 +180,19 @@ ConventionFreedom find_convention(const Controller& controller, const RowHull& h
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
         // Minima are shared within a unit.
         if (place.row == range.begin || place.row % engine.unit_rows() == 0) finder.enter();
+        const auto k = static_cast<std::size_t>(place.row - own.begin);
+        if (like.first[k] != place.row) continue;
         const ConstRow invariant = controller.invariant->row(place.row);
-        if (!any_set(invariant)) continue;
         finder.find(place, row);
         for (std::size_t i = 0; i < agents.size(); ++i) {
-          sums[i][static_cast<std::size_t>(place.row - own.begin)] = measure.measure(
-              row, i, invariant, result.agents[i].freedom.data() + place.row * engine.row_length(),
-              counts[static_cast<std::size_t>(worker)][i]);
+          sums[i][k] = measure.measure(row, i, invariant, like.count[k],
+                                       result.agents[i].freedom.data() + place.row * engine.row_length(),
+                                       counts[static_cast<std::size_t>(worker)][i]);
         }
       }
     });
   });
+  copy_to_like_rows(like, own.begin, engine.row_length(), team, sums, result);
   add_up(counts, sums, engine.share(), controller.invariant->count(own.begin, own.end), result);
   return result;
 }

@@ -8,6 +8,7 @@
 #include "answers/invariance/controller.hpp"
 #include "base/zeroed_array.hpp"
 #include "engine/row_hull.hpp"
+#include "engine/tiles.hpp"
 
 namespace coordreq {
 
@@ -25,9 +26,11 @@ struct ConventionFreedom {
 };
 
 /// @param agents the actions of each agent as a class of its own, in the order of the spec
+/// @param tiles where equal work is looked for; null: nowhere. REQUIRES: null for a progress controller
 /// Cost: for each row of cells the choices of one group of actions an agent, times agents^2.
 [[nodiscard]] ConventionFreedom find_convention(const Controller& controller, const RowHull& hull,
-                                                const ActionGrouping& agents, ThreadTeam& team);
+                                                const ActionGrouping& agents, ThreadTeam& team,
+                                                const Tiles* tiles = nullptr);
 
 /// P_i(x) of agent `agent`, packed as action_bits(): fills elements [begin, begin + count) of uint8 [cells,
 /// ceil(m / 8)] in the order of the engine's grid.

@@ -212,21 +212,12 @@ void Projections::number_rows_of(const CellSet& invariant, const RowShare* share
   number_ = ZeroedArray<std::uint32_t>(static_cast<std::size_t>(invariant.rows()));
   const Tiles* const tiles = equal_.tiles;
   if (tiles != nullptr) classes_ = tiles->refined(tiles->tables(), number_rows(invariant, share));
-  std::vector<std::int64_t> first;  // [class] its first tile
-  const std::int64_t rows = tiles == nullptr ? 1 : tiles->rows();
-  for (std::int64_t r = run.begin; r < run.end; ++r) {
-    if (!has_cells(invariant, r)) continue;
-    const std::int64_t tile = r / rows;
-    const std::uint32_t own = tiles == nullptr ? 0 : classes_[static_cast<std::size_t>(tile)];
-    if (own >= first.size()) first.resize(own + 1, -1);
-    if (tiles == nullptr || first[own] < 0) first[own] = tile;
-    if (first[own] != tile) {
-      number_[static_cast<std::size_t>(r)] = number_[static_cast<std::size_t>(first[own] * rows + r % rows)];
-      continue;
-    }
-    found_.push_back({.row = r});
-    number_[static_cast<std::size_t>(r)] = static_cast<std::uint32_t>(found_.size());
-  }
+  const auto has = [&](std::int64_t row) { return has_cells(invariant, row); };
+  for_each_with_first(tiles, classes_, run, has, [&](std::int64_t row, std::int64_t first) {
+    if (first == row) found_.push_back({.row = row});
+    number_[static_cast<std::size_t>(row)] =
+        first == row ? static_cast<std::uint32_t>(found_.size()) : number_[static_cast<std::size_t>(first)];
+  });
 }
 
 /// Of which anything will be asked.
