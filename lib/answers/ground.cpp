@@ -35,7 +35,7 @@ std::vector<std::size_t> alike_in_classes(const std::vector<AgentPart>& agents,
 }
 
 /// Of one process, where everything is allowed.
-void find_like_agents(Ground& ground) {
+void look_for_like_agents(Ground& ground) {
   if (ground.ranks != nullptr || ground.allow) return;
   std::vector<std::vector<std::int32_t>> inputs;
   for (const InputClass& own : agent_classes(ground.spec, ground.abstraction->inputs))
@@ -104,7 +104,7 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
   if (ground.allow) ground.engine->set_allow(*ground.allow);
   ground.safe_cells = ground.count(ground.safe);
   ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
-  find_like_agents(ground);
+  look_for_like_agents(ground);
   ground.order.emplace(abstraction.grid);
 }
 

@@ -1,33 +1,24 @@
 #include "engine/like_agents.hpp"
 
 #include <algorithm>
-#include <numeric>
 
+#include "base/index.hpp"
+#include "base/merger.hpp"
 #include "engine/row_mirror.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
 
-/// Sets of dimensions of which none moves, or is moved by, one of another set: [dimension] the first of its
-/// own.
-std::vector<std::size_t> find_components(const Abstraction& abstraction) {
-  std::vector<std::size_t> first(abstraction.tables.size());
-  std::iota(first.begin(), first.end(), std::size_t{0});
-  const auto join = [&first](std::size_t a, std::size_t b) {
-    const std::size_t from = std::max(first[a], first[b]), to = std::min(first[a], first[b]);
-    std::replace(first.begin(), first.end(), from, to);
-  };
+/// Sets of dimensions of which none moves, or is moved by, one of another set.
+Merger find_components(const Abstraction& abstraction) {
+  Merger components(abstraction.tables.size());
   for (const auto* tables : {&abstraction.tables, &abstraction.tubes}) {
     for (std::size_t t = 0; t < tables->size(); ++t) {
-      for (const std::int32_t state : (*tables)[t].states) join(t, static_cast<std::size_t>(state));
+      for (const std::int32_t state : (*tables)[t].states) components.merge(t, at(state));
     }
   }
-  return first;
-}
-
-bool contains(const std::vector<std::int32_t>& list, std::int32_t one) {
-  return std::find(list.begin(), list.end(), one) != list.end();
+  return components;
 }
 
 /// Table `a` says of an agent what table `b` says of the other one.
@@ -46,7 +37,7 @@ bool are_alike(const Abstraction& abstraction, const TransitionTable& a, const T
   }
   for (std::size_t i = 0; i < a.input_stride.size(); ++i) {
     const auto like = exchanged(one.inputs, other.inputs, static_cast<std::int32_t>(i));
-    const std::int64_t stride = b.input_stride[static_cast<std::size_t>(like)];
+    const std::int64_t stride = b.input_stride[at(like)];
     if ((a.input_stride[i] == 0) != (stride == 0)) return false;
     if (stride == 0) continue;
     counts.push_back(abstraction.inputs[i].count());
@@ -55,12 +46,12 @@ bool are_alike(const Abstraction& abstraction, const TransitionTable& a, const T
   }
   Odometer choice(counts);
   do {
-    std::int64_t at = 0, like = 0;
+    std::int64_t place = 0, like = 0;
     for (std::size_t k = 0; k < counts.size(); ++k) {
-      at += choice[k] * strides[k];
+      place += choice[k] * strides[k];
       like += choice[k] * other_strides[k];
     }
-    if (a.entries[static_cast<std::size_t>(at)] != b.entries[static_cast<std::size_t>(like)]) return false;
+    if (a.entries[at(place)] != b.entries[at(like)]) return false;
   } while (choice.advance());
   return true;
 }
@@ -72,9 +63,7 @@ bool are_alike(const GridDimension& a, const GridDimension& b) {
 /// With their dimensions, and inputs, in this order.
 bool are_alike(const Abstraction& abstraction, const AgentPart& a, const AgentPart& b) {
   for (std::size_t i = 0; i < a.inputs.size(); ++i) {
-    const auto points = [&](std::int32_t input) {
-      return abstraction.inputs[static_cast<std::size_t>(input)].count();
-    };
+    const auto points = [&](std::int32_t input) { return abstraction.inputs[at(input)].count(); };
     if (points(a.inputs[i]) != points(b.inputs[i])) return false;
   }
   for (std::size_t k = 0; k < a.dimensions.size(); ++k) {
@@ -109,7 +98,8 @@ std::optional<AgentPart> part_like(const Abstraction& abstraction, const AgentPa
 
 std::vector<AgentPart> parts_of_agents(const Abstraction& abstraction,
                                        const std::vector<std::vector<std::int32_t>>& inputs) {
-  const std::vector<std::size_t> component = find_components(abstraction);
+  const Merger components = find_components(abstraction);
+  const std::size_t dimensions = abstraction.tables.size();
   const auto uses = [&](std::size_t d, const auto& test) {
     return std::ranges::any_of(abstraction.tables[d].inputs, test) ||
            (!abstraction.tubes.empty() && std::ranges::any_of(abstraction.tubes[d].inputs, test));
@@ -118,16 +108,16 @@ std::vector<AgentPart> parts_of_agents(const Abstraction& abstraction,
   for (const std::vector<std::int32_t>& own : inputs) {
     const auto is_own = [&own](std::int32_t input) { return contains(own, input); };
     const auto is_of_others = [&own](std::int32_t input) { return !contains(own, input); };
-    std::vector<std::uint8_t> is_moved(component.size(), 0), is_shared(component.size(), 0);
-    for (std::size_t d = 0; d < component.size(); ++d) {
-      if (uses(d, is_own)) is_moved[component[d]] = 1;
-      if (uses(d, is_of_others)) is_shared[component[d]] = 1;
+    std::vector<std::uint8_t> is_moved(dimensions, 0), is_shared(dimensions, 0);  // [root]
+    for (std::size_t d = 0; d < dimensions; ++d) {
+      if (uses(d, is_own)) is_moved[components.root(d)] = 1;
+      if (uses(d, is_of_others)) is_shared[components.root(d)] = 1;
     }
     AgentPart& part = parts.emplace_back(AgentPart{own, {}});
     bool is_apart = true;
-    for (std::size_t d = 0; d < component.size(); ++d) {
-      if (is_moved[component[d]] == 0) continue;
-      is_apart = is_apart && is_shared[component[d]] == 0;
+    for (std::size_t d = 0; d < dimensions; ++d) {
+      if (is_moved[components.root(d)] == 0) continue;
+      is_apart = is_apart && is_shared[components.root(d)] == 0;
       part.dimensions.push_back(d);
     }
     if (!is_apart) part.dimensions.clear();

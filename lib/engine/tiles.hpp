@@ -100,8 +100,9 @@ class Tiles {
 
 /// Calls `visit(row, first)` for the rows of which `has(row)` is true, in order; `first` is the first of them
 /// in whose tile the same is said, at the same place in it, or the row itself.
-/// @param tiles null: of each row something else is said. @param classes [tile] equal numbers where it is the
-/// same REQUIRES: `has` says the same of the rows of two such tiles.
+/// @param tiles null: of each row something else is said
+/// @param classes [tile] equal numbers where it is the same
+/// REQUIRES: `has` says the same of the rows of two such tiles.
 template <class Has, class Visit>
 void for_each_with_first(const Tiles* tiles, const Tiles::Numbers& classes, RowShare::Range rows,
                          const Has& has, const Visit& visit) {

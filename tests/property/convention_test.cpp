@@ -92,7 +92,8 @@ void expect_convention(const ProblemSpec& spec, const FastAnalysis& fast, const 
   const std::vector<InputClass> agents = agent_classes(spec, fast.abstraction.inputs);
   const ActionGrouping grouping(fast.engine, agents, team);
   const ConventionFreedom found = find_convention(fast.controller, fast.hull, grouping, team);
-  RC_CLASSIFY(expect_same_with_tiles(fast, grouping, found, team), "rows alike");
+  const bool are_alike = expect_same_with_tiles(fast, grouping, found, team);
+  RC_CLASSIFY(are_alike, "rows alike");
   std::vector<double> sums(agents.size(), 0);
   std::vector<std::int64_t> full(agents.size(), 0);
   std::int64_t cells = 0;

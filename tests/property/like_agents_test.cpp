@@ -62,16 +62,17 @@ class LikeAgents {
     if (odd_ == 1) safe += " and p0 >= 1";
     if (has_clock_) {
       states += R"(, {"name": "t", "lower": 0, "upper": 1, "step": 1, "outside": "saturate"})";
-      equations += R"(, "t": "t + 1")";
+      equations += has_tubes_ ? R"(, "t": "1")" : R"(, "t": "t + 1")";
       safe = fmt::format("t <= 0 or ({})", safe);
     }
     return fmt::format(
         R"({{"coordreq": 1, "name": "alike", "states": [{}], "inputs": [{}], "agents": [{}],
-"dynamics": {{"time": "discrete", "period": 1, "equations": {{{}}}}}, "safe": "{}",
+"dynamics": {{"time": "{}", "period": 1, "equations": {{{}}}}}, "safe": "{}",
 "coordination": {{"partitions": "all"{}}},
-"abstraction": {{"safe": "center", "cells": "half_open"}}}})",
-        states, inputs, agents, equations, safe,
-        *rc::gen::element<std::string>("", R"(, "max_delay": 1)", R"(, "max_delay": 3)"));
+"abstraction": {{{}}}}})",
+        states, inputs, agents, has_tubes_ ? "continuous" : "discrete", equations, safe,
+        *rc::gen::element<std::string>("", R"(, "max_delay": 1)", R"(, "max_delay": 3)"),
+        has_tubes_ ? R"("between_samples": true)" : R"("safe": "center", "cells": "half_open")");
   }
 
  private:
@@ -82,6 +83,9 @@ class LikeAgents {
   }
 
   std::string equation(int i) const {
+    if (has_tubes_ && kind_ == 0) return fmt::format(R"("p{0}": "u{0} + {1}")", i, drift_);
+    if (has_tubes_ && kind_ == 1) return fmt::format(R"("p{0}": "v{0}", "v{0}": "u{0}")", i);
+    if (has_tubes_) return fmt::format(R"("p{0}": "u{0}", "v{0}": "-u{0}")", i);
     if (kind_ == 0) return fmt::format(R"("p{0}": "p{0} + u{0} + {1}")", i, drift_);
     if (kind_ == 1) return fmt::format(R"("p{0}": "p{0} + v{0}", "v{0}": "v{0} + u{0}")", i);
     return fmt::format(R"("p{0}": "p{0} + u{0}", "v{0}": "v{0} - u{0}")", i);
@@ -101,6 +105,7 @@ class LikeAgents {
   int kind_, agents_, most_, odd_;
   int form_ = draw(0, 2);
   int drift_ = draw(0, 1);
+  bool has_tubes_ = draw(0, 2) == 0;              // in continuous time, safe between the samples too
   bool has_clock_ = *rc::gen::arbitrary<bool>();  // a state that no agent moves
   std::string values_ = *rc::gen::element<std::string>("-1, 0, 1", "0, 1", "-1, 1", "-1, 0, 2");
   std::string edges_;
@@ -152,6 +157,7 @@ void classify(const FastAnalysis& fast) {
   RC_CLASSIFY(fast.actions[last].mirror.has_value(), "rows found once");
   RC_CLASSIFY(fast.actions[last].mirror && has_layers, "rows found once, with layers");
   RC_CLASSIFY(fast.actions[last].mirror && fast.answers->ground.tiles, "and tiles");
+  RC_CLASSIFY(fast.actions[last].mirror && !fast.abstraction.tubes.empty(), "and tubes");
 }
 
 TEST(LikeAgents, GiveTheSameInWhateverOrder) {

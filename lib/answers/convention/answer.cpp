@@ -118,12 +118,13 @@ MemoryNeed convention_memory(const EngineSizes& sizes, int threads) {
   const double freedom = agents * sizes.lanes() * sizeof(float);
   // With a goal in two parts, one after the other.
   const double parts = spec.goal ? 2 : 1;
-  return {
-      .kept = parts * sizes.groups(agent_classes(spec, sizes.model().inputs())) + freedom +
-              (parts - 1) * sizes.set(),
-      .work = sizes.readers(threads) + (agents + 4) * sizes.rows() * sizeof(double) + (parts - 1) * freedom,
-      .written = sizes.readers(threads),
-      .array = freedom};
+  constexpr double kLikeRows = 4;  // words of a row: numbers of what is equal
+  return {.kept = parts * sizes.groups(agent_classes(spec, sizes.model().inputs())) + freedom +
+                  (parts - 1) * sizes.set(),
+          .work = sizes.readers(threads) + (agents + kLikeRows) * sizes.rows() * sizeof(double) +
+                  (parts - 1) * freedom,
+          .written = sizes.readers(threads),
+          .array = freedom};
 }
 
 }  // namespace coordreq

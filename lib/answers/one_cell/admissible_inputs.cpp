@@ -2,32 +2,17 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/index.hpp"
+#include "base/merger.hpp"
 #include "engine/tube_sets.hpp"
 #include "model/condition_table.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
-
-/// Sets that are merged: the root of each element.
-class Merger {
- public:
-  explicit Merger(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  [[nodiscard]] std::size_t root(std::size_t i) const {
-    while (parent_[i] != i) i = parent_[i];
-    return i;
-  }
-  void merge(std::size_t a, std::size_t b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// Nothing is left inside.
 bool is_empty(const IndexRange& range) {
