@@ -50,15 +50,15 @@ class Projections::Builder {
 
   void enter() { posts_.enter(); }
 
-  /// @param is_full set to whether every action is in C(x) for all x of K in the row
-  /// @returns whether `packed` are boxes of posts
-  bool project(const RowPlace& place, std::vector<Word>& packed, bool& is_full) {
+  /// @returns what was found, valid until the next call
+  Found project(const RowPlace& place) {
     const ConstRow invariant = controller_.invariant->row(place.row);
-    is_full = free_.is_free(place);
-    if (is_full && !boxes_.is_product()) return false;
+    const bool is_full = free_.is_free(place);
+    Found found{.row = place.row, .is_full = is_full};
+    if (is_full && !boxes_.is_product()) return found;
     grouping_.group(place, groups_);
     const bool is_product = boxes_.is_product() && boxes_.fill(place, groups_);
-    if (is_full && !is_product) return false;
+    if (is_full && !is_product) return found;
     is_simple_ = is_product && !boxes_.has_gone() && controller_.engine->allow() == nullptr &&
                  controller_.synthesis == Synthesis::maximal && !controller_.approaches;
     box_.resize(controller_.engine->grid());
@@ -68,13 +68,15 @@ class Projections::Builder {
       for (std::size_t c = 0; c < masks_.size(); ++c)
         is_full ? fill_masks(c, invariant) : find_masks(place, c);
     }
+    packed_.clear();
     if (is_product) {
-      independent_.pack(boxes_, groups_, masks_, invariant, controller_.engine->grid(), scratch_);
-      packed.assign(scratch_.begin(), scratch_.end());
-      return true;
+      independent_.pack(boxes_, groups_, masks_, invariant, controller_.engine->grid(), packed_);
+    } else {
+      for (const std::vector<Word>& own : masks_) packed_.insert(packed_.end(), own.begin(), own.end());
     }
-    for (const std::vector<Word>& own : masks_) packed.insert(packed.end(), own.begin(), own.end());
-    return false;
+    found.is_product = is_product;
+    found.packed = packed_;
+    return found;
   }
 
  private:
@@ -173,7 +175,7 @@ class Projections::Builder {
   std::vector<Word> members_;
   std::vector<std::vector<Word>> masks_;
   std::vector<std::uint8_t> known_;
-  std::vector<Word> scratch_;
+  std::vector<Word> packed_;
   std::vector<Word> reachable_;
   std::vector<Word> left_;
 };
@@ -184,6 +186,7 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
   equal_.numbers = &classes_;
   const RowEngine& engine = *controller.engine;
   number_rows_of(*controller.invariant, engine.share());
+  stores_.resize(static_cast<std::size_t>(team.size()));
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<Builder<Level>> builders;
@@ -196,7 +199,8 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
         const std::uint32_t number = number_[static_cast<std::size_t>(place.row)];
         if (number == kNothing || of(place.row).row != place.row) continue;
         Found& found = found_[number - 1];
-        found.is_product = builder.project(place, found.packed, found.is_full);
+        found = builder.project(place);
+        found.packed = stores_[static_cast<std::size_t>(worker)].keep(found.packed);
       }
     });
   });
@@ -204,6 +208,15 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
   const RowShare::Range own = own_rows(engine.share(), engine.rows());
   for (auto r = static_cast<std::size_t>(own.begin); r < static_cast<std::size_t>(own.end); ++r)
     is_full_[r] = number_[r] != kNothing && found_[number_[r] - 1].is_full ? 1 : 0;
+}
+
+std::span<const Word> Projections::Store::keep(std::span<const Word> list) {
+  if (list.empty()) return {};
+  if (blocks_.empty() || blocks_.back().capacity() - blocks_.back().size() < list.size())
+    blocks_.emplace_back().reserve(std::max(kBlock, list.size()));
+  std::vector<Word>& block = blocks_.back();
+  block.insert(block.end(), list.begin(), list.end());
+  return std::span<const Word>(block).last(list.size());
 }
 
 /// Every row of K is found by itself, or with the first of those that are the same.

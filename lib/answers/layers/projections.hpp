@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "answers/invariance/controller.hpp"
@@ -59,12 +60,22 @@ class Projections {
   static constexpr std::uint32_t kNothing = 0;
   template <class Level>
   class Builder;
+  /// Keeps lists of words one behind the other, which stay where they are: an allocation a row costs more than
+  /// what is in it.
+  class Store {
+   public:
+    [[nodiscard]] std::span<const Word> keep(std::span<const Word> list);
+
+   private:
+    static constexpr std::size_t kBlock = std::size_t{1} << 15;
+    std::vector<std::vector<Word>> blocks_;
+  };
   /// What was found for one row, and holds for those that are the same.
   struct Found {
     std::int64_t row = 0;
     bool is_product = false;
     bool is_full = false;
-    std::vector<Word> packed;  ///< masks: groups of class 0, then of class 1, ...
+    std::span<const Word> packed = {};  ///< masks: groups of class 0, then of class 1, ...
   };
 
   [[nodiscard]] const Found& of(std::int64_t row) const {
@@ -79,6 +90,7 @@ class Projections {
   Tiles::Numbers classes_;             ///< [tile] equal numbers where projections are the same
   ZeroedArray<std::uint32_t> number_;  ///< [row] 1 + its place in `found_`, or kNothing where K has no cell
   std::vector<Found> found_;
+  std::vector<Store> stores_;  ///< [worker] for these
   std::vector<std::uint8_t> is_full_;
 };
 
