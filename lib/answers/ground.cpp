@@ -1,11 +1,14 @@
 #include "answers/ground.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <set>
+#include <span>
 
 #include "answers/invariance/safe_set.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/row_cut.hpp"
+#include "base/index.hpp"
 #include "engine/engine_sizes.hpp"
 
 namespace coordreq {
@@ -34,16 +37,83 @@ std::vector<std::size_t> alike_in_classes(const std::vector<AgentPart>& agents,
   return most;
 }
 
-/// Of one process, where everything is allowed.
-void look_for_like_agents(Ground& ground) {
-  if (ground.ranks != nullptr || ground.allow) return;
+std::vector<std::vector<std::size_t>> dimensions_of(const std::vector<AgentPart>& agents) {
+  std::vector<std::vector<std::size_t>> blocks;
+  for (const AgentPart& agent : agents) blocks.push_back(agent.dimensions);
+  return blocks;
+}
+
+/// What S is, in two ways of asking, in rows held.
+std::vector<const CellSet*> safe_sets(const Ground& ground) {
+  std::vector<const CellSet*> sets{&ground.safe};
+  if (ground.beyond) sets.push_back(&*ground.beyond);
+  return sets;
+}
+
+/// Agents that can change places in each of the sets.
+std::vector<AgentPart> agents_alike_in(const Ground& ground, std::span<const CellSet* const> sets) {
   std::vector<std::vector<std::int32_t>> inputs;
   for (const InputClass& own : agent_classes(ground.spec, ground.abstraction->inputs))
     inputs.push_back(own.inputs());
-  std::vector<const CellSet*> sets{&ground.safe};
-  if (ground.beyond) sets.push_back(&*ground.beyond);
   const std::vector<AgentPart> parts = parts_of_agents(*ground.abstraction, inputs);
-  ground.like_agents = find_like_agents(*ground.abstraction, parts, sets);
+  return find_like_agents(*ground.abstraction, parts, sets);
+}
+
+/// Of several processes rows are cut before S is known, for agents of which only S can forbid that all change
+/// places, in whatever partition.
+std::vector<AgentPart> agents_alike_but_for_safe_set(const Ground& ground) {
+  const ProblemSpec& spec = ground.spec;
+  if (is_cut_before_tables(ground.model) || ground.listed || spec.controller.allow) return {};
+  std::vector<AgentPart> agents = agents_alike_in(ground, {});
+  for (const PartitionSpec& partition : spec.coordination.partitions) {
+    const auto classes = input_classes(spec, ground.abstraction->inputs, partition);
+    if (alike_in_classes(agents, classes).size() < agents.size()) return {};
+  }
+  return agents;
+}
+
+/// [row] not 0 for the rows that a process has to hold beside its own.
+/// @param safe S in its own rows, or null: all that posts can meet @param mirror may be null
+std::vector<std::uint8_t> rows_needed(const RowHull& hull, const CellSet* safe, RowShare::Range own,
+                                      const RowMirror* mirror) {
+  std::vector<std::uint8_t> is_needed = hull.rows_met(safe, own);
+  if (mirror == nullptr) return is_needed;
+  std::fill(is_needed.begin() + own.begin, is_needed.begin() + own.end, std::uint8_t{1});
+  for (std::int64_t row = 0; row < std::ssize(is_needed); ++row) {
+    if (is_needed[at(row)] != 0) is_needed[at(mirror->first_of(row))] = 1;
+  }
+  return is_needed;
+}
+
+/// Cuts the rows, if that is still to be done, and finds S in those held. Together.
+/// @param agents that change places, or none
+void share_rows(Ground& ground, bool is_cut, const std::vector<AgentPart>& agents,
+                const std::function<void(const std::vector<RowShare::Range>&)>& find_safe) {
+  std::optional<RowMirror> mirror;
+  if (!agents.empty()) mirror.emplace(ground.abstraction->grid, dimensions_of(agents));
+  const RowMirror* const images = mirror ? &*mirror : nullptr;
+  if (!is_cut)
+    *ground.share = {*ground.ranks,
+                     cut_into_shares(ground.model, &*ground.engine, ground.ranks->count(), images)};
+  find_safe({ground.share->own()});
+  ground.share->set_halo(rows_needed(*ground.hull, &ground.safe, ground.share->own(), images));
+  find_safe(halo_rows(*ground.share));
+  ground.engine->take_tube_sets();
+}
+
+/// Whether that makes no difference in S, for any process, nor for what tiles are. Together.
+bool can_change_places(Ground& ground, const std::vector<AgentPart>& agents) {
+  ground.like_agents = agents;
+  const std::optional<RowMirror> mirror = ground.mirror(single_classes(ground.abstraction->inputs));
+  const RowShare::Range own = ground.share->own();
+  bool can = mirror.has_value();
+  for (const CellSet* set : safe_sets(ground)) {
+    for (std::int64_t row = own.begin; can && row < own.end; ++row)
+      can = std::ranges::equal(set->row(row), set->row(mirror->first_of(row)));
+  }
+  can = ground.ranks->sum(can ? 0 : 1) == 0;
+  if (!can) ground.like_agents.clear();
+  return can;
 }
 
 }  // namespace
@@ -62,7 +132,8 @@ std::optional<RowMirror> Ground::mirror(const std::vector<InputClass>& classes) 
   std::vector<std::vector<std::size_t>> blocks;
   for (const std::size_t a : alike_in_classes(like_agents, classes))
     blocks.push_back(like_agents[a].dimensions);
-  if (blocks.size() < 2) return std::nullopt;
+  // Of several processes each holds the first of all images that there are.
+  if (blocks.size() < 2 || (ranks != nullptr && blocks.size() < like_agents.size())) return std::nullopt;
   // Tiles of many rows are worked out as a whole.
   const auto is_in_tile = [&](std::size_t d) { return d >= tiles->leading(); };
   const bool is_any_in_tile =
@@ -75,9 +146,12 @@ std::optional<RowMirror> Ground::mirror(const std::vector<InputClass>& classes) 
 void lay_ground(Ground& ground, ThreadTeam& team) {
   const Abstraction& abstraction = *ground.abstraction;
   const std::int64_t rows = abstraction.grid.rows(), row_length = abstraction.grid.row_length();
-  ground.safe = CellSet(rows, row_length);
   const std::optional<TubeLimits> limits = find_tube_limits(ground.spec, abstraction, ground.ranks);
-  if (limits) ground.beyond.emplace(rows, row_length);
+  const auto clear_safe = [&] {
+    ground.safe = CellSet(rows, row_length);
+    if (limits) ground.beyond = CellSet(rows, row_length);
+  };
+  clear_safe();
   const auto find_safe = [&](const std::vector<RowShare::Range>& runs) {
     add_cells_that_satisfy(ground.spec.safe, ground.spec, abstraction.grid, abstraction.inputs, runs, team,
                            ground.safe);
@@ -91,20 +165,21 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
                          std::vector<std::int64_t>(1 + static_cast<std::size_t>(ground.ranks->count()), 0));
   ground.engine.emplace(abstraction, nullptr, ground.tubes(), ground.shared_rows());
   ground.hull.emplace(*ground.engine);
-  if (ground.ranks != nullptr) {
-    if (!is_cut)
-      *ground.share = {*ground.ranks, cut_into_shares(ground.model, &*ground.engine, ground.ranks->count())};
-    find_safe({ground.share->own()});
-    ground.share->set_halo(ground.hull->rows_met(&ground.safe, ground.share->own()));
-    find_safe(halo_rows(*ground.share));
-    ground.engine->take_tube_sets();
-  }
+  const std::vector<AgentPart> agents =
+      ground.ranks == nullptr ? std::vector<AgentPart>() : agents_alike_but_for_safe_set(ground);
+  if (ground.ranks != nullptr) share_rows(ground, is_cut, agents, find_safe);
   ground.allow = allow_table(ground.spec, abstraction, team, ground.listed ? &ground.listed->pairs : nullptr,
                              ground.shared_rows());
   if (ground.allow) ground.engine->set_allow(*ground.allow);
-  ground.safe_cells = ground.count(ground.safe);
   ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
-  look_for_like_agents(ground);
+  if (ground.ranks == nullptr && !ground.allow)
+    ground.like_agents = agents_alike_in(ground, safe_sets(ground));
+  if (!agents.empty() && !can_change_places(ground, agents)) {
+    clear_safe();
+    share_rows(ground, is_cut, {}, find_safe);
+    ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
+  }
+  ground.safe_cells = ground.count(ground.safe);
   ground.order.emplace(abstraction.grid);
 }
 
@@ -115,15 +190,19 @@ std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks) {
   if (!ground.abstraction->tubes.empty()) tubes = {.inside = &unknown, .are_known = false};
   const RowEngine engine(*ground.abstraction, nullptr, tubes);
   const RowHull hull(engine);
-  const std::vector<std::int64_t> bounds = cut_into_shares(ground.model, &engine, ranks);
+  const std::vector<AgentPart> agents = agents_alike_but_for_safe_set(ground);
+  std::optional<RowMirror> mirror;
+  if (!agents.empty()) mirror.emplace(grid, dimensions_of(agents));
+  const RowMirror* const images = mirror ? &*mirror : nullptr;
+  const std::vector<std::int64_t> bounds = cut_into_shares(ground.model, &engine, ranks, images);
   const std::vector<double> slices = bytes_of_slices(engine);
   std::vector<RankRows> result;
   for (std::size_t r = 0; r + 1 < bounds.size(); ++r) {
     const RowShare::Range own{bounds[r], bounds[r + 1]};
-    std::vector<std::uint8_t> is_met = hull.rows_met(nullptr, own);
-    std::fill(is_met.begin() + own.begin, is_met.begin() + own.end, std::uint8_t{0});
+    std::vector<std::uint8_t> is_needed = rows_needed(hull, nullptr, own, images);
+    std::fill(is_needed.begin() + own.begin, is_needed.begin() + own.end, std::uint8_t{0});
     RankRows& rows = result.emplace_back(
-        RankRows{own.end - own.begin, std::count(is_met.begin(), is_met.end(), 1), slices});
+        RankRows{own.end - own.begin, std::count(is_needed.begin(), is_needed.end(), 1), slices});
     for (std::size_t t = 0; t < slices.size(); ++t) {
       if (ground.abstraction->tables[t].is_by_cells(grid.size()))
         rows.slices[t] *= static_cast<double>(rows.own) / static_cast<double>(grid.rows());

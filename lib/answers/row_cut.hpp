@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/row_engine.hpp"
+#include "engine/row_mirror.hpp"
 #include "model/model.hpp"
 
 namespace coordreq {
@@ -15,8 +16,9 @@ namespace coordreq {
 /// Cuts the rows into runs, one a process, with about as many in which S may have cells, as some rows of each
 /// block tell: the rows of model.grid() where is_cut_before_tables(), else those of the engine.
 /// @param engine may be null where is_cut_before_tables()
+/// @param mirror may be null; of images most of the work is that on the first
 /// @returns parts + 1 ascending numbers, as cut_rows()
 [[nodiscard]] std::vector<std::int64_t> cut_into_shares(const Model& model, const RowEngine* engine,
-                                                        int parts);
+                                                        int parts, const RowMirror* mirror = nullptr);
 
 }  // namespace coordreq

@@ -88,6 +88,25 @@ bool lower_to_images(const RowMirror& mirror, LevelRows<Level>& levels) {
   return is_lowered;
 }
 
+/// The same of several processes, of which none may hold all images: what is a bound of the first of them is
+/// one of all. @returns whether a level has changed; it may have risen
+template <class Level>
+bool follow_first_images(const RowMirror& mirror, LevelRows<Level>& levels) {
+  bool has_changed = false;
+  for (const RowShare::Range run : held_rows(levels.share(), levels.rows())) {
+    for (std::int64_t r = run.begin; r < run.end; ++r) {
+      const std::int64_t first = mirror.first_of(r);
+      if (first != r && levels.copy_row(first, r)) has_changed = true;
+    }
+  }
+  return has_changed;
+}
+
+template <class Level>
+bool make_images_equal(const RowMirror& mirror, LevelRows<Level>& levels) {
+  return levels.share() == nullptr ? lower_to_images(mirror, levels) : follow_first_images(mirror, levels);
+}
+
 /// Some cell of any process has this level. Gaps have that of no cell that counts.
 template <class Level>
 bool has_level(const LevelRows<Level>& levels, Level level) {
@@ -143,9 +162,9 @@ class LevelFinder {
       watch_.step(step);
     } : std::function<void(const WaveStep&)>()};
     const RowMirror* const mirror = problem_.equal.mirror;
-    const bool is_lowered = mirror != nullptr && lower_to_images(*mirror, levels);
+    const bool has_changed = mirror != nullptr && make_images_equal(*mirror, levels);
     counts_.add(run_wave(levels, engine_, hull_, clipped<Level>(problem_.limit),
-                         is_lowered ? std::vector<std::uint8_t>{} : settled, *op, watch, team_,
+                         has_changed ? std::vector<std::uint8_t>{} : settled, *op, watch, team_,
                          problem_.equal));
     if constexpr (sizeof(Level) < sizeof(std::uint32_t)) {
       if (!is_enough(levels, op->rises(), problem_.limit))

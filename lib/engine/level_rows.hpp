@@ -126,8 +126,16 @@ class LevelRows {
     }
     move_to(r, place);
   }
-  /// Makes a row equal to another one. @returns whether it was not. REQUIRES: rows are shared.
+  /// Makes a row equal to another one. @returns whether it was not. By one thread at a time if rows are
+  /// shared.
   bool copy_row(std::int64_t from, std::int64_t to) {
+    if (!is_shared()) {
+      const Level* const source = levels_.data() + from * stride_;
+      Level* const target = levels_.data() + to * stride_;
+      if (std::equal(source, source + stride_, target)) return false;
+      std::copy_n(source, stride_, target);
+      return true;
+    }
     const std::uint32_t place = slots_[static_cast<std::size_t>(from)];
     if (slots_[static_cast<std::size_t>(to)] == place) return false;
     book_.hold(place);

@@ -9,6 +9,7 @@
 
 #include "engine/cell_set.hpp"
 #include "model/uniform_grid.hpp"
+#include "ranks/row_share.hpp"
 
 namespace coordreq {
 
@@ -36,6 +37,14 @@ class RowMirror {
     return std::is_sorted(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(blocks_.size()));
   }
 
+  /// The first of its images, or the row itself.
+  [[nodiscard]] std::int64_t first_of(std::int64_t row) const {
+    Keys keys = keys_of(row);
+    const std::int64_t rest = row - offset_of(keys);
+    std::sort(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(blocks_.size()));
+    return rest + offset_of(keys);
+  }
+
   /// Whether a set, in all rows, is the same in images.
   [[nodiscard]] bool is_same(const CellSet& set) const {
     for (std::int64_t row = 0; row < set.rows(); ++row) {
@@ -52,13 +61,11 @@ class RowMirror {
   template <class Visit>
   void for_each_image(std::int64_t row, const Visit& visit) const {
     Keys keys = keys_of(row);
-    std::int64_t rest = row;
-    for (std::size_t b = 0; b < blocks_.size(); ++b) rest -= blocks_[b].offsets[keys[b]];
+    const std::int64_t rest = row - offset_of(keys);
     const auto end = keys.begin() + static_cast<std::ptrdiff_t>(blocks_.size());
     std::sort(keys.begin(), end);
     do {
-      std::int64_t image = rest;
-      for (std::size_t b = 0; b < blocks_.size(); ++b) image += blocks_[b].offsets[keys[b]];
+      const std::int64_t image = rest + offset_of(keys);
       if (image != row) visit(image);
     } while (std::next_permutation(keys.begin(), end));
   }
@@ -84,6 +91,13 @@ class RowMirror {
     block.offsets = std::move(offsets);
   }
 
+  /// What the agents' dimensions are of the number of a row.
+  [[nodiscard]] std::int64_t offset_of(const Keys& keys) const {
+    std::int64_t offset = 0;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) offset += blocks_[b].offsets[keys[b]];
+    return offset;
+  }
+
   [[nodiscard]] Keys keys_of(std::int64_t row) const {
     Keys keys{};
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -96,6 +110,26 @@ class RowMirror {
   }
 
   std::vector<Block> blocks_;
+};
+
+/// The images of rows that a process knows: all, or those that it holds.
+class HeldImages {
+ public:
+  /// @param mirror null: there are none @param share null: there is one process
+  HeldImages(const RowMirror* mirror, const RowShare* share) : mirror_(mirror), share_(share) {}
+
+  /// RowMirror::for_each_image() for those.
+  template <class Visit>
+  void for_each(std::int64_t row, const Visit& visit) const {
+    if (mirror_ == nullptr) return;
+    mirror_->for_each_image(row, [&](std::int64_t image) {
+      if (share_ == nullptr || share_->holds(image)) visit(image);
+    });
+  }
+
+ private:
+  const RowMirror* mirror_;
+  const RowShare* share_;
 };
 
 }  // namespace coordreq

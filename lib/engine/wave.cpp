@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <deque>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -42,8 +41,8 @@ class WaveRunner {
         unit_rows_(std::min(engine.unit_rows(), engine.outer() == 0 ? kBlockRows : engine.unit_rows())),
         news_(engine, hull, unit_rows_),
         equal_(equal, levels),
-        mirror_(equal.mirror),
-        alive_(levels, own_, unit_rows_, op.rises(), mirror_) {
+        images_(equal.mirror, engine.share()),
+        alive_(levels, own_, unit_rows_, op.rises(), equal.mirror) {
     first_unit_ = own_.begin / unit_rows_;
     units_ = (own_.end + unit_rows_ - 1) / unit_rows_ - first_unit_;
     batch_units_ = std::max<std::int64_t>(1, kBatchRows / unit_rows_);
@@ -51,7 +50,7 @@ class WaveRunner {
     for (std::int64_t row = own_.begin; row < own_.end; ++row) {
       if (alive_.has(row) && !is_settled(row)) news_.set_unseen(row / unit_rows_);
     }
-    if (engine.share() != nullptr) halo_.emplace(levels, engine, hull, news_, unit_rows_);
+    if (engine.share() != nullptr) halo_.emplace(levels, engine, hull, news_, unit_rows_, equal.mirror);
   }
 
   /// @returns rows visited
@@ -167,7 +166,7 @@ class WaveRunner {
       changed_rows_ += static_cast<std::int64_t>(worker.changes.size());
       for (const Change& change : worker.changes) {
         news_.mark_unit_of(change.row);
-        for_each_image(change.row, [this](std::int64_t image) {
+        images_.for_each(change.row, [this](std::int64_t image) {
           news_.mark_unit_of(image);
           ++mirrored_;
         });
@@ -176,7 +175,8 @@ class WaveRunner {
     if (equal_.is_on() && equal_.rows() > 1) {
       for (const std::int64_t unit : batch) {
         equal_.update(unit);
-        for_each_image(unit * unit_rows_, [this](std::int64_t image) { equal_.update(image / unit_rows_); });
+        images_.for_each(unit * unit_rows_,
+                         [this](std::int64_t image) { equal_.update(image / unit_rows_); });
       }
     }
     return visited;
@@ -184,9 +184,15 @@ class WaveRunner {
 
   /// A row of the halo has changed.
   void hear_of(std::int64_t row) {
-    news_.mark_row(row);
-    news_.mark_unit_of(row);
-    if (equal_.is_on() && equal_.rows() > 1) equal_.update(row / unit_rows_);
+    const auto mark = [this](std::int64_t changed) {
+      news_.mark_row(changed);
+      news_.mark_unit_of(changed);
+      if (equal_.is_on() && equal_.rows() > 1) equal_.update(changed / unit_rows_);
+    };
+    mark(row);
+    images_.for_each(row, [&](std::int64_t image) {
+      if (levels_.copy_row(row, image)) mark(image);
+    });
   }
 
   void cut_into_pieces(const std::vector<std::int64_t>& batch) {
@@ -299,20 +305,11 @@ class WaveRunner {
     for (const Change& change : worker.changes) {
       levels_.put_ready(change.row, worker.storage.data() + change.position, change.ready);
       news_.mark_row(change.row);
-      for_each_image(change.row, [&](std::int64_t image) {
-        if (levels_.is_shared()) {
-          static_cast<void>(levels_.copy_row(change.row, image));
-        } else {
-          levels_.put_ready(image, worker.storage.data() + change.position, change.ready);
-        }
+      images_.for_each(change.row, [&](std::int64_t image) {
+        static_cast<void>(levels_.copy_row(change.row, image));
         news_.mark_row(image);
       });
     }
-  }
-
-  template <class Visit>
-  void for_each_image(std::int64_t row, const Visit& visit) const {
-    if (mirror_ != nullptr) mirror_->for_each_image(row, visit);
   }
 
   void copy_all() {
@@ -324,7 +321,7 @@ class WaveRunner {
     for (const Copy& copy : copies_) {
       equal_.copy(copy.from, copy.to, [&](std::int64_t row) {
         mark(row);
-        for_each_image(row, [&](std::int64_t image) {
+        images_.for_each(row, [&](std::int64_t image) {
           if (levels_.copy_row(row, image)) mark(image);
           ++mirrored_;
         });
@@ -345,7 +342,7 @@ class WaveRunner {
   WaveNews news_;
   EqualTiles<Level> equal_;
   std::optional<HaloNews<Level>> halo_;  ///< of several processes
-  const RowMirror* mirror_;
+  HeldImages images_;
   AliveRows alive_;
   std::int64_t copied_ = 0;    ///< rows that would have been worked out
   std::int64_t mirrored_ = 0;  ///< rows that would not, as they are images
@@ -378,12 +375,8 @@ WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const Row
     if (!runner.goes_on(counts.sweeps, visited)) break;
   }
   counts.rows_copied += runner.mirrored_rows();
-  if (engine.share() != nullptr) {
-    std::int64_t rows[] = {counts.rows_visited, counts.rows_copied, counts.rows_skipped};
-    engine.share()->ranks().add(rows);
-    std::tie(counts.rows_visited, counts.rows_copied, counts.rows_skipped) =
-        std::tie(rows[0], rows[1], rows[2]);
-  }
+  for (std::int64_t* rows : {&counts.rows_visited, &counts.rows_copied, &counts.rows_skipped})
+    *rows = sum_of_all(engine.share(), *rows);
   return counts;
 }
 

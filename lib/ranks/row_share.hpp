@@ -34,6 +34,12 @@ class RowShare {
   /// The rows of this rank and of its halo, ascending.
   [[nodiscard]] const std::vector<Range>& held() const { return held_; }
 
+  [[nodiscard]] bool holds(std::int64_t row) const {
+    const auto after = std::upper_bound(held_.begin(), held_.end(), row,
+                                        [](std::int64_t one, const Range& run) { return one < run.end; });
+    return after != held_.end() && after->begin <= row;
+  }
+
   /// A rank whose halo has rows of this one, or the other way round.
   struct Peer {
     int rank = 0;

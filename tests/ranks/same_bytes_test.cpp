@@ -10,6 +10,7 @@
 
 #include "analysis/analyze.hpp"
 #include "spec/read_spec.hpp"
+#include "support/random_like_agents.hpp"
 #include "support/random_problem.hpp"
 #include "support/random_requirements.hpp"
 #include "support/thread_ranks.hpp"
@@ -138,6 +139,18 @@ TEST(ManyRanks, WriteTheBytesOfOneProcess) {
   const Folder folder;
   EXPECT_TRUE(rc::check("results of 1, 2, 3, 5 and 8 ranks",
                         [&] { check_same(folder, read_spec(draw_problem_of_any_kind().dump(), "random")); }));
+}
+
+TEST(ManyRanks, ExchangeAgentsThatAreAlike) {
+  const Folder folder;
+  EXPECT_TRUE(rc::check("agents that are alike", [&] {
+    Json spec = Json::parse(draw_like_agents());
+    // With all partitions few agents can change places in each of them.
+    if (draw(0, 2) > 0) spec["coordination"].erase("partitions");
+    // Then rows run along the last state, which is often none of an agent.
+    spec["output"]["actions"] = draw(0, 2) > 0;
+    check_same(folder, read_spec(spec.dump(), "alike"));
+  }));
 }
 
 TEST(ManyRanks, AnswerAllQuestionsAsOneProcessDoes) {

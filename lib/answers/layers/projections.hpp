@@ -60,8 +60,8 @@ class Projections {
   static constexpr std::uint32_t kNothing = 0;
   template <class Level>
   class Builder;
-  /// Keeps lists of words one behind the other, which stay where they are: an allocation a row costs more than
-  /// what is in it.
+  /// Keeps lists of words one behind the other, which stay where they are: an allocation a row costs more
+  /// than what is in it.
   class Store {
    public:
     [[nodiscard]] std::span<const Word> keep(std::span<const Word> list);

@@ -1,0 +1,108 @@
+#include "support/random_like_agents.hpp"
+
+#include <fmt/format.h>
+#include <rapidcheck.h>
+
+namespace coordreq {
+namespace {
+
+int draw(int low, int high) {
+  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
+}
+
+class LikeAgents {
+ public:
+  LikeAgents() {
+    // Integrators, a vehicle, or two dimensions that move either way.
+    kind_ = draw(0, 2);
+    agents_ = draw(2, 3);
+    most_ = agents_ == 2 ? draw(3, 6) : kind_ == 0 ? draw(3, 5) : 2;
+    edges_ = *rc::gen::element<std::string>(
+        R"("upper": {}, "step": 1)", R"("upper": {}, "step": 1, "outside": "saturate")",
+        R"("upper": {}, "step": 1, "outside": {{"below": "unsafe", "above": "safe"}})",
+        R"("upper": {}, "step": 1, "outside": {{"below": "safe", "above": "saturate"}})",
+        R"("upper": {0}, "count": {0}, "outside": "periodic")");
+    odd_ = draw(0, 7);
+  }
+
+  std::string spec() {
+    std::string states, inputs, agents, equations, safe;
+    for (int i = 0; i < agents_; ++i) {
+      const int own = odd_ == 0 && i == agents_ - 1 ? 2 : 1;  // one that is not like the others
+      const std::string comma = i == 0 ? "" : ", ";
+      agents += fmt::format(R"({}{{"name": "agent{}", "inputs": ["u{}"]}})", comma, i, i);
+      inputs += fmt::format(R"({}{{"name": "u{}", "values": [{}]}})", comma, i, own == 2 ? "-1, 1" : values_);
+      equations += comma + equation(i);
+    }
+    // All of one kind together, or all of one agent.
+    const bool by_agent = *rc::gen::arbitrary<bool>();
+    const int kinds = kind_ == 0 ? 1 : 2;
+    for (int k = 0; k < agents_ * kinds; ++k) {
+      const int i = by_agent ? k / kinds : k % agents_;
+      const int which = by_agent ? k % kinds : k / agents_;
+      states += (k == 0 ? "" : ", ") + state(which == 0 ? "p" : "v", i, which == 1 && kind_ == 1);
+    }
+    for (int i = 0; i < agents_; ++i) {
+      for (int j = 0; j < i; ++j)
+        safe +=
+            fmt::format("{}({})", safe.empty() ? "" : " and ", apart(std::to_string(i), std::to_string(j)));
+    }
+    if (odd_ == 1) safe += " and p0 >= 1";
+    if (has_clock_) {
+      states += R"(, {"name": "t", "lower": 0, "upper": 1, "step": 1, "outside": "saturate"})";
+      equations += has_tubes_ ? R"(, "t": "1")" : R"(, "t": "t + 1")";
+      safe = fmt::format("t <= 0 or ({})", safe);
+    }
+    return fmt::format(
+        R"({{"coordreq": 1, "name": "alike", "states": [{}], "inputs": [{}], "agents": [{}],
+"dynamics": {{"time": "{}", "period": 1, "equations": {{{}}}}}, "safe": "{}",
+"coordination": {{"partitions": "all"{}}},
+"abstraction": {{{}}}}})",
+        states, inputs, agents, has_tubes_ ? "continuous" : "discrete", equations, safe,
+        *rc::gen::element<std::string>("", R"(, "max_delay": 1)", R"(, "max_delay": 3)"),
+        has_tubes_ ? R"("between_samples": true)" : R"("safe": "center", "cells": "half_open")");
+  }
+
+ private:
+  std::string state(const std::string& name, int i, bool is_speed) const {
+    const std::string edges = is_speed ? fmt::format(R"("upper": {}, "step": 1, "outside": "saturate")", 2)
+                                       : fmt::format(fmt::runtime(edges_), most_);
+    return fmt::format(R"({{"name": "{}{}", "lower": 0, {}}})", name, i, edges);
+  }
+
+  std::string equation(int i) const {
+    if (has_tubes_ && kind_ == 0) return fmt::format(R"("p{0}": "u{0} + {1}")", i, drift_);
+    if (has_tubes_ && kind_ == 1) return fmt::format(R"("p{0}": "v{0}", "v{0}": "u{0}")", i);
+    if (has_tubes_) return fmt::format(R"("p{0}": "u{0}", "v{0}": "-u{0}")", i);
+    if (kind_ == 0) return fmt::format(R"("p{0}": "p{0} + u{0} + {1}")", i, drift_);
+    if (kind_ == 1) return fmt::format(R"("p{0}": "p{0} + v{0}", "v{0}": "v{0} + u{0}")", i);
+    return fmt::format(R"("p{0}": "p{0} + u{0}", "v{0}": "v{0} - u{0}")", i);
+  }
+
+  std::string apart(const std::string& i, const std::string& j) const {
+    switch (form_) {
+      case 0:
+        return fmt::format("abs(p{} - p{}) >= {}", i, j, kind_ == 0 ? 1 : 2);
+      case 1:
+        return fmt::format("p{} <= 1 or p{} <= 1 or p{} >= 4 or p{} >= 4", i, j, i, j);
+      default:
+        return fmt::format("p{} + p{} != {}", i, j, most_);
+    }
+  }
+
+  int kind_, agents_, most_, odd_;
+  int form_ = draw(0, 2);
+  int drift_ = draw(0, 1);
+  bool has_tubes_ = draw(0, 2) == 0;              // in continuous time, safe between the samples too
+  bool has_clock_ = *rc::gen::arbitrary<bool>();  // a state that no agent moves
+  std::string values_ = *rc::gen::element<std::string>("-1, 0, 1", "0, 1", "-1, 1", "-1, 0, 2");
+  std::string edges_;
+};
+
+}  // namespace
+
+std::string draw_like_agents() {
+  return LikeAgents().spec();
+}
+
+}  // namespace coordreq

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace coordreq {
+
+/// A random small problem spec as JSON text, drawn inside a RapidCheck property: two or three agents that all
+/// do the same, each in states of its own, and are to be apart from each other. In some of them one agent, or
+/// what is safe, makes a difference; some are in continuous time, and safe between the samples.
+[[nodiscard]] std::string draw_like_agents();
+
+}  // namespace coordreq
