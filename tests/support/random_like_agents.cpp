@@ -13,10 +13,11 @@ int draw(int low, int high) {
 class LikeAgents {
  public:
   LikeAgents() {
-    // Integrators, a vehicle, or two dimensions that move either way.
-    kind_ = draw(0, 2);
+    // Integrators, a vehicle, two dimensions that move either way, or one that goes to its other end.
+    kind_ = draw(0, 3);
     agents_ = draw(2, 3);
-    most_ = agents_ == 2 ? draw(3, 6) : kind_ == 0 ? draw(3, 5) : 2;
+    has_one_state_ = kind_ == 0 || kind_ == 3;
+    most_ = agents_ == 2 ? draw(3, kind_ == 3 ? 12 : 6) : has_one_state_ ? draw(3, 5) : 2;
     edges_ = *rc::gen::element<std::string>(
         R"("upper": {}, "step": 1)", R"("upper": {}, "step": 1, "outside": "saturate")",
         R"("upper": {}, "step": 1, "outside": {{"below": "unsafe", "above": "safe"}})",
@@ -36,7 +37,7 @@ class LikeAgents {
     }
     // All of one kind together, or all of one agent.
     const bool by_agent = *rc::gen::arbitrary<bool>();
-    const int kinds = kind_ == 0 ? 1 : 2;
+    const int kinds = has_one_state_ ? 1 : 2;
     for (int k = 0; k < agents_ * kinds; ++k) {
       const int i = by_agent ? k / kinds : k % agents_;
       const int which = by_agent ? k % kinds : k / agents_;
@@ -71,18 +72,19 @@ class LikeAgents {
   }
 
   std::string equation(int i) const {
-    if (has_tubes_ && kind_ == 0) return fmt::format(R"("p{0}": "u{0} + {1}")", i, drift_);
+    if (has_tubes_ && has_one_state_) return fmt::format(R"("p{0}": "u{0} + {1}")", i, drift_);
     if (has_tubes_ && kind_ == 1) return fmt::format(R"("p{0}": "v{0}", "v{0}": "u{0}")", i);
     if (has_tubes_) return fmt::format(R"("p{0}": "u{0}", "v{0}": "-u{0}")", i);
     if (kind_ == 0) return fmt::format(R"("p{0}": "p{0} + u{0} + {1}")", i, drift_);
     if (kind_ == 1) return fmt::format(R"("p{0}": "p{0} + v{0}", "v{0}": "v{0} + u{0}")", i);
+    if (kind_ == 3) return fmt::format(R"("p{0}": "{1} - p{0} + u{0}")", i, most_ - drift_);
     return fmt::format(R"("p{0}": "p{0} + u{0}", "v{0}": "v{0} - u{0}")", i);
   }
 
   std::string apart(const std::string& i, const std::string& j) const {
     switch (form_) {
       case 0:
-        return fmt::format("abs(p{} - p{}) >= {}", i, j, kind_ == 0 ? 1 : 2);
+        return fmt::format("abs(p{} - p{}) >= {}", i, j, has_one_state_ ? 1 : 2);
       case 1:
         return fmt::format("p{} <= 1 or p{} <= 1 or p{} >= 4 or p{} >= 4", i, j, i, j);
       default:
@@ -91,6 +93,7 @@ class LikeAgents {
   }
 
   int kind_, agents_, most_, odd_;
+  bool has_one_state_;
   int form_ = draw(0, 2);
   int drift_ = draw(0, 1);
   bool has_tubes_ = draw(0, 2) == 0;              // in continuous time, safe between the samples too
