@@ -32,7 +32,7 @@ class ChunkCodec {
   void pack(std::span<const std::byte> raw, std::size_t element_size, std::vector<std::byte>& packed);
 
  private:
-  static constexpr std::size_t kMostKnown = 8;
+  static constexpr std::size_t kMostKnown = 4;
   struct Known {
     std::uint64_t mark = 0;
     std::size_t element_size = 0;

@@ -58,6 +58,8 @@ void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValue
                              .attributes = {{"cells", static_cast<std::uint64_t>(ground.safe_cells)}}};
   values.entries["/invariant"] = {.array = invariant_array(times, *ground.order),
                                   .attributes = {{"cells", static_cast<std::uint64_t>(invariance.cells)}}};
+  // K is in S.
+  if (invariance.cells == ground.safe_cells) values.entries["/invariant"].equals = "/safe";
   values.entries["/collision_time"] = {
       .array = collision_array(times, *ground.order, level_type(invariance.iterations - 1)),
       .attributes = {{"iterations", invariance.iterations}}};
