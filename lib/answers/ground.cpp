@@ -59,11 +59,17 @@ std::vector<AgentPart> agents_alike_in(const Ground& ground, std::span<const Cel
   return find_like_agents(*ground.abstraction, parts, sets);
 }
 
+/// More processes do not exchange agents: while the rows that each works out become fewer, it would have to
+/// hold ever more of which it works out the images, or others do.
+constexpr int kMostThatExchange = 8;
+
 /// Of several processes rows are cut before S is known, for agents of which only S can forbid that all change
 /// places, in whatever partition.
-std::vector<AgentPart> agents_alike_but_for_safe_set(const Ground& ground) {
+std::vector<AgentPart> agents_alike_but_for_safe_set(const Ground& ground, int ranks) {
   const ProblemSpec& spec = ground.spec;
-  if (is_cut_before_tables(ground.model) || ground.listed || spec.controller.allow) return {};
+  if (ranks > kMostThatExchange || is_cut_before_tables(ground.model) || ground.listed ||
+      spec.controller.allow)
+    return {};
   std::vector<AgentPart> agents = agents_alike_in(ground, {});
   for (const PartitionSpec& partition : spec.coordination.partitions) {
     const auto classes = input_classes(spec, ground.abstraction->inputs, partition);
@@ -165,8 +171,9 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
                          std::vector<std::int64_t>(1 + static_cast<std::size_t>(ground.ranks->count()), 0));
   ground.engine.emplace(abstraction, nullptr, ground.tubes(), ground.shared_rows());
   ground.hull.emplace(*ground.engine);
-  const std::vector<AgentPart> agents =
-      ground.ranks == nullptr ? std::vector<AgentPart>() : agents_alike_but_for_safe_set(ground);
+  const std::vector<AgentPart> agents = ground.ranks == nullptr
+                                            ? std::vector<AgentPart>()
+                                            : agents_alike_but_for_safe_set(ground, ground.ranks->count());
   if (ground.ranks != nullptr) share_rows(ground, is_cut, agents, find_safe);
   ground.allow = allow_table(ground.spec, abstraction, team, ground.listed ? &ground.listed->pairs : nullptr,
                              ground.shared_rows());
@@ -190,7 +197,7 @@ std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks) {
   if (!ground.abstraction->tubes.empty()) tubes = {.inside = &unknown, .are_known = false};
   const RowEngine engine(*ground.abstraction, nullptr, tubes);
   const RowHull hull(engine);
-  const std::vector<AgentPart> agents = agents_alike_but_for_safe_set(ground);
+  const std::vector<AgentPart> agents = agents_alike_but_for_safe_set(ground, ranks);
   std::optional<RowMirror> mirror;
   if (!agents.empty()) mirror.emplace(grid, dimensions_of(agents));
   const RowMirror* const images = mirror ? &*mirror : nullptr;
