@@ -273,10 +273,13 @@ class WaveRunner {
   }
 
   static void find_lowest(Worker& worker, std::size_t n) {
+    const Level* const result = worker.result.data();
+    const Level* const old = worker.old.data();
     Level lowest = worker.lowest;
     for (std::size_t c = 0; c < n; ++c) {
-      const Level sunk = worker.result[c] == worker.old[c] ? kTop : worker.result[c];
-      lowest = std::min(lowest, sunk);
+      // Without a branch, for vector instructions: kTop has all bits.
+      const auto unchanged = static_cast<Level>(result[c] == old[c] ? kTop : 0);
+      lowest = std::min(lowest, static_cast<Level>(result[c] | unchanged));
     }
     worker.lowest = lowest;
   }

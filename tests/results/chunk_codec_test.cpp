@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <libdeflate.h>
 
-#include <array>
+#include <random>
 
 namespace coordreq {
 namespace {
@@ -91,6 +91,33 @@ TEST(ChunkCodec, WhatItPackedBeforeLeavesNoTrace) {
   std::vector<std::byte> expected;
   fresh.pack(bytes({1, 2, 3, 4}), 4, expected);
   EXPECT_EQ(packed, expected);
+}
+
+/// Noise, runs, and rows that are like the one before but for some places, of any length.
+std::vector<std::byte> draw_chunk(std::mt19937& random) {
+  const auto below = [&random](std::size_t end) { return random() % end; };
+  std::vector<std::byte> raw(below(4) == 0 ? below(300000) : below(3000));
+  const std::size_t values = below(3) == 0 ? 256 : 1 + below(6), row = 1 + below(700);
+  std::byte value{};
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    const std::size_t kind = values == 256 ? 0 : below(40);
+    if (kind == 0) value = static_cast<std::byte>(below(values));
+    raw[i] = kind > 1 && i >= row ? raw[i - row] : value;
+  }
+  return raw;
+}
+
+TEST(ChunkCodec, ChunksOfAnyKindComeBackAndHardlyGrow) {
+  std::mt19937 random(20180410);
+  ChunkCodec codec;
+  std::vector<std::byte> packed, found;
+  for (int k = 0; k < 400; ++k) {
+    const std::vector<std::byte> raw = draw_chunk(random);
+    codec.pack(raw, 1, packed);
+    ASSERT_TRUE(unpack_chunk(packed, raw.size(), true, 1, found)) << k << ": " << raw.size();
+    ASSERT_EQ(found, raw) << k;
+    EXPECT_LE(packed.size(), raw.size() + raw.size() / 1000 + 32) << k;
+  }
 }
 
 TEST(ChunkCodec, WhatWasPackedIsUnpacked) {
