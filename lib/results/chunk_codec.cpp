@@ -88,8 +88,6 @@ void ChunkCodec::Free::operator()(isal_zstream* stream) const {
   delete stream;
 }
 
-ChunkCodec::ChunkCodec() : stream_(new isal_zstream), tables_(ISAL_DEF_LVL1_DEFAULT) {}
-
 void ChunkCodec::pack(std::span<const std::byte> raw, std::size_t element_size,
                       std::vector<std::byte>& packed) {
   const std::uint64_t mark = mark_of(raw) ^ element_size;
@@ -117,7 +115,10 @@ void ChunkCodec::compress(std::span<const std::byte> raw, std::size_t element_si
     raw = shuffled_;
   }
   scratch_.resize(most_packed(raw.size()));
+  if (!stream_) stream_.reset(new isal_zstream());
+  tables_.resize(ISAL_DEF_LVL1_DEFAULT);
   isal_deflate_stateless_init(stream_.get());
+  stream_->hist_bits = 0;  // the greatest distance; the call before leaves it alone
   stream_->level = kDeflateLevel;
   stream_->level_buf = tables_.data();
   stream_->level_buf_size = static_cast<std::uint32_t>(tables_.size());

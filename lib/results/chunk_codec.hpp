@@ -23,10 +23,8 @@ inline constexpr int kDeflateLevel = 1;
 /// of the last ones are remembered with what became of them.
 class ChunkCodec {
  public:
-  /// Of the stream and its tables, beside chunks.
+  /// Of the stream and its tables, beside chunks; there from the first chunk on.
   static constexpr double kBytes = 384.0 * 1024;
-
-  ChunkCodec();
 
   /// Replaces `packed` by the zlib stream of `raw`, a whole number of elements.
   /// @throws std::bad_alloc

@@ -24,6 +24,11 @@ class Projections {
   ///   of rows that are not the first. Its `numbers` are not looked at
   Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
               ThreadTeam& team, const EqualWork& equal = {});
+  Projections(Projections&&) = default;  // what it has found points into what it keeps
+  Projections& operator=(Projections&&) = default;
+  Projections(const Projections&) = delete;
+  Projections& operator=(const Projections&) = delete;
+  ~Projections() = default;
 
   [[nodiscard]] const ActionGrouping& grouping() const { return *grouping_; }
   enum class Form : std::uint8_t {
