@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <utility>
 
@@ -23,6 +24,13 @@ constexpr unsigned kOrder = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
 bool may_lack_memory() {
   rlimit limit{};
   return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+/// The library does not always say why it failed.
+bool is_little_memory_left() {
+  constexpr std::size_t kLittle = std::size_t{2} << 20;
+  const std::unique_ptr<std::byte[]> probe(new (std::nothrow) std::byte[kLittle]);
+  return probe == nullptr;
 }
 
 herr_t look_for_memory(unsigned /*depth*/, const H5E_error2_t* error, void* result) {
@@ -44,8 +52,8 @@ herr_t read_system_error(unsigned /*depth*/, const H5E_error2_t* error, void* re
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, read_system_error, &system_error);
   bool lacks_memory = false;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, look_for_memory, &lacks_memory);
-  if (system_error == ENOMEM || (system_error == 0 && lacks_memory && may_lack_memory()))
-    throw std::bad_alloc();
+  lacks_memory = may_lack_memory() && (lacks_memory || is_little_memory_left());
+  if (system_error == ENOMEM || (system_error == 0 && lacks_memory)) throw std::bad_alloc();
   std::string text = "cannot " + std::string(what);
   if (system_error != 0) text += std::string(": ") + std::strerror(system_error);
   throw Failure(text, system_error);
@@ -130,6 +138,8 @@ Handle create_file(const std::string& path, OutputDriver& driver) {
   check(H5Pset_link_creation_order(list.get(), kOrder), "track the order of links");
   const Handle access = access_properties();
   driver.use_for(access);
+  // What the library does when it is refused memory is not always to say so.
+  if (may_lack_memory() && is_little_memory_left()) throw std::bad_alloc();
   return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, list.get(), access.get()), H5Fclose, "create the file"};
 }
 

@@ -146,7 +146,10 @@ std::vector<std::string> ResultsFile::texts(const std::string& dataset) const {
   const hdf5::Handle space(H5Dget_space(stored.dataset().get()), H5Sclose, "read a shape");
   const hdf5::Handle type(H5Dget_type(stored.dataset().get()), H5Tclose, "read a type");
   hdf5::LibraryStrings strings(type, space, stored.elements());
-  if (H5Dread(stored.dataset().get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, strings.data()) < 0) {
+  try {  // or there is no memory for them
+    hdf5::check(H5Dread(stored.dataset().get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, strings.data()),
+                "read the strings");
+  } catch (const hdf5::Failure&) {
     throw ResultsError("cannot read the strings: damaged", place(dataset));
   }
   return strings.copy();
