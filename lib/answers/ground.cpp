@@ -37,10 +37,12 @@ std::vector<std::size_t> alike_in_classes(const std::vector<AgentPart>& agents,
   return most;
 }
 
-std::vector<std::vector<std::size_t>> dimensions_of(const std::vector<AgentPart>& agents) {
+/// Of agents that all change places; nothing if there are none.
+std::optional<RowMirror> mirror_of(const UniformGrid& grid, const std::vector<AgentPart>& agents) {
+  if (agents.empty()) return std::nullopt;
   std::vector<std::vector<std::size_t>> blocks;
   for (const AgentPart& agent : agents) blocks.push_back(agent.dimensions);
-  return blocks;
+  return RowMirror(grid, blocks);
 }
 
 /// What S is, in two ways of asking, in rows held.
@@ -79,11 +81,11 @@ std::vector<AgentPart> agents_alike_but_for_safe_set(const Ground& ground, int r
 }
 
 /// [row] not 0 for the rows that a process has to hold beside its own.
-/// @param safe S in its own rows, or null: all that posts can meet @param mirror may be null
+/// @param safe S in its own rows, or null: all that posts can meet
 std::vector<std::uint8_t> rows_needed(const RowHull& hull, const CellSet* safe, RowShare::Range own,
-                                      const RowMirror* mirror) {
+                                      const std::optional<RowMirror>& mirror) {
   std::vector<std::uint8_t> is_needed = hull.rows_met(safe, own);
-  if (mirror == nullptr) return is_needed;
+  if (!mirror) return is_needed;
   std::fill(is_needed.begin() + own.begin, is_needed.begin() + own.end, std::uint8_t{1});
   for (std::int64_t row = 0; row < std::ssize(is_needed); ++row) {
     if (is_needed[at(row)] != 0) is_needed[at(mirror->first_of(row))] = 1;
@@ -95,31 +97,27 @@ std::vector<std::uint8_t> rows_needed(const RowHull& hull, const CellSet* safe, 
 /// @param agents that change places, or none
 void share_rows(Ground& ground, bool is_cut, const std::vector<AgentPart>& agents,
                 const std::function<void(const std::vector<RowShare::Range>&)>& find_safe) {
-  std::optional<RowMirror> mirror;
-  if (!agents.empty()) mirror.emplace(ground.abstraction->grid, dimensions_of(agents));
-  const RowMirror* const images = mirror ? &*mirror : nullptr;
+  const std::optional<RowMirror> mirror = mirror_of(ground.abstraction->grid, agents);
   if (!is_cut)
     *ground.share = {*ground.ranks,
-                     cut_into_shares(ground.model, &*ground.engine, ground.ranks->count(), images)};
+                     cut_into_shares(ground.model, &*ground.engine, ground.ranks->count(), mirror)};
   find_safe({ground.share->own()});
-  ground.share->set_halo(rows_needed(*ground.hull, &ground.safe, ground.share->own(), images));
+  ground.share->set_halo(rows_needed(*ground.hull, &ground.safe, ground.share->own(), mirror));
   find_safe(halo_rows(*ground.share));
   ground.engine->take_tube_sets();
 }
 
-/// Whether that makes no difference in S, for any process, nor for what tiles are. Together.
-bool can_change_places(Ground& ground, const std::vector<AgentPart>& agents) {
+/// Takes the agents as alike if that makes no difference in S, for any process, nor for what tiles are.
+/// Together. @returns whether it has
+bool take_like_agents(Ground& ground, const std::vector<AgentPart>& agents) {
   ground.like_agents = agents;
   const std::optional<RowMirror> mirror = ground.mirror(single_classes(ground.abstraction->inputs));
-  const RowShare::Range own = ground.share->own();
-  bool can = mirror.has_value();
-  for (const CellSet* set : safe_sets(ground)) {
-    for (std::int64_t row = own.begin; can && row < own.end; ++row)
-      can = std::ranges::equal(set->row(row), set->row(mirror->first_of(row)));
-  }
-  can = ground.ranks->sum(can ? 0 : 1) == 0;
-  if (!can) ground.like_agents.clear();
-  return can;
+  const bool can = mirror && std::ranges::all_of(safe_sets(ground), [&](const CellSet* set) {
+                     return mirror->is_same(*set, ground.share->own());
+                   });
+  if (ground.ranks->sum(can ? 0 : 1) == 0) return true;
+  ground.like_agents.clear();
+  return false;
 }
 
 }  // namespace
@@ -181,7 +179,7 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
   ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
   if (ground.ranks == nullptr && !ground.allow)
     ground.like_agents = agents_alike_in(ground, safe_sets(ground));
-  if (!agents.empty() && !can_change_places(ground, agents)) {
+  if (!agents.empty() && !take_like_agents(ground, agents)) {
     clear_safe();
     share_rows(ground, is_cut, {}, find_safe);
     ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
@@ -197,16 +195,13 @@ std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks) {
   if (!ground.abstraction->tubes.empty()) tubes = {.inside = &unknown, .are_known = false};
   const RowEngine engine(*ground.abstraction, nullptr, tubes);
   const RowHull hull(engine);
-  const std::vector<AgentPart> agents = agents_alike_but_for_safe_set(ground, ranks);
-  std::optional<RowMirror> mirror;
-  if (!agents.empty()) mirror.emplace(grid, dimensions_of(agents));
-  const RowMirror* const images = mirror ? &*mirror : nullptr;
-  const std::vector<std::int64_t> bounds = cut_into_shares(ground.model, &engine, ranks, images);
+  const std::optional<RowMirror> mirror = mirror_of(grid, agents_alike_but_for_safe_set(ground, ranks));
+  const std::vector<std::int64_t> bounds = cut_into_shares(ground.model, &engine, ranks, mirror);
   const std::vector<double> slices = bytes_of_slices(engine);
   std::vector<RankRows> result;
   for (std::size_t r = 0; r + 1 < bounds.size(); ++r) {
     const RowShare::Range own{bounds[r], bounds[r + 1]};
-    std::vector<std::uint8_t> is_needed = rows_needed(hull, nullptr, own, images);
+    std::vector<std::uint8_t> is_needed = rows_needed(hull, nullptr, own, mirror);
     std::fill(is_needed.begin() + own.begin, is_needed.begin() + own.end, std::uint8_t{0});
     RankRows& rows = result.emplace_back(
         RankRows{own.end - own.begin, std::count(is_needed.begin(), is_needed.end(), 1), slices});

@@ -61,35 +61,8 @@ void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team)
   });
 }
 
-/// Makes images of rows equal: what is a bound of one is a bound of all. @returns whether a level has sunk
-template <class Level>
-bool lower_to_images(const RowMirror& mirror, LevelRows<Level>& levels) {
-  bool is_lowered = false;
-  const auto n = static_cast<std::size_t>(levels.row_length());
-  std::vector<Level> least(n + kLevelBlock / sizeof(Level));
-  for (std::int64_t r = 0; r < levels.rows(); ++r) {
-    if (!mirror.is_first(r)) continue;
-    const Level* const first = std::as_const(levels).row(r);
-    bool is_equal = true;
-    mirror.for_each_image(r, [&](std::int64_t image) {
-      const Level* const other = std::as_const(levels).row(image);
-      is_equal = is_equal && (first == other || std::equal(first, first + n, other));
-    });
-    if (is_equal) continue;
-    std::copy_n(first, n, least.begin());
-    mirror.for_each_image(r, [&](std::int64_t image) {
-      const Level* const other = std::as_const(levels).row(image);
-      for (std::size_t c = 0; c < n; ++c) least[c] = std::min(least[c], other[c]);
-    });
-    levels.put(r, least.data());
-    mirror.for_each_image(r, [&](std::int64_t image) { levels.put(image, least.data()); });
-    is_lowered = true;
-  }
-  return is_lowered;
-}
-
-/// The same of several processes, of which none may hold all images: what is a bound of the first of them is
-/// one of all. @returns whether a level has changed; it may have risen
+/// Makes images of rows equal: what is a bound of the first of them is one of all. The least of them would be
+/// closer, but a process does not hold all. @returns whether a level has changed; it may have risen
 template <class Level>
 bool follow_first_images(const RowMirror& mirror, LevelRows<Level>& levels) {
   bool has_changed = false;
@@ -100,11 +73,6 @@ bool follow_first_images(const RowMirror& mirror, LevelRows<Level>& levels) {
     }
   }
   return has_changed;
-}
-
-template <class Level>
-bool make_images_equal(const RowMirror& mirror, LevelRows<Level>& levels) {
-  return levels.share() == nullptr ? lower_to_images(mirror, levels) : follow_first_images(mirror, levels);
 }
 
 /// Some cell of any process has this level. Gaps have that of no cell that counts.
@@ -162,7 +130,7 @@ class LevelFinder {
       watch_.step(step);
     } : std::function<void(const WaveStep&)>()};
     const RowMirror* const mirror = problem_.equal.mirror;
-    const bool has_changed = mirror != nullptr && make_images_equal(*mirror, levels);
+    const bool has_changed = mirror != nullptr && follow_first_images(*mirror, levels);
     counts_.add(run_wave(levels, engine_, hull_, clipped<Level>(problem_.limit),
                          has_changed ? std::vector<std::uint8_t>{} : settled, *op, watch, team_,
                          problem_.equal));

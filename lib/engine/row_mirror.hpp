@@ -45,14 +45,10 @@ class RowMirror {
     return rest + offset_of(keys);
   }
 
-  /// Whether a set, in all rows, is the same in images.
-  [[nodiscard]] bool is_same(const CellSet& set) const {
-    for (std::int64_t row = 0; row < set.rows(); ++row) {
-      bool is_same = true;
-      for_each_image(row, [&](std::int64_t image) {
-        is_same = is_same && (image < row || std::ranges::equal(set.row(row), set.row(image)));
-      });
-      if (!is_same) return false;
+  /// Whether a set holds in these rows what it holds in the first of their images.
+  [[nodiscard]] bool is_same(const CellSet& set, RowShare::Range rows) const {
+    for (std::int64_t row = rows.begin; row < rows.end; ++row) {
+      if (!std::ranges::equal(set.row(row), set.row(first_of(row)))) return false;
     }
     return true;
   }

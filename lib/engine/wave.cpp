@@ -272,6 +272,7 @@ class WaveRunner {
     worker.changes.push_back({place.row, position, levels_.make_ready(lanes)});
   }
 
+  /// A level that has risen counts, too, as what it was.
   static void find_lowest(Worker& worker, std::size_t n) {
     const Level* const result = worker.result.data();
     const Level* const old = worker.old.data();
@@ -279,7 +280,7 @@ class WaveRunner {
     for (std::size_t c = 0; c < n; ++c) {
       // Without a branch, for vector instructions: kTop has all bits.
       const auto unchanged = static_cast<Level>(result[c] == old[c] ? kTop : 0);
-      lowest = std::min(lowest, static_cast<Level>(result[c] | unchanged));
+      lowest = std::min(lowest, static_cast<Level>(std::min(result[c], old[c]) | unchanged));
     }
     worker.lowest = lowest;
   }

@@ -132,14 +132,16 @@ void check(herr_t status, std::string_view what) {
   if (status < 0) fail(what);
 }
 
+void expect_memory() {
+  if (may_lack_memory() && is_little_memory_left()) throw std::bad_alloc();
+}
+
 Handle create_file(const std::string& path, OutputDriver& driver) {
   const Handle list = property_list(H5P_FILE_CREATE);
   track_order_not_times(list);
   check(H5Pset_link_creation_order(list.get(), kOrder), "track the order of links");
   const Handle access = access_properties();
   driver.use_for(access);
-  // What the library does when it is refused memory is not always to say so.
-  if (may_lack_memory() && is_little_memory_left()) throw std::bad_alloc();
   return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, list.get(), access.get()), H5Fclose, "create the file"};
 }
 

@@ -72,6 +72,10 @@ class Handle {
 /// @throws Failure "cannot <what>" with the system's reason if `status` is negative
 void check(herr_t status, std::string_view what);
 
+/// To be asked before much is written: what the library does when it is refused memory is not always to say
+/// so. @throws std::bad_alloc if addresses are limited and next to none are left
+void expect_memory();
+
 /// A new file in which nothing depends on time or on the library's version: format of HDF5 1.8, no times,
 /// links and attributes kept in the order of their creation, as netCDF-4 wants. The path must lead to a file,
 /// whose content is lost.

@@ -216,6 +216,7 @@ void write_results(const std::string& path, const ProblemSpec& spec, const Field
 void write_fields(const std::string& path, const FileKind& kind,
                   const std::vector<FieldAttribute>& attributes, const ProblemSpec& spec,
                   const Fields& fields, const FieldValues& values, ThreadTeam& team, RankChunks* ranks) {
+  hdf5::expect_memory();
   write_whole_file(path, kind.words, [&](const std::string& temporary) {
     FieldsWriter(temporary, values, team, ranks).write(kind, attributes, spec, fields);
   });

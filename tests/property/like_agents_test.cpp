@@ -10,6 +10,7 @@
 #include "model/model.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
+#include "support/level_rows.hpp"
 #include "support/random_like_agents.hpp"
 
 // Agents that are alike: what is found once, for one order of them, is what holds for each.
@@ -39,13 +40,7 @@ void expect_same_when_resumed(const FastAnalysis& fast, ThreadTeam& team) {
   if (!mirror) return;
   auto levels = fast.engine.make_levels<std::uint8_t>(fast.safe, team);
   for (std::int64_t row = 0; row < levels.rows(); ++row) {
-    if (*rc::gen::arbitrary<bool>()) continue;
-    for (std::int64_t lane = 0; lane < levels.row_length(); ++lane) {
-      const std::int64_t level = fast.invariance.collision_time.at(row * levels.row_length() + lane);
-      levels.row(row)[lane] =
-          level == LevelMap::kTop ? LevelRows<std::uint8_t>::kTop : static_cast<std::uint8_t>(level);
-    }
-    levels.close(row);
+    if (*rc::gen::arbitrary<bool>()) put_levels_of(fast.invariance.collision_time, row, levels);
   }
   LevelMap begun(std::move(levels));
   const Invariance again = find_invariance(fast.engine, fast.hull, fast.safe, synthesis, {.resumed = &begun},

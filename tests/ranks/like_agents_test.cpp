@@ -4,7 +4,10 @@
 #include <rapidcheck.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "answers/answers.hpp"
@@ -15,13 +18,16 @@
 #include "model/model.hpp"
 #include "reach/table_shapes.hpp"
 #include "spec/read_spec.hpp"
+#include "support/level_rows.hpp"
 #include "support/random_like_agents.hpp"
 #include "support/thread_ranks.hpp"
 
 namespace coordreq {
 namespace {
 
-constexpr int kCounts[] = {1, 2, 3, 5};
+constexpr int kCounts[] = {1, 2, 3, 5, 9};
+/// More do not exchange agents.
+constexpr int kMostThatExchange = 8;
 
 /// What one process finds without a word of agents.
 struct Expected {
@@ -46,13 +52,8 @@ LevelMap begun(const Ground& ground, const Expected& expected, const std::vector
   auto levels = ground.engine->make_levels<std::uint8_t>(ground.safe, team);
   for (const RowShare::Range run : ground.share->held()) {
     for (std::int64_t row = run.begin; row < run.end; ++row) {
-      if (is_done[static_cast<std::size_t>(row) % is_done.size()] == 0) continue;
-      for (std::int64_t lane = 0; lane < levels.row_length(); ++lane) {
-        const std::int64_t level = expected.collision_time.at(row * levels.row_length() + lane);
-        levels.row(row)[lane] =
-            level == LevelMap::kTop ? LevelRows<std::uint8_t>::kTop : static_cast<std::uint8_t>(level);
-      }
-      levels.close(row);
+      if (is_done[static_cast<std::size_t>(row) % is_done.size()] != 0)
+        put_levels_of(expected.collision_time, row, levels);
     }
   }
   return LevelMap(std::move(levels));
@@ -88,7 +89,7 @@ bool check_rank(const Model& model, const Expected& expected, const std::vector<
 }
 
 TEST(LikeAgentsOfManyRanks, AreLookedAtOnceByWhoeverHasTheFirst) {
-  EXPECT_TRUE(rc::check("K of 1, 2, 3 and 5 ranks, from the start and resumed", [] {
+  EXPECT_TRUE(rc::check("K of 1, 2, 3, 5 and 9 ranks, from the start and resumed", [] {
     Json problem = Json::parse(draw_like_agents());
     problem["coordination"].erase("partitions");  // in all of which few agents can change places
     // Then rows run along the last state, which is often none of an agent.
@@ -104,11 +105,58 @@ TEST(LikeAgentsOfManyRanks, AreLookedAtOnceByWhoeverHasTheFirst) {
         mirrors += check_rank(model, expected, is_done, ranks, wrong) ? 1 : 0;
       });
       RC_ASSERT(wrong == 0);
-      RC_ASSERT(mirrors == 0 || mirrors == count);
+      RC_ASSERT(mirrors == 0 || (mirrors == count && count <= kMostThatExchange));
       is_once = is_once || (count > 1 && mirrors > 0);
     }
     RC_CLASSIFY(is_once, "rows found once");
   }));
+}
+
+/// Own rows, and those of them that it works out.
+struct OwnRows {
+  std::int64_t all = 0;
+  std::int64_t firsts = 0;
+};
+
+/// [rank] of two, on a grid of 64 x 64 places of two agents; the rows run along a state that is neither's.
+std::vector<OwnRows> rows_of_two(const std::string& inputs_of_second) {
+  const ProblemSpec spec = read_spec(R"json({"coordreq": 1, "name": "apart",
+    "states": [{"name": "p0", "lower": 0, "upper": 63, "step": 1, "outside": "saturate"},
+               {"name": "p1", "lower": 0, "upper": 63, "step": 1, "outside": "saturate"},
+               {"name": "t", "lower": 0, "upper": 3, "step": 1, "outside": "saturate"}],
+    "inputs": [{"name": "u0", "values": [-1, 0, 1]}, {"name": "u1", "values": [)json" +
+                                         inputs_of_second + R"json(]}],
+    "agents": [{"name": "a", "inputs": ["u0"]}, {"name": "b", "inputs": ["u1"]}],
+    "dynamics": {"time": "discrete", "period": 1,
+                 "equations": {"p0": "p0 + u0", "p1": "p1 + u1", "t": "t + 1"}},
+    "safe": "p0 != p1 or t <= 2", "abstraction": {"safe": "center", "cells": "half_open"},
+    "output": {"actions": true}})json",
+                                     "apart");
+  const Model model = make_model(spec);
+  std::vector<OwnRows> rows(2);
+  ThreadRanks::run(2, [&](Ranks& ranks) {
+    ThreadTeam team(1);
+    Answers answers(model, &ranks);
+    run_stages(ground_stages(spec), answers, {.team = team});
+    const std::optional<RowMirror> mirror =
+        answers.ground.mirror(single_classes(answers.ground.abstraction->inputs));
+    OwnRows& mine = rows[static_cast<std::size_t>(ranks.rank())];
+    const RowShare::Range own = answers.ground.share->own();
+    for (std::int64_t row = own.begin; row < own.end; ++row)
+      mine.firsts += !mirror || mirror->is_first(row) ? 1 : 0;
+    mine.all = own.end - own.begin;
+  });
+  return rows;
+}
+
+TEST(LikeAgentsOfManyRanks, DivideTheRowsThatAreWorkedOut) {
+  const std::vector<OwnRows> alike = rows_of_two("-1, 0, 1");
+  EXPECT_EQ(alike[0].firsts + alike[1].firsts, 64 * 65 / 2);
+  EXPECT_LT(std::abs(alike[0].firsts - alike[1].firsts), 64 * 64 / 10);
+  EXPECT_LT(alike[0].all, alike[1].all * 2 / 3);
+  const std::vector<OwnRows> different = rows_of_two("0, 1");
+  EXPECT_EQ(different[0].firsts + different[1].firsts, 64 * 64);
+  EXPECT_LT(std::abs(different[0].all - different[1].all), 64 * 64 / 10);
 }
 
 }  // namespace
