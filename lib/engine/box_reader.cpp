@@ -34,7 +34,7 @@ BoxReader<Level>::BoxReader(const RowEngine& engine, const RowFamily& family, st
     : engine_(engine),
       family_(family),
       outer_(outer),
-      levels_(levels),
+      levels_(&levels),
       kernels_(&level_kernels<Level>(best_instruction_set())),
       shape_(family.shape) {
   constexpr std::size_t kBlock = kLevelBlock / sizeof(Level);
@@ -99,13 +99,13 @@ template <class Level>
 void BoxReader<Level>::read_row(std::span<const std::uint32_t> ids, bool gone) {
   if (engine_.along() == 1) {
     const std::size_t last = ids.size() - 1;
-    read_piece(family_.slices[last].slices[ids[last]][0], gone, 0, levels_.row_length(), result_.data());
+    read_piece(family_.slices[last].slices[ids[last]][0], gone, 0, levels_->row_length(), result_.data());
     return;
   }
   windows_.clear();
   for (std::size_t t = engine_.across(); t < ids.size(); ++t)
     windows_.push_back(family_.slices[t].slices[ids[t]][0].range);
-  read_windows(gone, 0, levels_.row_length(), result_.data());
+  read_windows(gone, 0, levels_->row_length(), result_.data());
 }
 
 template <class Level>
@@ -115,8 +115,8 @@ void BoxReader<Level>::read_in_pieces(std::span<const std::uint32_t> ids) {
   slices_.clear();
   for (std::size_t t = 0; t <= last; ++t) slices_.push_back(&family_.slices[t].slices[ids[t]]);
   positions_.assign(last + 1, 0);
-  for (std::int64_t begin = 0; begin < levels_.row_length();) {
-    std::int64_t end = levels_.row_length();
+  for (std::int64_t begin = 0; begin < levels_->row_length();) {
+    std::int64_t end = levels_->row_length();
     bool blocked = false;
     bool gone = false;
     for (std::size_t t = 0; t <= last; ++t) {
@@ -207,7 +207,7 @@ void BoxReader<Level>::read_fixed(IndexRange range, bool gone, std::int64_t begi
   Level least = kTop;
   if (!gone) {
     collect_rows(false);
-    const std::int64_t n = levels_.row_length();
+    const std::int64_t n = levels_->row_length();
     for (const Level* row : rows_) {
       for (std::int64_t c = range.first; c <= range.last; ++c)
         least = std::min(least, row[c < n ? c : c - n]);
@@ -219,21 +219,20 @@ void BoxReader<Level>::read_fixed(IndexRange range, bool gone, std::int64_t begi
 /// rows_ = the rows of the box, each standing for all of the shared dimensions.
 template <class Level>
 void BoxReader<Level>::collect_rows(bool gone) {
-  rows_.clear();
   if (gone) {
-    rows_.push_back(gone_row_.data() + levels_.margins().before);
+    rows_.assign(1, gone_row_.data() + levels_->margins().before);
     return;
   }
   if (outer_ == 0) {
-    for_each_row(engine_.grid(), 0, ranges_, counter_,
-                 [&](std::int64_t row) { rows_.push_back(levels_.row(row)); });
-    return leave_different(levels_, rows_);
+    list_rows(engine_.grid(), 0, ranges_, counter_, rows_,
+              [&](std::int64_t row) { return levels_->row(row); });
+    return leave_different(*levels_, rows_);
   }
   Shared& taken = shared();
   const std::span<const IndexRange> inner(ranges_.data() + outer_, ranges_.size() - outer_);
-  for_each_row(engine_.grid(), outer_, inner, counter_,
-               [&](std::int64_t row) { rows_.push_back(shared_row(taken, row)); });
-  leave_different(levels_, rows_);
+  list_rows(engine_.grid(), outer_, inner, counter_, rows_,
+            [&](std::int64_t row) { return shared_row(taken, row); });
+  leave_different(*levels_, rows_);
 }
 
 /// The shared minima for the leading ranges of the box.
@@ -265,21 +264,20 @@ template <class Level>
 const Level* BoxReader<Level>::shared_row(Shared& shared, std::int64_t inner) {
   const Level*& known = shared.rows[static_cast<std::size_t>(inner)];
   if (known != nullptr) return known;
-  sources_.clear();
-  for_each_row(engine_.grid(), 0, shared.ranges, shared_counter_,
-               [&](std::int64_t first) { sources_.push_back(levels_.row(first + inner)); });
-  leave_different(levels_, sources_);
+  list_rows(engine_.grid(), 0, shared.ranges, shared_counter_, sources_,
+            [&](std::int64_t first) { return levels_->row(first + inner); });
+  leave_different(*levels_, sources_);
   if (sources_.size() == 1) return known = sources_[0];
   // Whole blocks are written, so a row has its last block to itself; and read from any lane on, so that
   // another one follows the last row.
   constexpr auto kBlock = static_cast<std::int64_t>(kLevelBlock / sizeof(Level));
-  const std::int64_t stride = (levels_.stride() + kBlock - 1) / kBlock * kBlock;
+  const std::int64_t stride = (levels_->stride() + kBlock - 1) / kBlock * kBlock;
   if (shared.storage.empty())
     shared.storage.resize(static_cast<std::size_t>(engine_.unit_rows() * stride + kBlock));
   Level* target = shared.storage.data() + inner * stride;
-  const std::int64_t before = levels_.margins().before;
+  const std::int64_t before = levels_->margins().before;
   for (const Level*& source : sources_) source -= before;
-  const std::int64_t with_margins = before + levels_.row_length() + levels_.margins().after;
+  const std::int64_t with_margins = before + levels_->row_length() + levels_->margins().after;
   kernels_->minimum(sources_.data(), sources_.size(), target, static_cast<std::size_t>(with_margins));
   return known = target + before;
 }

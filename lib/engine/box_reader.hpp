@@ -22,6 +22,7 @@ class BoxReader final : public RowReader<Level> {
   BoxReader(const RowEngine& engine, const RowFamily& family, std::size_t outer,
             const LevelRows<Level>& levels);
 
+  void read(const LevelRows<Level>& levels) override { levels_ = &levels; }
   void enter() override;
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) override;
   /// Least levels of the box around all posts of a row, for its lanes [begin, end). REQUIRES box.covers.
@@ -54,7 +55,7 @@ class BoxReader final : public RowReader<Level> {
   const RowEngine& engine_;
   RowFamily family_;
   std::size_t outer_;
-  const LevelRows<Level>& levels_;
+  const LevelRows<Level>* levels_;
   const LevelKernels<Level>* kernels_;
   std::size_t lanes_;
   RowShape shape_;

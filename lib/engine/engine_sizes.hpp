@@ -61,6 +61,8 @@ class EngineSizes {
   [[nodiscard]] double readers(int threads) const;
   /// run_wave() beside its levels.
   [[nodiscard]] double wave(int threads) const;
+  /// And where its operator is a minimum.
+  [[nodiscard]] double recent_levels() const { return model_->keeps_sums() ? levels() + set() : 0; }
 
  private:
   [[nodiscard]] double groups_of_class(const InputClass& inputs) const;

@@ -51,6 +51,9 @@ struct LevelKernels {
   /// One step of L <- max(L, -1 + max ...): out[j] = 0 where old[j] = 0, else the greater of old[j] and
   /// next[j] - 1. @returns whether out differs from old.
   bool (*rise)(const Level* next, const Level* old, Level* out, std::size_t n);
+  /// The least of row[j] and other[j] over all lanes in which these differ; if there is none, the greatest
+  /// level.
+  Level (*lowest_change)(const Level* row, const Level* other, std::size_t n);
 };
 
 inline constexpr std::size_t kLevelBlock = 64;

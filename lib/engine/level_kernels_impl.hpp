@@ -271,10 +271,23 @@ bool rise(const Level* next, const Level* old, Level* out, size_t n) {
 }
 
 template <class Level>
+Level lowest_change(const Level* row, const Level* other, size_t n) {
+  Level lowest = static_cast<Level>(~Level{0});
+  for (size_t j = 0; j < n; ++j) {
+    // The greatest level has all bits, so that there is no branch.
+    const auto same = static_cast<Level>(row[j] == other[j] ? ~Level{0} : 0);
+    const Level least = row[j] < other[j] ? row[j] : other[j];
+    const auto changed = static_cast<Level>(least | same);
+    lowest = changed < lowest ? changed : lowest;
+  }
+  return lowest;
+}
+
+template <class Level>
 constexpr LevelKernels<Level> kKernels{
-    minimum<Level>,    raise<Level>,      raise_where<Level>, lower_where<Level>, lower_at<Level>,
-    is_top<Level>,     is_settled<Level>, below<Level>,       spread<Level>,      top_bits<Level>,
-    above_bits<Level>, advance<Level>,    rise<Level>};
+    minimum<Level>,    raise<Level>,      raise_where<Level>, lower_where<Level>,  lower_at<Level>,
+    is_top<Level>,     is_settled<Level>, below<Level>,       spread<Level>,       top_bits<Level>,
+    above_bits<Level>, advance<Level>,    rise<Level>,        lowest_change<Level>};
 
 }  // namespace
 

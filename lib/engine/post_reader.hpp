@@ -31,6 +31,13 @@ class PostReader {
     if (sums_) sums_->enter();
   }
 
+  /// The same, with other levels to read from now on.
+  void enter(const LevelRows<Level>& levels) {
+    boxes_.read(levels);
+    if (sums_) sums_->read(levels);
+    enter();
+  }
+
   /// For the slices numbered `ids`, one for each of engine.slices(). The row may be read up to the next call;
   /// whole blocks, as LevelKernels ask.
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) {
@@ -56,9 +63,10 @@ class PostReader {
     const std::size_t size = engine_.slices().size();
     return minimum(taken_.subspan(choice * size, size)) + lanes.begin;
   }
-  /// Of the first of the choices [begin, end), in some lanes of the row.
-  [[nodiscard]] LevelBound<Level> bound(std::size_t begin, std::size_t end, LaneRange lanes) {
-    return has_bounds() ? sums_->bound(begin, end, lanes) : LevelBound<Level>();
+  /// Levels that are nowhere above those of the choices [begin, end), in some lanes of the row; null: nothing
+  /// is known of all of them.
+  [[nodiscard]] const Level* bound(std::size_t begin, std::size_t end, LaneRange lanes) {
+    return has_bounds() ? sums_->bound(begin, end, lanes) : nullptr;
   }
   /// Least levels of the box around all posts of a row. REQUIRES box.covers.
   [[nodiscard]] const Level* minimum(const RowBox& box) {

@@ -17,10 +17,8 @@ struct RowPlace {
   std::int64_t row = 0;
   std::vector<std::int64_t> index;  ///< in the dimensions across rows
 
-  RowPlace(const UniformGrid& grid, std::int64_t number) : row(number) {
-    for (std::size_t i = 0; i < grid.across(); ++i) {
-      index.push_back(grid.index(number * grid.row_length(), i));
-    }
+  RowPlace(const UniformGrid& grid, std::int64_t number) : row(number), index(grid.across()) {
+    for (std::size_t i = index.size(); i-- > 0; number /= grid[i].count) index[i] = number % grid[i].count;
   }
 
   /// To the next row, in the order of their numbers.
@@ -135,6 +133,18 @@ void for_each_row(const UniformGrid& grid, std::size_t first, std::span<const In
     visit(row);
     return false;
   }));
+}
+
+/// Makes a list of `content(row number)` for all rows of a box.
+template <class Content, class Make>
+void list_rows(const UniformGrid& grid, std::size_t first, std::span<const IndexRange> ranges,
+               std::vector<std::int64_t>& counter, std::vector<Content>& list, const Make& content) {
+  std::size_t size = 1;
+  for (const IndexRange& range : ranges)
+    size *= static_cast<std::size_t>(std::max(0, range.last - range.first + 1));
+  list.resize(size);
+  auto next = list.begin();
+  for_each_row(grid, first, ranges, counter, [&](std::int64_t row) { *next++ = content(row); });
 }
 
 }  // namespace coordreq

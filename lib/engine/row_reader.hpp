@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/level_rows.hpp"
+
 namespace coordreq {
 
 /// Least levels over boxes of cells, for a whole row at once: for each cell of the row the minimum over the
@@ -18,6 +20,8 @@ class RowReader {
   virtual ~RowReader() = default;
   /// Begins with the rows of another unit: forgets the minima that rows of a unit share.
   virtual void enter() = 0;
+  /// From now on in other levels, of the same layout.
+  virtual void read(const LevelRows<Level>& levels) = 0;
   /// Least levels of the boxes given by the numbers of their slices, one a table. The row may be read up to
   /// the next call; whole blocks, as LevelKernels ask.
   [[nodiscard]] virtual const Level* minimum(std::span<const std::uint32_t> ids) = 0;

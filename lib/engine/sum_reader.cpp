@@ -37,7 +37,7 @@ template <class Level>
 SumReader<Level>::SumReader(const RowEngine& engine, const LevelRows<Level>& levels)
     : engine_(engine),
       family_(engine.posts()),
-      levels_(levels),
+      levels_(&levels),
       kernels_(&level_kernels<Level>(best_instruction_set())),
       sums_(&sum_kernels(best_instruction_set())) {
   lay_out_block();
@@ -62,7 +62,8 @@ void SumReader<Level>::lay_out_block() {
   narrowest_.resize(inner);
   reach_.resize(inner);
   widths_.resize(inner);
-  wider_.resize(inner);
+  rows_.resize(inner);
+  taken_.rows.resize(inner);
   std::int64_t stride = 1;
   for (std::size_t i = inner; i-- > 0;) {
     const SumRows& sums = *family_.slices[outer + i].sums;
@@ -127,83 +128,90 @@ void SumReader<Level>::find_margins() {
 
 template <class Level>
 const Level* SumReader<Level>::minimum(std::span<const std::uint32_t> ids, LaneRange lanes, Level rest) {
-  read(ids, one_);
-  return minimum(one_, 0, lanes, rest);
+  const std::size_t outer = engine_.outer();
+  ranges_.resize(outer);
+  const Kind kind = lead(ids, ranges_.data());
+  for (std::size_t i = 0; i < sides_.size(); ++i) rows_[i] = readers_[i].row(ids[outer + i]);
+  return minimum(kind, lanes, rest);
 }
 
 template <class Level>
-void SumReader<Level>::read(std::span<const std::uint32_t> ids, Choices& choices) {
-  const std::size_t outer = engine_.outer(), inner = sides_.size();
-  const std::size_t count = ids.size() / engine_.tables();
-  choices.kinds.resize(count);
-  choices.ranges.resize(count * outer);
-  choices.rows.resize(count * inner);
-  for (std::size_t k = 0; k < count; ++k, ids = ids.subspan(engine_.tables())) {
-    choices.kinds[k] = Kind::fixed;
-    for (std::size_t t = 0; t < outer; ++t) {
-      const RowSegment& segment = family_.slices[t].slices[ids[t]][0];
-      if (segment.kind == Kind::blocked || (segment.kind == Kind::gone && choices.kinds[k] == Kind::fixed))
-        choices.kinds[k] = segment.kind;
-      choices.ranges[k * outer + t] = segment.range;
-    }
-    for (std::size_t i = 0; i < inner; ++i) choices.rows[k * inner + i] = readers_[i].row(ids[outer + i]);
+void SumReader<Level>::take(std::span<const std::uint32_t> ids) {
+  const std::size_t outer = engine_.outer(), tables = engine_.tables();
+  for (std::size_t i = 0; i < sides_.size(); ++i)
+    readers_[i].read(ids.subspan(outer + i), tables, taken_.rows[i]);
+  taken_.kinds.resize(ids.size() / tables);
+  taken_.ranges.resize(taken_.kinds.size() * outer);
+  for (std::size_t k = 0; k < taken_.kinds.size(); ++k)
+    taken_.kinds[k] = lead(ids.subspan(k * tables), taken_.ranges.data() + k * outer);
+}
+
+template <class Level>
+const Level* SumReader<Level>::minimum_of(std::size_t choice, LaneRange lanes, Level rest) {
+  const IndexRange* const ranges = taken_.ranges.data() + choice * engine_.outer();
+  ranges_.assign(ranges, ranges + engine_.outer());
+  for (std::size_t i = 0; i < sides_.size(); ++i) rows_[i] = taken_.rows[i][choice];
+  return minimum(taken_.kinds[choice], lanes, rest);
+}
+
+/// What the slices of the leading dimensions say together; `fixed`: there are cells, in these ranges.
+template <class Level>
+RowSegment::Kind SumReader<Level>::lead(std::span<const std::uint32_t> ids, IndexRange* ranges) const {
+  Kind kind = Kind::fixed;
+  for (std::size_t t = 0; t < engine_.outer(); ++t) {
+    const RowSegment& segment = family_.slices[t].slices[ids[t]][0];
+    if (segment.kind == Kind::blocked || (segment.kind == Kind::gone && kind == Kind::fixed))
+      kind = segment.kind;
+    ranges[t] = segment.range;
   }
+  return kind;
 }
 
+/// Of the box in question.
 template <class Level>
-const Level* SumReader<Level>::minimum(const Choices& choices, std::size_t choice, LaneRange lanes,
-                                       Level rest) {
-  const Kind kind = choices.kinds[choice];
+const Level* SumReader<Level>::minimum(Kind kind, LaneRange lanes, Level rest) {
   if (kind == Kind::blocked) {
     std::fill_n(result_.begin(), lanes.size(), Level{0});
     fill_rest(lanes, rest);
     return result_.data();
   }
-  const IndexRange* const ranges = choices.ranges.data() + choice * engine_.outer();
-  ranges_.assign(ranges, ranges + engine_.outer());
   // All that has left for good is alike, but for what else leaves through an unsafe side.
   if (kind == Kind::gone) ranges_.assign(ranges_.size(), {0, -1});
-  fetch(slot(slots_, {}, kind == Kind::gone), choices.rows.data() + choice * sides_.size(), lanes, rest);
+  fetch(slot(slots_, {}, kind == Kind::gone), lanes, rest);
   return result_.data();
 }
 
 template <class Level>
-LevelBound<Level> SumReader<Level>::bound(std::size_t begin, std::size_t end, LaneRange lanes) {
-  if (taken_.kinds[begin] != Kind::fixed) return {};
-  begin_box(begin);
-  std::size_t choices = 1;
-  while (begin + choices < end && widen_box(begin + choices)) ++choices;
-  if (choices < 2) return {};
-  for (std::size_t i = 0; i < widths_.size(); ++i) widths_[i] = greatest_width(i, rows_[i]);
-  fetch(slot(joined_slots_, widths_, false), rows_.data(), lanes, kTop);
-  return {.levels = result_.data(), .choices = choices};
+const Level* SumReader<Level>::bound(std::size_t begin, std::size_t end, LaneRange lanes) {
+  if (!join(begin, end)) return nullptr;
+  fetch(slot(joined_slots_, widths_, false), lanes, kTop);
+  return result_.data();
 }
 
+/// Makes the box in question one around those of some choices: the least lower and greatest upper ends.
+/// @returns false if there is none, or it would not be small
 template <class Level>
-void SumReader<Level>::begin_box(std::size_t choice) {
-  const IndexRange* const ranges = taken_.ranges.data() + choice * engine_.outer();
-  const SumRows::Row* const rows = taken_.rows.data() + choice * sides_.size();
-  ranges_.assign(ranges, ranges + engine_.outer());
-  rows_.assign(rows, rows + sides_.size());
-}
-
-/// Takes one more choice in. @returns false, with the box as it was, if it would not be small
-template <class Level>
-bool SumReader<Level>::widen_box(std::size_t choice) {
-  if (taken_.kinds[choice] != Kind::fixed) return false;
-  const SumRows::Row* const own = taken_.rows.data() + choice * sides_.size();
+bool SumReader<Level>::join(std::size_t begin, std::size_t end) {
   for (std::size_t i = 0; i < sides_.size(); ++i) {
-    if (own[i].run != rows_[i].run) return false;
-    SumRows::Row& wider = wider_[i];
-    wider.lower = std::min(rows_[i].lower, own[i].lower);
-    wider.upper = std::max(rows_[i].upper, own[i].upper);
-    wider.run = own[i].run;
-    if (greatest_width(i, wider) > reach_[i]) return false;
+    const SumRows::Rows& own = taken_.rows[i];
+    if (!own.has_one_run) return false;
+    SumRows::Row both = own[begin];
+    for (std::size_t k = begin + 1; k < end; ++k) {
+      both.lower = std::min(both.lower, own.lower[k]);
+      both.upper = std::max(both.upper, own.upper[k]);
+    }
+    rows_[i] = both;
+    widths_[i] = greatest_width(i, both);
+    if (widths_[i] > reach_[i]) return false;
   }
-  rows_.swap(wider_);
-  const IndexRange* const ranges = taken_.ranges.data() + choice * engine_.outer();
-  for (std::size_t t = 0; t < ranges_.size(); ++t)
-    ranges_[t] = around_both(ranges_[t], ranges[t], engine_.grid()[t]);
+  const std::size_t outer = engine_.outer();
+  const auto ranges = [&](std::size_t k) { return taken_.ranges.data() + k * outer; };
+  ranges_.assign(ranges(begin), ranges(begin) + outer);
+  for (std::size_t k = begin; k < end; ++k) {
+    if (taken_.kinds[k] != Kind::fixed) return false;
+    for (std::size_t t = 0; t < outer; ++t)
+      ranges_[t] = around_both(ranges_[t], ranges(k)[t], engine_.grid()[t]);
+  }
   return true;
 }
 
@@ -215,24 +223,27 @@ std::int32_t SumReader<Level>::greatest_width(std::size_t i, const SumRows::Row&
   return static_cast<std::int32_t>((difference >> TransitionTable::kFractionBits) + 1);
 }
 
-/// The levels of the boxes of some lanes of a row.
+/// The levels of the boxes in question, in some lanes of a row.
 template <class Level>
-void SumReader<Level>::fetch(const Slot& slot, const SumRows::Row* rows, LaneRange lanes, Level rest) {
+void SumReader<Level>::fetch(const Slot& slot, LaneRange lanes, Level rest) {
   const bool has_all_sizes = slot.widths.empty();
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     BoxSides& side = sides_[i];
     const SumRows& sums = *family_.slices[engine_.outer() + i].sums;
-    side.lower_run = sums.run_lower(rows[i].run).from(lanes.begin);
-    side.upper_run = sums.run_upper(rows[i].run).from(lanes.begin);
-    side.lower = rows[i].lower;
-    side.upper = rows[i].upper;
+    side.lower_run = sums.run_lower(rows_[i].run).from(lanes.begin);
+    side.upper_run = sums.run_upper(rows_[i].run).from(lanes.begin);
+    side.lower = rows_[i].lower;
+    side.upper = rows_[i].upper;
     const std::int64_t stride = static_cast<std::int64_t>(size_stride_[i]) * block_cells_;
     side.width_stride = has_all_sizes ? static_cast<std::int32_t>(stride) : 0;
   }
   const std::size_t n = lanes.size();
   sums_->find_places(sides_.data(), sides_.size(), has_all_sizes ? first_place_ : origin_, place_.data(), n);
+  // Pointers of their own: bytes that are written might be those of a vector's.
   const Level* const levels = slot.levels.data();
-  for (std::size_t c = 0; c < n; ++c) result_[c] = levels[place_[c]];
+  const std::int32_t* const place = place_.data();
+  Level* const result = result_.data();
+  for (std::size_t c = 0; c < n; ++c) result[c] = levels[place[c]];
   fill_rest(lanes, rest);
 }
 
@@ -284,17 +295,15 @@ void SumReader<Level>::fill(Slot& slot, bool gone) {
 /// The minima over the leading dimensions, with margins.
 template <class Level>
 void SumReader<Level>::fill_block(Slot& slot, bool gone) {
-  const auto n = static_cast<std::size_t>(levels_.row_length());
+  const auto n = static_cast<std::size_t>(levels_->row_length());
   for (std::size_t inner = 0; inner < places_of_rows_.size(); ++inner) {
     Level* target = slot.levels.data() + places_of_rows_[inner];
     if (gone) {
       std::fill_n(target, n, kTop);
       continue;
     }
-    sources_.clear();
-    for_each_row(engine_.grid(), 0, slot.ranges, counter_, [&](std::int64_t first) {
-      sources_.push_back(levels_.row(first + static_cast<std::int64_t>(inner)));
-    });
+    list_rows(engine_.grid(), 0, slot.ranges, counter_, sources_,
+              [&](std::int64_t first) { return levels_->row(first + static_cast<std::int64_t>(inner)); });
     kernels_->minimum(sources_.data(), sources_.size(), target, n);
   }
   for (const Margin& margin : margins_) {

@@ -11,13 +11,6 @@
 
 namespace coordreq {
 
-/// Levels that are nowhere above the minima of some choices of slices.
-template <class Level>
-struct LevelBound {
-  const Level* levels = nullptr;  ///< in the lanes asked about
-  std::size_t choices = 0;        ///< that it holds for, of those asked about; below 2: there is none
-};
-
 /// Reads rows that are added up, where the last states are coupled: each cell of a row goes to a box of its
 /// own, given by sums (SumRows). Then nothing is one window for a whole row, and levels are fetched cell by
 /// cell.
@@ -35,20 +28,20 @@ class SumReader final : public RowReader<Level> {
   /// engine.make_levels(engine.posts())) outlive this object.
   SumReader(const RowEngine& engine, const LevelRows<Level>& levels);
 
+  void read(const LevelRows<Level>& levels) override { levels_ = &levels; }
   void enter() override { ++epoch_; }
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) override {
-    return minimum(ids, {0, static_cast<std::size_t>(levels_.row_length())}, kTop);
+    return minimum(ids, {0, static_cast<std::size_t>(levels_->row_length())}, kTop);
   }
   /// In some lanes of the row alone, the first of them first, and after them a block of `rest`.
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids, LaneRange lanes, Level rest);
-  /// Takes in several choices of slices, from now on called 0, 1, ..., one after the other.
-  void take(std::span<const std::uint32_t> ids) { read(ids, taken_); }
-  [[nodiscard]] const Level* minimum_of(std::size_t choice, LaneRange lanes, Level rest) {
-    return minimum(taken_, choice, lanes, rest);
-  }
-  /// For the choices from `begin` on whose sums differ by the same for all cells of the row, as long as they
-  /// do not differ much: the least levels of one box a cell that holds all of its boxes.
-  [[nodiscard]] LevelBound<Level> bound(std::size_t begin, std::size_t end, LaneRange lanes);
+  /// Takes in several choices of slices for the same row of cells, from now on called 0, 1, ..., one after
+  /// the other.
+  void take(std::span<const std::uint32_t> ids);
+  [[nodiscard]] const Level* minimum_of(std::size_t choice, LaneRange lanes, Level rest);
+  /// Levels that are nowhere above the minima of the choices [begin, end): the least levels of one box a cell
+  /// that holds all of its boxes. Null if these differ much, or not by the same for all cells of the row.
+  [[nodiscard]] const Level* bound(std::size_t begin, std::size_t end, LaneRange lanes);
 
  private:
   /// A cell of a block outside the domain, and what it holds: the level of another cell, or a constant.
@@ -65,21 +58,20 @@ class SumReader final : public RowReader<Level> {
     std::vector<Level> levels;  ///< [size][cell of the block]
   };
   using Slots = std::vector<Slot>;
-  /// What the slices of some choices say, one choice after the other.
+  /// What the slices of some choices say: [choice], and of the leading dimensions one choice after the other.
   struct Choices {
-    std::vector<RowSegment::Kind> kinds;  ///< in the leading dimensions together; `fixed`: there are cells
+    std::vector<RowSegment::Kind> kinds;  ///< in the leading dimensions together, see lead()
     std::vector<IndexRange> ranges;       ///< of the leading dimensions
-    std::vector<SumRows::Row> rows;       ///< of the inner dimensions
+    std::vector<SumRows::Rows> rows;      ///< [inner dimension]
   };
 
   void lay_out_block();
   void find_margins();
-  void read(std::span<const std::uint32_t> ids, Choices& choices);
-  [[nodiscard]] const Level* minimum(const Choices& choices, std::size_t choice, LaneRange lanes, Level rest);
-  void begin_box(std::size_t choice);
-  [[nodiscard]] bool widen_box(std::size_t choice);
+  [[nodiscard]] RowSegment::Kind lead(std::span<const std::uint32_t> ids, IndexRange* ranges) const;
+  [[nodiscard]] const Level* minimum(RowSegment::Kind kind, LaneRange lanes, Level rest);
+  [[nodiscard]] bool join(std::size_t begin, std::size_t end);
   [[nodiscard]] std::int32_t greatest_width(std::size_t i, const SumRows::Row& row) const;
-  void fetch(const Slot& slot, const SumRows::Row* rows, LaneRange lanes, Level rest);
+  void fetch(const Slot& slot, LaneRange lanes, Level rest);
   void fill_rest(LaneRange lanes, Level rest);
   [[nodiscard]] Slot& slot(Slots& slots, const std::vector<std::int32_t>& widths, bool gone);
   void fill(Slot& slot, bool gone);
@@ -89,7 +81,7 @@ class SumReader final : public RowReader<Level> {
 
   const RowEngine& engine_;
   RowFamily family_;
-  const LevelRows<Level>& levels_;
+  const LevelRows<Level>* levels_;
   const LevelKernels<Level>* kernels_;
   const SumKernels* sums_;
   std::vector<SumRows::Reader> readers_;  ///< by inner dimension
@@ -105,10 +97,8 @@ class SumReader final : public RowReader<Level> {
   std::vector<Margin> margins_;
   std::vector<std::int64_t> places_of_rows_;  ///< [row of a unit] its first cell
   std::vector<IndexRange> ranges_;            ///< of the leading dimensions, of the box in question
-  std::vector<SumRows::Row> rows_;  ///< of a box around some choices: the least lower and greatest upper ends
-  std::vector<std::int32_t> widths_;  ///< greatest last - first of a cell in that
-  std::vector<SumRows::Row> wider_;   ///< rows_ with one choice more
-  Choices one_;
+  std::vector<SumRows::Row> rows_;            ///< of the inner dimensions, likewise
+  std::vector<std::int32_t> widths_;          ///< greatest last - first of a cell in that
   Choices taken_;
   std::vector<std::int64_t> counter_;
   std::vector<const Level*> sources_;

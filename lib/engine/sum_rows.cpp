@@ -233,23 +233,27 @@ std::uint64_t SumRows::bytes() const {
 
 SumRows::Reader::Reader(const SumRows& rows) : rows_(&rows), base_(rows.parts_.size()) {}
 
-SumRows::Row SumRows::Reader::row(std::uint32_t number) {
+/// To the choice of states that a row belongs to.
+void SumRows::Reader::go_to(std::uint32_t number) {
   // Rows are asked for choice by choice: a division for each would take longer than the rest.
-  if (number < first_ || number >= first_ + rows_->combinations_) {
-    const std::int64_t choice = number / rows_->combinations_;
-    first_ = choice * rows_->combinations_;
-    std::fill(base_.begin(), base_.end(), 0);
-    run_base_ = 0;
-    own_ = 0;
-    std::int64_t rest = choice;
-    for (std::size_t v = rows_->counts_.size(); v-- > 0;) {
-      const std::int64_t index = rest % rows_->counts_[v];
-      rest /= rows_->counts_[v];
-      for (std::size_t p = 0; p < base_.size(); ++p) base_[p] += index * rows_->parts_[p].strides.state[v];
-      run_base_ += index * rows_->run_strides_.state[v];
-      if (v == rows_->own_) own_ = index << kFractionBits;
-    }
+  if (number >= first_ && number < first_ + rows_->combinations_) return;
+  const std::int64_t choice = number / rows_->combinations_;
+  first_ = choice * rows_->combinations_;
+  std::fill(base_.begin(), base_.end(), 0);
+  run_base_ = 0;
+  own_ = 0;
+  std::int64_t rest = choice;
+  for (std::size_t v = rows_->counts_.size(); v-- > 0;) {
+    const std::int64_t index = rest % rows_->counts_[v];
+    rest /= rows_->counts_[v];
+    for (std::size_t p = 0; p < base_.size(); ++p) base_[p] += index * rows_->parts_[p].strides.state[v];
+    run_base_ += index * rows_->run_strides_.state[v];
+    if (v == rows_->own_) own_ = index << kFractionBits;
   }
+}
+
+SumRows::Row SumRows::Reader::row(std::uint32_t number) {
+  go_to(number);
   const auto combination = static_cast<std::size_t>(number - first_);
   Row row{.lower = own_, .upper = own_};
   for (std::size_t p = 0; p < base_.size(); ++p) {
@@ -260,6 +264,30 @@ SumRows::Row SumRows::Reader::row(std::uint32_t number) {
   }
   row.run = static_cast<std::size_t>(run_base_ + rows_->run_strides_.input[combination]);
   return row;
+}
+
+void SumRows::Reader::read(std::span<const std::uint32_t> numbers, std::size_t step, Rows& rows) {
+  const std::size_t count = (numbers.size() + step - 1) / step;
+  go_to(numbers[0]);
+  rows.lower.assign(count, own_);
+  rows.upper.assign(count, own_);
+  rows.run.resize(count);
+  for (std::size_t p = 0; p < base_.size(); ++p) {
+    const Part& part = rows_->parts_[p];
+    const std::int64_t* const lower = part.lower + base_[p];
+    const std::int64_t* const upper = part.upper + base_[p];
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::int64_t place = part.strides.input[static_cast<std::size_t>(numbers[k * step] - first_)];
+      rows.lower[k] += lower[place];
+      rows.upper[k] += upper[place];
+    }
+  }
+  rows.has_one_run = true;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto combination = static_cast<std::size_t>(numbers[k * step] - first_);
+    rows.run[k] = static_cast<std::size_t>(run_base_ + rows_->run_strides_.input[combination]);
+    rows.has_one_run = rows.has_one_run && rows.run[k] == rows.run[0];
+  }
 }
 
 }  // namespace coordreq

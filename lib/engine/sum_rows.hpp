@@ -38,14 +38,27 @@ class SumRows {
     return upper_.row(run * static_cast<std::size_t>(run_stride_));
   }
 
-  /// Adds up rows, one after the other. One object a thread.
+  /// Several of them.
+  struct Rows {
+    std::vector<std::int64_t> lower;
+    std::vector<std::int64_t> upper;
+    std::vector<std::size_t> run;
+    bool has_one_run = true;
+    [[nodiscard]] Row operator[](std::size_t k) const { return {lower[k], upper[k], run[k]}; }
+  };
+
+  /// Adds up rows. One object a thread.
   class Reader {
    public:
     /// REQUIRES: `rows` outlives this object.
     explicit Reader(const SumRows& rows);
     [[nodiscard]] Row row(std::uint32_t number);
+    /// Rows that differ in their inputs alone. @param numbers theirs are `step` apart, from the first on
+    void read(std::span<const std::uint32_t> numbers, std::size_t step, Rows& rows);
 
    private:
+    void go_to(std::uint32_t number);
+
     const SumRows* rows_;
     std::int64_t first_ =
         UINT32_MAX + std::int64_t{1};  ///< row of the choice of states that the bases below belong to

@@ -45,10 +45,14 @@ std::span<const std::uint32_t> TupleWalk::slice_ids() {
 }
 
 std::span<const std::uint32_t> TupleWalk::all_slice_ids() {
-  all_ids_.resize(candidates_[order_.back()].size() * ids_.size());
-  for (std::size_t k = 0; k * ids_.size() < all_ids_.size(); ++k) {
-    choose_fastest(k);
-    find_ids(all_ids_.data() + k * ids_.size());
+  const std::size_t tables = ids_.size(), count = candidates_[order_.back()].size();
+  all_ids_.resize(count * tables);
+  const std::int64_t* const others = sum_.data() + (order_.size() - 1) * sources_;
+  const std::int64_t* const offset = offset_[order_.back()].data();
+  for (std::size_t t = 0; t < tables; ++t) {
+    const ActionSource& source = grouping_->sources()[t];
+    for (std::size_t k = 0; k < count; ++k)
+      all_ids_[k * tables + t] = source.id(others[t] + offset[k * sources_ + t]);
   }
   return all_ids_;
 }

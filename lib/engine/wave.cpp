@@ -9,6 +9,7 @@
 #include "engine/alive_rows.hpp"
 #include "engine/equal_tiles.hpp"
 #include "engine/halo_news.hpp"
+#include "engine/recent_levels.hpp"
 #include "engine/wave_news.hpp"
 
 namespace coordreq {
@@ -50,6 +51,7 @@ class WaveRunner {
     for (std::int64_t row = own_.begin; row < own_.end; ++row) {
       if (alive_.has(row) && !is_settled(row)) news_.set_unseen(row / unit_rows_);
     }
+    if (op.is_minimum() && !engine.posts().is_cut()) recent_.emplace(engine, team);
     if (engine.share() != nullptr) halo_.emplace(levels, engine, hull, news_, unit_rows_, equal.mirror);
   }
 
@@ -59,6 +61,7 @@ class WaveRunner {
     if (halo_) halo_->begin_sweep(number, backwards);
     WaveStep step{.sweep = number, .rows_left = alive_.count(), .rows = alive_.count(), .layer = layer_};
     lowest_ = kTop;
+    if (recent_) recent_->begin_sweep();
     equal_.begin_sweep();
     std::vector<std::int64_t> batch;
     for (std::int64_t k = 0; k < units_; ++k) {
@@ -182,11 +185,17 @@ class WaveRunner {
     return visited;
   }
 
+  /// A row has got other levels.
+  void mark_changed(std::int64_t row) {
+    news_.mark_row(row);
+    news_.mark_unit_of(row);
+    if (recent_) recent_->change(row, std::as_const(levels_).row(row));
+  }
+
   /// A row of the halo has changed.
   void hear_of(std::int64_t row) {
     const auto mark = [this](std::int64_t changed) {
-      news_.mark_row(changed);
-      news_.mark_unit_of(changed);
+      mark_changed(changed);
       if (equal_.is_on() && equal_.rows() > 1) equal_.update(changed / unit_rows_);
     };
     mark(row);
@@ -240,7 +249,7 @@ class WaveRunner {
   void visit(const Piece& piece, int w) {
     Worker& worker = workers_[static_cast<std::size_t>(w)];
     if (worker.batch != batch_ || worker.unit != piece.unit) {
-      worker.posts.enter();
+      worker.posts.enter(recent_ && !news_.is_unseen(piece.unit) ? recent_->levels() : levels_);
       worker.batch = batch_;
       worker.unit = piece.unit;
     }
@@ -255,8 +264,7 @@ class WaveRunner {
   void visit_row(const RowPlace& place, Worker& worker, int w) {
     ++worker.visited;
     const auto n = static_cast<std::size_t>(levels_.row_length());
-    const Level* present = std::as_const(levels_).row(place.row);
-    std::copy_n(present, n, worker.old.begin());
+    std::copy_n(std::as_const(levels_).row(place.row), n, worker.old.begin());
     levels_.clear_gaps(worker.old.data());
     if (!op_.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w)) return;
     const LevelKernels<Level>& kernels = worker.posts.kernels();
@@ -264,25 +272,14 @@ class WaveRunner {
         op_.rises() ? kernels.rise(worker.next.data(), worker.old.data(), worker.result.data(), n)
                     : kernels.advance(worker.next.data(), worker.old.data(), limit_, worker.result.data(), n);
     if (!is_changed) return;
-    if (!op_.rises()) find_lowest(worker, n);
+    if (!op_.rises())
+      worker.lowest =
+          std::min(worker.lowest, kernels.lowest_change(worker.result.data(), worker.old.data(), n));
     const std::size_t position = worker.storage.size();
     worker.storage.resize(position + static_cast<std::size_t>(levels_.stride()));
     Level* const lanes = worker.storage.data() + position;
     std::copy_n(worker.result.begin(), n, lanes + levels_.margins().before);
     worker.changes.push_back({place.row, position, levels_.make_ready(lanes)});
-  }
-
-  /// A level that has risen counts, too, as what it was.
-  static void find_lowest(Worker& worker, std::size_t n) {
-    const Level* const result = worker.result.data();
-    const Level* const old = worker.old.data();
-    Level lowest = worker.lowest;
-    for (std::size_t c = 0; c < n; ++c) {
-      // Without a branch, for vector instructions: kTop has all bits.
-      const auto unchanged = static_cast<Level>(result[c] == old[c] ? kTop : 0);
-      lowest = std::min(lowest, static_cast<Level>(std::min(result[c], old[c]) | unchanged));
-    }
-    worker.lowest = lowest;
   }
 
   /// @param is_together whether all processes do so now
@@ -307,9 +304,15 @@ class WaveRunner {
 
   void commit(const Worker& worker) {
     for (const Change& change : worker.changes) {
-      levels_.put_ready(change.row, worker.storage.data() + change.position, change.ready);
+      const Level* const lanes = worker.storage.data() + change.position;
+      const auto recall = [&](std::int64_t row) {
+        if (recent_) recent_->change(row, std::as_const(levels_).row(row), lanes + levels_.margins().before);
+      };
+      recall(change.row);
+      levels_.put_ready(change.row, lanes, change.ready);
       news_.mark_row(change.row);
       images_.for_each(change.row, [&](std::int64_t image) {
+        recall(image);
         static_cast<void>(levels_.copy_row(change.row, image));
         news_.mark_row(image);
       });
@@ -318,8 +321,7 @@ class WaveRunner {
 
   void copy_all() {
     const auto mark = [this](std::int64_t row) {
-      news_.mark_row(row);
-      news_.mark_unit_of(row);
+      mark_changed(row);
       ++changed_rows_;
     };
     for (const Copy& copy : copies_) {
@@ -345,7 +347,8 @@ class WaveRunner {
   std::int64_t unit_rows_;
   WaveNews news_;
   EqualTiles<Level> equal_;
-  std::optional<HaloNews<Level>> halo_;  ///< of several processes
+  std::optional<HaloNews<Level>> halo_;        ///< of several processes
+  std::optional<RecentLevels<Level>> recent_;  ///< where less is read so
   HeldImages images_;
   AliveRows alive_;
   std::int64_t copied_ = 0;    ///< rows that would have been worked out

@@ -42,6 +42,9 @@ class RowOperator {
                            int worker) = 0;
   /// Levels rise, see run_wave(): then all this is of the nearness of a goal.
   [[nodiscard]] virtual bool rises() const { return false; }
+  /// next_levels() is a minimum over posts, and nowhere above old[c] - 1: levels of posts that are the same
+  /// as when the row was looked at last need not be read again.
+  [[nodiscard]] virtual bool is_minimum() const { return false; }
 };
 
 /// The greatest solution of level(x) = 1 + op(level)(x) below the given levels, a level above `limit`

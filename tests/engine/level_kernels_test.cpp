@@ -215,6 +215,22 @@ TYPED_TEST(LevelKernelsTest, RiseTakesOneLess) {
   });
 }
 
+TYPED_TEST(LevelKernelsTest, LowestChangeIsOfLanesThatDiffer) {
+  this->check("lowest_change", [](const auto& kernels, std::size_t n) {
+    Row<TypeParam> row(n);
+    Row<TypeParam> other(n);
+    const bool is_same = *rc::gen::arbitrary<bool>();
+    for (std::size_t j = 0; j < n; ++j) {
+      if (is_same || j % 3 == 0) other.data()[j] = row[j];
+    }
+    TypeParam lowest = TestFixture::kMost;
+    for (std::size_t j = 0; j < n; ++j) {
+      if (row[j] != other[j]) lowest = std::min({lowest, row[j], other[j]});
+    }
+    RC_ASSERT(kernels.lowest_change(row.data(), other.data(), n) == lowest);
+  });
+}
+
 TYPED_TEST(LevelKernelsTest, BitsOfWhatIsAbove) {
   this->check("above_bits", [](const auto& kernels, std::size_t n) {
     Row<TypeParam> row(n);

@@ -79,5 +79,29 @@ TEST(LikeAgents, GiveTheSameInWhateverOrder) {
   }));
 }
 
+/// Rows are added up, and posts of the first of two images lie in the second mostly.
+TEST(LikeAgents, GiveTheSameBesideACoupledMotion) {
+  const ProblemSpec spec = read_spec(R"json({"coordreq": 1, "name": "turning",
+    "states": [{"name": "p0", "lower": 0, "upper": 5, "step": 1, "outside": "saturate"},
+               {"name": "p1", "lower": 0, "upper": 5, "step": 1, "outside": "saturate"},
+               {"name": "h", "lower": 0, "upper": 4, "count": 4, "outside": "periodic"},
+               {"name": "y", "lower": -3, "upper": 3, "step": 1, "outside": "safe"},
+               {"name": "x", "lower": -3, "upper": 3, "step": 0.5, "outside": "safe"}],
+    "inputs": [{"name": "u0", "values": [-1, 0, 1]}, {"name": "u1", "values": [-1, 0, 1]},
+               {"name": "u", "values": [-1, 1]}],
+    "agents": [{"name": "a", "inputs": ["u0"]}, {"name": "b", "inputs": ["u1"]}, {"name": "c", "inputs": ["u"]}],
+    "dynamics": {"time": "discrete", "period": 1,
+                 "equations": {"p0": "5 - p0 + u0", "p1": "5 - p1 + u1", "h": "h + 1",
+                               "x": "0.98*x + 0.2*u*y - 0.5*cos(1.6*h)", "y": "0.98*y - 0.2*u*x + 0.5*sin(1.6*h)"}},
+    "safe": "x^2 + y^2 >= 1.5 or p0 + p1 >= 4", "abstraction": {"safe": "center"}})json",
+                                     "turning");
+  ThreadTeam team(2);
+  const FastAnalysis fast(spec, team);
+  EXPECT_FALSE(fast.engine.posts().is_cut());
+  EXPECT_TRUE(fast.actions.back().mirror.has_value());
+  EXPECT_GT(fast.layers.back().sizes.size(), 2U);
+  expect_agreement(fast, plainly(spec, fast), team);
+}
+
 }  // namespace
 }  // namespace coordreq

@@ -239,6 +239,22 @@ TEST(ManyRanks, DivideTablesByCells) {
   }
 }
 
+/// Rows that are added up, and meet rows of all others.
+TEST(ManyRanks, HearOfACoupledMotion) {
+  const Folder folder;
+  expect_same(folder, read_spec(R"json({"coordreq": 1, "name": "turning",
+    "states": [{"name": "h", "lower": 0, "upper": 8, "count": 8, "outside": "periodic"},
+               {"name": "y", "lower": -6, "upper": 6, "step": 0.5, "outside": "safe"},
+               {"name": "x", "lower": -6, "upper": 6, "step": 0.5, "outside": "safe"}],
+    "inputs": [{"name": "u", "values": [-1, 0, 1]}, {"name": "w", "values": [-1, 0, 1, 2]}],
+    "agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["w"]}],
+    "dynamics": {"time": "discrete", "period": 1,
+                 "equations": {"x": "0.98*x + 0.2*u*y - 0.5 + 0.5*cos(0.8*h)", "y": "0.98*y - 0.2*u*x + 0.5*sin(0.8*h)",
+                               "h": "h + w - u"}},
+    "safe": "x^2 + y^2 >= 1.5"})json",
+                                "turning"));
+}
+
 /// Enclosures of flows are found in parts: in full, as a sum, with tubes, and with a discrete state.
 TEST(ManyRanks, DivideTheAbstraction) {
   const Folder folder;

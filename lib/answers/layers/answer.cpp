@@ -139,7 +139,7 @@ MemoryNeed layers_memory(const EngineSizes& sizes, int threads) {
     for (const InputClass& own : classes)
       need.array = std::max(need.array, sizes.packed_pairs(own.actions()));
   }
-  need.work += sizes.wave(threads);
+  need.work += sizes.wave(threads) + sizes.recent_levels();
   if (spec.output.actions) need.written += actions + sizes.readers(threads);
   // Processes sort equal parts of the cells, of which each is told its layer.
   if (spec.output.layers) need.written += std::min(sizes.cells(), 2 * sizes.lanes()) * sizeof(std::uint32_t);

@@ -6,7 +6,7 @@ namespace coordreq {
 namespace {
 
 /// Below so many choices a bound of them together saves too little.
-constexpr std::size_t kFewChoices = 3;
+constexpr std::size_t kFewChoices = 4;
 
 /// The class whose choices are tried one after the other: where rows are added up one that moves the cells of
 /// a row alike, so that there are bounds of several choices.
@@ -183,26 +183,24 @@ bool IndependentActions<Level>::is_some_reasonable(const Row& row, Workspace& wo
   return true;
 }
 
-/// Lowers some lanes by the candidates [begin, end) of the fastest class: where a bound of several does not
-/// say that they lower nothing, by each half of them.
+/// Lowers some lanes by the candidates [begin, end) of the fastest class: where a bound of all does not say
+/// that they lower nothing, by each half of them.
 template <class Level>
 void IndependentActions<Level>::lower_by_several(const Row& row, std::size_t begin, std::size_t end,
                                                  LaneRange lanes, Workspace& work) const {
-  while (begin < end) {
-    const auto bound = end - begin < kFewChoices ? LevelBound<Level>() : row.posts.bound(begin, end, lanes);
-    if (bound.choices < kFewChoices) {
-      lower_by_one(row, begin++, lanes, work);
-      continue;
-    }
-    LaneRange open = row.posts.kernels().below(bound.levels, work.lanes_of_others.data() + lanes.begin,
-                                               row.next + lanes.begin, lanes.size());
-    if (open.size() > 0) {
-      open = {open.begin + lanes.begin, open.end + lanes.begin};
-      lower_by_several(row, begin, begin + bound.choices / 2, open, work);
-      lower_by_several(row, begin + bound.choices / 2, begin + bound.choices, open, work);
-    }
-    begin += bound.choices;
+  if (end - begin < kFewChoices) {
+    for (std::size_t k = begin; k < end; ++k) lower_by_one(row, k, lanes, work);
+    return;
   }
+  if (const Level* const bound = row.posts.bound(begin, end, lanes)) {
+    const LaneRange open = row.posts.kernels().below(bound, work.lanes_of_others.data() + lanes.begin,
+                                                     row.next + lanes.begin, lanes.size());
+    if (open.size() == 0) return;
+    lanes = {open.begin + lanes.begin, open.end + lanes.begin};
+  }
+  const std::size_t middle = begin + (end - begin) / 2;
+  lower_by_several(row, begin, middle, lanes, work);
+  lower_by_several(row, middle, end, lanes, work);
 }
 
 template <class Level>

@@ -19,6 +19,7 @@ class IndependentActions final : public RowOperator<Level> {
 
   bool next_levels(const RowPlace& place, PostReader<Level>& posts, const Level* old, Level* next,
                    int worker) override;
+  [[nodiscard]] bool is_minimum() const override { return true; }
   /// The least level of all posts under IND_C, for every cell of the row.
   void find_minimum(const RowPlace& place, PostReader<Level>& posts, Level* next, int worker);
 
