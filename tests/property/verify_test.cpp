@@ -43,6 +43,23 @@ TEST(Verify, ResultsThatAreSafeBetweenTheSamplesHold) {
   }));
 }
 
+/// Cells of the goal may leave it within K: their rows are not alike where only the goal around them is.
+TEST(Verify, AConventionOnTheWayToAGoalHolds) {
+  ThreadTeam team(2);
+  const ClaimedFile file = analysed_file(R"json({"coordreq": 1, "name": "meet",
+    "states": [{"name": "x0", "lower": 0, "upper": 9, "step": 1, "outside": {"below": "saturate", "above": "unsafe"}},
+               {"name": "x1", "lower": 0, "upper": 8, "step": 1, "outside": {"below": "saturate", "above": "safe"}},
+               {"name": "x2", "lower": 0, "upper": 7, "count": 7, "outside": "periodic"}],
+    "inputs": [{"name": "u0", "values": [1, 0, -2]}, {"name": "u1", "lower": -1, "upper": 1, "step": 0.5},
+               {"name": "u2", "lower": -1, "upper": 1, "step": 1}],
+    "agents": [{"name": "a0", "inputs": ["u0"]}, {"name": "a1", "inputs": ["u1"]}, {"name": "a2", "inputs": ["u2"]}],
+    "dynamics": {"time": "continuous", "period": 1, "equations": {"x0": "u0", "x1": "u1", "x2": "u2"}},
+    "safe": "x0 + x1 >= 5 and x0 + x1 <= 13", "abstraction": {"cells": "half_open", "safe": "center"},
+    "coordination": {"convention": true}, "goal": "x0 <= 5.5"})json",
+                                         team);
+  EXPECT_EQ(complaints(verify_file(file, {}, team)), "");
+}
+
 /// A solver that forgot the way between the samples.
 TEST(Verify, AResultWithoutTubesIsFoundUnlessItIsTheSame) {
   ThreadTeam team(2);

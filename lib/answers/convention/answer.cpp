@@ -60,8 +60,8 @@ ConventionFreedom find_parts(const Ground& ground, const ConventionAnswer& conve
     const PartialController& part = convention.controller->parts[k];
     const CellSet& invariant = *part.controller.invariant;
     std::optional<Tiles> tiles;
-    // What comes nearer to a goal depends on more than on which cells there are.
-    if (!part.controller.approaches) tiles = Tiles::find(*part.controller.engine, *part.hull, invariant);
+    // With a goal posts must stay in more cells than those of the part, or come nearer.
+    if (convention.agents.size() == 1) tiles = Tiles::find(*part.controller.engine, *part.hull, invariant);
     ConventionFreedom own =
         find_convention(part.controller, *part.hull, convention.agents[k], team, tiles ? &*tiles : nullptr);
     const std::int64_t count = ground.count(invariant);
