@@ -1,12 +1,10 @@
 #include "results/chunk_codec.hpp"
 
-#include <isa-l/igzip_lib.h>
 #include <libdeflate.h>
 
 #include <algorithm>
 #include <cstring>
 #include <new>
-#include <stdexcept>
 
 namespace coordreq {
 namespace {
@@ -33,12 +31,6 @@ std::uint64_t mark_of(std::span<const std::byte> bytes) {
     mark ^= mark >> 32U;
   }
   return mark;
-}
-
-/// What packing comes to at most: as it is, in blocks with a header each, within the frame of zlib.
-std::size_t most_packed(std::size_t bytes) {
-  constexpr std::size_t kBlock = 65535, kHeader = 5, kFrame = 16;
-  return bytes + (bytes / kBlock + 1) * kHeader + kFrame;
 }
 
 }  // namespace
@@ -84,8 +76,12 @@ bool unpack_chunk(std::span<const std::byte> packed, std::size_t bytes, bool def
   return true;
 }
 
-void ChunkCodec::Free::operator()(isal_zstream* stream) const {
-  delete stream;
+void ChunkCodec::Free::operator()(libdeflate_compressor* compressor) const {
+  libdeflate_free_compressor(compressor);
+}
+
+ChunkCodec::ChunkCodec() : compressor_(libdeflate_alloc_compressor(kDeflateLevel)) {
+  if (!compressor_) throw std::bad_alloc();
 }
 
 void ChunkCodec::pack(std::span<const std::byte> raw, std::size_t element_size,
@@ -114,23 +110,10 @@ void ChunkCodec::compress(std::span<const std::byte> raw, std::size_t element_si
     shuffle_bytes(raw, element_size, shuffled_);
     raw = shuffled_;
   }
-  scratch_.resize(most_packed(raw.size()));
-  if (!stream_) stream_.reset(new isal_zstream());
-  tables_.resize(ISAL_DEF_LVL1_DEFAULT);
-  isal_deflate_stateless_init(stream_.get());
-  stream_->hist_bits = 0;  // the greatest distance; the call before leaves it alone
-  stream_->level = kDeflateLevel;
-  stream_->level_buf = tables_.data();
-  stream_->level_buf_size = static_cast<std::uint32_t>(tables_.size());
-  stream_->gzip_flag = IGZIP_ZLIB;
-  stream_->end_of_stream = 1;
-  stream_->next_in =
-      const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(raw.data()));  // only read
-  stream_->avail_in = static_cast<std::uint32_t>(raw.size());
-  stream_->next_out = reinterpret_cast<std::uint8_t*>(scratch_.data());
-  stream_->avail_out = static_cast<std::uint32_t>(scratch_.size());
-  if (isal_deflate_stateless(stream_.get()) != COMP_OK) throw std::logic_error("a chunk cannot be packed");
-  packed.assign(scratch_.begin(), scratch_.begin() + static_cast<std::ptrdiff_t>(stream_->total_out));
+  scratch_.resize(libdeflate_zlib_compress_bound(compressor_.get(), raw.size()));
+  const std::size_t size =
+      libdeflate_zlib_compress(compressor_.get(), raw.data(), raw.size(), scratch_.data(), scratch_.size());
+  packed.assign(scratch_.begin(), scratch_.begin() + static_cast<std::ptrdiff_t>(size));
 }
 
 }  // namespace coordreq

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-struct isal_zstream;
+struct libdeflate_compressor;
 
 namespace coordreq {
 
@@ -15,16 +15,18 @@ inline constexpr int kDeflateLevel = 1;
 
 /// Packs chunks as HDF5's filters "shuffle" and "deflate" do, the first only for elements of several bytes.
 ///
-/// ISA-L rather than HDF5's own filter, or libdeflate: it packs rows of few values ten times as fast, about
-/// as small, and works on several chunks at a time while the HDF5 library admits one caller. The output
-/// depends on the input alone; its vector code, from SSE4.2 to AVX-512, says the same. One object a thread.
+/// libdeflate rather than HDF5's own filter: it is faster, and works on several chunks at a time while the
+/// HDF5 library admits one caller. The output depends on the input alone; that of ISA-L, which is far faster,
+/// is not always the same for the same input on a busy machine. One object a thread.
 ///
 /// Where rows are often equal, so are chunks, and far from where anything happens they hold one value: some
 /// of the last ones are remembered with what became of them.
 class ChunkCodec {
  public:
-  /// Of the stream and its tables, beside chunks; there from the first chunk on.
-  static constexpr double kBytes = 384.0 * 1024;
+  /// Of a compressor, beside its chunks.
+  static constexpr double kBytes = 256.0 * 1024;
+
+  ChunkCodec();
 
   /// Replaces `packed` by the zlib stream of `raw`, a whole number of elements.
   /// @throws std::bad_alloc
@@ -42,10 +44,9 @@ class ChunkCodec {
   void compress(std::span<const std::byte> raw, std::size_t element_size, std::vector<std::byte>& packed);
 
   struct Free {
-    void operator()(isal_zstream* stream) const;
+    void operator()(libdeflate_compressor* compressor) const;
   };
-  std::unique_ptr<isal_zstream, Free> stream_;
-  std::vector<std::uint8_t> tables_;
+  std::unique_ptr<libdeflate_compressor, Free> compressor_;
   std::vector<std::byte> shuffled_;
   std::vector<std::byte> scratch_;
   std::vector<Known> known_;
