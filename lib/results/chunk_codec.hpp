@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-struct libdeflate_compressor;
+struct z_stream_s;
 
 namespace coordreq {
 
@@ -15,9 +15,11 @@ inline constexpr int kDeflateLevel = 1;
 
 /// Packs chunks as HDF5's filters "shuffle" and "deflate" do, the first only for elements of several bytes.
 ///
-/// libdeflate rather than HDF5's own filter: it is faster, and works on several chunks at a time while the
-/// HDF5 library admits one caller. The output depends on the input alone; that of ISA-L, which is far faster,
-/// is not always the same for the same input on a busy machine. One object a thread.
+/// zlib itself rather than HDF5's filter: that way it works on several chunks at a time, while the HDF5
+/// library admits one caller, and in the way that suits rows of levels: long matches are skipped, where
+/// libdeflate, elsewhere the faster one, enters every byte of them into its tables. The output depends on the
+/// input alone; that of ISA-L is not always the same for the same input on a busy machine. One object a
+/// thread.
 ///
 /// Where rows are often equal, so are chunks, and far from where anything happens they hold one value: some
 /// of the last ones are remembered with what became of them.
@@ -42,13 +44,16 @@ class ChunkCodec {
   };
 
   void compress(std::span<const std::byte> raw, std::size_t element_size, std::vector<std::byte>& packed);
+  /// To scratch_, without header and checksum. @returns how many bytes
+  std::size_t deflate_raw(std::span<const std::byte> raw);
 
   struct Free {
-    void operator()(libdeflate_compressor* compressor) const;
+    void operator()(z_stream_s* stream) const;
   };
-  std::unique_ptr<libdeflate_compressor, Free> compressor_;
+  std::unique_ptr<z_stream_s, Free> stream_;
   std::vector<std::byte> shuffled_;
-  std::vector<std::byte> scratch_;
+  std::unique_ptr<std::byte[]> scratch_;
+  std::size_t scratch_size_ = 0;
   std::vector<Known> known_;
   std::size_t oldest_ = 0;  ///< of them, the next to be forgotten
 };

@@ -193,6 +193,13 @@ Handle string_type() {
   return type;
 }
 
+Handle text_transfer() {
+  constexpr std::size_t kBufferBytes = 4096;
+  Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "create a property list");
+  check(H5Pset_buffer(transfer.get(), kBufferBytes, nullptr, nullptr), "set the size of a buffer");
+  return transfer;
+}
+
 Handle fixed_string_type(std::size_t size) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "create a type");
   check(H5Tset_size(type.get(), size), "create a type");

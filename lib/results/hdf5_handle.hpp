@@ -101,6 +101,9 @@ struct Storage {
                                       const Handle& space);
 /// Variable-length UTF-8.
 [[nodiscard]] Handle string_type();
+/// How to read and write them: the library converts them in two buffers, which by default it makes, and fills
+/// with zeros, of 1 MiB each for however little.
+[[nodiscard]] Handle text_transfer();
 /// ASCII of fixed length, ending in a zero: what the dimension scale specification asks for.
 [[nodiscard]] Handle fixed_string_type(std::size_t size);
 /// A type in the file and in memory alike; little-endian.

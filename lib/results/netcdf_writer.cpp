@@ -75,7 +75,7 @@ hdf5::Handle NetcdfWriter::add_coordinates(const std::string& path, const std::v
   for (const std::string& text : texts) data.push_back(text.c_str());
   const hdf5::Handle type = hdf5::string_type();
   hdf5::Handle dataset = hdf5::create_dataset(file_, path, type.get(), hdf5::create_space({texts.size()}));
-  hdf5::check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()),
+  hdf5::check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, hdf5::text_transfer().get(), data.data()),
               "write the dataset " + path);
   make_scale(dataset, path, texts.size(), last_part(path));
   return dataset;
@@ -109,7 +109,7 @@ hdf5::Handle NetcdfWriter::add_text(const std::string& path, const std::string& 
   const char* data = text.c_str();
   const hdf5::Handle type = hdf5::string_type();
   hdf5::Handle dataset = hdf5::create_dataset(file_, path, type.get(), hdf5::create_space({}));
-  hdf5::check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &data),
+  hdf5::check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, hdf5::text_transfer().get(), &data),
               "write the dataset " + path);
   return dataset;
 }

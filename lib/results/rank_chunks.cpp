@@ -25,17 +25,26 @@ ChunkLayout::Stretch RankChunks::stretch(std::uint64_t chunk) const {
 }
 
 /// The owner of some element of it: where every chunk has some of all ranks, each is chosen as often.
-int RankChunks::packer_of(std::uint64_t chunk) const {
+int RankChunks::wanted_packer(std::uint64_t chunk) const {
   constexpr std::uint64_t kPlaces = 8;
   if (!layout_->chunked()) return 0;
   const ChunkLayout::Stretch own = layout_->stretch(chunk);
   return owners_->owner_of(own.begin + own.count * (2 * (chunk % kPlaces) + 1) / (2 * kPlaces));
 }
 
+/// Where agents that are alike are exchanged some ranks own many more cells than others.
 void RankChunks::choose_packers() {
-  chunks_of_.assign(static_cast<std::size_t>(share_.ranks().count()), {});
-  for (std::uint64_t chunk = 0; chunk < chunk_count(); ++chunk)
-    chunks_of_[static_cast<std::size_t>(packer_of(chunk))].push_back(chunk);
+  const auto ranks = static_cast<std::uint64_t>(share_.ranks().count());
+  const std::uint64_t share = (chunk_count() + ranks - 1) / ranks;
+  chunks_of_.assign(ranks, {});
+  packer_.clear();
+  const auto is_shorter = [](const auto& a, const auto& b) { return a.size() < b.size(); };
+  for (std::uint64_t chunk = 0; chunk < chunk_count(); ++chunk) {
+    auto packer = chunks_of_.begin() + wanted_packer(chunk);
+    if (packer->size() == share) packer = std::ranges::min_element(chunks_of_, is_shorter);
+    packer->push_back(chunk);
+    packer_.push_back(static_cast<int>(packer - chunks_of_.begin()));
+  }
 }
 
 void RankChunks::pack(const ChunkLayout& layout, const ResultArray& array) {
@@ -83,7 +92,7 @@ void RankChunks::pack_group(const ResultArray& array, std::size_t group) {
 }
 
 Bytes RankChunks::take(std::uint64_t chunk) {
-  const int packer = packer_of(chunk);
+  const int packer = packer_[chunk];
   std::deque<Bytes>& ready = packer == 0 ? packed_ : received_[static_cast<std::size_t>(packer)];
   if (ready.empty()) {
     share_.ranks().send(packer, {});  // asks for the next ones

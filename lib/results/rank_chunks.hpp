@@ -19,9 +19,9 @@
 namespace coordreq {
 
 /// The chunks of arrays over cells, or of lists of them, of which several processes know their own. Each
-/// chunk is packed by one of them, one that owns elements of it; what others know of it they send. Then rank
-/// 0 takes the chunks in the order of the file. No rank ever holds more than some chunks, what it has packed,
-/// and its part of the lists at work.
+/// chunk is packed by one of them, one that owns elements of it as long as it has no more than its share of
+/// the chunks; what others know of it they send. Then rank 0 takes the chunks in the order of the file. No
+/// rank ever holds more than some chunks, what it has packed, and its part of the lists at work.
 ///
 /// Chunks do not depend on the number of processes. All functions are called by all ranks together, but for
 /// take() and hand_over().
@@ -42,7 +42,7 @@ class RankChunks {
  private:
   [[nodiscard]] std::uint64_t chunk_count() const { return layout_->chunked() ? layout_->chunk_count() : 1; }
   [[nodiscard]] ChunkLayout::Stretch stretch(std::uint64_t chunk) const;
-  [[nodiscard]] int packer_of(std::uint64_t chunk) const;
+  [[nodiscard]] int wanted_packer(std::uint64_t chunk) const;
   void choose_packers();
   void pack_group(const ResultArray& array, std::size_t group);
 
@@ -55,6 +55,7 @@ class RankChunks {
   std::optional<RankLists> lists_;   ///< of the array at work, if it is one
   std::optional<CellOwners> cells_;  ///< else
   const ElementOwners* owners_ = nullptr;
+  std::vector<int> packer_;                            ///< [chunk]
   std::vector<std::vector<std::uint64_t>> chunks_of_;  ///< [rank] that it packs, ascending
   std::deque<Bytes> packed_;                           ///< own ones, not handed over yet
   std::vector<std::deque<Bytes>> received_;            ///< [rank] in rank 0: of the group asked for last

@@ -147,7 +147,8 @@ std::vector<std::string> ResultsFile::texts(const std::string& dataset) const {
   const hdf5::Handle type(H5Dget_type(stored.dataset().get()), H5Tclose, "read a type");
   hdf5::LibraryStrings strings(type, space, stored.elements());
   try {  // or there is no memory for them
-    hdf5::check(H5Dread(stored.dataset().get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, strings.data()),
+    hdf5::check(H5Dread(stored.dataset().get(), type.get(), H5S_ALL, H5S_ALL, hdf5::text_transfer().get(),
+                        strings.data()),
                 "read the strings");
   } catch (const hdf5::Failure&) {
     throw ResultsError("cannot read the strings: damaged", place(dataset));

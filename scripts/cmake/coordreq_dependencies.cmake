@@ -7,7 +7,7 @@ find_package(Eigen3 REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(PkgConfig REQUIRED)
 # What the library is linked with; coordreq-config.cmake looks for the same. PREFIX=MODULE
-set(COORDREQ_PKG_CONFIG_MODULES GMPXX=gmpxx MPFR=mpfr HDF5=hdf5-serial DEFLATE=libdeflate NETTLE=nettle)
+set(COORDREQ_PKG_CONFIG_MODULES GMPXX=gmpxx MPFR=mpfr HDF5=hdf5-serial DEFLATE=libdeflate ZLIB=zlib NETTLE=nettle)
 foreach(module ${COORDREQ_PKG_CONFIG_MODULES})
   string(REGEX MATCH "(.*)=(.*)" _ ${module})
   pkg_check_modules(${CMAKE_MATCH_1} REQUIRED IMPORTED_TARGET GLOBAL ${CMAKE_MATCH_2})

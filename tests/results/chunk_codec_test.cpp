@@ -116,7 +116,8 @@ TEST(ChunkCodec, ChunksOfAnyKindComeBackAndHardlyGrow) {
     codec.pack(raw, 1, packed);
     ASSERT_TRUE(unpack_chunk(packed, raw.size(), true, 1, found)) << k << ": " << raw.size();
     ASSERT_EQ(found, raw) << k;
-    EXPECT_LE(packed.size(), raw.size() + raw.size() / 1000 + 32) << k;
+    // What does not pack is stored, five bytes beside each 4 KiB.
+    EXPECT_LE(packed.size(), raw.size() + raw.size() / 500 + 32) << k;
   }
 }
 
