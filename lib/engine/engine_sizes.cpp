@@ -179,7 +179,7 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
   }
   const double offsets = actions * in_double(std::ssize(grid_.dimensions())) * (sizeof(std::int64_t) + 4);
   if (choices > in_double(most_shared_choices(inputs.actions()))) return offsets;
-  // Those of own rows, or of their first indices.
+  // A process finds those of its own rows, or of their first indices (ActionGrouping::held_choices).
   if (grid_.across() > 0 && use[0] != none) {
     const double held =
         choices < in_double(grid_.rows()) ? std::max(part_.own, 1 / in_double(grid_[0].count)) : part_.own;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstring>
 #include <new>
+#include <stdexcept>
 
 namespace coordreq {
 namespace {
@@ -153,7 +154,7 @@ std::size_t ChunkCodec::deflate_raw(std::span<const std::byte> raw) {
   deflateParams(&stream, kDeflateLevel, has_long_runs(raw) ? Z_RLE : Z_DEFAULT_STRATEGY);
   stream.next_in = reinterpret_cast<const Bytef*>(raw.data());
   stream.avail_in = static_cast<uInt>(raw.size());
-  deflate(&stream, Z_FINISH);
+  if (deflate(&stream, Z_FINISH) != Z_STREAM_END) throw std::logic_error("a chunk is packed in part");
   return stream.total_out;
 }
 

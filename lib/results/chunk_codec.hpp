@@ -17,9 +17,8 @@ inline constexpr int kDeflateLevel = 1;
 ///
 /// zlib itself rather than HDF5's filter: that way it works on several chunks at a time, while the HDF5
 /// library admits one caller, and in the way that suits rows of levels: long matches are skipped, where
-/// libdeflate, elsewhere the faster one, enters every byte of them into its tables. The output depends on the
-/// input alone; that of ISA-L is not always the same for the same input on a busy machine. One object a
-/// thread.
+/// libdeflate enters every byte of them into its tables. The output depends on the input alone; that of ISA-L
+/// is not always the same for the same input on a busy machine. One object a thread.
 ///
 /// Where rows are often equal, so are chunks, and far from where anything happens they hold one value: some
 /// of the last ones are remembered with what became of them.
