@@ -29,10 +29,10 @@ class Setup(unittest.TestCase):
         return run.stdout.splitlines()[0].partition("packages: ")[2].split()
 
     def test_all_packages(self):
-        self.assertEqual(self.asked_for(), listed())
+        self.assertEqual(self.asked_for() + self.asked_for("fresh"), listed())
 
     def test_packages_of_a_purpose(self):
-        parts = [self.asked_for(purpose) for purpose in ("build", "draw", "test")]
+        parts = [self.asked_for(purpose) for purpose in ("build", "draw", "test", "fresh")]
         self.assertEqual(sum(parts, []), listed())
         self.assertIn("python3-matplotlib", parts[1])
 
