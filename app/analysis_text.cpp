@@ -8,6 +8,7 @@
 
 #include "app/render.hpp"
 #include "app/requirement_text.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

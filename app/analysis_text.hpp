@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/json_text.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 // An analysis in words, from the summary of analyze().
 namespace coordreq {

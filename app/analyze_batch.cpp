@@ -12,6 +12,7 @@
 #include "app/print_warnings.hpp"
 #include "app/standard_streams.hpp"
 #include "base/timer.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

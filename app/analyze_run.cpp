@@ -14,8 +14,9 @@
 #include "app/print_answer.hpp"
 #include "app/print_warnings.hpp"
 #include "app/progress_display.hpp"
-#include "reach/table_shapes.hpp"
+#include "reach/make_model.hpp"
 #include "results/write_results.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

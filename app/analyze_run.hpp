@@ -5,7 +5,7 @@
 
 #include "app/analyze_options.hpp"
 #include "app/json_text.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

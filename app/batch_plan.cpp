@@ -9,6 +9,7 @@
 
 #include "app/load_spec.hpp"
 #include "app/text.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/analysis_text.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -9,6 +9,7 @@
 #include "app/render.hpp"
 #include "cell/state_query.hpp"
 #include "numeric/rational.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -6,6 +6,7 @@
 #include "app/analysis_text.hpp"
 #include "app/network_report.hpp"
 #include "app/render.hpp"
+#include "spec/coordination_spec.hpp"
 
 namespace coordreq {
 namespace {

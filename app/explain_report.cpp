@@ -10,6 +10,7 @@
 #include "app/query_values.hpp"
 #include "app/render.hpp"
 #include "app/requirement_text.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

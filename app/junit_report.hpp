@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/json_text.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "results/controller_file.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "app/files_in_use.hpp"
 #include "app/options.hpp"
-#include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"
 #include "spec/set_value.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

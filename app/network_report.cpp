@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/render.hpp"
+#include "spec/coordination_spec.hpp"
 
 namespace coordreq {
 

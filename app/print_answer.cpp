@@ -1,6 +1,7 @@
 #include "app/print_answer.hpp"
 
 #include "app/standard_streams.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 

@@ -2,6 +2,7 @@
 
 #include "app/network_report.hpp"
 #include "app/query_report.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

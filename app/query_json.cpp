@@ -8,6 +8,7 @@
 #include "app/query_report.hpp"
 #include "app/query_values.hpp"
 #include "model/outside_word.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

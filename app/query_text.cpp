@@ -7,6 +7,7 @@
 #include "app/query_report.hpp"
 #include "app/query_values.hpp"
 #include "app/render.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

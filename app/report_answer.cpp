@@ -8,6 +8,7 @@
 #include "app/report_text.hpp"
 #include "app/text.hpp"
 #include "export/report_page.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

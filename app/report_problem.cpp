@@ -9,6 +9,7 @@
 #include "app/text.hpp"
 #include "export/report_page.hpp"
 #include "spec/names_behind.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

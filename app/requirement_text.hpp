@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/json_text.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 // A requirement in words, from what requirement_json() says of it: `own` in all that follows. `analyze`,
 // JUnit reports and pages tell it alike.

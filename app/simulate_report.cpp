@@ -9,6 +9,7 @@
 #include "app/print_answer.hpp"
 #include "app/render.hpp"
 #include "app/report_error.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -89,7 +90,7 @@ Json trace_json(const RunTrace& trace, std::size_t run, const ProblemSpec& spec)
 }
 
 /// How many runs reach the goal, and when the last of them does.
-std::string goal_text(const Json& simulation) {
+std::string goal_of_runs_text(const Json& simulation) {
   std::int64_t count = 0, latest = 0;
   for (const Json& trace : simulation["traces"]) {
     if (trace["arrived"].is_null()) continue;
@@ -109,7 +110,7 @@ std::string simulation_text(const Json& simulation, const ProblemSpec& spec) {
                  {"coordinated", coordinated_text(simulation)},
                  {"longest silence", duration(simulation["longest_silence"], simulation)},
                  {"smallest margin", fmt::format("{:.6g}", simulation["smallest_margin"].get<double>())}};
-  if (spec.goal) facts.emplace_back("goal", goal_text(simulation));
+  if (spec.goal) facts.emplace_back("goal", goal_of_runs_text(simulation));
   if (traces.size() == 1) {
     facts.emplace_back("start", values_text(traces.front()["start"]));
     facts.emplace_back("end", values_text(traces.front()["end"]));

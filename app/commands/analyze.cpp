@@ -7,6 +7,7 @@
 #include "app/load_spec.hpp"
 #include "app/memory_limit.hpp"
 #include "app/option_values.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -8,6 +8,7 @@
 #include "cell/simulate.hpp"
 #include "cell/state_text.hpp"
 #include "results/results_reader.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

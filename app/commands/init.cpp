@@ -13,6 +13,7 @@
 #include "app/render.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

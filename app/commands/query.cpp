@@ -10,6 +10,7 @@
 #include "cell/state_reader.hpp"
 #include "cell/state_text.hpp"
 #include "results/results_reader.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

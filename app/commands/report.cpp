@@ -16,6 +16,7 @@
 #include "export/report_data.hpp"
 #include "export/report_page.hpp"
 #include "results/results_reader.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -16,7 +16,8 @@
 #include "app/print_warnings.hpp"
 #include "app/render.hpp"
 #include "model/outside_word.hpp"
-#include "reach/table_shapes.hpp"
+#include "reach/make_model.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

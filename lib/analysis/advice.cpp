@@ -6,6 +6,7 @@
 
 #include "answers/ground/answer.hpp"
 #include "answers/plan.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -6,7 +6,7 @@
 #include "answers/answers.hpp"
 #include "base/json.hpp"
 #include "base/thread_team.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

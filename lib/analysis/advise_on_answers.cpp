@@ -13,7 +13,8 @@
 #include "answers/layers/answer.hpp"
 #include "answers/plan.hpp"
 #include "base/grouped.hpp"
-#include "reach/table_shapes.hpp"
+#include "reach/make_model.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -1,5 +1,6 @@
 #include "analysis/advice.hpp"
 #include "answers/goal/answer.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 

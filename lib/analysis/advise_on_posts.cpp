@@ -9,6 +9,7 @@
 #include "analysis/blocked_pairs.hpp"
 #include "base/grouped.hpp"
 #include "spec/json_document.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

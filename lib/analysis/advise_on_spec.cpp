@@ -5,6 +5,7 @@
 
 #include "analysis/advice.hpp"
 #include "spec/names_behind.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/scope.hpp"
 
 namespace coordreq {

@@ -5,6 +5,7 @@
 
 #include "answers/plan.hpp"
 #include "results/controller_file.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "answers/stage.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

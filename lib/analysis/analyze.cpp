@@ -16,7 +16,7 @@
 #include "answers/plan.hpp"
 #include "base/error.hpp"
 #include "base/timer.hpp"
-#include "reach/table_shapes.hpp"
+#include "reach/make_model.hpp"
 #include "results/write_results.hpp"
 
 namespace coordreq {

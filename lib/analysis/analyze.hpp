@@ -13,7 +13,7 @@
 #include "model/model.hpp"
 #include "model/row_sample.hpp"
 #include "ranks/ranks.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

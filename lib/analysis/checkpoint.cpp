@@ -13,6 +13,7 @@
 #include "results/output_file.hpp"
 #include "results/sha256.hpp"
 #include "results/version.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -14,7 +14,7 @@
 #include "base/archive.hpp"
 #include "results/checkpoint_file.hpp"
 #include "results/file_lock.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

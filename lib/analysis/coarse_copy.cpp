@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reach/table_shapes.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

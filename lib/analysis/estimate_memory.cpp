@@ -12,6 +12,7 @@
 #include "base/grouped.hpp"
 #include "base/timer.hpp"
 #include "results/write_results.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "engine/engine_sizes.hpp"
 #include "model/model.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

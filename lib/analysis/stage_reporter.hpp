@@ -11,7 +11,7 @@
 #include "base/thread_team.hpp"
 #include "base/timer.hpp"
 #include "engine/wave_watch.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

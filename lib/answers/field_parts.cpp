@@ -6,6 +6,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "spec/system_spec.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -65,25 +67,25 @@ Field bare_scale(std::string path, FieldSection section, std::uint64_t least, st
           .scale = FieldScale{.coordinates = NoCoordinates{}, .least = least, .most = most}};
 }
 
-std::vector<std::string> cell_axes(const ProblemSpec& spec) {
+std::vector<std::string> cell_axes(const SystemSpec& spec) {
   std::vector<std::string> axes;
   for (const StateSpec& state : spec.states) axes.push_back("/" + state.name);
   return axes;
 }
 
-std::vector<std::string> cell_axes(const std::string& leading, const ProblemSpec& spec) {
+std::vector<std::string> cell_axes(const std::string& leading, const SystemSpec& spec) {
   std::vector<std::string> axes = cell_axes(spec);
   axes.insert(axes.begin(), leading);
   return axes;
 }
 
-std::uint64_t cell_count(const ProblemSpec& spec) {
+std::uint64_t cell_count(const SystemSpec& spec) {
   std::uint64_t cells = 1;
   for (const StateSpec& state : spec.states) cells *= static_cast<std::uint64_t>(state.grid.count);
   return cells;
 }
 
-void add_bits(Fields& fields, const std::string& path, FieldSection section, const ProblemSpec& spec,
+void add_bits(Fields& fields, const std::string& path, FieldSection section, const SystemSpec& spec,
               const std::vector<std::int32_t>& inputs, const std::string& long_name) {
   const auto actions = static_cast<std::uint64_t>(joint_actions(spec, inputs));
   const std::string bytes = path + ":byte";
@@ -103,7 +105,7 @@ void add_bits(Fields& fields, const std::string& path, FieldSection section, con
                          {"inputs", names}, {"actions", actions}, {"bitorder", std::string("little")}}});
 }
 
-std::vector<std::int32_t> inputs_of(const ProblemSpec& spec, const std::vector<std::int32_t>& agents) {
+std::vector<std::int32_t> inputs_of(const SystemSpec& spec, const std::vector<std::int32_t>& agents) {
   std::vector<std::int32_t> inputs;
   for (const std::int32_t agent : agents) {
     const std::vector<std::int32_t>& own = spec.agents[static_cast<std::size_t>(agent)].inputs;
@@ -113,13 +115,13 @@ std::vector<std::int32_t> inputs_of(const ProblemSpec& spec, const std::vector<s
   return inputs;
 }
 
-std::vector<std::int32_t> all_inputs(const ProblemSpec& spec) {
+std::vector<std::int32_t> all_inputs(const SystemSpec& spec) {
   std::vector<std::int32_t> inputs(spec.inputs.size());
   std::iota(inputs.begin(), inputs.end(), 0);
   return inputs;
 }
 
-std::int64_t joint_actions(const ProblemSpec& spec, const std::vector<std::int32_t>& inputs) {
+std::int64_t joint_actions(const SystemSpec& spec, const std::vector<std::int32_t>& inputs) {
   std::int64_t actions = 1;
   for (const std::int32_t i : inputs)
     actions *= static_cast<std::int64_t>(spec.inputs[static_cast<std::size_t>(i)].values.size());

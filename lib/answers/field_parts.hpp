@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "answers/field.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 // What declarations of fields are put together from.
 namespace coordreq {
@@ -32,20 +32,20 @@ namespace coordreq {
                                std::uint64_t most);
 
 /// "/x1", "/x2", ...: the axes of an array over cells.
-[[nodiscard]] std::vector<std::string> cell_axes(const ProblemSpec& spec);
-[[nodiscard]] std::vector<std::string> cell_axes(const std::string& leading, const ProblemSpec& spec);
-[[nodiscard]] std::uint64_t cell_count(const ProblemSpec& spec);
+[[nodiscard]] std::vector<std::string> cell_axes(const SystemSpec& spec);
+[[nodiscard]] std::vector<std::string> cell_axes(const std::string& leading, const SystemSpec& spec);
+[[nodiscard]] std::uint64_t cell_count(const SystemSpec& spec);
 
 /// Sets of joint actions over cells, a bit each, with their axis of bytes beside them, under their path and
 /// ":byte", which no agent and no state can be called.
 /// @param inputs indices of the inputs that the actions range over, in the order of the spec
-void add_bits(Fields& fields, const std::string& path, FieldSection section, const ProblemSpec& spec,
+void add_bits(Fields& fields, const std::string& path, FieldSection section, const SystemSpec& spec,
               const std::vector<std::int32_t>& inputs, const std::string& long_name);
 /// The inputs of some agents, in the order of the spec.
-[[nodiscard]] std::vector<std::int32_t> inputs_of(const ProblemSpec& spec,
+[[nodiscard]] std::vector<std::int32_t> inputs_of(const SystemSpec& spec,
                                                   const std::vector<std::int32_t>& agents);
-[[nodiscard]] std::vector<std::int32_t> all_inputs(const ProblemSpec& spec);
+[[nodiscard]] std::vector<std::int32_t> all_inputs(const SystemSpec& spec);
 /// Joint actions over these inputs.
-[[nodiscard]] std::int64_t joint_actions(const ProblemSpec& spec, const std::vector<std::int32_t>& inputs);
+[[nodiscard]] std::int64_t joint_actions(const SystemSpec& spec, const std::vector<std::int32_t>& inputs);
 
 }  // namespace coordreq

@@ -10,6 +10,7 @@
 #include "answers/row_cut.hpp"
 #include "base/index.hpp"
 #include "engine/engine_sizes.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -17,7 +17,7 @@
 #include "model/model.hpp"
 #include "ranks/row_share.hpp"
 #include "reach/abstraction.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -2,6 +2,7 @@
 
 #include "answers/memory_need.hpp"
 #include "base/index.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

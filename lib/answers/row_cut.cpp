@@ -5,6 +5,7 @@
 #include "engine/row_box.hpp"
 #include "expression/evaluate.hpp"
 #include "ranks/cut_rows.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -9,6 +9,7 @@
 #include "answers/layers/delay_layers.hpp"
 #include "base/index.hpp"
 #include "model/odometer.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "model/sample_reset.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -8,6 +8,7 @@
 #include "base/index.hpp"
 #include "cell/cell_controller.hpp"
 #include "cell/file_sets.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -7,7 +7,8 @@
 #include "base/grouped.hpp"
 #include "base/timer.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/table_shapes.hpp"
+#include "reach/make_model.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

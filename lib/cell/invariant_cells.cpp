@@ -3,10 +3,11 @@
 #include <algorithm>
 
 #include "base/index.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 
-InvariantCells::InvariantCells(const ProblemSpec& spec, std::span<const std::int32_t> delay) : delay_(delay) {
+InvariantCells::InvariantCells(const SystemSpec& spec, std::span<const std::int32_t> delay) : delay_(delay) {
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     if (spec.dynamics.is_kept(i)) stride_ *= at(spec.states[i].grid.count);
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cell/random_stream.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -14,7 +14,7 @@ namespace coordreq {
 class InvariantCells {
  public:
   /// @param delay of all cells in the order of the spec. REQUIRES: it outlives this object.
-  InvariantCells(const ProblemSpec& spec, std::span<const std::int32_t> delay);
+  InvariantCells(const SystemSpec& spec, std::span<const std::int32_t> delay);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   /// REQUIRES: there are any.

@@ -3,10 +3,11 @@
 #include <algorithm>
 
 #include "model/sample_reset.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 
-NextStates::NextStates(const ProblemSpec& spec, const Abstraction& abstraction, PointDynamics& dynamics)
+NextStates::NextStates(const SystemSpec& spec, const Abstraction& abstraction, PointDynamics& dynamics)
     : spec_(&spec),
       abstraction_(&abstraction),
       dynamics_(&dynamics),

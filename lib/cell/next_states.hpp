@@ -30,7 +30,7 @@ class NextStates {
   };
 
   /// REQUIRES: all outlive this object.
-  NextStates(const ProblemSpec& spec, const Abstraction& abstraction, PointDynamics& dynamics);
+  NextStates(const SystemSpec& spec, const Abstraction& abstraction, PointDynamics& dynamics);
 
   /// @param error what measuring the next state adds, one a state
   /// @param cell where the state is measured: what memories keep is a function of it
@@ -46,7 +46,7 @@ class NextStates {
  private:
   [[nodiscard]] std::optional<Rational> next(std::size_t i, std::int64_t u);
 
-  const ProblemSpec* spec_;
+  const SystemSpec* spec_;
   const Abstraction* abstraction_;
   PointDynamics* dynamics_;
   std::int64_t cell_ = 0;

@@ -13,6 +13,7 @@
 #include "model/locate.hpp"
 #include "model/sample_reset.hpp"
 #include "reach/build_abstraction.hpp"
+#include "reach/table_shapes.hpp"
 #include "results/write_results.hpp"
 #include "spec/read_spec.hpp"
 

@@ -6,6 +6,7 @@
 #include "base/index.hpp"
 #include "cell/invariant_cells.hpp"
 #include "model/sample_reset.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "spec/problem_spec.hpp"
+
 namespace coordreq {
 
 std::vector<const Field*> asked_fields(const ResultsReader& results) {

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "expression/program.hpp"
+#include "spec/system_spec.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -53,7 +54,7 @@ std::size_t state_number(std::string_view name, const std::vector<std::string>& 
                    where);
 }
 
-StateNames state_names(const ProblemSpec& spec) {
+StateNames state_names(const SystemSpec& spec) {
   std::vector<std::string> names;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {

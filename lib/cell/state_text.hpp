@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "numeric/rational.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -24,7 +24,7 @@ struct StateNames {
   std::vector<std::string> names;
   std::size_t needed;  ///< so many need a value; the others, which memories keep, are 0 at first
 };
-[[nodiscard]] StateNames state_names(const ProblemSpec& spec);
+[[nodiscard]] StateNames state_names(const SystemSpec& spec);
 
 /// "x1=0.1,x2=1/3": one value a name, in any order. Commas in parentheses belong to a value.
 /// @returns the values in the order of the names

@@ -6,6 +6,7 @@
 #include "answers/field_parts.hpp"
 #include "results/file_header.hpp"
 #include "results/write_results.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/unit_text.hpp"
 
 namespace coordreq {

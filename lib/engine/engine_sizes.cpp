@@ -9,6 +9,7 @@
 #include "engine/level_kernels.hpp"
 #include "engine/limits.hpp"
 #include "reach/usual_offsets.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "engine/cell_set.hpp"
-#include "spec/problem_spec.hpp"
 
 // Rows of n bits take ceil(n / 64) words; bits beyond n are zero.
 namespace coordreq {

@@ -11,22 +11,6 @@
 
 namespace coordreq {
 
-/// How much work a fixed point took, of all processes together. The same whatever the number of threads.
-struct WaveCounts {
-  std::int64_t sweeps = 0;
-  std::int64_t rows_visited = 0;  ///< rows whose levels were worked out, again each time
-  std::int64_t rows_copied = 0;   ///< rows that got the levels of one worked out just before
-  std::int64_t rows_skipped =
-      0;  ///< rows whose levels can still sink, passed over as nothing near them had changed
-
-  void add(const WaveCounts& other) {
-    sweeps += other.sweeps;
-    rows_visited += other.rows_visited;
-    rows_copied += other.rows_copied;
-    rows_skipped += other.rows_skipped;
-  }
-};
-
 /// The least of the levels that a row's cells can go to, under the worst or best actions; what it is the wave
 /// is told.
 template <class Level>

@@ -9,6 +9,22 @@
 
 namespace coordreq {
 
+/// How much work a fixed point took, of all processes together. The same whatever the number of threads.
+struct WaveCounts {
+  std::int64_t sweeps = 0;
+  std::int64_t rows_visited = 0;  ///< rows whose levels were worked out, again each time
+  std::int64_t rows_copied = 0;   ///< rows that got the levels of one worked out just before
+  std::int64_t rows_skipped =
+      0;  ///< rows whose levels can still sink, passed over as nothing near them had changed
+
+  void add(const WaveCounts& other) {
+    sweeps += other.sweeps;
+    rows_visited += other.rows_visited;
+    rows_copied += other.rows_copied;
+    rows_skipped += other.rows_skipped;
+  }
+};
+
 /// How far the work on a fixed point has come.
 struct WaveStep {
   std::int64_t sweep = 0;      ///< number of the sweep under way

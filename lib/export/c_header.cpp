@@ -15,6 +15,7 @@
 #include "export/c_header_tables.hpp"
 #include "export/c_header_text.hpp"
 #include "reach/update_table.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

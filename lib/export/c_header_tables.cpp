@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cell/cell_controller.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

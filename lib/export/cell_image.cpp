@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "numeric/rational.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {

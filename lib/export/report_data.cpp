@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "export/report_map_list.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

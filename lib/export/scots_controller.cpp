@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "cell/cell_controller.hpp"
 #include "results/scots_format.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -10,6 +10,8 @@
 namespace coordreq {
 namespace {
 
+using Join = ConditionAtoms::Join;
+
 using Word = TruthTable::Word;
 
 constexpr std::int64_t kWordBits = 64;
@@ -68,7 +70,6 @@ bool has_followers(const Program& condition, std::span<const ConditionAxis> axes
 /// By Kleene's logic, where a bit that is not set means `not proven`.
 void join_atoms(const ConditionAtoms& atoms, const std::vector<std::span<const Word>>& rows,
                 std::int64_t length, std::vector<std::vector<Word>>& values, std::span<Word> out) {
-  using Join = ConditionAtoms::Join;
   for (std::size_t i = 0; i < atoms.nodes.size(); ++i) {
     const ConditionAtoms::Node& node = atoms.nodes[i];
     std::vector<Word>& value = values[i];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "spec/system_spec.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -11,14 +13,14 @@ bool is_constant_zero(const Program& program) {
 }
 
 /// A discrete state is put in value by value where it does not move between samples; in discrete time always.
-bool is_parameter(const ProblemSpec& spec, std::size_t state) {
+bool is_parameter(const SystemSpec& spec, std::size_t state) {
   if (!spec.states[state].discrete) return false;
   return spec.dynamics.time == Time::discrete || is_constant_zero(spec.dynamics.equations[state]);
 }
 
 /// Marks every variable of the equations that `state` depends on: its own equation or update where it jumps,
 /// the transitive closure where it flows.
-std::vector<bool> used_slots(const ProblemSpec& spec, std::size_t state) {
+std::vector<bool> used_slots(const SystemSpec& spec, std::size_t state) {
   std::vector<bool> used(spec.slot_count(), false);
   if (const UpdateSpec* const update = spec.dynamics.update(state)) {
     for (const std::uint32_t slot : update->variables()) used[slot] = true;
@@ -47,7 +49,7 @@ std::vector<std::int32_t> Dependencies::all_states() const {
   return all;
 }
 
-Dependencies find_dependencies(const ProblemSpec& spec, std::size_t state) {
+Dependencies find_dependencies(const SystemSpec& spec, std::size_t state) {
   const std::vector<bool> used = used_slots(spec, state);
   Dependencies result;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -22,6 +22,6 @@ struct Dependencies {
 
 /// Read off the equations: in discrete time that of `state`, in continuous time all that it depends on,
 /// itself included; but off the update of a state that has one.
-[[nodiscard]] Dependencies find_dependencies(const ProblemSpec& spec, std::size_t state);
+[[nodiscard]] Dependencies find_dependencies(const SystemSpec& spec, std::size_t state);
 
 }  // namespace coordreq

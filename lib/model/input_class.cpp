@@ -4,6 +4,9 @@
 #include <numeric>
 #include <utility>
 
+#include "spec/coordination_spec.hpp"
+#include "spec/system_spec.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -75,7 +78,7 @@ void InputClass::tabulate() {
     table_.push_back(static_cast<std::int32_t>(compute_action(u)));
 }
 
-InputClass class_of(const ProblemSpec& spec, const InputSpace& space,
+InputClass class_of(const SystemSpec& spec, const InputSpace& space,
                     const std::vector<std::int32_t>& agents) {
   std::vector<std::int32_t> inputs;
   for (const std::int32_t agent : agents) {
@@ -85,14 +88,14 @@ InputClass class_of(const ProblemSpec& spec, const InputSpace& space,
   return {space, std::move(inputs)};
 }
 
-std::vector<InputClass> input_classes(const ProblemSpec& spec, const InputSpace& space,
+std::vector<InputClass> input_classes(const SystemSpec& spec, const InputSpace& space,
                                       const PartitionSpec& partition) {
   std::vector<InputClass> classes;
   for (const auto& agents : partition.classes) classes.push_back(class_of(spec, space, agents));
   return classes;
 }
 
-std::vector<InputClass> agent_classes(const ProblemSpec& spec, const InputSpace& space) {
+std::vector<InputClass> agent_classes(const SystemSpec& spec, const InputSpace& space) {
   std::vector<InputClass> classes;
   for (const AgentSpec& agent : spec.agents) classes.emplace_back(space, agent.inputs);
   return classes;

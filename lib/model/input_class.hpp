@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/input_space.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -56,13 +56,13 @@ class InputClass {
 };
 
 /// The inputs of some agents.
-[[nodiscard]] InputClass class_of(const ProblemSpec& spec, const InputSpace& space,
+[[nodiscard]] InputClass class_of(const SystemSpec& spec, const InputSpace& space,
                                   const std::vector<std::int32_t>& agents);
 /// The classes of a partition, in its order: the inputs of all agents of each.
-[[nodiscard]] std::vector<InputClass> input_classes(const ProblemSpec& spec, const InputSpace& space,
+[[nodiscard]] std::vector<InputClass> input_classes(const SystemSpec& spec, const InputSpace& space,
                                                     const PartitionSpec& partition);
 /// Every agent by itself, in the order of the spec.
-[[nodiscard]] std::vector<InputClass> agent_classes(const ProblemSpec& spec, const InputSpace& space);
+[[nodiscard]] std::vector<InputClass> agent_classes(const SystemSpec& spec, const InputSpace& space);
 /// Every input by itself.
 [[nodiscard]] std::vector<InputClass> single_classes(const InputSpace& space);
 /// All inputs together: actions are joint inputs.

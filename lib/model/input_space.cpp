@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "spec/system_spec.hpp"
+
 namespace coordreq {
 
 InputSpace::InputSpace(std::vector<Dimension> dimensions)
@@ -12,7 +14,7 @@ InputSpace::InputSpace(std::vector<Dimension> dimensions)
   }
 }
 
-InputSpace make_input_space(const ProblemSpec& spec) {
+InputSpace make_input_space(const SystemSpec& spec) {
   std::vector<InputSpace::Dimension> dimensions;
   for (const InputSpec& input : spec.inputs) dimensions.push_back({input.name, input.values});
   return InputSpace(std::move(dimensions));

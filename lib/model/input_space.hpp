@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "numeric/rational.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -36,6 +36,6 @@ class InputSpace {
   std::int64_t count_ = 1;
 };
 
-[[nodiscard]] InputSpace make_input_space(const ProblemSpec& spec);
+[[nodiscard]] InputSpace make_input_space(const SystemSpec& spec);
 
 }  // namespace coordreq

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "model/row_sample.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

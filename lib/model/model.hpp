@@ -7,7 +7,7 @@
 #include "model/input_space.hpp"
 #include "model/table_shape.hpp"
 #include "model/uniform_grid.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

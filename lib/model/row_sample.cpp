@@ -7,6 +7,7 @@
 #include "base/index.hpp"
 #include "expression/condition.hpp"
 #include "numeric/rational.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/table_shape.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "spec/system_spec.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -63,7 +65,7 @@ std::int64_t UniformGrid::points() const {
   return product;
 }
 
-UniformGrid make_grid(const ProblemSpec& spec) {
+UniformGrid make_grid(const SystemSpec& spec) {
   std::vector<GridDimension> dimensions;
   for (const StateSpec& state : spec.states) dimensions.push_back(dimension_of(state));
   return UniformGrid(std::move(dimensions));

@@ -8,7 +8,7 @@
 #include "model/outside.hpp"
 #include "numeric/rational.hpp"
 #include "spec/grid_dimension.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -77,6 +77,6 @@ class UniformGrid {
   std::size_t across_ = 0;
 };
 
-[[nodiscard]] UniformGrid make_grid(const ProblemSpec& spec);
+[[nodiscard]] UniformGrid make_grid(const SystemSpec& spec);
 
 }  // namespace coordreq

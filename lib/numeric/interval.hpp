@@ -35,6 +35,8 @@ struct Interval {
   [[nodiscard]] bool is_point() const { return lower == upper; }
   [[nodiscard]] bool is_zero() const { return lower == 0.0 && upper == 0.0; }
   [[nodiscard]] bool is_finite() const { return lower >= -outward::kLargest && upper <= outward::kLargest; }
+  /// Rounded to nearest.
+  [[nodiscard]] double width() const { return upper - lower; }
   /// The largest |x|.
   [[nodiscard]] double magnitude() const { return std::max(std::fabs(lower), std::fabs(upper)); }
   [[nodiscard]] bool contains(double value) const { return lower <= value && value <= upper; }

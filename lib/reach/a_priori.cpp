@@ -15,10 +15,6 @@ constexpr int kModestIterations = 4;
 constexpr double kRelativeMargin = 1e-14;
 constexpr double kLeastMargin = 1e-290;
 
-bool is_bounded(const Interval& a) {
-  return a.lower >= -outward::kLargest && a.upper <= outward::kLargest;
-}
-
 double margin(const Interval& a) {
   return std::max(std::fabs(a.lower), std::fabs(a.upper)) * kRelativeMargin + kLeastMargin;
 }
@@ -81,7 +77,7 @@ std::optional<FlowFailure> VectorField::evaluate(std::span<const Interval> state
   for (std::size_t i = 0; i < derivative.size(); ++i) {
     derivative[i] = values_[tape_->outputs[i]];
     if (!derivative[i].total) return FlowFailure{true, i};
-    if (!is_bounded(derivative[i])) return FlowFailure{false, i};
+    if (!derivative[i].is_finite()) return FlowFailure{false, i};
   }
   return std::nullopt;
 }

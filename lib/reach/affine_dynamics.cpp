@@ -3,10 +3,11 @@
 #include <algorithm>
 
 #include "reach/affine_form.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 
-AffineDynamics::AffineDynamics(const ProblemSpec& spec) : spec_(&spec) {
+AffineDynamics::AffineDynamics(const SystemSpec& spec) : spec_(&spec) {
   for (std::size_t i = 0; i < spec.states.size(); ++i) dependencies_.push_back(find_dependencies(spec, i));
 }
 

@@ -5,7 +5,7 @@
 
 #include "model/dependencies.hpp"
 #include "numeric/rational.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -29,7 +29,7 @@ enum class Limits : std::uint8_t { obeyed, ignored };
 class AffineDynamics {
  public:
   /// REQUIRES: `spec` outlives this object.
-  explicit AffineDynamics(const ProblemSpec& spec);
+  explicit AffineDynamics(const SystemSpec& spec);
 
   [[nodiscard]] const Dependencies& dependencies(std::size_t state) const { return dependencies_[state]; }
 
@@ -60,7 +60,7 @@ class AffineDynamics {
   [[nodiscard]] std::optional<SampledRow> flow_row(std::size_t state,
                                                    const std::vector<Rational>& slots) const;
 
-  const ProblemSpec* spec_;
+  const SystemSpec* spec_;
   std::vector<Dependencies> dependencies_;
 };
 

@@ -9,12 +9,13 @@
 #include "expression/evaluate.hpp"
 #include "expression/place.hpp"
 #include "reach/polynomial.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
 
 /// " at x = 1, u = 0.5"; empty without parameters and inputs.
-std::string place(const ProblemSpec& spec, const Dependencies& dependencies,
+std::string place(const SystemSpec& spec, const Dependencies& dependencies,
                   const std::vector<Rational>& slots) {
   std::string text;
   const auto append = [&](const std::string& name, std::uint32_t slot) {
@@ -27,7 +28,7 @@ std::string place(const ProblemSpec& spec, const Dependencies& dependencies,
 }
 
 /// The variables of the polynomials are the moving states and the disturbances.
-std::vector<Polynomial> variables(const ProblemSpec& spec, const Dependencies& dependencies,
+std::vector<Polynomial> variables(const SystemSpec& spec, const Dependencies& dependencies,
                                   const std::vector<Rational>& slots) {
   std::vector<Polynomial> values(spec.slot_count());
   const auto set_variable = [&](std::uint32_t slot) { values[slot] = Polynomial::variable(slot); };
@@ -41,7 +42,7 @@ std::vector<Polynomial> variables(const ProblemSpec& spec, const Dependencies& d
 
 }  // namespace
 
-std::optional<AffineForm> affine_form(const ProblemSpec& spec, std::size_t equation,
+std::optional<AffineForm> affine_form(const SystemSpec& spec, std::size_t equation,
                                       const Dependencies& dependencies, const std::vector<Rational>& slots) {
   const Program& program = spec.dynamics.equations[equation];
   const Polynomial polynomial = Evaluator<Polynomial>(program).number(variables(spec, dependencies, slots));

@@ -20,7 +20,7 @@ struct AffineForm {
 /// @param slots exact values of the parameters and inputs at their slots
 /// @returns nothing if the equation is not of that form
 /// @throws SpecError if it is not defined there; the message names the state and the values
-[[nodiscard]] std::optional<AffineForm> affine_form(const ProblemSpec& spec, std::size_t equation,
+[[nodiscard]] std::optional<AffineForm> affine_form(const SystemSpec& spec, std::size_t equation,
                                                     const Dependencies& dependencies,
                                                     const std::vector<Rational>& slots);
 

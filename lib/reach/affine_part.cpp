@@ -6,6 +6,7 @@
 #include "expression/evaluate.hpp"
 #include "reach/sensitivity.hpp"
 #include "reach/shift.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -136,7 +137,7 @@ bool may_be_affine(const StateSpec& state) {
   return allowed(state.below) && allowed(state.above);
 }
 
-AffinePart part_of(const ProblemSpec& spec, const Dependencies& dependencies, const Slots& states,
+AffinePart part_of(const SystemSpec& spec, const Dependencies& dependencies, const Slots& states,
                    const Slots& coefficients) {
   AffinePart part;
   for (const std::int32_t j : dependencies.moving) {
@@ -153,7 +154,7 @@ AffinePart part_of(const ProblemSpec& spec, const Dependencies& dependencies, co
 
 }  // namespace
 
-AffinePart find_affine_part(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state) {
+AffinePart find_affine_part(const SystemSpec& spec, const Dependencies& dependencies, std::size_t state) {
   const bool flow = spec.dynamics.time == Time::continuous;
   Slots constant(spec.slot_count(), false);
   for (const std::int32_t j : dependencies.inputs) constant[spec.input_slot(at(j))] = true;
@@ -180,7 +181,7 @@ AffinePart find_affine_part(const ProblemSpec& spec, const Dependencies& depende
   }
 }
 
-AffineCoefficients::AffineCoefficients(const ProblemSpec& spec, const AffinePart& part, std::size_t state)
+AffineCoefficients::AffineCoefficients(const SystemSpec& spec, const AffinePart& part, std::size_t state)
     : spec_(&spec), part_(part) {
   if (spec.dynamics.time == Time::discrete) {
     equations_.push_back(state);

@@ -6,7 +6,7 @@
 #include "expression/dual.hpp"
 #include "numeric/matrix.hpp"
 #include "reach/affine_dynamics.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -25,7 +25,7 @@ struct AffinePart {
 /// Read off the equations: in discrete time off that of `state`, in continuous time off all that it depends
 /// on, where besides no equation outside of A may mention a state of A. States that are periodic or have a
 /// `stop` are not in A. A may be smaller than it could.
-[[nodiscard]] AffinePart find_affine_part(const ProblemSpec& spec, const Dependencies& dependencies,
+[[nodiscard]] AffinePart find_affine_part(const SystemSpec& spec, const Dependencies& dependencies,
                                           std::size_t state);
 
 /// Encloses Phi for given inputs and parameters: in continuous time exp(M tau), where M are the derivatives
@@ -33,7 +33,7 @@ struct AffinePart {
 class AffineCoefficients {
  public:
   /// REQUIRES: `spec` outlives this object; `part.states` is not empty.
-  AffineCoefficients(const ProblemSpec& spec, const AffinePart& part, std::size_t state);
+  AffineCoefficients(const SystemSpec& spec, const AffinePart& part, std::size_t state);
 
   /// Sets the box of an input or parameter that Phi depends on.
   void set(std::uint32_t slot, const Interval& box) { slots_[slot] = Dual::constant(box); }
@@ -50,7 +50,7 @@ class AffineCoefficients {
   bool derive(std::size_t equation, std::size_t row);
   bool exponentiate();
 
-  const ProblemSpec* spec_;
+  const SystemSpec* spec_;
   AffinePart part_;
   std::vector<std::size_t> equations_;  ///< one a row of Phi
   std::vector<Dual> slots_;

@@ -13,6 +13,7 @@
 #include "reach/cells_meeting.hpp"
 #include "reach/table_layout.hpp"
 #include "reach/tube_table.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 /// Fills the table of one state: for each choice of parameters and inputs one affine row, then all cells.
 class TableBuilder {
  public:
-  TableBuilder(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
+  TableBuilder(const SystemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
                std::size_t state)
       : spec_(spec),
         dynamics_(dynamics),
@@ -239,7 +240,7 @@ class TableBuilder {
         "/dynamics/equations/" + target.name);
   }
 
-  const ProblemSpec& spec_;
+  const SystemSpec& spec_;
   const AffineDynamics& dynamics_;
   const Abstraction& abstraction_;
   const UniformGrid& grid_;
@@ -254,12 +255,12 @@ class TableBuilder {
 
 }  // namespace
 
-std::optional<bool> build_affine_table(const ProblemSpec& spec, const AffineDynamics& dynamics,
+std::optional<bool> build_affine_table(const SystemSpec& spec, const AffineDynamics& dynamics,
                                        Abstraction& abstraction, std::size_t state, ThreadTeam& team) {
   return TableBuilder(spec, dynamics, abstraction, state).build(team);
 }
 
-void fill_cells_off_limits(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
+void fill_cells_off_limits(const SystemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
                            std::size_t state, ThreadTeam& team) {
   if (dynamics.has_limit(state)) TableBuilder(spec, dynamics, abstraction, state).build_off_limits(team);
 }

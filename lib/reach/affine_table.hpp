@@ -14,14 +14,14 @@ namespace coordreq {
 ///   parameters and inputs (the table is then unspecified)
 /// @throws SpecError if a discrete state can leave its grid (naming state and input) or an equation is
 ///   undefined
-[[nodiscard]] std::optional<bool> build_affine_table(const ProblemSpec& spec, const AffineDynamics& dynamics,
+[[nodiscard]] std::optional<bool> build_affine_table(const SystemSpec& spec, const AffineDynamics& dynamics,
                                                      Abstraction& abstraction, std::size_t state,
                                                      ThreadTeam& team);
 
 /// Puts exact posts, and tubes, into a table made otherwise: those of cells from which, with one input, no
 /// state can come to a limit that would stop it. Nothing where the system would not be exactly solvable
 /// without its limits, or has none.
-void fill_cells_off_limits(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
+void fill_cells_off_limits(const SystemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
                            std::size_t state, ThreadTeam& team);
 
 }  // namespace coordreq

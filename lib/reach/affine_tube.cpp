@@ -6,6 +6,7 @@
 #include "reach/affine_dynamics.hpp"
 #include "reach/bernstein.hpp"
 #include "reach/nilpotent_flow.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {

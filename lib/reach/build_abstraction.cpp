@@ -10,7 +10,9 @@
 #include "reach/enclosure_table.hpp"
 #include "reach/shift.hpp"
 #include "reach/sum_table.hpp"
+#include "reach/table_shapes.hpp"
 #include "reach/update_table.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -20,7 +22,7 @@ constexpr double kMostCheckedEntries = 1e7;
 
 /// Lists of states with the same dependencies, so that one flow serves them all; in discrete time of one
 /// each.
-std::vector<std::vector<std::size_t>> group_by_flow(const ProblemSpec& spec,
+std::vector<std::vector<std::size_t>> group_by_flow(const SystemSpec& spec,
                                                     const std::vector<TableShape>& shapes,
                                                     const std::vector<std::size_t>& states) {
   const auto share = [&](const Dependencies& a, const Dependencies& b) {
@@ -39,7 +41,7 @@ std::vector<std::vector<std::size_t>> group_by_flow(const ProblemSpec& spec,
   return groups;
 }
 
-void build_in_full(const ProblemSpec& spec, const std::vector<TableShape>& shapes, Abstraction& abstraction,
+void build_in_full(const SystemSpec& spec, const std::vector<TableShape>& shapes, Abstraction& abstraction,
                    const std::vector<std::size_t>& states, ThreadTeam& team, Ranks* ranks) {
   const AffineDynamics dynamics(spec);
   std::vector<std::size_t> others;
@@ -60,8 +62,8 @@ void build_in_full(const ProblemSpec& spec, const std::vector<TableShape>& shape
 
 }  // namespace
 
-Abstraction build_abstraction(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
-                              ThreadTeam& team, std::optional<HeldCells> held, Ranks* ranks) {
+Abstraction build_abstraction(const SystemSpec& spec, const std::vector<TableShape>& shapes, ThreadTeam& team,
+                              std::optional<HeldCells> held, Ranks* ranks) {
   Abstraction abstraction{.grid = make_grid(spec), .inputs = make_input_space(spec), .held = std::move(held)};
   abstraction.tables.resize(spec.states.size());
   if (spec.abstraction.between_samples) {
@@ -85,7 +87,7 @@ Abstraction build_abstraction(const ProblemSpec& spec, const std::vector<TableSh
   return abstraction;
 }
 
-void check_discrete_states(const ProblemSpec& spec, const std::vector<TableShape>& shapes, ThreadTeam& team) {
+void check_discrete_states(const SystemSpec& spec, const std::vector<TableShape>& shapes, ThreadTeam& team) {
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     if (!spec.states[i].discrete || shapes[i].entries > kMostCheckedEntries) continue;
     Abstraction alone{.grid = make_grid(spec), .inputs = make_input_space(spec)};
@@ -94,11 +96,11 @@ void check_discrete_states(const ProblemSpec& spec, const std::vector<TableShape
   }
 }
 
-Abstraction build_abstraction(const ProblemSpec& spec, ThreadTeam& team) {
+Abstraction build_abstraction(const SystemSpec& spec, ThreadTeam& team) {
   return build_abstraction(spec, table_shapes(spec), team);
 }
 
-void include_measurements_of_saturated(const ProblemSpec& spec, Abstraction& abstraction, std::size_t state) {
+void include_measurements_of_saturated(const SystemSpec& spec, Abstraction& abstraction, std::size_t state) {
   if (!has_measured_limit(spec.states[state])) return;
   const GridDimension& dimension = abstraction.grid[state];
   const Rational& error = dimension.measurement_error;

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "base/thread_team.hpp"
+#include "model/table_shape.hpp"
 #include "ranks/ranks.hpp"
 #include "reach/abstraction.hpp"
-#include "reach/table_shapes.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -19,18 +19,18 @@ namespace coordreq {
 /// together; null: there is one
 /// @throws SpecError if a discrete state's next value can be off its grid (naming state and input), if an
 ///   equation is undefined somewhere, or if the dynamics are beyond this version
-[[nodiscard]] Abstraction build_abstraction(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
+[[nodiscard]] Abstraction build_abstraction(const SystemSpec& spec, const std::vector<TableShape>& shapes,
                                             ThreadTeam& team, std::optional<HeldCells> held = {},
                                             Ranks* ranks = nullptr);
-[[nodiscard]] Abstraction build_abstraction(const ProblemSpec& spec, ThreadTeam& team);
+[[nodiscard]] Abstraction build_abstraction(const SystemSpec& spec, ThreadTeam& team);
 
 /// Works out the tables of discrete states, unless they are very large: what else could be wrong with a spec
 /// is seen before. @throws SpecError as build_abstraction() does
-void check_discrete_states(const ProblemSpec& spec, const std::vector<TableShape>& shapes, ThreadTeam& team);
+void check_discrete_states(const SystemSpec& spec, const std::vector<TableShape>& shapes, ThreadTeam& team);
 
 /// What saturates is at the last (first) grid point when it is measured, however far out the post lies; an
 /// error of half a cell or more then shows it in another cell than the boundary one. Adds those cells to the
 /// table of a state that has been filled; build_abstraction() has done so.
-void include_measurements_of_saturated(const ProblemSpec& spec, Abstraction& abstraction, std::size_t state);
+void include_measurements_of_saturated(const SystemSpec& spec, Abstraction& abstraction, std::size_t state);
 
 }  // namespace coordreq

@@ -18,6 +18,7 @@
 #include "reach/divided_entries.hpp"
 #include "reach/state_enclosure.hpp"
 #include "reach/table_layout.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -28,7 +29,7 @@ constexpr IndexRange kEverywhere{std::numeric_limits<std::int32_t>::min(),
 /// The part of one state: its table and maybe its tube, and what an enclosure means for them.
 class EnclosureTable {
  public:
-  EnclosureTable(const ProblemSpec& spec, const Dependencies& dependencies, Abstraction& abstraction,
+  EnclosureTable(const SystemSpec& spec, const Dependencies& dependencies, Abstraction& abstraction,
                  const BoxChoices& choices, std::size_t state, bool differences)
       : spec_(spec),
         choices_(choices),
@@ -161,7 +162,7 @@ class EnclosureTable {
 
   [[nodiscard]] std::string where() const { return "/dynamics/equations/" + target_.name; }
 
-  const ProblemSpec& spec_;
+  const SystemSpec& spec_;
   const BoxChoices& choices_;
   const GridDimension& target_;
   TransitionTable& table_;
@@ -175,7 +176,7 @@ class EnclosureTable {
 
 }  // namespace
 
-void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
+void build_enclosure_tables(const SystemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
                             const std::vector<std::size_t>& states, ThreadTeam& team,
                             std::optional<std::int64_t> own, Ranks* ranks) {
   const Dependencies& dependencies = dynamics.dependencies(states.front());

@@ -23,7 +23,7 @@ namespace coordreq {
 /// @throws SpecError naming the state and a place if the state may be undefined there, may escape to infinity
 ///   within a period (unless it has left through an unsafe side of its own before: then the pair is blocked),
 ///   or if a discrete state may be off its grid
-void build_enclosure_tables(const ProblemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
+void build_enclosure_tables(const SystemSpec& spec, const AffineDynamics& dynamics, Abstraction& abstraction,
                             const std::vector<std::size_t>& states, ThreadTeam& team,
                             std::optional<std::int64_t> own = std::nullopt, Ranks* ranks = nullptr);
 

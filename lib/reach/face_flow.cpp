@@ -12,7 +12,7 @@ using outward::multiply_up;
 
 /// The period is divided into at most so many parts, and never more than into kMostSteps.
 constexpr std::uint64_t kFaceParts = std::uint64_t{1} << 40U;
-constexpr std::uint64_t kLongest = kFaceParts / 16;
+constexpr std::uint64_t kLongestFace = kFaceParts / 16;
 /// Steps are not made shorter than this for the sake of a tighter result.
 constexpr std::uint64_t kFine = kFaceParts / 256;
 constexpr int kFaceMostTries = 3000;
@@ -71,7 +71,7 @@ std::optional<FlowFailure> FaceFlow::enclose(std::span<const Interval> slots, co
   // Of a state that starts from a point nothing says how exact it should be.
   const bool any_point =
       std::any_of(now_.begin(), now_.end(), [](const Interval& a) { return a.is_point(); });
-  const std::uint64_t longest = any_point ? kLongest / 8 : kLongest;
+  const std::uint64_t longest = any_point ? kLongestFace / 8 : kLongestFace;
   std::uint64_t parts = longest;
   int successes = 0;
   for (int tries = 0; left > 0; ++tries) {

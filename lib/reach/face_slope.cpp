@@ -9,13 +9,9 @@ namespace {
 /// The box of the disturbances is divided into at most so many parts.
 constexpr std::size_t kMostParts = 24;
 /// Each round gives at least one more variable its sign.
-constexpr int kRounds = 3;
+constexpr int kSlopeRounds = 3;
 /// Solutions may leave the bounds by no more than this before a contradiction is found.
 constexpr double kMargin = 1e-12;
-
-bool is_bounded(const Interval& a) {
-  return a.lower >= -outward::kLargest && a.upper <= outward::kLargest;
-}
 
 Interval widened(const Interval& a) {
   const double more = kMargin * std::max(std::fabs(a.lower), std::fabs(a.upper)) + 1e-280;
@@ -105,7 +101,7 @@ void FaceSlope::examine(const MovingBounds& bounds, bool upper, Part& part) {
       slots_[system_->disturbance_slots[disturbances_[l]]] = part.disturbance[l];
     }
     if (!differentiate()) break;
-    if (round == kRounds || !use_signs(upper, part)) {
+    if (round == kSlopeRounds || !use_signs(upper, part)) {
       part.bound.found = true;
       break;
     }
@@ -123,7 +119,7 @@ void FaceSlope::examine(const MovingBounds& bounds, bool upper, Part& part) {
     for (std::size_t k = 0; k < states_.size(); ++k) {
       if (states_[k] == own_) part.bound.decay = gradient_[k].lower;
     }
-    part.bound.found = start.total && is_bounded(start) && is_bounded(rate);
+    part.bound.found = start.total && start.is_finite() && rate.is_finite();
   }
   part.disturbance = std::move(disturbance);
 }
@@ -159,7 +155,7 @@ bool FaceSlope::differentiate() {
     if (!value.total || !value.value.total || value.jump.upper > 0.0) return false;
     for (std::size_t d = 0; d < count; ++d) {
       gradient_[first + d] = d < value.directions ? value.gradient[d] : Interval{0.0, 0.0};
-      if (!is_bounded(gradient_[first + d])) return false;
+      if (!gradient_[first + d].is_finite()) return false;
       dual_[slot_of(first + d)] = Dual::constant(slots_[slot_of(first + d)]);
     }
   }

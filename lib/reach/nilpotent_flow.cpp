@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reach/affine_form.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -16,7 +17,7 @@ struct AffineSystem {
 };
 
 /// An equation that uses a periodic state as a number is affine only until that passes its seam.
-bool jumps_at_a_seam(const ProblemSpec& spec, const Dependencies& dependencies, const AffineForm& form) {
+bool jumps_at_a_seam(const SystemSpec& spec, const Dependencies& dependencies, const AffineForm& form) {
   for (std::size_t j = 0; j < dependencies.moving.size(); ++j) {
     const StateSpec& used = spec.states[static_cast<std::size_t>(dependencies.moving[j])];
     if (form.state(static_cast<Eigen::Index>(j)) != 0 && used.above == Outside::periodic) return true;
@@ -24,7 +25,7 @@ bool jumps_at_a_seam(const ProblemSpec& spec, const Dependencies& dependencies, 
   return false;
 }
 
-std::optional<AffineSystem> affine_system(const ProblemSpec& spec, const Dependencies& dependencies,
+std::optional<AffineSystem> affine_system(const SystemSpec& spec, const Dependencies& dependencies,
                                           const std::vector<Rational>& slots) {
   const auto n = static_cast<Eigen::Index>(dependencies.moving.size());
   const auto m = static_cast<Eigen::Index>(dependencies.disturbances.size());
@@ -60,7 +61,7 @@ RationalVector exponential_terms(const Rational& t, Eigen::Index count) {
   return terms;
 }
 
-std::optional<NilpotentFlow> nilpotent_flow(const ProblemSpec& spec, std::size_t state,
+std::optional<NilpotentFlow> nilpotent_flow(const SystemSpec& spec, std::size_t state,
                                             const Dependencies& dependencies,
                                             const std::vector<Rational>& slots) {
   const std::optional<AffineSystem> system = affine_system(spec, dependencies, slots);

@@ -12,16 +12,12 @@ constexpr double kMostOff = 1e-14;
 constexpr std::size_t kMostCorners = 8;
 /// A step is as long as the fastest turn takes for this angle.
 constexpr double kTurn = 0.05;
-constexpr double kMostSteps = 400.0;
+constexpr double kMostTurns = 400.0;
 constexpr double kLeastSteps = 8.0;
 /// What sides that are left out may add in a period, as a part of the width of the initial box, or of all
 /// that is reached where that is a point.
 constexpr double kPlanarTolerance = 0.1;
 constexpr double kPlanarToleranceOfPoint = 0.01;
-
-double width(const Interval& a) {
-  return a.upper - a.lower;
-}
 
 Interval scaled(const Interval& a, int power) {
   return {std::ldexp(a.lower, power), std::ldexp(a.upper, power), a.total};
@@ -223,9 +219,9 @@ Interval PlanarFlow::times(const Corner& corner, std::size_t i, const std::array
 /// Up to what counts as rounding.
 bool PlanarFlow::is_exact(const Corner& corner) const {
   for (const std::size_t i : {0U, 1U}) {
-    if (!(width(corner.constant[i]) <= kMostOff * bounds_.speed[i])) return false;
+    if (!(corner.constant[i].width() <= kMostOff * bounds_.speed[i])) return false;
     for (const std::size_t j : {0U, 1U}) {
-      const double off = width(corner.matrix[i][j]);
+      const double off = corner.matrix[i][j].width();
       if (!(off * bounds_.size[j] <= kMostOff * bounds_.speed[i])) return false;
       if (!(off * bounds_.speed[j] <= kMostOff * bounds_.change[i])) return false;
     }
@@ -245,7 +241,7 @@ void PlanarFlow::begin(const std::array<Interval, 2>& start, double steps) {
   for (const std::size_t i : {0U, 1U}) {
     const bool is_point = start[i].is_point();
     tolerance[i] =
-        (is_point ? kPlanarToleranceOfPoint * width(tube_[i]) : kPlanarTolerance * width(start[i])) / steps;
+        (is_point ? kPlanarToleranceOfPoint * tube_[i].width() : kPlanarTolerance * start[i].width()) / steps;
   }
   polygon_.begin(corners, bounds_, start, tolerance);
 }
@@ -253,7 +249,7 @@ void PlanarFlow::begin(const std::array<Interval, 2>& start, double steps) {
 /// @returns whether `end_` and `tube_` hold what was found
 bool PlanarFlow::follow(const std::array<Interval, 2>& start, const Interval& period) {
   const double steps = std::max(std::ceil(fastest_turn_ * period.upper / kTurn), kLeastSteps);
-  if (!(steps <= kMostSteps)) return false;
+  if (!(steps <= kMostTurns)) return false;
   begin(start, steps);
   const double h = outward::next_down(period.lower / steps);
   std::array<Interval, 2> swept = start;

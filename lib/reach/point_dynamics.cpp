@@ -8,12 +8,13 @@
 #include "base/error.hpp"
 #include "numeric/rational_functions.hpp"
 #include "reach/point_flow.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 
-PointDynamics::PointDynamics(const ProblemSpec& spec)
+PointDynamics::PointDynamics(const SystemSpec& spec)
     : spec_(&spec),
-      pinned_(std::make_unique<ProblemSpec>(spec)),
+      pinned_(std::make_unique<SystemSpec>(spec)),
       affine_(*pinned_),
       flows_(spec.states.size()),
       positions_(spec.states.size()) {}

@@ -23,7 +23,7 @@ class PointDynamics {
   static constexpr std::size_t kMostBits = 100'000;
 
   /// REQUIRES: `spec` outlives this object.
-  explicit PointDynamics(const ProblemSpec& spec);
+  explicit PointDynamics(const SystemSpec& spec);
   ~PointDynamics();
   PointDynamics(PointDynamics&&) noexcept;
   PointDynamics& operator=(PointDynamics&&) noexcept;
@@ -43,8 +43,8 @@ class PointDynamics {
   [[nodiscard]] std::optional<Rational> approximate_next(std::size_t i, const std::vector<Rational>& slots);
   [[nodiscard]] std::optional<double> double_next(std::size_t i);
 
-  const ProblemSpec* spec_;
-  std::unique_ptr<ProblemSpec> pinned_;  ///< the spec with each disturbance as a single value
+  const SystemSpec* spec_;
+  std::unique_ptr<SystemSpec> pinned_;  ///< the spec with each disturbance as a single value
   AffineDynamics affine_;
   std::vector<std::unique_ptr<PointFlow>> flows_;  ///< by state, made when needed
   std::vector<std::size_t> positions_;             ///< of a state among the moving ones of its flow

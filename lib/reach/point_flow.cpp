@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "numeric/outward.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -11,10 +12,10 @@ namespace {
 using outward::kInfinity;
 
 constexpr double kPointTolerance = 1e-12;
-/// Shares of the period: sub-steps are no shorter, after kPatience of them no shorter than the second.
+/// Shares of the period: sub-steps are no shorter, after kMostEvaluations of them no shorter than the second.
 constexpr double kSmallestStep = 0x1p-36;
 constexpr double kSlidingStep = 0x1p-10;
-constexpr int kPatience = 200'000;
+constexpr int kMostEvaluations = 200'000;
 /// An interpolant is looked at in so many places.
 constexpr int kLooks = 8;
 /// Of a sub-step.
@@ -30,7 +31,7 @@ double growth(double error, double largest) {
 
 }  // namespace
 
-PointFlow::PointFlow(const ProblemSpec& spec, std::span<const std::int32_t> moving)
+PointFlow::PointFlow(const SystemSpec& spec, std::span<const std::int32_t> moving)
     : period_(nearest_double(spec.dynamics.period)),
       pair_(moving.size()),
       x_(static_cast<Eigen::Index>(moving.size())),
@@ -161,7 +162,7 @@ double PointFlow::share_until_event(double h) {
 
 /// Tries a sub-step of length h, and sets the length to try next. @returns false if there is no next state
 bool PointFlow::advance(double& left, double& h) {
-  const double smallest = period_ * (++steps_ < kPatience ? kSmallestStep : kSlidingStep);
+  const double smallest = period_ * (++steps_ < kMostEvaluations ? kSmallestStep : kSlidingStep);
   h = std::min(h, left);
   pair_.step([this](const Values& x, Values& result) { derivative(x, result); }, x_, h);
   const double error = relative_error();

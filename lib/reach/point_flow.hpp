@@ -7,7 +7,7 @@
 
 #include "reach/dormand_prince.hpp"
 #include "reach/switched_equation.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -27,7 +27,7 @@ class PointFlow {
  public:
   /// @param moving states that are integrated, closed under the equations
   /// REQUIRES: `spec` outlives this object.
-  PointFlow(const ProblemSpec& spec, std::span<const std::int32_t> moving);
+  PointFlow(const SystemSpec& spec, std::span<const std::int32_t> moving);
 
   /// Values of the moving states, in their order, after one period from `slots`, in which everything else
   /// stays constant. Periodic states are not wrapped: what they have turned counts.

@@ -21,11 +21,7 @@ constexpr double kTightStep = 0.1;
 /// A part of what is allowed that is not worth a thought.
 constexpr double kHardly = 0.1;
 /// A box of initial states is halved so often at most.
-constexpr int kMostHalvings = 2;
-
-double width(const Interval& a) {
-  return a.upper - a.lower;
-}
+constexpr int kMostSplits = 2;
 
 template <class Combine>
 void combine(FlowEnclosure& a, const FlowEnclosure& b, Combine both) {
@@ -40,11 +36,11 @@ void combine(FlowEnclosure& a, const FlowEnclosure& b, Combine both) {
 
 const FlowEnclosure& ValidatedFlow::Solver::flow(std::span<const Interval> slots) {
   for (std::size_t i = 0; i < n_; ++i) {
-    const double start = width(slots[system_.state_slots[i]]);
+    const double start = slots[system_.state_slots[i]].width();
     allowed_excess_[i] =
         start > 0.0 || system_.steps.empty() ? kTight * start : kTightStep * system_.steps[i];
   }
-  enclose(slots, kMostHalvings);
+  enclose(slots, kMostSplits);
   return result_;
 }
 
@@ -67,7 +63,7 @@ void ValidatedFlow::Solver::enclose(std::span<const Interval> slots, int halving
 /// What may lie beyond solutions that were followed: of a state that starts from a point, seen from the
 /// result.
 double ValidatedFlow::Solver::allowed_excess(std::size_t i) const {
-  return allowed_excess_[i] > 0.0 ? allowed_excess_[i] : kTight * width(result_.end[i]);
+  return allowed_excess_[i] > 0.0 ? allowed_excess_[i] : kTight * result_.end[i].width();
 }
 
 /// Whether solutions that were followed come close to all ends. Affine systems have their hull in any case.
@@ -87,7 +83,7 @@ bool ValidatedFlow::Solver::is_tight() const {
 bool ValidatedFlow::Solver::is_smooth() const {
   for (std::size_t i = 0; i < n_; ++i) {
     double other = sensitivity_.jump(i);
-    for (std::size_t l = 0; l < m_; ++l) other += sensitivity_.weight(i, l) * width(disturbance_[l]);
+    for (std::size_t l = 0; l < m_; ++l) other += sensitivity_.weight(i, l) * disturbance_[l].width();
     if (other > kHardly * allowed_excess(i)) return false;
   }
   return true;
@@ -120,7 +116,7 @@ std::size_t ValidatedFlow::Solver::most_uncertain() const {
   for (std::size_t j = 0; j < n_; ++j) {
     double sum = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
-      const double part = width(sensitivity_.initial(i, j)) * width(initial_[j]);
+      const double part = sensitivity_.initial(i, j).width() * initial_[j].width();
       sum += part / std::max(allowed_excess(i), 1e-300);
     }
     if (sum <= largest) continue;

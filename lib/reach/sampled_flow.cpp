@@ -3,6 +3,7 @@
 #include "reach/absolute_integral.hpp"
 #include "reach/affine_dynamics.hpp"
 #include "reach/nilpotent_flow.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -11,11 +11,11 @@ using outward::divide_up;
 using outward::kInfinity;
 using outward::multiply_up;
 
-constexpr Interval kZero{0.0, 0.0};
+constexpr Interval kNone{0.0, 0.0};
 constexpr Interval kOne{1.0, 1.0};
 constexpr Interval kUnit{0.0, 1.0};
 
-constexpr std::size_t kMostTerms = 80;
+constexpr std::size_t kMostPowers = 80;
 constexpr double kMoreDiagonal = 0.5;
 constexpr double kNegligible = 1e-19;
 /// More than what underflow can take away.
@@ -89,7 +89,7 @@ bool TransitionMatrix::shift(const IntervalMatrix& jacobian, double duration,
   }
   if (!is_finite(shifted_)) return false;
   alpha_ = Interval(alpha);
-  for (Interval& diagonal : shifted_.diagonal()) diagonal = max(diagonal + alpha_, kZero);
+  for (Interval& diagonal : shifted_.diagonal()) diagonal = max(diagonal + alpha_, kNone);
   magnitude_ = magnitudes(shifted_);
   return true;
 }
@@ -111,8 +111,8 @@ void TransitionMatrix::find_signs() {
 void TransitionMatrix::apply_signs(IntervalMatrix& matrix) const {
   for (Eigen::Index e = 0; e < matrix.size(); ++e) {
     Interval& entry = matrix.data()[e];
-    if ((signs_.data()[e] & kNegative) == 0U) entry = max(entry, kZero);
-    if ((signs_.data()[e] & kPositive) == 0U) entry = min(entry, kZero);
+    if ((signs_.data()[e] & kNegative) == 0U) entry = max(entry, kNone);
+    if ((signs_.data()[e] & kPositive) == 0U) entry = min(entry, kNone);
   }
 }
 
@@ -172,7 +172,7 @@ bool TransitionMatrix::add_tail(std::size_t k, double duration) {
   const double more = divide_up(kMoreDiagonal, duration);
   for (double& diagonal : magnitude_.diagonal()) diagonal = add_up(diagonal, more);
   for (bool halved = false; !halved; ++k) {
-    if (k > kMostTerms) return false;
+    if (k > kMostPowers) return false;
     halved = next_magnitude(k, duration);
     const auto tail = size_.unaryExpr([halved](double size) {
       const double rest = halved ? multiply_up(2.0, size) : size;

@@ -10,6 +10,7 @@
 #include "reach/scaled_number.hpp"
 #include "reach/sum_table.hpp"
 #include "reach/table_layout.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -75,7 +76,7 @@ void serialise(Archive& archive, const UniformGrid& grid, const std::optional<He
 
 }  // namespace
 
-void serialise(Archive& archive, const ProblemSpec& spec, Abstraction& abstraction) {
+void serialise(Archive& archive, const SystemSpec& spec, Abstraction& abstraction) {
   auto& [grid, inputs, tables, tubes, exact, held] = abstraction;
   const AffineDynamics dynamics(spec);
   tables.resize(grid.size());

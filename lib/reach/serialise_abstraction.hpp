@@ -2,7 +2,7 @@
 
 #include "base/archive.hpp"
 #include "reach/abstraction.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -10,6 +10,6 @@ namespace coordreq {
 /// that the spec gives them.
 /// REQUIRES: when loading, grid and inputs are those of make_grid() and make_input_space(); when saving, the
 /// states may be arranged in another order, and rows joined.
-void serialise(Archive& archive, const ProblemSpec& spec, Abstraction& abstraction);
+void serialise(Archive& archive, const SystemSpec& spec, Abstraction& abstraction);
 
 }  // namespace coordreq

@@ -8,6 +8,7 @@
 #include "expression/dual.hpp"
 #include "expression/evaluate.hpp"
 #include "reach/slope.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -18,7 +19,7 @@ bool mentions(const Program& program, std::uint32_t slot) {
 }
 
 /// The same found over the domain: the derivative is 1 wherever the state can be.
-bool derivative_is_one(const ProblemSpec& spec, std::size_t state) {
+bool derivative_is_one(const SystemSpec& spec, std::size_t state) {
   std::vector<Dual> slots(spec.slot_count());
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     const Interval range = range_of(spec.states[i]);
@@ -37,7 +38,7 @@ bool derivative_is_one(const ProblemSpec& spec, std::size_t state) {
   return smooth && value.directions == 1 && value.gradient[0].lower == 1 && value.gradient[0].upper == 1;
 }
 
-bool flow_shifts(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state) {
+bool flow_shifts(const SystemSpec& spec, const Dependencies& dependencies, std::size_t state) {
   const StateSpec& own = spec.states[state];
   if (own.below == Outside::stop || own.above == Outside::stop) return false;
   // A parameter has the equation 0, which mentions nothing.
@@ -67,7 +68,7 @@ bool has_measured_limit(const StateSpec& state) {
   return saturates && state.measurement_error > 0;
 }
 
-bool is_shift(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state) {
+bool is_shift(const SystemSpec& spec, const Dependencies& dependencies, std::size_t state) {
   if (!contains(dependencies.moving, state) && !contains(dependencies.parameters, state)) return false;
   if (has_measured_limit(spec.states[state]) || spec.dynamics.update(state) != nullptr) return false;
   if (spec.dynamics.time == Time::continuous) return flow_shifts(spec, dependencies, state);

@@ -4,7 +4,7 @@
 
 #include "numeric/interval.hpp"
 #include "reach/affine_dynamics.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -22,6 +22,6 @@ namespace coordreq {
 /// over the whole domain and all inputs and disturbances; in continuous time no equation that x_i depends on
 /// mentions x_i, nor has x_i a `stop`. Not where has_measured_limit(), nor of an update. False where that is
 /// true but not seen.
-[[nodiscard]] bool is_shift(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state);
+[[nodiscard]] bool is_shift(const SystemSpec& spec, const Dependencies& dependencies, std::size_t state);
 
 }  // namespace coordreq

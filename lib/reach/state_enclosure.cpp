@@ -8,6 +8,7 @@
 #include "expression/evaluate.hpp"
 #include "expression/undefined_reason.hpp"
 #include "reach/shift.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -42,7 +43,7 @@ std::optional<Ring> ring_of(const StateSpec& state) {
 
 }  // namespace
 
-StateEnclosure::StateEnclosure(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state)
+StateEnclosure::StateEnclosure(const SystemSpec& spec, const Dependencies& dependencies, std::size_t state)
     : spec_(&spec),
       dependencies_(dependencies),
       state_(state),

@@ -9,7 +9,7 @@
 #include "reach/affine_dynamics.hpp"
 #include "reach/map_enclosure.hpp"
 #include "reach/periodic_flow.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -32,7 +32,7 @@ class StateEnclosure {
   };
 
   /// REQUIRES: `spec` outlives this object.
-  StateEnclosure(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state);
+  StateEnclosure(const SystemSpec& spec, const Dependencies& dependencies, std::size_t state);
 
   /// x_i(tau) - x_i(0) does not depend on x_i: result() then gives the difference and needs no box of x_i.
   [[nodiscard]] bool shifts() const { return shifts_; }
@@ -56,7 +56,7 @@ class StateEnclosure {
   [[nodiscard]] Result result_of_map() const;
   [[nodiscard]] Result result_of_flow(std::size_t state) const;
 
-  const ProblemSpec* spec_;
+  const SystemSpec* spec_;
   Dependencies dependencies_;
   std::size_t state_;
   bool shifts_ = false;

@@ -11,6 +11,7 @@
 #include "reach/scaled_number.hpp"
 #include "reach/shift.hpp"
 #include "reach/table_layout.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -21,7 +22,7 @@ constexpr std::size_t kMostTerms = 14;
 /// The table of one state of a group.
 class SumTable {
  public:
-  SumTable(const ProblemSpec& spec, const TableShape& shape, const AffinePart& part, Abstraction& abstraction,
+  SumTable(const SystemSpec& spec, const TableShape& shape, const AffinePart& part, Abstraction& abstraction,
            std::size_t state)
       : grid_(abstraction.grid),
         part_(part),
@@ -115,7 +116,7 @@ class SumTable {
 
 class SumTables {
  public:
-  SumTables(const ProblemSpec& spec, const std::vector<TableShape>& shapes, const AffinePart& part,
+  SumTables(const SystemSpec& spec, const std::vector<TableShape>& shapes, const AffinePart& part,
             Abstraction& abstraction, const std::vector<std::size_t>& states)
       : spec_(spec),
         part_(part),
@@ -209,7 +210,7 @@ class SumTables {
     return found;
   }
 
-  const ProblemSpec& spec_;
+  const SystemSpec& spec_;
   const AffinePart& part_;
   const Abstraction& abstraction_;
   StateEnclosure enclosure_;
@@ -220,7 +221,7 @@ class SumTables {
 
 }  // namespace
 
-std::vector<std::int32_t> summed_states(const ProblemSpec& spec, const Dependencies& dependencies,
+std::vector<std::int32_t> summed_states(const SystemSpec& spec, const Dependencies& dependencies,
                                         const AffinePart& part, std::size_t state) {
   const auto own = static_cast<std::int32_t>(state);
   const StateSpec& target = spec.states[state];
@@ -240,9 +241,8 @@ std::vector<std::int32_t> summed_states(const ProblemSpec& spec, const Dependenc
   return result;
 }
 
-bool build_sum_tables(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
-                      Abstraction& abstraction, const std::vector<std::size_t>& states, ThreadTeam& team,
-                      Ranks* ranks) {
+bool build_sum_tables(const SystemSpec& spec, const std::vector<TableShape>& shapes, Abstraction& abstraction,
+                      const std::vector<std::size_t>& states, ThreadTeam& team, Ranks* ranks) {
   const AffinePart part = find_affine_part(spec, shapes[states.front()], states.front());
   return SumTables(spec, shapes, part, abstraction, states).build(team, ranks);
 }

@@ -13,7 +13,7 @@ namespace coordreq {
 /// The states that get a term in a sum for `state` (TransitionTable): those in which its next value is
 /// affine, but for itself where that is a shift. Empty if a sum would say no more than other forms, or cannot
 /// say it.
-[[nodiscard]] std::vector<std::int32_t> summed_states(const ProblemSpec& spec,
+[[nodiscard]] std::vector<std::int32_t> summed_states(const SystemSpec& spec,
                                                       const Dependencies& dependencies,
                                                       const AffinePart& part, std::size_t state);
 
@@ -27,7 +27,7 @@ namespace coordreq {
 /// @param ranks processes that divide the work, together; null: there is one
 /// @returns false if some enclosure was not found or a number is too large; the tables are then unspecified,
 ///   and cell by cell it may go better, or there is an error to report
-[[nodiscard]] bool build_sum_tables(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
+[[nodiscard]] bool build_sum_tables(const SystemSpec& spec, const std::vector<TableShape>& shapes,
                                     Abstraction& abstraction, const std::vector<std::size_t>& states,
                                     ThreadTeam& team, Ranks* ranks = nullptr);
 

@@ -6,7 +6,7 @@
 namespace coordreq {
 namespace {
 
-TransitionTable bare_table(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state) {
+TransitionTable bare_table(const SystemSpec& spec, const Dependencies& dependencies, std::size_t state) {
   return {.states = dependencies.all_states(),
           .inputs = dependencies.inputs,
           .shift = is_shift(spec, dependencies, state)};
@@ -36,7 +36,7 @@ TransitionTerm term_layout(std::int32_t state, const AffinePart& part, const Uni
 
 }  // namespace
 
-TransitionTable full_layout(const ProblemSpec& spec, const Dependencies& dependencies, std::size_t state,
+TransitionTable full_layout(const SystemSpec& spec, const Dependencies& dependencies, std::size_t state,
                             const Abstraction& abstraction) {
   const auto& [grid, inputs, tables, tubes, exact, held] = abstraction;
   TransitionTable table = bare_table(spec, dependencies, state);
@@ -52,7 +52,7 @@ TransitionTable full_layout(const ProblemSpec& spec, const Dependencies& depende
   return table;
 }
 
-TransitionTable sum_layout(const ProblemSpec& spec, const Dependencies& dependencies, const AffinePart& part,
+TransitionTable sum_layout(const SystemSpec& spec, const Dependencies& dependencies, const AffinePart& part,
                            std::size_t state, const UniformGrid& grid, const InputSpace& inputs) {
   TransitionTable table = bare_table(spec, dependencies, state);
   for (const std::int32_t j : summed_states(spec, dependencies, part, state))

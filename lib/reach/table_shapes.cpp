@@ -12,6 +12,7 @@
 #include "reach/affine_dynamics.hpp"
 #include "reach/shift.hpp"
 #include "reach/sum_table.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 /// Calls `visit` with the exact row of a state for each choice of its parameters and inputs, until it returns
 /// false.
 template <class Visit>
-void for_each_row(const ProblemSpec& spec, const AffineDynamics& dynamics, std::size_t state, Limits limits,
+void for_each_row(const SystemSpec& spec, const AffineDynamics& dynamics, std::size_t state, Limits limits,
                   const Visit& visit) {
   const Dependencies& dependencies = dynamics.dependencies(state);
   std::vector<std::int64_t> counts;
@@ -46,7 +47,7 @@ void for_each_row(const ProblemSpec& spec, const AffineDynamics& dynamics, std::
 
 /// The states that get terms if the table of `state` is a sum; empty if it is to be none. With tubes there
 /// are no sums: a tube is an entry for every choice in any case, found by the same flow as that of the table.
-std::vector<std::int32_t> states_of_sum(const ProblemSpec& spec, const AffineDynamics& dynamics,
+std::vector<std::int32_t> states_of_sum(const SystemSpec& spec, const AffineDynamics& dynamics,
                                         const AffinePart& part, std::size_t state) {
   if (spec.abstraction.between_samples || has_measured_limit(spec.states[state])) return {};
   std::vector<std::int32_t> summed = summed_states(spec, dynamics.dependencies(state), part, state);
@@ -60,7 +61,7 @@ std::vector<std::int32_t> states_of_sum(const ProblemSpec& spec, const AffineDyn
 }
 
 /// Finds out in which form the table will be stored, and how large it gets.
-void measure(const ProblemSpec& spec, const AffineDynamics& dynamics, std::size_t state, TableShape& shape) {
+void measure(const SystemSpec& spec, const AffineDynamics& dynamics, std::size_t state, TableShape& shape) {
   const bool jumps = spec.dynamics.update(state) != nullptr;
   const AffinePart part = jumps ? AffinePart() : find_affine_part(spec, shape, state);
   if (!jumps) shape.terms = states_of_sum(spec, dynamics, part, state);
@@ -84,7 +85,7 @@ void measure(const ProblemSpec& spec, const AffineDynamics& dynamics, std::size_
 
 }  // namespace
 
-std::vector<TableShape> table_shapes(const ProblemSpec& spec) {
+std::vector<TableShape> table_shapes(const SystemSpec& spec) {
   const AffineDynamics dynamics(spec);
   std::vector<TableShape> shapes;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
@@ -96,7 +97,7 @@ std::vector<TableShape> table_shapes(const ProblemSpec& spec) {
   return shapes;
 }
 
-bool check_dynamics(const ProblemSpec& spec) {
+bool check_dynamics(const SystemSpec& spec) {
   const AffineDynamics dynamics(spec);
   if (spec.abstraction.between_samples) check_between_samples(spec);
   bool exact = true;
@@ -110,7 +111,7 @@ bool check_dynamics(const ProblemSpec& spec) {
   return exact;
 }
 
-void check_between_samples(const ProblemSpec& spec) {
+void check_between_samples(const SystemSpec& spec) {
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     const std::vector<std::int32_t> constant = find_dependencies(spec, i).parameters;
     const bool moves =

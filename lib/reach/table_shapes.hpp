@@ -2,26 +2,21 @@
 
 #include <vector>
 
-#include "model/model.hpp"
 #include "model/table_shape.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
 /// What the table of every state depends on, in which form it will be kept, and how large it gets.
 /// @throws SpecError as build_abstraction() does where an equation is undefined
-[[nodiscard]] std::vector<TableShape> table_shapes(const ProblemSpec& spec);
-/// The problem made ready. REQUIRES: `spec` outlives it. @throws SpecError as table_shapes()
-[[nodiscard]] inline Model make_model(const ProblemSpec& spec) {
-  return {spec, table_shapes(spec)};
-}
+[[nodiscard]] std::vector<TableShape> table_shapes(const SystemSpec& spec);
 
 /// Solves the dynamics for every input and parameter without building tables.
 /// @returns true if every post is an exact hull. @throws SpecError as build_abstraction() does, but for
 ///   discrete states off their grid
-[[nodiscard]] bool check_dynamics(const ProblemSpec& spec);
+[[nodiscard]] bool check_dynamics(const SystemSpec& spec);
 
 /// @throws SpecError if a discrete state moves between the samples: between its values it has no cells
-void check_between_samples(const ProblemSpec& spec);
+void check_between_samples(const SystemSpec& spec);
 
 }  // namespace coordreq

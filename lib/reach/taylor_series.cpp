@@ -9,11 +9,11 @@ using Rule = FlowTape::Rule;
 
 constexpr Ball kZero{};
 
-Ball number(double value) {
+Ball as_ball(double value) {
   return {value, 0.0};
 }
-Ball number(std::size_t value) {
-  return number(static_cast<double>(value));
+Ball as_ball(std::size_t value) {
+  return as_ball(static_cast<double>(value));
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ void TaylorSeries::set_state_coefficients(std::size_t k) {
     Ball& coefficient = states_[i * stride_ + k];
     const bool constant = (*held_)[i] || (k > 1 && !moves(output));
     coefficient = constant ? kZero : at(output, k - 1);
-    if (k > 1 && !coefficient.is_zero()) coefficient = coefficient / number(k);
+    if (k > 1 && !coefficient.is_zero()) coefficient = coefficient / as_ball(k);
   }
 }
 
@@ -141,7 +141,7 @@ Ball TaylorSeries::next(std::uint32_t i, std::size_t k) {
     case Rule::inverse_chain:
       return inverse_chain(i, k);
     case Rule::root:
-      return (of(node.p) - convolution(i, i, k, 1, k - 1)) / (number(2.0) * at(i, 0));
+      return (of(node.p) - convolution(i, i, k, 1, k - 1)) / (as_ball(2.0) * at(i, 0));
     case Rule::power:
       return power(i, k);
     case Rule::angle:
@@ -196,32 +196,32 @@ Ball TaylorSeries::chain(std::uint32_t i, std::size_t k) {
   const std::size_t p_last = std::min(k, moves(node.p) ? last_nonzero_[node.p] : 0);
   Ball sum = kZero;
   for (std::size_t j = std::max<std::size_t>(1, k > q_last ? k - q_last : 0); j <= p_last; ++j) {
-    sum = sum + number(j) * at(node.p, j) * at(node.q, k - j);
+    sum = sum + as_ball(j) * at(node.p, j) * at(node.q, k - j);
   }
-  return sum.is_zero() ? kZero : sum / number(k);
+  return sum.is_zero() ? kZero : sum / as_ball(k);
 }
 
 /// k q_0 r_k = k p_k - sum of j r_j q_{k-j} over 1 <= j < k.
 Ball TaylorSeries::inverse_chain(std::uint32_t i, std::size_t k) {
   const FlowTape::Node& node = tape_->nodes[i];
-  Ball sum = number(k) * (moves(node.p) ? at(node.p, k) : kZero);
+  Ball sum = as_ball(k) * (moves(node.p) ? at(node.p, k) : kZero);
   const std::size_t q_last = moves(node.q) ? last_nonzero_[node.q] : 0;
   for (std::size_t j = std::max<std::size_t>(1, k > q_last ? k - q_last : 0); j < k; ++j) {
-    sum = sum - number(j) * at(i, j) * at(node.q, k - j);
+    sum = sum - as_ball(j) * at(i, j) * at(node.q, k - j);
   }
-  return sum.is_zero() ? kZero : sum / (number(k) * at(node.q, 0));
+  return sum.is_zero() ? kZero : sum / (as_ball(k) * at(node.q, 0));
 }
 
 /// p r' = q r p' for a fixed exponent q: k p_0 r_k = sum of ((q + 1) j - k) p_j r_{k-j} over 1 <= j <= k.
 Ball TaylorSeries::power(std::uint32_t i, std::size_t k) {
   const FlowTape::Node& node = tape_->nodes[i];
-  const Ball exponent = at(node.q, 0) + number(1.0);
+  const Ball exponent = at(node.q, 0) + as_ball(1.0);
   Ball sum = kZero;
   for (std::size_t j = 1; j <= std::min(k, last_nonzero_[node.p]); ++j) {
-    const Ball factor = exponent * number(j) - number(k);
+    const Ball factor = exponent * as_ball(j) - as_ball(k);
     sum = sum + factor * at(node.p, j) * at(i, k - j);
   }
-  return sum.is_zero() ? kZero : sum / (number(k) * at(node.p, 0));
+  return sum.is_zero() ? kZero : sum / (as_ball(k) * at(node.p, 0));
 }
 
 /// s = p^2 + q^2: k s_0 r_k = sum of j (p_j q_{k-j} - q_j p_{k-j}) over 1 <= j <= k, less the sum of j r_j
@@ -235,9 +235,9 @@ Ball TaylorSeries::angle(std::uint32_t i, std::size_t k) {
   for (std::size_t j = 1; j <= k; ++j) {
     Ball term = of(node.p, j) * of(node.q, k - j) - of(node.q, j) * of(node.p, k - j);
     if (j < k) term = term - at(i, j) * of(node.square, k - j);
-    sum = sum + number(j) * term;
+    sum = sum + as_ball(j) * term;
   }
-  return sum.is_zero() ? kZero : sum / (number(k) * at(node.square, 0));
+  return sum.is_zero() ? kZero : sum / (as_ball(k) * at(node.square, 0));
 }
 
 }  // namespace coordreq

@@ -8,6 +8,7 @@
 #include "expression/tape_builder.hpp"
 #include "model/condition_table.hpp"
 #include "model/pieces.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -32,7 +33,7 @@ std::vector<bool> value_nodes(const Program& program) {
 
 }  // namespace
 
-UpdateRanges::UpdateRanges(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+UpdateRanges::UpdateRanges(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
                            std::size_t state)
     : spec_(spec),
       state_(state),

@@ -11,7 +11,8 @@
 #include "expression/domains.hpp"
 #include "model/input_space.hpp"
 #include "model/uniform_grid.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/past_operator.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -27,7 +28,7 @@ namespace coordreq {
 class UpdateRanges {
  public:
   /// REQUIRES: all outlive this object; the state has an update.
-  UpdateRanges(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, std::size_t state);
+  UpdateRanges(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, std::size_t state);
 
   /// Raw indices.
   /// @param indices by slot, of states and inputs; @param is_new whether one has changed that is read outside
@@ -45,7 +46,7 @@ class UpdateRanges {
   [[nodiscard]] Rational value_at(std::uint32_t slot, std::span<const std::int64_t> indices) const;
   [[noreturn]] void fail(const RationalInterval& value, std::span<const std::int64_t> indices) const;
 
-  const ProblemSpec& spec_;
+  const SystemSpec& spec_;
   std::size_t state_;
   const UniformGrid& grid_;
   const InputSpace& inputs_;

@@ -11,11 +11,12 @@
 #include "reach/divided_entries.hpp"
 #include "reach/table_layout.hpp"
 #include "reach/update_ranges.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 
-void build_update_table(const ProblemSpec& spec, Abstraction& abstraction, std::size_t state,
-                        ThreadTeam& team, Ranks* ranks) {
+void build_update_table(const SystemSpec& spec, Abstraction& abstraction, std::size_t state, ThreadTeam& team,
+                        Ranks* ranks) {
   const Dependencies dependencies = find_dependencies(spec, state);
   const UniformGrid& grid = abstraction.grid;
   const InputSpace& inputs = abstraction.inputs;

@@ -5,7 +5,7 @@
 #include "base/thread_team.hpp"
 #include "ranks/ranks.hpp"
 #include "reach/abstraction.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -14,7 +14,7 @@ namespace coordreq {
 /// @param ranks processes that divide the work, together; null: there is one
 /// REQUIRES: the grid of `abstraction` is in the order of the spec.
 /// @throws SpecError if the state may leave its grid
-void build_update_table(const ProblemSpec& spec, Abstraction& abstraction, std::size_t state,
-                        ThreadTeam& team, Ranks* ranks = nullptr);
+void build_update_table(const SystemSpec& spec, Abstraction& abstraction, std::size_t state, ThreadTeam& team,
+                        Ranks* ranks = nullptr);
 
 }  // namespace coordreq

@@ -5,10 +5,11 @@
 
 #include "expression/evaluate.hpp"
 #include "reach/shift.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 
-std::vector<IndexRange> usual_offsets(const ProblemSpec& spec) {
+std::vector<IndexRange> usual_offsets(const SystemSpec& spec) {
   const bool is_discrete = spec.dynamics.time == Time::discrete;
   std::vector<Interval> slots(spec.slot_count());
   for (std::size_t i = 0; i < spec.states.size(); ++i) slots[spec.state_slot(i)] = range_of(spec.states[i]);

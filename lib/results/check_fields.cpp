@@ -6,6 +6,7 @@
 
 #include "answers/field_table.hpp"
 #include "base/error.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

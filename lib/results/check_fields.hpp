@@ -9,7 +9,7 @@
 #include "answers/field_source.hpp"
 #include "results/results_file.hpp"
 #include "results/results_parts.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

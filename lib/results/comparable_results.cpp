@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -11,6 +11,7 @@
 #include "results/scots_controller.hpp"
 #include "results/sha256.hpp"
 #include "results/stored_controller.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "answers/ground.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

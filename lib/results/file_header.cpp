@@ -3,6 +3,7 @@
 #include "answers/invariance/answer.hpp"
 #include "results/sha256.hpp"
 #include "results/version.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/unit_text.hpp"
 
 namespace coordreq {

@@ -5,6 +5,7 @@
 #include "answers/plan.hpp"
 #include "model/outside_word.hpp"
 #include "results/results_reader.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/unit_text.hpp"
 
 namespace coordreq {

@@ -7,28 +7,13 @@
 #include <vector>
 
 #include "answers/field.hpp"
-#include "answers/layers/fields.hpp"
+#include "answers/layers/stored_partition.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "reach/abstraction.hpp"
+#include "results/stored_values.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
-
-/// What a results file says of itself, as stored; contract section 4.
-struct StoredAttributes {
-  std::string title, conventions, coordreq_version, git_sha1, spec_sha256, guarantee, period_unit;
-  double period = 0;
-  std::uint64_t safe_cells = 0, invariant_cells = 0;  ///< attributes `cells`
-  std::int64_t iterations = 0;
-  std::int64_t connection_delay = 0;
-  std::string controller_sha256;  ///< of `controller.file`; empty if the spec has none
-};
-
-/// /layers/PARTITION: T(k) is cell[start[k]], ..., cell[start[k + 1] - 1].
-struct StoredLayers {
-  std::vector<std::uint64_t> start;
-  std::vector<std::uint64_t> cell;
-};
 
 class ResultsFile;
 

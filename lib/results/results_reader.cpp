@@ -15,6 +15,7 @@
 #include "results/child_trial.hpp"
 #include "results/reading.hpp"
 #include "results/results_file.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -65,16 +66,45 @@ ResultsReader::ResultsReader(const std::string& path, std::optional<std::uint64_
     : path_(path),
       max_memory_(max_memory),
       file_(tried_file(path, max_memory)),
-      parts_(reading(path, [&] { return read_parts(*file_, max_memory); })),
-      grid_(make_grid(parts_.spec)),
-      inputs_(make_input_space(parts_.spec)) {
-  for (std::size_t i = 0; i < parts_.fields.size(); ++i) field_of_path_[parts_.fields[i].path] = i;
-  for (const Field& field : parts_.fields) {
+      parts_(reading(path,
+                     [&] { return std::make_unique<const ResultsParts>(read_parts(*file_, max_memory)); })),
+      grid_(make_grid(parts_->spec)),
+      inputs_(make_input_space(parts_->spec)) {
+  for (std::size_t i = 0; i < parts_->fields.size(); ++i) field_of_path_[parts_->fields[i].path] = i;
+  for (const Field& field : parts_->fields) {
     if (!field.fixed_points.empty()) fixed_points_[field.fixed_points] = integers(field.fixed_points);
   }
 }
 
 ResultsReader::~ResultsReader() = default;
+
+const ProblemSpec& ResultsReader::spec() const {
+  return parts_->spec;
+}
+
+const StoredAttributes& ResultsReader::attributes() const {
+  return parts_->attributes;
+}
+
+const std::vector<StoredPartition>& ResultsReader::partitions() const {
+  return parts_->partitions;
+}
+
+const std::vector<ResultRequirement>& ResultsReader::requirements() const {
+  return parts_->requirements;
+}
+
+const Fields& ResultsReader::fields() const {
+  return parts_->fields;
+}
+
+bool ResultsReader::has_coalition() const {
+  return parts_->spec.coordination.horizon.has_value();
+}
+
+const std::vector<std::string>& ResultsReader::pairs() const {
+  return parts_->pairs;
+}
 
 template <class Value>
 std::vector<Value> ResultsReader::elements(const std::string& dataset, ElementType type,
@@ -94,7 +124,7 @@ std::vector<Value> ResultsReader::elements(const std::string& dataset, ElementTy
 }
 
 const Field& ResultsReader::field(const std::string& path) const {
-  return parts_.fields[field_of_path_.at(path)];
+  return parts_->fields[field_of_path_.at(path)];
 }
 
 std::size_t ResultsReader::leading_length(const Field& field) const {
@@ -107,7 +137,7 @@ const std::vector<std::string>& ResultsReader::leading_names(const Field& field)
 
 std::optional<std::int64_t> ResultsReader::lower_bound(const Field& field, std::size_t partition) const {
   if (field.fixed_points.empty() || fixed_points_.at(field.fixed_points)[partition] >= 0) return std::nullopt;
-  return parts_.spec.coordination.max_delay;
+  return parts_->spec.coordination.max_delay;
 }
 
 std::vector<std::uint8_t> ResultsReader::members(const Field& field, std::optional<std::size_t> leading,
@@ -148,19 +178,19 @@ std::vector<float> ResultsReader::shares(const Field& field, std::optional<std::
 }
 
 std::vector<std::int64_t> ResultsReader::integers(const std::string& path) const {
-  return reading(path_, [&] { return SmallFields(*file_, parts_).integers(path); });
+  return reading(path_, [&] { return SmallFields(*file_, *parts_).integers(path); });
 }
 
 std::vector<double> ResultsReader::numbers(const std::string& path) const {
-  return reading(path_, [&] { return SmallFields(*file_, parts_).numbers(path); });
+  return reading(path_, [&] { return SmallFields(*file_, *parts_).numbers(path); });
 }
 
 std::int64_t ResultsReader::attribute(const std::string& path, const std::string& name) const {
-  return SmallFields(*file_, parts_).attribute(path, name);
+  return SmallFields(*file_, *parts_).attribute(path, name);
 }
 
 std::vector<std::uint64_t> ResultsReader::counted(const std::string& path) const {
-  return SmallFields(*file_, parts_).counted(path);
+  return SmallFields(*file_, *parts_).counted(path);
 }
 
 void ResultsReader::fail(const std::string& what, const std::string& path) const {
@@ -212,19 +242,19 @@ std::vector<std::uint8_t> ResultsReader::critical_pair(std::size_t pair, const C
 }
 
 bool ResultsReader::has_actions(std::size_t /*partition*/) const {
-  return parts_.spec.output.actions;
+  return parts_->spec.output.actions;
 }
 
 bool ResultsReader::has_controller() const {
-  return parts_.spec.output.controller;
+  return parts_->spec.output.controller;
 }
 
 bool ResultsReader::has_layers(std::size_t /*partition*/) const {
-  return parts_.spec.output.layers;
+  return parts_->spec.output.layers;
 }
 
 bool ResultsReader::has_abstraction() const {
-  return !parts_.tables.empty();
+  return !parts_->tables.empty();
 }
 
 std::vector<std::uint8_t> ResultsReader::bits(const std::string& dataset, std::int64_t actions,
@@ -238,8 +268,8 @@ std::vector<std::uint8_t> ResultsReader::bits(const std::string& dataset, std::i
 
 std::vector<std::uint8_t> ResultsReader::action_bits(std::size_t partition, std::size_t class_number,
                                                      const CellBlock& block) const {
-  return bits(paths::actions(parts_.spec, parts_.spec.coordination.partitions[partition], class_number),
-              parts_.partitions[partition].actions[class_number], block);
+  return bits(paths::actions(parts_->spec, parts_->spec.coordination.partitions[partition], class_number),
+              parts_->partitions[partition].actions[class_number], block);
 }
 
 std::vector<std::uint8_t> ResultsReader::controller_bits(const CellBlock& block) const {
@@ -251,11 +281,11 @@ std::vector<std::uint8_t> ResultsReader::listed_bits(const CellBlock& block) con
 }
 
 bool ResultsReader::has_convention() const {
-  return parts_.spec.coordination.convention && parts_.spec.output.actions;
+  return parts_->spec.coordination.convention && parts_->spec.output.actions;
 }
 
 std::vector<std::uint8_t> ResultsReader::convention_bits(std::size_t agent, const CellBlock& block) const {
-  const AgentSpec& spec = parts_.spec.agents[agent];
+  const AgentSpec& spec = parts_->spec.agents[agent];
   std::int64_t actions = 1;
   for (const std::int32_t input : spec.inputs) actions *= inputs_[static_cast<std::size_t>(input)].count();
   return bits(paths::convention(spec), actions, block);
@@ -271,7 +301,7 @@ std::vector<std::uint64_t> ResultsReader::whole(const std::string& dataset) cons
 }
 
 StoredLayers ResultsReader::layers(std::size_t partition) const {
-  const std::string path = paths::layers(parts_.spec.coordination.partitions[partition]);
+  const std::string path = paths::layers(parts_->spec.coordination.partitions[partition]);
   StoredLayers layers{whole(path + "/start"), whole(path + "/cell")};
   if (!std::is_sorted(layers.start.begin(), layers.start.end()) || layers.start.front() != 0 ||
       layers.start.back() != layers.cell.size()) {
@@ -285,7 +315,7 @@ StoredLayers ResultsReader::layers(std::size_t partition) const {
 }
 
 Abstraction ResultsReader::abstraction() const {
-  Abstraction abstraction{.grid = grid_, .inputs = inputs_, .tables = parts_.tables};
+  Abstraction abstraction{.grid = grid_, .inputs = inputs_, .tables = parts_->tables};
   for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
     TransitionTable& table = abstraction.tables[i];
     const auto entries = static_cast<std::size_t>(lay_out(table, i, grid_, inputs_));

@@ -7,16 +7,21 @@
 #include <string>
 #include <vector>
 
+#include "answers/field.hpp"
 #include "answers/field_source.hpp"
+#include "answers/layers/stored_partition.hpp"
+#include "answers/requirements/result_requirement.hpp"
 #include "model/cell_block.hpp"
 #include "model/input_space.hpp"
 #include "model/uniform_grid.hpp"
 #include "reach/abstraction.hpp"
-#include "results/results_parts.hpp"
+#include "results/stored_values.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
 class ResultsFile;
+struct ResultsParts;
 
 /// A results file opened for reading, together with its spec.
 ///
@@ -47,18 +52,18 @@ class ResultsReader : public FieldSource {
   /// Bytes that reading may take, if that is limited.
   [[nodiscard]] std::optional<std::uint64_t> max_memory() const { return max_memory_; }
   /// The embedded spec, read by read_spec().
-  [[nodiscard]] const ProblemSpec& spec() const { return parts_.spec; }
+  [[nodiscard]] const ProblemSpec& spec() const;
   [[nodiscard]] const UniformGrid& grid() const { return grid_; }
   [[nodiscard]] const InputSpace& inputs() const { return inputs_; }
-  [[nodiscard]] const StoredAttributes& attributes() const { return parts_.attributes; }
+  [[nodiscard]] const StoredAttributes& attributes() const;
   /// As many as the spec has, in its order.
-  [[nodiscard]] const std::vector<StoredPartition>& partitions() const { return parts_.partitions; }
+  [[nodiscard]] const std::vector<StoredPartition>& partitions() const;
 
   /// As many as the spec has, in its order.
-  [[nodiscard]] const std::vector<ResultRequirement>& requirements() const { return parts_.requirements; }
+  [[nodiscard]] const std::vector<ResultRequirement>& requirements() const;
 
   /// What the file holds.
-  [[nodiscard]] const Fields& fields() const { return parts_.fields; }
+  [[nodiscard]] const Fields& fields() const;
   [[nodiscard]] bool has(const std::string& path) const override { return field_of_path_.contains(path); }
   /// REQUIRES: the file has it.
   [[nodiscard]] const Field& field(const std::string& path) const;
@@ -103,12 +108,12 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] std::vector<std::uint8_t> network_safe(std::size_t first, std::size_t modes,
                                                        const CellBlock& block) const;
   /// Whether the spec has a horizon, so that there is a coalition map.
-  [[nodiscard]] bool has_coalition() const { return parts_.spec.coordination.horizon.has_value(); }
+  [[nodiscard]] bool has_coalition() const;
   /// Index into partitions() of the cheapest one that suffices; -3: none does, -2: outside S, -1: in S but
   /// not in K. REQUIRES: has_coalition().
   [[nodiscard]] std::vector<std::int32_t> coalition(const CellBlock& block) const;
   /// Names of the pairs of agents, "a+b", in their order; none without a coalition map.
-  [[nodiscard]] const std::vector<std::string>& pairs() const { return parts_.pairs; }
+  [[nodiscard]] const std::vector<std::string>& pairs() const;
   /// 1 where the two are together in every partition of least cost that suffices, else 0.
   /// REQUIRES: pair < pairs().size().
   [[nodiscard]] std::vector<std::uint8_t> critical_pair(std::size_t pair, const CellBlock& block) const;
@@ -161,7 +166,7 @@ class ResultsReader : public FieldSource {
   std::string path_;
   std::optional<std::uint64_t> max_memory_;
   std::unique_ptr<ResultsFile> file_;  // HDF5 stays inside this module
-  ResultsParts parts_;
+  std::unique_ptr<const ResultsParts> parts_;
   std::map<std::string, std::size_t> field_of_path_;
   std::map<std::string, std::vector<std::int64_t>> fixed_points_;  ///< by Field::fixed_points
   UniformGrid grid_;

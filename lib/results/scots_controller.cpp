@@ -15,6 +15,7 @@
 #include "base/error.hpp"
 #include "results/same_grid.hpp"
 #include "results/scots_format.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {

@@ -8,6 +8,7 @@
 #include "results/reading.hpp"
 #include "results/results_file.hpp"
 #include "results/same_grid.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

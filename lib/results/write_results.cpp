@@ -15,6 +15,7 @@
 #include "results/output_file.hpp"
 #include "results/version.hpp"
 #include "results/whole_file.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -8,7 +8,7 @@
 #include "answers/field.hpp"
 #include "base/thread_team.hpp"
 #include "results/rank_chunks.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {

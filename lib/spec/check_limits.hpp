@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 // Sizes that no run could handle, refused before anything is allocated for them.
 namespace coordreq {

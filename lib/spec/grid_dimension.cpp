@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "spec/system_spec.hpp"
+
 namespace coordreq {
 namespace {
 

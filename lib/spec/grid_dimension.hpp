@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "numeric/rational.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

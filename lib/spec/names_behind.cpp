@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "expression/token.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 

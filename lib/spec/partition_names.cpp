@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "spec/coordination_spec.hpp"
+#include "spec/system_spec.hpp"
+
 namespace coordreq {
 namespace {
 

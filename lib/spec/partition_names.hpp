@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

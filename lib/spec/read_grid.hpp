@@ -1,7 +1,7 @@
 #pragma once
 
-#include "spec/problem_spec.hpp"
 #include "spec/scope.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -9,6 +9,7 @@
 #include "expression/cell_truth.hpp"
 #include "expression/tape_builder.hpp"
 #include "spec/grid_dimension.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/wording.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "spec/json_document.hpp"
 #include "spec/memory_formula.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 

@@ -6,9 +6,11 @@
 
 #include "base/error.hpp"
 #include "spec/check_limits.hpp"
+#include "spec/coordination_spec.hpp"
 #include "spec/loss_automaton.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/spec_parts.hpp"
+#include "spec/system_spec.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "spec/partition_names.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/wording.hpp"

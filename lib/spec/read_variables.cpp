@@ -10,6 +10,7 @@
 #include "spec/read_grid.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
+#include "spec/system_spec.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {

@@ -13,6 +13,7 @@
 #include "numeric/rational.hpp"
 #include "spec/json_document.hpp"
 #include "spec/json_text.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "spec/problem_spec.hpp"
 #include "spec/scope.hpp"
+#include "spec/spec_types.hpp"
 
 // The readers of the parts of a spec. All REQUIRE a document that follows the schema, take `root`, the whole
 // document, and throw SpecError naming the JSON pointer, or SpecErrors; sizes beyond all bounds are

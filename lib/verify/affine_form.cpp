@@ -13,7 +13,7 @@ namespace coordreq {
 namespace {
 
 constexpr long kMostFormPower = 16;
-constexpr slong kMostTerms = 4096;
+constexpr slong kMostMonomials = 4096;
 
 class Context {
  public:
@@ -78,7 +78,8 @@ class Multiplier {
         truths_[n] = truth_of(node, truths_, [&] { return comparison(node); });
       } else {
         forms_[n] = number(node);
-        if (forms_[n] && fmpq_mpoly_length(forms_[n]->get(), context_.get()) > kMostTerms) forms_[n].reset();
+        if (forms_[n] && fmpq_mpoly_length(forms_[n]->get(), context_.get()) > kMostMonomials)
+          forms_[n].reset();
       }
     }
     if (!forms_.back() || fmpq_mpoly_total_degree_si(forms_.back()->get(), context_.get()) > 1)

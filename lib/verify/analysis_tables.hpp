@@ -7,7 +7,7 @@
 #include "base/thread_team.hpp"
 #include "model/input_space.hpp"
 #include "model/uniform_grid.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 #include "verify/own_posts.hpp"
 
 namespace coordreq {
@@ -18,7 +18,7 @@ class AnalysisTables {
  public:
   /// @param cells ascending; all if empty
   /// REQUIRES: all outlive this object.
-  AnalysisTables(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+  AnalysisTables(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
                  const std::vector<std::int64_t>& cells, ThreadTeam& team)
       : spec_(spec), grid_(grid), inputs_(inputs), cells_(cells), source_(spec, grid, inputs, team, {}) {}
 
@@ -35,7 +35,7 @@ class AnalysisTables {
   void look_at_cells();
   [[nodiscard]] PostTable empty(std::size_t state, const std::vector<std::int64_t>& cells) const;
 
-  const ProblemSpec& spec_;
+  const SystemSpec& spec_;
   const UniformGrid& grid_;
   const InputSpace& inputs_;
   const std::vector<std::int64_t>& cells_;

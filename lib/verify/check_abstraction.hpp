@@ -5,7 +5,6 @@
 #include "answers/checking/post_table.hpp"
 #include "answers/checking/tally.hpp"
 #include "model/uniform_grid.hpp"
-#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 

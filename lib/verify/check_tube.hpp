@@ -9,7 +9,6 @@
 #include "answers/checking/tally.hpp"
 #include "base/thread_team.hpp"
 #include "model/input_space.hpp"
-#include "spec/problem_spec.hpp"
 #include "verify/outward_posts.hpp"
 
 namespace coordreq {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "answers/invariance/safe_tubes.hpp"
+#include "spec/problem_spec.hpp"
 #include "verify/check_tube.hpp"
 #include "verify/own_posts.hpp"
 #include "verify/safe_beyond.hpp"

@@ -6,7 +6,7 @@
 #include "answers/checking/post_table.hpp"
 #include "answers/checking/tally.hpp"
 #include "base/thread_team.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 #include "verify/analysis_tables.hpp"
 #include "verify/budget.hpp"
 

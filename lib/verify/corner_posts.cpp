@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
+#include "spec/system_spec.hpp"
 #include "verify/own_posts.hpp"
 #include "verify/parameter_choices.hpp"
 
@@ -26,7 +27,7 @@ struct Contribution {
 
 class CornerPosts {
  public:
-  CornerPosts(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, std::size_t state,
+  CornerPosts(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, std::size_t state,
               const std::vector<std::int64_t>& cells)
       : spec_(spec),
         grid_(grid),
@@ -156,7 +157,7 @@ class CornerPosts {
     return raw_range(target_, k, k);
   }
 
-  const ProblemSpec& spec_;
+  const SystemSpec& spec_;
   const UniformGrid& grid_;
   const InputSpace& inputs_;
   std::size_t state_;
@@ -168,7 +169,7 @@ class CornerPosts {
 
 }  // namespace
 
-std::optional<PostTable> corner_posts(const ProblemSpec& spec, const UniformGrid& grid,
+std::optional<PostTable> corner_posts(const SystemSpec& spec, const UniformGrid& grid,
                                       const InputSpace& inputs, std::size_t state,
                                       const std::vector<std::int64_t>& cells, ThreadTeam& team) {
   return CornerPosts(spec, grid, inputs, state, cells).run(team);

@@ -4,6 +4,7 @@
 
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
+#include "spec/system_spec.hpp"
 #include "verify/check_tube.hpp"
 #include "verify/parameter_choices.hpp"
 #include "verify/sampled_map.hpp"
@@ -27,7 +28,7 @@ struct TimedPart {
 /// The tubes of all cells for one choice of inputs and parameters.
 class CornerTubes {
  public:
-  CornerTubes(const ProblemSpec& spec, const UniformGrid& grid, const Influences& influences,
+  CornerTubes(const SystemSpec& spec, const UniformGrid& grid, const Influences& influences,
               std::size_t state, const PostTable& claimed, TubeTally& tally)
       : grid_(grid),
         influences_(influences),
@@ -178,7 +179,7 @@ class CornerTubes {
 }  // namespace
 
 std::optional<TubeFinding> check_corner_tubes(const PostQuestion& question, ThreadTeam& team) {
-  const ProblemSpec& spec = *question.spec;
+  const SystemSpec& spec = *question.spec;
   const UniformGrid& grid = *question.grid;
   const PostTable& claimed = *question.claimed;
   const Influences influences = influences_on(spec, question.state);

@@ -6,7 +6,7 @@
 #include "answers/checking/tally.hpp"
 #include "answers/field.hpp"
 #include "results/stored_object.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "spec/system_spec.hpp"
 #include "verify/transition_matrix.hpp"
 
 namespace coordreq {
@@ -26,7 +27,7 @@ bool same(const std::vector<Arb>& a, const std::vector<Arb>& b) {
 
 }  // namespace
 
-FlowExtremes::FlowExtremes(const ProblemSpec& spec, const Influences& influences, double cell)
+FlowExtremes::FlowExtremes(const SystemSpec& spec, const Influences& influences, double cell)
     : field_(spec, influences, influences.moving),
       trajectory_(field_),
       period_(spec.dynamics.period),

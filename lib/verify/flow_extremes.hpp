@@ -20,7 +20,7 @@ class FlowExtremes : public NextValue {
  public:
   /// @param cell the shortest step of the states' grids, for tolerances
   /// REQUIRES: `spec` outlives this object.
-  FlowExtremes(const ProblemSpec& spec, const Influences& influences, double cell);
+  FlowExtremes(const SystemSpec& spec, const Influences& influences, double cell);
 
   /// Makes the tube.
   [[nodiscard]] bool enclose(const SpanBox& box, const Effort& effort) override;

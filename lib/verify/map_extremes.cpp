@@ -51,7 +51,7 @@ Extreme extreme_of(SeriesField& field, std::size_t equation, const SpanBox& box,
   return natural;
 }
 
-MapExtremes::MapExtremes(const ProblemSpec& spec, const Influences& influences, std::size_t state)
+MapExtremes::MapExtremes(const SystemSpec& spec, const Influences& influences, std::size_t state)
     : map_(spec, influences, {state}) {}
 
 bool MapExtremes::enclose(const SpanBox& box, const Effort&) {

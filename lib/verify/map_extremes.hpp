@@ -9,7 +9,7 @@ namespace coordreq {
 class MapExtremes : public NextValue {
  public:
   /// REQUIRES: `spec` outlives this object.
-  MapExtremes(const ProblemSpec& spec, const Influences& influences, std::size_t state);
+  MapExtremes(const SystemSpec& spec, const Influences& influences, std::size_t state);
 
   [[nodiscard]] bool enclose(const SpanBox& box, const Effort& effort) override;
   [[nodiscard]] Extremes extremes(std::size_t value, const Enough& enough) override;

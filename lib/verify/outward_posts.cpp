@@ -11,6 +11,7 @@
 #include "answers/checking/cell_place.hpp"
 #include "answers/checking/posts.hpp"
 #include "model/odometer.hpp"
+#include "spec/system_spec.hpp"
 #include "verify/map_extremes.hpp"
 #include "verify/piece_choices.hpp"
 #include "verify/post_proof.hpp"
@@ -24,7 +25,7 @@ const PostEffort kRounds[] = {{1, {2, 1e-3}},   {2, {8, 1e-4}},    {16, {8, 1e-5
 
 /// The next value is the present one and something that does not depend on it.
 bool follows_itself(const PostQuestion& question, const Influences& influences) {
-  const ProblemSpec& spec = *question.spec;
+  const SystemSpec& spec = *question.spec;
   const UniformGrid& grid = *question.grid;
   const InputSpace& inputs = *question.inputs;
   if (grid[question.state].discrete) return false;
@@ -238,7 +239,7 @@ class OutwardPosts {
 
   std::vector<PostQuestion> questions_;
   PostGroup group_;
-  const ProblemSpec& spec_;
+  const SystemSpec& spec_;
   const UniformGrid& grid_;
   const InputSpace& inputs_;
   const Budget& budget_;
@@ -264,7 +265,7 @@ std::vector<std::optional<Finding>> check_outward_posts(const std::vector<PostQu
   std::vector<bool> done(questions.size(), false);
   for (std::size_t q = 0; q < questions.size(); ++q) {
     if (done[q]) continue;
-    const ProblemSpec& spec = *questions[q].spec;
+    const SystemSpec& spec = *questions[q].spec;
     PostGroup group{.states = {}, .influences = influences_on(spec, questions[q].state)};
     if (!can_be_asked(questions[q], group.influences)) continue;
     group.shifts = follows_itself(questions[q], group.influences);

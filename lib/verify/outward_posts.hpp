@@ -14,7 +14,7 @@ namespace coordreq {
 
 /// Which claims about a state's next values, or its way there, are to be proven, and how.
 struct PostQuestion {
-  const ProblemSpec* spec = nullptr;
+  const SystemSpec* spec = nullptr;
   const UniformGrid* grid = nullptr;
   const InputSpace* inputs = nullptr;
   std::size_t state = 0;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "model/pieces.hpp"
+#include "spec/system_spec.hpp"
 #include "verify/check_tube.hpp"
 #include "verify/flow_range.hpp"
 #include "verify/piece_choices.hpp"
@@ -109,7 +110,7 @@ class OutwardTubes {
     return {cells_covered(target_, lower, upper), cells_covered(target_, low, high)};
   }
 
-  const ProblemSpec& spec_;
+  const SystemSpec& spec_;
   const Budget& budget_;
   std::size_t state_;
   const GridDimension& target_;

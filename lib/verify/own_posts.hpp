@@ -7,7 +7,7 @@
 #include "answers/checking/post_table.hpp"
 #include "base/thread_team.hpp"
 #include "numeric/rational.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 #include "verify/sampled_map.hpp"
 
 namespace coordreq {
@@ -30,13 +30,13 @@ namespace coordreq {
 /// @param cells only entries of these are made; all if empty
 /// @returns nothing if the map is not affine for some inputs or parameters
 /// @throws SpecError if a discrete state may leave its grid
-[[nodiscard]] std::optional<PostTable> corner_posts(const ProblemSpec& spec, const UniformGrid& grid,
+[[nodiscard]] std::optional<PostTable> corner_posts(const SystemSpec& spec, const UniformGrid& grid,
                                                     const InputSpace& inputs, std::size_t state,
                                                     const std::vector<std::int64_t>& cells, ThreadTeam& team);
 
 /// The table of a state that has an update, from its definition: every branch that a cell does not exclude.
 /// @throws SpecError if it may leave its grid
-[[nodiscard]] PostTable update_posts(const ProblemSpec& spec, const UniformGrid& grid,
+[[nodiscard]] PostTable update_posts(const SystemSpec& spec, const UniformGrid& grid,
                                      const InputSpace& inputs, std::size_t state,
                                      const std::vector<std::int64_t>& cells, ThreadTeam& team);
 

@@ -10,7 +10,7 @@
 #include "model/input_space.hpp"
 #include "model/odometer.hpp"
 #include "model/uniform_grid.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/system_spec.hpp"
 #include "verify/own_posts.hpp"
 
 namespace coordreq {
@@ -20,7 +20,7 @@ class ParameterChoices {
  public:
   /// @param table laid out as the state's own
   /// REQUIRES: all outlive this object.
-  ParameterChoices(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+  ParameterChoices(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
                    const Influences& influences, const PostTable& table)
       : spec_(spec), grid_(grid), inputs_(inputs), influences_(influences), table_(table) {
     for (const std::size_t j : influences.parameters) counts_.push_back(grid[j].count);
@@ -52,7 +52,7 @@ class ParameterChoices {
   }
 
  private:
-  const ProblemSpec& spec_;
+  const SystemSpec& spec_;
   const UniformGrid& grid_;
   const InputSpace& inputs_;
   const Influences& influences_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "model/pieces.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -55,7 +56,7 @@ bool uses_as_number(const Program& equation, std::uint32_t slot) {
 
 }  // namespace
 
-bool jumps_on_the_way(const ProblemSpec& spec, const Influences& influences) {
+bool jumps_on_the_way(const SystemSpec& spec, const Influences& influences) {
   if (spec.dynamics.time == Time::discrete) return false;
   for (const std::size_t j : influences.moving) {
     if (spec.states[j].below != Outside::periodic) continue;
@@ -66,13 +67,13 @@ bool jumps_on_the_way(const ProblemSpec& spec, const Influences& influences) {
   return false;
 }
 
-bool has_stops(const ProblemSpec& spec, const Influences& influences) {
+bool has_stops(const SystemSpec& spec, const Influences& influences) {
   return std::any_of(influences.moving.begin(), influences.moving.end(), [&](std::size_t j) {
     return spec.states[j].below == Outside::stop || spec.states[j].above == Outside::stop;
   });
 }
 
-bool flows_alike(const ProblemSpec& spec, const Influences& influences, std::size_t state) {
+bool flows_alike(const SystemSpec& spec, const Influences& influences, std::size_t state) {
   const std::uint32_t own = spec.state_slot(state);
   return std::none_of(influences.moving.begin(), influences.moving.end(), [&](std::size_t j) {
     const std::vector<std::uint32_t> used = spec.dynamics.equations[j].variables();
@@ -80,7 +81,7 @@ bool flows_alike(const ProblemSpec& spec, const Influences& influences, std::siz
   });
 }
 
-PieceChoices::PieceChoices(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+PieceChoices::PieceChoices(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
                            const PostTable& table, std::optional<std::size_t> left_out)
     : grid_(grid) {
   for (const std::size_t j : table.states) {

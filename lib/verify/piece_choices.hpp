@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/odometer.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 #include "verify/next_value.hpp"
 #include "verify/own_posts.hpp"
 
@@ -17,19 +17,19 @@ namespace coordreq {
 
 /// True if, in continuous time, an equation of the moving states uses a periodic one as a number, outside of
 /// sin, cos and tan: it jumps where that state passes its seam within the period.
-[[nodiscard]] bool jumps_on_the_way(const ProblemSpec& spec, const Influences& influences);
+[[nodiscard]] bool jumps_on_the_way(const SystemSpec& spec, const Influences& influences);
 
 /// True if a `stop` limit holds one of the moving states.
-[[nodiscard]] bool has_stops(const ProblemSpec& spec, const Influences& influences);
+[[nodiscard]] bool has_stops(const SystemSpec& spec, const Influences& influences);
 
 /// In continuous time: x(t) - x(0) of the state does not depend on x(0): no equation mentions the state.
-[[nodiscard]] bool flows_alike(const ProblemSpec& spec, const Influences& influences, std::size_t state);
+[[nodiscard]] bool flows_alike(const SystemSpec& spec, const Influences& influences, std::size_t state);
 
 /// All choices of one index for each state and input that a table ranges over, with their boxes. Immutable.
 class PieceChoices {
  public:
   /// @param left_out a state that is not chosen: its entries follow from those of index 0
-  PieceChoices(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+  PieceChoices(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
                const PostTable& table, std::optional<std::size_t> left_out);
 
   [[nodiscard]] const std::vector<std::int64_t>& counts() const { return counts_; }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "answers/checking/cell_place.hpp"
+#include "spec/system_spec.hpp"
 #include "verify/check_abstraction.hpp"
 #include "verify/flow_extremes.hpp"
 #include "verify/map_extremes.hpp"
@@ -19,7 +20,7 @@ std::string number_text(const Arb& value) {
   return fmt::format("{:.6g}", value.approximately());
 }
 
-const std::string& name_of(const ProblemSpec& spec, std::uint32_t slot) {
+const std::string& name_of(const SystemSpec& spec, std::uint32_t slot) {
   if (slot < spec.states.size()) return spec.states[slot].name;
   for (std::size_t l = 0; l < spec.disturbances.size(); ++l) {
     if (spec.disturbance_slot(l) == slot) return spec.disturbances[l].name;
@@ -28,7 +29,7 @@ const std::string& name_of(const ProblemSpec& spec, std::uint32_t slot) {
 }
 
 /// The next values of a group, of a map or a flow, whichever the spec has.
-std::unique_ptr<NextValue> next_values_of(const ProblemSpec& spec, const UniformGrid& grid,
+std::unique_ptr<NextValue> next_values_of(const SystemSpec& spec, const UniformGrid& grid,
                                           const PostGroup& group) {
   if (spec.dynamics.time == Time::discrete)
     return std::make_unique<MapExtremes>(spec, group.influences, group.states.front());
@@ -39,7 +40,7 @@ std::unique_ptr<NextValue> next_values_of(const ProblemSpec& spec, const Uniform
 
 }  // namespace
 
-PostProver::PostProver(const ProblemSpec& spec, const UniformGrid& grid, const PostGroup& group)
+PostProver::PostProver(const SystemSpec& spec, const UniformGrid& grid, const PostGroup& group)
     : spec_(spec), grid_(grid), group_(group), next_(next_values_of(spec, grid, group)) {
   const bool is_map = spec.dynamics.time == Time::discrete;
   for (const std::size_t i : group.states)

@@ -49,7 +49,7 @@ struct PostGroup {
 class PostProver {
  public:
   /// REQUIRES: all outlive this object.
-  PostProver(const ProblemSpec& spec, const UniformGrid& grid, const PostGroup& group);
+  PostProver(const SystemSpec& spec, const UniformGrid& grid, const PostGroup& group);
 
   /// @param box where the present state can be
   /// @param end of Budget::now(); a piece that is begun is finished
@@ -74,7 +74,7 @@ class PostProver {
   [[nodiscard]] std::optional<std::uint32_t> widest(const SpanBox& box, std::vector<double> excess) const;
   [[nodiscard]] const GridDimension& target(std::size_t i) const { return grid_[group_.states[i]]; }
 
-  const ProblemSpec& spec_;
+  const SystemSpec& spec_;
   const UniformGrid& grid_;
   const PostGroup& group_;
   std::unique_ptr<NextValue> next_;

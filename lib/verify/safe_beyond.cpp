@@ -7,6 +7,7 @@
 
 #include "answers/checking/posts.hpp"
 #include "answers/invariance/check_safe.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "spec/system_spec.hpp"
 #include "verify/affine_form.hpp"
 #include "verify/flint_rational.hpp"
 #include "verify/piece_choices.hpp"
@@ -12,25 +13,25 @@
 namespace coordreq {
 namespace {
 
-bool stays_put(const ProblemSpec& spec, std::size_t state) {
+bool stays_put(const SystemSpec& spec, std::size_t state) {
   const Program& equation = spec.dynamics.equations[state];
   const Program::Node& last = equation.nodes.back();
   return last.op == Operator::constant && equation.constants[last.a] == 0;
 }
 
-bool is_parameter(const ProblemSpec& spec, std::size_t state) {
+bool is_parameter(const SystemSpec& spec, std::size_t state) {
   return spec.states[state].discrete && (spec.dynamics.time == Time::discrete || stays_put(spec, state));
 }
 
 /// Moving states, then disturbances.
-std::vector<std::uint32_t> variables_of(const ProblemSpec& spec, const Influences& influences) {
+std::vector<std::uint32_t> variables_of(const SystemSpec& spec, const Influences& influences) {
   std::vector<std::uint32_t> slots;
   for (const std::size_t j : influences.moving) slots.push_back(spec.state_slot(j));
   for (const std::size_t l : influences.disturbances) slots.push_back(spec.disturbance_slot(l));
   return slots;
 }
 
-std::optional<SampledMap> next_value(const ProblemSpec& spec, const Influences& influences, std::size_t state,
+std::optional<SampledMap> next_value(const SystemSpec& spec, const Influences& influences, std::size_t state,
                                      const std::vector<Rational>& slots) {
   const std::optional<ExactForm> next =
       affine_form(spec.dynamics.equations[state], variables_of(spec, influences), slots);
@@ -147,8 +148,8 @@ std::optional<LinearFlow> solved(const std::vector<ExactForm>& equations, std::s
   return flow;
 }
 
-std::optional<LinearFlow> linear_flow(const ProblemSpec& spec, const Influences& influences,
-                                      std::size_t state, const std::vector<Rational>& slots) {
+std::optional<LinearFlow> linear_flow(const SystemSpec& spec, const Influences& influences, std::size_t state,
+                                      const std::vector<Rational>& slots) {
   const std::optional<std::size_t> row = row_of(influences, state);
   if (!row) {
     LinearFlow still{.coefficient = std::vector<TimePolynomial>(influences.moving.size()),
@@ -167,7 +168,7 @@ std::optional<LinearFlow> linear_flow(const ProblemSpec& spec, const Influences&
   return solved(equations, *row, influences.disturbances.size());
 }
 
-std::optional<SampledMap> flow_after_period(const ProblemSpec& spec, const Influences& influences,
+std::optional<SampledMap> flow_after_period(const SystemSpec& spec, const Influences& influences,
                                             std::size_t state, const std::vector<Rational>& slots) {
   const std::optional<LinearFlow> flow = linear_flow(spec, influences, state, slots);
   if (!flow) return std::nullopt;
@@ -209,7 +210,7 @@ void add_disturbance(TimedMap& map, std::vector<TimePolynomial>& constant, const
 
 }  // namespace
 
-Influences influences_on(const ProblemSpec& spec, std::size_t state) {
+Influences influences_on(const SystemSpec& spec, std::size_t state) {
   std::vector<bool> seen(spec.slot_count(), false);
   const UpdateSpec* const update = spec.dynamics.update(state);
   std::vector<std::size_t> pending;
@@ -247,13 +248,13 @@ std::optional<std::size_t> row_of(const Influences& influences, std::size_t stat
   return static_cast<std::size_t>(place - influences.moving.begin());
 }
 
-std::optional<SampledMap> sampled_map(const ProblemSpec& spec, const Influences& influences,
-                                      std::size_t state, const std::vector<Rational>& slots) {
+std::optional<SampledMap> sampled_map(const SystemSpec& spec, const Influences& influences, std::size_t state,
+                                      const std::vector<Rational>& slots) {
   return spec.dynamics.time == Time::discrete ? next_value(spec, influences, state, slots)
                                               : flow_after_period(spec, influences, state, slots);
 }
 
-std::optional<TimedMap> timed_map(const ProblemSpec& spec, const Influences& influences, std::size_t state,
+std::optional<TimedMap> timed_map(const SystemSpec& spec, const Influences& influences, std::size_t state,
                                   const std::vector<Rational>& slots) {
   if (spec.dynamics.time == Time::discrete) return std::nullopt;
   std::optional<LinearFlow> flow = linear_flow(spec, influences, state, slots);

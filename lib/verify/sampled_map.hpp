@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "numeric/rational.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 #include "verify/time_polynomial.hpp"
 
 namespace coordreq {
@@ -20,7 +20,7 @@ struct Influences {
   std::vector<std::size_t> disturbances;
   [[nodiscard]] bool operator==(const Influences&) const = default;
 };
-[[nodiscard]] Influences influences_on(const ProblemSpec& spec, std::size_t state);
+[[nodiscard]] Influences influences_on(const SystemSpec& spec, std::size_t state);
 /// Where a state is among the moving ones; nothing for a parameter.
 [[nodiscard]] std::optional<std::size_t> row_of(const Influences& influences, std::size_t state);
 
@@ -38,7 +38,7 @@ struct SampledMap {
 /// adds m integral(g) +- r integral(|g|), g(s) its entry of exp(A s) B.
 /// @param slots values of parameters and inputs at their slots
 /// @returns nothing if the equations are not of this kind for these values, or a limit stops a state
-[[nodiscard]] std::optional<SampledMap> sampled_map(const ProblemSpec& spec, const Influences& influences,
+[[nodiscard]] std::optional<SampledMap> sampled_map(const SystemSpec& spec, const Influences& influences,
                                                     std::size_t state, const std::vector<Rational>& slots);
 
 /// The same state during the period, as a function of the moving states x at its beginning: at time t in
@@ -56,7 +56,7 @@ struct TimedMap {
 /// m +- r adds m integral(g) +- r integral(|g|) as above, where |g| is bounded term by term if g changes its
 /// sign.
 /// @returns nothing where sampled_map() does not, or in discrete time
-[[nodiscard]] std::optional<TimedMap> timed_map(const ProblemSpec& spec, const Influences& influences,
+[[nodiscard]] std::optional<TimedMap> timed_map(const SystemSpec& spec, const Influences& influences,
                                                 std::size_t state, const std::vector<Rational>& slots);
 
 }  // namespace coordreq

@@ -7,6 +7,7 @@
 #include "expression/condition.hpp"
 #include "expression/tape_builder.hpp"
 #include "model/pieces.hpp"
+#include "spec/system_spec.hpp"
 #include "verify/own_posts.hpp"
 #include "verify/parameter_choices.hpp"
 
@@ -192,7 +193,7 @@ IndexRange indices_of(const std::set<Rational>& values, const GridDimension& tar
 
 }  // namespace
 
-PostTable update_posts(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+PostTable update_posts(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
                        std::size_t state, const std::vector<std::int64_t>& cells, ThreadTeam& team) {
   const Influences influences = influences_on(spec, state);
   PostTable table = empty_table(grid, inputs, influences, cells);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "spec/system_spec.hpp"
+
 namespace coordreq {
 
-SeriesField::SeriesField(const ProblemSpec& spec, const Influences& influences,
+SeriesField::SeriesField(const SystemSpec& spec, const Influences& influences,
                          const std::vector<std::size_t>& equations)
     : slots_(spec.slot_count()) {
   for (const std::size_t j : influences.moving) variables_.push_back(spec.state_slot(j));

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 #include "verify/expression_series.hpp"
 #include "verify/sampled_map.hpp"
 
@@ -19,7 +19,7 @@ class SeriesField {
  public:
   /// @param equations indices of states; for taylor() those of all of x
   /// REQUIRES: `spec` outlives this object.
-  SeriesField(const ProblemSpec& spec, const Influences& influences,
+  SeriesField(const SystemSpec& spec, const Influences& influences,
               const std::vector<std::size_t>& equations);
 
   [[nodiscard]] std::size_t size() const { return equations_.size(); }

@@ -8,6 +8,7 @@
 
 #include "answers/checking/answer_check.hpp"
 #include "answers/plan.hpp"
+#include "spec/problem_spec.hpp"
 #include "verify/analysis_tables.hpp"
 #include "verify/check_abstraction.hpp"
 #include "verify/check_cells.hpp"

@@ -9,7 +9,7 @@
 #include "answers/checking/claims.hpp"
 #include "answers/checking/tally.hpp"
 #include "base/thread_team.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "spec/problem_spec.hpp"
 #include "verify/expected_objects.hpp"
 #include "verify/verify.hpp"
 

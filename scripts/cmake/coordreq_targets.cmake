@@ -1,6 +1,8 @@
-# coordreq_module(<name> [SOURCES <file>...] [DEPENDS <target>...] [PRIVATE_DEPENDS <target>...])
-# One library target a room, coordreq_<name>, of all sources in its folder and SOURCES that are generated; headers are
-# included as "<name>/<file>.hpp". Installed it is coordreq::<name>, and <coordreq/<name>/<file>.hpp> works too.
+# coordreq_module(<name> [UNITS <number>] [QUICK <expression>] [SOURCES <file>...] [DEPENDS <target>...]
+#                 [PRIVATE_DEPENDS <target>...])
+# One library target a room, coordreq_<name>, of all sources in its folder and SOURCES that are generated, in so many units a
+# folder (see coordreq_unite). What matches QUICK is compiled quickly (see coordreq_compile_quickly). Headers are included as "<name>/<file>.hpp". Installed it is coordreq::<name>, and
+# <coordreq/<name>/<file>.hpp> works too.
 
 add_library(coordreq_options INTERFACE)
 target_compile_features(coordreq_options INTERFACE cxx_std_20)
@@ -14,25 +16,50 @@ target_compile_options(coordreq_options INTERFACE
   # Interval arithmetic relies on every operation being rounded once, as written.
   -ffp-contract=off
   $<$<BOOL:${COORDREQ_WARNINGS_AS_ERRORS}>:-Werror>)
+# A precompiled header is good only where the macros of its headers are the same.
+target_compile_definitions(coordreq_options INTERFACE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
 
 include(GNUInstallDirs)
 
-# coordreq_precompile(<target>): the heavy headers of the standard library and of others are parsed once a build.
+# coordreq_precompile(<target> [tests]): the heavy headers of the standard library and of others are parsed once a build:
+# those of scripts/cmake/precompiled.hpp, of tests those of GoogleTest and RapidCheck too.
 function(coordreq_precompile target)
-  if(NOT TARGET coordreq_precompiled)
-    add_library(coordreq_precompiled STATIC ${PROJECT_SOURCE_DIR}/scripts/cmake/precompiled.cpp)
-    # A precompiled header is good only where the macros of its headers are the same.
-    target_compile_definitions(coordreq_options INTERFACE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
-    target_link_libraries(coordreq_precompiled PRIVATE coordreq_options)
-    target_precompile_headers(coordreq_precompiled PRIVATE ${PROJECT_SOURCE_DIR}/scripts/cmake/precompiled.hpp)
+  set(header precompiled)
+  set(libraries coordreq_options)
+  if("${ARGN}" STREQUAL "tests")
+    set(header precompiled_tests)
+    list(APPEND libraries GTest::gtest rapidcheck)
   endif()
-  target_precompile_headers(${target} REUSE_FROM coordreq_precompiled)
+  if(NOT TARGET coordreq_${header})
+    add_library(coordreq_${header} STATIC ${PROJECT_SOURCE_DIR}/scripts/cmake/precompiled.cpp)
+    target_link_libraries(coordreq_${header} PRIVATE ${libraries})
+    target_precompile_headers(coordreq_${header} PRIVATE ${PROJECT_SOURCE_DIR}/scripts/cmake/${header}.hpp)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM coordreq_${header})
 endfunction()
 
-# coordreq_unite(<target>): with COORDREQ_UNITY_BUILD ten sources are compiled as one, so that they share what they
-# instantiate of the libraries. All presets but tidy do so, that names in two files of one room differ everywhere.
+# coordreq_unite(<target> [<units> [TOGETHER]]): with COORDREQ_UNITY_BUILD the sources of a folder are compiled as one, so
+# that they share what they parse and instantiate; those of a large one as so many units, to which they are dealt by their
+# names, so that a new file shifts no others. TOGETHER: the units are those of all folders together, and sources of one name
+# are in the same. All presets but iterate and tidy do so, that names in two files of one room differ everywhere.
 function(coordreq_unite target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${COORDREQ_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 10)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${COORDREQ_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
+  list(APPEND ARGN 1)
+  list(GET ARGN 0 units)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources EXCLUDE REGEX "^\\$<")
+  foreach(source ${sources})
+    cmake_path(GET source FILENAME name)
+    string(MD5 digest ${name})
+    string(SUBSTRING ${digest} 0 6 digits)
+    math(EXPR unit "0x${digits} % ${units}")
+    if(NOT "TOGETHER" IN_LIST ARGN)
+      cmake_path(GET source PARENT_PATH folder)
+      cmake_path(GET folder FILENAME folder)
+      string(PREPEND unit ${folder}_)
+    endif()
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${unit})
+  endforeach()
 endfunction()
 
 # coordreq_compile_quickly(<target>...): what works through no cells is not compiled for speed.
@@ -43,9 +70,21 @@ function(coordreq_compile_quickly)
 endfunction()
 
 function(coordreq_module name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "UNITS;QUICK" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   set(target coordreq_${name})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
+  if(ARG_QUICK)
+    set(quick ${sources})
+    list(FILTER quick INCLUDE REGEX "${ARG_QUICK}")
+    list(FILTER sources EXCLUDE REGEX "${ARG_QUICK}")
+    add_library(${target}_quick OBJECT ${quick})
+    target_include_directories(${target}_quick PRIVATE ${PROJECT_SOURCE_DIR}/lib)
+    target_link_libraries(${target}_quick PRIVATE coordreq_options ${ARG_DEPENDS} ${ARG_PRIVATE_DEPENDS})
+    coordreq_precompile(${target}_quick)
+    coordreq_unite(${target}_quick 3 TOGETHER)
+    coordreq_compile_quickly(${target}_quick)
+    list(APPEND ARG_SOURCES $<TARGET_OBJECTS:${target}_quick>)
+  endif()
   add_library(${target} STATIC ${sources} ${ARG_SOURCES})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib>
@@ -55,26 +94,33 @@ function(coordreq_module name)
   target_link_libraries(${target} PUBLIC ${ARG_DEPENDS}
                         PRIVATE $<BUILD_INTERFACE:coordreq_options> ${ARG_PRIVATE_DEPENDS})
   coordreq_precompile(${target})
-  coordreq_unite(${target})
+  coordreq_unite(${target} ${ARG_UNITS})
   target_compile_features(${target} INTERFACE cxx_std_20)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS ${target} EXPORT coordreq-targets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 endfunction()
 
-# coordreq_test(<name> [SOURCES <file>...] DEPENDS <target>...): one GoogleTest binary, every case a CTest test; without
-# SOURCES of all sources in the folder.
+# coordreq_test(<name> [CASES] [UNITS <number>] [SOURCES <file>...] DEPENDS <target>...): one GoogleTest binary, of all
+# sources in the folder unless SOURCES says which. One CTest test of the quick part, <name>.units; with CASES every case is a
+# test of the long part, so that they share the processors.
 function(coordreq_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "CASES" "UNITS" "SOURCES;DEPENDS" ${ARGN})
   set(target test_${name})
   if(NOT ARG_SOURCES)
     file(GLOB_RECURSE ARG_SOURCES CONFIGURE_DEPENDS *.cpp)
   endif()
   add_executable(${target} ${ARG_SOURCES})
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  target_link_libraries(${target} PRIVATE coordreq_options ${ARG_DEPENDS} GTest::gtest_main)
-  coordreq_precompile(${target})
-  # Parameters by number: printed, a struct is its bytes, which differ from run to run.
-  gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES
-                       PROPERTIES TIMEOUT 600)
+  target_link_libraries(${target} PRIVATE coordreq_options ${ARG_DEPENDS} GTest::gtest_main rapidcheck)
+  coordreq_precompile(${target} tests)
+  coordreq_unite(${target} ${ARG_UNITS})
+  if(ARG_CASES)
+    # Parameters by number: printed, a struct is its bytes, which differ from run to run.
+    gtest_discover_tests(${target} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES
+                         PROPERTIES TIMEOUT 600 LABELS long)
+  else()
+    add_test(NAME ${name}.units COMMAND ${target} --gtest_brief=1)
+    set_tests_properties(${name}.units PROPERTIES TIMEOUT 1800 LABELS quick)
+  endif()
 endfunction()

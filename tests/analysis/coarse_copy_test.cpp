@@ -50,7 +50,7 @@ TEST(Regrid, LeavesDiscreteStatesAndTheLastTwoPoints) {
   EXPECT_EQ(x.grid.count, 3);
 }
 
-ProblemSpec spec(const std::string& more) {
+ProblemSpec small_spec(const std::string& more) {
   return read_spec(R"({"coordreq": 1, "name": "small",
     "states": [{"name": "x", "lower": 0, "upper": 100, "step": 1}, {"name": "y", "lower": 0, "upper": 4, "step": 1}],
     "inputs": [{"name": "u", "values": [-1, 0, 1]}, {"name": "v", "values": [-1, 0, 1]}],
@@ -63,7 +63,7 @@ ProblemSpec spec(const std::string& more) {
 }
 
 TEST(CoarseCopy, IsTheSpecWhereThatIsSmall) {
-  const std::optional<CoarseCopy> copy = coarse_copy(spec(""), 1, 505, 1e6);
+  const std::optional<CoarseCopy> copy = coarse_copy(small_spec(""), 1, 505, 1e6);
   ASSERT_TRUE(copy);
   EXPECT_EQ(copy->factor, 1);
   EXPECT_EQ(copy->cells, 505);
@@ -75,16 +75,16 @@ TEST(CoarseCopy, IsTheSpecWhereThatIsSmall) {
 }
 
 TEST(CoarseCopy, IsNoCoarserThanItMust) {
-  const std::optional<CoarseCopy> copy = coarse_copy(spec(""), 0, 504, 1e6);
+  const std::optional<CoarseCopy> copy = coarse_copy(small_spec(""), 0, 504, 1e6);
   ASSERT_TRUE(copy);
   EXPECT_EQ(copy->factor, 2);
   EXPECT_EQ(copy->cells, 51 * 5);  // the few points of y stay
 }
 
 TEST(CoarseCopy, IsNotThereWhereNoneIsSmallEnough) {
-  EXPECT_FALSE(coarse_copy(spec(""), 0, 10, 1e6));
-  EXPECT_FALSE(coarse_copy(spec(""), 0, 505, 1));
-  EXPECT_FALSE(coarse_copy(spec(R"(, "controller": {"file": "c.h5"})"), 0, 505, 1e6));
+  EXPECT_FALSE(coarse_copy(small_spec(""), 0, 10, 1e6));
+  EXPECT_FALSE(coarse_copy(small_spec(""), 0, 505, 1));
+  EXPECT_FALSE(coarse_copy(small_spec(R"(, "controller": {"file": "c.h5"})"), 0, 505, 1e6));
 }
 
 }  // namespace

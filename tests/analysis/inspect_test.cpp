@@ -4,7 +4,7 @@
 #include "analysis/estimate_memory.hpp"
 #include "base/error.hpp"
 #include "reach/abstraction.hpp"
-#include "reach/table_shapes.hpp"
+#include "reach/make_model.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {

@@ -9,7 +9,7 @@
 #include "answers/ground/answer.hpp"
 #include "answers/plan.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/table_shapes.hpp"
+#include "reach/make_model.hpp"
 #include "spec/read_spec.hpp"
 #include "support/thread_ranks.hpp"
 

@@ -17,6 +17,7 @@
 #include "engine/tiles.hpp"
 #include "model/model.hpp"
 #include "reach/build_abstraction.hpp"
+#include "reach/table_shapes.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {

@@ -7,6 +7,7 @@
 
 #include "cell/simulate_runs.hpp"
 #include "loop_fixture.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

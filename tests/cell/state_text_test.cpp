@@ -9,7 +9,7 @@ namespace {
 
 const std::vector<std::string> kNames = {"x1", "x2"};
 
-std::string defect(const std::string& text) {
+std::string defect_of_state(const std::string& text) {
   try {
     static_cast<void>(parse_state(text, kNames, "--at"));
   } catch (const UsageError& error) {
@@ -34,15 +34,15 @@ TEST(StateText, CommasInParenthesesBelongToAValue) {
 }
 
 TEST(StateText, ErrorsNameWhatIsWrong) {
-  EXPECT_EQ(defect("x1=1"), "no value for the state 'x2' (--at)");
-  EXPECT_EQ(defect(""), "expected NAME=VALUE, found '' (--at)");
-  EXPECT_EQ(defect("x1=1,x2"), "expected NAME=VALUE, found 'x2' (--at)");
-  EXPECT_EQ(defect("x1=1,y=2"), "'y' is no state, expected 'x1' or 'x2' (--at)");
-  EXPECT_EQ(defect("x1=1,x2=2,x1=3"), "'x1' is given twice (--at)");
-  EXPECT_EQ(defect("x1=,x2=2"), "expected a number, found nothing (--at, x1)");
-  EXPECT_EQ(defect("x1=1/0,x2=2"), "'1/0' divides by zero (--at, x1)");
-  EXPECT_EQ(defect("x1=1 < 2,x2=2"), "expected a number, found a condition (--at, x1, column 1)");
-  EXPECT_EQ(defect("x1=R,x2=2"), "'R' is not defined (--at, x1, column 1)");
+  EXPECT_EQ(defect_of_state("x1=1"), "no value for the state 'x2' (--at)");
+  EXPECT_EQ(defect_of_state(""), "expected NAME=VALUE, found '' (--at)");
+  EXPECT_EQ(defect_of_state("x1=1,x2"), "expected NAME=VALUE, found 'x2' (--at)");
+  EXPECT_EQ(defect_of_state("x1=1,y=2"), "'y' is no state, expected 'x1' or 'x2' (--at)");
+  EXPECT_EQ(defect_of_state("x1=1,x2=2,x1=3"), "'x1' is given twice (--at)");
+  EXPECT_EQ(defect_of_state("x1=,x2=2"), "expected a number, found nothing (--at, x1)");
+  EXPECT_EQ(defect_of_state("x1=1/0,x2=2"), "'1/0' divides by zero (--at, x1)");
+  EXPECT_EQ(defect_of_state("x1=1 < 2,x2=2"), "expected a number, found a condition (--at, x1, column 1)");
+  EXPECT_EQ(defect_of_state("x1=R,x2=2"), "'R' is not defined (--at, x1, column 1)");
 }
 
 }  // namespace

@@ -7,15 +7,13 @@
 
 #include "engine/row_shape.hpp"
 #include "model/odometer.hpp"
+#include "spec/problem_spec.hpp"
+#include "support/draw.hpp"
 
 namespace coordreq {
 namespace {
 
 using Kind = RowSegment::Kind;
-
-int draw(int low, int high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
-}
 
 /// States that stay where they are: what the slices say is given by hand. No dimension is taken first.
 Abstraction stillness(const std::vector<GridDimension>& dimensions) {
@@ -199,8 +197,8 @@ struct Levels {
 
 template <class Level>
 class BoxReaderTest : public testing::Test {};
-using LevelTypes = testing::Types<std::uint8_t, std::uint16_t, std::uint32_t>;
-TYPED_TEST_SUITE(BoxReaderTest, LevelTypes);
+using ReadTypes = testing::Types<std::uint8_t, std::uint16_t, std::uint32_t>;
+TYPED_TEST_SUITE(BoxReaderTest, ReadTypes);
 
 template <class Level>
 void expect_minimum(BoxReader<Level>& reader, const Problem& problem, const Levels<Level>& levels) {

@@ -4,6 +4,7 @@
 
 #include "engine/join_rows.hpp"
 #include "engine/row_engine.hpp"
+#include "model/model.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/table_shapes.hpp"
 #include "spec/read_spec.hpp"

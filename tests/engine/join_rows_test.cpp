@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "reach/build_abstraction.hpp"
-#include "spec/read_spec.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
@@ -13,7 +13,7 @@ std::size_t across(const std::string& equations, const std::string& abstraction 
   ThreadTeam team(1);
   const std::string state = R"(, "lower": 0, "upper": 9, "step": 1})";
   const std::string input = R"(, "lower": 0, "upper": 1, "step": 1})";
-  const ProblemSpec spec = read_spec(
+  const SystemSpec spec = read_system(
       R"({"coordreq": 1, "name": "rows", "states": [{"name": "a")" + state + R"(, {"name": "b")" + state +
           R"(, {"name": "c")" + state + R"(, {"name": "d")" + state + R"(], "inputs": [{"name": "u")" +
           input + R"(, {"name": "v")" + input +

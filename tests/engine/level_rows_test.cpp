@@ -12,11 +12,11 @@
 namespace coordreq {
 namespace {
 
-using Levels = LevelRows<std::uint8_t>;
+using ByteRows = LevelRows<std::uint8_t>;
 
 /// The row 7 8 9 with all it goes on with: two cells before, four after.
 std::vector<int> closed(RowEnds ends) {
-  Levels levels(2, 3, {2, 4}, ends);
+  ByteRows levels(2, 3, {2, 4}, ends);
   for (int c = 0; c < 3; ++c) levels.row(1)[c] = static_cast<std::uint8_t>(7 + c);
   levels.close(1);
   return {levels.row(1) - 2, levels.row(1) + 7};
@@ -30,7 +30,7 @@ TEST(LevelRows, GoOnBeyondTheirEndsByTheRulesForLeaving) {
 }
 
 TEST(LevelRows, ClosingOneRowLeavesTheOthers) {
-  Levels levels(3, 5, {3, 3}, {Outside::safe, Outside::safe});
+  ByteRows levels(3, 5, {3, 3}, {Outside::safe, Outside::safe});
   levels.close(1);
   for (const std::int64_t r : {0, 2}) {
     EXPECT_EQ(std::vector<int>(levels.row(r) - 3, levels.row(r) + 8), std::vector<int>(11, 0));
@@ -61,7 +61,7 @@ TEST(LevelRows, OfSeveralDimensionsGoOnInEach) {
   for (const RowEnds slow : all) {
     for (const RowEnds fast : all) {
       // Runs of 2 cells with a gap of 5; one index before and two after in the slower dimension.
-      Levels levels(2, RowShape{{{3, 7, {1, 2}, slow}, {2, 1, {2, 3}, fast}}});
+      ByteRows levels(2, RowShape{{{3, 7, {1, 2}, slow}, {2, 1, {2, 3}, fast}}});
       ASSERT_EQ(levels.row_length(), 21);
       std::uint8_t* const row = levels.row(1);
       for (std::int64_t i = 0; i < 3; ++i) {
@@ -83,8 +83,8 @@ TEST(LevelRows, SharedRowsAreHeldOnceAndReadAsOthersAre) {
   const RowShape shape{{{3, 7, {1, 2}, {Outside::safe, Outside::saturate}},
                         {2, 1, {2, 3}, {Outside::periodic, Outside::periodic}}}};
   EXPECT_TRUE(rc::check("shared rows", [&] {
-    Levels plain(5, shape);
-    Levels shared(5, shape, true);
+    ByteRows plain(5, shape);
+    ByteRows shared(5, shape, true);
     for (std::int64_t r = 0; r < 5; ++r) plain.close(r);
     const int changes = *rc::gen::inRange(0, 30);
     for (int k = 0; k < changes; ++k) {

@@ -1,4 +1,5 @@
 #include "engine/merge_boxes.hpp"
+#include "support/draw.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -71,10 +72,6 @@ std::set<std::vector<int>> cells(const BoxList& list) {
     result.insert(some.begin(), some.end());
   }
   return result;
-}
-
-int draw(int low, int high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
 }
 
 TEST(MergeBoxes, TheUnionStaysAsItIs) {

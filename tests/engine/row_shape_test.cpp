@@ -1,4 +1,5 @@
 #include "engine/row_shape.hpp"
+#include "support/draw.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -7,10 +8,6 @@
 
 namespace coordreq {
 namespace {
-
-int draw(int low, int high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
-}
 
 /// A row that goes on beyond its ends.
 struct EndlessRow {

@@ -12,7 +12,7 @@
 namespace coordreq {
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 
 // Some cells are not safe, some cannot be kept safe, some never need contact.
 constexpr char kSpec[] = R"json({
@@ -47,7 +47,7 @@ std::vector<std::byte> from_base64(const std::string& text) {
 }
 
 /// The values of a map as the page reads them.
-std::vector<std::int32_t> unpacked(const Json& map, std::size_t cells) {
+std::vector<std::int32_t> unpacked(const SortedJson& map, std::size_t cells) {
   const std::vector<std::byte> packed = from_base64(map["data"]);
   const auto size = map["bytes"].get<std::size_t>();
   std::vector<std::uint8_t> raw(cells * size);
@@ -69,14 +69,14 @@ std::vector<std::int32_t> unpacked(const Json& map, std::size_t cells) {
 }
 
 /// Every value in the document is that of its cell in the file.
-void expect_true_values(const ResultsReader& results, const Json& json) {
+void expect_true_values(const ResultsReader& results, const SortedJson& json) {
   const UniformGrid& grid = results.grid();
-  for (const Json& set : json["sets"]) {
+  for (const SortedJson& set : json["sets"]) {
     const auto indices = set["indices"].get<std::vector<std::vector<std::int64_t>>>();
     std::size_t cells = 1;
     for (const auto& dimension : indices) cells *= dimension.size();
     for (std::size_t m = 0; m < json["maps"].size(); ++m) {
-      const Json& head = json["maps"][m];
+      const SortedJson& head = json["maps"][m];
       const std::vector<std::int32_t> values = unpacked(set["maps"][m], cells);
       for (std::size_t place = 0; place < cells; ++place) {
         std::int64_t cell = 0;
@@ -108,10 +108,10 @@ class ReportDataOfThree : public testing::Test {
 TEST_F(ReportDataOfThree, HasEveryCellIfThereIsRoom) {
   const ReportData data = report_data(*results_, {0, 1});
   EXPECT_TRUE(data.is_whole);
-  const Json json = Json::parse(data.json);
+  const SortedJson json = SortedJson::parse(data.json);
   EXPECT_EQ(json["sets"].size(), 1);
   EXPECT_EQ(json["maps"].size(), 3);
-  EXPECT_EQ(json["maps"][0]["flags"], Json::parse(R"([-2, -1, "infinite"])"));
+  EXPECT_EQ(json["maps"][0]["flags"], SortedJson::parse(R"([-2, -1, "infinite"])"));
   expect_true_values(*results_, json);
 }
 
@@ -119,26 +119,26 @@ TEST_F(ReportDataOfThree, HasTrueValuesOfFewerCellsElse) {
   for (const std::int64_t values : {1, 30, 150, 400, 800}) {
     const ReportData data = report_data(*results_, {0}, {.values = values});
     EXPECT_FALSE(data.is_whole);
-    const Json json = Json::parse(data.json);
+    const SortedJson json = SortedJson::parse(data.json);
     EXPECT_EQ(json["sets"].size(), 3);
     expect_true_values(*results_, json);
   }
 }
 
-std::size_t packed_bytes(const Json& json) {
+std::size_t packed_bytes(const SortedJson& json) {
   std::size_t bytes = 0;
-  for (const Json& set : json["sets"]) {
-    for (const Json& map : set["maps"]) bytes += map["data"].get<std::string>().size();
+  for (const SortedJson& set : json["sets"]) {
+    for (const SortedJson& map : set["maps"]) bytes += map["data"].get<std::string>().size();
   }
   return bytes;
 }
 
 TEST_F(ReportDataOfThree, TakesFewerCellsUntilTheTextIsShort) {
-  const std::size_t all = packed_bytes(Json::parse(report_data(*results_, {0}).json));
+  const std::size_t all = packed_bytes(SortedJson::parse(report_data(*results_, {0}).json));
   EXPECT_TRUE(report_data(*results_, {0}, {.packed_bytes = all}).is_whole);
   const ReportData data = report_data(*results_, {0}, {.packed_bytes = all - 1});
   EXPECT_FALSE(data.is_whole);
-  const Json json = Json::parse(data.json);
+  const SortedJson json = SortedJson::parse(data.json);
   EXPECT_LT(packed_bytes(json), all);
   expect_true_values(*results_, json);
 }

@@ -8,14 +8,15 @@
 #include "cell/analyzed_file.hpp"
 #include "export/report_data.hpp"
 #include "results/scratch_folder.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;
 
 // Two points on a line that must not meet; the connection is lost for the first six steps.
-constexpr char kSpec[] = R"json({
+constexpr char kMembersSpec[] = R"json({
   "coordreq": 1, "name": "line",
   "states": [
     {"name": "x", "lower": 0, "upper": 9, "step": 1, "outside": "saturate"},
@@ -32,7 +33,7 @@ class ReportMembersOfLine : public testing::Test {
  protected:
   ReportMembersOfLine() {
     ThreadTeam team(2);
-    analyze_into(folder_ / "line.h5", kSpec, "", team);
+    analyze_into(folder_ / "line.h5", kMembersSpec, "", team);
     results_ = std::make_unique<ResultsReader>(folder_ / "line.h5");
   }
 
@@ -96,16 +97,16 @@ TEST_F(ReportMembersOfLine, HalfOfTheMembersHaveFewerSets) {
 }
 
 TEST_F(ReportMembersOfLine, APageSaysHowManyThereAre) {
-  const Json json = Json::parse(report_data(*results_, {0, 1}, {.subsets = 3}).json);
+  const SortedJson json = SortedJson::parse(report_data(*results_, {0, 1}, {.subsets = 3}).json);
   std::vector<std::string> kinds;
-  for (const Json& map : json["maps"]) kinds.push_back(map["kind"]);
+  for (const SortedJson& map : json["maps"]) kinds.push_back(map["kind"]);
   EXPECT_EQ(kinds, (std::vector<std::string>{"delay", "delay", "collision_time", "coalition", "pairs",
                                              "modes", "freedom", "freedom"}));
-  const Json& modes = json["maps"][5];
+  const SortedJson& modes = json["maps"][5];
   EXPECT_LT(modes["members"].size(), names().size());
   EXPECT_EQ(modes["total"], names().size());
   EXPECT_LE(modes["sets"].size(), 3);
-  EXPECT_EQ(json["maps"][3]["choices"], Json::parse(R"([{"partition": 1, "cost": 0.0},
+  EXPECT_EQ(json["maps"][3]["choices"], SortedJson::parse(R"([{"partition": 1, "cost": 0.0},
                                                         {"partition": 0, "cost": 1.0}])"));
 }
 

@@ -56,8 +56,8 @@ std::string random_number(int depth) {
 }
 
 std::string random_condition(int depth) {
-  constexpr std::array<const char*, 6> kComparisons{" < ", " <= ", " > ", " >= ", " == ", " != "};
-  const auto comparison = [&] { return kComparisons[static_cast<std::size_t>(pick(6))]; };
+  constexpr std::array<const char*, 6> kComparisonTexts{" < ", " <= ", " > ", " >= ", " == ", " != "};
+  const auto comparison = [&] { return kComparisonTexts[static_cast<std::size_t>(pick(6))]; };
   if (depth > 0 && pick(2) == 0) {
     switch (pick(3)) {
       case 0:

@@ -9,7 +9,7 @@
 namespace coordreq {
 namespace {
 
-constexpr int kSamples = 400'000;  ///< a function; with the powers five million in all
+constexpr int kElementarySamples = 400'000;  ///< a function; with the powers five million in all
 
 struct Elementary {
   std::string name;
@@ -36,7 +36,7 @@ Interval argument(RandomDoubles& random) {
 TEST_P(ElementaryEnclosure, ContainsTheValueAtEveryPoint) {
   RandomDoubles random(20);
   BigValue value;
-  for (int i = 0; i < kSamples; ++i) {
+  for (int i = 0; i < kElementarySamples; ++i) {
     const Interval a = argument(random);
     const double x = random.within(a);
     const Interval result = GetParam().enclosure(a);
@@ -56,7 +56,7 @@ TEST_P(ElementaryEnclosure, ContainsTheValueAtEveryPoint) {
 TEST(Angle, ContainsTheValueAtEveryPoint) {
   RandomDoubles random(22);
   BigValue value;
-  for (int i = 0; i < kSamples; ++i) {
+  for (int i = 0; i < kElementarySamples; ++i) {
     const Interval y = i % 2 == 0 ? argument(random) : random.interval();
     const Interval x = i % 2 == 0 ? argument(random) : random.interval();
     const double up = random.within(y) + 0.0, right = random.within(x) + 0.0;
@@ -83,7 +83,7 @@ TEST(Angle, IsTightAwayFromTheCut) {
 TEST_P(ElementaryEnclosure, IsNarrowAtPoints) {
   RandomDoubles random(21);
   BigValue value;
-  for (int i = 0; i < kSamples / 40; ++i) {
+  for (int i = 0; i < kElementarySamples / 40; ++i) {
     const double x = random.uniform(-5.0, 5.0);
     value.set(GetParam().reference, x);
     if (!value.is_defined()) continue;
@@ -96,7 +96,7 @@ TEST_P(ElementaryEnclosure, IsNarrowAtPoints) {
 
 TEST_P(ElementaryEnclosure, IsNotMuchWiderThanTheValuesAtItsEnds) {
   RandomDoubles random(22);
-  for (int i = 0; i < kSamples / 40; ++i) {
+  for (int i = 0; i < kElementarySamples / 40; ++i) {
     const double x = random.uniform(-0.9, 0.8);
     const Interval a{x, x + 1e-7};
     const Interval result = GetParam().enclosure(a);

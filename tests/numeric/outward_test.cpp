@@ -8,7 +8,7 @@
 namespace coordreq {
 namespace {
 
-constexpr int kSamples = 100'000;
+constexpr int kOutwardSamples = 100'000;
 
 /// Both bounds hold, and are one and the same double where the exact value is a double of ordinary size.
 void expect_bounds(double below, double above, const Rational& value, bool ordinary) {
@@ -30,7 +30,7 @@ bool is_ordinary(const Rational& value) {
 
 TEST(Outward, SumsAreBoundedTightly) {
   RandomDoubles random(1);
-  for (int i = 0; i < kSamples; ++i) {
+  for (int i = 0; i < kOutwardSamples; ++i) {
     const double a = random.any();
     const double b = random.any();
     expect_bounds(outward::add_down(a, b), outward::add_up(a, b), exact(a) + exact(b), std::isfinite(a + b));
@@ -39,7 +39,7 @@ TEST(Outward, SumsAreBoundedTightly) {
 
 TEST(Outward, ProductsAreBoundedTightly) {
   RandomDoubles random(2);
-  for (int i = 0; i < kSamples; ++i) {
+  for (int i = 0; i < kOutwardSamples; ++i) {
     const double a = random.any();
     const double b = random.any();
     const Rational value = exact(a) * exact(b);
@@ -49,7 +49,7 @@ TEST(Outward, ProductsAreBoundedTightly) {
 
 TEST(Outward, QuotientsAreBoundedTightly) {
   RandomDoubles random(3);
-  for (int i = 0; i < kSamples; ++i) {
+  for (int i = 0; i < kOutwardSamples; ++i) {
     const double a = random.any();
     const double b = random.any();
     if (b == 0.0) continue;
@@ -61,7 +61,7 @@ TEST(Outward, QuotientsAreBoundedTightly) {
 
 TEST(Outward, SquareRootsAreBoundedTightly) {
   RandomDoubles random(4);
-  for (int i = 0; i < kSamples; ++i) {
+  for (int i = 0; i < kOutwardSamples; ++i) {
     const double a = std::fabs(random.any());
     const double below = outward::square_root_down(a);
     const double above = outward::square_root_up(a);

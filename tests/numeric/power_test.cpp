@@ -7,8 +7,8 @@
 namespace coordreq {
 namespace {
 
-constexpr int kSamples = 200'000;
-constexpr double kInf = outward::kInfinity;
+constexpr int kPowerSamples = 200'000;
+constexpr double kPowerInf = outward::kInfinity;
 
 void expect_equal(const Interval& a, const Interval& b) {
   EXPECT_EQ(a.lower, b.lower);
@@ -32,7 +32,7 @@ void expect_encloses_power(BigValue& value, const Interval& a, const Interval& b
 TEST(Power, IntegerPowersContainThePowersOfPoints) {
   RandomDoubles random(30);
   BigValue value;
-  for (int i = 0; i < kSamples; ++i) {
+  for (int i = 0; i < kPowerSamples; ++i) {
     const Interval a = random.interval();
     const double n = random.integer(0, 9) == 0 ? random.integer(-400, 400) : random.integer(-9, 9);
     ASSERT_NO_FATAL_FAILURE(expect_encloses_power(value, a, {n, n}, random.within(a), n));
@@ -42,7 +42,7 @@ TEST(Power, IntegerPowersContainThePowersOfPoints) {
 TEST(Power, GeneralPowersContainThePowersOfPoints) {
   RandomDoubles random(31);
   BigValue value;
-  for (int i = 0; i < kSamples; ++i) {
+  for (int i = 0; i < kPowerSamples; ++i) {
     const Interval a = random.interval();
     const Interval b = random.interval();
     double y = random.within(b);
@@ -75,15 +75,15 @@ TEST(Power, ZeroToTheZeroIsOne) {
 }
 
 TEST(Power, NegativePowersAcrossZeroAreNotTotal) {
-  expect_equal(power({-2.0, 4.0}, -2.0), {0.0625, kInf, false});
-  expect_equal(power({-2.0, 4.0}, -1.0), {-kInf, kInf, false});
-  expect_equal(power({0.0, 4.0}, -1.0), {0.25, kInf, false});
-  expect_equal(power({0.0, 0.0}, -1.0), {-kInf, kInf, false});
+  expect_equal(power({-2.0, 4.0}, -2.0), {0.0625, kPowerInf, false});
+  expect_equal(power({-2.0, 4.0}, -1.0), {-kPowerInf, kPowerInf, false});
+  expect_equal(power({0.0, 4.0}, -1.0), {0.25, kPowerInf, false});
+  expect_equal(power({0.0, 0.0}, -1.0), {-kPowerInf, kPowerInf, false});
   EXPECT_TRUE(power({1e-300, 1.0}, -3.0).total);
 }
 
 TEST(Power, NegativeBaseNeedsAnIntegerExponent) {
-  expect_equal(pow({-2.0, -1.0}, {0.25, 0.75}), {-kInf, kInf, false});
+  expect_equal(pow({-2.0, -1.0}, {0.25, 0.75}), {-kPowerInf, kPowerInf, false});
   EXPECT_FALSE(pow({-1.0, 4.0}, {1.5, 1.5}).total);
   const Interval across = pow({-2.0, -2.0}, {0.5, 1.5});
   EXPECT_FALSE(across.total);
@@ -98,7 +98,7 @@ TEST(Power, HalfIsTheSquareRoot) {
 TEST(Power, GeneralPowersAreNarrow) {
   RandomDoubles random(32);
   BigValue value;
-  for (int i = 0; i < kSamples / 20; ++i) {
+  for (int i = 0; i < kPowerSamples / 20; ++i) {
     const double x = random.uniform(0.01, 10.0);
     const double y = random.uniform(-20.0, 20.0);
     const Interval result = pow({x, x}, {y, y});

@@ -12,7 +12,7 @@
 namespace coordreq {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kRationalInf = std::numeric_limits<double>::infinity();
 constexpr double kLargest = std::numeric_limits<double>::max();
 constexpr double kLeast = std::numeric_limits<double>::denorm_min();
 
@@ -64,15 +64,15 @@ TEST(NearestDouble, TiesGoToEven) {
   EXPECT_EQ(nearest_double(1 + 3 * half_step), outward::moved(1.0, 2));
   EXPECT_EQ(nearest_double(exact(kLeast) / 2), 0.0);
   EXPECT_EQ(nearest_double(exact(kLeast) * 3 / 2), 2 * kLeast);
-  EXPECT_EQ(nearest_double(Rational(mpz_class(1) << 1024) - Rational(mpz_class(1) << 970)), kInf);
+  EXPECT_EQ(nearest_double(Rational(mpz_class(1) << 1024) - Rational(mpz_class(1) << 970)), kRationalInf);
 }
 
 TEST(NearestDouble, OverflowsToInfinity) {
-  EXPECT_EQ(nearest_double(decimal("1e309")), kInf);
-  EXPECT_EQ(nearest_double(decimal("-1e5000")), -kInf);
+  EXPECT_EQ(nearest_double(decimal("1e309")), kRationalInf);
+  EXPECT_EQ(nearest_double(decimal("-1e5000")), -kRationalInf);
   EXPECT_EQ(lower_double(decimal("1e309")), kLargest);
-  EXPECT_EQ(upper_double(decimal("1e309")), kInf);
-  EXPECT_EQ(lower_double(decimal("-1e309")), -kInf);
+  EXPECT_EQ(upper_double(decimal("1e309")), kRationalInf);
+  EXPECT_EQ(lower_double(decimal("-1e309")), -kRationalInf);
   EXPECT_EQ(upper_double(decimal("-1e309")), -kLargest);
 }
 

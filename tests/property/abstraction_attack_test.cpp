@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "property/random_dynamics.hpp"
 #include "reach/build_abstraction.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {

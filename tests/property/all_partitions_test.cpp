@@ -10,7 +10,9 @@
 #include "answers/coalition/coalition_map.hpp"
 #include "answers/layers/refinement.hpp"
 #include "spec/read_spec.hpp"
+#include "support/agreement.hpp"
 #include "support/fast_engine.hpp"
+#include "support/members.hpp"
 #include "support/plain_engine.hpp"
 #include "support/random_problem.hpp"
 
@@ -20,17 +22,6 @@ namespace {
 ProblemSpec draw_crowd() {
   const RandomTime time = *rc::gen::inRange(0, 4) == 0 ? RandomTime::between_samples : RandomTime::any;
   return read_spec(draw_problem(time, RandomEdges::any, RandomAgents::many), "random");
-}
-
-std::vector<bool> members(const CellSet& set) {
-  std::vector<bool> result;
-  for (std::int64_t x = 0; x < set.cells(); ++x) result.push_back(set.test(x));
-  return result;
-}
-
-PlainAnalysis plainly(const ProblemSpec& spec, const FastAnalysis& fast) {
-  return analyze_plainly(spec, fast.abstraction, members(fast.safe),
-                         members(fast.beyond.value_or(fast.safe)));
 }
 
 /// The layers of all partitions by way of the coarser ones.

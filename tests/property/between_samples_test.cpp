@@ -4,16 +4,11 @@
 
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
+#include "support/members.hpp"
 #include "support/plain_engine.hpp"
 
 namespace coordreq {
 namespace {
-
-std::vector<bool> members(const CellSet& set) {
-  std::vector<bool> result;
-  for (std::int64_t x = 0; x < set.cells(); ++x) result.push_back(set.test(x));
-  return result;
-}
 
 /// K as text, "1" for members; both engines must agree on it.
 std::string invariant(const std::string& text) {

@@ -11,6 +11,7 @@
 #include "cell/simulate_runs.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
+#include "support/members.hpp"
 #include "support/plain_engine.hpp"
 #include "support/random_problem.hpp"
 
@@ -30,12 +31,6 @@ struct Analysed {
     const std::string agents = R"("agents": [{)";
     text.insert(text.find(agents) + agents.size(), R"json("prefer": "abs(x0 - 3)", )json");
     return text;
-  }
-
-  static std::vector<bool> members(const CellSet& set) {
-    std::vector<bool> result;
-    for (std::int64_t x = 0; x < set.cells(); ++x) result.push_back(set.test(x));
-    return result;
   }
 
   [[nodiscard]] bool is_empty() const {

@@ -9,6 +9,7 @@
 #include "answers/layers/independent_actions.hpp"
 #include "engine/join_rows.hpp"
 #include "model/model.hpp"
+#include "reach/table_shapes.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 #include "support/random_problem.hpp"

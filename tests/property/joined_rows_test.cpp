@@ -11,15 +11,12 @@
 #include "engine/join_rows.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
+#include "support/draw.hpp"
 
 // Rows along several dimensions give the levels that rows along one give (engines_agree_test.cpp holds these
 // against single pairs).
 namespace coordreq {
 namespace {
-
-int draw(int low, int high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
-}
 
 std::string draw_state(std::size_t i) {
   const int count = draw(2, 6);
@@ -34,7 +31,7 @@ std::string draw_state(std::size_t i) {
 }
 
 /// Two or three agents with one or two inputs each. What moves a state is drawn later.
-ProblemSpec draw_spec() {
+ProblemSpec draw_rows_spec() {
   const auto states = static_cast<std::size_t>(draw(3, 4));
   const auto agents = static_cast<std::size_t>(draw(2, 3));
   std::string state_list;
@@ -120,7 +117,7 @@ void expect_same_layers(const FastAnalysis& joined, std::size_t p, ThreadTeam& t
 TEST(JoinedRows, GiveTheSameLevels) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("rows along several dimensions equal rows along one", [&] {
-    const ProblemSpec spec = draw_spec();
+    const ProblemSpec spec = draw_rows_spec();
     Abstraction abstraction = build_abstraction(spec, team);
     const std::size_t across = static_cast<std::size_t>(draw(1, static_cast<int>(spec.states.size()) - 2));
     for (std::size_t t = 0; t < spec.states.size(); ++t) {

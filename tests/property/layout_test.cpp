@@ -10,6 +10,7 @@
 
 #include "model/cell_order.hpp"
 #include "model/row_sample.hpp"
+#include "reach/table_shapes.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 #include "support/random_problem.hpp"

@@ -8,6 +8,7 @@
 
 #include "engine/join_rows.hpp"
 #include "model/model.hpp"
+#include "reach/table_shapes.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 #include "support/level_rows.hpp"

@@ -8,7 +8,9 @@
 
 #include "answers/network/network_problem.hpp"
 #include "spec/read_spec.hpp"
+#include "support/draw.hpp"
 #include "support/fast_engine.hpp"
+#include "support/members.hpp"
 #include "support/plain_engine.hpp"
 #include "support/random_problem.hpp"
 
@@ -16,10 +18,6 @@ namespace coordreq {
 namespace {
 
 using Set = std::vector<bool>;
-
-int draw(int low, int high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
-}
 
 std::string with_network(std::string text, const std::string& network) {
   text.erase(text.rfind('}'));
@@ -62,12 +60,6 @@ std::vector<std::string> partition_names(const ProblemSpec& spec) {
   for (const AgentSpec& agent : spec.agents) all += (all.empty() ? "" : "+") + agent.name;
   names.push_back(all);
   return names;
-}
-
-std::vector<bool> members(const CellSet& set) {
-  std::vector<bool> result;
-  for (std::int64_t x = 0; x < set.cells(); ++x) result.push_back(set.test(x));
-  return result;
 }
 
 /// W(q) by the row engine.

@@ -7,20 +7,14 @@
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
 #include "model/pieces.hpp"
+#include "property/point.hpp"
 #include "reach/build_abstraction.hpp"
-#include "spec/read_spec.hpp"
+#include "support/draw.hpp"
 #include "support/random_problem.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
-
-std::int64_t draw(std::int64_t low, std::int64_t high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
-}
-
-RationalInterval point(const Rational& q) {
-  return {.lower = q, .upper = q};
-}
 
 /// A point of [lower, upper], often an end.
 Rational draw_between(const Rational& lower, const Rational& upper) {
@@ -29,7 +23,7 @@ Rational draw_between(const Rational& lower, const Rational& upper) {
 
 /// A true state that can be measured in cell k, as expressions see it; never the far end of a period, nor of
 /// a half-open cell.
-Rational draw_state(const ProblemSpec& spec, const GridDimension& dimension, std::int64_t k) {
+Rational draw_state(const SystemSpec& spec, const GridDimension& dimension, std::int64_t k) {
   const std::vector<Piece> parts = pieces(dimension, k);
   const Piece& part = parts[static_cast<std::size_t>(draw(0, static_cast<std::int64_t>(parts.size()) - 1))];
   if (part.lower == part.upper) return part.lower;
@@ -40,7 +34,7 @@ Rational draw_state(const ProblemSpec& spec, const GridDimension& dimension, std
 }
 
 /// Does raw index k of the lattice have the value in its cell?
-bool has(const ProblemSpec& spec, const GridDimension& target, std::int64_t k, const Rational& value) {
+bool has(const SystemSpec& spec, const GridDimension& target, std::int64_t k, const Rational& value) {
   const Rational low = target.point(k) - target.radius();
   const Rational high = target.point(k) + target.radius();
   if (target.discrete || spec.abstraction.cells == Cells::closed) return low <= value && value <= high;
@@ -58,7 +52,7 @@ bool covers(IndexRange range, std::int64_t k, const GridDimension& target) {
 TEST(Abstraction, SuccessorsOfPointsOfACellAreInItsPost) {
   ThreadTeam team(1);
   EXPECT_TRUE(rc::check("samples are posted", [&] {
-    const ProblemSpec spec = read_spec(draw_problem(RandomTime::discrete), "random");
+    const SystemSpec spec = read_system(draw_problem(RandomTime::discrete), "random");
     const Abstraction a = build_abstraction(spec, team);
     for (int attempt = 0; attempt < 40; ++attempt) {
       const std::int64_t x = draw(0, a.grid.cells() - 1);

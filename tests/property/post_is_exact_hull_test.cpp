@@ -7,16 +7,13 @@
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
 #include "model/odometer.hpp"
+#include "property/point.hpp"
 #include "reach/build_abstraction.hpp"
-#include "spec/read_spec.hpp"
 #include "support/random_problem.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
-
-RationalInterval point(const Rational& q) {
-  return {.lower = q, .upper = q};
-}
 
 struct Hull {
   Rational lower, upper;
@@ -25,7 +22,7 @@ struct Hull {
 
 /// Values of an affine map at all corners of a cell and of the disturbances; a corner on an upper face of a
 /// half-open cell is not in it.
-Hull hull_from_corners(const ProblemSpec& spec, const Abstraction& a, std::size_t state, std::int64_t x,
+Hull hull_from_corners(const SystemSpec& spec, const Abstraction& a, std::size_t state, std::int64_t x,
                        std::int64_t u) {
   Evaluator<RationalInterval> equation(spec.dynamics.equations[state]);
   std::vector<RationalInterval> slots(spec.slot_count());
@@ -62,7 +59,7 @@ Hull hull_from_corners(const ProblemSpec& spec, const Abstraction& a, std::size_
   return hull;
 }
 
-bool meets(const ProblemSpec& spec, const GridDimension& target, std::int64_t k, const Hull& hull) {
+bool meets(const SystemSpec& spec, const GridDimension& target, std::int64_t k, const Hull& hull) {
   const Rational low = target.point(k) - target.radius();
   const Rational high = target.point(k) + target.radius();
   if (target.discrete) return hull.lower == low;
@@ -73,7 +70,7 @@ bool meets(const ProblemSpec& spec, const GridDimension& target, std::int64_t k,
 TEST(Abstraction, PostsAreTheExactHullsOfAffineMaps) {
   ThreadTeam team(1);
   EXPECT_TRUE(rc::check("tables equal corners", [&] {
-    const ProblemSpec spec = read_spec(draw_problem(RandomTime::discrete, RandomEdges::plain), "random");
+    const SystemSpec spec = read_system(draw_problem(RandomTime::discrete, RandomEdges::plain), "random");
     const Abstraction a = build_abstraction(spec, team);
     const std::int64_t x = *rc::gen::inRange<std::int64_t>(0, a.grid.cells());
     const std::int64_t u = *rc::gen::inRange<std::int64_t>(0, a.inputs.count());

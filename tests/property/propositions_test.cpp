@@ -9,15 +9,13 @@
 
 #include "model/input_class.hpp"
 #include "reach/build_abstraction.hpp"
+#include "spec/problem_spec.hpp"
 #include "support/analysed_file.hpp"
+#include "support/draw.hpp"
 #include "support/random_problem.hpp"
 
 namespace coordreq {
 namespace {
-
-int draw(int low, int high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
-}
 
 /// The absorbing cell that stands for having left safely.
 constexpr std::int64_t kGone = -1;
@@ -85,10 +83,6 @@ class World {
   ClaimedFile file_;
   Abstraction abstraction_;
 };
-
-std::int64_t pick(const std::vector<std::int64_t>& values) {
-  return values[static_cast<std::size_t>(draw(0, static_cast<int>(values.size()) - 1))];
-}
 
 /// A cell of K, if there is one.
 std::optional<std::int64_t> draw_invariant(const World& world) {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "spec/read_spec.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
@@ -62,8 +62,8 @@ RandomDynamics RandomDynamics::draw() {
   std::vector<std::string> equations;
   for (int i = 0; i < 3; ++i) equations.push_back(random_field(pick(4), 3, roughness));
   const std::string text = draw_text(equations, pick(3) > 0);
-  RandomDynamics result{text, read_spec(text, "random"), FlowCase(equations)};
-  const ProblemSpec& spec = result.spec;
+  RandomDynamics result{text, read_system(text, "random"), FlowCase(equations)};
+  const SystemSpec& spec = result.spec;
   for (std::size_t l = 0; l < spec.disturbances.size(); ++l) {
     const DisturbanceSpec& w = spec.disturbances[l];
     result.system.slots[kDisturbanceSlot + l] = {w.lower.get_d(), w.upper.get_d()};

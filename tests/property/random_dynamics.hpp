@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reach/random_flow.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 
@@ -13,7 +13,7 @@ namespace coordreq {
 /// errors, both kinds of cells.
 struct RandomDynamics {
   std::string text;  ///< the spec as JSON
-  ProblemSpec spec;
+  SystemSpec spec;
   FlowCase system;  ///< the same equations, boxes of w and d, limits and period; for integrate()
 
   /// Draws with RapidCheck. @throws SpecError if the expressions drawn are beyond the grammar's limits

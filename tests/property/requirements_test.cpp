@@ -16,20 +16,16 @@
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/table_shapes.hpp"
+#include "reach/make_model.hpp"
 #include "spec/read_spec.hpp"
 #include "support/analysed_file.hpp"
+#include "support/draw.hpp"
+#include "support/members.hpp"
 #include "support/plain_engine.hpp"
 #include "support/random_requirements.hpp"
 
 namespace coordreq {
 namespace {
-
-std::vector<bool> members(const CellSet& set) {
-  std::vector<bool> result;
-  for (std::int64_t x = 0; x < set.cells(); ++x) result.push_back(set.test(x));
-  return result;
-}
 
 /// The verdicts on a spec, and the same system analysed the plain way.
 struct Both {
@@ -270,10 +266,6 @@ TEST(Requirements, ThatWereWrittenVerify) {
     RC_LOG(complaints(result));
     RC_ASSERT(result.holds());
   }));
-}
-
-int draw(int low, int high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
 }
 
 /// Another number in the verdict that the file could also hold.

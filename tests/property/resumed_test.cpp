@@ -132,7 +132,7 @@ TEST(Resumed, WideLevelsAreTheSameFromAnyStep) {
   }
 }
 
-std::string with_network(std::string problem, bool resynthesise) {
+std::string with_any_network(std::string problem, bool resynthesise) {
   problem.erase(problem.rfind('}'));
   return problem + R"(, "network": {"weakly_hard": {"misses": 2, "window": 4}, "resynthesise": )" +
          (resynthesise ? "true" : "false") + "}}";
@@ -150,7 +150,7 @@ TEST(Resumed, SetsOfANetworkAreTheSameFromAnyStep) {
   EXPECT_TRUE(rc::check("W(q) of both kinds", [&] {
     const std::string text = draw_problem(RandomTime::any);
     for (const bool resynthesise : {false, true}) {
-      const ProblemSpec spec = read_spec(with_network(text, resynthesise), "random");
+      const ProblemSpec spec = read_spec(with_any_network(text, resynthesise), "random");
       const FastAnalysis fast(spec, team);
       const NetworkProblem problem = network_problem(spec, fast.controller, fast.hull);
       std::vector<std::vector<CellSet>> seen;

@@ -7,15 +7,12 @@
 #include "engine/box_reader.hpp"
 #include "engine/tuple_walk.hpp"
 #include "spec/read_spec.hpp"
+#include "support/draw.hpp"
 #include "support/fast_engine.hpp"
 #include "support/random_problem.hpp"
 
 namespace coordreq {
 namespace {
-
-int draw(int low, int high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
-}
 
 /// f(x, u) as the rules for leaving the domain leave it.
 struct Post {

@@ -11,16 +11,16 @@
 #include "engine/sum_reader.hpp"
 #include "engine/tuple_walk.hpp"
 #include "reach/build_abstraction.hpp"
-#include "spec/read_spec.hpp"
 #include "support/random_problem.hpp"
 #include "support/random_sums.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
 
 using Level = std::uint8_t;
 
-Abstraction random_sums(const ProblemSpec& spec, ThreadTeam& team) {
+Abstraction random_sums(const SystemSpec& spec, ThreadTeam& team) {
   Abstraction abstraction = build_abstraction(spec, team);
   draw_sums(abstraction);
   return abstraction;
@@ -76,7 +76,7 @@ TEST(SumReader, BoundsAreNowhereAboveTheMinimaOfTheirChoices) {
   ThreadTeam team(1);
   std::size_t found = 0;
   EXPECT_TRUE(rc::check("bound <= minimum of each choice", [&] {
-    const ProblemSpec spec = read_spec(draw_problem(RandomTime::any, RandomEdges::plain), "random");
+    const SystemSpec spec = read_system(draw_problem(RandomTime::any, RandomEdges::plain), "random");
     RC_PRE(spec.states.size() > 1);
     const Abstraction abstraction = random_sums(spec, team);
     const RowEngine engine(abstraction, nullptr, {});

@@ -11,9 +11,11 @@
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
 #include "model/pieces.hpp"
+#include "property/point.hpp"
 #include "reach/build_abstraction.hpp"
-#include "spec/read_spec.hpp"
+#include "support/draw.hpp"
 #include "support/random_problem.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
@@ -22,25 +24,17 @@ using Slots = std::vector<RationalInterval>;
 
 constexpr int kSegments = 4;  ///< the disturbance may change between them
 
-std::int64_t draw(std::int64_t low, std::int64_t high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
-}
-
-RationalInterval point(const Rational& q) {
-  return {.lower = q, .upper = q};
-}
-
 /// A point of [lower, upper], often an end.
-Rational draw_between(const Rational& lower, const Rational& upper) {
+Rational draw_within(const Rational& lower, const Rational& upper) {
   return lower + (upper - lower) * static_cast<long>(draw(0, 6)) / 6;
 }
 
-Slots draw_start(const ProblemSpec& spec, const Abstraction& a, std::int64_t x, std::int64_t u) {
+Slots draw_start(const SystemSpec& spec, const Abstraction& a, std::int64_t x, std::int64_t u) {
   Slots slots(spec.slot_count());
   for (std::size_t i = 0; i < a.grid.size(); ++i) {
     const std::vector<Piece> parts = pieces(a.grid[i], a.grid.index(x, i));
     const Piece& part = parts[static_cast<std::size_t>(draw(0, static_cast<std::int64_t>(parts.size()) - 1))];
-    slots[i] = point(draw_between(part.lower, part.upper));
+    slots[i] = point(draw_within(part.lower, part.upper));
   }
   for (std::size_t i = 0; i < a.inputs.size(); ++i) {
     slots[spec.input_slot(i)] = point(a.inputs[i].values[static_cast<std::size_t>(a.inputs.index(u, i))]);
@@ -48,7 +42,7 @@ Slots draw_start(const ProblemSpec& spec, const Abstraction& a, std::int64_t x, 
   return slots;
 }
 
-std::vector<Rational> derivative(const ProblemSpec& spec, const Slots& slots) {
+std::vector<Rational> derivative(const SystemSpec& spec, const Slots& slots) {
   std::vector<Rational> result;
   for (const Program& equation : spec.dynamics.equations) {
     result.push_back(Evaluator<RationalInterval>(equation).number(slots).lower);
@@ -61,7 +55,7 @@ Slots moved(Slots slots, const std::vector<Rational>& by, const Rational& time) 
   return slots;
 }
 
-Slots step(const ProblemSpec& spec, const Slots& slots, const Rational& h) {
+Slots step(const SystemSpec& spec, const Slots& slots, const Rational& h) {
   const auto k1 = derivative(spec, slots);
   const auto k2 = derivative(spec, moved(slots, k1, h / 2));
   const auto k3 = derivative(spec, moved(slots, k2, h / 2));
@@ -86,7 +80,7 @@ bool covers(IndexRange range, const GridDimension& target, const Rational& value
 }
 
 /// Whether an equation jumps where state i passes its seam.
-bool jumps_at_seam(const ProblemSpec& spec, std::size_t i) {
+bool jumps_at_seam(const SystemSpec& spec, std::size_t i) {
   if (spec.states[i].below != Outside::periodic) return false;
   return std::any_of(spec.dynamics.equations.begin(), spec.dynamics.equations.end(),
                      [&](const Program& equation) {
@@ -96,7 +90,7 @@ bool jumps_at_seam(const ProblemSpec& spec, std::size_t i) {
 }
 
 /// Behind a seam at which an equation jumps the steps are not exact any more.
-bool is_before_seams(const ProblemSpec& spec, const Slots& slots) {
+bool is_before_seams(const SystemSpec& spec, const Slots& slots) {
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     if (!jumps_at_seam(spec, i)) continue;
     if (slots[i].lower < spec.states[i].lower || slots[i].lower >= spec.states[i].upper) return false;
@@ -107,7 +101,7 @@ bool is_before_seams(const ProblemSpec& spec, const Slots& slots) {
 TEST(Abstraction, SolutionsStayInTheirTubesBetweenTheSamples) {
   ThreadTeam team(1);
   EXPECT_TRUE(rc::check("solutions stay in tubes", [&] {
-    const ProblemSpec spec = read_spec(draw_problem(RandomTime::between_samples), "random");
+    const SystemSpec spec = read_system(draw_problem(RandomTime::between_samples), "random");
     const Abstraction a = build_abstraction(spec, team);
     RC_ASSERT(a.tubes.size() == a.grid.size());
     for (int attempt = 0; attempt < 20; ++attempt) {
@@ -117,7 +111,7 @@ TEST(Abstraction, SolutionsStayInTheirTubesBetweenTheSamples) {
       for (int segment = 0; segment < kSegments && is_before_seams(spec, slots); ++segment) {
         for (std::size_t l = 0; l < spec.disturbances.size(); ++l) {
           const DisturbanceSpec& w = spec.disturbances[l];
-          slots[spec.disturbance_slot(l)] = point(draw_between(w.lower, w.upper));
+          slots[spec.disturbance_slot(l)] = point(draw_within(w.lower, w.upper));
         }
         for (int part = 0; part < 3; ++part) {
           slots = step(spec, slots, spec.dynamics.period / (3 * kSegments));

@@ -3,18 +3,16 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "spec/problem_spec.hpp"
 #include "support/analysed_file.hpp"
+#include "support/draw.hpp"
 #include "support/random_problem.hpp"
 
 namespace coordreq {
 namespace {
 
-int draw(int low, int high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
-}
-
 template <class T>
-T& pick(std::vector<T>& values) {
+T& draw_one_of(std::vector<T>& values) {
   return values[static_cast<std::size_t>(draw(0, static_cast<int>(values.size()) - 1))];
 }
 
@@ -82,18 +80,18 @@ TEST(Verify, AResultWithoutTubesIsFoundUnlessItIsTheSame) {
 void corrupt_coalition(Claims& claims) {
   switch (draw(0, 3)) {
     case 0: {
-      std::int32_t& chosen = pick(claims.numbers.at("/coalition"));
+      std::int32_t& chosen = draw_one_of(claims.numbers.at("/coalition"));
       chosen = chosen == 0 ? -3 : chosen - 1;
       return;
     }
     case 1:
-      pick(pick(claims.critical_pairs)) ^= 1U;
+      draw_one_of(draw_one_of(claims.critical_pairs)) ^= 1U;
       return;
     case 2:
-      pick(claims.coalition_cells) += 1;
+      draw_one_of(claims.coalition_cells) += 1;
       return;
     default:
-      pick(claims.critical_pair_cells) += 1;
+      draw_one_of(claims.critical_pair_cells) += 1;
   }
 }
 
@@ -112,27 +110,27 @@ TEST(Verify, CoalitionsOfManyAgentsHoldAndOneOtherIsFound) {
 
 /// Another number that the file could also hold at one place. @returns false if there is no such place
 bool corrupt(Claims& claims) {
-  PartitionClaims& partition = pick(claims.partitions);
+  PartitionClaims& partition = draw_one_of(claims.partitions);
   const std::int32_t step = draw(0, 1) == 0 ? 1 : -1;
   switch (draw(0, 9)) {
     case 0:
-      pick(claims.safe) ^= 1U;
+      draw_one_of(claims.safe) ^= 1U;
       return true;
     case 1:
-      pick(claims.invariant) ^= 1U;
+      draw_one_of(claims.invariant) ^= 1U;
       return true;
     case 2: {
-      std::int32_t& time = pick(claims.collision_time);
+      std::int32_t& time = draw_one_of(claims.collision_time);
       time = time == kForever ? 1 : time + 1;
       return true;
     }
     case 3: {
-      std::int32_t& delay = pick(partition.delay);
+      std::int32_t& delay = draw_one_of(partition.delay);
       delay = delay == kForever ? draw(0, 3) : std::max(delay + step, -2 + (delay == -2 ? 1 : 0));
       return true;
     }
     case 4: {
-      std::int32_t& trigger = pick(partition.trigger);
+      std::int32_t& trigger = draw_one_of(partition.trigger);
       trigger = trigger == kForever ? 0 : trigger + 1;
       return true;
     }
@@ -140,17 +138,17 @@ bool corrupt(Claims& claims) {
       partition.fixed_point_index += 1;
       return true;
     case 6:
-      pick(partition.layer_sizes) += 1;
+      draw_one_of(partition.layer_sizes) += 1;
       return true;
     case 7:
-      pick(claims.controller) ^= static_cast<std::uint8_t>(1U << draw(0, 7));
+      draw_one_of(claims.controller) ^= static_cast<std::uint8_t>(1U << draw(0, 7));
       return true;
     case 8:
-      pick(pick(partition.actions)) ^= static_cast<std::uint8_t>(1U << draw(0, 7));
+      draw_one_of(draw_one_of(partition.actions)) ^= static_cast<std::uint8_t>(1U << draw(0, 7));
       return true;
     default:
       if (partition.layer_cell.empty()) return false;
-      pick(partition.layer_cell) += 1;
+      draw_one_of(partition.layer_cell) += 1;
       return true;
   }
 }

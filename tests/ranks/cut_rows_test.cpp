@@ -9,19 +9,19 @@
 namespace coordreq {
 namespace {
 
-using Numbers = std::vector<std::int64_t>;
+using RowNumbers = std::vector<std::int64_t>;
 
 TEST(CutRows, SharesAreEqualWhereWeightsAre) {
-  EXPECT_EQ(cut_rows(Numbers{1, 1, 1, 1}, 10, 40, 2), (Numbers{0, 20, 40}));
-  EXPECT_EQ(cut_rows(Numbers{5, 1, 1, 1, 1, 1}, 1, 6, 2), (Numbers{0, 1, 6}));
+  EXPECT_EQ(cut_rows(RowNumbers{1, 1, 1, 1}, 10, 40, 2), (RowNumbers{0, 20, 40}));
+  EXPECT_EQ(cut_rows(RowNumbers{5, 1, 1, 1, 1, 1}, 1, 6, 2), (RowNumbers{0, 1, 6}));
 }
 
 TEST(CutRows, WithoutWeightBlocksCount) {
-  EXPECT_EQ(cut_rows(Numbers{0, 0, 0, 0}, 2, 7, 4), (Numbers{0, 2, 4, 6, 7}));
+  EXPECT_EQ(cut_rows(RowNumbers{0, 0, 0, 0}, 2, 7, 4), (RowNumbers{0, 2, 4, 6, 7}));
 }
 
 TEST(CutRows, ThereMayBeFewerRowsThanParts) {
-  const Numbers bounds = cut_rows(Numbers{1, 1}, 1, 2, 5);
+  const RowNumbers bounds = cut_rows(RowNumbers{1, 1}, 1, 2, 5);
   EXPECT_EQ(bounds.size(), 6U);
   EXPECT_EQ(bounds.front(), 0);
   EXPECT_EQ(bounds.back(), 2);
@@ -31,10 +31,10 @@ TEST(CutRows, ThereMayBeFewerRowsThanParts) {
 TEST(CutRows, SharesDifferByABlockAtMost) {
   EXPECT_TRUE(rc::check("no share is further from the mean than the heaviest block", [] {
     const auto weights =
-        *rc::gen::nonEmpty(rc::gen::container<Numbers>(rc::gen::inRange<std::int64_t>(0, 9)));
+        *rc::gen::nonEmpty(rc::gen::container<RowNumbers>(rc::gen::inRange<std::int64_t>(0, 9)));
     const int parts = *rc::gen::inRange(1, 9);
     const auto rows = static_cast<std::int64_t>(weights.size());
-    const Numbers bounds = cut_rows(weights, 1, rows, parts);
+    const RowNumbers bounds = cut_rows(weights, 1, rows, parts);
     RC_ASSERT(static_cast<int>(bounds.size()) == parts + 1);
     RC_ASSERT(std::is_sorted(bounds.begin(), bounds.end()));
     const std::int64_t total = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});

@@ -11,10 +11,10 @@
 namespace coordreq {
 namespace {
 
-constexpr std::int64_t kCounts[] = {0, 1, 4, 7, 200000};
+constexpr std::int64_t kLengths[] = {0, 1, 4, 7, 200000};
 
 TEST(DividedLoop, EveryIndexIsRunByOneRankAndKnownToAll) {
-  for (const std::int64_t count : kCounts) {
+  for (const std::int64_t count : kLengths) {
     ThreadRanks::run(5, [&](Ranks& ranks) {
       ThreadTeam team(2);
       std::vector<IndexRange> ranges(static_cast<std::size_t>(count));
@@ -32,7 +32,7 @@ TEST(DividedLoop, EveryIndexIsRunByOneRankAndKnownToAll) {
 }
 
 TEST(DividedLoop, AllAreToldAllParts) {
-  for (const std::int64_t count : kCounts) {
+  for (const std::int64_t count : kLengths) {
     ThreadRanks::run(3, [&](Ranks& ranks) {
       const ThreadTeam::Range own = divided_range(&ranks, count);
       std::vector<IndexRange> part;

@@ -16,7 +16,7 @@
 #include "answers/plan.hpp"
 #include "base/json.hpp"
 #include "model/model.hpp"
-#include "reach/table_shapes.hpp"
+#include "reach/make_model.hpp"
 #include "spec/read_spec.hpp"
 #include "support/level_rows.hpp"
 #include "support/random_like_agents.hpp"
@@ -25,7 +25,7 @@
 namespace coordreq {
 namespace {
 
-constexpr int kCounts[] = {1, 2, 3, 5, 9};
+constexpr int kRanks[] = {1, 2, 3, 5, 9};
 /// More do not exchange agents.
 constexpr int kMostThatExchange = 8;
 
@@ -99,7 +99,7 @@ TEST(LikeAgentsOfManyRanks, AreLookedAtOnceByWhoeverHasTheFirst) {
     const Expected expected = alone(model);
     const auto is_done = *rc::gen::container<std::vector<int>>(23, rc::gen::inRange(0, 2));
     bool is_once = false;
-    for (const int count : kCounts) {
+    for (const int count : kRanks) {
       std::atomic<int> wrong = 0, mirrors = 0;
       ThreadRanks::run(count, [&](Ranks& ranks) {
         mirrors += check_rank(model, expected, is_done, ranks, wrong) ? 1 : 0;

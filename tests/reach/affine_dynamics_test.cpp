@@ -3,25 +3,25 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "spec/read_spec.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
 
 /// A spec with states p, v (continuous), one input u, one disturbance w in [-1, 3].
-ProblemSpec spec_with(const std::string& time, const std::string& p, const std::string& v,
-                      const std::string& period = "0.5") {
-  return read_spec(R"({"coordreq": 1, "name": "t",
+SystemSpec spec_with(const std::string& time, const std::string& p, const std::string& v,
+                     const std::string& period = "0.5") {
+  return read_system(R"({"coordreq": 1, "name": "t",
 "states": [{"name": "p", "lower": 0, "upper": 9, "step": 1}, {"name": "v", "lower": 0, "upper": 9, "step": 1}],
 "inputs": [{"name": "u", "values": [2]}], "disturbances": [{"name": "w", "lower": -1, "upper": 3}],
 "agents": [{"name": "a", "inputs": ["u"]}],
 "dynamics": {"time": ")" +
-                       time + R"(", "period": )" + period + R"(, "equations": {"p": ")" + p + R"(", "v": ")" +
-                       v + R"("}}, "safe": "true"})",
-                   "test");
+                         time + R"(", "period": )" + period + R"(, "equations": {"p": ")" + p +
+                         R"(", "v": ")" + v + R"("}}, "safe": "true"})",
+                     "test");
 }
 
-SampledRow row_of(const ProblemSpec& spec, std::size_t state) {
+SampledRow row_of(const SystemSpec& spec, std::size_t state) {
   return AffineDynamics(spec).row(state, {0, 0, 2, 0}).value();
 }
 
@@ -60,7 +60,7 @@ TEST(AffineDynamics, DiscreteMapsAreMultipliedOut) {
 }
 
 TEST(AffineDynamics, OnlyWhatTheEquationUsesIsADependency) {
-  const ProblemSpec spec = spec_with("discrete", "v + w", "v + u");
+  const SystemSpec spec = spec_with("discrete", "v + w", "v + u");
   const AffineDynamics dynamics(spec);
   EXPECT_EQ(dynamics.dependencies(0).moving, (std::vector<std::int32_t>{1}));
   EXPECT_TRUE(dynamics.dependencies(0).inputs.empty());
@@ -69,7 +69,7 @@ TEST(AffineDynamics, OnlyWhatTheEquationUsesIsADependency) {
 }
 
 TEST(AffineDynamics, ContinuousTimeDependsOnTheTransitiveClosure) {
-  const ProblemSpec spec = spec_with("continuous", "v", "u + w");
+  const SystemSpec spec = spec_with("continuous", "v", "u + w");
   const AffineDynamics dynamics(spec);
   EXPECT_EQ(dynamics.dependencies(0).moving, (std::vector<std::int32_t>{0, 1}));
   EXPECT_EQ(dynamics.dependencies(0).inputs, (std::vector<std::int32_t>{0}));
@@ -84,7 +84,7 @@ TEST(AffineDynamics, IrrationalConstantsAreEnclosed) {
   EXPECT_LT(Rational(row.upper - row.lower).get_d(), 1e-14);
 }
 
-std::string message_of(const ProblemSpec& spec) {
+std::string message_of(const SystemSpec& spec) {
   try {
     (void)row_of(spec, 0);
   } catch (const SpecError& error) {
@@ -93,7 +93,7 @@ std::string message_of(const ProblemSpec& spec) {
   return "no error";
 }
 
-bool is_affine(const ProblemSpec& spec) {
+bool is_affine(const SystemSpec& spec) {
   return AffineDynamics(spec).row(0, {0, 0, 2, 0}).has_value();
 }
 

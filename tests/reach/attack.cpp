@@ -18,7 +18,7 @@ bool in_range(const GridDimension& dimension, IndexRange range, double value) {
 
 }  // namespace
 
-void attack(const ProblemSpec& spec, const Abstraction& abstraction, int cases) {
+void attack(const SystemSpec& spec, const Abstraction& abstraction, int cases) {
   std::mt19937_64 random(20180410);
   for (int c = 0; c < cases; ++c) {
     const RandomStart start = random_start(spec, abstraction, random);

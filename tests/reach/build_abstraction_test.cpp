@@ -3,22 +3,22 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "spec/read_spec.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
 
-ProblemSpec one_state(const std::string& state, const std::string& equation, const std::string& cells) {
-  return read_spec(R"({"coordreq": 1, "name": "t", "states": [{"name": "x", )" + state + R"(}],
+SystemSpec one_state(const std::string& state, const std::string& equation, const std::string& cells) {
+  return read_system(R"({"coordreq": 1, "name": "t", "states": [{"name": "x", )" + state + R"(}],
 "inputs": [{"name": "u", "values": [0, 1, 0.5]}], "agents": [{"name": "a", "inputs": ["u"]}],
 "dynamics": {"time": "discrete", "period": 1, "equations": {"x": ")" +
-                       equation + R"("}},
+                         equation + R"("}},
 "safe": "true", "abstraction": {"cells": ")" +
-                       cells + R"("}})",
-                   "test");
+                         cells + R"("}})",
+                     "test");
 }
 
-Abstraction build(const ProblemSpec& spec) {
+Abstraction built_alone(const SystemSpec& spec) {
   ThreadTeam team(1);
   return build_abstraction(spec, team);
 }
@@ -26,7 +26,7 @@ Abstraction build(const ProblemSpec& spec) {
 const std::string kUnitGrid = R"("lower": -5, "upper": 5, "step": 1)";
 
 TEST(BuildAbstraction, ClosedCellsMeetTheNeighboursThatTheyTouch) {
-  const Abstraction a = build(one_state(kUnitGrid, "x + u", "closed"));
+  const Abstraction a = built_alone(one_state(kUnitGrid, "x + u", "closed"));
   EXPECT_EQ(a.raw(0, 5, 0), (IndexRange{4, 6}));
   EXPECT_EQ(a.raw(0, 5, 1), (IndexRange{5, 7}));
   EXPECT_EQ(a.raw(0, 5, 2), (IndexRange{5, 6}));
@@ -34,7 +34,7 @@ TEST(BuildAbstraction, ClosedCellsMeetTheNeighboursThatTheyTouch) {
 }
 
 TEST(BuildAbstraction, HalfOpenCellsPartition) {
-  const Abstraction a = build(one_state(kUnitGrid, "x + u", "half_open"));
+  const Abstraction a = built_alone(one_state(kUnitGrid, "x + u", "half_open"));
   EXPECT_EQ(a.raw(0, 5, 0), (IndexRange{5, 5}));
   EXPECT_EQ(a.raw(0, 5, 1), (IndexRange{6, 6}));
   EXPECT_EQ(a.raw(0, 5, 2), (IndexRange{5, 6}));
@@ -42,20 +42,20 @@ TEST(BuildAbstraction, HalfOpenCellsPartition) {
 
 TEST(BuildAbstraction, ReflectedHalfOpenCellAttainsItsUpperEnd) {
   // The contract's example: x' = -x maps [-1.5, -0.5) to (0.5, 1.5], which meets [1.5, 2.5).
-  const Abstraction a = build(one_state(kUnitGrid, "-x", "half_open"));
+  const Abstraction a = built_alone(one_state(kUnitGrid, "-x", "half_open"));
   EXPECT_EQ(a.raw(0, 4, 0), (IndexRange{6, 7}));
 }
 
 TEST(BuildAbstraction, DiscreteStatesMoveFromPointToPoint) {
   const Abstraction a =
-      build(one_state(kUnitGrid + R"(, "discrete": true)", "if(u == 1, -x, x^2 - x)", "closed"));
+      built_alone(one_state(kUnitGrid + R"(, "discrete": true)", "if(u == 1, -x, x^2 - x)", "closed"));
   EXPECT_EQ(a.raw(0, 4, 1), (IndexRange{6, 6}));
   EXPECT_EQ(a.raw(0, 2, 0), (IndexRange{17, 17}));
 }
 
-std::string error_of(const ProblemSpec& spec) {
+std::string error_of_tables(const SystemSpec& spec) {
   try {
-    (void)build(spec);
+    (void)built_alone(spec);
   } catch (const SpecError& error) {
     return error.what();
   }
@@ -63,26 +63,27 @@ std::string error_of(const ProblemSpec& spec) {
 }
 
 TEST(BuildAbstraction, DiscreteStateOffItsGridIsAnErrorThatNamesStateAndInput) {
-  EXPECT_EQ(error_of(one_state(kUnitGrid + R"(, "discrete": true)", "x + u", "closed")),
+  EXPECT_EQ(error_of_tables(one_state(kUnitGrid + R"(, "discrete": true)", "x + u", "closed")),
             "the next value of the discrete state 'x' is -4.5 at x = -5, u = 0.5, expected -5 + k * 1 with "
             "an integer k "
             "(/dynamics/equations/x)");
 }
 
 TEST(BuildAbstraction, DiscreteStateWithIrrationalValueIsOffItsGrid) {
-  EXPECT_NE(error_of(one_state(kUnitGrid + R"(, "discrete": true)", "sqrt(x + 5)", "closed")).find("x = -3"),
-            std::string::npos);
+  EXPECT_NE(
+      error_of_tables(one_state(kUnitGrid + R"(, "discrete": true)", "sqrt(x + 5)", "closed")).find("x = -3"),
+      std::string::npos);
 }
 
 TEST(BuildAbstraction, TablesRangeOverWhatTheEquationUses) {
-  const Abstraction a = build(one_state(kUnitGrid, "u", "closed"));
+  const Abstraction a = built_alone(one_state(kUnitGrid, "u", "closed"));
   EXPECT_EQ(a.tables[0].entries.size(), 3U);
   EXPECT_TRUE(a.tables[0].states.empty());
   EXPECT_EQ(a.raw(0, 0, 2), a.raw(0, 10, 2));
 }
 
 TEST(BuildAbstraction, OffsetThatDoesNotDependOnTheStateIsStoredOnce) {
-  const Abstraction a = build(one_state(kUnitGrid, "x + u", "closed"));
+  const Abstraction a = built_alone(one_state(kUnitGrid, "x + u", "closed"));
   EXPECT_TRUE(a.tables[0].shift);
   EXPECT_EQ(a.tables[0].states, std::vector<std::int32_t>{0});
   EXPECT_EQ(a.tables[0].state_stride, std::vector<std::int64_t>{0});
@@ -99,7 +100,7 @@ TEST(BuildAbstraction, OffsetThatDoesNotDependOnTheStateIsStoredOnce) {
 
 TEST(BuildAbstraction, ShiftsAreSeenBehindConditionsThatDecideNothing) {
   const auto shifts = [](const std::string& state, const std::string& equation) {
-    return build(one_state(state, equation, "closed")).tables[0].shift;
+    return built_alone(one_state(state, equation, "closed")).tables[0].shift;
   };
   EXPECT_TRUE(shifts(kUnitGrid, "if(u > 0, x + u, x - 1)"));
   EXPECT_TRUE(shifts(kUnitGrid, "min(x, 9) + sin(u)"));
@@ -116,7 +117,7 @@ TEST(BuildAbstraction, ShiftsAreSeenBehindConditionsThatDecideNothing) {
 
 TEST(BuildAbstraction, ShiftFarBeyondTheDomainSaturates) {
   constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
-  const Abstraction a = build(one_state(kUnitGrid, "x + 1e12*u", "closed"));
+  const Abstraction a = built_alone(one_state(kUnitGrid, "x + 1e12*u", "closed"));
   EXPECT_TRUE(a.tables[0].shift);
   EXPECT_EQ(a.raw(0, 10, 1), (IndexRange{kFar, kFar}));
   EXPECT_TRUE(a.resolved(0, 10, 1).blocked);
@@ -124,14 +125,14 @@ TEST(BuildAbstraction, ShiftFarBeyondTheDomainSaturates) {
 
 TEST(BuildAbstraction, RingTurnedByAShiftNeedsNoCutAtItsSeam) {
   // y enters as a number, so that its cell on the seam is cut; the own one goes round whole.
-  const ProblemSpec spec = read_spec(R"({"coordreq": 1, "name": "t",
+  const SystemSpec spec = read_system(R"({"coordreq": 1, "name": "t",
 "states": [{"name": "x", "lower": 0, "upper": 8, "count": 8, "outside": "periodic"},
            {"name": "y", "lower": 0, "upper": 4, "count": 4, "outside": "periodic"}],
 "inputs": [{"name": "u", "values": [1]}], "agents": [{"name": "a", "inputs": ["u"]}],
 "dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x + 0.5*y + u", "y": "y"}},
 "safe": "true", "abstraction": {"cells": "half_open"}})",
-                                     "test");
-  const Abstraction a = build(spec);
+                                      "test");
+  const Abstraction a = built_alone(spec);
   EXPECT_TRUE(a.tables[0].shift);
   // y in [0.5, 1.5) moves x by [1.25, 1.75); on the seam y in [3.5, 4) or [0, 0.5) by [2.75, 3) or [1, 1.25).
   for (std::int64_t x = 0; x < 8; ++x) {
@@ -142,7 +143,7 @@ TEST(BuildAbstraction, RingTurnedByAShiftNeedsNoCutAtItsSeam) {
 }
 
 TEST(BuildAbstraction, ThreadsDoNotChangeTheTables) {
-  const ProblemSpec spec = one_state(kUnitGrid, "0.3*x - u", "half_open");
+  const SystemSpec spec = one_state(kUnitGrid, "0.3*x - u", "half_open");
   ThreadTeam one(1);
   ThreadTeam three(3);
   EXPECT_EQ(build_abstraction(spec, one).tables[0].entries, build_abstraction(spec, three).tables[0].entries);

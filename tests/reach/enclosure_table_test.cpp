@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "reach/attack.hpp"
 #include "reach/simulated_flow.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -19,21 +20,21 @@ const std::string kPlane =
     R"({"name": "x", "lower": -2, "upper": 2, "step": 0.5}, {"name": "y", "lower": -2, "upper": 2, "step": 0.5})";
 
 TEST(EnclosureTable, UnicycleWithPeriodicHeadingIsEnclosed) {
-  attack(read_spec(spec_text(kPlane + ", " + kHeading, "continuous",
-                             R"json("x": "cos(h)", "y": "sin(h)", "h": "3*u")json"),
-                   "t"),
+  attack(read_system(spec_text(kPlane + ", " + kHeading, "continuous",
+                               R"json("x": "cos(h)", "y": "sin(h)", "h": "3*u")json"),
+                     "t"),
          2000);
 }
 
 TEST(EnclosureTable, ValueThatJumpsAtTheSeamIsEnclosed) {
   // The heading enters as a number, so the two pieces of the cell on the seam lead far apart.
-  attack(read_spec(spec_text(R"({"name": "x", "lower": -9, "upper": 9, "step": 0.5}, )" + kHeading,
-                             "discrete", R"json("x": "x + 0.7*h + u", "h": "2*h + u")json"),
-                   "t"),
+  attack(read_system(spec_text(R"({"name": "x", "lower": -9, "upper": 9, "step": 0.5}, )" + kHeading,
+                               "discrete", R"json("x": "x + 0.7*h + u", "h": "2*h + u")json"),
+                     "t"),
          3000);
-  attack(read_spec(spec_text(R"({"name": "x", "lower": -9, "upper": 9, "step": 0.5}, )" + kHeading,
-                             "discrete", R"json("x": "x + 0.1*h^2", "h": "0.5*h + u")json"),
-                   "t"),
+  attack(read_system(spec_text(R"({"name": "x", "lower": -9, "upper": 9, "step": 0.5}, )" + kHeading,
+                               "discrete", R"json("x": "x + 0.1*h^2", "h": "0.5*h + u")json"),
+                     "t"),
          3000);
 }
 
@@ -49,26 +50,26 @@ TEST(EnclosureTable, HeadingThatIsUsedAsANumberJumpsWithinThePeriod) {
            R"json("x": "h", "h": "-20*u")json",
        }) {
     SCOPED_TRACE(equations);
-    attack(read_spec(spec_text(kRoad + kHeading, "continuous", equations), "t"), 300);
+    attack(read_system(spec_text(kRoad + kHeading, "continuous", equations), "t"), 300);
   }
 }
 
 TEST(EnclosureTable, CoupledStatesJumpTogether) {
   const std::string coarse = R"({"name": "x", "lower": -4, "upper": 4, "step": 0.5}, )";
-  attack(read_spec(spec_text(coarse + kHeading, "continuous",
-                             R"json("x": "sin(h/2) - 0.1*x", "h": "3*u + 0.1*x")json"),
-                   "t"),
+  attack(read_system(spec_text(coarse + kHeading, "continuous",
+                               R"json("x": "sin(h/2) - 0.1*x", "h": "3*u + 0.1*x")json"),
+                     "t"),
          300);
   const std::string second = R"({"name": "g", "lower": 0, "upper": 0.7, "count": 7, "outside": "periodic"})";
-  attack(read_spec(spec_text(kRoad + kHeading + ", " + second, "continuous",
-                             R"json("x": "h*g", "h": "2*u + g", "g": "0.5 + 0.2*sin(h)")json"),
-                   "t"),
+  attack(read_system(spec_text(kRoad + kHeading + ", " + second, "continuous",
+                               R"json("x": "h*g", "h": "2*u + g", "g": "0.5 + 0.2*sin(h)")json"),
+                     "t"),
          300);
 }
 
 TEST(EnclosureTable, CellsThatMeetNoSeamKeepTheExactHull) {
   const std::string ring = R"({"name": "h", "lower": -8, "upper": 8, "count": 16, "outside": "periodic"})";
-  const Abstraction a = build(read_spec(
+  const Abstraction a = build(read_system(
       spec_text(kRoad + ring, "continuous", R"json("x": "h", "h": "u")json", R"({"cells": "half_open"})"),
       "t"));
   // x in 0 +- 1/16, h in 1 +- 1/2: with u = 1/2 x gets to x + h / 2 + 1/16, in [1/4, 7/8].
@@ -80,13 +81,13 @@ TEST(EnclosureTable, StateMayWindManyTimes) {
        {R"json("x": "h", "h": "100*u")json", R"json("x": "sin(h)", "h": "100*u")json",
         R"json("x": "sin(h) + h", "h": "100*u + cos(h)")json"}) {
     SCOPED_TRACE(equations);
-    attack(read_spec(spec_text(kRoad + kHeading, "continuous", equations), "t"), 100);
+    attack(read_system(spec_text(kRoad + kHeading, "continuous", equations), "t"), 100);
   }
 }
 
 TEST(EnclosureTable, PiecewiseMapsAreEnclosed) {
   attack(
-      read_spec(
+      read_system(
           spec_text(
               kPlane, "discrete",
               R"json("x": "if(x > 0.2, y - 1, abs(x)*y)", "y": "max(x, y) + sign(y)*u + min(x, 0.3)")json"),
@@ -96,17 +97,17 @@ TEST(EnclosureTable, PiecewiseMapsAreEnclosed) {
 
 TEST(EnclosureTable, MeasurementErrorsWidenBeforeAndAfter) {
   const std::string state = R"({"name": "x", "lower": 0, "upper": 9, "step": 1, "measurement_error": 0.25})";
-  const Abstraction exact = build(read_spec(spec_text(state, "discrete", R"json("x": "x + u")json"), "t"));
+  const Abstraction exact = build(read_system(spec_text(state, "discrete", R"json("x": "x + u")json"), "t"));
   EXPECT_TRUE(exact.exact);
   // [4.5 - 0.25, 5.5 + 0.25] moves by 0.5 and is widened again: [4.5, 6.5] touches cells 4 and 7.
   EXPECT_EQ(exact.raw(0, 5, 2), (IndexRange{4, 7}));
   EXPECT_EQ(exact.raw(0, 5, 1), (IndexRange{4, 6}));
   // The same by the general route.
   const Abstraction general =
-      build(read_spec(spec_text(state, "discrete", R"json("x": "x + sin(u)/sin(1)")json"), "t"));
+      build(read_system(spec_text(state, "discrete", R"json("x": "x + sin(u)/sin(1)")json"), "t"));
   EXPECT_FALSE(general.exact);
   EXPECT_EQ(general.raw(0, 5, 1), (IndexRange{4, 6}));
-  attack(read_spec(spec_text(state, "continuous", R"json("x": "u - 0.1*x^2")json"), "t"), 500);
+  attack(read_system(spec_text(state, "continuous", R"json("x": "u - 0.1*x^2")json"), "t"), 500);
 }
 
 TEST(EnclosureTable, SaturatedStatesAreMeasuredAroundTheirGridPoint) {
@@ -114,7 +115,7 @@ TEST(EnclosureTable, SaturatedStatesAreMeasuredAroundTheirGridPoint) {
       R"({"name": "x", "lower": 0, "upper": 9, "step": 1, "measurement_error": 1.75, "outside": "saturate"})";
   for (const std::string equation : {"x + 40*u", "x + 40*sin(u)/sin(1)"}) {
     const Abstraction a =
-        build(read_spec(spec_text(state, "discrete", R"json("x": ")json" + equation + "\""), "t"));
+        build(read_system(spec_text(state, "discrete", R"json("x": ")json" + equation + "\""), "t"));
     // All is far below 0 then, so the state is 0, and what is measured is in [-1.75, 1.75].
     EXPECT_EQ(a.resolved(0, 5, 0).inside, (IndexRange{0, 2}));
     EXPECT_EQ(a.resolved(0, 5, 2).inside, (IndexRange{7, 9}));
@@ -123,7 +124,7 @@ TEST(EnclosureTable, SaturatedStatesAreMeasuredAroundTheirGridPoint) {
 
 TEST(EnclosureTable, IntegratorsAreShiftedAlongTheirRow) {
   const Abstraction a =
-      build(read_spec(spec_text(kPlane, "continuous", R"json("x": "y^2 + u", "y": "sin(y)")json"), "t"));
+      build(read_system(spec_text(kPlane, "continuous", R"json("x": "y^2 + u", "y": "sin(y)")json"), "t"));
   EXPECT_TRUE(a.tables[0].shift);
   EXPECT_EQ(a.tables[0].entries.size(), 9U * 3U);
   EXPECT_FALSE(a.tables[1].shift);
@@ -142,8 +143,8 @@ TEST(EnclosureTable, DiscreteStatesShiftFromPointToPoint) {
   // sin(0) is not exact in general, so this is the interval route; 0.1 is no double.
   const std::string states = R"({"name": "x", "lower": -2, "upper": 2, "step": 0.5},
 {"name": "k", "lower": 0.5, "upper": 4.5, "step": 1, "discrete": true, "outside": "saturate"})";
-  const ProblemSpec spec =
-      read_spec(spec_text(states, "discrete", R"json("x": "x", "k": "k + 1 + 0*sin(u)")json"), "t");
+  const SystemSpec spec =
+      read_system(spec_text(states, "discrete", R"json("x": "x", "k": "k + 1 + 0*sin(u)")json"), "t");
   const Abstraction a = build(spec);
   EXPECT_TRUE(a.tables[1].shift);
   EXPECT_EQ(a.tables[1].entries, (std::vector<IndexRange>(3, IndexRange{1, 1})));
@@ -154,7 +155,7 @@ TEST(EnclosureTable, VehicleThatBrakesToAStandstillDoesNotReverse) {
   const std::string states =
       R"({"name": "p", "lower": 0, "upper": 9, "step": 0.1}, {"name": "v", "lower": 0, "upper": 2, "step": 0.1, "outside": "stop"})";
   const Abstraction a =
-      build(read_spec(spec_text(states, "continuous", R"json("p": "v", "v": "u")json"), "t"));
+      build(read_system(spec_text(states, "continuous", R"json("p": "v", "v": "u")json"), "t"));
   // From rest under u = -1 nothing moves: p stays in [4.95, 5.05], which touches the neighbours; v stays 0.
   EXPECT_EQ(a.raw(1, 50 * 21, 0), (IndexRange{0, 0}));
   EXPECT_EQ(a.raw(0, 50 * 21, 0).first, 49);
@@ -163,7 +164,7 @@ TEST(EnclosureTable, VehicleThatBrakesToAStandstillDoesNotReverse) {
 
 std::string error_of(const std::string& text) {
   try {
-    (void)build(read_spec(text, "t"));
+    (void)build(read_system(text, "t"));
   } catch (const SpecError& error) {
     return error.what();
   }
@@ -178,7 +179,8 @@ TEST(EnclosureTable, FiniteEscapeIsAnErrorOrBlocksOutsideTheDomain) {
       "2, u = -1, or change too fast to be followed that long (/dynamics/equations/x)");
   // With unsafe sides the state has left before it escapes.
   const std::string bounded = R"({"name": "x", "lower": -9, "upper": 9, "step": 1})";
-  const Abstraction a = build(read_spec(spec_text(bounded, "continuous", R"json("x": "x^2 + u")json"), "t"));
+  const Abstraction a =
+      build(read_system(spec_text(bounded, "continuous", R"json("x": "x^2 + u")json"), "t"));
   EXPECT_TRUE(a.resolved(0, 18, 0).blocked);
   EXPECT_FALSE(a.resolved(0, 9, 1).blocked);
 }
@@ -193,9 +195,9 @@ TEST(EnclosureTable, UndefinedEquationsNameTheStateAndThePlace) {
 }
 
 TEST(EnclosureTable, ThreadsDoNotChangeTheTables) {
-  const ProblemSpec spec = read_spec(spec_text(kPlane + ", " + kHeading, "continuous",
-                                               R"json("x": "cos(h)", "y": "sin(h)", "h": "3*u")json"),
-                                     "t");
+  const SystemSpec spec = read_system(spec_text(kPlane + ", " + kHeading, "continuous",
+                                                R"json("x": "cos(h)", "y": "sin(h)", "h": "3*u")json"),
+                                      "t");
   ThreadTeam one(1);
   ThreadTeam three(3);
   const Abstraction a = build_abstraction(spec, one);

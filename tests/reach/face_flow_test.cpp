@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reach/random_flow.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -80,7 +81,7 @@ TEST(FaceFlow, SaysWhichStateEscapes) {
 }
 
 /// Every solution stays in what is found.
-void attack(const FlowCase& system, long double tolerance) {
+void attack_faces(const FlowCase& system, long double tolerance) {
   const auto found = by_faces(system);
   if (!found) return;
   for (int k = 0; k < 4; ++k) {
@@ -105,8 +106,8 @@ void attack(const FlowCase& system, long double tolerance) {
 
 TEST(FaceFlow, HoldsSolutionsOfRandomSystems) {
   EXPECT_TRUE(rc::check([] {
-    for (int n = 0; n < 4; ++n) attack(random_case(Roughness::lipschitz), 1e-8L);
-    attack(random_case(Roughness::discontinuous), 0.02L);
+    for (int n = 0; n < 4; ++n) attack_faces(random_case(Roughness::lipschitz), 1e-8L);
+    attack_faces(random_case(Roughness::discontinuous), 0.02L);
   }));
 }
 

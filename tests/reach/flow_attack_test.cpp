@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reach/random_flow.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -29,7 +30,7 @@ void log_case(const FlowCase& system) {
 /// No solution escapes from its enclosure. The reference counts as wrong by its change from half as many
 /// steps, and by `tolerance` at least.
 /// @returns whether there is an enclosure
-bool attack(const FlowCase& system, long double tolerance) {
+bool attack_flow(const FlowCase& system, long double tolerance) {
   const FlowEnclosure enclosure = system.enclosure();
   if (enclosure.status != FlowEnclosure::Status::ok) return false;
   for (int k = 0; k < kSolutions; ++k) {
@@ -55,7 +56,7 @@ bool attack(const FlowCase& system, long double tolerance) {
 template <class MakeCase>
 void attack_many(MakeCase make_case, long double tolerance) {
   int enclosed = 0;
-  for (int n = 0; n < kSystems; ++n) enclosed += attack(make_case(), tolerance) ? 1 : 0;
+  for (int n = 0; n < kSystems; ++n) enclosed += attack_flow(make_case(), tolerance) ? 1 : 0;
   RC_CLASSIFY(enclosed >= kSystems - 2, "nearly all systems enclosed");
 }
 

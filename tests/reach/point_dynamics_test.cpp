@@ -6,29 +6,29 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "spec/read_spec.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
 
 /// Two states p and v, an input u, a disturbance w.
-ProblemSpec spec_of(const std::string& time, const std::string& p, const std::string& v,
-                    const std::string& edges_of_v = "\"unsafe\"", const std::string& more_of_p = "") {
-  return read_spec(R"({"coordreq": 1, "name": "t",
+SystemSpec spec_of(const std::string& time, const std::string& p, const std::string& v,
+                   const std::string& edges_of_v = "\"unsafe\"", const std::string& more_of_p = "") {
+  return read_system(R"({"coordreq": 1, "name": "t",
 "states": [{"name": "p", "lower": 0, "upper": 10, "step": 1)" +
-                       more_of_p + R"(},
+                         more_of_p + R"(},
            {"name": "v", "lower": 0, "upper": 3, "step": 0.5, "outside": )" +
-                       edges_of_v + R"(}],
+                         edges_of_v + R"(}],
 "inputs": [{"name": "u", "values": [-1, 0, 2]}], "disturbances": [{"name": "w", "lower": -1, "upper": 1}],
 "agents": [{"name": "a", "inputs": ["u"]}],
 "dynamics": {"time": ")" +
-                       time + R"(", "period": 0.5, "equations": {"p": ")" + p + R"(", "v": ")" + v +
-                       R"("}}, "safe": "true"})",
-                   "test");
+                         time + R"(", "period": 0.5, "equations": {"p": ")" + p + R"(", "v": ")" + v +
+                         R"("}}, "safe": "true"})",
+                     "test");
 }
 
 /// Next p and v from p, v under u, w.
-std::vector<std::optional<Rational>> next(const ProblemSpec& spec, const Rational& p, const Rational& v,
+std::vector<std::optional<Rational>> next(const SystemSpec& spec, const Rational& p, const Rational& v,
                                           const Rational& u, const Rational& w = 0) {
   PointDynamics dynamics(spec);
   const std::vector<Rational> slots{p, v, u, w};
@@ -59,7 +59,7 @@ TEST(PointDynamics, OtherMapsAreEvaluatedInDoubles) {
 }
 
 TEST(PointDynamics, DiscreteStatesStayOnTheirLattice) {
-  const ProblemSpec spec =
+  const SystemSpec spec =
       spec_of("discrete", "if(cos(v) < 2, p + 1, p)", "v", "\"unsafe\"", R"(, "discrete": true)");
   EXPECT_EQ(next(spec, 4, Rational(1) / 3, 0)[0], Rational(5));
 }
@@ -117,7 +117,7 @@ TEST(PointDynamics, AnEscapeToInfinityHasNoNextState) {
 }
 
 TEST(PointDynamics, ExactStatesMayNotGrowForEver) {
-  const ProblemSpec spec = spec_of("discrete", "p / 3", "v");
+  const SystemSpec spec = spec_of("discrete", "p / 3", "v");
   PointDynamics dynamics(spec);
   mpz_class large;
   mpz_ui_pow_ui(large.get_mpz_t(), 2, PointDynamics::kMostBits);

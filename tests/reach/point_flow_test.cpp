@@ -7,26 +7,26 @@
 #include <string>
 
 #include "expression/evaluate.hpp"
-#include "spec/read_spec.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
 
 /// States h, described by `h`, and p; the period is 1/2.
-ProblemSpec spec_of(const std::string& h, const std::string& rate_of_h, const std::string& rate_of_p) {
-  return read_spec(R"({"coordreq": 1, "name": "t", "states": [{"name": "h", )" + h +
-                       R"(}, {"name": "p", "lower": -100, "upper": 100, "step": 1}],
+SystemSpec flow_spec(const std::string& h, const std::string& rate_of_h, const std::string& rate_of_p) {
+  return read_system(R"({"coordreq": 1, "name": "t", "states": [{"name": "h", )" + h +
+                         R"(}, {"name": "p", "lower": -100, "upper": 100, "step": 1}],
 "inputs": [{"name": "u", "values": [0]}], "agents": [{"name": "a", "inputs": ["u"]}],
 "dynamics": {"time": "continuous", "period": 0.5, "equations": {"h": ")" +
-                       rate_of_h + R"(", "p": ")" + rate_of_p + R"("}}, "safe": "true"})",
-                   "test");
+                         rate_of_h + R"(", "p": ")" + rate_of_p + R"("}}, "safe": "true"})",
+                     "test");
 }
 
 const std::string kRing = R"("lower": 0, "upper": 1, "count": 8, "outside": "periodic")";
 const std::string kStopped = R"("lower": 0, "upper": 1, "step": 0.125, "outside": "stop")";
 const std::string kOpen = R"("lower": -100, "upper": 100, "step": 0.125)";
 
-std::vector<double> after_period(const ProblemSpec& spec, double h, double p = 0.0) {
+std::vector<double> after_period(const SystemSpec& spec, double h, double p = 0.0) {
   const std::vector<std::int32_t> moving{0, 1};
   return PointFlow(spec, moving).after_period(std::vector<double>{h, p, 0.0}).value();
 }
@@ -36,7 +36,7 @@ TEST(PointFlow, WhatTurnsIsSeenInOnePeriodOnly) {
   const double before = 5.0 / 19.0;
   const double after = 0.5 - before;
   const double p = 0.5 * before + 0.95 * before * before + 0.95 * after * after;
-  const std::vector<double> end = after_period(spec_of(kRing, "1.9", "h"), 0.5);
+  const std::vector<double> end = after_period(flow_spec(kRing, "1.9", "h"), 0.5);
   EXPECT_NEAR(p, 0.25066, 1e-5);
   EXPECT_NEAR(end[1], p, 1e-12);
   EXPECT_NEAR(end[0], 1.45, 1e-12);  // not wrapped
@@ -44,58 +44,58 @@ TEST(PointFlow, WhatTurnsIsSeenInOnePeriodOnly) {
 
 TEST(PointFlow, TheSeamIsPassedBothWaysAndMoreThanOnce) {
   // Ten turns and a quarter: each adds the mean of h.
-  EXPECT_NEAR(after_period(spec_of(kRing, "20.5", "h"), 0)[1], (10 * 0.5 + 0.03125) / 20.5, 1e-11);
-  EXPECT_NEAR(after_period(spec_of(kRing, "-20", "h"), 0.5)[1], 0.25, 1e-11);
-  EXPECT_NEAR(after_period(spec_of(kRing, "-20", "h"), 0.5)[0], -9.5, 1e-11);
+  EXPECT_NEAR(after_period(flow_spec(kRing, "20.5", "h"), 0)[1], (10 * 0.5 + 0.03125) / 20.5, 1e-11);
+  EXPECT_NEAR(after_period(flow_spec(kRing, "-20", "h"), 0.5)[1], 0.25, 1e-11);
+  EXPECT_NEAR(after_period(flow_spec(kRing, "-20", "h"), 0.5)[0], -9.5, 1e-11);
 }
 
 TEST(PointFlow, AStateThatDrivesItselfAcrossTheSeam) {
   // h' = 1 + h: from 1/2 to 1 in log(4/3), then from 0: exp(t) - 1.
   const double rest = 0.5 - std::log(4.0 / 3.0);
-  EXPECT_NEAR(after_period(spec_of(kRing, "1 + h", "0"), 0.5)[0], 1 + std::expm1(rest), 1e-12);
+  EXPECT_NEAR(after_period(flow_spec(kRing, "1 + h", "0"), 0.5)[0], 1 + std::expm1(rest), 1e-12);
 }
 
 TEST(PointFlow, ASeamThatNobodySeesCostsNothing) {
-  EXPECT_NEAR(after_period(spec_of(kRing, "1e6 + p", "2"), 0.5, 1.0)[0], 0.5 + 5e5 + 0.5 + 0.25, 1e-6);
+  EXPECT_NEAR(after_period(flow_spec(kRing, "1e6 + p", "2"), 0.5, 1.0)[0], 0.5 + 5e5 + 0.5 + 0.25, 1e-6);
 }
 
 TEST(PointFlow, KinksAreCrossed) {
   // h = 2t - 1/2 passes 0 at 1/4.
-  EXPECT_NEAR(after_period(spec_of(kOpen, "2", "abs(h)"), -0.5)[1], 0.125, 1e-14);
-  EXPECT_NEAR(after_period(spec_of(kOpen, "2", "max(h, 0)"), -0.5)[1], 0.0625, 1e-14);
-  EXPECT_NEAR(after_period(spec_of(kOpen, "2", "min(h, 0)"), -0.5)[1], -0.0625, 1e-14);
-  EXPECT_NEAR(after_period(spec_of(kOpen, "2", "sign(h)"), -0.5)[1], 0.0, 1e-14);
-  EXPECT_NEAR(after_period(spec_of(kOpen, "2", "if(h < 0, 1, 3)"), -0.5)[1], 1.0, 1e-13);
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "2", "abs(h)"), -0.5)[1], 0.125, 1e-14);
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "2", "max(h, 0)"), -0.5)[1], 0.0625, 1e-14);
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "2", "min(h, 0)"), -0.5)[1], -0.0625, 1e-14);
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "2", "sign(h)"), -0.5)[1], 0.0, 1e-14);
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "2", "if(h < 0, 1, 3)"), -0.5)[1], 1.0, 1e-13);
 }
 
 TEST(PointFlow, ABranchMayBeUndefinedWhereItIsNotTaken) {
   // h = t - 1/4: the integral of sqrt(h) from 0 to 1/4 is 1/12.
-  EXPECT_NEAR(after_period(spec_of(kOpen, "1", "if(h > 0, sqrt(h), 0)"), -0.25)[1], 1.0 / 12, 1e-9);
-  EXPECT_NEAR(after_period(spec_of(kOpen, "-1", "if(h > 0, 1/h^2, 0)"), 0.75)[1], 4 - 4.0 / 3, 1e-9);
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "1", "if(h > 0, sqrt(h), 0)"), -0.25)[1], 1.0 / 12, 1e-9);
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "-1", "if(h > 0, 1/h^2, 0)"), 0.75)[1], 4 - 4.0 / 3, 1e-9);
 }
 
 TEST(PointFlow, TwoEventsAtOnce) {
   // h reaches the seam when p reaches 1, where its own rate doubles.
-  const std::vector<double> end = after_period(spec_of(kRing, "2", "if(p < 1, 2, 4)"), 0.5, 0.5);
+  const std::vector<double> end = after_period(flow_spec(kRing, "2", "if(p < 1, 2, 4)"), 0.5, 0.5);
   EXPECT_NEAR(end[0], 1.5, 1e-12);
   EXPECT_NEAR(end[1], 2.0, 1e-12);
 }
 
 TEST(PointFlow, WhatSlidesStays) {
-  EXPECT_NEAR(after_period(spec_of(kOpen, "-sign(h) + 0.5", "0"), 0.1)[0], 0.0, 1e-3);
-  EXPECT_NEAR(after_period(spec_of(kOpen, "if(h < 0, 1, -3)", "h"), 0.75)[1], 0.09375, 1e-3);
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "-sign(h) + 0.5", "0"), 0.1)[0], 0.0, 1e-3);
+  EXPECT_NEAR(after_period(flow_spec(kOpen, "if(h < 0, 1, -3)", "h"), 0.75)[1], 0.09375, 1e-3);
 }
 
 TEST(PointFlow, WhatIsHeldIsLetGo) {
   // h = 1/4 + t up to its limit 1 - which it leaves when p = 3/4 - 2t has become negative.
-  const std::vector<double> end = after_period(spec_of(kStopped, "if(p > 0, 4, -2)", "-2"), 0.5, 0.75);
+  const std::vector<double> end = after_period(flow_spec(kStopped, "if(p > 0, 4, -2)", "-2"), 0.5, 0.75);
   EXPECT_NEAR(end[0], 1.0 - 2 * 0.125, 1e-12);
 }
 
 /// h' is constant and p' = F(h) + 1/3 with F linear between some breaks, followed exactly.
 class ExactFlow {
  public:
-  ExactFlow(const ProblemSpec& spec, std::vector<Rational> breaks)
+  ExactFlow(const SystemSpec& spec, std::vector<Rational> breaks)
       : spec_(spec), breaks_(std::move(breaks)), rate_(spec.dynamics.equations[1]) {}
 
   void run(Rational rate) {
@@ -126,7 +126,7 @@ class ExactFlow {
     return rate_.number(slots).lower;
   }
 
-  const ProblemSpec& spec_;
+  const SystemSpec& spec_;
   std::vector<Rational> breaks_;
   Evaluator<RationalInterval> rate_;
 };
@@ -148,8 +148,8 @@ TEST(PointFlow, PiecewiseLinearMotionIsExact) {
     const std::string second = *rc::gen::elementOf(pieces);
     const std::string kind = *rc::gen::elementOf(std::vector<std::string>{kRing, kStopped, kOpen});
     const int rate = *rc::gen::inRange(-60, 61);
-    const ProblemSpec spec =
-        spec_of(kind, std::to_string(rate) + "/7", first + " - 2*(" + second + ") + 1/3");
+    const SystemSpec spec =
+        flow_spec(kind, std::to_string(rate) + "/7", first + " - 2*(" + second + ") + 1/3");
     const Rational at(k, 16);
     ExactFlow exact(spec, {0, 1, Rational(1, 4), Rational(1, 2), Rational(3, 4), at, 1 - at,
                            Rational(1, 2) - at, Rational(1, 2) + at, at - Rational(1, 2)});

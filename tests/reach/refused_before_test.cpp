@@ -7,12 +7,13 @@
 
 #include "base/error.hpp"
 #include "reach/attack.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
 
-ProblemSpec flow(const std::string& states, const std::string& equations) {
-  return read_spec(test::spec_text(states, "continuous", equations), "test");
+SystemSpec refused_flow(const std::string& states, const std::string& equations) {
+  return read_system(test::spec_text(states, "continuous", equations), "test");
 }
 
 std::int64_t cell_of(const Abstraction& a, const std::vector<std::int64_t>& index) {
@@ -26,8 +27,9 @@ const std::string kSpeed = R"({"name": "v", "lower": -1, "upper": 1, "step": 0.2
 
 TEST(OffLimits, ChainsOfIntegratorsAreExactWhereNothingIsStopped) {
   const std::string equations = R"("p": "v", "v": "u")";
-  const Abstraction stopped = test::build(flow(kPlace + kSpeed + R"(, "outside": "stop"})", equations));
-  const Abstraction free = test::build(flow(kPlace + kSpeed + "}", equations));
+  const Abstraction stopped =
+      test::build(refused_flow(kPlace + kSpeed + R"(, "outside": "stop"})", equations));
+  const Abstraction free = test::build(refused_flow(kPlace + kSpeed + "}", equations));
   int same = 0;
   for (std::int64_t k = 0; k < 9; ++k) {
     const double speed = -1.0 + 0.25 * static_cast<double>(k);
@@ -59,7 +61,7 @@ std::pair<double, double> stopped_chain(double v, double u) {
 
 TEST(OffLimits, SolutionsStayInPostsNearLimitsToo) {
   const Abstraction a =
-      test::build(flow(kPlace + kSpeed + R"(, "outside": "stop"})", R"("p": "v", "v": "u")"));
+      test::build(refused_flow(kPlace + kSpeed + R"(, "outside": "stop"})", R"("p": "v", "v": "u")"));
   const double inputs[] = {-1.0, 0.0, 0.5};
   for (std::int64_t k = 0; k < 9; ++k) {
     const std::int64_t cell = cell_of(a, {4, k});
@@ -84,7 +86,7 @@ TEST(OffLimits, SolutionsStayInPostsNearLimitsToo) {
 TEST(LeftBefore, StateThatDependsOnOneThatEscapesIsBlocked) {
   const std::string states = R"({"name": "x", "lower": -1, "upper": 1, "step": 0.5}, )"
                              R"({"name": "y", "lower": -1, "upper": 1, "step": 0.5})";
-  const Abstraction a = test::build(flow(states, R"json("x": "0.1*y", "y": "-5*y^2 - 2 + 0*u")json"));
+  const Abstraction a = test::build(refused_flow(states, R"json("x": "0.1*y", "y": "-5*y^2 - 2 + 0*u")json"));
   for (std::int64_t k = 0; k < 5; ++k) {
     const std::int64_t cell = cell_of(a, {2, k});
     // From y in [0.75, 1.25] it is between -0.6 and -0.3 after a period.
@@ -95,14 +97,14 @@ TEST(LeftBefore, StateThatDependsOnOneThatEscapesIsBlocked) {
 TEST(LeftBefore, EscapeIsAnErrorWhereTheStateItselfCannotBlock) {
   const std::string states = R"({"name": "x", "lower": -1, "upper": 1, "step": 0.5, "outside": "safe"}, )"
                              R"({"name": "y", "lower": -1, "upper": 1, "step": 0.5})";
-  EXPECT_THROW((void)test::build(flow(states, R"json("x": "0.1*y", "y": "-5*y^2 - 2 + 0*u")json")),
+  EXPECT_THROW((void)test::build(refused_flow(states, R"json("x": "0.1*y", "y": "-5*y^2 - 2 + 0*u")json")),
                SpecError);
 }
 
 TEST(LeftBefore, PoleBeyondAnUnsafeSideIsNoError) {
   const std::string states = R"({"name": "x", "lower": -1.6, "upper": 1.6, "step": 0.4}, )"
                              R"({"name": "y", "lower": -1, "upper": 1, "step": 0.5})";
-  const Abstraction a = test::build(flow(states, R"json("x": "u", "y": "1/(2 + x)")json"));
+  const Abstraction a = test::build(refused_flow(states, R"json("x": "u", "y": "1/(2 + x)")json"));
   EXPECT_TRUE(a.resolved(0, cell_of(a, {0, 2}), 0).blocked);  // u = -1
   EXPECT_FALSE(a.resolved(0, cell_of(a, {1, 2}), 1).blocked);
 }
@@ -110,7 +112,7 @@ TEST(LeftBefore, PoleBeyondAnUnsafeSideIsNoError) {
 TEST(Stiff, IsSolvedWhereEachStateSettles) {
   const std::string states = R"({"name": "x", "lower": -1, "upper": 1, "step": 0.5}, )"
                              R"({"name": "y", "lower": -1, "upper": 1, "step": 0.5})";
-  const Abstraction a = test::build(flow(states, R"json("x": "-1e5*(x - sin(y))", "y": "u")json"));
+  const Abstraction a = test::build(refused_flow(states, R"json("x": "-1e5*(x - sin(y))", "y": "u")json"));
   // From y in [-0.25, 0.25] with u = 0 to x in sin([-0.25, 0.25]), up to what it has yet to settle.
   EXPECT_EQ(a.raw(0, cell_of(a, {4, 2}), 1), (IndexRange{2, 2}));
 }
@@ -119,7 +121,7 @@ TEST(Stiff, NamesTheRateWhereItIsRefused) {
   const std::string states = R"({"name": "x", "lower": -1, "upper": 1, "step": 1, "outside": "saturate"}, )"
                              R"({"name": "y", "lower": -1, "upper": 1, "step": 1, "outside": "saturate"})";
   try {
-    (void)test::build(flow(states, R"json("x": "-1e9*(x - 3*y)", "y": "-1e9*(y + 3*x) + u")json"));
+    (void)test::build(refused_flow(states, R"json("x": "-1e9*(x - 3*y)", "y": "-1e9*(y + 3*x) + u")json"));
     FAIL();
   } catch (const SpecError& error) {
     const std::string text = error.what();
@@ -134,7 +136,7 @@ TEST(FarAway, ShiftNearTheLargestIndexIsExactOnARing) {
 "inputs": [{"name": "u", "values": [0, 1]}], "agents": [{"name": "a", "inputs": ["u"]}],
 "dynamics": {"time": "discrete", "period": 1, "equations": {"h": "h + 214748364.3 + 0.1*u"}},
 "safe": "true", "abstraction": {"cells": "half_open"}})";
-  const Abstraction a = test::build(read_spec(text, "test"));
+  const Abstraction a = test::build(read_system(text, "test"));
   for (std::int64_t k = 0; k < 9; ++k) {
     for (std::int64_t u = 0; u < 2; ++u) {
       const auto next = static_cast<std::int32_t>((k + 2147483643 + u) % 9);

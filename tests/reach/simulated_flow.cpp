@@ -5,12 +5,13 @@
 #include <utility>
 
 #include "expression/evaluate.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq::test {
 namespace {
 
 /// The derivative or next value at a point, in plain doubles.
-std::vector<double> right_hand_side(const ProblemSpec& spec, const std::vector<double>& slots) {
+std::vector<double> right_hand_side(const SystemSpec& spec, const std::vector<double>& slots) {
   std::vector<double> result;
   for (const Program& equation : spec.dynamics.equations) {
     Evaluator<double> evaluator(equation);
@@ -24,7 +25,7 @@ double uniform(double low, double high, std::mt19937_64& random) {
 }
 
 /// New values of the disturbances, at their ends more often than not.
-void draw_disturbances(const ProblemSpec& spec, std::mt19937_64& random, std::vector<double>& slots) {
+void draw_disturbances(const SystemSpec& spec, std::mt19937_64& random, std::vector<double>& slots) {
   for (std::size_t l = 0; l < spec.disturbances.size(); ++l) {
     const double lower = spec.disturbances[l].lower.get_d();
     const double upper = spec.disturbances[l].upper.get_d();
@@ -36,7 +37,7 @@ void draw_disturbances(const ProblemSpec& spec, std::mt19937_64& random, std::ve
 /// Solutions of differential equations that see the representatives of periodic states.
 class Simulation {
  public:
-  Simulation(const ProblemSpec& spec, std::vector<double> slots)
+  Simulation(const SystemSpec& spec, std::vector<double> slots)
       : spec_(spec), slots_(std::move(slots)), turns_(spec.states.size()) {}
 
   /// Stops at every seam that is passed on the way, to turn the representative there.
@@ -108,7 +109,7 @@ class Simulation {
     return next;
   }
 
-  const ProblemSpec& spec_;
+  const SystemSpec& spec_;
   std::vector<double> slots_;
   std::vector<int> turns_;
 };
@@ -124,12 +125,12 @@ std::string spec_text(const std::string& states, const std::string& time, const 
          abstraction + "}";
 }
 
-Abstraction build(const ProblemSpec& spec) {
+Abstraction build(const SystemSpec& spec) {
   ThreadTeam team(2);
   return build_abstraction(spec, team);
 }
 
-std::vector<std::vector<double>> simulate(const ProblemSpec& spec, std::vector<double> slots,
+std::vector<std::vector<double>> simulate(const SystemSpec& spec, std::vector<double> slots,
                                           std::mt19937_64& random) {
   draw_disturbances(spec, random, slots);
   if (spec.dynamics.time == Time::discrete) return {right_hand_side(spec, slots)};
@@ -144,7 +145,7 @@ std::vector<std::vector<double>> simulate(const ProblemSpec& spec, std::vector<d
   return path;
 }
 
-RandomStart random_start(const ProblemSpec& spec, const Abstraction& a, std::mt19937_64& random) {
+RandomStart random_start(const SystemSpec& spec, const Abstraction& a, std::mt19937_64& random) {
   RandomStart start;
   start.cell = std::uniform_int_distribution<std::int64_t>(0, a.grid.cells() - 1)(random);
   start.input = std::uniform_int_distribution<std::int64_t>(0, a.inputs.count() - 1)(random);

@@ -10,7 +10,7 @@
 #include "reach/build_abstraction.hpp"
 #include "reach/enclosure_table.hpp"
 #include "reach/table_rows.hpp"
-#include "spec/read_spec.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
@@ -18,8 +18,8 @@ namespace {
 using test::attack;
 using test::build;
 
-std::string spec_text(const std::string& states, const std::string& time, const std::string& equations,
-                      const std::string& cells = "closed") {
+std::string sum_spec_text(const std::string& states, const std::string& time, const std::string& equations,
+                          const std::string& cells = "closed") {
   return R"({"coordreq": 1, "name": "t", "states": [)" + states + R"(],
 "inputs": [{"name": "u", "values": [-1, 0, 0.7]}, {"name": "v", "lower": -1, "upper": 1, "step": 0.5}],
 "disturbances": [{"name": "w", "lower": -0.25, "upper": 0.5}],
@@ -29,14 +29,14 @@ std::string spec_text(const std::string& states, const std::string& time, const 
          R"(}}, "safe": "true", "abstraction": {"cells": ")" + cells + R"("}})";
 }
 
-ProblemSpec problem(const std::string& states, const std::string& time, const std::string& equations,
-                    const std::string& cells = "closed") {
-  return read_spec(spec_text(states, time, equations, cells), "t");
+SystemSpec problem(const std::string& states, const std::string& time, const std::string& equations,
+                   const std::string& cells = "closed") {
+  return read_system(sum_spec_text(states, time, equations, cells), "t");
 }
 
-const std::string kPlane =
+const std::string kSumPlane =
     R"({"name": "x", "lower": -3, "upper": 3, "step": 1}, {"name": "y", "lower": -2, "upper": 4, "step": 0.7})";
-const std::string kHeading =
+const std::string kSumHeading =
     R"({"name": "h", "lower": "-pi", "upper": "pi", "count": 8, "outside": "periodic"})";
 const std::string kAircraft = R"json("x": "-5 + 5*cos(h) + u*y", "y": "5*sin(h) - u*x", "h": "v - u")json";
 
@@ -49,7 +49,7 @@ std::vector<std::size_t> sums(const Abstraction& abstraction) {
 }
 
 /// The same abstraction with every table that is a sum built cell by cell.
-Abstraction cell_by_cell(const ProblemSpec& spec, Abstraction abstraction) {
+Abstraction cell_by_cell(const SystemSpec& spec, Abstraction abstraction) {
   const AffineDynamics dynamics(spec);
   ThreadTeam team(2);
   for (const std::size_t i : sums(abstraction)) {
@@ -84,7 +84,7 @@ Differences compare(const Abstraction& sum, const Abstraction& plain) {
 }
 
 /// @param hull whether cell by cell the exact hull comes out, too
-void check(const ProblemSpec& spec, const std::vector<std::size_t>& expected, bool hull = false) {
+void check(const SystemSpec& spec, const std::vector<std::size_t>& expected, bool hull = false) {
   const Abstraction abstraction = build(spec);
   EXPECT_FALSE(abstraction.exact);
   EXPECT_EQ(sums(abstraction), expected);
@@ -98,7 +98,7 @@ void check(const ProblemSpec& spec, const std::vector<std::size_t>& expected, bo
 }
 
 TEST(SumTable, RotatingFrameWithAHeadingThatMovesOnItsOwn) {
-  const ProblemSpec spec = problem(kPlane + ", " + kHeading, "continuous", kAircraft);
+  const SystemSpec spec = problem(kSumPlane + ", " + kSumHeading, "continuous", kAircraft);
   check(spec, {0, 1});
   const Abstraction a = build(spec);
   const TransitionTable& x = a.tables[0];
@@ -110,13 +110,14 @@ TEST(SumTable, RotatingFrameWithAHeadingThatMovesOnItsOwn) {
 }
 
 TEST(SumTable, FrictionAndDisturbances) {
-  check(problem(kPlane, "continuous", R"json("x": "y + w", "y": "u + v - 0.5*y")json"), {0, 1}, true);
-  check(problem(kPlane, "continuous", R"json("x": "y - x + sin(u)", "y": "u*x - 0.3*y + v*w")json"), {0, 1});
+  check(problem(kSumPlane, "continuous", R"json("x": "y + w", "y": "u + v - 0.5*y")json"), {0, 1}, true);
+  check(problem(kSumPlane, "continuous", R"json("x": "y - x + sin(u)", "y": "u*x - 0.3*y + v*w")json"),
+        {0, 1});
 }
 
 TEST(SumTable, ShiftWithATermForAnother) {
   // x is a shift whose offset is affine in y; y has friction.
-  const ProblemSpec spec = problem(kPlane, "continuous", R"json("x": "y + v", "y": "u - 0.5*y + w^2")json");
+  const SystemSpec spec = problem(kSumPlane, "continuous", R"json("x": "y + v", "y": "u - 0.5*y + w^2")json");
   check(spec, {0, 1});
   const Abstraction a = build(spec);
   EXPECT_TRUE(a.tables[0].shift);
@@ -124,14 +125,14 @@ TEST(SumTable, ShiftWithATermForAnother) {
 }
 
 TEST(SumTable, HalfOpenCells) {
-  check(problem(kPlane + ", " + kHeading, "continuous", kAircraft, "half_open"), {0, 1});
-  check(problem(kPlane, "continuous", R"json("x": "y + v", "y": "u - 0.5*y + w^2")json", "half_open"),
+  check(problem(kSumPlane + ", " + kSumHeading, "continuous", kAircraft, "half_open"), {0, 1});
+  check(problem(kSumPlane, "continuous", R"json("x": "y + v", "y": "u - 0.5*y + w^2")json", "half_open"),
         {0, 1});
 }
 
 TEST(SumTable, MapsOfMixedForm) {
   check(
-      problem(kPlane + ", " + kHeading, "discrete",
+      problem(kSumPlane + ", " + kSumHeading, "discrete",
               R"json("x": "x + 0.3*y + cos(h)", "y": "if(u > 0, 0.5*x, v*y) + sin(h)*w", "h": "h + u")json"),
       {0, 1});
 }
@@ -171,18 +172,19 @@ TEST(SumTable, OtherFormsWhereASumCannotSayIt) {
   };
   // Coefficients that move, limits, a state that is periodic; integrators and shifts are exact or stored
   // once.
-  EXPECT_TRUE(none(kPlane + ", " + kHeading, R"json("x": "h*y", "y": "-x", "h": "v")json"));
-  EXPECT_TRUE(none(kPlane, R"json("x": "w*y", "y": "-x")json"));
-  EXPECT_TRUE(none(kPlane, R"json("x": "abs(y)", "y": "-x")json"));
+  EXPECT_TRUE(none(kSumPlane + ", " + kSumHeading, R"json("x": "h*y", "y": "-x", "h": "v")json"));
+  EXPECT_TRUE(none(kSumPlane, R"json("x": "w*y", "y": "-x")json"));
+  EXPECT_TRUE(none(kSumPlane, R"json("x": "abs(y)", "y": "-x")json"));
   EXPECT_TRUE(none(R"({"name": "x", "lower": -3, "upper": 3, "step": 0.5, "outside": "stop"})",
                    R"json("x": "u - x")json"));
-  EXPECT_TRUE(none(kHeading, R"json("h": "v - 0.1*h")json"));
-  EXPECT_TRUE(none(kPlane, R"json("x": "y", "y": "u + w")json"));
-  EXPECT_TRUE(none(kPlane, R"json("x": "cos(u)", "y": "sin(u)")json"));
+  EXPECT_TRUE(none(kSumHeading, R"json("h": "v - 0.1*h")json"));
+  EXPECT_TRUE(none(kSumPlane, R"json("x": "y", "y": "u + w")json"));
+  EXPECT_TRUE(none(kSumPlane, R"json("x": "cos(u)", "y": "sin(u)")json"));
 }
 
 TEST(SumTable, FarOutTheTableIsInFull) {
-  const Abstraction a = build(problem(kPlane, "continuous", R"json("x": "60*x + y", "y": "-30*y + u")json"));
+  const Abstraction a =
+      build(problem(kSumPlane, "continuous", R"json("x": "60*x + y", "y": "-30*y + u")json"));
   EXPECT_TRUE(sums(a).size() < 2);
 }
 
@@ -211,7 +213,8 @@ TEST(SumTable, RandomSystemsStayInTheirPosts) {
                             random_equation({"x", "y"}, other) + "\"";
     if (heading) equations += ", \"h\": \"" + random_equation({}, {"h"}) + "\"";
     RC_LOG(equations);
-    const ProblemSpec spec = problem(heading ? kPlane + ", " + kHeading : kPlane, time, equations, cells);
+    const SystemSpec spec =
+        problem(heading ? kSumPlane + ", " + kSumHeading : kSumPlane, time, equations, cells);
     const Abstraction abstraction = build(spec);
     RC_CLASSIFY(!sums(abstraction).empty(), "a sum");
     attack(spec, abstraction, 40);
@@ -252,10 +255,11 @@ void expect_rows_equal_pairs(const Abstraction& a) {
 
 TEST(TableRows, EveryFormOfTableAlongEveryDimension) {
   // Sums and a shift; a shift that is a sum; exact ones in full.
-  expect_rows_equal_pairs(build(problem(kPlane + ", " + kHeading, "continuous", kAircraft)));
+  expect_rows_equal_pairs(build(problem(kSumPlane + ", " + kSumHeading, "continuous", kAircraft)));
   expect_rows_equal_pairs(
-      build(problem(kPlane, "continuous", R"json("x": "y + v", "y": "u - 0.5*y + w^2")json")));
-  expect_rows_equal_pairs(build(problem(kPlane, "discrete", R"json("x": "x - y + u", "y": "v*y + u")json")));
+      build(problem(kSumPlane, "continuous", R"json("x": "y + v", "y": "u - 0.5*y + w^2")json")));
+  expect_rows_equal_pairs(
+      build(problem(kSumPlane, "discrete", R"json("x": "x - y + u", "y": "v*y + u")json")));
   const std::string states =
       R"({"name": "k", "lower": 1, "upper": 3, "step": 1, "discrete": true}, {"name": "x", "lower": -3, "upper": 3, "step": 0.5})";
   expect_rows_equal_pairs(build(problem(states, "continuous", R"json("x": "-k*x + u", "k": "0")json")));
@@ -263,7 +267,7 @@ TEST(TableRows, EveryFormOfTableAlongEveryDimension) {
 
 TEST(TableRows, ConstantAndShiftedRowsSayNoMoreThanOneRange) {
   const Abstraction a =
-      build(problem(kPlane, "continuous", R"json("x": "y + v", "y": "u - 0.5*y + w^2")json"));
+      build(problem(kSumPlane, "continuous", R"json("x": "y + v", "y": "u - 0.5*y + w^2")json"));
   EXPECT_TRUE(TableRows(a.tables[0], 0, 0).is_shift());
   EXPECT_FALSE(TableRows(a.tables[0], 0, 1).is_constant());
   EXPECT_FALSE(TableRows(a.tables[0], 0, 1).is_shift());

@@ -6,15 +6,17 @@
 #include "base/error.hpp"
 #include "reach/enclosure_table.hpp"
 #include "reach/simulated_flow.hpp"
+#include "reach/table_shapes.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
 
-ProblemSpec flow(const std::string& states, const std::string& equations,
-                 const std::string& cells = "closed") {
-  return read_spec(test::spec_text(states, "continuous", equations,
-                                   R"({"between_samples": true, "cells": ")" + cells + "\"}"),
-                   "t");
+SystemSpec flow(const std::string& states, const std::string& equations,
+                const std::string& cells = "closed") {
+  return read_system(test::spec_text(states, "continuous", equations,
+                                     R"({"between_samples": true, "cells": ")" + cells + "\"}"),
+                     "t");
 }
 
 /// True if the value lies in a cell of the range, widened by the measurement error; modulo the period.
@@ -32,7 +34,7 @@ bool is_covered(const GridDimension& dimension, IndexRange range, double value) 
   return false;
 }
 
-void attack(const ProblemSpec& spec, int cases) {
+void attack_tubes(const SystemSpec& spec, int cases) {
   const Abstraction a = test::build(spec);
   std::mt19937_64 random(20180410);
   for (int c = 0; c < cases; ++c) {
@@ -48,9 +50,9 @@ void attack(const ProblemSpec& spec, int cases) {
 }
 
 const std::string kLine = R"({"name": "x", "lower": 0, "upper": 9, "step": 0.1})";
-const std::string kHeading =
+const std::string kTubeHeading =
     R"({"name": "h", "lower": "-pi", "upper": "pi", "count": 12, "outside": "periodic"})";
-const std::string kPlane =
+const std::string kTubePlane =
     R"({"name": "x", "lower": -2, "upper": 2, "step": 0.5}, {"name": "y", "lower": -2, "upper": 2, "step": 0.5})";
 
 TEST(Tube, OfAnIntegratorIsExactAndNeedsNoNeighbourThatItJustTouches) {
@@ -77,7 +79,7 @@ TEST(Tube, MotionInOneDirectionIsExactAndATurnIsCovered) {
   // = 0.05.
   EXPECT_EQ(a.raw_tube(0, cell(50, 2), 0), (IndexRange{49, 51}));
   EXPECT_EQ(a.raw(0, cell(50, 2), 0).first, 49);
-  attack(flow(states, R"json("x": "v", "v": "u")json"), 300);
+  attack_tubes(flow(states, R"json("x": "v", "v": "u")json"), 300);
 }
 
 TEST(Tube, HoldsEverySignalOfTheDisturbance) {
@@ -86,7 +88,7 @@ TEST(Tube, HoldsEverySignalOfTheDisturbance) {
 "inputs": [{"name": "u", "values": [0]}], "disturbances": [{"name": "w", "lower": -0.2, "upper": 0.4}],
 "agents": [{"name": "a", "inputs": ["u"]}], "dynamics": {"time": "continuous", "period": 1,
 "equations": {"x": "v - w", "v": "u + w"}}, "safe": "true", "abstraction": {"between_samples": true}})";
-  const Abstraction a = test::build(read_spec(text, "t"));
+  const Abstraction a = test::build(read_system(text, "t"));
   const std::int64_t cell = 50 * 41 + 20;
   EXPECT_EQ(a.raw_tube(1, cell, 0), (IndexRange{-2 + 20, 4 + 20}));
   // What a pulse of w does to x after s is s - 1 < 0, in all -1/2 after a second: x moves by v - w / 2, with
@@ -99,7 +101,7 @@ TEST(Tube, RoundingAloneAsksForNoNeighbour) {
   const Abstraction falling = test::build(flow(kLine, R"json("x": "if(u > 0, u, u) - 1 - 0.1*x^2")json"));
   // The flow of the heading-free part is positive: x only grows, by a shift.
   const Abstraction growing =
-      test::build(flow(kLine + ", " + kHeading, R"json("x": "2 + cos(h)", "h": "u")json"));
+      test::build(flow(kLine + ", " + kTubeHeading, R"json("x": "2 + cos(h)", "h": "u")json"));
   EXPECT_FALSE(falling.exact);
   EXPECT_FALSE(growing.exact);
   for (std::int64_t x = 0; x < 91; ++x) {
@@ -128,7 +130,7 @@ TEST(Tube, IsCoveredByCellsAsWideAsTheMeasurementErrorMakesThem) {
     EXPECT_EQ(a.raw_tube(0, 5, 1), (IndexRange{5, 5}));
     EXPECT_EQ(a.raw_tube(0, 5, 0), (IndexRange{4, 5}));
   }
-  attack(flow(state, R"json("x": "u - 0.1*x^2")json"), 300);
+  attack_tubes(flow(state, R"json("x": "u - 0.1*x^2")json"), 300);
 }
 
 TEST(Tube, GoesRoundTheSeam) {
@@ -141,16 +143,17 @@ TEST(Tube, GoesRoundTheSeam) {
 }
 
 TEST(Tube, SolutionsStayInIt) {
-  attack(flow(kPlane + ", " + kHeading, R"json("x": "cos(h)", "y": "sin(h)", "h": "3*u")json"), 150);
-  attack(flow(kPlane, R"json("x": "y", "y": "u - x - 0.3*y*abs(y)")json"), 150);
-  attack(flow(kPlane, R"json("x": "y + u", "y": "-2*x")json"), 150);
-  attack(flow(kPlane, R"json("x": "sin(3*x) - u*y", "y": "max(x, u) - y")json"), 150);
-  attack(flow(R"({"name": "x", "lower": -9, "upper": 9, "step": 0.5}, )" + kHeading,
-              R"json("x": "h", "h": "0*u")json"),
-         300);
-  attack(flow(R"({"name": "x", "lower": -9, "upper": 9, "step": 0.125}, )" + kHeading,
-              R"json("x": "h", "h": "3*u")json"),
-         300);
+  attack_tubes(flow(kTubePlane + ", " + kTubeHeading, R"json("x": "cos(h)", "y": "sin(h)", "h": "3*u")json"),
+               150);
+  attack_tubes(flow(kTubePlane, R"json("x": "y", "y": "u - x - 0.3*y*abs(y)")json"), 150);
+  attack_tubes(flow(kTubePlane, R"json("x": "y + u", "y": "-2*x")json"), 150);
+  attack_tubes(flow(kTubePlane, R"json("x": "sin(3*x) - u*y", "y": "max(x, u) - y")json"), 150);
+  attack_tubes(flow(R"({"name": "x", "lower": -9, "upper": 9, "step": 0.5}, )" + kTubeHeading,
+                    R"json("x": "h", "h": "0*u")json"),
+               300);
+  attack_tubes(flow(R"({"name": "x", "lower": -9, "upper": 9, "step": 0.125}, )" + kTubeHeading,
+                    R"json("x": "h", "h": "3*u")json"),
+               300);
 }
 
 TEST(Tube, OfADiscreteStateIsItsCell) {
@@ -170,16 +173,16 @@ TEST(Tube, OfADiscreteStateIsItsCell) {
 }
 
 TEST(Tube, ThereIsNoneUnlessAskedFor) {
-  EXPECT_TRUE(
-      test::build(read_spec(test::spec_text(kLine, "continuous", R"json("x": "u")json"), "t")).tubes.empty());
+  EXPECT_TRUE(test::build(read_system(test::spec_text(kLine, "continuous", R"json("x": "u")json"), "t"))
+                  .tubes.empty());
 }
 
 /// States that move each other share a flow: each gets the tube that it would have got alone.
 TEST(Tube, IsTheSameFromASharedFlow) {
   const std::string coarse =
       R"({"name": "x", "lower": -2, "upper": 2, "step": 1}, {"name": "y", "lower": -2, "upper": 2, "step": 1})";
-  const ProblemSpec spec = flow(coarse + ", " + kHeading,
-                                R"json("x": "sin(h) - u*y", "y": "cos(h) + x*y + u", "h": "x - 0.3*h")json");
+  const SystemSpec spec = flow(coarse + ", " + kTubeHeading,
+                               R"json("x": "sin(h) - u*y", "y": "cos(h) + x*y + u", "h": "x - 0.3*h")json");
   const AffineDynamics dynamics(spec);
   const Abstraction together = test::build(spec);
   ThreadTeam team(2);
@@ -196,8 +199,9 @@ TEST(Tube, IsTheSameFromASharedFlow) {
 
 TEST(Tube, NeedsTablesInFullInsteadOfSums) {
   const std::string equations = R"json("x": "y + u", "y": "-2*x")json";
-  const Abstraction sums = test::build(read_spec(test::spec_text(kPlane, "continuous", equations), "t"));
-  const ProblemSpec spec = flow(kPlane, equations);
+  const Abstraction sums =
+      test::build(read_system(test::spec_text(kTubePlane, "continuous", equations), "t"));
+  const SystemSpec spec = flow(kTubePlane, equations);
   const Abstraction full = test::build(spec);
   const std::vector<TableShape> shapes = table_shapes(spec);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -210,8 +214,8 @@ TEST(Tube, NeedsTablesInFullInsteadOfSums) {
 }
 
 TEST(Tube, ThreadsDoNotChangeIt) {
-  const ProblemSpec spec =
-      flow(kPlane + ", " + kHeading, R"json("x": "cos(h)", "y": "sin(h)", "h": "3*u")json");
+  const SystemSpec spec =
+      flow(kTubePlane + ", " + kTubeHeading, R"json("x": "cos(h)", "y": "sin(h)", "h": "3*u")json");
   ThreadTeam one(1);
   ThreadTeam three(3);
   const Abstraction a = build_abstraction(spec, one);

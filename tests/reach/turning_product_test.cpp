@@ -16,16 +16,16 @@ IntervalMatrix rotation(double angle, double uncertainty) {
 }
 
 TEST(TurningProduct, WidthsOfManyRotationsAddUp) {
-  constexpr int kSteps = 200;
+  constexpr int kTurns = 200;
   constexpr double kAngle = 0.05;
   constexpr double kUncertainty = 1e-5;
   TurningProduct product(2);
-  for (int k = 0; k < kSteps; ++k) product.append(rotation(kAngle, kUncertainty));
-  const IntervalMatrix exact = rotation(kSteps * kAngle, 0.0);
+  for (int k = 0; k < kTurns; ++k) product.append(rotation(kAngle, kUncertainty));
+  const IntervalMatrix exact = rotation(kTurns * kAngle, 0.0);
   for (Eigen::Index e = 0; e < 4; ++e) {
     const Interval entry = product.entry(e / 2, e % 2);
     EXPECT_TRUE(entry.contains(exact(e / 2, e % 2).lower));
-    EXPECT_LE(entry.upper - entry.lower, 2.0 * kSteps * kUncertainty * 3.0);
+    EXPECT_LE(entry.upper - entry.lower, 2.0 * kTurns * kUncertainty * 3.0);
   }
 }
 

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/point_dynamics.hpp"
-#include "spec/read_spec.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
@@ -22,17 +22,17 @@ struct Parts {
 };
 
 /// A mode m that a continuous state x switches.
-ProblemSpec mode_of(const Parts& parts) {
-  return read_spec(R"({"coordreq": 1, "name": "t", "states": [
+SystemSpec mode_of(const Parts& parts) {
+  return read_system(R"({"coordreq": 1, "name": "t", "states": [
 {"name": "m", "discrete": true, )" +
-                       parts.m + R"(}, {"name": "x", "step": 1, )" + parts.x + R"(}],
+                         parts.m + R"(}, {"name": "x", "step": 1, )" + parts.x + R"(}],
 "inputs": [{"name": "u", "values": [0, 1]}], "agents": [{"name": "a", "inputs": ["u"]}],
 "dynamics": {"time": "continuous", "period": 1, "equations": {"x": "u"}, "updates": {"m": ")" +
-                       parts.update + R"("}},)" + parts.more + R"("safe": "true"})",
-                   "test");
+                         parts.update + R"("}},)" + parts.more + R"("safe": "true"})",
+                     "test");
 }
 
-Abstraction built(const ProblemSpec& spec) {
+Abstraction built(const SystemSpec& spec) {
   ThreadTeam team(2);
   return build_abstraction(spec, team);
 }
@@ -42,7 +42,7 @@ IndexRange next(const Abstraction& a, std::int64_t m, std::int64_t x, std::int64
   return a.raw(0, m * a.grid.stride(0) + x, u);
 }
 
-std::string error_of(const ProblemSpec& spec) {
+std::string error_of(const SystemSpec& spec) {
   try {
     static_cast<void>(built(spec));
   } catch (const SpecError& error) {
@@ -60,12 +60,12 @@ TEST(UpdateTable, BothBranchesCountWhereTheCellLeavesTheConditionOpen) {
 }
 
 TEST(UpdateTable, TheStateMovesOnlyAtSamples) {
-  const ProblemSpec spec = read_spec(R"({"coordreq": 1, "name": "t", "states": [
+  const SystemSpec spec = read_system(R"({"coordreq": 1, "name": "t", "states": [
 {"name": "x", "lower": -3, "upper": 3, "step": 1}, {"name": "m", "lower": -1, "upper": 1, "step": 1, "discrete": true}],
 "inputs": [{"name": "u", "values": [0]}], "agents": [{"name": "a", "inputs": ["u"]}],
 "dynamics": {"time": "continuous", "period": 1, "equations": {"x": "m"}, "updates": {"m": "-m"}},
 "safe": "true", "abstraction": {"cells": "half_open"}})",
-                                     "test");
+                                      "test");
   const Abstraction a = built(spec);
   EXPECT_EQ(a.raw(0, 3 * 3 + 2, 0), (IndexRange{4, 4}));  // x = 0, m = 1
   EXPECT_EQ(a.raw(1, 3 * 3 + 2, 0), (IndexRange{0, 0}));
@@ -109,12 +109,12 @@ TEST(UpdateTable, BetweenTheSamplesTheValueIsKept) {
 }
 
 TEST(UpdateTable, DiscreteStatesInDiscreteTimeMayAskTheSame) {
-  const ProblemSpec spec = read_spec(R"spec({"coordreq": 1, "name": "t", "states": [
+  const SystemSpec spec = read_system(R"spec({"coordreq": 1, "name": "t", "states": [
 {"name": "m", "lower": 0, "upper": 2, "step": 1, "discrete": true}, {"name": "x", "lower": -2, "upper": 2, "step": 1}],
 "inputs": [{"name": "u", "values": [0, 1]}], "agents": [{"name": "a", "inputs": ["u"]}],
 "dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x + u", "m": "if(x >= 0.2, 2, m)"}},
 "safe": "true"})spec",
-                                     "test");
+                                      "test");
   const Abstraction a = built(spec);
   EXPECT_EQ(next(a, 1, 2, 0), (IndexRange{1, 2}));
   EXPECT_EQ(next(a, 0, 2, 0), (IndexRange{0, 2}));
@@ -179,7 +179,7 @@ std::unique_ptr<Tree> random_tree(int depth) {
 
 RC_GTEST_PROP(UpdateTable, AgreesWithAllBranchesAndHoldsEveryMotion, ()) {
   const std::unique_ptr<Tree> tree = random_tree(3);
-  const ProblemSpec spec = mode_of({tree->text()});
+  const SystemSpec spec = mode_of({tree->text()});
   const Abstraction a = built(spec);
   PointDynamics dynamics(spec);
   for (int m = 0; m <= 2; ++m) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reach/flow_helpers.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -8,7 +8,7 @@
 namespace coordreq {
 namespace {
 
-using Shape = std::vector<std::uint64_t>;
+using Extents = std::vector<std::uint64_t>;
 
 TEST(ChunkLayout, SmallAndEmptyArraysAreNotCut) {
   EXPECT_FALSE(ChunkLayout({}, 8).chunked());
@@ -21,16 +21,16 @@ TEST(ChunkLayout, SmallAndEmptyArraysAreNotCut) {
 
 TEST(ChunkLayout, TrailingDimensionsStayWhole) {
   const ChunkLayout layout({100, 200, 300}, 2);  // 12 MB: chunks of 1/16 of it
-  EXPECT_EQ(layout.chunk_shape(), (Shape{6, 200, 300}));
+  EXPECT_EQ(layout.chunk_shape(), (Extents{6, 200, 300}));
   EXPECT_EQ(layout.chunk_count(), 17U);
 }
 
 TEST(ChunkLayout, LargeSlabsAreCutInsideIntoEvenPieces) {
   const ChunkLayout layout({5, 3000, 1000}, 1);  // a slab of 3 MB, pieces of at most 15 MB / 16
-  EXPECT_EQ(layout.chunk_shape(), (Shape{1, 750, 1000}));
+  EXPECT_EQ(layout.chunk_shape(), (Extents{1, 750, 1000}));
   EXPECT_EQ(layout.chunk_count(), 20U);
   const ChunkLayout::Stretch second_slab = layout.stretch(5);
-  EXPECT_EQ(second_slab.offset, (Shape{1, 750, 0}));
+  EXPECT_EQ(second_slab.offset, (Extents{1, 750, 0}));
   EXPECT_EQ(second_slab.begin, 3750000U);
   EXPECT_EQ(second_slab.count, 750000U);
 }
@@ -43,7 +43,7 @@ TEST(ChunkLayout, LargeArraysHaveChunksOfAboutOneMebibyte) {
 }
 
 /// Linear index of `offset` in an array of this shape.
-std::uint64_t linear_index(const Shape& shape, const Shape& offset) {
+std::uint64_t linear_index(const Extents& shape, const Extents& offset) {
   std::uint64_t index = 0;
   for (std::size_t i = 0; i < shape.size(); ++i) index = index * shape[i] + offset[i];
   return index;
@@ -52,10 +52,10 @@ std::uint64_t linear_index(const Shape& shape, const Shape& offset) {
 TEST(ChunkLayout, StretchesCoverTheArrayOnceInOrderAndFitTheirChunks) {
   EXPECT_TRUE(rc::check([] {
     const auto rank = *rc::gen::inRange<std::size_t>(1, 5);
-    const Shape shape =
-        *rc::gen::container<Shape>(rank, rc::gen::inRange<std::uint64_t>(1, rank == 1   ? 3000000
-                                                                            : rank == 2 ? 2000
-                                                                                        : 60));
+    const Extents shape =
+        *rc::gen::container<Extents>(rank, rc::gen::inRange<std::uint64_t>(1, rank == 1   ? 3000000
+                                                                              : rank == 2 ? 2000
+                                                                                          : 60));
     const std::size_t size = *rc::gen::element<std::size_t>(1, 2, 4, 8);
     const ChunkLayout layout(shape, size);
     if (!layout.chunked()) {

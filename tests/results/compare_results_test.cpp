@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "cell/analyzed_file.hpp"
 #include "results/scratch_folder.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/set_value.hpp"
 #include "support/random_problem.hpp"
 

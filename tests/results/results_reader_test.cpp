@@ -14,6 +14,7 @@
 #include "results/sample_content.hpp"
 #include "results/scratch_folder.hpp"
 #include "results/write_results.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

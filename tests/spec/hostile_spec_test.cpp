@@ -3,6 +3,7 @@
 #include <string>
 
 #include "example_spec.hpp"
+#include "spec/problem_spec.hpp"
 
 // Short specs that ask for much. What counts is that an answer comes at all, and soon: the tests have a time
 // limit and little memory.

@@ -5,6 +5,7 @@
 
 #include "example_spec.hpp"
 #include "mutated_spec.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "example_spec.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "example_spec.hpp"
 #include "spec/partition_names.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "example_spec.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

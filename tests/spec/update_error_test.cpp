@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "example_spec.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -7,16 +7,11 @@
 
 #include "answers/invariance/action_bits.hpp"
 #include "support/fast_engine.hpp"
+#include "support/members.hpp"
 #include "support/plain_engine.hpp"
 
 // What it means that the fast engine and the plain one agree, inside a RapidCheck property.
 namespace coordreq {
-
-inline std::vector<bool> members(const CellSet& set) {
-  std::vector<bool> result;
-  for (std::int64_t x = 0; x < set.cells(); ++x) result.push_back(set.test(x));
-  return result;
-}
 
 /// The packed bits of the fast path as plain sets.
 inline std::vector<std::vector<bool>> unpacked(const FastAnalysis& fast, const ActionGrouping& grouping,

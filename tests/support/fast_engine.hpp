@@ -10,7 +10,8 @@
 #include "answers/layers/answer.hpp"
 #include "answers/plan.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/table_shapes.hpp"
+#include "reach/make_model.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 

@@ -11,6 +11,7 @@
 #include "expression/evaluate.hpp"
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
+#include "spec/problem_spec.hpp"
 #include "support/plain_posts.hpp"
 
 namespace coordreq {

@@ -5,7 +5,7 @@
 
 #include "engine/packed_pairs.hpp"
 #include "reach/abstraction.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

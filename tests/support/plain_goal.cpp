@@ -4,6 +4,7 @@
 #include <set>
 
 #include "model/outside.hpp"
+#include "spec/problem_spec.hpp"
 #include "support/plain_posts.hpp"
 
 namespace coordreq {

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 #include <rapidcheck.h>
 
+#include "support/draw.hpp"
+
 namespace coordreq {
 namespace {
-
-int draw(int low, int high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
-}
 
 class LikeAgents {
  public:

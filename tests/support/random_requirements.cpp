@@ -8,19 +8,10 @@
 
 #include "answers/requirements/region.hpp"
 #include "spec/read_spec.hpp"
+#include "support/draw.hpp"
 
 namespace coordreq {
 namespace {
-
-int draw(int low, int high) {
-  // At full size: RapidCheck would begin with the low end of every range.
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
-}
-
-template <class T>
-T pick(const std::vector<T>& choices) {
-  return choices[static_cast<std::size_t>(draw(0, static_cast<int>(choices.size()) - 1))];
-}
 
 std::string join(const std::vector<std::string>& parts) {
   return fmt::format("{}", fmt::join(parts, ", "));

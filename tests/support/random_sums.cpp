@@ -2,12 +2,10 @@
 
 #include <rapidcheck.h>
 
+#include "support/draw.hpp"
+
 namespace coordreq {
 namespace {
-
-int draw(int low, int high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
-}
 
 std::vector<std::int32_t> some(std::size_t below) {
   std::vector<std::int32_t> result;

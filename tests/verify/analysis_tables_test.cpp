@@ -4,24 +4,24 @@
 
 #include <gtest/gtest.h>
 
-#include "spec/read_spec.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
 
-ProblemSpec problem(const std::string& p, const std::string& q, const std::string& dynamics,
-                    const std::string& more = "") {
-  return read_spec(R"json({"coordreq": 1, "name": "tables",
+SystemSpec tables_problem(const std::string& p, const std::string& q, const std::string& dynamics,
+                          const std::string& more = "") {
+  return read_system(R"json({"coordreq": 1, "name": "tables",
 "states": [{"name": "p", "lower": 0, "upper": 9, "step": 1, )json" +
-                       p + R"json(}, {"name": "q", )json" + q + R"json(}],
+                         p + R"json(}, {"name": "q", )json" + q + R"json(}],
 "inputs": [{"name": "u", "values": [-4, 0, 2]}, {"name": "v", "values": [0, 1]}],
 "agents": [{"name": "one", "inputs": ["u"]}, {"name": "two", "inputs": ["v"]}],
 "dynamics": )json" + dynamics +
-                       R"json(, "safe": "true")json" + more + "}",
-                   "tables");
+                         R"json(, "safe": "true")json" + more + "}",
+                     "tables");
 }
 
-void expect_part_of_all(const ProblemSpec& spec) {
+void expect_part_of_all(const SystemSpec& spec) {
   ThreadTeam team(2);
   const UniformGrid grid = make_grid(spec);
   const InputSpace inputs = make_input_space(spec);
@@ -46,26 +46,26 @@ const char* const kRing = R"("lower": 0, "upper": 6, "count": 30, "outside": "pe
 TEST(AnalysisTables, AFlowAndItsWays) {
   const char* const flow =
       R"json({"time": "continuous", "period": 0.5, "equations": {"p": "q*abs(q) - 0.1*p*v", "q": "u - sin(p)"}})json";
-  expect_part_of_all(
-      problem(R"("outside": "saturate")", kLine, flow, R"(, "abstraction": {"between_samples": true})"));
+  expect_part_of_all(tables_problem(R"("outside": "saturate")", kLine, flow,
+                                    R"(, "abstraction": {"between_samples": true})"));
 }
 
 TEST(AnalysisTables, ARingThatTurnsByItself) {
   const char* const flow =
       R"json({"time": "continuous", "period": 0.5, "equations": {"p": "cos(q) + 0.1*v*p^2", "q": "u + sin(q)"}})json";
-  expect_part_of_all(problem(R"("outside": "unsafe")", kRing, flow));
+  expect_part_of_all(tables_problem(R"("outside": "unsafe")", kRing, flow));
 }
 
 TEST(AnalysisTables, ALimitThatStops) {
   const char* const flow =
       R"json({"time": "continuous", "period": 0.5, "equations": {"p": "q + v", "q": "u - 0.1*q^3"}})json";
-  expect_part_of_all(problem(R"("outside": "stop")", kLine, flow));
+  expect_part_of_all(tables_problem(R"("outside": "stop")", kLine, flow));
 }
 
 TEST(AnalysisTables, WhatSaturatesIsSeenElsewhere) {
   const char* const map =
       R"json({"time": "discrete", "period": 1, "equations": {"p": "p^2/9 + u", "q": "q*cos(q) + v"}})json";
-  expect_part_of_all(problem(R"("outside": "saturate", "measurement_error": 1.7)", kLine, map));
+  expect_part_of_all(tables_problem(R"("outside": "saturate", "measurement_error": 1.7)", kLine, map));
 }
 
 }  // namespace

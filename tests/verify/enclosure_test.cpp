@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "spec/read_spec.hpp"
+#include "support/read_system.hpp"
 #include "verify/flow_extremes.hpp"
 #include "verify/map_extremes.hpp"
 #include "verify/piece_choices.hpp"
@@ -17,9 +17,9 @@ struct Range {
   double upper;
 };
 
-ProblemSpec spec_of(const std::string& x, const std::string& y, const std::string& disturbances = "",
-                    const std::string& time = "continuous", const std::string& period = "0.5") {
-  return read_spec(
+SystemSpec spec_of(const std::string& x, const std::string& y, const std::string& disturbances = "",
+                   const std::string& time = "continuous", const std::string& period = "0.5") {
+  return read_system(
       R"json({"coordreq": 1, "name": "flow",
 "states": [{"name": "x", "lower": -4, "upper": 4, "step": 1}, {"name": "y", "lower": -4, "upper": 4, "step": 1}],
 "inputs": [{"name": "u", "values": [0]}], "agents": [{"name": "one", "inputs": ["u"]}],
@@ -30,7 +30,7 @@ ProblemSpec spec_of(const std::string& x, const std::string& y, const std::strin
       "flow");
 }
 
-std::optional<Range> range_of(const ProblemSpec& spec, Range x, Range y, Range w = {0.0, 0.0},
+std::optional<Range> range_of(const SystemSpec& spec, Range x, Range y, Range w = {0.0, 0.0},
                               const Effort& effort = {8, 1e-9}) {
   SpanBox box(spec.slot_count());
   box[0] = span_of(exact(x.lower), exact(x.upper));
@@ -101,21 +101,21 @@ TEST(FlowExtremes, EveryFunctionOfTheLanguageIsExpanded) {
 }
 
 TEST(FlowExtremes, WhereADerivativeEndsAtZeroNothingIsAddedBeyond) {
-  const ProblemSpec spec = spec_of("-0.95*w^2", "0", R"({"name": "w", "lower": -0.2, "upper": 0.2})");
+  const SystemSpec spec = spec_of("-0.95*w^2", "0", R"({"name": "w", "lower": -0.2, "upper": 0.2})");
   const std::optional<Range> found = range_of(spec, {1, 2}, {0, 0}, {-0.2, 0.2});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->upper, 2.0);
 }
 
 TEST(FlowExtremes, ADisturbanceWithOneSignIsTheHull) {
-  const ProblemSpec spec = spec_of("y + w", "-x", R"({"name": "w", "lower": -1, "upper": 1})");
+  const SystemSpec spec = spec_of("y + w", "-x", R"({"name": "w", "lower": -1, "upper": 1})");
   // The kernel cos(t) keeps its sign for half a second: the extreme is a constant disturbance.
   expect_tight(range_of(spec, {0, 0}, {0, 0}, {-1, 1}), -std::sin(0.5), std::sin(0.5));
 }
 
 TEST(FlowExtremes, ADisturbanceThatSwitchesIsFollowed) {
   // x(2) is the integral of cos(2 - t) w(t), whose sign changes where 2 - t = pi / 2.
-  const ProblemSpec spec =
+  const SystemSpec spec =
       spec_of("y + w", "-x", R"({"name": "w", "lower": -1, "upper": 1})", "continuous", "2");
   const double most = 2 - std::sin(2.0);
   const std::optional<Range> found = range_of(spec, {0, 0}, {0, 0}, {-1, 1}, {64, 1e-9});
@@ -127,7 +127,7 @@ TEST(FlowExtremes, ADisturbanceThatSwitchesIsFollowed) {
 
 TEST(FlowExtremes, AKinkIsNoObstacle) {
   // v' = w - v |v| / 4 from v = 1: v = tanh-like towards sqrt(4 w); with w = 0 it is 1 / (1 + t / 4).
-  const ProblemSpec spec = spec_of("w - 0.25*x*abs(x)", "0", R"({"name": "w", "lower": 0, "upper": 1})");
+  const SystemSpec spec = spec_of("w - 0.25*x*abs(x)", "0", R"({"name": "w", "lower": 0, "upper": 1})");
   const double most = 2 * std::tanh(0.25 + std::atanh(0.5));
   expect_tight(range_of(spec, {1, 1}, {0, 0}, {0, 1}), 1 / 1.125, most, 1e-6);
   expect_tight(range_of(spec, {-1, -1}, {0, 0}, {0, 0}), -1 / 1.125, -1 / 1.125, 1e-6);

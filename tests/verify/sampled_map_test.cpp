@@ -2,31 +2,30 @@
 
 #include <gtest/gtest.h>
 
-#include "spec/read_spec.hpp"
+#include "support/read_system.hpp"
 
 namespace coordreq {
 namespace {
 
-ProblemSpec chain(const std::string& equations, const std::string& disturbances = "") {
-  return read_spec(R"json({"coordreq": 1, "name": "chain",
+SystemSpec chain(const std::string& equations, const std::string& disturbances = "") {
+  return read_system(R"json({"coordreq": 1, "name": "chain",
 "states": [{"name": "p", "lower": 0, "upper": 4, "step": 1}, {"name": "v", "lower": 0, "upper": 4, "step": 1},
            {"name": "a", "lower": 0, "upper": 4, "step": 1}],
 "inputs": [{"name": "u", "values": [2]}], "agents": [{"name": "one", "inputs": ["u"]}],
-"disturbances": [)json" +
-                       disturbances +
-                       R"json(], "dynamics": {"time": "continuous", "period": 0.5, "equations": {)json" +
-                       equations + R"json(}}, "safe": "true"})json",
-                   "chain");
+"disturbances": [)json" + disturbances +
+                         R"json(], "dynamics": {"time": "continuous", "period": 0.5, "equations": {)json" +
+                         equations + R"json(}}, "safe": "true"})json",
+                     "chain");
 }
 
-SampledMap solved(const ProblemSpec& spec, std::size_t state) {
+SampledMap solved(const SystemSpec& spec, std::size_t state) {
   std::vector<Rational> slots(spec.slot_count());
   slots[spec.input_slot(0)] = 2;
   return sampled_map(spec, influences_on(spec, state), state, slots).value();
 }
 
 TEST(SampledMap, AChainOfIntegratorsIsAPolynomialInThePeriod) {
-  const ProblemSpec spec = chain(R"("p": "v", "v": "a", "a": "u")");
+  const SystemSpec spec = chain(R"("p": "v", "v": "a", "a": "u")");
   const SampledMap p = solved(spec, 0);
   // p + tau v + tau^2/2 a + tau^3/6 u with tau = 1/2, u = 2
   EXPECT_EQ(p.coefficient, (std::vector<Rational>{1, Rational(1) / 2, Rational(1) / 8}));
@@ -37,7 +36,7 @@ TEST(SampledMap, AChainOfIntegratorsIsAPolynomialInThePeriod) {
 }
 
 TEST(SampledMap, ADisturbanceAddsWhatItCanAddUp) {
-  const ProblemSpec spec =
+  const SystemSpec spec =
       chain(R"("p": "v", "v": "w", "a": "0")", R"({"name": "w", "lower": -1, "upper": 3})");
   const SampledMap p = solved(spec, 0);
   EXPECT_EQ(p.lower, -Rational(1) / 8);
@@ -45,11 +44,11 @@ TEST(SampledMap, ADisturbanceAddsWhatItCanAddUp) {
 }
 
 TEST(SampledMap, AMatrixThatIsNotNilpotentIsNotSolved) {
-  const ProblemSpec spec = chain(R"("p": "v", "v": "-p", "a": "0")");
+  const SystemSpec spec = chain(R"("p": "v", "v": "-p", "a": "0")");
   EXPECT_FALSE(sampled_map(spec, influences_on(spec, 0), 0, std::vector<Rational>(spec.slot_count())));
 }
 
-TimedMap timed(const ProblemSpec& spec, std::size_t state) {
+TimedMap timed(const SystemSpec& spec, std::size_t state) {
   std::vector<Rational> slots(spec.slot_count());
   slots[spec.input_slot(0)] = 2;
   return timed_map(spec, influences_on(spec, state), state, slots).value();
@@ -58,7 +57,7 @@ TimedMap timed(const ProblemSpec& spec, std::size_t state) {
 TEST(TimedMap, AtTheEndOfThePeriodItIsTheSampledMap) {
   const Rational tau = Rational(1) / 2;
   for (const std::string v : {"a", "a + w", "w - 3*a"}) {
-    const ProblemSpec spec =
+    const SystemSpec spec =
         chain(R"("p": "v", "v": ")" + v + R"(", "a": "u")", R"({"name": "w", "lower": -1, "upper": 3})");
     const SampledMap map = solved(spec, 0);
     const TimedMap p = timed(spec, 0);
@@ -73,7 +72,7 @@ TEST(TimedMap, AtTheEndOfThePeriodItIsTheSampledMap) {
 
 TEST(TimedMap, AKernelThatChangesItsSignIsBounded) {
   // p(t) - p(0) - v(0) t = integral of (1 - 4 (t - s)) w(s), with w in [-1, 1]: the kernel is 1 - 4 s
-  const ProblemSpec spec =
+  const SystemSpec spec =
       chain(R"("p": "v + w", "v": "-4*w", "a": "0")", R"({"name": "w", "lower": -1, "upper": 1})");
   const TimedMap p = timed(spec, 0);
   EXPECT_FALSE(p.exact);
@@ -85,7 +84,7 @@ TEST(TimedMap, AKernelThatChangesItsSignIsBounded) {
 }
 
 TEST(SampledMap, ConstantsThatAreNoRationalNumbersAreNotExact) {
-  const ProblemSpec spec = chain(R"("p": "v", "v": "sin(1) + a", "a": "0")");
+  const SystemSpec spec = chain(R"("p": "v", "v": "sin(1) + a", "a": "0")");
   EXPECT_FALSE(sampled_map(spec, influences_on(spec, 0), 0, std::vector<Rational>(spec.slot_count())));
 }
 

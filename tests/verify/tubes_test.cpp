@@ -150,12 +150,12 @@ TEST(CheckTubes, WhatIsSafeBeyondALimitIsChecked) {
   }
 }
 
-struct Range {
+struct Bounds {
   double lower;
   double upper;
 };
 
-std::optional<FlowRange> range_of(const ProblemSpec& spec, Range p, Range v, double u, int steps) {
+std::optional<FlowRange> range_of(const ProblemSpec& spec, Bounds p, Bounds v, double u, int steps) {
   SpanBox slots(spec.slot_count());
   slots[0] = span_of(exact(p.lower), exact(p.upper));
   slots[1] = span_of(exact(v.lower), exact(v.upper));

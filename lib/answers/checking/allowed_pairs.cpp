@@ -4,6 +4,7 @@
 #include "base/index.hpp"
 #include "model/condition_table.hpp"
 #include "model/odometer.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 

@@ -12,7 +12,7 @@
 #include "expression/evaluate.hpp"
 #include "model/input_space.hpp"
 #include "model/uniform_grid.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

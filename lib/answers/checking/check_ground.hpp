@@ -8,7 +8,7 @@
 #include "answers/checking/posts.hpp"
 #include "model/input_space.hpp"
 #include "model/uniform_grid.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

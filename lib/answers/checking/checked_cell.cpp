@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "answers/checking/cell_place.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 

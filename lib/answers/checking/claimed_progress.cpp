@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "spec/problem_spec.hpp"
+
 namespace coordreq {
 namespace {
 

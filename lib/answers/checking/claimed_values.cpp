@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "spec/problem_spec.hpp"
+
 namespace coordreq {
 
 std::string step_words(std::int32_t value) {

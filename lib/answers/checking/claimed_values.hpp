@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "answers/checking/claims.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

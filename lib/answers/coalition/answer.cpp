@@ -8,6 +8,7 @@
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"
 #include "spec/partition_names.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

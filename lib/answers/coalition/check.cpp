@@ -9,6 +9,7 @@
 
 #include "answers/checking/cell_place.hpp"
 #include "base/index.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "spec/coordination_spec.hpp"
+
 namespace coordreq {
 namespace {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "spec/coordination_spec.hpp"
+
 namespace coordreq {
 namespace {
 

@@ -11,6 +11,7 @@
 #include "answers/layers/delay_layers.hpp"
 #include "engine/convert_stretch.hpp"
 #include "spec/partition_names.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

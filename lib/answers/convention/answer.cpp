@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "answers/invariance/answer.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -10,6 +10,7 @@
 #include "answers/memory_need.hpp"
 #include "answers/stage.hpp"
 #include "base/json.hpp"
+#include "engine/action_groups.hpp"
 
 namespace coordreq {
 

@@ -8,6 +8,7 @@
 
 #include "answers/checking/claimed_progress.hpp"
 #include "model/input_class.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

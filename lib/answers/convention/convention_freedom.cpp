@@ -7,6 +7,8 @@
 #include <numeric>
 
 #include "answers/convention/convention_row.hpp"
+#include "engine/action_groups.hpp"
+#include "engine/level_map.hpp"
 #include "engine/packed_pairs.hpp"
 
 namespace coordreq {

@@ -7,6 +7,7 @@
 
 #include "answers/invariance/controller.hpp"
 #include "base/zeroed_array.hpp"
+#include "engine/action_groups.hpp"
 #include "engine/row_hull.hpp"
 #include "engine/tiles.hpp"
 

@@ -4,7 +4,11 @@
 #include <numeric>
 #include <vector>
 
+#include "answers/invariance/controller_row.hpp"
 #include "answers/layers/free_rows.hpp"
+#include "engine/action_groups.hpp"
+#include "engine/post_reader.hpp"
+#include "engine/tuple_walk.hpp"
 
 namespace coordreq {
 

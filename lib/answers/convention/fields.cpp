@@ -4,6 +4,7 @@
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/invariance/answer.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

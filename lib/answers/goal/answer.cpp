@@ -11,6 +11,7 @@
 #include "answers/layers/answer.hpp"
 #include "answers/layers/projection_bytes.hpp"
 #include "answers/work_json.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -10,7 +10,7 @@
 #include "engine/tiles.hpp"
 #include "engine/wave.hpp"
 #include "engine/wave_watch.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 // How soon a goal can be reached (contract, section 5): the least solution of arrival(x) = 0 in G,
 // 1 + min over u in C(x) of max over y in f(x,u) of arrival(y) elsewhere in K.

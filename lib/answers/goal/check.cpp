@@ -10,6 +10,7 @@
 #include "answers/checking/claimed_values.hpp"
 #include "answers/invariance/check_safe.hpp"
 #include "model/input_class.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

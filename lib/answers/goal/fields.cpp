@@ -13,6 +13,7 @@
 #include "answers/layers/trigger_table.hpp"
 #include "engine/convert_stretch.hpp"
 #include "spec/partition_names.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

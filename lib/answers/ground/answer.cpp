@@ -8,6 +8,7 @@
 #include "model/model.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/serialise_abstraction.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

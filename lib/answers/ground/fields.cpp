@@ -6,6 +6,8 @@
 #include "answers/field_parts.hpp"
 #include "answers/latest.hpp"
 #include "reach/build_abstraction.hpp"
+#include "reach/table_shapes.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/unit_text.hpp"
 
 namespace coordreq {

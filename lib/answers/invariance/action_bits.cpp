@@ -2,6 +2,15 @@
 
 #include <algorithm>
 
+#include "answers/invariance/controller_row.hpp"
+#include "engine/action_groups.hpp"
+#include "engine/level_map.hpp"
+#include "engine/level_rows.hpp"
+#include "engine/post_reader.hpp"
+#include "engine/row_box.hpp"
+#include "engine/row_operations.hpp"
+#include "engine/tuple_walk.hpp"
+
 namespace coordreq {
 namespace {
 

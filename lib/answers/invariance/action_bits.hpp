@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "answers/invariance/controller.hpp"
+#include "engine/action_groups.hpp"
 
 namespace coordreq {
 

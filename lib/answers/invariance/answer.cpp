@@ -5,6 +5,7 @@
 
 #include "answers/kept_levels.hpp"
 #include "answers/work_json.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

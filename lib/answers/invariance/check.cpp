@@ -6,6 +6,7 @@
 
 #include "answers/checking/claimed_values.hpp"
 #include "answers/invariance/check_safe.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

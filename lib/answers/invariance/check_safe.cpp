@@ -4,6 +4,7 @@
 
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -8,7 +8,7 @@
 #include "answers/checking/corner_truth.hpp"
 #include "expression/evaluate.hpp"
 #include "model/uniform_grid.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "engine/level_map.hpp"
-#include "engine/post_reader.hpp"
-#include "engine/tuple_walk.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
+
+class CellSet;
+class LevelMap;
+class RowEngine;
 
 /// The controller C of an invariance set, contract "Controller": `maximal` C(x) = {u allowed : empty !=
 /// f(x,u) subset of K}, `given` C(x) = {u allowed}; empty outside K. Never stored, computed row by row.
@@ -21,31 +22,5 @@ struct Controller {
   Synthesis synthesis = Synthesis::maximal;
   bool approaches = false;  ///< it is P
 };
-
-/// {x in the row : u in C(x)} for all u in one choice of groups.
-/// @param posts of `levels`, which are controller.levels
-/// @param lanes at least these cells of the row are found, if they are in it
-/// REQUIRES: `out` has engine->row_words() words.
-template <class Level>
-void controller_row(const Controller& controller, const LevelRows<Level>& levels, std::int64_t row,
-                    TupleWalk& tuple, PostReader<Level>& posts, LaneRange lanes, MutableRow out) {
-  const ConstRow invariant = controller.invariant->row(row);
-  const ConstRow allowed = tuple.allowed();
-  if (controller.synthesis == Synthesis::maximal) {
-    const std::size_t word = lanes.begin / CellSet::kWordBits;
-    lanes.begin = word * CellSet::kWordBits;
-    const Level* const least = posts.minimum(tuple.slice_ids(), lanes, 0);
-    std::fill(out.begin(), out.end(), 0);
-    if (controller.approaches) {
-      posts.kernels().above_bits(least, levels.row(row) + lanes.begin, out.data() + word, lanes.size());
-    } else {
-      posts.kernels().top_bits(least, out.data() + word, lanes.size());
-    }
-    for (std::size_t w = 0; w < out.size(); ++w) out[w] &= invariant[w];
-  } else {
-    std::copy(invariant.begin(), invariant.end(), out.begin());
-  }
-  for (std::size_t w = 0; w < allowed.size(); ++w) out[w] &= allowed[w];
-}
 
 }  // namespace coordreq

@@ -6,6 +6,7 @@
 #include "answers/field_parts.hpp"
 #include "answers/invariance/action_bits.hpp"
 #include "answers/invariance/answer.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -3,7 +3,7 @@
 #include "answers/answers.hpp"
 #include "answers/field.hpp"
 #include "base/thread_team.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 namespace paths {

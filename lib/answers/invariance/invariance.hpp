@@ -6,7 +6,7 @@
 #include "engine/action_groups.hpp"
 #include "engine/level_map.hpp"
 #include "engine/wave.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -8,7 +8,7 @@
 #include "engine/row_hull.hpp"
 #include "engine/tuple_walk.hpp"
 #include "engine/wave.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 // What all agents together can do, as operators on levels.
 namespace coordreq {

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "expression/cell_truth.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -114,6 +115,10 @@ CellSet cells_that_satisfy(const Program& condition, const ProblemSpec& spec, co
   CellSet cells(grid.rows(), grid.row_length());
   add_cells_that_satisfy(condition, spec, grid, inputs, held_rows(share, grid.rows()), team, cells);
   return cells;
+}
+
+CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team) {
+  return cells_that_satisfy(spec.safe, spec, abstraction.grid, abstraction.inputs, team);
 }
 
 std::optional<PairTable> allow_table(const ProblemSpec& spec, const Abstraction& abstraction,

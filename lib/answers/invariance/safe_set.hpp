@@ -10,7 +10,7 @@
 #include "model/condition_table.hpp"
 #include "ranks/row_share.hpp"
 #include "reach/abstraction.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -29,10 +29,7 @@ void add_cells_that_satisfy(const Program& condition, const ProblemSpec& spec, c
                                          const UniformGrid& grid, const InputSpace& inputs, ThreadTeam& team,
                                          const RowShare* share = nullptr);
 /// S, contract "Safe set".
-[[nodiscard]] inline CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction,
-                                      ThreadTeam& team) {
-  return cells_that_satisfy(spec.safe, spec, abstraction.grid, abstraction.inputs, team);
-}
+[[nodiscard]] CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team);
 
 /// The admissible pairs: those that `allow` permits at grid points of states and inputs, and that are listed
 /// if there is a list; nothing if everything is admissible.

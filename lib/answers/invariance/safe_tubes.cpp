@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "answers/invariance/safe_set.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -9,7 +9,7 @@
 #include "engine/cell_set.hpp"
 #include "ranks/row_share.hpp"
 #include "reach/abstraction.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -11,6 +11,7 @@
 #include "answers/layers/refinement.hpp"
 #include "answers/work_json.hpp"
 #include "spec/partition_names.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -8,13 +8,14 @@
 #include "answers/checking/claimed_values.hpp"
 #include "answers/layers/check_sizes.hpp"
 #include "model/input_class.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
 
 constexpr std::int32_t kMustBeConnected = -3;
 
-std::int32_t trigger_of(std::int32_t delay, std::int64_t connection_delay) {
+std::int32_t trigger_by_definition(std::int32_t delay, std::int64_t connection_delay) {
   if (delay < 0 || delay == kForever) return delay;
   return delay < connection_delay ? kMustBeConnected : static_cast<std::int32_t>(delay - connection_delay);
 }
@@ -118,7 +119,7 @@ class PartitionChecker {
   void check_trigger(const CheckedCell& cell) {
     tallies_.trigger.add_checked(1);
     const std::int32_t expected =
-        trigger_of(claims_.delay[cell.at()], ground_.spec->coordination.connection_delay);
+        trigger_by_definition(claims_.delay[cell.at()], ground_.spec->coordination.connection_delay);
     const std::int32_t claimed = claims_.trigger[cell.at()];
     if (claimed != expected) wrong_steps(tallies_.trigger, cell, claimed, expected);
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "spec/problem_spec.hpp"
+
 namespace coordreq {
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include "answers/checking/claims.hpp"
 #include "answers/checking/comparison.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

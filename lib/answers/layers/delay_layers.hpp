@@ -4,11 +4,16 @@
 #include <optional>
 #include <vector>
 
-#include "answers/layers/projections.hpp"
 #include "base/thread_team.hpp"
-#include "engine/wave.hpp"
+#include "engine/level_map.hpp"
+#include "engine/wave_watch.hpp"
 
 namespace coordreq {
+
+class CellSet;
+class Projections;
+class RowEngine;
+class RowHull;
 
 /// The delay layers of one partition, contract "Layers".
 struct DelayLayers {

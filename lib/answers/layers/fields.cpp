@@ -14,6 +14,7 @@
 #include "answers/layers/delay_layers.hpp"
 #include "answers/layers/trigger_table.hpp"
 #include "spec/partition_names.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

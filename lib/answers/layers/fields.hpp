@@ -8,8 +8,9 @@
 #include "answers/field.hpp"
 #include "answers/field_source.hpp"
 #include "answers/layers/delay_layers.hpp"
+#include "answers/layers/stored_partition.hpp"
 #include "base/thread_team.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 namespace paths {
@@ -19,17 +20,6 @@ namespace paths {
                                   std::size_t class_number);
 
 }  // namespace paths
-
-/// What is stored of a partition besides arrays over cells.
-struct StoredPartition {
-  std::string name;
-  std::vector<std::string> classes;         ///< names of the classes, in the order of the spec
-  std::vector<std::int64_t> actions;        ///< joint actions of each class
-  std::int32_t fixed_point_index = -1;      ///< F; -1 if truncated
-  std::vector<std::uint64_t> layer_sizes;   ///< |Z_0|, ..., |Z_F|; as far as stored if truncated
-  std::vector<std::uint64_t> padded_sizes;  ///< the whole row of /layer_size
-  [[nodiscard]] bool truncated() const { return fixed_point_index < 0; }
-};
 
 /// Delays and triggers of all partitions, sizes of layers, F; on request the layers' cells, and the
 /// admissible actions of each class.

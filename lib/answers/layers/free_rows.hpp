@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "answers/invariance/controller.hpp"
+#include "engine/post_reader.hpp"
 #include "engine/row_hull.hpp"
 
 namespace coordreq {

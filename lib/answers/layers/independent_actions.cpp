@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/tuple_walk.hpp"
+
 namespace coordreq {
 namespace {
 

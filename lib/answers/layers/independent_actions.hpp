@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "answers/layers/projections.hpp"
+#include "engine/tuple_walk.hpp"
 #include "engine/wave.hpp"
 
 namespace coordreq {

@@ -4,8 +4,12 @@
 #include <bit>
 #include <deque>
 
+#include "answers/invariance/controller_row.hpp"
 #include "answers/layers/free_rows.hpp"
 #include "answers/layers/pair_projection.hpp"
+#include "engine/level_map.hpp"
+#include "engine/post_reader.hpp"
+#include "engine/tuple_walk.hpp"
 
 namespace coordreq {
 namespace {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "spec/coordination_spec.hpp"
+
 namespace coordreq {
 
 bool refines(const PartitionSpec& finer, const PartitionSpec& coarser) {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 // The order of partitions by refinement. If each class of P lies in a class of Q, agents are less free to
 // choose alone with Q: IND_C of Q is within that of P, and every layer of P within that of Q. So the delays

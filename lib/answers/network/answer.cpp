@@ -9,6 +9,7 @@
 #include "answers/network/fields.hpp"
 #include "answers/network/network_problem.hpp"
 #include "answers/work_json.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -3,6 +3,7 @@
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/network/answer.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 

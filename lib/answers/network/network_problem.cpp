@@ -5,6 +5,7 @@
 #include <string>
 
 #include "answers/layers/answer.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "answers/network/network_safety.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -8,6 +8,7 @@
 #include "answers/layers/independent_actions.hpp"
 #include "answers/network/careful_actions.hpp"
 #include "answers/network/mode_targets.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -10,6 +10,7 @@
 #include "engine/cell_set.hpp"
 #include "engine/row_hull.hpp"
 #include "engine/wave.hpp"
+#include "model/input_class.hpp"
 
 namespace coordreq {
 

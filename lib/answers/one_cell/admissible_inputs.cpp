@@ -10,6 +10,7 @@
 #include "engine/tube_sets.hpp"
 #include "model/condition_table.hpp"
 #include "model/odometer.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

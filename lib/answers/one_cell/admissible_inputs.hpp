@@ -11,7 +11,7 @@
 #include "answers/one_cell/cell_posts.hpp"
 #include "expression/cell_truth.hpp"
 #include "expression/condition.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -8,7 +8,9 @@
 #include "reach/affine_table.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/enclosure_table.hpp"
+#include "reach/table_shapes.hpp"
 #include "reach/update_table.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -36,7 +38,7 @@ void add_sides(std::size_t i, IndexRange raw, const GridDimension& dimension, Ce
 
 }  // namespace
 
-CellPosts::CellPosts(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
+CellPosts::CellPosts(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
                      ThreadTeam& team, std::optional<Abstraction> stored)
     : grid_(&grid), inputs_(&inputs) {
   const std::vector<TableShape> shapes = table_shapes(spec);
@@ -100,7 +102,7 @@ Abstraction CellPosts::part_of(std::size_t state, std::int64_t cell) const {
 }
 
 void CellPosts::build_parts(std::int64_t cell) {
-  const ProblemSpec& spec = source_->spec;
+  const SystemSpec& spec = source_->spec;
   source_->parts.clear();
   source_->place.clear();
   for (std::size_t i = 0; i < grid_->size(); ++i) {

@@ -9,7 +9,7 @@
 #include "engine/tube_sets.hpp"
 #include "reach/abstraction.hpp"
 #include "reach/affine_dynamics.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 
@@ -44,7 +44,7 @@ class CellPosts {
   explicit CellPosts(const Abstraction& abstraction)
       : grid_(&abstraction.grid), inputs_(&abstraction.inputs), whole_(&abstraction) {}
   /// @param stored the abstraction, if it is known. REQUIRES: all others outlive this object.
-  CellPosts(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, ThreadTeam& team,
+  CellPosts(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, ThreadTeam& team,
             std::optional<Abstraction> stored);
   CellPosts(const CellPosts&) = delete;
   CellPosts& operator=(const CellPosts&) = delete;
@@ -79,7 +79,7 @@ class CellPosts {
  private:
   /// What posts are computed from, and what of them is computed so far.
   struct Source {
-    const ProblemSpec& spec;
+    const SystemSpec& spec;
     ThreadTeam& team;
     AffineDynamics dynamics;
     double all_entries;   ///< of the whole abstraction

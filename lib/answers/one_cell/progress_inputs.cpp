@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "answers/one_cell/cell_members.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "answers/one_cell/cell_posts.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -8,6 +8,7 @@
 #include "answers/layers/delay_layers.hpp"
 #include "answers/requirements/fields.hpp"
 #include "answers/requirements/judge_requirements.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

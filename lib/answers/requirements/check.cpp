@@ -9,6 +9,7 @@
 #include "answers/checking/claimed_values.hpp"
 #include "answers/requirements/check_path.hpp"
 #include "answers/requirements/check_region.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -17,7 +18,7 @@ using Rank = std::tuple<std::int64_t, std::int32_t, std::int64_t>;  // of the va
 
 /// The lower, the worse: not safe, not invariant, no way to the goal, then delays, or arrivals the other way
 /// round.
-std::int64_t rank_of(RequirementKind kind, std::int32_t value) {
+std::int64_t rank_by_definition(RequirementKind kind, std::int32_t value) {
   if (value == kNoWayToGoal) return -1;
   if (value < 0) return INT64_MIN / 2 + value;  // a claim can be any number
   return kind == RequirementKind::max_arrival ? -std::int64_t{value} : std::int64_t{value};
@@ -96,7 +97,7 @@ class RequirementChecker {
     if (meeting == Meeting::off) return;
     const auto x = static_cast<std::size_t>(cell);
     const std::int32_t value = value_at(x);
-    const std::int64_t rank = rank_of(asked_.kind, value);
+    const std::int64_t rank = rank_by_definition(asked_.kind, value);
     const bool failing = fails(value);
     ++bounds.possible;
     bounds.possible_failing += failing ? 1 : 0;
@@ -114,7 +115,7 @@ class RequirementChecker {
     expect("cells", claim_.cells, bounds.sure, bounds.possible);
     expect("failing cells", claim_.failing, bounds.sure_failing, bounds.possible_failing);
     if (claim_.failing > claim_.cells) wrong("more cells fail than there are");
-    expect("worst value, ranked", rank_of(asked_.kind, claim_.least_delay), bounds.possible_least,
+    expect("worst value, ranked", rank_by_definition(asked_.kind, claim_.least_delay), bounds.possible_least,
            bounds.sure_least);
   }
 
@@ -152,7 +153,8 @@ class RequirementChecker {
     if (region_.of(cell) == Meeting::off) wrong("the counterexample begins outside the region");
     if (!fails(value)) wrong("the counterexample begins in a cell that does not fail");
     if (value != claim_.least_delay) wrong("the counterexample begins with another value than the worst");
-    if (Rank(rank_of(asked_.kind, value), ground_.claims->collision_time[first], cell) > bounds.sure_worst)
+    if (Rank(rank_by_definition(asked_.kind, value), ground_.claims->collision_time[first], cell) >
+        bounds.sure_worst)
       wrong("the counterexample does not begin in the worst cell");
     PathChecker(ground_, asked_).check(path, tally_);
   }

@@ -8,6 +8,7 @@
 #include "expression/evaluate.hpp"
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -7,7 +7,7 @@
 #include "base/thread_team.hpp"
 #include "expression/program.hpp"
 #include "model/uniform_grid.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

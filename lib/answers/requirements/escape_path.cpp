@@ -8,6 +8,7 @@
 #include "answers/goal/arrival.hpp"
 #include "answers/one_cell/admissible_inputs.hpp"
 #include "answers/one_cell/progress_inputs.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

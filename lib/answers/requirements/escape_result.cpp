@@ -1,5 +1,7 @@
 #include "answers/requirements/escape_result.hpp"
 
+#include "spec/problem_spec.hpp"
+
 namespace coordreq {
 namespace {
 

@@ -4,6 +4,7 @@
 #include "answers/goal/fields.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "answers/requirements/answer.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

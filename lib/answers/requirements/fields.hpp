@@ -8,7 +8,7 @@
 #include "answers/field_source.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "base/thread_team.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

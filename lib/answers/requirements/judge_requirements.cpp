@@ -11,6 +11,7 @@
 #include "answers/requirements/escape_result.hpp"
 #include "answers/requirements/requirement.hpp"
 #include "base/error.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {

@@ -7,7 +7,7 @@
 #include "answers/layers/delay_layers.hpp"
 #include "answers/requirements/region.hpp"
 #include "base/thread_team.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

@@ -8,17 +8,13 @@
 #include <optional>
 #include <string>
 
+#include "answers/agents.hpp"
+#include "spec/coordination_spec.hpp"
 #include "spec/partition_names.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
-
-std::vector<AgentSpec> agents(std::size_t count) {
-  std::vector<AgentSpec> result;
-  for (std::size_t a = 0; a < count; ++a)
-    result.push_back({.name = std::string(1, static_cast<char>('a' + a)), .inputs = {0}});
-  return result;
-}
 
 PartitionSpec partition(const std::string& name) {
   const auto count = static_cast<std::size_t>(

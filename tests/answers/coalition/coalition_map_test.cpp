@@ -4,19 +4,15 @@
 
 #include <string>
 
+#include "answers/agents.hpp"
+#include "spec/coordination_spec.hpp"
 #include "spec/partition_names.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
 
 constexpr std::int64_t kNone = -1;  ///< no delay: outside K
-
-std::vector<AgentSpec> agents(std::size_t count) {
-  std::vector<AgentSpec> result;
-  for (std::size_t a = 0; a < count; ++a)
-    result.push_back({.name = std::string(1, static_cast<char>('a' + a)), .inputs = {0}});
-  return result;
-}
 
 /// Layers of one row of cells with these delays.
 template <class Level>

@@ -4,17 +4,13 @@
 
 #include <string>
 
+#include "answers/agents.hpp"
+#include "spec/coordination_spec.hpp"
 #include "spec/partition_names.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 namespace {
-
-std::vector<AgentSpec> agents(std::size_t count) {
-  std::vector<AgentSpec> result;
-  for (std::size_t a = 0; a < count; ++a)
-    result.push_back({.name = std::string(1, static_cast<char>('a' + a)), .inputs = {0}});
-  return result;
-}
 
 std::vector<PartitionSpec> named(std::size_t count, const std::vector<std::string>& names) {
   std::vector<PartitionSpec> result;

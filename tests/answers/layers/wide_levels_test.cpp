@@ -4,6 +4,7 @@
 
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
+#include "support/members.hpp"
 #include "support/plain_engine.hpp"
 
 namespace coordreq {
@@ -37,12 +38,6 @@ std::string chain(int rows, int length, const std::string& moves, const std::str
 constexpr const char* kAlways = "u + v >= 0";
 /// All can stay by doing the same, but without a word the two may go on: cell x of n has delay n - 1 - x.
 constexpr const char* kUnlessAlike = "u != v";
-
-std::vector<bool> members(const CellSet& set) {
-  std::vector<bool> result;
-  for (std::int64_t x = 0; x < set.cells(); ++x) result.push_back(set.test(x));
-  return result;
-}
 
 /// n, n - 1, ..., n - last.
 std::vector<std::int64_t> countdown(std::int64_t n, std::int64_t last) {

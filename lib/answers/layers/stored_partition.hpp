@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace coordreq {
+
+/// What is stored of a partition besides arrays over cells.
+struct StoredPartition {
+  std::string name;
+  std::vector<std::string> classes;         ///< names of the classes, in the order of the spec
+  std::vector<std::int64_t> actions;        ///< joint actions of each class
+  std::int32_t fixed_point_index = -1;      ///< F; -1 if truncated
+  std::vector<std::uint64_t> layer_sizes;   ///< |Z_0|, ..., |Z_F|; as far as stored if truncated
+  std::vector<std::uint64_t> padded_sizes;  ///< the whole row of /layer_size
+  [[nodiscard]] bool truncated() const { return fixed_point_index < 0; }
+};
+
+}  // namespace coordreq

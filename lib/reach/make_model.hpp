@@ -1,0 +1,10 @@
+#pragma once
+
+#include "model/model.hpp"
+
+namespace coordreq {
+
+/// The problem made ready. REQUIRES: `spec` outlives it. @throws SpecError as table_shapes()
+[[nodiscard]] Model make_model(const ProblemSpec& spec);
+
+}  // namespace coordreq

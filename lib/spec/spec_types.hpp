@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "numeric/rational.hpp"
+
+// The words of a spec, and the names of its parts: all that most headers need to know of it. The parts are in
+// system_spec.hpp and coordination_spec.hpp, the whole in problem_spec.hpp.
+namespace coordreq {
+
+struct ProblemSpec;
+struct SystemSpec;
+struct StateSpec;
+struct InputSpec;
+struct DisturbanceSpec;
+struct AgentSpec;
+struct DynamicsSpec;
+struct AbstractionSpec;
+struct ControllerSpec;
+struct PartitionSpec;
+struct LinkCostSpec;
+struct CoordinationSpec;
+struct NetworkSpec;
+struct MemorySpec;
+struct RequirementSpec;
+struct OutputSpec;
+
+enum class Outside : std::uint8_t { unsafe, safe, saturate, stop, periodic, goal };
+enum class Time : std::uint8_t { continuous, discrete };
+enum class Cells : std::uint8_t { closed, half_open };
+enum class Membership : std::uint8_t { inner, center };
+enum class Synthesis : std::uint8_t { maximal, given };
+enum class NetworkKind : std::uint8_t { automaton, delay, burst, weakly_hard };
+enum class RequirementKind : std::uint8_t { min_delay, invariant, max_arrival, min_approach_delay };
+
+/// The key of the spec that stands for it, "automaton" for `modes`.
+[[nodiscard]] std::string network_kind_name(NetworkKind kind);
+/// The key of the spec that stands for it.
+[[nodiscard]] std::string requirement_kind_name(RequirementKind kind);
+
+/// The grid points first, first + step, ..., first + (count - 1) * step. REQUIRES count >= 1, step > 0.
+struct GridSpec {
+  Rational first;
+  Rational step;
+  std::int64_t count = 0;
+};
+
+}  // namespace coordreq
