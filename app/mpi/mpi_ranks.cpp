@@ -1,6 +1,7 @@
 #include "app/mpi/mpi_ranks.hpp"
 
 #include <mpi.h>
+#include <poll.h>
 #include <sched.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <thread>
 #include <utility>
 
 #include "base/error.hpp"
@@ -19,10 +19,10 @@ namespace {
 
 /// MPI counts in ints: longer messages go in pieces of this size, and one that is not longer is the last.
 constexpr std::size_t kPiece = std::size_t{1} << 30;
-/// How long a rank waits for the first one to hear of its error.
+/// How long a rank waits for the first one to hear of its error: after that it tells of it itself.
 constexpr std::chrono::seconds kPatience{20};
-/// How long it waits for somebody to read its last line.
-constexpr std::chrono::seconds kLineIsRead{2};
+/// How long it waits for somebody to read its last line who is there and does not.
+constexpr std::chrono::seconds kLineIsRead{60};
 
 /// The launcher reads standard error from a pipe, and that of MPICH drops what it has not read when it ends
 /// the ranks.
@@ -32,7 +32,8 @@ void wait_until_line_is_read() {
   const auto end = std::chrono::steady_clock::now() + kLineIsRead;
   for (int unread = 0; std::chrono::steady_clock::now() < end;) {
     if (ioctl(STDERR_FILENO, FIONREAD, &unread) != 0 || unread == 0) return;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    pollfd reader{STDERR_FILENO, 0, 0};
+    if (::poll(&reader, 1, 1) > 0) return;  // it is there no more
   }
 }
 

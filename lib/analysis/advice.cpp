@@ -1,6 +1,5 @@
 #include "analysis/advice.hpp"
 
-#include <exception>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -11,7 +10,7 @@
 namespace coordreq {
 namespace {
 
-/// Whether posts can be had in less than a second.
+/// Whether posts can be had at little cost.
 bool has_few_posts(const Model& model) {
   constexpr double kMostCells = 1e6, kMostEntries = 2e4;
   double cells = 1, entries = 0;
@@ -20,29 +19,18 @@ bool has_few_posts(const Model& model) {
   return cells <= kMostCells && entries <= kMostEntries && !model.spec().controller.file;
 }
 
-/// Advice that cannot be had, for want of memory or for an error that is for somebody else to report, is not
-/// given.
-template <class Advise>
-void add(Warnings& all, const Advise& advise) {
-  try {
-    Warnings more = advise();
-    all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-  } catch (const std::exception&) {
-    return;
-  }
+void add(Warnings more, Warnings& all) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
 }  // namespace
 
 Warnings advise_before(const Model& model, ThreadTeam& team) {
-  Warnings all;
-  add(all, [&] { return advise_on_spec(model.spec()); });
-  add(all, [&] {
-    if (!has_few_posts(model)) return Warnings();
-    Answers answers(model);
-    run_stages(ground_stages(model.spec()), answers, {.team = team});
-    return advise_on_posts(answers.ground);
-  });
+  Warnings all = advise_on_spec(model.spec());
+  if (!has_few_posts(model)) return all;
+  Answers answers(model);
+  run_stages(ground_stages(model.spec()), answers, {.team = team});
+  add(advise_on_posts(answers.ground), all);
   return all;
 }
 
@@ -51,11 +39,11 @@ Warnings advise(const Answers& answers, ThreadTeam& team) {
   if (answers.ground.share) {  // nobody has all of S
     all = advise_before(answers.ground.model, team);
   } else {
-    add(all, [&] { return advise_on_spec(answers.ground.spec); });
-    add(all, [&] { return advise_on_posts(answers.ground); });
+    all = advise_on_spec(answers.ground.spec);
+    add(advise_on_posts(answers.ground), all);
   }
-  add(all, [&] { return advise_on_answers(answers, team); });
-  add(all, [&] { return advise_on_goal(answers); });
+  add(advise_on_answers(answers, team), all);
+  add(advise_on_goal(answers), all);
   return all;
 }
 

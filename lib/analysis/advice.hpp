@@ -29,8 +29,9 @@ using Warnings = std::vector<Warning>;
 [[nodiscard]] Warnings advise_on_posts(const Ground& ground);
 
 /// What the answer shows: nothing that can be kept safe, or no silence at all, with what would help. For that
-/// one rule, disturbance, error or step after the other is relaxed on a copy with at most some 10^5 cells,
-/// for about two seconds. REQUIRES: K and the layers are there, and the team is watched by nobody.
+/// one rule, disturbance, error or step after the other is relaxed on a copy with at most some 10^5 cells, as
+/// far as a fixed amount of work goes: the same on every machine. A relaxed problem that cannot be worked out
+/// is passed over. REQUIRES: K and the layers are there.
 [[nodiscard]] Warnings advise_on_answers(const Answers& answers, ThreadTeam& team);
 
 /// A goal that nothing arrives at, or nothing but what is there already. REQUIRES: the goal is there, if the
@@ -38,8 +39,9 @@ using Warnings = std::vector<Warning>;
 [[nodiscard]] Warnings advise_on_goal(const Answers& answers);
 
 /// All that is known without the answer; what posts show only where they are few.
+/// @throws SpecError where the analysis does, as far as posts are looked at
 [[nodiscard]] Warnings advise_before(const Model& model, ThreadTeam& team);
-/// All of them. Neither of the two throws what others do not. REQUIRES: as advise_on_answers()
+/// All of them. REQUIRES: as advise_on_answers()
 [[nodiscard]] Warnings advise(const Answers& answers, ThreadTeam& team);
 
 /// A list of objects with `kind`, `place` and `message`.

@@ -2,8 +2,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
+#include <new>
+#include <optional>
 
 #include "analysis/advice.hpp"
 #include "analysis/coarse_copy.hpp"
@@ -12,6 +13,7 @@
 #include "answers/invariance/invariance.hpp"
 #include "answers/layers/answer.hpp"
 #include "answers/plan.hpp"
+#include "base/error.hpp"
 #include "base/grouped.hpp"
 #include "reach/make_model.hpp"
 #include "spec/problem_spec.hpp"
@@ -20,8 +22,20 @@ namespace coordreq {
 namespace {
 
 constexpr std::int64_t kMostCells = 100'000;
-constexpr double kMostEntries = 2e6;
-constexpr std::chrono::seconds kMostTime{2};
+// Work is counted in units of about a nanosecond: on one core the examples took 0.3 to 3 for each.
+/// Of all trials together.
+constexpr double kMostWork = 4e9;
+/// A visit of a cell costs so much, and for each joint input so much more: little where many inputs move a
+/// row alike, more where what they do is added up cell by cell.
+constexpr double kWorkOfVisit = 100, kWorkOfInput = 0.05, kWorkOfSummedInput = 4;
+/// An entry of a table: of a map, and of a flow that is integrated.
+constexpr double kWorkOfMap = 1000, kWorkOfFlow = 20'000;
+/// Tables of a copy may cost so much that there is enough for some ten trials.
+constexpr double kMostWorkOfTables = kMostWork / 10;
+
+double work_of_entry(const ProblemSpec& spec) {
+  return spec.dynamics.time == Time::discrete ? kWorkOfMap : kWorkOfFlow;
+}
 
 /// A rule, disturbance, error or step that is made milder.
 struct Relaxation {
@@ -106,60 +120,106 @@ Fault fault_of(const Answers& answers, std::size_t partition) {
   return sizes.size() > 1 && sizes[1] == 0 ? Fault::no_silence : Fault::nothing;
 }
 
-Fault fault_of(const ProblemSpec& spec, ThreadTeam& team) {
+struct OutOfWork {};
+
+/// What trials may cost: a count of what is done, so that no clock has a say in what is tried.
+class WorkLimit {
+ public:
+  /// @throws OutOfWork
+  void spend(double work) {
+    left_ -= work;
+    if (left_ < 0) throw OutOfWork();
+  }
+
+ private:
+  double left_ = kMostWork;
+};
+
+double work_of_tables(const Model& model) {
+  double entries = 0;
+  for (const TableShape& shape : model.shapes()) entries += shape.entries;
+  return entries * work_of_entry(model.spec());
+}
+
+double work_of_visit(const Model& model) {
+  double inputs = 1;
+  for (const InputSpec& input : model.spec().inputs) inputs *= static_cast<double>(input.values.size());
+  const bool is_summed = std::any_of(model.shapes().begin(), model.shapes().end(),
+                                     [](const TableShape& shape) { return shape.sum; });
+  return kWorkOfVisit + inputs * (is_summed ? kWorkOfSummedInput : kWorkOfInput);
+}
+
+/// Told of the steps of fixed points, spends what their sweeps do.
+class SweepMeter {
+ public:
+  /// @param work of a visit of a cell
+  SweepMeter(double work, WorkLimit& limit) : work_(work), limit_(limit) {}
+
+  void step(const WaveStep& step, std::int64_t row_length) {
+    if (step.sweep != sweep_ || step.visited < visited_) visited_ = 0;  // it counts the rows of a sweep
+    limit_.spend(static_cast<double>(step.visited - visited_) * static_cast<double>(row_length) * work_);
+    sweep_ = step.sweep;
+    visited_ = step.visited;
+  }
+
+ private:
+  double work_;
+  WorkLimit& limit_;
+  std::int64_t sweep_ = 0;
+  std::int64_t visited_ = 0;
+};
+
+/// @throws OutOfWork
+Fault fault_of(const ProblemSpec& spec, WorkLimit& limit, ThreadTeam& team) {
   const Model model = make_model(spec);
+  double cells = 1;
+  for (const StateSpec& state : spec.states) cells *= static_cast<double>(state.grid.count);
+  limit.spend(work_of_tables(model) + cells * work_of_visit(model));
+  SweepMeter meter(work_of_visit(model), limit);
   Answers answers(model);
   std::vector<Stage> stages = ground_stages(spec);
   for (const auto& more : {invariance_stages(spec), layers_stages(spec)})
     stages.insert(stages.end(), more.begin(), more.end());
-  run_stages(stages, answers, {.team = team});
+  run_stages(stages, answers, {.team = team, .step = [&meter](const WaveStep& step, std::int64_t row_length) {
+                                 meter.step(step, row_length);
+                               }});
   return fault_of(answers, 0);
 }
 
-struct OutOfTime {};
-
-/// Ends loops of the team when time is up.
-class TimeLimit {
- public:
-  explicit TimeLimit(ThreadTeam& team) : team_(team), end_(std::chrono::steady_clock::now() + kMostTime) {
-    team_.set_watch([this](std::int64_t, std::int64_t) {
-      if (std::chrono::steady_clock::now() > end_) throw OutOfTime();
-    });
+/// `work()`; nothing if the problem that it changes cannot be worked out, as with a state off its new grid,
+/// or for want of memory.
+template <class Work>
+auto if_possible(const Work& work) -> std::optional<decltype(work())> {
+  try {
+    return work();
+  } catch (const SpecError&) {
+    return std::nullopt;
+  } catch (const LimitError&) {
+    return std::nullopt;
+  } catch (const std::bad_alloc&) {
+    return std::nullopt;
   }
-  ~TimeLimit() { team_.set_watch({}); }
-  TimeLimit(const TimeLimit&) = delete;
-  TimeLimit& operator=(const TimeLimit&) = delete;
-
- private:
-  ThreadTeam& team_;
-  std::chrono::steady_clock::time_point end_;
-};
+}
 
 /// Of the relaxations, tried one by one, which helped.
 struct Trials {
   std::vector<std::string> helped;
   std::size_t tried = 0;
-  std::size_t all = 0;
 };
 
-/// A fault in building the copy, or no memory for it, leaves its relaxation untried.
-Trials try_all(const CoarseCopy& copy, Fault fault, ThreadTeam& team) {
-  const std::vector<Relaxation> all = relaxations(copy.spec);
-  Trials trials{.all = all.size()};
-  const TimeLimit limit(team);
+Trials try_all(const ProblemSpec& spec, Fault fault, ThreadTeam& team) {
+  Trials trials;
+  WorkLimit limit;
   try {
-    for (const Relaxation& relaxation : all) {
-      ProblemSpec relaxed = copy.spec;
+    for (const Relaxation& relaxation : relaxations(spec)) {
+      ProblemSpec relaxed = spec;
       relaxation.apply(relaxed);
-      try {
-        const bool helps = fault_of(relaxed, team) < fault;
-        ++trials.tried;
-        if (helps) trials.helped.push_back(relaxation.text);
-      } catch (const std::exception&) {  // as a state off its grid
-        continue;
-      }
+      const std::optional<Fault> found = if_possible([&] { return fault_of(relaxed, limit, team); });
+      if (!found) continue;
+      ++trials.tried;
+      if (*found < fault) trials.helped.push_back(relaxation.text);
     }
-  } catch (const OutOfTime&) {
+  } catch (const OutOfWork&) {
     return trials;
   }
   return trials;
@@ -176,18 +236,16 @@ constexpr std::string_view kAskExplain = "; 'coordreq explain' shows what goes w
 /// What would help, as the end of a sentence. @param otherwise is added if nothing does
 std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault, std::string_view otherwise,
                      ThreadTeam& team) {
-  try {
-    const std::optional<CoarseCopy> copy = coarse_copy(spec, partition, kMostCells, kMostEntries);
-    if (!copy) return "";
-    const Trials trials = try_all(*copy, fault, team);
-    if (trials.tried == 0) return "";
-    const std::string count =
-        fmt::format("of {} changes tried one by one{}", trials.tried, place_of_trials(*copy));
-    if (trials.helped.empty()) return fmt::format("; {}, none helps{}", count, otherwise);
-    return fmt::format("; {}, it helps if {}", count, fmt::join(trials.helped, ", or if "));
-  } catch (const std::exception&) {
-    return "";
-  }
+  const double most_entries = kMostWorkOfTables / work_of_entry(spec);
+  const auto coarser = [&] { return coarse_copy(spec, partition, kMostCells, most_entries); };
+  const std::optional<CoarseCopy> copy = if_possible(coarser).value_or(std::nullopt);
+  if (!copy) return "";
+  const Trials trials = try_all(copy->spec, fault, team);
+  if (trials.tried == 0) return "";
+  const std::string count =
+      fmt::format("of {} changes tried one by one{}", trials.tried, place_of_trials(*copy));
+  if (trials.helped.empty()) return fmt::format("; {}, none helps{}", count, otherwise);
+  return fmt::format("; {}, it helps if {}", count, fmt::join(trials.helped, ", or if "));
 }
 
 }  // namespace

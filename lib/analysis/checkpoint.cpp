@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -18,12 +19,19 @@
 namespace coordreq {
 namespace {
 
-constexpr const char* kFiletype = "coordreq-checkpoint 2";
 /// Saving takes at most one part in so many of the time.
 constexpr double kShare = 10;
 
-std::string group_name(std::size_t record) {
+std::string section_name(std::size_t record) {
   return fmt::format("stage{}", record);
+}
+
+/// What an object says under a key; empty if that is no text that can be printed in a line.
+std::string text_of(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  const std::string text = found != object.end() && found->is_string() ? found->get<std::string>() : "";
+  const bool is_printable = std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c < 127; });
+  return is_printable ? text : "";
 }
 
 std::string program() {
@@ -105,7 +113,6 @@ bool Checkpoint::take_or_make() {
   lock_ = FileLock::take(file_, kCheckpointName);
   const bool is_there = lock_.has_value();
   if (is_there) {
-    static_cast<void>(check_checkpoint_file(file_));
     open();
   } else {
     make_first();
@@ -120,8 +127,7 @@ void Checkpoint::make_first() {
   listener_.progress(true);
   try {
     OutputFile output(file_, kCheckpointName, kUnfinished);
-    CheckpointWriter file(output.temporary(), options_.file, [this] { listener_.progress(true); });
-    write_identity(file);
+    CheckpointWriter file(output.temporary(), options_.file, header(), [this] { listener_.progress(true); });
     file.finish();
     std::optional<FileLock> lock = FileLock::take(output.temporary(), kCheckpointName);
     if (output.commit_new()) lock_ = std::move(lock);
@@ -147,11 +153,10 @@ void Checkpoint::close() {
 }
 
 void Checkpoint::check_identity() {
-  if (!reader_->begin("identity") || reader_->read_text() != kFiletype)
-    throw ResultsError("this is no checkpoint", file_);
-  const std::string spec = reader_->read_text();
-  const std::string controller = reader_->read_text();
-  const std::string version = reader_->read_text();
+  const Json header = reader_->header();
+  const std::string spec = text_of(header, "spec"), controller = text_of(header, "controller"),
+                    version = text_of(header, "program");
+  if (version.empty()) throw ResultsError("this is no checkpoint, or a part of one", file_);
   const auto differ = [this](const char* what, const std::string& found, const std::string& expected) {
     refuse(fmt::format("was made {}: found {}, expected {}", what, found, expected));
   };
@@ -167,13 +172,16 @@ void Checkpoint::refuse(const std::string& reason) const {
 
 /// Goes to the next record. @returns false if there is none
 bool Checkpoint::next_record() {
-  if (!reader_->begin(group_name(taken_))) return false;
-  if (parts_) parts_->read_from(group_name(taken_));
+  const std::string section = section_name(taken_);
+  const Json record = reader_->begin(section);
+  if (record.is_null()) return false;
+  if (parts_) parts_->read_from(section);
   ++taken_;
-  next_stage_ = reader_->read_text();
-  std::uint8_t is_finished = 0;
-  if (!reader_->read(number_rows(&is_finished, 1, 1, 1))) refuse("does not say whether a stage is over");
-  next_is_finished_ = is_finished != 0;
+  next_stage_ = text_of(record, "stage");
+  const auto is_finished = record.find("finished");
+  if (is_finished == record.end() || !is_finished->is_boolean())
+    refuse("does not say whether a stage is over");
+  next_is_finished_ = is_finished->get<bool>();
   return true;
 }
 
@@ -233,8 +241,7 @@ void Checkpoint::save(const Record* under_way) {
 
 void Checkpoint::replace(const Record* under_way) {
   OutputFile output(file_, kCheckpointName, kUnfinished);
-  CheckpointWriter file(output.temporary(), options_.file, [this] { listener_.progress(true); });
-  write_identity(file);
+  CheckpointWriter file(output.temporary(), options_.file, header(), [this] { listener_.progress(true); });
   write_records(&file, under_way);
   file.finish();
   commit(output);
@@ -256,7 +263,7 @@ void Checkpoint::replace_together(const Record* under_way) {
     const auto progress = [this] { listener_.progress(true); };
     if (is_first()) {
       output.emplace(file_, kCheckpointName, kUnfinished);
-      write_identity(file.emplace(output->temporary(), options_.file, progress));
+      file.emplace(output->temporary(), options_.file, header(), progress);
     }
     parts_->start(progress);
     write_records(file ? &*file : nullptr, under_way);
@@ -281,25 +288,17 @@ void Checkpoint::commit(OutputFile& output) {
   lock_ = std::move(lock);
 }
 
-void Checkpoint::write_identity(CheckpointWriter& file) const {
-  file.begin("identity");
-  for (const std::string& part :
-       {std::string(kFiletype), identity_.spec, identity_.controller, identity_.program})
-    file.add(part);
+Json Checkpoint::header() const {
+  return {{"spec", identity_.spec}, {"controller", identity_.controller}, {"program", identity_.program}};
 }
 
 /// @param file null: this process writes a part alone
 void Checkpoint::write_records(CheckpointWriter* file, const Record* under_way) {
   std::size_t count = 0;
   const auto add = [&](const Record& record) {
-    const std::string group = group_name(count++);
-    if (parts_) parts_->begin(group);
-    if (file != nullptr) {
-      file->begin(group);
-      file->add(record.stage);
-      const auto is_finished = static_cast<std::uint8_t>(record.is_finished ? 1 : 0);
-      file->add(number_rows(&is_finished, 1, 1, 1));
-    }
+    const std::string section = section_name(count++);
+    if (parts_) parts_->begin(section);
+    if (file != nullptr) file->begin(section, {{"stage", record.stage}, {"finished", record.is_finished}});
     Saving archive(file, parts_ ? &*parts_ : nullptr);
     record.save(archive);
   };

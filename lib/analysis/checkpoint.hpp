@@ -12,6 +12,7 @@
 #include "analysis/checkpoint_parts.hpp"
 #include "answers/stage.hpp"
 #include "base/archive.hpp"
+#include "base/json.hpp"
 #include "results/checkpoint_file.hpp"
 #include "results/file_lock.hpp"
 #include "spec/spec_types.hpp"
@@ -21,7 +22,8 @@ namespace coordreq {
 /// The state of an analysis in a file, so that it can go on after it was killed: of each stage that is
 /// finished what it has found, and of a fixed point that is under way its levels or sets.
 ///
-/// 1. The file appears whole or not at all, and an older one stays until then; it has checksums all over.
+/// 1. The file appears whole or not at all, and an older one stays until then; it has checksums all over (see
+///    CheckpointWriter).
 /// 2. It belongs to one spec, one controller file and one version of the program, by their SHA-256; for
 ///    another it is refused. Nothing else has an influence on the result.
 /// 3. What stages load is read straight to where it is needed: nothing is held twice. Nothing in the file is
@@ -73,9 +75,9 @@ class Checkpoint : public StageStore {
   void close();
   void check_identity();
   [[nodiscard]] bool next_record();
+  [[nodiscard]] Json header() const;
   [[nodiscard]] bool is_due() const;
   void save(const Record* under_way);
-  void write_identity(CheckpointWriter& file) const;
   void write_records(CheckpointWriter* file, const Record* under_way);
   void replace(const Record* under_way);
   void replace_together(const Record* under_way);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -17,11 +18,24 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kBeginning = "coordreq-part-";
-constexpr const char* kGroup = "parts";
+constexpr const char* kSection = "parts";
 constexpr std::int64_t kMostParts = std::int64_t{1} << 20;
 /// Characters of a SHA-256, and the numbers in which they travel.
 constexpr std::size_t kDigestBytes = 64;
 constexpr std::size_t kDigestNumbers = kDigestBytes / sizeof(std::int64_t);
+
+/// [parts, characters]
+NumberRows rows_of_digests(const std::string& digests) {
+  constexpr auto kLength = static_cast<std::int64_t>(kDigestBytes);
+  return number_rows(reinterpret_cast<const unsigned char*>(digests.data()), kLength,
+                     static_cast<std::int64_t>(digests.size()) / kLength, kLength);
+}
+
+/// What an object says under a key; 0 if that is no integer.
+std::int64_t integer_of(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
+}
 
 }  // namespace
 
@@ -37,11 +51,11 @@ void CheckpointParts::start(std::function<void()> progress) {
   end_ = 0;
   const std::string file = path(set_.number + 1, static_cast<std::size_t>(ranks_->rank()));
   output_.emplace(file, kCheckpointName, kUnfinished);
-  writer_.emplace(output_->temporary(), file, std::move(progress));
+  writer_.emplace(output_->temporary(), file, Json{{"part", ranks_->rank()}}, std::move(progress));
 }
 
-void CheckpointParts::begin(const std::string& group) {
-  writer_->begin(group);
+void CheckpointParts::begin(const std::string& section) {
+  writer_->begin(section, Json::object());
 }
 
 void CheckpointParts::add(const NumberRows& all, ThreadTeam::Range own) {
@@ -78,12 +92,12 @@ bool CheckpointParts::agree(bool is_well) {
 }
 
 void CheckpointParts::describe(CheckpointWriter& manifest) const {
-  manifest.begin(kGroup);
-  const std::int64_t numbers[] = {next_.number, static_cast<std::int64_t>(next_.digests.size())};
-  manifest.add(number_rows(numbers, 2, 1, 2));
+  manifest.begin(kSection, {{"set", next_.number}, {"parts", next_.digests.size()}});
   const auto bounds = static_cast<std::int64_t>(next_.bounds.size());
   manifest.add(number_rows(next_.bounds.data(), bounds, 1, bounds));
-  for (const std::string& digest : next_.digests) manifest.add(digest);
+  std::string digests;
+  for (const std::string& digest : next_.digests) digests += digest;
+  manifest.add(rows_of_digests(digests));
 }
 
 void CheckpointParts::settle(bool is_kept) {
@@ -96,19 +110,18 @@ void CheckpointParts::settle(bool is_kept) {
 }
 
 bool CheckpointParts::take(CheckpointReader& manifest) {
-  if (!manifest.begin(kGroup)) return true;
-  std::int64_t numbers[] = {0, 0};
-  if (!manifest.read(number_rows(numbers, 2, 1, 2))) return false;
-  const std::int64_t number = numbers[0], count = numbers[1];
+  const Json head = manifest.begin(kSection);
+  if (head.is_null()) return true;
+  const std::int64_t number = integer_of(head, "set"), count = integer_of(head, "parts");
   if (number < 1 || count < 1 || count > kMostParts) return false;
-  set_ = {.number = number,
-          .bounds = std::vector<std::int64_t>(static_cast<std::size_t>(count) + 1),
-          .digests = {}};
-  if (!manifest.read(number_rows(set_.bounds.data(), count + 1, 1, count + 1))) return false;
-  for (std::int64_t part = 0; part < count; ++part) {
-    set_.digests.push_back(manifest.read_text());
-    if (set_.digests.back().size() != kDigestBytes) return false;
-  }
+  const auto parts = static_cast<std::size_t>(count);
+  set_ = {.number = number, .bounds = std::vector<std::int64_t>(parts + 1), .digests = {}};
+  std::string digests(parts * kDigestBytes, ' ');
+  if (!manifest.read(number_rows(set_.bounds.data(), count + 1, 1, count + 1)) ||
+      !manifest.read(rows_of_digests(digests)))
+    return false;
+  for (std::size_t part = 0; part < parts; ++part)
+    set_.digests.push_back(digests.substr(part * kDigestBytes, kDigestBytes));
   return set_.bounds.front() == 0 && std::ranges::is_sorted(set_.bounds);
 }
 
@@ -117,14 +130,14 @@ void CheckpointParts::check() const {
        part += static_cast<std::size_t>(ranks_->count())) {
     const std::string file = path(set_.number, part);
     if (!fs::exists(file)) throw ResultsError("a part of the checkpoint is missing", file);
-    if (check_checkpoint_file(file) != set_.digests[part])
+    if (CheckpointReader(file).digest() != set_.digests[part])
       throw ResultsError("this part of a checkpoint does not belong to its manifest", file);
   }
   static_cast<void>(ranks_->sum(0));  // nobody reads before all have looked
 }
 
-void CheckpointParts::read_from(const std::string& group) {
-  group_ = group;
+void CheckpointParts::read_from(const std::string& section) {
+  section_ = section;
   item_ = 0;
 }
 
@@ -133,7 +146,7 @@ bool CheckpointParts::read_part(std::size_t part, const NumberRows& all, ThreadT
   CheckpointReader& reader = found != readers_.end()
                                  ? found->second
                                  : readers_.try_emplace(part, path(set_.number, part)).first->second;
-  if (!reader.begin(group_)) return false;
+  if (reader.begin(section_).is_null()) return false;
   const std::int64_t begin = set_.bounds[part];
   return reader.read_some(item_, all.part(run.begin, run.end), run.begin - begin,
                           set_.bounds[part + 1] - begin);

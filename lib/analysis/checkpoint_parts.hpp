@@ -38,7 +38,7 @@ class CheckpointParts {
   /// A new part of this process, to which records are added.
   /// @throws IoError, as all that follows up to agree()
   void start(std::function<void()> progress);
-  void begin(const std::string& group);
+  void begin(const std::string& section);
   void add(const NumberRows& all, ThreadTeam::Range own);
   /// Brings the part to the disk.
   void finish();
@@ -55,8 +55,8 @@ class CheckpointParts {
   /// Together: looks at all parts, each process at some.
   /// @throws IoError if one cannot be read; ResultsError if it is damaged or of another checkpoint
   void check() const;
-  /// The lists of this group are read from now on.
-  void read_from(const std::string& group);
+  /// The lists of this section are read from now on.
+  void read_from(const std::string& section);
   /// Fills in the rows of the next list. @returns false if the parts have other rows
   [[nodiscard]] bool read(const NumberRows& all, std::span<const ThreadTeam::Range> held);
 
@@ -88,7 +88,7 @@ class CheckpointParts {
   std::optional<OutputFile> output_;
   std::optional<CheckpointWriter> writer_;
   std::map<std::size_t, CheckpointReader> readers_;  ///< [part]
-  std::string group_;                                ///< that is read
+  std::string section_;                              ///< that is read
   std::size_t item_ = 0;                             ///< its list that is next
 };
 

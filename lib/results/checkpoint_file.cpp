@@ -4,385 +4,287 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cerrno>
 #include <cstring>
-#include <optional>
-#include <string_view>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <utility>
-#include <vector>
 
 #include "base/error.hpp"
-#include "results/appended_digest.hpp"
-#include "results/child_trial.hpp"
-#include "results/hdf5_handle.hpp"
-#include "results/output_driver.hpp"
 
 namespace coordreq {
 namespace {
 
-using hdf5::check;
-using hdf5::Handle;
+static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
 
-constexpr hsize_t kChunkBytes = hsize_t{1} << 20U;
-/// Shorter lists stand with their description.
-constexpr hsize_t kCompactBytes = 1024;
-constexpr std::uint64_t kLongestText = 4096;
-constexpr hsize_t kMostNumbers = hsize_t{1} << 48U;
-constexpr unsigned kQuickDeflate = 1;  // it has to be done again in a minute
-/// Deflate packs no more than so many bytes into one.
-constexpr double kMostPacked = 1100;
-constexpr std::string_view kSignature = "\x89HDF\r\n\x1a\n";
+constexpr std::string_view kSignature = "coordreq-checkpoint 3\n";
+constexpr std::string_view kEnd = "end";
+constexpr std::int64_t kBlockBytes = std::int64_t{1} << 18U;
+constexpr std::size_t kLongestLine = 4096;
 
-hid_t type_of(NumberKind kind, std::int64_t bytes) {
-  switch (kind) {
-    case NumberKind::real:
-      return bytes == 4 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
-    case NumberKind::signed_integer:
-      return bytes == 1   ? H5T_STD_I8LE
-             : bytes == 2 ? H5T_STD_I16LE
-             : bytes == 4 ? H5T_STD_I32LE
-                          : H5T_STD_I64LE;
-    case NumberKind::unsigned_integer:
-      break;
-  }
-  return bytes == 1 ? H5T_STD_U8LE : bytes == 2 ? H5T_STD_U16LE : bytes == 4 ? H5T_STD_U32LE : H5T_STD_U64LE;
+std::string type_of(const NumberRows& rows) {
+  const char kind = rows.kind == NumberKind::real ? 'f' : rows.kind == NumberKind::signed_integer ? 'i' : 'u';
+  return fmt::format("{}{}", kind, rows.number_bytes);
 }
 
-/// [rows, numbers of a row]
-using Shape = std::array<hsize_t, 2>;
-
-Shape shape_of(const NumberRows& rows) {
-  return {static_cast<hsize_t>(rows.rows), static_cast<hsize_t>(rows.row_length)};
-}
-
-bool is_compact(const Shape& shape, hsize_t number_bytes) {
-  return shape[0] * shape[1] * number_bytes <= kCompactBytes;
-}
-
-/// Whole rows, or a part of one.
-Shape chunk_of(const Shape& shape, hsize_t number_bytes) {
-  const hsize_t numbers = kChunkBytes / number_bytes;
-  if (shape[1] >= numbers) return {1, numbers};
-  return {std::min(shape[0], numbers / shape[1]), shape[1]};
-}
-
-Handle storage_of(const Shape& shape, hsize_t number_bytes) {
-  Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "create a property list");
-  check(H5Pset_obj_track_times(list.get(), 0), "turn object times off");
-  if (is_compact(shape, number_bytes)) {
-    check(H5Pset_layout(list.get(), H5D_COMPACT), "choose a layout");
-    return list;
-  }
-  check(H5Pset_chunk(list.get(), 2, chunk_of(shape, number_bytes).data()), "choose chunks");
-  check(H5Pset_deflate(list.get(), kQuickDeflate), "choose a filter");
-  check(H5Pset_fletcher32(list.get()), "choose a filter");
-  return list;
-}
-
-Handle space_of(const Shape& shape) {
-  return hdf5::create_space({shape.begin(), shape.end()});
-}
-
-/// Calls `visit` with the first row and number, and the size, of every part that a chunk holds.
+/// Calls `visit` with the numbers of the rows from byte `begin` on, row after row, up to byte `end`: where
+/// they stand in memory, how many bytes there are in one piece, and how many there were before.
 template <class Visit>
-void for_each_part(const Shape& shape, hsize_t number_bytes, const Visit& visit) {
-  const Shape chunk = is_compact(shape, number_bytes) ? shape : chunk_of(shape, number_bytes);
-  for (hsize_t row = 0; row < shape[0]; row += chunk[0]) {
-    for (hsize_t column = 0; column < shape[1]; column += chunk[1])
-      visit(Shape{row, column},
-            Shape{std::min(chunk[0], shape[0] - row), std::min(chunk[1], shape[1] - column)});
+void for_each_stretch(const NumberRows& rows, std::int64_t begin, std::int64_t end, const Visit& visit) {
+  const std::int64_t row_bytes = rows.row_bytes();
+  for (std::int64_t at = begin; at < end;) {
+    const std::int64_t in_row = at % row_bytes, count = std::min(row_bytes - in_row, end - at);
+    visit(rows.row(at / row_bytes) + in_row, static_cast<std::size_t>(count),
+          static_cast<std::size_t>(at - begin));
+    at += count;
   }
 }
 
-/// Calls `copy` with each piece of a row in memory, and its place in the part.
-template <class Copy>
-void for_each_piece(const NumberRows& rows, const Shape& first, const Shape& size, const Copy& copy) {
-  const auto bytes = static_cast<std::size_t>(rows.number_bytes);
-  for (hsize_t r = 0; r < size[0]; ++r)
-    copy(rows.row(static_cast<std::int64_t>(first[0] + r)) + first[1] * bytes, r * size[1] * bytes,
-         size[1] * bytes);
+std::string system_error() {
+  return std::strerror(errno == 0 ? EIO : errno);
 }
 
-/// An open list, and how to move parts of it.
-class List {
- public:
-  List(Handle dataset, const Shape& shape, hid_t type)
-      : dataset_(std::move(dataset)), space_(space_of(shape)), type_(type) {}
-
-  void write(const Shape& first, const Shape& size, const std::byte* bytes) {
-    check(H5Dwrite(dataset_.get(), type_, select(first, size), space_.get(), H5P_DEFAULT, bytes),
-          "write a list");
-  }
-  void read(const Shape& first, const Shape& size, std::byte* bytes) {
-    check(H5Dread(dataset_.get(), type_, select(first, size), space_.get(), H5P_DEFAULT, bytes),
-          "read a list");
-  }
-
- private:
-  /// @returns the space in memory
-  hid_t select(const Shape& first, const Shape& size) {
-    check(H5Sselect_hyperslab(space_.get(), H5S_SELECT_SET, first.data(), nullptr, size.data(), nullptr),
-          "select a part of a list");
-    memory_ = space_of(size);
-    return memory_.get();
-  }
-
-  Handle dataset_;
-  Handle space_;
-  Handle memory_ = space_of({1, 1});
-  hid_t type_;
-};
-
-std::string item_path(const std::string& group, std::size_t item) {
-  return fmt::format("/{}/{}", group, item);
+[[noreturn]] void fail(const std::string& what, const std::string& path) {
+  throw ResultsError("this checkpoint is damaged: " + what, path);
 }
 
-bool is_plain_link(const Handle& file, const std::string& path) {
-  H5L_info_t info{};
-  return H5Lexists(file.get(), path.c_str(), H5P_DEFAULT) > 0 &&
-         H5Lget_info(file.get(), path.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_HARD;
+/// What has not been read because it could not be, or is not there.
+[[noreturn]] void fail_to_read(const std::ifstream& file, const std::string& path) {
+  if (file.bad()) throw IoError("cannot be read: " + system_error(), path);
+  fail("it is cut short", path);
 }
 
-/// The dataset is stored as this program does it, and is not longer than its bytes in the file can make it.
-bool is_ours(const Handle& dataset, const Shape& shape, hsize_t number_bytes) {
-  const Handle list(H5Dget_create_plist(dataset.get()), H5Pclose, "read a layout");
-  if (is_compact(shape, number_bytes)) return H5Pget_layout(list.get()) == H5D_COMPACT;
-  Shape chunk{};
-  if (H5Pget_layout(list.get()) != H5D_CHUNKED || H5Pget_chunk(list.get(), 2, chunk.data()) != 2)
-    return false;
-  const auto filter = [&](unsigned number) {
-    unsigned flags = 0, config = 0;
-    std::size_t values = 0;
-    return H5Pget_filter2(list.get(), number, &flags, &values, nullptr, 0, nullptr, &config);
-  };
-  const auto bytes = static_cast<double>(shape[0]) * static_cast<double>(shape[1] * number_bytes);
-  return chunk == chunk_of(shape, number_bytes) && H5Pget_nfilters(list.get()) == 2 &&
-         filter(0) == H5Z_FILTER_DEFLATE && filter(1) == H5Z_FILTER_FLETCHER32 &&
-         bytes <= kMostPacked * static_cast<double>(H5Dget_storage_size(dataset.get()));
+void read_exactly(std::ifstream& file, void* bytes, std::size_t count, const std::string& path) {
+  errno = 0;
+  if (!file.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count))) fail_to_read(file, path);
 }
 
-/// A type of ours that the dataset has; nothing if there is none.
-std::optional<std::pair<NumberKind, std::int64_t>> numbers_of(const Handle& dataset) {
-  const Handle type(H5Dget_type(dataset.get()), H5Tclose, "read a type");
-  for (const NumberKind kind : {NumberKind::unsigned_integer, NumberKind::signed_integer, NumberKind::real}) {
-    for (const std::int64_t bytes : {1, 2, 4, 8}) {
-      if (kind == NumberKind::real && bytes < 4) continue;  // there are none
-      if (H5Tequal(type.get(), type_of(kind, bytes)) > 0) return std::pair(kind, bytes);
-    }
-  }
-  return std::nullopt;
+/// Of a block that has so many bytes when it is not packed.
+std::uint32_t read_length(std::ifstream& file, std::int64_t bytes, const std::string& path) {
+  std::uint32_t length = 0;
+  read_exactly(file, &length, sizeof(length), path);
+  constexpr std::int64_t kMostMore = 1024;
+  if (std::int64_t{length} > bytes + bytes / 64 + kMostMore) fail("a list is none of ours", path);
+  return length;
 }
 
-/// The shape of a dataset of ours; nothing if it is none.
-std::optional<Shape> shape_of_ours(const Handle& dataset, std::int64_t number_bytes) {
-  const Handle space(H5Dget_space(dataset.get()), H5Sclose, "read a shape");
-  const std::vector<hsize_t> lengths = hdf5::shape_of(space);
-  if (lengths.size() != 2) return std::nullopt;
-  const Shape shape{lengths[0], lengths[1]};
-  if (shape[0] == 0 || shape[1] == 0 || shape[0] > kMostNumbers / shape[1]) return std::nullopt;
-  if (!is_ours(dataset, shape, static_cast<hsize_t>(number_bytes))) return std::nullopt;
-  return shape;
+std::ifstream open_checkpoint(const std::string& path) {
+  std::error_code error;
+  const bool is_file = std::filesystem::is_regular_file(path, error);  // a pipe would be waited for
+  if (!error && !is_file) throw IoError("cannot be read: this is no regular file", path);
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw IoError("cannot be read: " + system_error(), path);
+  return file;
 }
 
-Handle open_list(const Handle& file, const std::string& path) {
-  return {H5Dopen2(file.get(), path.c_str(), H5P_DEFAULT), H5Dclose, "open " + path};
-}
-
-void read_whole_list(const Handle& file, const std::string& path) {
-  Handle dataset = open_list(file, path);
-  const auto numbers = numbers_of(dataset);
-  const std::optional<Shape> shape = numbers ? shape_of_ours(dataset, numbers->second) : std::nullopt;
-  if (!shape) throw ResultsError("a list is none of ours");
-  const auto bytes = static_cast<hsize_t>(numbers->second);
-  List list(std::move(dataset), *shape, type_of(numbers->first, numbers->second));
-  std::vector<std::byte> part;
-  for_each_part(*shape, bytes, [&](const Shape& first, const Shape& size) {
-    part.resize(size[0] * size[1] * bytes);
-    list.read(first, size, part.data());
-  });
-}
-
-/// Every list of every group of the root, whether or not it will be asked for.
-void read_all(const std::string& path) {
-  const hdf5::QuietErrors quiet;
-  const Handle file = hdf5::open_file(path);
-  H5G_info_t root{};
-  check(H5Gget_info(file.get(), &root), "read the groups");
-  for (hsize_t g = 0; g < root.nlinks; ++g) {
-    std::array<char, 64> name{};
-    check(static_cast<herr_t>(H5Lget_name_by_idx(file.get(), "/", H5_INDEX_NAME, H5_ITER_INC, g, name.data(),
-                                                 name.size(), H5P_DEFAULT)),
-          "read a name");
-    const std::string group = name.data();
-    if (!is_plain_link(file, "/" + group)) throw ResultsError("a group is none of ours");
-    for (std::size_t item = 0; is_plain_link(file, item_path(group, item)); ++item)
-      read_whole_list(file, item_path(group, item));
-  }
+std::int64_t positive(const Json& head, const char* key) {
+  const auto found = head.find(key);
+  return found != head.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
 }
 
 }  // namespace
 
-struct CheckpointWriter::Open {
-  explicit Open(const std::string& path) : file(hdf5::create_file(path, driver)) {}
-  hdf5::QuietErrors quiet;
-  hdf5::OutputDriver driver;
-  Handle file;
-  std::string group;
-  std::size_t items = 0;
-  std::vector<std::byte> part;
-};
-
-CheckpointWriter::CheckpointWriter(std::string path, std::string where, std::function<void()> progress)
-    : path_(std::move(path)), where_(std::move(where)), progress_(std::move(progress)) {
-  guarded([this] { open_ = std::make_unique<Open>(path_); });
+CheckpointWriter::CheckpointWriter(const std::string& path, std::string where, const Json& header,
+                                   std::function<void()> progress)
+    : where_(std::move(where)),
+      progress_(std::move(progress)),
+      file_(path, std::ios::binary | std::ios::trunc) {
+  put(fmt::format("{}{}\n", kSignature, header.dump()));
 }
 
-CheckpointWriter::~CheckpointWriter() = default;
-
-void CheckpointWriter::guarded(const std::function<void()>& write) {
-  try {
-    write();
-    if (open_) open_->driver.check_written("write");
-  } catch (const hdf5::Failure& failure) {
-    const int error = failure.system_error();
-    throw IoError(error == 0 ? failure.what() : fmt::format("cannot write: {}", std::strerror(error)),
-                  where_);
-  }
+void CheckpointWriter::put(std::string_view bytes) {
+  digest_.add(bytes);
+  errno = 0;
+  file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file_) throw IoError("cannot write: " + system_error(), where_);
 }
 
-void CheckpointWriter::begin(const std::string& group) {
-  guarded([&] {
-    open_->group = group;
-    open_->items = 0;
-    static_cast<void>(hdf5::create_group(open_->file, "/" + group));
-  });
+std::string CheckpointWriter::put_digest() {
+  std::string digest = digest_.hex();
+  put(digest + "\n");
+  return digest;
+}
+
+void CheckpointWriter::begin(const std::string& section, const Json& more) {
+  Json head = more;
+  head["section"] = section;
+  put(head.dump() + "\n");
 }
 
 void CheckpointWriter::add(const NumberRows& rows) {
-  const Shape shape = shape_of(rows);
-  const auto bytes = static_cast<hsize_t>(rows.number_bytes);
-  guarded([&] {
-    const hid_t type = type_of(rows.kind, rows.number_bytes);
-    const std::string name = item_path(open_->group, open_->items++);
-    List list({H5Dcreate2(open_->file.get(), name.c_str(), type, space_of(shape).get(), H5P_DEFAULT,
-                          storage_of(shape, bytes).get(), H5P_DEFAULT),
-               H5Dclose, "create " + name},
-              shape, type);
-    for_each_part(shape, bytes, [&](const Shape& first, const Shape& size) {
-      open_->part.resize(size[0] * size[1] * bytes);
-      for_each_piece(rows, first, size, [&](const std::byte* row, std::size_t place, std::size_t count) {
-        std::memcpy(open_->part.data() + place, row, count);
-      });
-      list.write(first, size, open_->part.data());
-      open_->driver.check_written("write");
-      if (progress_) progress_();
+  const Json head = {{"type", type_of(rows)}, {"rows", rows.rows}, {"length", rows.row_length}};
+  put(head.dump() + "\n");
+  const std::int64_t bytes = rows.rows * rows.row_bytes();
+  for (std::int64_t at = 0; at < bytes; at += kBlockBytes) {
+    const std::int64_t end = std::min(at + kBlockBytes, bytes);
+    block_.resize(static_cast<std::size_t>(end - at));
+    for_each_stretch(rows, at, end, [this](const std::byte* from, std::size_t count, std::size_t place) {
+      std::memcpy(block_.data() + place, from, count);
     });
-  });
+    put_block(static_cast<std::size_t>(rows.number_bytes));
+    if (progress_) progress_();
+  }
+  put_digest();
 }
 
-void CheckpointWriter::add(const std::string& text) {
-  const auto length = static_cast<std::int64_t>(text.size());
-  auto count = static_cast<std::uint64_t>(length);
-  add(number_rows(&count, 1, 1, 1));
-  if (length > 0) add(number_rows(reinterpret_cast<const unsigned char*>(text.data()), length, 1, length));
+void CheckpointWriter::put_block(std::size_t number_bytes) {
+  codec_.pack(block_, number_bytes, packed_);
+  const auto length = static_cast<std::uint32_t>(packed_.size());
+  put({reinterpret_cast<const char*>(&length), sizeof(length)});
+  put({reinterpret_cast<const char*>(packed_.data()), packed_.size()});
 }
 
 std::string CheckpointWriter::finish() {
-  guarded([this] {
-    open_->file.close("close the file");
-    open_->driver.check_written("write");
-  });
-  open_.reset();
-  return append_digest(path_, where_);
+  put(fmt::format("{}\n", kEnd));
+  std::string digest = put_digest();
+  errno = 0;
+  file_.close();
+  if (!file_) throw IoError("cannot write: " + system_error(), where_);
+  return digest;
 }
 
-struct CheckpointReader::Open {
-  explicit Open(const std::string& path) : file(hdf5::open_file(path)) {}
+/// Goes through a file from its beginning to its end.
+class CheckpointReader::Scan {
+ public:
+  explicit Scan(CheckpointReader& reader) : reader_(reader) {}
 
-  hdf5::QuietErrors quiet;
-  Handle file;
-  std::string group;
-  std::size_t items = 0;
-  std::vector<std::byte> part;
+  void run() {
+    read_signature();
+    reader_.header_ = read_line();
+    static_cast<void>(object_of(reader_.header_));
+    Section* section = nullptr;
+    for (std::string line = read_line(); line != kEnd; line = read_line()) {
+      const Json head = object_of(line);
+      if (const auto name = head.find("section"); name != head.end() && name->is_string()) {
+        section = &reader_.sections_[name->get<std::string>()];
+        *section = {line, {}};
+      } else {
+        if (section == nullptr) fail("a list is in no section");
+        section->lists.push_back(read_list(head));
+      }
+    }
+    reader_.digest_ = read_digest();
+    if (reader_.file_.peek() != std::ifstream::traits_type::eof()) fail("it goes on behind its end");
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { coordreq::fail(what, reader_.path_); }
+
+  void read_signature() {
+    std::string line(kSignature.size(), '\0');
+    reader_.file_.read(line.data(), static_cast<std::streamsize>(line.size()));
+    digest_.add(line);
+    if (line == kSignature) return;
+    if (line.starts_with("\x89HDF"))
+      throw ResultsError("this is HDF5: a checkpoint of an earlier version of coordreq, or none",
+                         reader_.path_);
+    throw ResultsError("this is no checkpoint, or a part of one", reader_.path_);
+  }
+
+  std::string read_line() {
+    std::array<char, kLongestLine> line{};
+    errno = 0;
+    reader_.file_.getline(line.data(), line.size());
+    if (reader_.file_.bad() || reader_.file_.eof()) fail_to_read(reader_.file_, reader_.path_);
+    if (!reader_.file_) fail("a line is none of ours");
+    std::string result(line.data(), static_cast<std::size_t>(reader_.file_.gcount()) - 1);
+    digest_.add(result + '\n');
+    return result;
+  }
+
+  [[nodiscard]] Json object_of(const std::string& line) const {
+    Json json = Json::parse(line, nullptr, false);
+    if (!json.is_object()) fail("a line is none of ours");
+    return json;
+  }
+
+  List read_list(const Json& head) {
+    const auto type = head.find("type");
+    List list{.type = type != head.end() && type->is_string() ? type->get<std::string>() : "",
+              .rows = positive(head, "rows"),
+              .length = positive(head, "length"),
+              .place = reader_.file_.tellg()};
+    const std::int64_t number_bytes = list.type.size() == 2 ? list.type[1] - '0' : 0;
+    std::int64_t bytes = 0;
+    if (number_bytes < 1 || list.rows < 1 || list.length < 1 ||
+        __builtin_mul_overflow(list.rows, list.length, &bytes) || bytes > kMostNumbers)
+      fail("a list is none of ours");
+    bytes *= number_bytes;
+    for (std::int64_t at = 0; at < bytes; at += kBlockBytes) read_block(std::min(kBlockBytes, bytes - at));
+    static_cast<void>(read_digest());
+    return list;
+  }
+
+  void read_block(std::int64_t bytes) {
+    const std::uint32_t length = read_length(reader_.file_, bytes, reader_.path_);
+    digest_.add({reinterpret_cast<const char*>(&length), sizeof(length)});
+    packed_.resize(length);
+    read_exactly(reader_.file_, packed_.data(), packed_.size(), reader_.path_);
+    digest_.add(packed_);
+  }
+
+  /// @returns that of all before it
+  std::string read_digest() {
+    std::string digest = digest_.hex();
+    if (read_line() != digest) fail("its checksum is wrong");
+    return digest;
+  }
+
+  static constexpr std::int64_t kMostNumbers = std::int64_t{1} << 48U;
+
+  CheckpointReader& reader_;
+  Sha256 digest_;
+  std::string packed_;
 };
 
-namespace {
-
-[[noreturn]] void fail_to_read(const std::string& path) {
-  throw ResultsError("this checkpoint is damaged: the HDF5 library cannot read it", path);
+CheckpointReader::CheckpointReader(const std::string& path) : path_(path), file_(open_checkpoint(path)) {
+  Scan(*this).run();
 }
 
-}  // namespace
-
-std::string check_checkpoint_file(const std::string& path) {
-  const std::optional<std::string> digest = checked_digest(path, kSignature);
-  if (!digest) throw ResultsError("this is no checkpoint, or a part of one", path);
-  if (digest->empty()) throw ResultsError("this checkpoint is damaged: its checksum is wrong", path);
-  try {
-    try_in_child(path, [&path] { read_all(path); });
-  } catch (const ResultsError&) {
-    fail_to_read(path);
-  }
-  return *digest;
+Json CheckpointReader::header() const {
+  return Json::parse(header_);
 }
 
-CheckpointReader::CheckpointReader(std::string path) : path_(std::move(path)) {
-  try {
-    open_ = std::make_unique<Open>(path_);
-  } catch (const hdf5::Failure&) {
-    fail_to_read(path_);
-  }
-}
-
-CheckpointReader::~CheckpointReader() = default;
-
-bool CheckpointReader::begin(const std::string& group) {
-  open_->group = group;
-  open_->items = 0;
-  return is_plain_link(open_->file, "/" + group);
+Json CheckpointReader::begin(const std::string& section) {
+  const auto found = sections_.find(section);
+  section_ = found == sections_.end() ? nullptr : &found->second;
+  item_ = 0;
+  return section_ == nullptr ? Json() : Json::parse(section_->head);
 }
 
 bool CheckpointReader::read(const NumberRows& rows) {
-  return read_some(open_->items++, rows, 0, rows.rows);
+  return read_some(item_++, rows, 0, rows.rows);
 }
 
 bool CheckpointReader::read_some(std::size_t item, const NumberRows& rows, std::int64_t first,
                                  std::int64_t count) {
-  const std::string name = item_path(open_->group, item);
-  const Shape shape = {static_cast<hsize_t>(count), static_cast<hsize_t>(rows.row_length)};
-  const auto begin = static_cast<hsize_t>(first), end = static_cast<hsize_t>(first + rows.rows);
-  const auto bytes = static_cast<hsize_t>(rows.number_bytes);
-  try {
-    if (!is_plain_link(open_->file, name)) return false;
-    Handle dataset = open_list(open_->file, name);
-    if (numbers_of(dataset) != std::pair(rows.kind, rows.number_bytes)) return false;
-    if (shape_of_ours(dataset, rows.number_bytes) != shape) return false;
-    List list(std::move(dataset), shape, type_of(rows.kind, rows.number_bytes));
-    for_each_part(shape, bytes, [&](const Shape& at, const Shape& whole) {
-      const hsize_t top = std::max(at[0], begin), bottom = std::min(at[0] + whole[0], end);
-      if (top >= bottom) return;
-      const Shape size = {bottom - top, whole[1]};
-      open_->part.resize(size[0] * size[1] * bytes);
-      list.read({top, at[1]}, size, open_->part.data());
-      const auto copy = [&](std::byte* row, std::size_t place, std::size_t length) {
-        std::memcpy(row, open_->part.data() + place, length);
-      };
-      for_each_piece(rows, {top - begin, at[1]}, size, copy);
-    });
-  } catch (const hdf5::Failure&) {
-    fail_to_read(path_);
+  if (section_ == nullptr || item >= section_->lists.size()) return false;
+  const List& list = section_->lists[item];
+  if (list.type != type_of(rows) || list.rows != count || list.length != rows.row_length) return false;
+  const std::int64_t row_bytes = rows.row_bytes(), bytes = count * row_bytes;
+  const std::int64_t begin = first * row_bytes, end = begin + rows.rows * row_bytes;
+  file_.clear();
+  file_.seekg(list.place);
+  for (std::int64_t at = 0; at < end; at += kBlockBytes) {
+    const std::int64_t size = std::min(kBlockBytes, bytes - at);
+    packed_.resize(read_length(file_, size, path_));
+    if (at + size <= begin) {
+      file_.seekg(static_cast<std::streamoff>(packed_.size()), std::ios::cur);
+      continue;
+    }
+    read_exactly(file_, packed_.data(), packed_.size(), path_);
+    if (!unpack_chunk(packed_, static_cast<std::size_t>(size), true,
+                      static_cast<std::size_t>(rows.number_bytes), block_))
+      fail("a list cannot be unpacked", path_);
+    const std::int64_t from = std::max(at, begin), to = std::min(at + size, end);
+    for_each_stretch(rows, from - begin, to - begin,
+                     [&](std::byte* target, std::size_t count_of, std::size_t place) {
+                       std::memcpy(target, block_.data() + (from - at) + place, count_of);
+                     });
   }
   return true;
-}
-
-std::string CheckpointReader::read_text() {
-  std::uint64_t count = 0;
-  if (!read(number_rows(&count, 1, 1, 1)) || count > kLongestText) return {};
-  std::vector<unsigned char> text(count);
-  const auto length = static_cast<std::int64_t>(count);
-  if (count > 0 && !read(number_rows(text.data(), length, 1, length))) return {};
-  const bool is_printable =
-      std::all_of(text.begin(), text.end(), [](unsigned char c) { return c >= ' ' && c < 127; });
-  return is_printable ? std::string(text.begin(), text.end()) : "";
 }
 
 }  // namespace coordreq

@@ -1,30 +1,29 @@
 #include "results/child_trial.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
+#include <fmt/format.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
+#include <cstring>
 #include <exception>
 #include <fstream>
 #include <new>
-#include <optional>
 
 #include "base/error.hpp"
-#include "base/sanitizers.hpp"
 
 namespace coordreq {
 namespace {
 
 constexpr char kDone = '+';
-/// A damaged list can be endless, and a name in a file can lead to a pipe.
-constexpr auto kMostTime = std::chrono::seconds(kIsSanitized ? 20 : 5);
+/// Processor time: a damaged list can be endless. Reading what is not damaged takes some hundredths of it.
+constexpr rlim_t kLeastSeconds = 5;
+constexpr rlim_t kBytesASecond = rlim_t{1} << 20U;
 /// What the library may take more than this process has already, damaged as a file may be.
 constexpr rlim_t kMostBytes = rlim_t{1} << 30U;
 
@@ -38,23 +37,31 @@ void send(int pipe, const std::string& text) {
   }
 }
 
-/// What comes until the other end closes; nothing if that takes too long.
-std::optional<std::string> receive(int pipe) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + kMostTime;
+/// What comes until the other end closes.
+std::string receive(int pipe) {
   std::string text;
   std::array<char, 4096> block{};
   for (;;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
-    pollfd wanted{pipe, POLLIN, 0};
-    const int ready = poll(&wanted, 1, static_cast<int>(std::max<std::int64_t>(0, left.count())));
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready <= 0) return std::nullopt;
     const ssize_t count = ::read(pipe, block.data(), block.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return text;
     text.append(block.data(), static_cast<std::size_t>(count));
   }
+}
+
+/// In proportion to the file.
+rlim_t seconds_for(const std::string& path) {
+  struct stat info {};
+  const rlim_t bytes = stat(path.c_str(), &info) == 0 ? static_cast<rlim_t>(info.st_size) : 0;
+  return kLeastSeconds + bytes / kBytesASecond;
+}
+
+/// A limit that was there before and is lower stays.
+void limit(decltype(RLIMIT_CPU) what, rlim_t most) {
+  rlimit own{};
+  if (getrlimit(what, &own) != 0 || own.rlim_cur <= most) return;
+  own.rlim_cur = most;
+  static_cast<void>(setrlimit(what, &own));
 }
 
 /// Address space of this process.
@@ -65,12 +72,13 @@ rlim_t present_bytes() {
   return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-void limit_memory() {
-  const rlim_t most = present_bytes() + kMostBytes;
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur <= most) return;
-  limit.rlim_cur = most;
-  static_cast<void>(setrlimit(RLIMIT_AS, &limit));
+/// From now on the child can have one more file open at a time, the one that it reads. A name in that file
+/// that leads to another one leads nowhere: opening a pipe would wait for ever.
+void limit_files(int pipe) {
+  const int lowest = dup(pipe);  // of the descriptors that are free
+  if (lowest < 0) return;        // none is
+  close(lowest);
+  limit(RLIMIT_NOFILE, static_cast<rlim_t>(lowest) + 1);
 }
 
 /// The child leaves no traces: no message of a signal handler, no report of a sanitizer, no core.
@@ -85,7 +93,7 @@ void silence() {
   }
   const rlimit no_core{0, 0};
   static_cast<void>(setrlimit(RLIMIT_CORE, &no_core));
-  limit_memory();
+  limit(RLIMIT_AS, present_bytes() + kMostBytes);
 }
 
 /// What the parent has to know: kDone, or the exit code and text of an Error.
@@ -102,8 +110,18 @@ std::string outcome_of(const std::function<void()>& read) {
   }
 }
 
-[[noreturn]] void rethrow(const std::string& outcome, const std::string& path) {
-  if (outcome.empty()) throw ResultsError("damaged results file: the HDF5 library cannot read it", path);
+/// @param signal that ended the child before it could say anything, 0 if none did
+[[noreturn]] void tell_of_silence(int signal, const std::string& path) {
+  if (signal == SIGKILL) throw std::bad_alloc();  // so the system ends who takes too much
+  if (signal != SIGXCPU) throw ResultsError("damaged results file: the HDF5 library cannot read it", path);
+  rlimit own{};
+  if (getrlimit(RLIMIT_CPU, &own) == 0 && own.rlim_cur < seconds_for(path))
+    throw LimitError("reading takes more time of the processor than a process may have here", path);
+  throw ResultsError("damaged results file (takes too long to read)", path);
+}
+
+[[noreturn]] void rethrow(const std::string& outcome, int status, const std::string& path) {
+  if (outcome.empty()) tell_of_silence(WIFSIGNALED(status) ? WTERMSIG(status) : 0, path);
   const auto code = static_cast<ExitCode>(outcome.front());
   const std::string text = outcome.substr(1);
   if (code == ExitCode::limit && text.empty()) throw std::bad_alloc();
@@ -112,26 +130,36 @@ std::string outcome_of(const std::function<void()>& read) {
   throw Error(code, text, "");
 }
 
+[[noreturn]] void fail_to_try(const std::string& path) {
+  if (errno == ENOMEM) throw std::bad_alloc();
+  throw IoError(fmt::format("cannot be tried in a process of its own, as a damaged file must be: {}",
+                            std::strerror(errno)),
+                path);
+}
+
 }  // namespace
 
 void try_in_child(const std::string& path, const std::function<void()>& read) {
   std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) return;
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_try(path);
   const pid_t child = fork();
   if (child == 0) {
     silence();
+    limit(RLIMIT_CPU, seconds_for(path));
+    limit_files(ends[1]);
     send(ends[1], outcome_of(read));
     _exit(0);
   }
+  const int error = errno;
   close(ends[1]);
-  const std::optional<std::string> outcome = child > 0 ? receive(ends[0]) : std::string{kDone};
+  const std::string outcome = child > 0 ? receive(ends[0]) : "";
   close(ends[0]);
-  if (!outcome) kill(child, SIGKILL);
+  errno = error;
+  if (child < 0) fail_to_try(path);
   int status = 0;
-  while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (!outcome) throw ResultsError("damaged results file (takes too long to read)", path);
-  if (*outcome != std::string{kDone}) rethrow(*outcome, path);
+  if (outcome != std::string{kDone}) rethrow(outcome, status, path);
 }
 
 }  // namespace coordreq

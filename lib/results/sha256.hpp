@@ -1,16 +1,28 @@
 #pragma once
 
-#include <cstdint>
+#include <nettle/sha2.h>
+
 #include <string>
 #include <string_view>
 
 namespace coordreq {
 
-/// SHA-256 (FIPS 180-4) of the bytes of `text`, as 64 lower-case hexadecimal digits.
+/// SHA-256 (FIPS 180-4) of bytes that come one after the other.
+class Sha256 {
+ public:
+  Sha256();
+  void add(std::string_view bytes);
+  /// Of all so far, as 64 lower-case hexadecimal digits.
+  [[nodiscard]] std::string hex() const;
+
+ private:
+  sha256_ctx context_;
+};
+
+/// That of the bytes of `text`.
 [[nodiscard]] std::string sha256_hex(std::string_view text);
 
-/// The same of the bytes of a file. @param left_out so many at its end
-/// @throws IoError
-[[nodiscard]] std::string sha256_of_file(const std::string& path, std::uint64_t left_out = 0);
+/// That of the bytes of a file. @throws IoError
+[[nodiscard]] std::string sha256_of_file(const std::string& path);
 
 }  // namespace coordreq

@@ -1,12 +1,10 @@
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <filesystem>
 #include <istream>
 #include <system_error>
@@ -19,8 +17,6 @@ namespace coordreq {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 26U;
-constexpr std::chrono::seconds kWaitForWriter{5};
-constexpr int kPauseMilliseconds = 10;
 
 void append(const char* bytes, std::size_t count, const std::string& name, std::string& text) {
   if (text.size() + count > kMostBytes) throw LimitError("longer than 64 MiB, expected a spec", name);
@@ -43,12 +39,12 @@ std::string read_all(std::istream& stream, const std::string& name) {
   throw IoError("cannot be read: " + std::generic_category().message(error), path);
 }
 
-/// An open file that can be read without waiting for ever: of a pipe, a program at its other end must have
-/// opened it within a few seconds; from then on it is read to its end.
+/// An open file. A pipe is waited for until somebody has opened its other end, and then until that is closed:
+/// there is no saying how long a program takes that makes a spec.
 class OpenFile {
  public:
   explicit OpenFile(const std::string& path)
-      : path_(path), file_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
+      : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
     if (file_ < 0) fail(errno, path_);
   }
   ~OpenFile() { ::close(file_); }
@@ -61,41 +57,18 @@ class OpenFile {
     if (::fstat(file_, &status) == 0 && S_ISREG(status.st_mode))
       text.reserve(std::min(kMostBytes, static_cast<std::size_t>(status.st_size)));
     std::array<char, 65'536> block{};
-    const auto begin = Clock::now();
     while (true) {
       const ssize_t count = ::read(file_, block.data(), block.size());
-      if (count > 0) {
-        append(block.data(), static_cast<std::size_t>(count), path_, text);
-      } else if (count < 0 && errno == EAGAIN) {
-        has_writer_ = true;
-        wait_for_bytes();
-      } else if (count < 0 && errno != EINTR) {
-        fail(errno, path_);
-      } else if (count == 0 && (!text.empty() || has_writer_ || !is_pipe())) {
-        return text;
-      } else if (count == 0) {
-        if (Clock::now() - begin > kWaitForWriter)
-          throw IoError("is a pipe that nobody writes to, expected a spec", path_);
-        static_cast<void>(::poll(nullptr, 0, kPauseMilliseconds));
-      }
+      if (count == 0) return text;
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) fail(errno, path_);
+      append(block.data(), static_cast<std::size_t>(count), path_, text);
     }
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  void wait_for_bytes() const {
-    pollfd waited{.fd = file_, .events = POLLIN, .revents = 0};
-    static_cast<void>(::poll(&waited, 1, -1));
-  }
-  [[nodiscard]] bool is_pipe() const {
-    struct stat status {};
-    return ::fstat(file_, &status) == 0 && S_ISFIFO(status.st_mode);
-  }
-
   const std::string& path_;
   int file_;
-  bool has_writer_ = false;
 };
 
 }  // namespace

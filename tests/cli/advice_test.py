@@ -1,11 +1,15 @@
 """Warnings: what is no error and can mislead, on standard error and in JSON."""
 
 import json
+import signal
+import subprocess
+import threading
+import time
 import unittest
 
 import h5py
 
-from program import CONFIGS, SPEC, Case, spec_with, without_comments
+from program import CONFIGS, PROGRAM, SPEC, Case, spec_with, without_comments
 
 X, Y = SPEC["states"]
 
@@ -201,6 +205,37 @@ class Cases(Case):
         spec = spec_with(states=states, dynamics=dict(SPEC["dynamics"], equations={"x": "x + 2*u + 5", "y": "y + v"}))
         text = self.likely_causes(spec, "empty")
         self.assertRegex(text, r" tried one by one on a copy with [0-9]{2},[0-9]{3} cells \(steps up to 4 times as long\), it helps if x saturates above")
+
+    def summary_of(self, process):
+        """Without what is that of one run."""
+        said = json.loads(process.communicate(timeout=600)[0])
+        self.assertEqual(process.returncode, 0)
+        return {key: value for key, value in said.items() if key not in ("seconds", "peak_memory_bytes")}
+
+    def test_a_busy_machine_says_the_same(self):
+        """All changes that are tried take longer there than any patience that has ever been tried."""
+        states = [dict(X, step="1/50"), dict(Y, step="1/50")]
+        equations = {"x": "x + 2*u + 5 + 0.1*sin(y)", "y": "y + v + 0.1*cos(x)"}
+        self.write("spec.json", spec_with(states=states, dynamics=dict(SPEC["dynamics"], equations=equations)))
+        command = [PROGRAM, "analyze", "spec.json", "-o", "o.h5", "--json", "--threads", "2"]
+        options = {"cwd": self.folder, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+        with subprocess.Popen(command, **options) as process:
+            expected = self.summary_of(process)
+        with subprocess.Popen(command, **options) as process:
+            busy = threading.Thread(target=self.let_wait, args=[process])
+            busy.start()
+            found = self.summary_of(process)
+            busy.join()
+        self.assertEqual(found, expected)
+        self.assertIn(" changes tried one by one", expected["warnings"][0]["message"])
+
+    def let_wait(self, process):
+        """Nearly all of the time."""
+        while process.poll() is None:
+            process.send_signal(signal.SIGSTOP)
+            time.sleep(0.06)
+            process.send_signal(signal.SIGCONT)
+            time.sleep(0.002)
 
     def test_a_requirement_that_fails_is_no_other_exit_code(self):
         requirement = [{"name": "r", "where": "x <= 1", "invariant": True}]

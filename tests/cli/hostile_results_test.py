@@ -3,7 +3,6 @@
 import json
 import os
 import subprocess
-import time
 import unittest
 
 import h5py
@@ -11,8 +10,8 @@ import numpy as np
 from program import PROGRAM, ROOT, SANITIZED, Case, spec_with
 
 KIBI, MEBI = 1024, 1024 * 1024
-# More than any refusal takes; what is damaged beyond all telling may take five seconds of it.
-MOST_SECONDS = 90 if SANITIZED else 20
+# Of the processor: more than any refusal takes; what is damaged beyond all telling may take five seconds.
+MOST_SECONDS = 60 if SANITIZED else 10
 MOST_BYTES = 100 * MEBI
 
 
@@ -37,8 +36,7 @@ class Cases(Case):
                 dataset.attrs[name] = value
 
     def refused(self, *arguments, code=3):
-        """The one error line; asserts that it took little memory and time."""
-        begin = time.monotonic()
+        """The one error line; asserts that it took little memory and time of the processor."""
         with subprocess.Popen(
             [PROGRAM, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE
         ) as process:
@@ -46,7 +44,7 @@ class Cases(Case):
             _, status, usage = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)
         self.assertEqual((process.returncode, output), (code, b""), error)
-        self.assertLess(time.monotonic() - begin, MOST_SECONDS)
+        self.assertLess(usage.ru_utime + usage.ru_stime, MOST_SECONDS)
         if not SANITIZED:
             self.assertLess(usage.ru_maxrss * KIBI, MOST_BYTES)
         lines = error.decode().splitlines()
@@ -211,9 +209,7 @@ class Cases(Case):
             group = file.create_group("more")
             for i in range(26):
                 group[f"{i}"] = group
-        begin = time.monotonic()
         self.refused("info", "out.h5")
-        self.assertLess(time.monotonic() - begin, MOST_SECONDS)
 
     def test_pipes_devices_and_folders(self):
         os.mkfifo(self.folder / "fifo")
@@ -234,13 +230,9 @@ class Cases(Case):
             error = self.refused("validate", "other.json", code=5)
             self.assertEqual(error, f"coordreq: error: {what} ({name})")
 
-    def test_a_spec_from_a_pipe_that_nobody_fills(self):
-        os.mkfifo(self.folder / "fifo")
-        for name, what in (
-            ("fifo", "is a pipe that nobody writes to, expected a spec"),
-            ("/dev/zero", "is a device, expected a spec file"),
-        ):
-            self.assertEqual(self.refused("validate", name, code=5), f"coordreq: error: {what} ({name})")
+    def test_a_spec_from_a_device(self):
+        error = self.refused("validate", "/dev/zero", code=5)
+        self.assertEqual(error, "coordreq: error: is a device, expected a spec file (/dev/zero)")
 
     def test_a_spec_from_a_pipe_that_somebody_fills(self):
         command = f"{PROGRAM} validate <(sleep 0.2; cat spec.json) --json"

@@ -8,8 +8,7 @@ import subprocess
 import time
 import unittest
 
-import h5py
-
+from checkpoint_pieces import take
 from program import CONFIGS, SPEC, spec_with
 from ranks_case import RanksCase
 
@@ -76,9 +75,9 @@ class Cases(RanksCase):
 
     def parts(self):
         """Those that count, and that the manifest names."""
-        with h5py.File(self.folder / "saved/coordreq-manifest") as manifest:
-            number, count = manifest["parts/0"][0]
-        return [self.folder / f"saved/coordreq-part-{number}-{rank}" for rank in range(count)]
+        _, sections = take((self.folder / "saved/coordreq-manifest").read_bytes())
+        (head,) = [head for head, _ in sections if head["section"] == "parts"]
+        return [self.folder / f"saved/coordreq-part-{head['set']}-{rank}" for rank in range(head["parts"])]
 
     def assert_not_resumed(self, code, line, spec, *arguments):
         for path in (self.folder / "saved").iterdir():  # what a rank has not finished goes in any case

@@ -1,5 +1,6 @@
 """Limits of the system: file size, disk, descriptors, address space. One line, the right code, nothing left behind."""
 
+import os
 import resource
 import subprocess
 import unittest
@@ -123,6 +124,27 @@ class Cases(Case):
                         continue
                     if result.returncode != 0:
                         self.assert_one_line(result, 5, "Too many open files")
+
+    def test_number_of_processes(self):
+        """A results file is tried in a process of its own, or not read at all."""
+        self.write("small.json", SPEC)
+        self.analyze("small.json", "-o", "R.h5")
+        self.folder.chmod(0o755)
+        self.write("c.json", dict(SPEC, controller={"file": "R.h5"}))
+
+        def without_processes():
+            if os.geteuid() == 0:  # whom no limit binds
+                os.setgroups([])
+                os.setgid(65534)
+                os.setuid(65534)
+            resource.setrlimit(resource.RLIMIT_NPROC, (0, 0))
+
+        for command in (("info", "R.h5"), ("query", "R.h5", "--at", "x=1,y=1"), ("validate", "c.json")):
+            try:
+                result = self.run_program(*command, preexec_fn=without_processes)
+            except PermissionError:
+                self.skipTest("nobody else may run the program here")
+            self.assert_one_line(result, 5, "cannot be tried in a process of its own, as a damaged file must be: ")
 
     @unittest.skipIf(SANITIZED, "shadow memory takes terabytes of address space")
     def test_address_space(self):

@@ -12,6 +12,21 @@ PRINTING = re.compile(
     r"\bstd::(cout|cerr|clog|print|println)\b|\b(f?printf|puts|fputs|putchar|perror)\s*\(|\bfmt::print\b"
     r"|#\s*include\s*<(iostream|fmt/ostream\.h)>"
 )
+CLOCK = re.compile(
+    r"\b(std::chrono|std::clock|std::time|clock_gettime|gettimeofday|alarm|setitimer|timer_create|timerfd_create|usleep|nanosleep"
+    r"|sleep_for|sleep_until|wait_for|wait_until)\b|#\s*include\s*<(chrono|ctime|time\.h|sys/time\.h)>"
+)
+# Where one is read, and what for: never for what is found.
+CLOCKS = {
+    "lib/base/timer": "seconds that are reported",
+    "app/commands/verify": "seconds that are reported",
+    "lib/analysis/stage_reporter": "how often progress is told",
+    "app/progress_display": "how often progress is told",
+    "lib/analysis/checkpoint": "how often work is saved",
+    "lib/verify/budget": "processor time, which the user sets",
+    "app/mpi/mpi_ranks": "which rank tells of an error",
+    "app/mpi/batch_on_ranks": "how often rank 0 looks for answers",
+}
 MAX_LINES = 400
 
 
@@ -93,6 +108,16 @@ def library_never_prints(root):
     ]
 
 
+def no_clock_decides(root):
+    return [
+        f"{path}:{number}: a clock may decide nothing; see CLOCKS in style_checks.py: {line.strip()}"
+        for path, lines in sources(root, "lib", "app")
+        if str(path.with_suffix("")) not in CLOCKS
+        for number, line in enumerate(without_comments(lines), 1)
+        if CLOCK.search(line)
+    ]
+
+
 def files_are_short(root):
     return [
         f"{path}: {len(lines)} lines, at most {MAX_LINES} are allowed"
@@ -137,6 +162,7 @@ RULES = {
         checks_stand_alone,
         only_results_uses_hdf5,
         library_never_prints,
+        no_clock_decides,
         files_are_short,
         types_have_names_of_their_own,
     )

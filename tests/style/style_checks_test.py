@@ -106,6 +106,16 @@ class StyleChecks(unittest.TestCase):
             ],
         )
 
+    def test_a_clock_is_found_but_not_where_it_reports(self):
+        self.write("lib/base/timer.cpp", "#include <chrono>\nstd::chrono::steady_clock::now();\n")
+        self.write("lib/base/a.cpp", "// std::chrono\nwait_for_helpers();\nresult.clock = 1;\n")
+        self.assertEqual(style_checks.no_clock_decides(self.root), [])
+        self.write("lib/base/b.cpp", "#include <ctime>\nif (std::clock() > end) return;\n")
+        self.assertEqual(
+            [finding.split(": ")[0] for finding in style_checks.no_clock_decides(self.root)],
+            ["lib/base/b.cpp:1", "lib/base/b.cpp:2"],
+        )
+
     def test_long_file_is_found(self):
         self.write("app/a.cpp", "\n" * 400)
         self.write("app/b.cpp", "\n" * 401)
