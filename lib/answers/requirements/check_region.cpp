@@ -50,17 +50,36 @@ class BoxJudge {
   CornerTruth nowhere_;
 };
 
-/// Halves a box in the coordinates t of x = t / (1 - |t|), which make the whole line finite.
+/// Where a state can be while another one is outside; without an end where it is not bounded.
+struct Extent {
+  std::optional<Rational> lower, upper;
+
+  [[nodiscard]] Interval rough() const {
+    return {lower ? lower_double(*lower) : -outward::kInfinity,
+            upper ? upper_double(*upper) : outward::kInfinity};
+  }
+  [[nodiscard]] RationalInterval exact() const {
+    if (!lower || !upper) return {.bounded = false};
+    return {.lower = *lower, .upper = *upper};
+  }
+};
+
+/// Halves a box in the coordinates t of x = t / (1 - |t|), which make the whole line finite. What
+/// doubles leave open is asked again of the exact ends of the states that are bounded.
 class CompactSearch {
  public:
   static constexpr int kMostBoxes = 4096;
 
-  explicit CompactSearch(const Program& where) : evaluator_(where), variables_(where.variables()) {}
+  explicit CompactSearch(const Program& where)
+      : rough_(where), exact_(where), variables_(where.variables()) {}
 
-  [[nodiscard]] bool is_empty(const std::vector<Interval>& box) {
+  [[nodiscard]] bool is_empty(const std::vector<Extent>& box) {
     boxes_left_ = kMostBoxes;
     std::vector<Interval> compact;
-    for (const Interval& range : box) compact.push_back({to_compact(range.lower), to_compact(range.upper)});
+    for (const Extent& extent : box) {
+      const Interval range = extent.rough();
+      compact.push_back({to_compact(range.lower), to_compact(range.upper)});
+    }
     return visit(box, compact, 0);
   }
 
@@ -72,34 +91,46 @@ class CompactSearch {
   }
   static double from_compact(double t) { return t / (1.0 - std::abs(t)); }
 
-  bool visit(std::vector<Interval> box, std::vector<Interval> compact, std::size_t depth) {
-    const Truth truth = evaluator_.condition(box);
+  [[nodiscard]] Truth judge(const std::vector<Extent>& box) {
+    std::vector<Interval> rough;
+    std::vector<RationalInterval> exact;
+    for (const Extent& extent : box) {
+      rough.push_back(extent.rough());
+      exact.push_back(extent.exact());
+    }
+    const Truth truth = rough_.condition(rough);
+    return truth == Truth::undecided ? exact_.condition(exact) : truth;
+  }
+
+  bool visit(std::vector<Extent> box, std::vector<Interval> compact, std::size_t depth) {
+    const Truth truth = judge(box);
     if (truth != Truth::undecided) return truth == Truth::no;
     if (--boxes_left_ <= 0 || variables_.empty()) return false;
     const std::uint32_t slot = variables_[depth % variables_.size()];
     const double middle = (compact[slot].lower + compact[slot].upper) / 2;
     const double cut = from_compact(middle);
-    const Interval range = box[slot];
+    const Interval range = box[slot].rough();
     const Interval compact_range = compact[slot];
     if (!(range.lower < cut && cut < range.upper))
       return range.is_point() && visit_others(box, compact, depth);
-    box[slot].upper = cut;
+    const Extent whole = box[slot];
+    box[slot].upper = exact(cut);
     compact[slot].upper = middle;
     if (!visit(box, compact, depth + 1)) return false;
-    box[slot] = {cut, range.upper};
+    box[slot] = {exact(cut), whole.upper};
     compact[slot] = {middle, compact_range.upper};
     return visit(box, compact, depth + 1);
   }
 
   /// A variable that is a point cannot be halved; the next one may.
-  bool visit_others(const std::vector<Interval>& box, const std::vector<Interval>& compact,
-                    std::size_t depth) {
+  bool visit_others(const std::vector<Extent>& box, const std::vector<Interval>& compact, std::size_t depth) {
     const bool all_points = std::all_of(variables_.begin(), variables_.end(),
-                                        [&box](std::uint32_t slot) { return box[slot].is_point(); });
+                                        [&box](std::uint32_t slot) { return box[slot].rough().is_point(); });
     return !all_points && visit(box, compact, depth + 1);
   }
 
-  Evaluator<Interval> evaluator_;
+  Evaluator<Interval> rough_;
+  Evaluator<RationalInterval> exact_;
   std::vector<std::uint32_t> variables_;
   int boxes_left_ = 0;
 };
@@ -107,11 +138,6 @@ class CompactSearch {
 bool ends_at_limit(Outside side) {
   return side == Outside::saturate || side == Outside::stop || side == Outside::periodic;
 }
-
-/// Where a state can be while another one is outside; without an end where it is not bounded.
-struct Extent {
-  std::optional<Rational> lower, upper;
-};
 
 Extent extent_of(const GridDimension& dimension) {
   if (dimension.periodic()) return {dimension.lower, dimension.upper};
@@ -190,8 +216,10 @@ RegionJudge::RegionJudge(const ProblemSpec& spec, const Program& where, const Un
     auto& indices = places.emplace_back();
     for (std::int64_t k = 0; k < grid[slot].count; ++k) {
       auto& parts = indices.emplace_back();
-      for (const Piece& piece : pieces(grid[slot], k))
-        parts.push_back({.lower = piece.lower, .upper = piece.upper});
+      for (const Piece& piece : pieces(grid[slot], k)) {
+        const bool is_seam = !parts.empty() && piece.lower == piece.upper;  // the lower end of the next cell
+        if (!is_seam) parts.push_back({.lower = piece.lower, .upper = piece.upper});
+      }
     }
   }
   meetings_.assign(static_cast<std::size_t>(choices), Meeting::off);
@@ -223,14 +251,11 @@ Reach reach_beyond(const ProblemSpec& spec, const Program& where, const UniformG
   for (std::size_t i = 0; i < grid.size(); ++i)
     extents.push_back(i == side.state ? outside_of(grid[i], side.above) : extent_of(grid[i]));
   std::vector<Interval> box(spec.slot_count());
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    box[i].lower = extents[i].lower ? lower_double(*extents[i].lower) : -outward::kInfinity;
-    box[i].upper = extents[i].upper ? upper_double(*extents[i].upper) : outward::kInfinity;
-  }
+  for (std::size_t i = 0; i < grid.size(); ++i) box[i] = extents[i].rough();
   const Truth whole = Evaluator<Interval>(where).condition(box);
   if (whole != Truth::undecided) return whole == Truth::yes ? Reach::reached : Reach::never;
   if (reaches_a_sample(where, grid, extents)) return Reach::reached;
-  return CompactSearch(where).is_empty(box) ? Reach::not_far : Reach::open;
+  return CompactSearch(where).is_empty(extents) ? Reach::not_far : Reach::open;
 }
 
 }  // namespace coordreq
