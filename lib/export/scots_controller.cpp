@@ -23,7 +23,7 @@ Axis axis_of_state(const GridDimension& dimension) {
 Axis axis_of_input(const InputSpec& input, const ResultsReader& results) {
   const std::vector<Rational>& values = input.values;
   Axis axis{input.name, values.front(), values.back(), 1, static_cast<std::int64_t>(values.size())};
-  if (input.grid) {
+  if (input.grid && is_integer(axis.first / input.grid->step)) {
     axis.step = input.grid->step;
   } else if (values.size() > 1) {
     axis.step = values[1] - values[0];
