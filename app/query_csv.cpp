@@ -35,9 +35,16 @@ std::string answer_column(const std::string& name, const ResultsReader& results)
   return (is_taken ? "answer:" : "") + name;
 }
 
-}  // namespace
+/// A field as it stands in CSV (RFC 4180).
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return field + "\"";
+}
 
-std::string answer_csv_header(const ResultsReader& results) {
+/// Everything but what stood beside the state.
+std::string header_of_answers(const ResultsReader& results) {
   std::string line;
   for (const GridDimension& dimension : results.grid().dimensions()) line += dimension.name + ",";
   line += fmt::format("{},{},safe,invariant,collision_time", answer_column("inside", results),
@@ -57,10 +64,10 @@ std::string answer_csv_header(const ResultsReader& results) {
     for (const AgentSpec& agent : results.spec().agents) line += ",convention:" + agent.name;
   }
   for (const Field* const field : asked_fields(results)) line += "," + field->path.substr(1);
-  return line + "\n";
+  return line;
 }
 
-std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& results) {
+std::string line_of_answers(const StateAnswer& answer, const ResultsReader& results) {
   std::string line;
   for (const Rational& value : answer.state) line += fmt::format("{},", nearest_double(value));
   if (answer.location.kind != Location::Kind::cell) {
@@ -72,8 +79,7 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
     if (results.has_coalition()) line += ",,";
     if (results.spec().network) line += ",";
     if (results.spec().coordination.convention) line += std::string(results.spec().agents.size(), ',');
-    line += std::string(asked_fields(results).size(), ',');
-    return line + "\n";
+    return line + std::string(asked_fields(results).size(), ',');
   }
   line += fmt::format("1,{},{:d},{:d},{}", answer.location.cell, answer.safe, answer.invariant,
                       csv_steps(answer.collision_time));
@@ -89,6 +95,25 @@ std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& resu
     line += fmt::format(",{}", fmt::join(safe_mode_names(*network, answer.safe_modes), " "));
   for (const std::vector<bool>& actions : answer.convention) line += "," + csv_actions(actions);
   for (const std::int32_t value : answer.others) line += "," + csv_steps(value);
+  return line;
+}
+
+}  // namespace
+
+std::string answer_csv_header(const ResultsReader& results, const std::vector<std::string>& extra) {
+  std::string line = header_of_answers(results);
+  const std::string taken = "," + line + ",";
+  for (const std::string& name : extra) {
+    const bool is_taken = taken.find("," + csv_field(name) + ",") != std::string::npos;
+    line += "," + csv_field((is_taken ? "extra:" : "") + name);
+  }
+  return line + "\n";
+}
+
+std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& results,
+                            const std::vector<StateReader::Extra>& extra) {
+  std::string line = line_of_answers(answer, results);
+  for (const StateReader::Extra& own : extra) line += "," + csv_field(own.value);
   return line + "\n";
 }
 

@@ -171,8 +171,14 @@ std::vector<Rational> values_of(const ProblemSpec& spec, const std::vector<std::
   return values;
 }
 
-std::string answer_json_line(const StateAnswer& answer, const ResultsReader& results) {
-  return json_line(answer_json(answer, results));
+std::string answer_json_line(const StateAnswer& answer, const ResultsReader& results,
+                             const std::vector<StateReader::Extra>* extra) {
+  Json json = answer_json(answer, results);
+  if (extra != nullptr) json["extra"] = Json::object();
+  for (std::size_t i = 0; extra != nullptr && i < extra->size(); ++i)
+    json["extra"][(*extra)[i].name] =
+        (*extra)[i].is_json ? Json::parse((*extra)[i].value) : Json((*extra)[i].value);
+  return json_line(json);
 }
 
 void print_state(const CommonOptions& asked, const StateAnswer& answer, const ResultsReader& results) {
