@@ -82,17 +82,18 @@ std::string classes_are(const Json& freedom) {
 }
 
 /// What is left to the classes, and what that means.
-void add_freedom(const Json& found, std::vector<std::string>& text) {
+void add_freedom(const Json& found, const ProblemSpec& spec, std::vector<std::string>& text) {
   const Json& freedom = found["freedom"];
   text.push_back(fmt::format("Of their actions the controller leaves {} here.", classes_are(freedom)));
   const std::int64_t alone = number_of(freedom["alone"]), together = number_of(freedom["together"]);
   if (alone == together) {
     text.push_back("Whatever they pick of these keeps the next state in the invariance set.");
   } else {
-    text.push_back(
-        fmt::format("Picked alone that makes {} joint actions, of which {} keep the next state in the "
-                    "invariance set.",
-                    grouped(freedom["alone"]), grouped(freedom["together"])));
+    const bool has_rule = spec.controller.allow || spec.controller.file;
+    text.push_back(fmt::format(
+        "Picked alone that makes {} joint actions, of which {} {} the next state in the "
+        "invariance set.",
+        grouped(freedom["alone"]), grouped(freedom["together"]), has_rule ? "are allowed and keep" : "keep"));
   }
 }
 
@@ -147,7 +148,7 @@ std::vector<std::string> sentences_of(const Json& found, const ProblemSpec& spec
   if (status == "at_least")
     text.emplace_back(
         "\"max_delay\" ended the search, so that there may be no way out of the invariance set.");
-  add_freedom(found, text);
+  add_freedom(found, spec, text);
   if (found["way_out"].is_null()) return text;
   add_neighbour(found, spec, text);
   add_remedies(found, spec, text);

@@ -76,6 +76,7 @@ std::string end_text(const Json& story) {
   if (end == "arrived") return "the goal is reached, too late";
   if (end == "never_arrives") return "the state is one that came before: the goal need never be reached";
   if (end == "time_lost") return "the state is not nearer to the goal";
+  if (end == "not_allowed") return "together they do what 'allow' forbids";
   return "no action is allowed any more";
 }
 

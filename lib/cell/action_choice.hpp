@@ -75,6 +75,9 @@ class ActionChooser {
                                                    bool coordinated, bool approaching, NextStates& next,
                                                    RandomStream& random);
 
+  /// Whether `allow` forbids a joint input that was chosen at a cell.
+  [[nodiscard]] bool forbids(std::int64_t cell, std::int64_t u) { return inputs_.forbids(cell, u); }
+
   ActionChooser(const ActionChooser&) = delete;
   ActionChooser& operator=(const ActionChooser&) = delete;
   ~ActionChooser() = default;

@@ -33,6 +33,8 @@ class CellController {
 
   /// Whether each joint input is in C(x); none is outside K. @throws ResultsError if it cannot be computed
   [[nodiscard]] const std::vector<bool>& joint_inputs(std::int64_t cell);
+  /// Whether `allow` forbids a joint input at a cell.
+  [[nodiscard]] bool forbids(std::int64_t cell, std::int64_t u) { return admissible_.forbids(cell, u); }
   /// Whether each joint action of each class is admissible: [class][action].
   [[nodiscard]] std::vector<std::vector<bool>> actions(std::size_t partition, std::int64_t cell);
   /// The same on the way to the goal, of the progress controller; none outside W \ G. REQUIRES: there is a

@@ -89,6 +89,10 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
       trace.outcome = Outcome::no_action;
       return trace;
     }
+    if (chooser_.forbids(state.place.cell, *u)) {
+      trace.outcome = Outcome::not_allowed;
+      return trace;
+    }
     trace.steps.push_back({*u, coordinated, nearest_doubles(nature.disturbance)});
     const bool known = advance(state, *u, nature);
     RunTrace::Sample& reached = add_sample();

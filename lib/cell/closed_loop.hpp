@@ -32,10 +32,12 @@ enum class Outcome : std::uint8_t {
   no_action,       ///< ended early in K where no action is admissible
   reached_goal,    ///< ended in the goal, as was asked
   late,            ///< more steps than promised, and not in the goal
+  not_allowed,     ///< ended early in K where silent agents together do what `allow` forbids
 };
 /// Those that contradict the analysis.
 [[nodiscard]] constexpr bool is_violation(Outcome outcome) {
-  return outcome == Outcome::left_invariant || outcome == Outcome::no_action || outcome == Outcome::late;
+  return outcome == Outcome::left_invariant || outcome == Outcome::no_action || outcome == Outcome::late ||
+         outcome == Outcome::not_allowed;
 }
 
 /// One run. A sample is a state at a sampling instant; sample k is followed by step k, the last by none.

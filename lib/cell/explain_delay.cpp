@@ -96,7 +96,8 @@ class Explainer {
                                           return actions[at(own.action(u))];
                                         });
       if (!is_choice) continue;
-      const std::int32_t steps = steps_after(posts_.post(u, sets_.ground().tubes()));
+      const bool is_forbidden = controller_.forbids(cell, u);
+      const std::int32_t steps = is_forbidden ? 0 : steps_after(posts_.post(u, sets_.ground().tubes()));
       for (std::size_t c = 0; c < classes_.size(); ++c) {
         std::int32_t& own = worst[c][at(classes_[c].action(u))];
         own = std::min(own, steps);

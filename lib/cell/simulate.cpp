@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "answers/invariance/safe_tubes.hpp"
+#include "answers/layers/forbidden_choices.hpp"
 #include "base/error.hpp"
 #include "cell/invariant_cells.hpp"
 #include "cell/state_text.hpp"
@@ -242,8 +243,8 @@ std::optional<std::size_t> Simulation::violation() const {
 }
 
 std::string outcome_name(Outcome outcome) {
-  constexpr const char* kNames[] = {"completed", "left_safely",  "left_invariant",
-                                    "no_action", "reached_goal", "late"};
+  constexpr const char* kNames[] = {"completed",    "left_safely", "left_invariant", "no_action",
+                                    "reached_goal", "late",        "not_allowed"};
   return kNames[static_cast<std::size_t>(outcome)];
 }
 
@@ -251,6 +252,7 @@ std::vector<Outcome> outcomes(const ProblemSpec& spec) {
   std::vector<Outcome> result = {Outcome::completed, Outcome::left_safely, Outcome::left_invariant,
                                  Outcome::no_action};
   if (spec.goal) result.insert(result.end(), {Outcome::reached_goal, Outcome::late});
+  if (allow_joins_agents(spec)) result.push_back(Outcome::not_allowed);
   return result;
 }
 

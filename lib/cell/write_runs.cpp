@@ -201,7 +201,7 @@ class RunFields {
                           [](const RunTrace& trace) { return trace.samples.size(); });
     std::vector<FieldFlag> outcomes;
     for (const Outcome outcome : coordreq::outcomes(spec_))
-      outcomes.push_back({static_cast<std::int64_t>(outcomes.size()), outcome_name(outcome)});
+      outcomes.push_back({static_cast<std::int64_t>(outcome), outcome_name(outcome)});
     add_end<std::uint8_t>(
         "/outcome", ElementType::uint8,
         described("how the run ended") + std::vector<FieldAttribute>{flags(std::move(outcomes))},

@@ -171,12 +171,16 @@ void expect_real_path(const Both& both, const RequirementSpec& asked, const Resu
     RC_ASSERT(both.plain.invariant[at(x)] == (path.phase[s] == EscapePhase::independent));
     if (path.phase[s] == EscapePhase::independent) {
       ++independent;
+      RC_CLASSIFY(path.end == EscapeEnd::not_allowed, "ends with what is forbidden");
       RC_ASSERT(is_independent_choice(both, at(*asked.partition), x, u));
     }
     if (s + 1 == path.samples()) {
-      RC_ASSERT(path.end == EscapeEnd::left_domain || path.end == EscapeEnd::unsafe_between_samples);
+      const bool is_forbidden = !both.plain.permitted[at(x)][at(u)];
+      RC_ASSERT(is_forbidden == (path.end == EscapeEnd::not_allowed));
+      RC_ASSERT(is_forbidden || path.end == EscapeEnd::left_domain ||
+                path.end == EscapeEnd::unsafe_between_samples);
       // Posts that are only blocked by what happens on the way do not end with the domain's edge.
-      RC_ASSERT(!both.abstraction.tubes.empty() || !post(both, x, u));
+      RC_ASSERT(is_forbidden || !both.abstraction.tubes.empty() || !post(both, x, u));
       continue;
     }
     const auto cells = post(both, x, u);

@@ -35,6 +35,9 @@ class CheckedCell {
 
   // REQUIRES, for what follows: is_safe().
   [[nodiscard]] bool is_allowed(std::int64_t u) const { return allowed_(u); }
+  /// `allow` does not permit it; a file that does not list it forbids nothing. Blocked, where classes act by
+  /// themselves.
+  [[nodiscard]] bool is_forbidden(std::int64_t u) const { return !allowed_.permits(u); }
   /// The way to the next sample is safe, if that counts.
   [[nodiscard]] bool is_way_safe(std::int64_t u) { return !tubes_ || tubes_->is_safe(u); }
   /// min over y in f(x, u) of values[y]; `forever` where all has left safely, `blocked` if there is no post.

@@ -144,7 +144,7 @@ class GoalChecker : public CellChecker {
       for (std::size_t c = 0; is_choice && c < projections.size(); ++c)
         is_choice = projections[c][static_cast<std::size_t>(classes_[p][c].action(u))] != 0;
       if (!is_choice) continue;
-      if (!by_definition_.comes_nearer(cell, u)) return 0;
+      if (cell.is_forbidden(u) || !by_definition_.comes_nearer(cell, u)) return 0;
       choices.push_back(u);
     }
     std::int32_t worst = kForever;
