@@ -159,7 +159,10 @@ class ProblemWriter {
     if (draw(0, 9) > 0) text += fmt::format(" + {}u{}", pick<std::string>({"", "0.5*", "0.25*"}), i);
     const int other = (static_cast<int>(i) + draw(1, inputs - 1)) % inputs;
     if ((coupled_ || crowd_) && draw(0, 1) == 0) text += fmt::format(" + 0.5*u{}", other);
-    return text + (disturbed && draw(0, 3) == 0 ? " + 0.25*w" : "");
+    if (!disturbed || draw(0, 3) > 0) return text;
+    // At times from somewhere on, so that ranges differ in nothing but their width.
+    if (continuous_time_ || edges_ == RandomEdges::plain || draw(0, 2) > 0) return text + " + 0.25*w";
+    return text + fmt::format(" + if(x{} >= 3.5, w, 0)", draw(0, static_cast<int>(discrete_.size()) - 1));
   }
 
   std::string equation(std::size_t i, bool disturbed) {
