@@ -22,12 +22,13 @@ struct QueryOptions : CommonOptions {
 
 /// Line by line, so that a program at the other end of two pipes gets each answer before it asks on.
 void answer_standard_input(const ResultsReader& results, StateQuery& query, bool as_json) {
+  const QueryForm form(results);
   StateReader states(std::cin, state_names(results.spec()), "standard input");
   const bool json = as_json || states.format() == StateReader::Format::json_lines;
-  if (!json) write_output(answer_csv_header(results));
+  if (!json) write_output(answer_csv_header(form));
   while (std::optional<std::vector<Rational>> state = states.next()) {
     const StateAnswer answer = query.at(std::move(*state));
-    write_output(json ? answer_json_line(answer, results) : answer_csv_line(answer, results));
+    write_output(json ? answer_json_line(answer, form) : answer_csv_line(answer, form));
   }
 }
 
@@ -41,7 +42,7 @@ ExitCode run(const QueryOptions& own) {
     return ExitCode::success;
   }
   const StateAnswer answer = query.at(parse_state(*own.at, state_names(results.spec()), "--at"));
-  print_state(own, answer, results);
+  print_state(own, answer, QueryForm(results));
   return ExitCode::success;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/invariance/fields.hpp"
 #include "base/error.hpp"
 #include "cell/cell_controller.hpp"
 #include "results/scots_format.hpp"
@@ -85,7 +86,7 @@ void export_scots(const ResultsReader& results, ThreadTeam& team, const TextSink
   for (std::int64_t number = 0; number < results.inputs().count(); ++number) {
     input_positions.push_back(static_cast<std::size_t>(input_numbers.position_of(number)));
   }
-  const std::vector<std::uint8_t> invariant = results.invariant(all_cells(results.grid()));
+  const std::vector<std::uint8_t> invariant = results.members(paths::kInvariant, all_cells(results.grid()));
   std::string line;
   for (std::int64_t number = 0; number < results.grid().cells(); ++number) {
     const std::int64_t cell = state_numbers.position_of(number);

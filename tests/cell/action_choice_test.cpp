@@ -35,7 +35,8 @@ std::optional<std::int64_t> chosen(const LoopFixture& loop, Policy policy, const
   const std::vector<Rational> error{Rational(0)};
   next.begin(state, {}, error, floor_to_int(x + Rational(1) / 2));
   RandomStream random(seed, 0, RandomStream::Purpose::actions);
-  return chooser.choose(floor_to_int(x + Rational(1) / 2), state, coordinated, false, next, random);
+  return chooser.choose(floor_to_int(x + Rational(1) / 2), state, {.countdown = coordinated ? 0 : 1}, next,
+                        random);
 }
 
 TEST(ActionChooser, RandomIsUniformInTheControllerWhenCoordinated) {

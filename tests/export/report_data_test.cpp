@@ -84,9 +84,10 @@ void expect_true_values(const ResultsReader& results, const SortedJson& json) {
         for (std::size_t i = grid.size(); i-- > 0; rest /= indices[i].size())
           cell += indices[i][rest % indices[i].size()] * grid.stride(i);
         const CellBlock block = one_cell(grid, cell);
-        const std::int32_t expected = head["kind"] == "delay"
-                                          ? results.delay(head["partition"].get<std::size_t>(), block).front()
-                                          : results.collision_time(block).front();
+        const std::int32_t expected =
+            head["kind"] == "delay"
+                ? results.values("/delay", head["partition"].get<std::size_t>(), block).front()
+                : results.values("/collision_time", block).front();
         ASSERT_EQ(values[place], expected) << head << " cell " << cell;
       }
     }

@@ -8,6 +8,8 @@
 
 #include "answers/invariance/safe_set.hpp"
 #include "answers/invariance/safe_tubes.hpp"
+#include "answers/layers/fields.hpp"
+#include "answers/layers/policy.hpp"
 #include "cell/simulate_runs.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
@@ -41,7 +43,8 @@ struct Analysed {
     return {.spec = &spec,
             .abstraction = &abstraction,
             .partition = &spec.coordination.partitions[partition],
-            .delay = plain.partitions[partition].delay,
+            .policies = layer_policies(spec),
+            .values = {{paths::kDelay, plain.partitions[partition].delay}},
             .safe_beyond = beyond ? &*beyond : nullptr,
             .connection_delay = spec.coordination.connection_delay};
   }
