@@ -236,6 +236,11 @@ std::vector<std::uint8_t> ResultsReader::bits(const std::string& dataset, std::i
   return elements<std::uint8_t>(dataset, ElementType::uint8, offset, count);
 }
 
+std::vector<std::uint8_t> ResultsReader::packed(const Field& own, const CellBlock& block) const {
+  const std::uint64_t bytes = field(own.axes.back()).scale->most;
+  return bits(own.path, static_cast<std::int64_t>(bytes) * 8, block);
+}
+
 std::vector<std::uint8_t> ResultsReader::action_bits(std::size_t partition, std::size_t class_number,
                                                      const CellBlock& block) const {
   return bits(paths::actions(parts_.spec, parts_.spec.coordination.partitions[partition], class_number),

@@ -79,6 +79,8 @@ class ResultsReader : public FieldSource {
   /// The same of a field of floating point.
   [[nodiscard]] std::vector<float> shares(const Field& field, std::optional<std::size_t> leading,
                                           const CellBlock& block) const;
+  /// One bit an action: bytes [cells of the block, ceil(m / 8)] of a field over cells and bytes.
+  [[nodiscard]] std::vector<std::uint8_t> packed(const Field& field, const CellBlock& block) const;
   /// Small fields, as a whole.
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& path) const override;
   [[nodiscard]] std::vector<double> numbers(const std::string& path) const override;

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
 #include "answers/coalition/fields.hpp"
 #include "answers/convention/fields.hpp"
 #include "answers/field_parts.hpp"
+#include "answers/invariance/fields.hpp"
+#include "answers/layers/fields.hpp"
 #include "answers/network/fields.hpp"
 #include "base/error.hpp"
 #include "results/results_reader.hpp"
@@ -77,6 +80,25 @@ std::vector<const Field*> plain_numbers(const ResultsReader& results) {
   return fields;
 }
 
+/// Fields of bits over cells that have no member in Claims.
+std::vector<const Field*> plain_bits(const ResultsReader& results) {
+  std::vector<std::string> known = {paths::kController, paths::kListed};
+  const ProblemSpec& spec = results.spec();
+  for (const AgentSpec& agent : spec.agents) known.push_back(paths::convention(agent));
+  for (const PartitionSpec& partition : spec.coordination.partitions) {
+    for (std::size_t c = 0; c < partition.classes.size(); ++c)
+      known.push_back(paths::actions(spec, partition, c));
+  }
+  std::vector<const Field*> fields;
+  for (const Field& field : results.fields()) {
+    std::vector<std::string> axes = cell_axes(spec);
+    axes.push_back(field.path + ":byte");
+    if (field.axes == axes && std::find(known.begin(), known.end(), field.path) == known.end())
+      fields.push_back(&field);
+  }
+  return fields;
+}
+
 void read_attributes(const ResultsReader& results, const Field& field, Claims& claims) {
   for (const FieldAttribute& attribute : field.attributes) {
     if (attribute.is_found && attribute.name != "cells")
@@ -127,6 +149,7 @@ Claims read_all(const ResultsReader& results) {
     read_attributes(results, *field, claims);
   }
   read_partition_numbers(results, all, claims);
+  for (const Field* const field : plain_bits(results)) claims.bits[field->path] = results.packed(*field, all);
   const std::size_t modes = results.spec().network ? results.spec().network->modes.size() : 0;
   for (std::size_t mode = 0; mode < modes; ++mode)
     claims.network.push_back(results.network_safe(mode, 1, all));
@@ -163,6 +186,7 @@ std::uint64_t memory_need(const ResultsReader& results) {
   }
   if (results.spec().network) bytes_of_cell += 2 * results.spec().network->modes.size();  // and targets
   bytes_of_cell += plain_numbers(results).size() * 2 * sizeof(std::int32_t);
+  for (const Field* const field : plain_bits(results)) bytes_of_cell += results.field(field->axes.back()).scale->most;
   for (const Field* const field : partition_numbers(results)) {
     if (is_over_cells(*field, results.spec()))
       bytes_of_cell += 2 * sizeof(std::int32_t) * results.partitions().size();

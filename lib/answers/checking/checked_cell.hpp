@@ -33,6 +33,9 @@ class CheckedCell {
   /// Every allowed joint input keeps the cell in K. REQUIRES: is_invariant().
   [[nodiscard]] bool all_stay() const { return all_stay_; }
 
+  /// Minima asked for and cells looked at for them, so far: a measure of the work.
+  [[nodiscard]] std::int64_t looked_at() const { return posts_.looked_at(); }
+
   // REQUIRES, for what follows: is_safe().
   [[nodiscard]] bool is_allowed(std::int64_t u) const { return allowed_(u); }
   /// The way to the next sample is safe, if that counts.

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <optional>
 
+#include "answers/checking/cell_parts.hpp"
 #include "answers/checking/corner_truth.hpp"
+#include "expression/condition.hpp"
 #include "expression/evaluate.hpp"
 #include "model/odometer.hpp"
-#include "model/pieces.hpp"
 
 namespace coordreq {
 namespace {
@@ -24,29 +25,26 @@ Program negation_of(const Program& condition) {
 /// Looks at one box after the other; scratch of one thread.
 class BoxJudge {
  public:
-  BoxJudge(const Program& where, const Program& negation, const std::vector<std::size_t>& states)
-      : rough_(where), exact_(where), nowhere_(negation, states) {}
+  BoxJudge(const Program& where, const Program& negation, const std::vector<std::size_t>& states,
+           bool same_version)
+      : decider_(where), nowhere_(negation, states), same_version_(same_version) {}
 
   [[nodiscard]] Meeting judge(const Box& box) {
     std::vector<Interval> rough;
     for (const RationalInterval& range : box) rough.push_back(enclose(range));
-    Truth truth = rough_.condition(rough);
-    if (truth == Truth::undecided) truth = exact_.condition(box);
-    if (truth != Truth::undecided) return truth == Truth::yes ? Meeting::common : Meeting::off;
-    switch (nowhere_.everywhere(box)) {
-      case Truth::yes:
-        return Meeting::apart;
-      case Truth::no:
-        return Meeting::common;
-      default:
-        return Meeting::open;
-    }
+    const Truth told = decider_.decide(std::span<const Interval>(rough),
+                                       [&] { return std::span<const RationalInterval>(box); });
+    if (told == Truth::yes) return Meeting::counted;
+    const Truth nowhere = nowhere_.everywhere(box);
+    if (nowhere == Truth::no) return Meeting::counted;
+    if (told == Truth::undecided) return same_version_ ? Meeting::counted : Meeting::perhaps;
+    return nowhere == Truth::yes ? Meeting::off : Meeting::doubted;
   }
 
  private:
-  Evaluator<Interval> rough_;
-  Evaluator<RationalInterval> exact_;
+  ConditionDecider decider_;
   CornerTruth nowhere_;
+  bool same_version_;
 };
 
 /// Halves a box in the coordinates t of x = t / (1 - |t|), which make the whole line finite.
@@ -115,8 +113,8 @@ struct Extent {
 Extent extent_of(const GridDimension& dimension) {
   if (dimension.periodic()) return {dimension.lower, dimension.upper};
   Extent extent;
-  if (ends_at_limit(dimension.below)) extent.lower = pieces(dimension, 0).front().lower;
-  if (ends_at_limit(dimension.above)) extent.upper = pieces(dimension, dimension.count - 1).back().upper;
+  if (ends_at_limit(dimension.below)) extent.lower = parts_of(dimension, 0).front().lower;
+  if (ends_at_limit(dimension.above)) extent.upper = parts_of(dimension, dimension.count - 1).back().upper;
   return extent;
 }
 
@@ -177,7 +175,7 @@ bool reaches_a_sample(const Program& where, const UniformGrid& grid, const std::
 }  // namespace
 
 RegionJudge::RegionJudge(const ProblemSpec& spec, const Program& where, const UniformGrid& grid,
-                         ThreadTeam& team)
+                         bool same_version, ThreadTeam& team)
     : grid_(&grid) {
   std::vector<std::vector<std::vector<RationalInterval>>> places;  // [state mentioned][index][piece]
   std::vector<std::int64_t> counts;
@@ -187,16 +185,12 @@ RegionJudge::RegionJudge(const ProblemSpec& spec, const Program& where, const Un
     counts.push_back(grid[slot].count);
     choices *= grid[slot].count;
     auto& indices = places.emplace_back();
-    for (std::int64_t k = 0; k < grid[slot].count; ++k) {
-      auto& parts = indices.emplace_back();
-      for (const Piece& piece : pieces(grid[slot], k))
-        parts.push_back({.lower = piece.lower, .upper = piece.upper});
-    }
+    for (std::int64_t k = 0; k < grid[slot].count; ++k) indices.push_back(parts_of(grid[slot], k));
   }
   meetings_.assign(static_cast<std::size_t>(choices), Meeting::off);
   const Program negation = negation_of(where);
   team.for_each(choices, 256, [&](ThreadTeam::Range range, int) {
-    BoxJudge judge(where, negation, states_);
+    BoxJudge judge(where, negation, states_, same_version);
     Box box(spec.slot_count());
     Odometer choice(counts, range.begin);
     for (std::int64_t c = range.begin; c < range.end; ++c, choice.advance()) {
@@ -210,7 +204,7 @@ RegionJudge::RegionJudge(const ProblemSpec& spec, const Program& where, const Un
           box[states_[s]] = places[s][static_cast<std::size_t>(choice[s])][static_cast<std::size_t>(part[s])];
         }
         most = std::max(most, judge.judge(box));
-      } while (most != Meeting::common && part.advance());
+      } while (most != Meeting::counted && part.advance());
       meetings_[static_cast<std::size_t>(c)] = most;
     }
   });
