@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "answers/plan.hpp"
 #include "app/render.hpp"
 #include "app/requirement_text.hpp"
 #include "spec/problem_spec.hpp"
@@ -73,24 +74,27 @@ std::string connection_text(const Json& partition, const Json& summary) {
                      cells(partition["never_without_connection"]), duration(delay, summary));
 }
 
-/// How long agents that act alone lose no time on the way to the goal.
-void add_approach(const Json& approach, Facts& facts) {
-  facts.emplace_back("  approach", shortened(approach["layers"].get<std::vector<std::int64_t>>()));
-  const Json& layers = approach["layers"];
-  const std::string for_ever = approach["truncated"] ? "an unknown number" : cells(approach["fixed_point"]);
-  facts.emplace_back("  loses no time", fmt::format("for a step from {}, for ever from {}",
-                                                    cells(layers[layers.size() > 1 ? 1 : 0]), for_ever));
+/// From where agents that act alone by a policy gain by it.
+void add_layers(const AnswerPolicy& policy, const Json& own, Facts& facts) {
+  const Json& layers = own["layers"];
+  facts.emplace_back("  " + policy.words, shortened(layers.get<std::vector<std::int64_t>>()));
+  const std::string for_ever = own["truncated"] ? "an unknown number" : cells(own["fixed_point"]);
+  facts.emplace_back("  " + policy.gain, fmt::format("for a step from {}, for ever from {}",
+                                                     cells(layers[layers.size() > 1 ? 1 : 0]), for_ever));
 }
 
 std::string unbounded_cells(const Json& partition) {
   return partition["truncated"] ? "unknown" : cells(partition["fixed_point"]);
 }
 
-std::string partition_text(const Json& partition, const Json& summary) {
+std::string partition_text(const Json& partition, const Json& summary,
+                           const std::vector<AnswerPolicy>& policies) {
   Facts facts = {{"  layers", shortened(partition["layers"].get<std::vector<std::int64_t>>())},
                  {"  fixed point", (partition["truncated"] ? "" : "F = ") + fixed_point_text(partition)},
                  {"  unbounded", unbounded_cells(partition)}};
-  if (partition.contains("approach")) add_approach(partition["approach"], facts);
+  for (const AnswerPolicy& policy : policies) {
+    if (partition.contains(policy.name)) add_layers(policy, partition[policy.name], facts);
+  }
   if (number_of(summary["connection_delay"]) > 0)
     facts.emplace_back("  connection", connection_text(partition, summary));
   return fmt::format("\npartition {}\n{}  {}\n", text_of(partition["name"]), facts_text(facts),
@@ -171,7 +175,8 @@ std::string partitions_text(const Json& summary, const ProblemSpec& spec) {
   }
   if (summary["partitions"].size() > kMostPartitionsInFull) return partitions_table(summary);
   std::string text;
-  for (const Json& partition : summary["partitions"]) text += partition_text(partition, summary);
+  const std::vector<AnswerPolicy> policies = answer_policies(spec);
+  for (const Json& partition : summary["partitions"]) text += partition_text(partition, summary, policies);
   if (spec.network) text += network_text(summary, *spec.network);
   if (summary.contains("convention")) text += convention_text(summary["convention"]);
   return text;

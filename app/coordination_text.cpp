@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "answers/network/network_meaning.hpp"
 #include "app/analysis_text.hpp"
 #include "app/network_report.hpp"
 #include "app/render.hpp"

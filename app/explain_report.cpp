@@ -52,24 +52,6 @@ Json remedy_json(const DelayExplanation::Remedy& remedy, std::size_t partition,
   return json;
 }
 
-Json convention_json(const DelayExplanation& found, const ProblemSpec& spec) {
-  Json json = Json::array();
-  for (std::size_t i = 0; i < found.convention.size(); ++i) {
-    const std::vector<bool>& own = found.convention[i];
-    json.push_back({{"agent", spec.agents[i].name},
-                    {"kept", std::count(own.begin(), own.end(), true)},
-                    {"total", own.size()}});
-  }
-  return json;
-}
-
-std::string listed_words(const std::vector<std::string>& parts) {
-  std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
-  return text;
-}
-
 std::string classes_are(const Json& freedom) {
   std::vector<std::string> parts;
   for (const Json& own : freedom["classes"]) {
@@ -82,17 +64,18 @@ std::string classes_are(const Json& freedom) {
 }
 
 /// What is left to the classes, and what that means.
-void add_freedom(const Json& found, std::vector<std::string>& text) {
+void add_freedom(const Json& found, const ProblemSpec& spec, std::vector<std::string>& text) {
   const Json& freedom = found["freedom"];
   text.push_back(fmt::format("Of their actions the controller leaves {} here.", classes_are(freedom)));
   const std::int64_t alone = number_of(freedom["alone"]), together = number_of(freedom["together"]);
   if (alone == together) {
     text.push_back("Whatever they pick of these keeps the next state in the invariance set.");
   } else {
-    text.push_back(
-        fmt::format("Picked alone that makes {} joint actions, of which {} keep the next state in the "
-                    "invariance set.",
-                    grouped(freedom["alone"]), grouped(freedom["together"])));
+    const bool has_rule = spec.controller.allow || spec.controller.file;
+    text.push_back(fmt::format(
+        "Picked alone that makes {} joint actions, of which {} {} the next state in the "
+        "invariance set.",
+        grouped(freedom["alone"]), grouped(freedom["together"]), has_rule ? "are allowed and keep" : "keep"));
   }
 }
 
@@ -119,14 +102,6 @@ void add_remedies(const Json& found, const ProblemSpec& spec, std::vector<std::s
   }
   if (found["remedies"].empty())
     text.push_back("No class alone can lengthen this by keeping to one action here.");
-  std::vector<std::string> kept;
-  for (const Json& own : found["convention"])
-    kept.push_back(
-        fmt::format("{} {} of {}", line_of(own["agent"]), grouped(own["kept"]), grouped(own["total"])));
-  text.push_back(fmt::format(
-      "With a convention (\"convention\": true) {} actions here, and agents that keep to it never "
-      "need to coordinate.",
-      "agents would keep " + listed_words(kept)));
 }
 
 /// As requirements have it, so that the story is told the same way.
@@ -147,7 +122,7 @@ std::vector<std::string> sentences_of(const Json& found, const ProblemSpec& spec
   if (status == "at_least")
     text.emplace_back(
         "\"max_delay\" ended the search, so that there may be no way out of the invariance set.");
-  add_freedom(found, text);
+  add_freedom(found, spec, text);
   if (found["way_out"].is_null()) return text;
   add_neighbour(found, spec, text);
   add_remedies(found, spec, text);
@@ -193,7 +168,7 @@ Json explanation_json(const DelayExplanation& found, const std::vector<Rational>
   json["remedies"] = Json::array();
   for (const DelayExplanation::Remedy& own : found.remedies)
     json["remedies"].push_back(remedy_json(own, partition, results));
-  json["convention"] = convention_json(found, spec);
+  for (const Explained& own : found.others) json[own.key] = *own.found;
   json["freer_is_shorter"] = Json();
   if (const auto& other = found.freer_is_shorter) {
     Json& own = json["freer_is_shorter"] = {{"state", centre_json(grid, other->cell)}, {"cell", other->cell}};
@@ -201,6 +176,9 @@ Json explanation_json(const DelayExplanation& found, const std::vector<Rational>
     own["alone"] = other->alone;
   }
   json["sentences"] = sentences_of(json, spec);
+  for (const Explained& own : found.others) {
+    for (const std::string& sentence : own.sentences) json["sentences"].push_back(sentence);
+  }
   return json;
 }
 

@@ -1,11 +1,16 @@
 #include <fmt/format.h>
 
-#include "app/network_report.hpp"
+#include <algorithm>
+
+#include "answers/invariance/fields.hpp"
 #include "app/query_report.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
+
+/// Columns after the state that all files have: inside, cell, safe, invariant, collision_time.
+constexpr std::size_t kOfAllFiles = 5;
 
 std::string csv_steps(std::int32_t steps) {
   return steps == ResultsReader::kNever ? "inf" : std::to_string(steps);
@@ -19,12 +24,21 @@ std::string csv_actions(const std::vector<bool>& actions) {
   return text;
 }
 
-/// The number of the partition, or the code for why there is none, and the names of pairs.
-std::string csv_coalition(const StateAnswer::Coalition& coalition, const ResultsReader& results) {
-  std::string pairs;
-  for (const std::size_t pair : coalition.critical_pairs)
-    pairs += (pairs.empty() ? "" : " ") + results.pairs()[pair];
-  return fmt::format(",{},{}", coalition.partition, pairs);
+std::string csv_actions(const ActionSets& sets) {
+  std::string text;
+  for (const std::vector<bool>& actions : sets) text += "," + csv_actions(actions);
+  return text;
+}
+
+/// A number, or the names of the entries that hold.
+std::string csv_section(const Field& field, const std::vector<std::int32_t>& values,
+                        const ResultsReader& results) {
+  if (field.kind != FieldKind::set) return std::to_string(values.front());
+  std::string names;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] != 0) names += (names.empty() ? "" : " ") + results.leading_names(field)[i];
+  }
+  return names;
 }
 
 /// A column that is no state; states may have its name.
@@ -35,60 +49,101 @@ std::string answer_column(const std::string& name, const ResultsReader& results)
   return (is_taken ? "answer:" : "") + name;
 }
 
-}  // namespace
+/// A field as it stands in CSV (RFC 4180).
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return field + "\"";
+}
 
-std::string answer_csv_header(const ResultsReader& results) {
+std::string csv_partition_header(const StoredPartition& partition, const QueryForm& form) {
+  std::string line;
+  for (const AnswerPolicy& policy : form.policies) {
+    const std::string prefix = policy.name.empty() ? "" : policy.name + "_";
+    line += fmt::format(",{0}delay:{1},{0}countdown:{1}", prefix, partition.name);
+    for (const std::string& name : partition.classes)
+      line += fmt::format(",{}actions:{}:{}", prefix, partition.name, name);
+  }
+  for (const Field* const field : form.numbers) {
+    if (QueryForm::is_of_partitions(*field))
+      line += fmt::format(",{}:{}", field->shown.asked.name, partition.name);
+  }
+  return line;
+}
+
+std::string csv_partition(const StateAnswer& answer, std::size_t p, const QueryForm& form) {
+  std::string line;
+  for (const AnswerPolicy& policy : form.policies) {
+    line += "," + csv_steps(answer.value(policy.delay, p)) + "," +
+            csv_steps(answer.value(policy.trigger, p)) + csv_actions(answer.actions.at(policy.name)[p]);
+  }
+  for (const Field* const field : form.numbers) {
+    if (QueryForm::is_of_partitions(*field)) line += "," + csv_steps(answer.value(field->path, p));
+  }
+  return line;
+}
+
+/// Everything but what stood beside the state.
+std::string header_of_answers(const QueryForm& form) {
+  const ResultsReader& results = form.results;
   std::string line;
   for (const GridDimension& dimension : results.grid().dimensions()) line += dimension.name + ",";
   line += fmt::format("{},{},safe,invariant,collision_time", answer_column("inside", results),
                       answer_column("cell", results));
-  for (const StoredPartition& partition : results.partitions()) {
-    line += fmt::format(",delay:{0},countdown:{0}", partition.name);
-    for (const std::string& name : partition.classes)
-      line += fmt::format(",actions:{}:{}", partition.name, name);
-    if (!results.spec().goal) continue;
-    line += fmt::format(",approach_delay:{0},approach_countdown:{0}", partition.name);
-    for (const std::string& name : partition.classes)
-      line += fmt::format(",approach_actions:{}:{}", partition.name, name);
+  for (const StoredPartition& partition : results.partitions()) line += csv_partition_header(partition, form);
+  for (const Field* const field : form.others) {
+    const FieldAsked& asked = field->shown.asked;
+    line += "," + answer_column(field->kind == FieldKind::choice ? asked.group : asked.name, results);
   }
-  if (results.has_coalition()) line += ",coalition," + answer_column("critical_pairs", results);
-  if (results.spec().network) line += "," + answer_column("safe_modes", results);
-  if (results.spec().coordination.convention) {
-    for (const AgentSpec& agent : results.spec().agents) line += ",convention:" + agent.name;
+  for (const AnswerPolicy& policy : form.of_agents) {
+    for (const AgentSpec& agent : form.spec().agents) line += "," + policy.name + ":" + agent.name;
   }
-  for (const Field* const field : asked_fields(results)) line += "," + field->path.substr(1);
-  return line + "\n";
+  for (const Field* const field : form.numbers) {
+    if (!QueryForm::is_of_partitions(*field)) line += "," + field->shown.asked.name;
+  }
+  return line;
 }
 
-std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& results) {
+std::string line_of_answers(const StateAnswer& answer, const QueryForm& form) {
+  const ResultsReader& results = form.results;
   std::string line;
   for (const Rational& value : answer.state) line += fmt::format("{},", nearest_double(value));
   if (answer.location.kind != Location::Kind::cell) {
-    const bool left_safely = answer.location.kind == Location::Kind::left_safely;
-    line += left_safely ? "0,,1,1," : "0,,,,";
-    for (const StoredPartition& partition : results.partitions()) {
-      line += std::string((results.spec().goal ? 2 : 1) * (2 + partition.classes.size()), ',');
-    }
-    if (results.has_coalition()) line += ",,";
-    if (results.spec().network) line += ",";
-    if (results.spec().coordination.convention) line += std::string(results.spec().agents.size(), ',');
-    line += std::string(asked_fields(results).size(), ',');
-    return line + "\n";
+    line += answer.location.kind == Location::Kind::left_safely ? "0,,1,1," : "0,,,,";
+    const std::string header = header_of_answers(form);
+    const auto columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
+    return line + std::string(columns - results.grid().size() - kOfAllFiles, ',');
   }
-  line += fmt::format("1,{},{:d},{:d},{}", answer.location.cell, answer.safe, answer.invariant,
-                      csv_steps(answer.collision_time));
-  for (const StateAnswer::Partition& partition : answer.partitions) {
-    line += "," + csv_steps(partition.delay) + "," + csv_steps(partition.trigger);
-    for (const std::vector<bool>& actions : partition.actions) line += "," + csv_actions(actions);
-    if (!partition.approach) continue;
-    line += "," + csv_steps(partition.approach->delay) + "," + csv_steps(partition.approach->trigger);
-    for (const std::vector<bool>& actions : partition.approach->actions) line += "," + csv_actions(actions);
+  line += fmt::format("1,{},{:d},{:d},{}", answer.location.cell, answer.value(paths::kSafe) != 0,
+                      answer.value(paths::kInvariant) != 0, csv_steps(answer.value(paths::kCollisionTime)));
+  for (std::size_t p = 0; p < results.partitions().size(); ++p) line += csv_partition(answer, p, form);
+  for (const Field* const field : form.others)
+    line += "," + csv_section(*field, answer.values.at(field->path), results);
+  for (const AnswerPolicy& policy : form.of_agents)
+    line += csv_actions(answer.actions.at(policy.name).front());
+  for (const Field* const field : form.numbers) {
+    if (!QueryForm::is_of_partitions(*field)) line += "," + csv_steps(answer.value(field->path));
   }
-  if (answer.coalition) line += csv_coalition(*answer.coalition, results);
-  if (const auto& network = results.spec().network)
-    line += fmt::format(",{}", fmt::join(safe_mode_names(*network, answer.safe_modes), " "));
-  for (const std::vector<bool>& actions : answer.convention) line += "," + csv_actions(actions);
-  for (const std::int32_t value : answer.others) line += "," + csv_steps(value);
+  return line;
+}
+
+}  // namespace
+
+std::string answer_csv_header(const QueryForm& form, const std::vector<std::string>& extra) {
+  std::string line = header_of_answers(form);
+  const std::string taken = "," + line + ",";
+  for (const std::string& name : extra) {
+    const bool is_taken = taken.find("," + csv_field(name) + ",") != std::string::npos;
+    line += "," + csv_field((is_taken ? "extra:" : "") + name);
+  }
+  return line + "\n";
+}
+
+std::string answer_csv_line(const StateAnswer& answer, const QueryForm& form,
+                            const std::vector<StateReader::Extra>& extra) {
+  std::string line = line_of_answers(answer, form);
+  for (const StateReader::Extra& own : extra) line += "," + csv_field(own.value);
   return line + "\n";
 }
 

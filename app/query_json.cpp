@@ -1,9 +1,9 @@
 #include <nlohmann/json.hpp>
 
-#include "answers/coalition/fields.hpp"
 #include "answers/field_parts.hpp"
+#include "answers/invariance/fields.hpp"
+#include "answers/plan.hpp"
 #include "app/json_text.hpp"
-#include "app/network_report.hpp"
 #include "app/print_answer.hpp"
 #include "app/query_report.hpp"
 #include "app/query_values.hpp"
@@ -81,8 +81,7 @@ void add_steps(Json& json, const std::string& name, std::int32_t steps, const st
   add_steps(json, name, steps, is_lower_bound ? "at_least" : status_of(field, steps), results);
 }
 
-Json classes_json(const std::vector<std::vector<bool>>& actions, std::size_t p,
-                  const ResultsReader& results) {
+Json classes_json(const ActionSets& actions, std::size_t p, const ResultsReader& results) {
   Json json = Json::array();
   for (std::size_t c = 0; c < actions.size(); ++c) {
     const auto inputs = inputs_of(results.spec(), results.spec().coordination.partitions[p].classes[c]);
@@ -91,93 +90,120 @@ Json classes_json(const std::vector<std::vector<bool>>& actions, std::size_t p,
   return json;
 }
 
-/// On the way to the goal.
-Json approach_json(const StateAnswer::Approach& approach, std::size_t p, const ResultsReader& results) {
-  Json json;
-  add_steps(json, "delay", approach.delay, "/approach_delay", p, results);
-  add_steps(json, "countdown", approach.trigger, "/approach_trigger", p, results);
-  json["classes"] = classes_json(approach.actions, p, results);
+Json agents_json(const ActionSets& actions, const ProblemSpec& spec) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < actions.size(); ++i)
+    json.push_back(class_json(spec, spec.agents[i].name, spec.agents[i].inputs, actions[i]));
   return json;
 }
 
-Json partition_json(const StateAnswer::Partition& answer, std::size_t p, const ResultsReader& results) {
-  const StoredPartition& stored = results.partitions()[p];
+void add_number(Json& json, const Field& field, std::int32_t value) {
+  json[field.shown.asked.name] = value_json(field, value);
+  json[field.shown.asked.name + "_status"] = status_of(field, value);
+}
+
+Json partition_json(const StateAnswer& answer, std::size_t p, const QueryForm& form) {
   Json json;
-  json["name"] = stored.name;
-  add_steps(json, "delay", answer.delay, "/delay", p, results);
-  add_steps(json, "countdown", answer.trigger, "/trigger", p, results);
-  json["classes"] = classes_json(answer.actions, p, results);
-  if (answer.approach) json["approach"] = approach_json(*answer.approach, p, results);
+  json["name"] = form.results.partitions()[p].name;
+  for (const AnswerPolicy& policy : form.policies) {
+    Json& own = policy.name.empty() ? json : json[policy.name];
+    add_steps(own, "delay", answer.value(policy.delay, p), policy.delay, p, form.results);
+    add_steps(own, "countdown", answer.value(policy.trigger, p), policy.trigger, p, form.results);
+    own["classes"] = classes_json(answer.actions.at(policy.name)[p], p, form.results);
+  }
+  for (const Field* const field : form.numbers) {
+    if (QueryForm::is_of_partitions(*field)) add_number(json, *field, answer.value(field->path, p));
+  }
   return json;
 }
 
-Json coalition_json(const StateAnswer::Coalition& coalition, const ResultsReader& results) {
-  const std::int32_t p = coalition.partition;
-  Json json;
-  json["horizon"] = *results.spec().coordination.horizon;
-  json["partition"] = p >= 0 ? Json(results.partitions()[static_cast<std::size_t>(p)].name) : Json();
-  json["status"] = p >= 0 ? "partition" : status_of(results.field(paths::kCoalition), p);
-  json["critical_pairs"] = Json::array();
-  for (const std::size_t pair : coalition.critical_pairs)
-    json["critical_pairs"].push_back(results.pairs()[pair]);
-  return json;
+/// A partition that is chosen, or why there is none; else the entries of the leading axis that hold.
+void add_to_section(Json& json, const Field& field, const std::vector<std::int32_t>& values,
+                    const ResultsReader& results) {
+  const FieldAsked& asked = field.shown.asked;
+  if (!asked.attribute.empty()) json[asked.attribute] = integer_attribute(field, asked.attribute);
+  if (field.kind == FieldKind::choice) {
+    const std::int32_t p = values.front();
+    json[asked.name] = p >= 0 ? Json(results.partitions()[static_cast<std::size_t>(p)].name) : Json();
+    json["status"] = p >= 0 ? asked.name : status_of(field, p);
+    return;
+  }
+  Json& names = json[asked.name] = Json::array();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] != 0) names.push_back(results.leading_names(field)[i]);
+  }
 }
 
 }  // namespace
 
-Json answer_json(const StateAnswer& answer, const ResultsReader& results) {
+QueryForm::QueryForm(const ResultsReader& file) : results(file) {
+  for (const AnswerPolicy& policy : answer_policies(file.spec()))
+    (policy.is_by_agent ? of_agents : policies).push_back(policy);
+  for (const Field* const field : asked_fields(file)) {
+    const bool is_number =
+        field->kind == FieldKind::steps && (file.leading_length(*field) == 0 || is_of_partitions(*field));
+    (is_number ? numbers : others).push_back(field);
+  }
+}
+
+Json answer_json(const StateAnswer& answer, const QueryForm& form) {
+  const ResultsReader& results = form.results;
   const bool inside = answer.location.kind == Location::Kind::cell;
   const bool left_safely = answer.location.kind == Location::Kind::left_safely;
+  const auto is_in = [&](const char* set) {
+    return inside ? Json(answer.value(set) != 0) : left_safely ? Json(true) : Json();
+  };
   Json json;
   json["state"] = numbers_json(answer.state, results.grid());
   json["guarantee"] = results.attributes().guarantee;
   json["inside"] = inside;
   json["outside"] = inside ? Json() : outside_json(results.grid(), answer.location);
   json["cell"] = inside ? cell_json(results.grid(), answer.location) : Json();
-  json["safe"] = inside ? Json(answer.safe) : left_safely ? Json(true) : Json();
-  json["invariant"] = inside ? Json(answer.invariant) : left_safely ? Json(true) : Json();
-  const bool leaves = inside && answer.collision_time != ResultsReader::kNever;
-  json["collision_time"] = leaves ? Json(answer.collision_time) : Json();
+  json["safe"] = is_in(paths::kSafe);
+  json["invariant"] = is_in(paths::kInvariant);
+  const bool leaves = inside && answer.value(paths::kCollisionTime) != ResultsReader::kNever;
+  json["collision_time"] = leaves ? Json(answer.value(paths::kCollisionTime)) : Json();
   json["partitions"] = Json::array();
-  for (std::size_t p = 0; p < answer.partitions.size(); ++p) {
-    json["partitions"].push_back(partition_json(answer.partitions[p], p, results));
+  for (std::size_t p = 0; inside && p < results.partitions().size(); ++p)
+    json["partitions"].push_back(partition_json(answer, p, form));
+  for (const Field* const field : form.others) {
+    const FieldAsked& asked = field->shown.asked;
+    if (!inside) {
+      json[asked.group.empty() ? asked.name : asked.group] = Json();
+    } else {
+      add_to_section(asked.group.empty() ? json : json[asked.group], *field, answer.values.at(field->path),
+                     results);
+    }
   }
-  if (results.has_coalition())
-    json["coalition"] = answer.coalition ? coalition_json(*answer.coalition, results) : Json();
-  if (const auto& network = results.spec().network)
-    json["safe_modes"] = inside ? Json(safe_mode_names(*network, answer.safe_modes)) : Json();
-  if (results.spec().coordination.convention) json["convention"] = Json::array();
-  for (std::size_t i = 0; i < answer.convention.size(); ++i) {
-    const AgentSpec& agent = results.spec().agents[i];
-    json["convention"].push_back(class_json(results.spec(), agent.name, agent.inputs, answer.convention[i]));
+  for (const AnswerPolicy& policy : form.of_agents) {
+    json[policy.name] =
+        inside ? agents_json(answer.actions.at(policy.name).front(), form.spec()) : Json::array();
   }
-  const std::vector<const Field*> others = asked_fields(results);
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    const std::string name = others[i]->path.substr(1);
-    json[name] = inside ? value_json(*others[i], answer.others[i]) : Json();
-    json[name + "_status"] = inside ? Json(status_of(*others[i], answer.others[i])) : Json();
+  for (const Field* const field : form.numbers) {
+    if (QueryForm::is_of_partitions(*field)) continue;
+    if (inside) {
+      add_number(json, *field, answer.value(field->path));
+    } else {
+      json[field->shown.asked.name] = Json();
+      json[field->shown.asked.name + "_status"] = Json();
+    }
   }
   return json;
 }
 
-std::vector<Rational> values_of(const ProblemSpec& spec, const std::vector<std::int32_t>& inputs,
-                                std::size_t action) {
-  std::vector<Rational> values(inputs.size());
-  for (std::size_t j = inputs.size(); j-- > 0;) {
-    const std::vector<Rational>& choices = spec.inputs[static_cast<std::size_t>(inputs[j])].values;
-    values[j] = choices[action % choices.size()];
-    action /= choices.size();
-  }
-  return values;
+std::string answer_json_line(const StateAnswer& answer, const QueryForm& form,
+                             const std::vector<StateReader::Extra>* extra) {
+  Json json = answer_json(answer, form);
+  if (extra != nullptr) json["extra"] = Json::object();
+  for (std::size_t i = 0; extra != nullptr && i < extra->size(); ++i)
+    json["extra"][(*extra)[i].name] =
+        (*extra)[i].is_json ? Json::parse((*extra)[i].value) : Json((*extra)[i].value);
+  return json_line(json);
 }
 
-std::string answer_json_line(const StateAnswer& answer, const ResultsReader& results) {
-  return json_line(answer_json(answer, results));
-}
-
-void print_state(const CommonOptions& asked, const StateAnswer& answer, const ResultsReader& results) {
-  print_answer(asked, answer_json(answer, results),
-               [&](const Json& found) { return answer_text(found, answer.state, results); });
+void print_state(const CommonOptions& asked, const StateAnswer& answer, const QueryForm& form) {
+  print_answer(asked, answer_json(answer, form),
+               [&](const Json& found) { return answer_text(found, answer.state, form); });
 }
 
 }  // namespace coordreq

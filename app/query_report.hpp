@@ -6,21 +6,42 @@
 #include "app/json_text.hpp"
 #include "app/options.hpp"
 #include "cell/state_query.hpp"
+#include "cell/state_reader.hpp"
 #include "results/results_reader.hpp"
 
 namespace coordreq {
 
+/// What there is to tell of the states of a file.
+struct QueryForm {
+  /// REQUIRES: `results` outlives this object.
+  explicit QueryForm(const ResultsReader& results);
+
+  const ResultsReader& results;
+  std::vector<AnswerPolicy> policies;   ///< of classes
+  std::vector<AnswerPolicy> of_agents;  ///< of agents
+  std::vector<const Field*> numbers;    ///< over cells alone, or over partitions and cells
+  std::vector<const Field*> others;     ///< that have sections of their own
+
+  [[nodiscard]] const ProblemSpec& spec() const { return results.spec(); }
+  [[nodiscard]] static bool is_of_partitions(const Field& field) {
+    return field.axes.front() == "/partition";
+  }
+};
+
 /// Prints what `query` has found of a state.
-void print_state(const CommonOptions& asked, const StateAnswer& answer, const ResultsReader& results);
+void print_state(const CommonOptions& asked, const StateAnswer& answer, const QueryForm& form);
 
 /// The same as a document, on one line, in words. @param state that was asked for
-[[nodiscard]] Json answer_json(const StateAnswer& answer, const ResultsReader& results);
-[[nodiscard]] std::string answer_json_line(const StateAnswer& answer, const ResultsReader& results);
+[[nodiscard]] Json answer_json(const StateAnswer& answer, const QueryForm& form);
+/// @param extra what stood beside the state, under the key `extra`; null: is not told
+[[nodiscard]] std::string answer_json_line(const StateAnswer& answer, const QueryForm& form,
+                                           const std::vector<StateReader::Extra>* extra);
 [[nodiscard]] std::string answer_text(const Json& answer, const std::vector<Rational>& state,
-                                      const ResultsReader& results);
+                                      const QueryForm& form);
 
-/// The line of column names, and a line with an answer.
-[[nodiscard]] std::string answer_csv_header(const ResultsReader& results);
-[[nodiscard]] std::string answer_csv_line(const StateAnswer& answer, const ResultsReader& results);
+/// The line of column names, and a line with an answer; what stood beside the state comes last.
+[[nodiscard]] std::string answer_csv_header(const QueryForm& form, const std::vector<std::string>& extra);
+[[nodiscard]] std::string answer_csv_line(const StateAnswer& answer, const QueryForm& form,
+                                          const std::vector<StateReader::Extra>& extra);
 
 }  // namespace coordreq

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
-#include "app/network_report.hpp"
 #include "app/query_report.hpp"
 #include "app/query_values.hpp"
 #include "app/render.hpp"
@@ -13,6 +13,7 @@ namespace coordreq {
 namespace {
 
 constexpr std::size_t kMostTuples = 6;
+constexpr std::size_t kMostNames = 12;
 
 /// A number at a length that can be read: exact if that is short, else rounded to six digits.
 std::string shown(const Rational& value) {
@@ -24,21 +25,20 @@ std::string shown(const Rational& value) {
 /// The document that --json prints in words. Numbers in it are rounded: exact ones are looked up.
 class AnswerText {
  public:
-  AnswerText(const Json& answer, const std::vector<Rational>& state, const ResultsReader& results)
-      : answer_(answer), state_(state), results_(results), grid_(results.grid()) {}
+  AnswerText(const Json& answer, const std::vector<Rational>& state, const QueryForm& form)
+      : answer_(answer), state_(state), form_(form), grid_(form.results.grid()) {}
 
   [[nodiscard]] std::string all() const {
     std::string text = head();
     for (const Json& partition : answer_["partitions"]) text += partition_text(partition);
     if (!answer_["inside"].get<bool>()) return text;
-    if (answer_.contains("coalition")) text += coalition_text(answer_["coalition"]);
-    if (const auto& network = results_.spec().network)
-      text += safe_modes_text(*network, answer_["safe_modes"].get<std::vector<std::string>>());
-    if (!answer_.contains("convention")) return text;
-    Facts facts;
-    for (const Json& own : answer_["convention"])
-      facts.emplace_back("  actions of " + text_of(own["name"]), class_text(own));
-    return text + "\nconvention\n" + facts_text(facts);
+    text += sections_text();
+    for (const AnswerPolicy& policy : form_.of_agents) {
+      Facts facts;
+      add_classes(policy, answer_[policy.name], facts);
+      text += "\n" + policy.name + "\n" + facts_text(facts);
+    }
+    return text;
   }
 
  private:
@@ -55,14 +55,16 @@ class AnswerText {
     facts.emplace_back("safe set", answer_["safe"] ? "inside" : "outside");
     facts.emplace_back("invariance set", answer_["invariant"] ? "inside" : "outside");
     facts.emplace_back("leaves the safe set", collision_text(answer_["collision_time"]));
-    for (const Field* const field : asked_fields(results_))
-      facts.emplace_back(field->shown.asked, value_text(answer_, field->path.substr(1)));
+    for (const Field* const field : form_.numbers) {
+      if (!QueryForm::is_of_partitions(*field))
+        facts.emplace_back(field->shown.asked.words, value_text(*field, answer_, field->shown.asked.name));
+    }
     facts.emplace_back("guarantee", guarantee_text(text_of(answer_["guarantee"])));
     return facts_text(facts);
   }
 
   [[nodiscard]] std::string steps_text(const Json& steps) const {
-    const DynamicsSpec& dynamics = results_.spec().dynamics;
+    const DynamicsSpec& dynamics = form_.spec().dynamics;
     return duration(number_of(steps), nearest_double(dynamics.period), dynamics.unit);
   }
 
@@ -114,52 +116,33 @@ class AnswerText {
   }
 
   /// A value by its key, or the word that it means.
-  [[nodiscard]] std::string value_text(const Json& of, const std::string& name) const {
-    const std::string status = text_of(of[name + "_status"]);
-    if (status == "steps" || status == "at_least")
-      return (status == "at_least" ? "at least " : "") + steps_text(of[name]);
-    if (status == "number") return grouped(of[name]);
-    std::string words = status;
-    std::replace(words.begin(), words.end(), '_', ' ');
-    return words;
-  }
-
-  [[nodiscard]] std::string delay_text(const Json& partition) const {
-    const Json& status = partition["delay_status"];
-    if (status == "not_safe") return "none: the cell is not safe";
-    if (status == "not_invariant")
-      return "none: on this grid no coordination keeps the system safe from here";
-    if (status == "unbounded") return "unbounded: safe without coordination for ever";
-    return value_text(partition, "delay");
-  }
-
-  [[nodiscard]] std::string countdown_text(const Json& partition) const {
-    const Json& status = partition["countdown_status"];
-    if (status == "connection_must_stand_already") return "a connection must exist already";
-    if (status == "never") return "never need to connect";
-    if (status != "steps") return "none";
-    if (partition["countdown"] == 0) {
-      return results_.spec().coordination.connection_delay > 0 ? "start to connect now" : "coordinate now";
-    }
-    return steps_text(partition["countdown"]);
+  [[nodiscard]] std::string value_text(const Field& field, const Json& of, const std::string& name) const {
+    return value_words(field, of, name, [this](const Json& steps) { return steps_text(steps); });
   }
 
   [[nodiscard]] std::string partition_text(const Json& partition) const {
-    Facts facts = {{"  delay", delay_text(partition)}, {"  countdown", countdown_text(partition)}};
-    for (const Json& own : partition["classes"])
-      facts.emplace_back("  actions of " + text_of(own["name"]), class_text(own));
-    if (partition.contains("approach")) add_approach(partition["approach"], facts);
+    Facts facts;
+    for (const AnswerPolicy& policy : form_.policies) {
+      const Json& own = policy.name.empty() ? partition : partition[policy.name];
+      for (const auto& [key, path] : {std::pair("delay", policy.delay), {"countdown", policy.trigger}}) {
+        const Field& field = form_.results.field(path);
+        facts.emplace_back("  " + field.shown.asked.words, value_text(field, own, key));
+      }
+      add_classes(policy, own["classes"], facts);
+    }
+    for (const Field* const field : form_.numbers) {
+      if (QueryForm::is_of_partitions(*field))
+        facts.emplace_back("  " + field->shown.asked.words,
+                           value_text(*field, partition, field->shown.asked.name));
+    }
     return fmt::format("\npartition {}\n{}", text_of(partition["name"]), facts_text(facts));
   }
 
-  /// Towards the goal. Where nothing comes nearer, since the goal is reached or cannot be, no actions are
-  /// told.
-  void add_approach(const Json& approach, Facts& facts) const {
-    facts.emplace_back("  approach delay", value_text(approach, "delay"));
-    facts.emplace_back("  approach countdown", value_text(approach, "countdown"));
-    for (const Json& own : approach["classes"]) {
-      if (!own["actions"].empty())
-        facts.emplace_back("  approach of " + text_of(own["name"]), class_text(own));
+  /// Of a policy that does not hold everywhere, no actions where it leaves none.
+  void add_classes(const AnswerPolicy& policy, const Json& classes, Facts& facts) const {
+    for (const Json& own : classes) {
+      if (policy.name.empty() || policy.is_by_agent || !own["actions"].empty())
+        facts.emplace_back("  " + policy.words + " of " + text_of(own["name"]), class_text(own));
     }
   }
 
@@ -192,7 +175,7 @@ class AnswerText {
   }
 
   [[nodiscard]] std::vector<std::int32_t> inputs_called(const std::vector<std::string>& names) const {
-    const std::vector<InputSpec>& all = results_.spec().inputs;
+    const std::vector<InputSpec>& all = form_.spec().inputs;
     std::vector<std::int32_t> inputs;
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (std::find(names.begin(), names.end(), all[i].name) != names.end())
@@ -203,36 +186,65 @@ class AnswerText {
 
   [[nodiscard]] std::string tuple_text(const std::vector<std::int32_t>& inputs, std::size_t action) const {
     std::string text;
-    for (const Rational& value : values_of(results_.spec(), inputs, action))
+    for (const Rational& value : values_of(form_.spec(), inputs, action))
       text += (text.empty() ? "" : ", ") + shown(value);
     return inputs.size() == 1 ? text : "(" + text + ")";
   }
 
-  [[nodiscard]] std::string coalition_text(const Json& coalition) const {
-    const Json& status = coalition["status"];
-    Facts facts = {{"  cheapest partition", status == "partition" ? text_of(coalition["partition"])
-                                            : status == "no_partition_suffices"
-                                                ? "none: no partition of the file suffices"
-                                                : "none"}};
-    const auto pairs = coalition["critical_pairs"].get<std::vector<std::string>>();
-    if (status == "partition")
-      facts.emplace_back("  critical pairs",
-                         pairs.empty() ? "none" : fmt::format("{}", fmt::join(pairs, ", ")));
-    return fmt::format("\n{} without further contact\n{}", steps_text(coalition["horizon"]),
-                       facts_text(facts));
+  /// What is chosen, or which entries hold. Fields of one group follow one another; if nothing is chosen
+  /// the others are not told.
+  [[nodiscard]] std::string sections_text() const {
+    std::string text;
+    Facts facts;
+    bool is_told = true;
+    for (std::size_t i = 0; i < form_.others.size(); ++i) {
+      const Field& field = *form_.others[i];
+      const FieldAsked& asked = field.shown.asked;
+      const Json& own = asked.group.empty() ? answer_ : answer_[asked.group];
+      const bool begins =
+          i == 0 || asked.group.empty() || asked.group != form_.others[i - 1]->shown.asked.group;
+      if (begins) {
+        const std::string first = asked.attribute.empty() ? "" : steps_text(own[asked.attribute]) + " ";
+        if (i > 0) text += facts_text(std::exchange(facts, {}));
+        text += "\n" + first + asked.heading + "\n";
+      }
+      if (begins) is_told = true;
+      if (is_told) facts.emplace_back("  " + asked.words, section_text(field, own, is_told));
+    }
+    return facts.empty() ? text : text + facts_text(facts);
+  }
+
+  /// @param is_chosen set to false where a partition is to be chosen and none is
+  [[nodiscard]] std::string section_text(const Field& field, const Json& own, bool& is_chosen) const {
+    const FieldAsked& asked = field.shown.asked;
+    if (field.kind != FieldKind::choice)
+      return names_text(field, own[asked.name].get<std::vector<std::string>>());
+    is_chosen = own["status"] == asked.name;
+    return is_chosen ? text_of(own[asked.name]) : status_words(field, text_of(own["status"]));
+  }
+
+  /// The entries of a set that hold, counted if the field says what they are called.
+  [[nodiscard]] std::string names_text(const Field& field, std::vector<std::string> names) const {
+    const std::string& entry = field.shown.asked.entry;
+    if (entry.empty()) return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+    const std::size_t count = names.size(), all = form_.results.leading_length(field);
+    if (count == 0) return "no " + entry;
+    if (count == all) return fmt::format("all {} {}s", grouped(std::uint64_t{count}), entry);
+    names.resize(std::min(kMostNames, count));
+    return fmt::format("{} of {} {}s: {}{}", grouped(std::uint64_t{count}), grouped(std::uint64_t{all}),
+                       entry, fmt::join(names, ", "), count > kMostNames ? " ..." : "");
   }
 
   const Json& answer_;
   const std::vector<Rational>& state_;
-  const ResultsReader& results_;
+  const QueryForm& form_;
   const UniformGrid& grid_;
 };
 
 }  // namespace
 
-std::string answer_text(const Json& answer, const std::vector<Rational>& state,
-                        const ResultsReader& results) {
-  return AnswerText(answer, state, results).all();
+std::string answer_text(const Json& answer, const std::vector<Rational>& state, const QueryForm& form) {
+  return AnswerText(answer, state, form).all();
 }
 
 }  // namespace coordreq

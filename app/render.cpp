@@ -43,8 +43,9 @@ std::string sides_text(const Json& outside) {
   return fmt::format("{} below, {} above", text_of(outside["below"]), text_of(outside["above"]));
 }
 
-std::string count_of(std::int64_t count, const char* noun) {
-  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
+std::string words_of(std::string key) {
+  std::replace(key.begin(), key.end(), '_', ' ');
+  return key;
 }
 
 std::string table_text(const Json& rows, const std::vector<Column>& columns) {
@@ -71,19 +72,15 @@ std::string facts_text(const Facts& facts) {
 }
 
 std::string others_text(const Json& document, const std::vector<std::string>& known) {
-  const auto in_words = [](std::string name) {
-    std::replace(name.begin(), name.end(), '_', ' ');
-    return name;
-  };
   std::string text;
   for (const auto& [name, section] : document.items()) {
     if (!section.is_object() || std::find(known.begin(), known.end(), name) != known.end()) continue;
     Facts facts;
     for (const auto& [key, value] : section.items()) {
       if (value.is_primitive() && !value.is_null())
-        facts.emplace_back("  " + in_words(key), value.is_string() ? line_of(value) : value.dump());
+        facts.emplace_back("  " + words_of(key), value.is_string() ? line_of(value) : value.dump());
     }
-    text += fmt::format("\n{}\n{}", in_words(name), facts_text(facts));
+    text += fmt::format("\n{}\n{}", words_of(name), facts_text(facts));
   }
   return text;
 }

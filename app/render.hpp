@@ -25,8 +25,9 @@ namespace coordreq {
 [[nodiscard]] std::string values_text(const Json& values);
 /// "saturate", "unsafe below, safe above".
 [[nodiscard]] std::string sides_text(const Json& outside);
-/// "4 steps", "1 step".
-[[nodiscard]] std::string count_of(std::int64_t count, const char* noun);
+
+/// "approach delay" of "approach_delay".
+[[nodiscard]] std::string words_of(std::string key);
 
 struct Column {
   std::string heading;

@@ -3,7 +3,7 @@
 #include "answers/coalition/coalition_cost.hpp"
 #include "answers/coalition/fields.hpp"
 #include "answers/network/fields.hpp"
-#include "app/network_report.hpp"
+#include "answers/network/network_meaning.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/requirement_text.hpp"
@@ -39,10 +39,11 @@ std::string choices(const ResultsReader& results) {
 
 std::string pairs(const ResultsReader& results) {
   const std::vector<std::uint64_t> counts = results.counted(paths::kCriticalPair);
+  const std::vector<std::string> names = pair_names(results.spec());
   std::vector<std::string> rows;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] > 0)
-      rows.push_back(html_row({html_line(results.pairs()[i]), grouped(counts[i]),
+      rows.push_back(html_row({html_line(names[i]), grouped(counts[i]),
                                share_text(counts[i], results.attributes().invariant_cells)}));
   }
   if (rows.empty()) return "<p>No pair of agents is critical.</p>\n";
@@ -79,7 +80,7 @@ std::string report_goal(const ResultsReader& results) {
 }
 
 std::string report_coalitions(const ResultsReader& results) {
-  if (!results.has_coalition() || results.attributes().invariant_cells == 0) return "";
+  if (!results.has(paths::kCoalition) || results.attributes().invariant_cells == 0) return "";
   return fmt::format(
              "<section aria-labelledby=\"coalition-title\">\n<h2 id=\"coalition-title\">Who must talk to "
              "whom?</h2>\n<p>For {} without further contact between them, these groups of agents must be "

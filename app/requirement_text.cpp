@@ -7,14 +7,18 @@
 
 #include "app/render.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/requirement_kind.hpp"
 
 namespace coordreq {
 namespace {
 
+const RequirementTraits& traits_of(const Json& own) {
+  return requirement_traits(own["kind"].get<std::string>());
+}
+
 /// What its states are judged by: "delay", "arrival" or "approach_delay".
 std::string value_key(const Json& own) {
-  if (own["kind"] == "max_arrival") return "arrival";
-  return own["kind"] == "min_approach_delay" ? "approach_delay" : "delay";
+  return traits_of(own).value;
 }
 
 std::string cell_failures(const Json& own, const ProblemSpec& spec) {
@@ -76,6 +80,7 @@ std::string end_text(const Json& story) {
   if (end == "arrived") return "the goal is reached, too late";
   if (end == "never_arrives") return "the state is one that came before: the goal need never be reached";
   if (end == "time_lost") return "the state is not nearer to the goal";
+  if (end == "not_allowed") return "together they do what 'allow' forbids";
   return "no action is allowed any more";
 }
 
@@ -94,19 +99,18 @@ std::string steps_text(std::int64_t steps, const ProblemSpec& spec) {
 }
 
 std::string worst_key(const Json& own) {
-  for (const char* const key : {"longest_arrival", "least_approach_delay"}) {
-    if (own.contains(key)) return key;
-  }
-  return "least_delay";
+  const auto& kinds = requirement_kinds();
+  return std::find_if(kinds.begin(), kinds.end(),
+                      [&own](const RequirementTraits& kind) { return own.contains(kind.worst()); })
+      ->worst();
 }
 
 std::string worst_text(const Json& kind, const Json& value, const Json& status, const ProblemSpec& spec) {
   if (status == "not_safe") return "is not safe";
   if (status == "not_invariant") return "cannot be kept safe, even if all agents coordinate";
   if (status == "goal_cannot_be_forced") return "cannot be made to reach the goal";
-  const std::string steps = steps_text(value.get<std::int64_t>(), spec);
-  if (kind == "max_arrival") return "takes " + steps + " to the goal";
-  return (kind == "min_approach_delay" ? "has an approach delay of " : "has a delay of ") + steps;
+  return fmt::format(fmt::runtime(requirement_traits(kind.get<std::string>()).failing),
+                     fmt::arg("steps", steps_text(value.get<std::int64_t>(), spec)));
 }
 
 std::string outside_text(const Json& own) {
@@ -114,14 +118,10 @@ std::string outside_text(const Json& own) {
 }
 
 std::string claim_text(const Json& own, const ProblemSpec& spec) {
-  if (own["kind"] == "invariant") return "in the invariance set";
-  if (own["kind"] == "max_arrival")
-    return "in the goal after at most " + steps_text(own["max_arrival"].get<std::int64_t>(), spec);
-  if (own["kind"] == "min_approach_delay")
-    return fmt::format("approach delay of {} at least {}", text_of(own["partition"]),
-                       steps_text(own["min_approach_delay"].get<std::int64_t>(), spec));
-  return fmt::format("delay of {} at least {}", text_of(own["partition"]),
-                     steps_text(own["min_delay"].get<std::int64_t>(), spec));
+  const RequirementTraits& kind = traits_of(own);
+  const std::string steps = own.contains(kind.key) ? steps_text(number_of(own[kind.key]), spec) : "";
+  return fmt::format(fmt::runtime(kind.claim), fmt::arg("steps", steps),
+                     fmt::arg("partition", own["partition"].is_null() ? "" : text_of(own["partition"])));
 }
 
 std::string failure_line(const Json& own, const ProblemSpec& spec) {
@@ -145,7 +145,7 @@ StoryTable story_table(const Json& own, const ProblemSpec& spec) {
   StoryTable table;
   table.heads = {"step"};
   for (const StateSpec& state : spec.states) table.heads.push_back(column_heading(state.name, state.unit));
-  if (!key.empty()) table.heads.push_back(key == "approach_delay" ? "approach delay" : key);
+  if (!key.empty()) table.heads.push_back(words_of(key));
   table.heads.emplace_back("collision time");
   table.numbers = table.heads.size();
   table.heads.emplace_back("action");

@@ -33,7 +33,8 @@ std::string outcome_text(const std::string& outcome) {
   static const std::map<std::string, std::string> kTexts = {
       {"completed", "stayed in the invariance set"}, {"left_safely", "left through a safe side"},
       {"left_invariant", "left the invariance set"}, {"no_action", "found no admissible action"},
-      {"reached_goal", "reached the goal"},          {"late", "did not reach the goal in time"}};
+      {"reached_goal", "reached the goal"},          {"late", "did not reach the goal in time"},
+      {"not_allowed", "did what 'allow' forbids"}};
   return kTexts.at(outcome);
 }
 
@@ -61,7 +62,7 @@ std::string coordinated_text(const Json& simulation) {
 std::string violation_text(const Json& traces) {
   const auto violates = [](const Json& trace) {
     return trace["outcome"] == "left_invariant" || trace["outcome"] == "no_action" ||
-           trace["outcome"] == "late";
+           trace["outcome"] == "late" || trace["outcome"] == "not_allowed";
   };
   const auto first = std::find_if(traces.begin(), traces.end(), violates);
   if (first == traces.end()) return {};

@@ -66,6 +66,12 @@ std::string examples(const Json& findings) {
   return text;
 }
 
+/// What was not doubted; empty if that is nothing.
+std::string given_text(const Json& given) {
+  if (given.empty()) return "";
+  return fmt::format("taken as given: {}\n", fmt::join(given.get<std::vector<std::string>>(), ", "));
+}
+
 /// How many reachable sets enclosures were asked about, and confirm.
 std::string confirmed_text(const Json& confirmed) {
   if (confirmed["of"] == 0) return "";
@@ -117,6 +123,7 @@ Json verification_json(const Verification& result, const std::string& path, doub
   json["reachable_sets"] = basis_word(result.basis);
   json["between_samples"] = result.tubes ? Json(basis_word(*result.tubes)) : Json(nullptr);
   json["not_independent"] = result.borrowed;
+  json["taken_as_given"] = result.given;
   json["confirmed"] = {{"reachable_sets", result.confirmed}, {"of", result.enclosed}};
   json["posts_computed"] = result.posts_computed;
   json["checks"] = Json::array();
@@ -129,10 +136,11 @@ Json verification_json(const Verification& result, const std::string& path, doub
 std::string verification_text(const Json& result) {
   const Json& findings = result["checks"];
   const std::int64_t threads = number_of(result["threads"]);
-  return fmt::format("{}\n{}{}{}{}\n{} ({:.2f} s on {} thread{})\n", findings_table(findings),
+  return fmt::format("{}\n{}{}{}{}{}\n{} ({:.2f} s on {} thread{})\n", findings_table(findings),
                      basis_text(result), tubes_text(result["between_samples"]),
-                     confirmed_text(result["confirmed"]), examples(findings), verdict_cell(result),
-                     result["seconds"].get<double>(), threads, threads == 1 ? "" : "s");
+                     given_text(result["taken_as_given"]), confirmed_text(result["confirmed"]),
+                     examples(findings), verdict_cell(result), result["seconds"].get<double>(), threads,
+                     threads == 1 ? "" : "s");
 }
 
 std::string not_confirmed_line(const Json& result) {

@@ -27,7 +27,7 @@ double seconds_since(Clock::time_point start) {
 Verification verify_with_progress(const ClaimedFile& file, const VerifyArguments& own, ThreadTeam& team) {
   ProgressDisplay shown(own.progress, own.quiet);
   VerifyOptions options{.sample = own.sample};
-  if (own.budget) options.budget_seconds = *own.budget;
+  options.budget_seconds = own.budget;
   options.progress = [&](const VerifyProgress& progress) {
     shown.update({.stage = "checking " + progress.stage, .done = progress.done, .all = progress.all});
   };

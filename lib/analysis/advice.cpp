@@ -43,7 +43,9 @@ Warnings advise(const Answers& answers, ThreadTeam& team) {
     add(advise_on_posts(answers.ground), all);
   }
   add(advise_on_answers(answers, team), all);
-  add(advise_on_goal(answers), all);
+  for (const Answer& answer : all_answers()) {
+    if (answer.advise != nullptr) add(answer.advise(answers), all);
+  }
   return all;
 }
 

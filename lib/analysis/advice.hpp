@@ -1,24 +1,12 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "answers/answers.hpp"
+#include "answers/warning.hpp"
 #include "base/json.hpp"
 #include "base/thread_team.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
-
-/// What is no error and can mislead: a result that shows the grid rather than the system, a name that nothing
-/// uses. It never changes a result.
-struct Warning {
-  std::string kind;   ///< "grid", "unused", "motion", "blocked", "empty", "no_silence",
-                      ///< "goal" or "memory"
-  std::string place;  ///< JSON pointer
-  std::string text;   ///< one line
-};
-using Warnings = std::vector<Warning>;
 
 /// What the spec itself shows: grids that miss the ends of their domains; constants, definitions, inputs and
 /// disturbances that nothing uses.
@@ -33,10 +21,6 @@ using Warnings = std::vector<Warning>;
 /// far as a fixed amount of work goes: the same on every machine. A relaxed problem that cannot be worked out
 /// is passed over. REQUIRES: K and the layers are there.
 [[nodiscard]] Warnings advise_on_answers(const Answers& answers, ThreadTeam& team);
-
-/// A goal that nothing arrives at, or nothing but what is there already. REQUIRES: the goal is there, if the
-/// spec has one.
-[[nodiscard]] Warnings advise_on_goal(const Answers& answers);
 
 /// All that is known without the answer; what posts show only where they are few.
 /// @throws SpecError where the analysis does, as far as posts are looked at

@@ -16,7 +16,7 @@ class PairCounter {
     // Without `allow` only the inputs of the table make a difference.
     for (const std::int32_t j : abstraction_.tables[i_].inputs)
       inputs_.push_back(static_cast<std::size_t>(j));
-    if (ground.allow) {
+    if (ground.pairs.admissible() != nullptr) {
       inputs_.clear();
       for (std::size_t j = 0; j < abstraction_.inputs.size(); ++j) inputs_.push_back(j);
     }
@@ -51,7 +51,7 @@ class PairCounter {
   /// How many numbers place_of() has; 0 where it says too little, or they are too many to be remembered.
   [[nodiscard]] std::size_t places() const {
     const TransitionTable& table = abstraction_.tables[i_];
-    if (ground_.allow || table.is_sum()) return 0;
+    if (ground_.pairs.admissible() != nullptr || table.is_sum()) return 0;
     const std::int64_t own = table.shift ? abstraction_.grid[i_].count : 1;
     const std::int64_t all = static_cast<std::int64_t>(table.entries.size()) / choices_ * own;
     return all <= kMost ? at(all) : 0;
@@ -82,7 +82,7 @@ class PairCounter {
       for (std::size_t v = 0; v < inputs_.size(); ++v)
         u += choice.indices()[v] * abstraction_.inputs.stride(inputs_[v]);
       ++looked_at_;
-      if (is_blocked(cell, u) && (!ground_.allow || is_allowed(row, column, u))) ++blocked;
+      if (is_blocked(cell, u) && is_allowed(row, column, u)) ++blocked;
     } while (choice.advance());
     return blocked * (abstraction_.inputs.count() / choices_);
   }
@@ -92,7 +92,9 @@ class PairCounter {
     return above_ ? raw.last >= abstraction_.grid[i_].count : raw.first < 0;
   }
   [[nodiscard]] bool is_allowed(std::int64_t row, std::int64_t column, std::int64_t u) const {
-    const auto bits = ground_.allow->row(row, u);
+    const PairTable* const allow = ground_.pairs.admissible();
+    if (allow == nullptr) return true;
+    const auto bits = allow->row(row, u);
     return (bits[static_cast<std::size_t>(column / CellSet::kWordBits)] >> (column % CellSet::kWordBits) &
             1) != 0;
   }

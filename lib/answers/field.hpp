@@ -114,20 +114,41 @@ enum class FieldSection : std::uint8_t {
   requirements
 };
 
-/// How the page of a report draws a field over cells.
+/// What a field says of each cell. Together with the axis before those of the cells (none, /partition, or one
+/// that names modes, pairs, agents, ...) it tells every reader how to read, compare, show and draw the field.
+enum class FieldKind : std::uint8_t {
+  none,     ///< nothing of single cells: scales, sizes, lists, tables
+  set,      ///< 0 or 1: the cell is in the set, or in that of an entry of the leading axis
+  steps,    ///< a number of steps, or what a flag says
+  choice,   ///< a place along the axis /partition, or what a flag says
+  share,    ///< float32, in K a part of 1
+  actions,  ///< which joint actions of some inputs: a bit each, along a last axis of bytes
+};
+
+/// How the page of a report draws a field over cells: numbers as one map, or one for each entry of the
+/// leading axis; sets over an axis as one map of the entries that hold; shares one map for each entry.
 struct FieldMap {
-  enum class Values : std::uint8_t {
-    none,     ///< not at all
-    numbers,  ///< as they are: a map, or one for each entry of the leading axis
-    members,  ///< of 0 and 1: one map of the sets of entries of the leading axis that hold
-    shares    ///< of 0 to 1 inside K: one map for each entry of the leading axis
-  };
-  Values values = Values::none;
-  std::string kind = {};  ///< what the page knows it by: "delay"
+  std::string kind = {};  ///< what the page knows it by: "delay"; empty: it is not drawn
   /// Of kinds that the page has no words for: "Time to arrival".
   std::string title = {};
   /// What else the page is to know, given the values that occur; may be empty.
   std::function<void(const std::set<std::int32_t>& found, Json& head)> legend = {};
+};
+
+/// How `query` tells a field of the cell asked for; where nothing is said it does not. Those over /partition
+/// that are no steps of a policy, and those of other axes: sets as the names of the entries that hold.
+struct FieldAsked {
+  std::string name = {};   ///< key in JSON: "arrival", "safe_modes"
+  std::string words = {};  ///< before it in the text: "time to the goal"
+  /// In the text, what words of flags mean, and "0", where that is more than they say.
+  std::map<std::string, std::string> meanings = {};
+  std::string group =
+      {};  ///< object in JSON that it stands in with others, and its column in CSV: "coalition"
+  /// In the text a section of its own, or of its group, under this heading.
+  std::string heading = {};
+  std::string attribute =
+      {};                  ///< an attribute, in steps, that its group tells too, and the heading begins with
+  std::string entry = {};  ///< of sets: what an entry is called, "mode"; then they are counted
 };
 
 /// How commands show a field over cells; where nothing is said they do not.
@@ -136,19 +157,17 @@ struct FieldShown {
   std::string column = {};
   /// In a table a value that is worse than every number of steps, but better than what is lower; 0: none.
   std::int32_t below_zero = 0;
-  bool steps = false;  ///< values are steps, which are told with the time that they take
-  /// What it is called in the comparison of two files: "safe set", "delay". Fields of 0 and 1 are compared as
-  /// sets; others by value, of which more is better, or less. Without a leading axis, or over /partition.
+  /// What it is called in the comparison of two files: "safe set", "delay". Sets are compared as such; others
+  /// by value, of which more is better, or less. Without a leading axis, or over /partition.
   std::string compared = {};
   bool less_is_better = false;
-  /// What it is called in the answer to a query: "time to arrival". For numbers without a leading axis that
-  /// the answer has no form of its own for.
-  std::string asked = {};
+  FieldAsked asked = {};
   FieldMap map = {};
 };
 
 struct Field {
   std::string path;  ///< "/delay"
+  FieldKind kind = FieldKind::none;
   FieldSection section = FieldSection::maps;
   std::vector<ElementType> types;  ///< it has one of these; none: strings
   std::vector<std::string> axes;   ///< paths of scales; none for a scale or a single value

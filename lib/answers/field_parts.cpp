@@ -97,6 +97,7 @@ void add_bits(Fields& fields, const std::string& path, FieldSection section, con
   axes.push_back(bytes);
   fields.push_back(
       {.path = path,
+       .kind = FieldKind::actions,
        .section = section,
        .types = {ElementType::uint8},
        .axes = std::move(axes),
@@ -140,7 +141,7 @@ std::string status_of(const Field& field, std::int64_t value) {
     const bool is_largest = flag.value == kLargestValue && value == std::numeric_limits<std::int32_t>::max();
     if (flag.value == value || is_largest) return flag.word;
   }
-  return field.shown.steps ? "steps" : "number";
+  return field.kind == FieldKind::steps ? "steps" : "number";
 }
 
 Json value_json(const Field& field, std::int64_t value) {

@@ -14,6 +14,8 @@ class FieldSource {
   [[nodiscard]] virtual bool has(const std::string& path) const = 0;
   [[nodiscard]] virtual std::vector<std::int64_t> integers(const std::string& path) const = 0;
   [[nodiscard]] virtual std::vector<double> numbers(const std::string& path) const = 0;
+  /// Numbers that are not negative, whatever they are: they are not compared with the field's least and most.
+  [[nodiscard]] virtual std::vector<std::uint64_t> list(const std::string& path) const = 0;
   /// The attribute `cells`; empty if there is none, of the field or of the path.
   [[nodiscard]] virtual std::vector<std::uint64_t> counted(const std::string& path) const = 0;
   /// An integer attribute of a field.

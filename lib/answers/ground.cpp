@@ -174,11 +174,11 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
                                             ? std::vector<AgentPart>()
                                             : agents_alike_but_for_safe_set(ground, ground.ranks->count());
   if (ground.ranks != nullptr) share_rows(ground, is_cut, agents, find_safe);
-  ground.allow = allow_table(ground.spec, abstraction, team, ground.listed ? &ground.listed->pairs : nullptr,
-                             ground.shared_rows());
-  if (ground.allow) ground.engine->set_allow(*ground.allow);
+  ground.pairs = pair_rules(ground.spec, abstraction, team, ground.listed ? &ground.listed->pairs : nullptr,
+                            ground.shared_rows());
+  ground.engine->set_pairs(ground.pairs);
   ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
-  if (ground.ranks == nullptr && !ground.allow)
+  if (ground.ranks == nullptr && ground.pairs.admissible() == nullptr)
     ground.like_agents = agents_alike_in(ground, safe_sets(ground));
   if (!agents.empty() && !take_like_agents(ground, agents)) {
     clear_safe();

@@ -48,7 +48,7 @@ struct Ground {
   std::optional<RowShare> share;
   CellSet safe;                 ///< S, in the rows held
   std::int64_t safe_cells = 0;  ///< |S|
-  std::optional<PairTable> allow;
+  PairRules pairs;
   std::optional<CellSet> beyond;  ///< TubeSets::beyond
   std::optional<RowEngine> engine;
   std::optional<RowHull> hull;

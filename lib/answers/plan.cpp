@@ -8,9 +8,11 @@
 #include "answers/convention/answer.hpp"
 #include "answers/convention/check.hpp"
 #include "answers/convention/fields.hpp"
+#include "answers/convention/policy.hpp"
 #include "answers/goal/answer.hpp"
 #include "answers/goal/check.hpp"
 #include "answers/goal/fields.hpp"
+#include "answers/goal/policy.hpp"
 #include "answers/ground/answer.hpp"
 #include "answers/ground/fields.hpp"
 #include "answers/invariance/answer.hpp"
@@ -19,6 +21,7 @@
 #include "answers/layers/answer.hpp"
 #include "answers/layers/check.hpp"
 #include "answers/layers/fields.hpp"
+#include "answers/layers/policy.hpp"
 #include "answers/network/answer.hpp"
 #include "answers/network/check.hpp"
 #include "answers/network/fields.hpp"
@@ -48,6 +51,7 @@ const std::vector<Answer>& all_answers() {
        .fill = fill_layer_fields,
        .summarise = summarise_layers,
        .tell = tell_layers,
+       .policies = layer_policies,
        .check = check_layers},
       {.stages = goal_stages,
        .memory = goal_memory,
@@ -55,6 +59,8 @@ const std::vector<Answer>& all_answers() {
        .fill = fill_goal_fields,
        .summarise = summarise_goal,
        .tell = tell_goal,
+       .advise = advise_on_goal,
+       .policies = goal_policies,
        .check = check_goal},
       {.stages = coalition_stages,
        .memory = coalition_memory,
@@ -75,6 +81,8 @@ const std::vector<Answer>& all_answers() {
        .fields = convention_fields,
        .fill = fill_convention_fields,
        .summarise = summarise_convention,
+       .policies = convention_policies,
+       .explain = explain_convention,
        .check = check_convention},
       {.checks = requirements_checks,
        .stages = requirements_stages,
@@ -94,6 +102,15 @@ std::vector<Stage> answer_stages(const ProblemSpec& spec) {
     for (Stage& stage : answer.stages(spec)) stages.push_back(std::move(stage));
   }
   return stages;
+}
+
+std::vector<AnswerPolicy> answer_policies(const ProblemSpec& spec) {
+  std::vector<AnswerPolicy> policies;
+  for (const Answer& answer : all_answers()) {
+    if (answer.policies == nullptr) continue;
+    for (AnswerPolicy& policy : answer.policies(spec)) policies.push_back(std::move(policy));
+  }
+  return policies;
 }
 
 void run_stages(const std::vector<Stage>& stages, Answers& answers, const StageWork& work,

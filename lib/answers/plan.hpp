@@ -9,7 +9,10 @@
 #include "answers/field.hpp"
 #include "answers/field_source.hpp"
 #include "answers/memory_need.hpp"
+#include "answers/one_cell/explain_ground.hpp"
+#include "answers/one_cell/policy.hpp"
 #include "answers/stage.hpp"
+#include "answers/warning.hpp"
 #include "base/json.hpp"
 
 namespace coordreq {
@@ -36,6 +39,12 @@ struct Answer {
   /// Adds to what `info` says of a file: the same keys, as far as the file tells them. Called whether or not
   /// it was asked for; null: nothing.
   void (*tell)(const ProblemSpec& spec, const FieldSource& source, Json& info) = nullptr;
+  /// What of it is no error and can mislead; null: nothing. Called whether or not it was asked for.
+  Warnings (*advise)(const Answers& answers) = nullptr;
+  /// What it leaves to agents at a cell and a countdown; null: it says nothing of that.
+  std::vector<AnswerPolicy> (*policies)(const ProblemSpec& spec) = nullptr;
+  /// What it adds to the explanation of a delay, whether or not it was asked for; null: nothing.
+  Explained (*explain)(const ExplainGround& ground) = nullptr;
   /// What it says in a file, to be checked by its definition; null, or a null result: nothing is.
   std::unique_ptr<AnswerCheck> (*check)(const CheckGround& ground) = nullptr;
 };
@@ -45,6 +54,9 @@ struct Answer {
 
 /// The stages of all answers that the spec asks for, in order.
 [[nodiscard]] std::vector<Stage> answer_stages(const ProblemSpec& spec);
+
+/// The policies of all answers that the spec asks for, in order; the first is that of the delays.
+[[nodiscard]] std::vector<AnswerPolicy> answer_policies(const ProblemSpec& spec);
 
 /// Where the work is told of and kept.
 struct PlanWatch {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace coordreq {
 
@@ -14,6 +15,19 @@ namespace coordreq {
 /// REQUIRES: number >= 0
 [[nodiscard]] inline std::string grouped(std::int64_t number) {
   return grouped(static_cast<std::uint64_t>(number));
+}
+
+/// "a, b and c".
+[[nodiscard]] inline std::string listed_words(const std::vector<std::string>& parts) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
+  return text;
+}
+
+/// "1,234 steps", "1 step". REQUIRES: count >= 0
+[[nodiscard]] inline std::string count_of(std::int64_t count, const std::string& noun) {
+  return grouped(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 }  // namespace coordreq

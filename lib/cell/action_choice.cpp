@@ -39,24 +39,26 @@ double known(double score) {
 ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDynamics& dynamics)
     : problem_(problem),
       policy_(policy),
+      delay_(problem.delay()),
       invariant_(problem.abstraction->grid,
-                 [delay = problem.delay](std::int64_t cell) { return delay[at(cell)] >= 0; }),
+                 [delay = delay_](std::int64_t cell) { return delay[at(cell)] >= 0; }),
       safe_(problem.abstraction->grid,
-            [delay = problem.delay](std::int64_t cell) {
-              return delay[at(cell)] != DelayLayers::kOutsideSafe;
-            }),
+            [delay = delay_](std::int64_t cell) { return delay[at(cell)] != DelayLayers::kOutsideSafe; }),
       safe_beyond_(problem.abstraction->grid,
                    [beyond = problem.safe_beyond](std::int64_t cell) { return beyond->test(cell); }),
       posts_(*problem.abstraction),
       inputs_(*problem.spec, posts_, sets()),
-      progress_(*problem.spec, posts_,
-                [arrival = problem.arrival](std::int64_t cell) { return arrival[at(cell)]; }),
       classes_(input_classes(*problem.spec, problem.abstraction->inputs, *problem.partition)),
       margin_(problem.spec->safe),
       nominal_(*problem.spec, *problem.abstraction, dynamics),
       no_error_(problem.spec->states.size()),
       slots_(problem.spec->slot_count()),
       doubles_(problem.spec->slot_count()) {
+  const PolicyGround ground{
+      .spec = problem.spec, .posts = &posts_, .values = [this](const std::string& path) -> CellValue {
+        return [values = problem_.values.at(path)](std::int64_t cell) { return values[at(cell)]; };
+      }};
+  for (const AnswerPolicy& own : problem.policies) cell_policies_.push_back(own.make(ground));
   for (InputClass& own : classes_) {
     own.tabulate();
     class_parts_.push_back(own.parts());
@@ -94,19 +96,18 @@ void ActionChooser::find_nominal() {
 }
 
 std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<const Rational> measured,
-                                                  bool coordinated, bool approaching, NextStates& next,
-                                                  RandomStream& random) {
-  admissible_ = &inputs_.of(cell);
-  if (approaching) {
-    progressing_ = progress_.of(cell, *admissible_);
-    admissible_ = &progressing_;
-  }
-  if (admissible_->empty()) return std::nullopt;
-  projections_.clear();
-  if (coordinated) projections_.push_back(*admissible_);
-  for (std::size_t c = 0; !coordinated && c < classes_.size(); ++c) {
-    Numbers& parts = projections_.emplace_back();
-    for (const std::int64_t a : classes_[c].project(*admissible_)) parts.push_back(class_parts_[c][at(a)]);
+                                                  Turn turn, NextStates& next, RandomStream& random) {
+  CellPolicy& own = *cell_policies_[turn.policy];
+  const Numbers& together = own.together(cell, inputs_.of(cell));
+  if (together.empty()) return std::nullopt;
+  choices_.clear();
+  if (turn.countdown == 0) {
+    choices_.push_back(together);
+  } else {
+    choices_ = own.alone(cell, turn.countdown, together, classes_);
+    for (std::size_t c = 0; c < classes_.size(); ++c) {
+      for (std::int64_t& a : choices_[c]) a = class_parts_[c][at(a)];
+    }
   }
   if (policy_ == Policy::random) return choose_randomly(random);
   return policy_ == Policy::adversarial ? choose_worst(next) : choose_preferred(cell, measured);
@@ -114,25 +115,25 @@ std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<c
 
 std::int64_t ActionChooser::choose_randomly(RandomStream& random) const {
   std::int64_t u = 0;
-  for (const Numbers& parts : projections_) u += parts[random.below(parts.size())];
+  for (const Numbers& parts : choices_) u += parts[random.below(parts.size())];
   return u;
 }
 
 template <class Visit>
 void ActionChooser::for_each_choice(const Visit& visit) const {
   std::vector<std::int64_t> counts;
-  for (const Numbers& parts : projections_) counts.push_back(static_cast<std::int64_t>(parts.size()));
+  for (const Numbers& parts : choices_) counts.push_back(static_cast<std::int64_t>(parts.size()));
   Odometer choice(counts);
   do {
     std::int64_t u = 0;
-    for (std::size_t c = 0; c < projections_.size(); ++c) u += projections_[c][at(choice.indices()[c])];
+    for (std::size_t c = 0; c < choices_.size(); ++c) u += choices_[c][at(choice.indices()[c])];
     visit(u);
   } while (choice.advance());
 }
 
 std::int64_t ActionChooser::delay_after(NextStates& next, std::int64_t u) const {
   const NextStates::Place place = next.place(u);
-  if (place.kind == Location::Kind::cell) return problem_.delay[at(place.cell)];
+  if (place.kind == Location::Kind::cell) return delay_[at(place.cell)];
   return place.kind == Location::Kind::left_safely ? std::numeric_limits<std::int64_t>::max()
                                                    : DelayLayers::kOutsideSafe;
 }
@@ -167,10 +168,10 @@ std::int64_t ActionChooser::smallest_margin(NextStates& next, const Numbers& can
 
 std::int64_t ActionChooser::choose_preferred(std::int64_t cell, std::span<const Rational> measured) {
   nominal_.begin(measured, middle_, no_error_, cell);
-  if (projections_.size() == 1) {  // coordinated, or one class of all
+  if (choices_.size() == 1) {  // coordinated, or one class of all
     std::vector<std::int32_t> everyone(prefer_.size());
     std::iota(everyone.begin(), everyone.end(), 0);
-    return smallest_preference(everyone, projections_.front());
+    return smallest_preference(everyone, choices_.front());
   }
   std::int64_t u = 0;
   for (std::size_t c = 0; c < classes_.size(); ++c) {
@@ -178,7 +179,7 @@ std::int64_t ActionChooser::choose_preferred(std::int64_t cell, std::span<const 
     for (std::size_t i = 0; i < nominal_parts_.size(); ++i) {
       if (!classes_[c].contains(static_cast<std::int32_t>(i))) others += nominal_parts_[i];
     }
-    Numbers candidates = projections_[c];
+    Numbers candidates = choices_[c];
     for (std::int64_t& candidate : candidates) candidate += others;
     u += smallest_preference(problem_.partition->classes[c], candidates) - others;
   }

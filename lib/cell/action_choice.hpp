@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "answers/one_cell/admissible_inputs.hpp"
-#include "answers/one_cell/progress_inputs.hpp"
+#include "answers/one_cell/policy.hpp"
 #include "cell/margin.hpp"
 #include "cell/next_states.hpp"
 #include "cell/random_stream.hpp"
@@ -28,20 +31,16 @@ struct LoopProblem {
   const ProblemSpec* spec = nullptr;
   const Abstraction* abstraction = nullptr;
   const PartitionSpec* partition = nullptr;
-  std::span<const std::int32_t> delay;   ///< [cells], steps; as DelayLayers names what has none
+  /// What agents go by: in each cell the last one that holds there. The first is that of the delays.
+  std::vector<AnswerPolicy> policies;
+  /// [path][cell] steps, as the results file has them, of the delays and aims of the policies.
+  std::map<std::string, std::span<const std::int32_t>> values;
   const CellSet* safe_beyond = nullptr;  ///< TubeSets::beyond
   const PackedPairs* listed = nullptr;   ///< what `controller.file` lists; null: it has none
   std::int64_t connection_delay = 0;     ///< D, steps
-  /// [cells], steps, as the results file has them; both empty without a goal.
-  std::span<const std::int32_t> arrival = {};
-  std::span<const std::int32_t> approach_delay = {};
 
-  [[nodiscard]] bool has_goal() const { return !arrival.empty(); }
-  /// The goal can be forced from the cell, and it is not in the goal.
-  [[nodiscard]] bool is_on_the_way(std::int64_t cell) const {
-    const std::int32_t steps = arrival[static_cast<std::size_t>(cell)];
-    return steps > 0 && steps != INT32_MAX;
-  }
+  /// [cells]; DelayLayers names what has none.
+  [[nodiscard]] std::span<const std::int32_t> delay() const { return values.at(policies.front().delay); }
 };
 
 /// What nature does in one period, and the measuring at its end.
@@ -50,16 +49,16 @@ struct Nature {
   std::vector<Rational> error;        ///< one a state: measured less true
 };
 
-/// Chooses joint inputs. With coordination all agents choose from C(x) together; without it each class
-/// chooses from the projection of C(x) onto its inputs, so that together they choose from IND_C(x). On the
-/// way to a goal from P(x) and IND_P(x).
+/// Chooses joint inputs from what a policy leaves: with coordination all agents together, else each class for
+/// itself.
 ///
-/// - random: uniform in C(x); uniform in each projection, class after class.
-/// - adversarial: of C(x) or IND_C(x) the joint input with the smallest delay of the cell in which the next
+/// - random: uniform in the joint inputs; uniform in the actions of each class, class after class.
+/// - adversarial: of all that can be chosen the joint input with the smallest delay of the cell in which the
+/// next
 ///   state will be measured, then the smallest margin of the next state, then the smallest number. It knows
 ///   what nature will do. Outside K counts as smaller than any delay, T as larger.
-/// - prefer: smallest sum of the agents' `prefer` at the nominal next state: over C(x), or, each class for
-///   itself and over the sum of its own agents, over its projection; then the smallest number. Nominal: from
+/// - prefer: smallest sum of the agents' `prefer` at the nominal next state, or, each class for itself, over
+///   the sum of its own agents; then the smallest number. Nominal: from
 ///   the measured state, with every disturbance in the middle of its range and, without coordination, the
 ///   inputs of other classes at their values nearest to 0 (of two the smaller one). An undefined `prefer`
 ///   counts as infinite.
@@ -67,13 +66,24 @@ class ActionChooser {
  public:
   ActionChooser(const LoopProblem& problem, Policy policy, PointDynamics& dynamics);
 
+  /// Whether a policy, by its place among LoopProblem::policies, holds in a cell.
+  [[nodiscard]] bool holds(std::size_t policy, std::int64_t cell) {
+    return cell_policies_[policy]->holds(cell);
+  }
+
+  /// What agents go by, and for how many steps they are still silent; at 0 they coordinate.
+  struct Turn {
+    std::size_t policy = 0;
+    std::int32_t countdown = 0;
+  };
   /// @param next begun at the true state with what nature does
   /// @param measured the state as it was measured; its cell is `cell`, in K
-  /// @param approaching whether to choose from P
   /// @returns nothing if no action is admissible
   [[nodiscard]] std::optional<std::int64_t> choose(std::int64_t cell, std::span<const Rational> measured,
-                                                   bool coordinated, bool approaching, NextStates& next,
-                                                   RandomStream& random);
+                                                   Turn turn, NextStates& next, RandomStream& random);
+
+  /// Whether `allow` forbids a joint input that was chosen at a cell.
+  [[nodiscard]] bool forbids(std::int64_t cell, std::int64_t u) { return inputs_.forbids(cell, u); }
 
   ActionChooser(const ActionChooser&) = delete;
   ActionChooser& operator=(const ActionChooser&) = delete;
@@ -100,13 +110,13 @@ class ActionChooser {
 
   LoopProblem problem_;
   Policy policy_;
+  std::span<const std::int32_t> delay_;
   MembersByCell invariant_;
   MembersByCell safe_;
   MembersByCell safe_beyond_;
   CellPosts posts_;
   AdmissibleInputs inputs_;
-  ProgressInputs progress_;
-  Numbers progressing_;  ///< P(x) of the cell at work
+  std::vector<std::unique_ptr<CellPolicy>> cell_policies_;
   std::vector<InputClass> classes_;
   std::vector<std::vector<std::int64_t>> class_parts_;  ///< [class][action]: InputClass::parts()
   Margin margin_;
@@ -116,8 +126,8 @@ class ActionChooser {
   std::vector<Rational> no_error_;  ///< zeros
   Numbers nominal_parts_;           ///< by input: what its nominal value adds to a joint input
   std::vector<std::vector<double>> input_values_;
-  const Numbers* admissible_ = nullptr;  ///< C(x) of the cell at work
-  std::vector<Numbers> projections_;     ///< IND_C(x), or one class of all if coordinated: joint input parts
+  /// Of the cell at work, what each class can choose from, or all as one if coordinated: joint input parts.
+  std::vector<Numbers> choices_;
   std::vector<Rational> slots_;
   std::vector<double> doubles_;
 };

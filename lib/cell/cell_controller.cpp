@@ -1,10 +1,11 @@
 #include "cell/cell_controller.hpp"
 
-#include "answers/convention/convention.hpp"
-#include "answers/field_parts.hpp"
+#include "answers/invariance/fields.hpp"
+#include "answers/plan.hpp"
 #include "base/error.hpp"
 #include "base/index.hpp"
 #include "model/input_class.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {
@@ -14,6 +15,14 @@ std::vector<bool> unpacked(const std::vector<std::uint8_t>& bytes, std::int64_t 
   std::vector<bool> bits(at(count));
   for (std::size_t a = 0; a < bits.size(); ++a) bits[a] = (bytes[a / 8] >> (a % 8) & 1U) != 0;
   return bits;
+}
+
+CellPolicy::Numbers numbers_of(const std::vector<bool>& members) {
+  CellPolicy::Numbers numbers;
+  for (std::size_t u = 0; u < members.size(); ++u) {
+    if (members[u]) numbers.push_back(static_cast<std::int64_t>(u));
+  }
+  return numbers;
 }
 
 /// Tubes are not stored.
@@ -26,11 +35,13 @@ std::optional<Abstraction> stored_abstraction(const ResultsReader& results) {
 
 CellController::CellController(const ResultsReader& results, ThreadTeam& team)
     : results_(results),
+      policies_(answer_policies(results.spec())),
       posts_(results.spec(), results.grid(), results.inputs(), team, stored_abstraction(results)),
-      invariant_(results.grid(), [&results](const CellBlock& block) { return results.invariant(block); }),
-      safe_(results.grid(), [&results](const CellBlock& block) { return results.safe(block); }),
-      admissible_(results.spec(), posts_, sets(team)),
-      progress_(results.spec(), posts_, [this](std::int64_t cell) { return arrival(cell); }) {}
+      invariant_(results.grid(),
+                 [&results](const CellBlock& block) { return results.members(paths::kInvariant, block); }),
+      safe_(results.grid(),
+            [&results](const CellBlock& block) { return results.members(paths::kSafe, block); }),
+      admissible_(results.spec(), posts_, sets(team)) {}
 
 AdmissibleInputs::Sets CellController::sets(ThreadTeam& team) {
   AdmissibleInputs::Sets sets{.invariant = &invariant_, .safe = &safe_, .safe_beyond = {}, .listed = {}};
@@ -45,17 +56,16 @@ AdmissibleInputs::Sets CellController::sets(ThreadTeam& team) {
 
 bool CellController::is_listed(std::int64_t cell, std::int64_t u) {
   if (cell != listed_cell_) {
-    listed_ = unpacked(results_.listed_bits(one_cell(results_.grid(), cell)), results_.inputs().count());
+    listed_ =
+        unpacked(results_.bits(paths::kListed, one_cell(results_.grid(), cell)), results_.inputs().count());
     listed_cell_ = cell;
   }
   return listed_[at(u)];
 }
 
 void CellController::prepare_all() {
-  const std::size_t partitions = results_.partitions().size();
-  bool stored = partitions > 0;
-  for (std::size_t p = 0; p < partitions; ++p) stored = stored && results_.has_actions(p);
-  if (results_.has_controller() || stored || results_.spec().controller.synthesis == Synthesis::given) return;
+  const ProblemSpec& spec = results_.spec();
+  if (spec.output.controller || spec.output.actions || spec.controller.synthesis == Synthesis::given) return;
   posts_.prepare_all();
   invariant_.cover_all();
   if (posts_.has_tubes()) safe_.cover_all();
@@ -64,11 +74,11 @@ void CellController::prepare_all() {
 const std::vector<bool>& CellController::joint_inputs(std::int64_t cell) {
   if (cell == cell_) return joint_inputs_;
   const CellBlock block = one_cell(results_.grid(), cell);
-  if (results_.has_controller()) {
-    joint_inputs_ = unpacked(results_.controller_bits(block), results_.inputs().count());
+  if (results_.has(paths::kController)) {
+    joint_inputs_ = unpacked(results_.bits(paths::kController, block), results_.inputs().count());
   } else {
     joint_inputs_.assign(at(results_.inputs().count()), false);
-    if (results_.invariant(block).front() != 0) {
+    if (results_.members(paths::kInvariant, block).front() != 0) {
       for (const std::int64_t u : admissible_.of(cell)) joint_inputs_[at(u)] = true;
     }
   }
@@ -76,71 +86,51 @@ const std::vector<bool>& CellController::joint_inputs(std::int64_t cell) {
   return joint_inputs_;
 }
 
-std::vector<std::vector<bool>> CellController::actions(std::size_t partition, std::int64_t cell) {
-  const StoredPartition& stored = results_.partitions()[partition];
+ActionSets CellController::actions(const AnswerPolicy& policy, std::size_t partition, std::int64_t cell,
+                                   std::int32_t countdown) {
+  Part& own = part(policy, partition);
   const PartitionSpec& spec = results_.spec().coordination.partitions[partition];
-  std::vector<std::vector<bool>> result;
-  for (std::size_t c = 0; c < stored.classes.size(); ++c) {
-    if (results_.has_actions(partition)) {
-      const CellBlock block = one_cell(results_.grid(), cell);
-      result.push_back(unpacked(results_.action_bits(partition, c, block), stored.actions[c]));
-      continue;
-    }
-    const std::vector<bool>& admissible = joint_inputs(cell);
-    const InputClass one(results_.inputs(), inputs_of(results_.spec(), spec.classes[c]));
-    std::vector<bool>& projection = result.emplace_back(at(stored.actions[c]), false);
-    for (std::int64_t u = 0; u < results_.inputs().count(); ++u) {
-      if (admissible[at(u)]) projection[at(one.action(u))] = true;
-    }
+  const CellBlock block = one_cell(results_.grid(), cell);
+  const auto path = [&](std::size_t c) { return policy.stored(results_.spec(), spec, c); };
+  const bool is_stored = policy.stored != nullptr && results_.has(path(0));
+  ActionSets sets;
+  for (std::size_t c = 0; is_stored && c < own.classes.size(); ++c)
+    sets.push_back(unpacked(results_.bits(path(c), block), own.classes[c].actions()));
+  if (is_stored) return sets;
+  for (const InputClass& one : own.classes) sets.emplace_back(at(one.actions()), false);
+  const CellPolicy::Numbers admissible = numbers_of(joint_inputs(cell));
+  if (admissible.empty() || !own.policy->holds(cell)) return sets;
+  const CellPolicy::Numbers& together = own.policy->together(cell, admissible);
+  const auto actions = own.policy->alone(cell, countdown, together, own.classes);
+  for (std::size_t c = 0; c < sets.size(); ++c) {
+    for (const std::int64_t a : actions[c]) sets[c][at(a)] = true;
   }
-  return result;
+  return sets;
 }
 
-std::int32_t CellController::arrival(std::int64_t cell) {
-  const auto [place, is_new] = arrivals_.try_emplace(cell, 0);
-  if (is_new) {
-    const CellBlock block = one_cell(results_.grid(), cell);
-    place->second = results_.values(results_.field("/arrival"), std::nullopt, block).front();
-  }
-  return place->second;
+CellController::Part& CellController::part(const AnswerPolicy& policy, std::size_t partition) {
+  const auto [place, is_new] = parts_.try_emplace({policy.name, policy.is_by_agent ? 0 : partition});
+  Part& own = place->second;
+  if (!is_new) return own;
+  const ProblemSpec& spec = results_.spec();
+  own.classes = policy.is_by_agent
+                    ? agent_classes(spec, results_.inputs())
+                    : input_classes(spec, results_.inputs(), spec.coordination.partitions[partition]);
+  own.policy = policy.make({.spec = &spec, .posts = &posts_, .values = [this, partition](const auto& path) {
+                              return values(path, partition);
+                            }});
+  return own;
 }
 
-std::vector<bool> CellController::inputs_of_run(std::int64_t cell) {
-  std::vector<bool> result = joint_inputs(cell);
-  if (!results_.spec().goal || arrival(cell) <= 0 || arrival(cell) == ResultsReader::kNever) return result;
-  std::vector<std::int64_t> admissible;
-  for (std::size_t u = 0; u < result.size(); ++u) {
-    if (result[u]) admissible.push_back(static_cast<std::int64_t>(u));
-  }
-  result.assign(result.size(), false);
-  for (const std::int64_t u : progress_.of(cell, admissible)) result[at(u)] = true;
-  return result;
-}
-
-std::vector<std::vector<bool>> CellController::approach_actions(std::size_t partition, std::int64_t cell) {
-  const PartitionSpec& spec = results_.spec().coordination.partitions[partition];
-  const bool is_on_the_way = arrival(cell) > 0 && arrival(cell) != ResultsReader::kNever;
-  const std::vector<bool> joint = inputs_of_run(cell);
-  std::vector<std::vector<bool>> result;
-  for (const auto& agents : spec.classes) {
-    const InputClass one(results_.inputs(), inputs_of(results_.spec(), agents));
-    std::vector<bool>& projection = result.emplace_back(at(one.actions()), false);
-    for (std::size_t u = 0; is_on_the_way && u < joint.size(); ++u) {
-      if (joint[u]) projection[at(one.action(static_cast<std::int64_t>(u)))] = true;
-    }
-  }
-  return result;
-}
-
-std::vector<std::vector<bool>> CellController::convention(std::int64_t cell) {
-  const std::vector<InputClass> agents = agent_classes(results_.spec(), results_.inputs());
-  if (!results_.has_convention()) return convention_at(inputs_of_run(cell), agents);
-  std::vector<std::vector<bool>> result;
-  for (std::size_t i = 0; i < agents.size(); ++i) {
-    const CellBlock block = one_cell(results_.grid(), cell);
-    result.push_back(unpacked(results_.convention_bits(i, block), agents[i].actions()));
-  }
-  return result;
+CellValue CellController::values(const std::string& path, std::size_t partition) {
+  const Field& field = results_.field(path);
+  const bool is_of_partition = field.axes.front() == "/partition";
+  const auto leading = is_of_partition ? ResultsReader::Leading(partition) : std::nullopt;
+  return [this, &field, leading, &known = values_[{path, leading.value_or(0)}]](std::int64_t cell) {
+    const auto [place, is_new] = known.try_emplace(cell, 0);
+    if (is_new) place->second = results_.values(field, leading, one_cell(results_.grid(), cell)).front();
+    return place->second;
+  };
 }
 
 }  // namespace coordreq

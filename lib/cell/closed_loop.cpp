@@ -54,7 +54,12 @@ ClosedLoop::ClosedLoop(const LoopProblem& problem, const LoopOptions& options)
       chooser_(problem, options.policy, dynamics_),
       next_(*problem.spec, *problem.abstraction, dynamics_),
       margin_(problem.spec->safe),
-      slots_(problem.spec->slot_count()) {}
+      slots_(problem.spec->slot_count()),
+      delay_(problem.delay()) {
+  for (const AnswerPolicy& policy : problem_.policies) {
+    if (!policy.aim.path.empty()) to_aim_ = problem_.values.at(policy.aim.path);
+  }
+}
 
 RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
   RandomStream actions(options_.seed, run, RandomStream::Purpose::actions);
@@ -63,15 +68,15 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
   RunTrace trace;
   const auto add_sample = [&]() -> RunTrace::Sample& {
     trace.samples.push_back(sample(state));
-    const bool is_there = problem_.has_goal() && trace.samples.back().arrival == 0;
+    const bool is_there = !to_aim_.empty() && trace.samples.back().arrival == 0;
     if (is_there && !trace.arrived) trace.arrived = static_cast<std::int64_t>(trace.samples.size()) - 1;
     return trace.samples.back();
   };
   add_sample();
-  bool approaching = false;
-  std::int32_t countdown = begin_countdown(state, trace, approaching);
+  std::size_t policy = policy_at(state, trace);
+  std::int32_t countdown = begin_countdown(policy, state, trace);
   trace.samples.back().countdown = countdown;
-  const std::int32_t promised = approaching ? trace.samples.front().arrival : RunTrace::kForever;
+  const std::int32_t promised = has_aim(policy) ? trace.samples.front().arrival : RunTrace::kForever;
   for (std::int64_t k = 0; k < options_.steps; ++k) {
     if (options_.until_goal && trace.arrived) {
       trace.outcome = Outcome::reached_goal;
@@ -80,20 +85,25 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
     const bool coordinated = countdown == 0;
     const Nature nature = draw_nature(disturbances);
     next_.begin(state.exact, nature.disturbance, nature.error, state.place.cell);
-    // Those that coordinate head for the goal where they can, whatever the countdown was of that ended here.
-    if (coordinated) approaching = is_on_the_way(state, trace);
-    const bool from_progress = approaching && !trace.arrived;
-    const std::optional<std::int64_t> u =
-        chooser_.choose(state.place.cell, state.measured, coordinated, from_progress, next_, actions);
+    // Those that coordinate go by what holds here, whatever the countdown was of that ended here.
+    if (coordinated) policy = policy_at(state, trace);
+    if (has_aim(policy) && trace.arrived) policy = 0;
+    const std::optional<std::int64_t> u = chooser_.choose(
+        state.place.cell, state.measured, {.policy = policy, .countdown = countdown}, next_, actions);
     if (!u) {
       trace.outcome = Outcome::no_action;
+      return trace;
+    }
+    if (chooser_.forbids(state.place.cell, *u)) {
+      trace.outcome = Outcome::not_allowed;
       return trace;
     }
     trace.steps.push_back({*u, coordinated, nearest_doubles(nature.disturbance)});
     const bool known = advance(state, *u, nature);
     RunTrace::Sample& reached = add_sample();
     if (countdown != RunTrace::kForever) {
-      countdown = coordinated ? begin_countdown(state, trace, approaching) : countdown - 1;
+      if (coordinated) policy = policy_at(state, trace);
+      countdown = coordinated ? begin_countdown(policy, state, trace) : countdown - 1;
     }
     reached.countdown = countdown;
     if (state.place.kind == Kind::left_safely) {
@@ -114,15 +124,19 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
   return trace;
 }
 
-bool ClosedLoop::is_on_the_way(const State& state, const RunTrace& trace) const {
-  return problem_.has_goal() && !trace.arrived && state.place.kind == Kind::cell &&
-         problem_.is_on_the_way(state.place.cell);
+std::size_t ClosedLoop::policy_at(const State& state, const RunTrace& trace) {
+  if (state.place.kind != Kind::cell) return 0;
+  std::size_t policy = problem_.policies.size() - 1;
+  while (policy > 0 && ((has_aim(policy) && trace.arrived) || !chooser_.holds(policy, state.place.cell)))
+    --policy;
+  return policy;
 }
 
-std::int32_t ClosedLoop::begin_countdown(const State& state, const RunTrace& trace, bool& approaching) const {
-  approaching = is_on_the_way(state, trace);
-  if (!approaching) return reset_countdown(trace.samples.back().delay);
-  return reset_countdown(problem_.approach_delay[static_cast<std::size_t>(state.place.cell)]);
+std::int32_t ClosedLoop::begin_countdown(std::size_t policy, const State& state,
+                                         const RunTrace& trace) const {
+  if (policy == 0) return reset_countdown(trace.samples.back().delay);
+  const std::span<const std::int32_t> delay = problem_.values.at(problem_.policies[policy].delay);
+  return reset_countdown(delay[static_cast<std::size_t>(state.place.cell)]);
 }
 
 /// REQUIRES: it has left through `goal` or `safe` sides alone.
@@ -195,13 +209,13 @@ RunTrace::Sample ClosedLoop::sample(const State& state) {
   for (std::size_t i = 0; i < state.exact.size(); ++i) slots_[problem_.spec->state_slot(i)] = state.exact[i];
   result.margin = margin_.value(slots_);
   if (state.place.kind == Kind::cell) {
-    result.delay = problem_.delay[static_cast<std::size_t>(state.place.cell)];
+    result.delay = delay_[static_cast<std::size_t>(state.place.cell)];
   } else {
     result.delay = state.place.kind == Kind::left_safely ? RunTrace::kForever : DelayLayers::kOutsideSafe;
   }
-  if (!problem_.has_goal()) return result;
+  if (to_aim_.empty()) return result;
   if (state.place.kind == Kind::cell) {
-    result.arrival = problem_.arrival[static_cast<std::size_t>(state.place.cell)];
+    result.arrival = to_aim_[static_cast<std::size_t>(state.place.cell)];
   } else {
     const bool is_there = state.place.kind == Kind::left_safely && is_beyond_goal_side(state);
     result.arrival = is_there ? 0 : RunTrace::kForever;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "answers/layers/delay_layers.hpp"
@@ -32,10 +33,12 @@ enum class Outcome : std::uint8_t {
   no_action,       ///< ended early in K where no action is admissible
   reached_goal,    ///< ended in the goal, as was asked
   late,            ///< more steps than promised, and not in the goal
+  not_allowed,     ///< ended early in K where silent agents together do what `allow` forbids
 };
 /// Those that contradict the analysis.
 [[nodiscard]] constexpr bool is_violation(Outcome outcome) {
-  return outcome == Outcome::left_invariant || outcome == Outcome::no_action || outcome == Outcome::late;
+  return outcome == Outcome::left_invariant || outcome == Outcome::no_action || outcome == Outcome::late ||
+         outcome == Outcome::not_allowed;
 }
 
 /// One run. A sample is a state at a sampling instant; sample k is followed by step k, the last by none.
@@ -48,7 +51,7 @@ struct RunTrace {
     double margin = 0;             ///< of `safe` at the true state, see Margin
     /// Of the cell, steps, as LoopProblem has them; kForever in T, kOutsideSafe beyond an unsafe side.
     std::int32_t delay = 0;
-    std::int32_t arrival = 0;  ///< of the cell likewise, with a goal; 0 beyond a `goal` side
+    std::int32_t arrival = 0;  ///< those to the aim likewise, if there is one; 0 beyond a `goal` side
     /// i of Definition 3: steps that the agents still go on without coordination. kForever where they never
     /// need any.
     std::int32_t countdown = 0;
@@ -61,7 +64,7 @@ struct RunTrace {
   std::vector<Sample> samples;  ///< at least one
   std::vector<Step> steps;      ///< one fewer
   Outcome outcome = Outcome::completed;
-  std::optional<std::int64_t> arrived;  ///< the sample at which the goal is reached first
+  std::optional<std::int64_t> arrived;  ///< the sample at which the aim is reached first
 
   [[nodiscard]] std::int64_t coordinated_steps() const;
   /// The most steps in a row without coordination.
@@ -77,9 +80,10 @@ struct RunTrace {
 /// is D; at 0 they coordinate: they act from C. If delay(x) < D the connection stays and the next step is
 /// coordinated too. Cells of unbounded delay never coordinate again.
 ///
-/// With a goal (contract, section 5), until it is reached: where a countdown begins in a cell of W, it is
-/// that of the approach delay, and the agents act from P and IND_P. Then the goal is reached within
-/// arrival(start) steps.
+/// That is the policy of the delays. Where a countdown begins in a cell in which another policy holds, it is
+/// that one's, and so is what the agents act from. If it has an aim, it is followed until that is reached;
+/// a run that begins with it is there within the steps that its start has. (On the way to a goal, contract,
+/// section 5: approach delay, P and IND_P, within arrival(start) steps.)
 ///
 /// Holds the scratch memory of a run: one object a thread.
 class ClosedLoop {
@@ -104,11 +108,12 @@ class ClosedLoop {
   [[nodiscard]] bool advance(State& state, std::int64_t u, const Nature& nature);
   [[nodiscard]] RunTrace::Sample sample(const State& state);
   [[nodiscard]] std::int32_t reset_countdown(std::int32_t delay) const;
-  /// The goal can be forced, and has not been reached.
-  [[nodiscard]] bool is_on_the_way(const State& state, const RunTrace& trace) const;
-  /// The countdown that begins at a sample. @param approaching set to whether it is one of the approach
-  [[nodiscard]] std::int32_t begin_countdown(const State& state, const RunTrace& trace,
-                                             bool& approaching) const;
+  /// The place of the policy that is followed from a sample on.
+  [[nodiscard]] std::size_t policy_at(const State& state, const RunTrace& trace);
+  /// Its countdown.
+  [[nodiscard]] std::int32_t begin_countdown(std::size_t policy, const State& state,
+                                             const RunTrace& trace) const;
+  [[nodiscard]] bool has_aim(std::size_t policy) const { return !problem_.policies[policy].aim.path.empty(); }
   [[nodiscard]] bool is_beyond_goal_side(const State& state) const;
 
   LoopProblem problem_;
@@ -118,6 +123,8 @@ class ClosedLoop {
   NextStates next_;
   Margin margin_;
   std::vector<Rational> slots_;
+  std::span<const std::int32_t> delay_;
+  std::span<const std::int32_t> to_aim_;  ///< [cells] steps; empty: no policy has an aim
 };
 
 }  // namespace coordreq

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "answers/plan.hpp"
 #include "answers/requirements/escape_result.hpp"
 #include "answers/requirements/requirement.hpp"
 #include "base/index.hpp"
@@ -35,12 +36,12 @@ class Explainer {
     found.is_lower_bound = layers.truncated && found.delay >= 0 && found.delay == layers.top_delay();
     const bool is_bounded = found.delay != kNever && !found.is_lower_bound;
     if (is_bounded) found.path = way_out(cell);
+    add_others(cell, is_bounded, found);
     if (found.delay < 0) return found;
     found.actions = controller_.actions(partition_, cell);
     const std::vector<bool>& together = controller_.joint_inputs(cell);
     found.together = std::count(together.begin(), together.end(), true);
     found.alone = choices(found.actions);
-    found.convention = controller_.convention(cell);
     if (!is_bounded) return found;
     find_remedies(cell, found);
     find_neighbour(cell, found);
@@ -48,6 +49,18 @@ class Explainer {
   }
 
  private:
+  void add_others(std::int64_t cell, bool is_bounded, DelayExplanation& found) {
+    const ExplainGround ground{.spec = &results_.spec(),
+                               .delay = found.delay,
+                               .is_bounded = is_bounded,
+                               .actions = [&](const AnswerPolicy& policy) {
+                                 return controller_.actions(policy, partition_, cell, found.delay);
+                               }};
+    for (const Answer& answer : all_answers()) {
+      if (answer.explain != nullptr) found.others.push_back(answer.explain(ground));
+    }
+  }
+
   [[nodiscard]] std::int32_t delay_at(std::int64_t cell) const {
     return delay_of(cell, sets_.invariance().collision_time.at(cell), &sets_.layers());
   }
@@ -96,7 +109,8 @@ class Explainer {
                                           return actions[at(own.action(u))];
                                         });
       if (!is_choice) continue;
-      const std::int32_t steps = steps_after(posts_.post(u, sets_.ground().tubes()));
+      const bool is_forbidden = controller_.forbids(cell, u);
+      const std::int32_t steps = is_forbidden ? 0 : steps_after(posts_.post(u, sets_.ground().tubes()));
       for (std::size_t c = 0; c < classes_.size(); ++c) {
         std::int32_t& own = worst[c][at(classes_[c].action(u))];
         own = std::min(own, steps);

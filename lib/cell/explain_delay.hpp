@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "answers/one_cell/explain_ground.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "base/thread_team.hpp"
 #include "results/results_reader.hpp"
@@ -20,10 +21,9 @@ struct DelayExplanation {
   /// (find_escape()); none where the delay has no known end.
   std::optional<ResultPath> path;
   // The rest only in K.
-  std::int64_t together = 0;                  ///< |C(x)|
-  std::int64_t alone = 0;                     ///< |IND_C(x)|, the product of the projections
-  std::vector<std::vector<bool>> actions;     ///< the projections, [class][action]
-  std::vector<std::vector<bool>> convention;  ///< what a convention would leave each agent, [agent][action]
+  std::int64_t together = 0;               ///< |C(x)|
+  std::int64_t alone = 0;                  ///< |IND_C(x)|, the product of the projections
+  std::vector<std::vector<bool>> actions;  ///< the projections, [class][action]
 
   /// A class that keeps to one of its actions at this cell, whatever the others do of theirs; as an `allow`
   /// would have it. K stays, IND_C(x) shrinks, so that no delay anywhere gets shorter.
@@ -40,6 +40,8 @@ struct DelayExplanation {
     std::int32_t delay = 0;
     std::int64_t alone = 0;
   };
+  std::vector<Explained> others;  ///< what answers add, in their order
+
   std::optional<Neighbour> freer_is_shorter;  ///< the nearest, of equals in the first dimension, below first
 };
 

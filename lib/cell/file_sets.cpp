@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "answers/invariance/fields.hpp"
 #include "answers/invariance/safe_tubes.hpp"
+#include "answers/layers/fields.hpp"
 #include "base/error.hpp"
 #include "base/grouped.hpp"
 #include "base/timer.hpp"
@@ -64,9 +66,11 @@ void FileSets::read_cells(std::size_t partition) {
   const auto last = static_cast<std::int32_t>(layers_.sizes.size()) - 1;
   for (std::int64_t r = 0; r < grid.rows(); ++r) {
     const auto read = [&](const auto& part) { return results_.stretch(r * length, (r + 1) * length, part); };
-    const auto safe = read([&](const CellBlock& block) { return results_.safe(block); });
-    const auto times = read([&](const CellBlock& block) { return results_.collision_time(block); });
-    const auto delays = read([&](const CellBlock& block) { return results_.delay(partition, block); });
+    const auto safe = read([&](const CellBlock& block) { return results_.members(paths::kSafe, block); });
+    const auto times =
+        read([&](const CellBlock& block) { return results_.values(paths::kCollisionTime, block); });
+    const auto delays =
+        read([&](const CellBlock& block) { return results_.values(paths::kDelay, partition, block); });
     for (std::int64_t i = 0; i < length; ++i) {
       const auto at = static_cast<std::size_t>(i);
       if (safe[at] != 0) ground_.safe.set(r * length + i);
@@ -83,8 +87,7 @@ void FileSets::read_cells(std::size_t partition) {
 void FileSets::read_listed() {
   ListedController listed;
   listed.pairs.inputs = results_.inputs().count();
-  listed.pairs.bytes = results_.stretch(0, results_.grid().cells(),
-                                        [&](const CellBlock& block) { return results_.listed_bits(block); });
+  listed.pairs.bytes = results_.bits(paths::kListed, all_cells(results_.grid()));
   ground_.listed = std::move(listed);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "answers/invariance/fields.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 
 namespace coordreq {
@@ -12,8 +13,8 @@ CellSet all_safe_cells(const ResultsReader& results) {
   CellSet safe(grid.rows(), grid.row_length());
   for (std::int64_t begin = 0; begin < grid.cells(); begin += kPartCells) {
     const std::int64_t end = std::min(begin + kPartCells, grid.cells());
-    const auto members =
-        results.stretch(begin, end, [&](const CellBlock& block) { return results.safe(block); });
+    const auto members = results.stretch(
+        begin, end, [&](const CellBlock& block) { return results.members(paths::kSafe, block); });
     for (std::int64_t x = begin; x < end; ++x) {
       if (members[static_cast<std::size_t>(x - begin)] != 0) safe.set(x);
     }

@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
+#include "answers/invariance/fields.hpp"
 #include "answers/invariance/safe_tubes.hpp"
+#include "answers/layers/forbidden_choices.hpp"
+#include "answers/plan.hpp"
 #include "base/error.hpp"
 #include "cell/invariant_cells.hpp"
 #include "cell/state_text.hpp"
@@ -15,6 +19,7 @@
 #include "reach/build_abstraction.hpp"
 #include "reach/table_shapes.hpp"
 #include "results/write_results.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {
@@ -104,12 +109,29 @@ CellSet safe_cells(const UniformGrid& grid, std::span<const std::int32_t> delay)
   return safe;
 }
 
+std::vector<AnswerPolicy> loop_policies(const ProblemSpec& spec) {
+  std::vector<AnswerPolicy> policies = answer_policies(spec);
+  std::erase_if(policies, [](const AnswerPolicy& policy) { return policy.delay.empty(); });
+  return policies;
+}
+
+/// Of the fields that a loop looks at.
+std::vector<std::string> loop_paths(const std::vector<AnswerPolicy>& policies) {
+  std::vector<std::string> paths;
+  for (const AnswerPolicy& policy : policies) {
+    paths.push_back(policy.delay);
+    if (!policy.aim.path.empty()) paths.push_back(policy.aim.path);
+  }
+  return paths;
+}
+
 /// Refuses up front what would not fit: delays, tables, traces.
 void check_simulation_memory(const ResultsReader& results, const SimulationOptions& options) {
   const ProblemSpec& spec = results.spec();
   const auto states = static_cast<double>(spec.states.size());
   const auto disturbances = static_cast<double>(spec.disturbances.size());
-  double bytes = 32e6 + (spec.goal ? 12 : 4) * static_cast<double>(results.grid().cells());
+  const auto arrays = static_cast<double>(loop_paths(loop_policies(spec)).size());
+  double bytes = 32e6 + arrays * sizeof(std::int32_t) * static_cast<double>(results.grid().cells());
   if (spec.controller.file) {
     bytes += static_cast<double>(PackedPairs::bytes_for(results.inputs().count())) *
              static_cast<double>(results.grid().cells());
@@ -125,6 +147,14 @@ void check_simulation_memory(const ResultsReader& results, const SimulationOptio
                                options.runs, options.steps, bytes / kMebi,
                                static_cast<double>(*options.max_memory) / kMebi),
                    "--max-memory");
+}
+
+std::vector<std::int32_t> read_cells(const ResultsReader& results, const std::string& path,
+                                     std::size_t partition) {
+  const Field& field = results.field(path);
+  const bool is_of_partitions = field.axes.front() == "/partition";
+  return results.values(field, is_of_partitions ? ResultsReader::Leading(partition) : std::nullopt,
+                        all_cells(results.grid()));
 }
 
 }  // namespace
@@ -164,7 +194,11 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   enter("checking");
   if (options.output) check_writable(*options.output);
   enter("running");
-  const std::vector<std::int32_t> delay = results.delay(partition, all_cells(results.grid()));
+  const std::vector<AnswerPolicy> policies = loop_policies(spec);
+  const std::vector<std::string> paths = loop_paths(policies);
+  std::map<std::string, std::vector<std::int32_t>> values;
+  const std::vector<std::int32_t>& delay = values[paths.front()] =
+      read_cells(results, paths.front(), partition);
   if (runs.start) {
     check_start(results, *runs.start, delay);
   } else if (InvariantCells(spec, delay).count() == 0) {
@@ -173,11 +207,8 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
                          : "the invariance set has no state with nothing remembered to start from",
                      "--start");
   }
-  const CellBlock all = all_cells(results.grid());
-  std::vector<std::int32_t> arrival, approach;
-  if (spec.goal) {
-    arrival = results.values(results.field("/arrival"), std::nullopt, all);
-    approach = results.values(results.field("/approach_delay"), partition, all);
+  for (const std::string& path : paths) {
+    if (!values.contains(path)) values[path] = read_cells(results, path, partition);
   }
   // Tubes are not stored.
   const bool is_stored = results.has_abstraction() && !spec.abstraction.between_samples;
@@ -186,17 +217,18 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
       safe_beyond_limits(spec, abstraction, safe_cells(results.grid(), delay), team);
   std::optional<PackedPairs> listed;
   if (spec.controller.file) {
-    listed = {.inputs = results.inputs().count(), .bytes = results.listed_bits(all_cells(results.grid()))};
+    listed = {.inputs = results.inputs().count(),
+              .bytes = results.bits(paths::kListed, all_cells(results.grid()))};
   }
-  const LoopProblem problem{.spec = &spec,
-                            .abstraction = &abstraction,
-                            .partition = &spec.coordination.partitions[partition],
-                            .delay = delay,
-                            .safe_beyond = beyond ? &*beyond : nullptr,
-                            .listed = listed ? &*listed : nullptr,
-                            .connection_delay = spec.coordination.connection_delay,
-                            .arrival = arrival,
-                            .approach_delay = approach};
+  LoopProblem problem{.spec = &spec,
+                      .abstraction = &abstraction,
+                      .partition = &spec.coordination.partitions[partition],
+                      .policies = policies,
+                      .values = {},
+                      .safe_beyond = beyond ? &*beyond : nullptr,
+                      .listed = listed ? &*listed : nullptr,
+                      .connection_delay = spec.coordination.connection_delay};
+  for (const auto& [path, cells] : values) problem.values[path] = cells;
   Simulation simulation{.partition = problem.partition->name, .traces = simulate_runs(problem, runs, team)};
   if (options.output) {
     enter("writing");
@@ -242,8 +274,8 @@ std::optional<std::size_t> Simulation::violation() const {
 }
 
 std::string outcome_name(Outcome outcome) {
-  constexpr const char* kNames[] = {"completed", "left_safely",  "left_invariant",
-                                    "no_action", "reached_goal", "late"};
+  constexpr const char* kNames[] = {"completed",    "left_safely", "left_invariant", "no_action",
+                                    "reached_goal", "late",        "not_allowed"};
   return kNames[static_cast<std::size_t>(outcome)];
 }
 
@@ -251,6 +283,7 @@ std::vector<Outcome> outcomes(const ProblemSpec& spec) {
   std::vector<Outcome> result = {Outcome::completed, Outcome::left_safely, Outcome::left_invariant,
                                  Outcome::no_action};
   if (spec.goal) result.insert(result.end(), {Outcome::reached_goal, Outcome::late});
+  if (allow_joins_agents(spec)) result.push_back(Outcome::not_allowed);
   return result;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/thread_team.hpp"
@@ -14,37 +16,23 @@ namespace coordreq {
 
 /// Everything that a results file knows about one state.
 struct StateAnswer {
-  /// On the way to a goal.
-  struct Approach {
-    std::int32_t delay = 0;                  ///< steps, as `/approach_delay`
-    std::int32_t trigger = 0;                ///< steps, as `/approach_trigger`
-    std::vector<std::vector<bool>> actions;  ///< joint actions that come nearer, [class][action]; none in G
-  };
-  struct Partition {
-    std::int32_t delay = 0;                  ///< steps, as ResultsReader::delay()
-    std::int32_t trigger = 0;                ///< steps, as ResultsReader::trigger()
-    std::vector<std::vector<bool>> actions;  ///< admissible joint actions, [class][action]
-    std::optional<Approach> approach;        ///< if the spec has a goal
-  };
   std::vector<Rational> state;
   Location location;
   // The rest only where the location is a cell.
-  bool safe = false;
-  bool invariant = false;
-  std::int32_t collision_time = 0;  ///< steps, as ResultsReader::collision_time()
-  std::vector<Partition> partitions;
-  struct Coalition {
-    std::int32_t partition = 0;  ///< as ResultsReader::coalition()
-    std::vector<std::size_t> critical_pairs;
-  };
-  std::optional<Coalition> coalition;  ///< if the file has a coalition map
-  std::vector<bool> safe_modes;        ///< by mode of the network; none without one
-  /// What the convention leaves each agent, [agent][action]; none without a convention.
-  std::vector<std::vector<bool>> convention;
-  std::vector<std::int32_t> others;  ///< of the fields of asked_fields()
+  /// By path, of S, K, collision times, the steps of policies and the fields of asked_fields(): the value at
+  /// the cell, or one for each entry of the leading axis.
+  std::map<std::string, std::vector<std::int32_t>> values;
+  /// By name of the policy: what it leaves the classes of each partition, [partition][class][action]; or, as
+  /// if of one partition, each agent.
+  std::map<std::string, std::vector<ActionSets>> actions;
+
+  /// @param entry of the leading axis, if there is one. REQUIRES: there is such a value
+  [[nodiscard]] std::int32_t value(const std::string& path, std::size_t entry = 0) const {
+    return values.at(path)[entry];
+  }
 };
 
-/// The fields of the file that are told as FieldShown::asked says.
+/// The fields of the file that are told as FieldAsked says, without the steps of policies.
 [[nodiscard]] std::vector<const Field*> asked_fields(const ResultsReader& results);
 
 /// Answers questions about states. Not thread-safe.
@@ -57,10 +45,10 @@ class StateQuery {
   /// @param state one value a state of the spec. A state outside of the domain has an answer too.
   /// @throws ResultsError if the file is damaged, or needed actions are neither stored nor computable
   [[nodiscard]] StateAnswer at(std::vector<Rational> state);
+  [[nodiscard]] const std::vector<AnswerPolicy>& policies() const { return controller_.policies(); }
 
  private:
-  [[nodiscard]] StateAnswer::Approach approach_at(std::size_t partition, std::int64_t cell);
-  [[nodiscard]] StateAnswer::Coalition coalition_at(const CellBlock& block) const;
+  void read_values(const std::string& path, const CellBlock& block, StateAnswer& answer) const;
 
   const ResultsReader& results_;
   CellController controller_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/error.hpp"
@@ -61,18 +62,33 @@ bool StateReader::read_line() {
   return false;
 }
 
+/// As many as there are states where none is called so.
+std::size_t StateReader::state_of(std::string_view name) const {
+  return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
+}
+
+/// An extra name may be the one that was meant.
+std::string StateReader::missing(const char* what, const std::string& state) const {
+  std::string text = fmt::format("no {} for the state {}", what, quote_text(state));
+  for (const std::string& name : extra_names_)
+    text += fmt::format("{} {}", &name == &extra_names_.front() ? "; no state is" : ",", quote_text(name));
+  return text;
+}
+
 void StateReader::read_header() {
   for (const std::string& field : csv_fields(line_, place())) {
-    const std::size_t state = state_number(trimmed(field), names_, place());
-    if (std::find(columns_.begin(), columns_.end(), state) != columns_.end()) {
+    const std::string name(trimmed(field));
+    const std::size_t state = state_of(name);
+    if (state == names_.size()) {
+      extra_names_.push_back(name);
+    } else if (std::find(columns_.begin(), columns_.end(), state) != columns_.end()) {
       throw UsageError(fmt::format("'{}' is given twice", names_[state]), place());
     }
     columns_.push_back(state);
   }
   for (std::size_t i = 0; i < needed_; ++i) {
-    if (std::find(columns_.begin(), columns_.end(), i) == columns_.end()) {
-      throw UsageError(fmt::format("no column for the state '{}'", names_[i]), place());
-    }
+    if (std::find(columns_.begin(), columns_.end(), i) == columns_.end())
+      throw UsageError(missing("column", names_[i]), place());
   }
   pending_ = false;
 }
@@ -82,31 +98,42 @@ std::optional<std::vector<Rational>> StateReader::next() {
   return format_ == Format::csv ? csv_state() : json_state();
 }
 
-std::vector<Rational> StateReader::csv_state() const {
+std::vector<Rational> StateReader::csv_state() {
   const std::vector<std::string> fields = csv_fields(line_, place());
   if (fields.size() != columns_.size()) {
     throw UsageError(fmt::format("expected {} values, found {}", columns_.size(), fields.size()), place());
   }
   std::vector<Rational> state(names_.size());
+  extra_.clear();
   for (std::size_t c = 0; c < fields.size(); ++c) {
-    state[columns_[c]] = parse_value(fields[c], place() + ", " + names_[columns_[c]]);
+    if (columns_[c] == names_.size()) {
+      extra_.push_back({extra_names_[extra_.size()], fields[c]});
+    } else {
+      state[columns_[c]] = parse_value(fields[c], place() + ", " + names_[columns_[c]]);
+    }
   }
   return state;
 }
 
-std::vector<Rational> StateReader::json_state() const {
+std::vector<Rational> StateReader::json_state() {
   try {
     const JsonDocument document = JsonDocument::parse(line_, source_);
     const JsonDocument::Node root = document.root();
     if (!root.is_object()) throw UsageError("expected a JSON object a line", place());
-    for (const std::string& key : root.keys()) static_cast<void>(state_number(key, names_, place()));
+    extra_names_.clear();
+    extra_.clear();
+    for (const std::string& key : root.keys()) {
+      if (state_of(key) < names_.size()) continue;
+      extra_names_.push_back(key);
+      extra_.push_back({key, document.value().at(key).dump(), true});
+    }
     std::vector<Rational> state;
     for (const std::string& name : names_) {
       if (!root.has(name) && state.size() >= needed_) {
         state.emplace_back(0);
         continue;
       }
-      if (!root.has(name)) throw UsageError(fmt::format("no value for the state '{}'", name), place());
+      if (!root.has(name)) throw UsageError(missing("value", name), place());
       const JsonDocument::Node node = root[name];
       if (!node.is_number() && !node.is_text()) {
         throw UsageError("expected a number or a string", place() + ", " + name);

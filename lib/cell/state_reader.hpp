@@ -16,7 +16,8 @@ namespace coordreq {
 ///
 /// CSV: the first line names the states, in any order; values are decimals or constant expressions, in quotes
 /// ("...") where they hold commas. JSON lines: an object a line, whose values are numbers or strings with a
-/// constant expression. Numbers are exact: the decimals that were typed. Empty lines are skipped.
+/// constant expression. Numbers are exact: the decimals that were typed. Empty lines are skipped. Columns and
+/// keys that name no state (the time of a log, notes) are *extra*, and kept as texts.
 /// Errors are UsageErrors that name the line; a stream that cannot be read is an IoError.
 class StateReader {
  public:
@@ -30,19 +31,33 @@ class StateReader {
   /// The next state, in the order of the names; nothing at the end.
   [[nodiscard]] std::optional<std::vector<Rational>> next();
 
+  struct Extra {
+    std::string name;
+    std::string value;     ///< without the quotation marks of CSV
+    bool is_json = false;  ///< of JSON lines: JSON text
+  };
+  /// Names without values: of CSV once it is open, of JSON lines those of the last state.
+  [[nodiscard]] const std::vector<std::string>& extra_names() const { return extra_names_; }
+  /// Of the last state, in their order.
+  [[nodiscard]] const std::vector<Extra>& extra() const { return extra_; }
+
  private:
   [[nodiscard]] bool read_line();
   [[nodiscard]] std::string place() const;
   void read_header();
-  [[nodiscard]] std::vector<Rational> csv_state() const;
-  [[nodiscard]] std::vector<Rational> json_state() const;
+  [[nodiscard]] std::vector<Rational> csv_state();
+  [[nodiscard]] std::vector<Rational> json_state();
+  [[nodiscard]] std::size_t state_of(std::string_view name) const;
+  [[nodiscard]] std::string missing(const char* what, const std::string& state) const;
 
   std::istream& stream_;
   std::vector<std::string> names_;
   std::size_t needed_;
   std::string source_;
   Format format_ = Format::csv;
-  std::vector<std::size_t> columns_;  ///< state of each CSV column
+  std::vector<std::size_t> columns_;  ///< state of each CSV column; as many as there are states: extra
+  std::vector<std::string> extra_names_;
+  std::vector<Extra> extra_;
   std::string line_;
   std::int64_t line_number_ = 0;
   bool pending_ = false;  ///< `line_` has not been used yet

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "answers/field_parts.hpp"
+#include "answers/plan.hpp"
 #include "results/file_header.hpp"
 #include "results/write_results.hpp"
 #include "spec/problem_spec.hpp"
@@ -61,7 +62,11 @@ std::string component_text(const std::string& kind, const std::vector<Variable>&
 class RunFields {
  public:
   RunFields(const ResultsReader& results, const SimulationOptions& options, const Simulation& simulation)
-      : spec_(results.spec()), inputs_(results.inputs()), simulation_(simulation) {
+      : results_(results),
+        spec_(results.spec()),
+        inputs_(results.inputs()),
+        policies_(answer_policies(results.spec())),
+        simulation_(simulation) {
     runs_ = static_cast<std::uint64_t>(options.runs);
     samples_ = static_cast<std::uint64_t>(options.steps) + 1;
     add_axes();
@@ -159,15 +164,8 @@ class RunFields {
             std::vector<FieldAttribute>{
                 flags({no_sample, {-2, "not_safe"}, {-1, "not_invariant"}, {kLargestValue, "unbounded"}})},
         of_sample(kNoSample, [](const Sample& s, std::size_t) { return s.delay; }));
-    if (spec_.goal) {
-      add_list<std::int32_t>(
-          "/arrival", ElementType::int32,
-          described("arrival of the cell: steps within which the goal can be forced") +
-              std::vector<FieldAttribute>{flags({no_sample,
-                                                 {-2, "not_safe"},
-                                                 {-1, "not_invariant"},
-                                                 {kLargestValue, "goal_cannot_be_forced"}})},
-          of_sample(kNoSample, [](const Sample& s, std::size_t) { return s.arrival; }));
+    for (const AnswerPolicy& policy : policies_) {
+      if (!policy.aim.path.empty()) add_way(policy.aim, no_sample);
     }
     add_list<std::uint8_t>(
         "/coordinated", ElementType::uint8,
@@ -178,6 +176,16 @@ class RunFields {
     add_list<double>("/margin", ElementType::float64,
                      {{"long_name", std::string("quantitative semantics of safe at the true state")}},
                      of_sample(kNothing, [](const Sample& s, std::size_t) { return s.margin; }));
+  }
+
+  /// How far it is to the aim of a policy.
+  void add_way(const AnswerPolicy::Aim& aim, const FieldFlag& no_sample) {
+    std::vector<FieldFlag> meanings = flags_of(results_.field(aim.path));
+    meanings.insert(meanings.begin(), no_sample);
+    add_list<std::int32_t>(aim.path, ElementType::int32,
+                           described(aim.path.substr(1) + " of the cell: " + aim.words) +
+                               std::vector<FieldAttribute>{flags(std::move(meanings))},
+                           of_sample(kNoSample, [](const Sample& s, std::size_t) { return s.arrival; }));
   }
 
   template <class Element, class Value>
@@ -201,15 +209,17 @@ class RunFields {
                           [](const RunTrace& trace) { return trace.samples.size(); });
     std::vector<FieldFlag> outcomes;
     for (const Outcome outcome : coordreq::outcomes(spec_))
-      outcomes.push_back({static_cast<std::int64_t>(outcomes.size()), outcome_name(outcome)});
+      outcomes.push_back({static_cast<std::int64_t>(outcome), outcome_name(outcome)});
     add_end<std::uint8_t>(
         "/outcome", ElementType::uint8,
         described("how the run ended") + std::vector<FieldAttribute>{flags(std::move(outcomes))},
         [](const RunTrace& trace) { return trace.outcome; });
   }
 
+  const ResultsReader& results_;
   const ProblemSpec& spec_;
   const InputSpace& inputs_;
+  std::vector<AnswerPolicy> policies_;
   const Simulation& simulation_;
   std::uint64_t runs_ = 0, samples_ = 0;
 };

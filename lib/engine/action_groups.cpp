@@ -28,8 +28,8 @@ std::vector<std::int32_t> difference(const std::vector<std::int32_t>& a, const s
 }  // namespace
 
 ActionGrouping::ActionGrouping(const RowEngine& engine, const std::vector<InputClass>& classes,
-                               ThreadTeam& team)
-    : engine_(&engine), sources_(action_sources(engine)) {
+                               std::vector<ActionSource> sources, ThreadTeam& team)
+    : engine_(&engine), sources_(std::move(sources)) {
   for (const InputClass& inputs : classes) {
     classes_.push_back(make_class(inputs));
     share_groups(classes_.back(), team);

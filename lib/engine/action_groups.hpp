@@ -51,7 +51,11 @@ struct RowGroups {
 class ActionGrouping {
  public:
   /// REQUIRES: the classes are a partition of all inputs; `engine` outlives this object.
-  ActionGrouping(const RowEngine& engine, const std::vector<InputClass>& classes, ThreadTeam& team);
+  ActionGrouping(const RowEngine& engine, const std::vector<InputClass>& classes, ThreadTeam& team)
+      : ActionGrouping(engine, classes, action_sources(engine), team) {}
+  /// Told apart by other sources.
+  ActionGrouping(const RowEngine& engine, const std::vector<InputClass>& classes,
+                 std::vector<ActionSource> sources, ThreadTeam& team);
 
   [[nodiscard]] std::size_t size() const { return classes_.size(); }
   [[nodiscard]] const InputClass& operator[](std::size_t c) const { return classes_[c].inputs; }
@@ -59,8 +63,8 @@ class ActionGrouping {
   void group(const RowPlace& place, RowGroups& groups) const;
 
   [[nodiscard]] const RowEngine& engine() const { return *engine_; }
-  /// What tells actions apart: the engine's slices in order (posts, then tubes), then `allow` if there is
-  /// one.
+  /// What tells actions apart: usually the engine's slices in order (posts, then tubes), then `allow` if
+  /// there is one.
   [[nodiscard]] const std::vector<ActionSource>& sources() const { return sources_; }
   /// What action `a` of class c adds to an entry's position in source t.
   [[nodiscard]] std::int64_t contribution(std::size_t c, std::size_t t, std::uint32_t a) const {

@@ -2,6 +2,18 @@
 
 namespace coordreq {
 
+ActionSource source_of(const PairTable& pairs, const InputSpace& inputs) {
+  ActionSource source;
+  source.ids = &pairs.ids();
+  source.state_stride = pairs.positions().state_stride;
+  source.input_stride = pairs.positions().input_stride;
+  source.before = pairs.positions().before;
+  source.inputs = pairs.positions().inputs;
+  for (const std::int32_t i : source.inputs)
+    source.input_combinations *= inputs[static_cast<std::size_t>(i)].count();
+  return source;
+}
+
 std::vector<ActionSource> action_sources(const RowEngine& engine) {
   std::vector<ActionSource> sources;
   for (const RowSlices& slices : engine.slices()) {
@@ -14,17 +26,8 @@ std::vector<ActionSource> action_sources(const RowEngine& engine) {
     source.inputs = slices.inputs;
     source.input_combinations = slices.input_combinations;
   }
-  const PairTable* allow = engine.allow();
-  if (allow == nullptr) return sources;
-  ActionSource& source = sources.emplace_back();
-  source.ids = &allow->ids();
-  source.state_stride = allow->positions().state_stride;
-  source.input_stride = allow->positions().input_stride;
-  source.before = allow->positions().before;
-  source.inputs = allow->positions().inputs;
-  for (const std::int32_t i : source.inputs) {
-    source.input_combinations *= engine.abstraction().inputs[static_cast<std::size_t>(i)].count();
-  }
+  if (const PairTable* allow = engine.allow())
+    sources.push_back(source_of(*allow, engine.abstraction().inputs));
   return sources;
 }
 

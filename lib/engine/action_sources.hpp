@@ -7,10 +7,10 @@
 
 namespace coordreq {
 
-/// What tells actions apart in a row, seen alike: a table of slices, or the rows of `allow`.
+/// What tells actions apart in a row, seen alike: a table of slices, or the rows of a table of pairs.
 /// Entry = sum of state index * state_stride + input index * input_stride; equal numbers mean equal contents.
 struct ActionSource {
-  const RowSlices* slices = nullptr;                ///< null: `ids` are those of `allow`
+  const RowSlices* slices = nullptr;                ///< null: `ids` are those of a table of pairs
   const std::vector<std::uint32_t>* ids = nullptr;  ///< [entry]; null: every entry is its own number
   std::vector<std::int64_t> state_stride;
   std::vector<std::int64_t> input_stride;
@@ -26,6 +26,8 @@ struct ActionSource {
   /// Where the entries of a row of the grid begin.
   [[nodiscard]] std::int64_t base(const RowPlace& place) const { return place.offset(state_stride) - before; }
 };
+
+[[nodiscard]] ActionSource source_of(const PairTable& pairs, const InputSpace& inputs);
 
 /// The engine's slices in order (posts, then tubes), then `allow` if there is one. They refer to the engine.
 [[nodiscard]] std::vector<ActionSource> action_sources(const RowEngine& engine);

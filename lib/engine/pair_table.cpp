@@ -48,7 +48,7 @@ PairTable::PairTable(const ConditionTable& allow) : positions_(allow.positions()
 }
 
 PairTable::PairTable(const UniformGrid& grid, const InputSpace& inputs, const PackedPairs& listed,
-                     const ConditionTable* allow, ThreadTeam::Range rows, ThreadTeam& team)
+                     const PairTable* permitted, ThreadTeam::Range rows, ThreadTeam& team)
     : positions_{.grid = &grid,
                  .input_space = &inputs,
                  .inputs = std::vector<std::int32_t>(inputs.size()),
@@ -71,10 +71,9 @@ PairTable::PairTable(const UniformGrid& grid, const InputSpace& inputs, const Pa
         std::vector<Word>& own = turned[static_cast<std::size_t>(r)];
         turn_row(listed.bytes.data() + (first + r) * grid.row_length() * bytes, grid.row_length(), bytes,
                  words, own);
-        for (std::int64_t u = 0; allow != nullptr && u < inputs.count(); ++u) {
-          const ConstRow permitted = allow->row(first + r, u);
-          for (std::size_t w = 0; w < words; ++w)
-            own[static_cast<std::size_t>(u) * words + w] &= permitted[w];
+        for (std::int64_t u = 0; permitted != nullptr && u < inputs.count(); ++u) {
+          const ConstRow cells = permitted->row(first + r, u);
+          for (std::size_t w = 0; w < words; ++w) own[static_cast<std::size_t>(u) * words + w] &= cells[w];
         }
       }
     });

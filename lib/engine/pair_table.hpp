@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/thread_team.hpp"
@@ -19,12 +20,12 @@ class PairTable {
   /// What a condition permits.
   explicit PairTable(const ConditionTable& allow);
   /// What is listed, and permitted by a condition too. It depends on all states and inputs.
-  /// @param allow may be null: everything is permitted
+  /// @param permitted by the condition; may be null: everything
   /// @param rows of the grid that it is asked for
   /// REQUIRES: `listed` is over the cells of `grid` in its order, and over all joint inputs; grid and inputs
   /// outlive this object.
   PairTable(const UniformGrid& grid, const InputSpace& inputs, const PackedPairs& listed,
-            const ConditionTable* allow, ThreadTeam::Range rows, ThreadTeam& team);
+            const PairTable* permitted, ThreadTeam::Range rows, ThreadTeam& team);
 
   /// The bits at a position of the table, of those that there are.
   [[nodiscard]] ConstRow row(std::int64_t position) const {
@@ -43,6 +44,17 @@ class PairTable {
   RowPositions positions_;
   ListNumbers<Word> rows_;
   std::vector<std::uint32_t> ids_;
+};
+
+/// What is said of pairs of states and joint inputs.
+struct PairRules {
+  std::optional<PairTable> permitted;  ///< by `allow`, which forbids all else; none: nothing is forbidden
+  std::optional<PairTable> listed;  ///< of these those that a controller file lists; none: there is no file
+
+  /// The pairs that a controller may have, or null: all.
+  [[nodiscard]] const PairTable* admissible() const {
+    return listed ? &*listed : permitted ? &*permitted : nullptr;
+  }
 };
 
 }  // namespace coordreq

@@ -50,9 +50,9 @@ TableProfile profile(const RowSlices& slices, const RowShare* share) {
 
 }  // namespace
 
-RowEngine::RowEngine(const Abstraction& abstraction, const PairTable* allow, const TubeSets& tubes,
+RowEngine::RowEngine(const Abstraction& abstraction, const PairRules* pairs, const TubeSets& tubes,
                      const RowShare* share)
-    : abstraction_(&abstraction), allow_(allow), share_(share) {
+    : abstraction_(&abstraction), pairs_(pairs), share_(share) {
   add_family(abstraction.tables, abstraction.grid.dimensions());
   choose_outer();
   if (tubes.inside == nullptr) return;

@@ -35,15 +35,15 @@ struct RowFamily {
 /// once. Immutable once built, so safe to share between threads.
 class RowEngine {
  public:
-  /// @param allow may be null: everything is allowed
+  /// @param pairs may be null: everything is allowed
   /// @param tubes what tubes must stay in, if there are any
   /// @param share which rows are whose, together; null: there is one process
   /// REQUIRES: they outlive this object.
-  RowEngine(const Abstraction& abstraction, const PairTable* allow, const TubeSets& tubes,
+  RowEngine(const Abstraction& abstraction, const PairRules* pairs, const TubeSets& tubes,
             const RowShare* share = nullptr);
 
-  /// Only what is allowed counts from now on. REQUIRES: nobody has asked; `allow` outlives this object.
-  void set_allow(const PairTable& allow) { allow_ = &allow; }
+  /// Only what is allowed counts from now on. REQUIRES: nobody has asked; `pairs` outlives this object.
+  void set_pairs(const PairRules& pairs) { pairs_ = &pairs; }
   /// Takes in, once more, what tubes must stay in: in the rows held, which may not be there before.
   void take_tube_sets();
 
@@ -61,7 +61,12 @@ class RowEngine {
     const LevelRows<std::uint8_t>* inside;  ///< the greatest level for members, else 0
   };
   [[nodiscard]] std::vector<Demand> demands() const;
-  [[nodiscard]] const PairTable* allow() const { return allow_; }
+  /// The admissible pairs, or null: all.
+  [[nodiscard]] const PairTable* allow() const { return pairs_ == nullptr ? nullptr : pairs_->admissible(); }
+  /// PairRules::permitted, or null.
+  [[nodiscard]] const PairTable* permitted() const {
+    return pairs_ != nullptr && pairs_->permitted ? &*pairs_->permitted : nullptr;
+  }
   /// Null if there is one process.
   [[nodiscard]] const RowShare* share() const { return share_; }
   [[nodiscard]] std::int64_t rows() const { return grid().rows(); }
@@ -109,7 +114,7 @@ class RowEngine {
   [[nodiscard]] RowMargins margins_of(RowSlices& slices, std::int64_t count, RowEnds ends) const;
 
   const Abstraction* abstraction_;
-  const PairTable* allow_;
+  const PairRules* pairs_;
   const RowShare* share_;
   std::vector<RowSlices> slices_;
   std::vector<GridDimension> targets_;           ///< [table of slices]

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/action_sources.hpp"
 #include "engine/slot_book.hpp"
 
 namespace coordreq {
@@ -54,13 +55,15 @@ Tiles::Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading)
     const RowSlices& slices = engine.slices()[t];
     add_source(slices.state_stride, slices.before, slices.input_combinations, number_choices(t));
   }
-  const PairTable* const allow = engine.allow();
-  if (allow == nullptr) return;
-  std::int64_t combinations = 1;
-  for (const std::int32_t i : allow->positions().inputs)
-    combinations *= engine.abstraction().inputs[static_cast<std::size_t>(i)].count();
-  add_source(allow->positions().state_stride, allow->positions().before, combinations,
-             number_lists(allow->ids(), combinations));
+  // What a file lists may be equal where `allow` forbids something else.
+  if (engine.allow() != nullptr) add_pairs(*engine.allow());
+  if (engine.permitted() != nullptr && engine.permitted() != engine.allow()) add_pairs(*engine.permitted());
+}
+
+void Tiles::add_pairs(const PairTable& pairs) {
+  const std::int64_t combinations = source_of(pairs, engine_->abstraction().inputs).input_combinations;
+  add_source(pairs.positions().state_stride, pairs.positions().before, combinations,
+             number_lists(pairs.ids(), combinations));
 }
 
 void Tiles::add_source(const std::vector<std::int64_t>& state_stride, std::int64_t before,

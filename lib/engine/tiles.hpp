@@ -71,7 +71,7 @@ class Tiles {
  private:
   Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading);
 
-  /// A table, or `allow`.
+  /// A table of posts, or of pairs.
   struct Source {
     const std::vector<std::int64_t>* state_stride;
     std::int64_t before;  ///< offsets in front of those that are held
@@ -82,6 +82,7 @@ class Tiles {
 
   void add_source(const std::vector<std::int64_t>& state_stride, std::int64_t before,
                   std::int64_t combinations, Numbers numbers);
+  void add_pairs(const PairTable& pairs);
   [[nodiscard]] Numbers number_choices(std::size_t t) const;
   void add_tables(std::int64_t tile, Numbers& list) const;
   void number_tables();

@@ -75,7 +75,7 @@ class HeaderWriter {
     write_inputs();
     write_dimensions();
     put(c_header::kFunctions);
-    if (results_.spec().goal) put(c_header::kApproach);
+    for (std::size_t k = 1; k < runs_.policies.size(); ++k) write_functions(runs_.policies[k]);
     if (results_.spec().dynamics.is_kept(results_.grid().size() - 1)) write_memory();
     sink_(c_header::kClosing);
   }
@@ -136,29 +136,41 @@ class HeaderWriter {
     put("#define $M_RUNS {}\n", runs_.start.size());
     integers(unsigned_type(runs_.start.back()), "start", runs_.start);
     integers(unsigned_type(runs_.entries.size()), "entry", runs_.entry_of);
-    std::vector<std::int32_t> countdowns;
-    std::vector<std::uint32_t> sets;
-    for (const ActionRuns::Entry& entry : runs_.entries) {
-      countdowns.push_back(entry.countdown);
-      sets.insert(sets.end(), entry.sets.begin(), entry.sets.end());
-    }
     sink_("/* By entry; sets: one a class. */\n");
-    // INT32_MAX is an int wherever int32_t is one, and -2147483648 does not occur.
-    integers("int32_t", "entry_countdown", countdowns);
-    integers("uint32_t", "entry_set", sets);
-    if (results_.spec().goal) write_approach();
+    for (std::size_t k = 0; k < runs_.policies.size(); ++k) write_entries(k);
   }
 
-  void write_approach() const {
+  void write_entries(std::size_t k) const {
     std::vector<std::int32_t> countdowns;
     std::vector<std::uint32_t> sets;
     for (const ActionRuns::Entry& entry : runs_.entries) {
-      countdowns.push_back(entry.approach_countdown);
-      sets.insert(sets.end(), entry.approach_sets.begin(), entry.approach_sets.end());
+      countdowns.push_back(entry.countdowns[k]);
+      sets.insert(sets.end(), entry.sets[k].begin(), entry.sets[k].end());
     }
-    sink_("/* The same on the way to the goal. */\n");
-    integers("int32_t", "entry_approach_countdown", countdowns);
-    integers("uint32_t", "entry_approach_set", sets);
+    const AnswerPolicy& policy = runs_.policies[k];
+    if (k > 0) sink_("/* The same " + policy.header.where + ". */\n");
+    // INT32_MAX is an int wherever int32_t is one, and -2147483648 does not occur.
+    const std::string prefix = k == 0 ? "entry_" : "entry_" + policy.name + "_";
+    integers("int32_t", prefix + "countdown", countdowns);
+    integers("uint32_t", prefix + "set", sets);
+  }
+
+  /// What is said of countdowns by numbers that those of the first policy do not have.
+  [[nodiscard]] std::string more_codes(const AnswerPolicy& policy) const {
+    const std::vector<FieldFlag> known = flags_of(results_.field(runs_.policies.front().trigger));
+    std::string text;
+    for (const FieldFlag& flag : flags_of(results_.field(policy.trigger))) {
+      const bool is_known = std::any_of(known.begin(), known.end(),
+                                        [&flag](const FieldFlag& own) { return own.value == flag.value; });
+      if (!is_known) text += fmt::format("#define $M_{} ({})\n", upper_case(flag.word), flag.value);
+    }
+    return text;
+  }
+
+  void write_functions(const AnswerPolicy& policy) const {
+    put(c_header::kPolicy, fmt::arg("policy", policy.name), fmt::arg("purpose", policy.header.purpose),
+        fmt::arg("codes", more_codes(policy)), fmt::arg("countdown", policy.header.countdown),
+        fmt::arg("allowed", policy.header.allowed));
   }
 
   void write_sets() const {

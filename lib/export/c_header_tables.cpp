@@ -28,45 +28,79 @@ class Numbering {
   std::vector<Value> values_;
 };
 
+class RunFinder {
+ public:
+  RunFinder(const ResultsReader& results, std::size_t partition, ThreadTeam& team)
+      : results_(results),
+        partition_(partition),
+        controller_(results, team),
+        sets_(results.partitions()[partition].classes.size()) {
+    controller_.prepare_all();
+    for (const AnswerPolicy& policy : controller_.policies()) {
+      if (!policy.trigger.empty()) runs_.policies.push_back(policy);
+    }
+  }
+
+  ActionRuns run() {
+    for (std::int64_t begin = 0; begin < results_.grid().cells(); begin += kPartCells)
+      add_part(begin, std::min(begin + kPartCells, results_.grid().cells()));
+    runs_.entries = std::move(entries_).values();
+    for (auto& one : sets_) runs_.sets.push_back(std::move(one).values());
+    return std::move(runs_);
+  }
+
+ private:
+  using Steps = std::vector<std::vector<std::int32_t>>;  ///< [policy][cell of the part]
+
+  [[nodiscard]] Steps read(std::string AnswerPolicy::*path, std::int64_t begin, std::int64_t end) const {
+    Steps steps;
+    for (const AnswerPolicy& policy : runs_.policies) {
+      steps.push_back(results_.stretch(begin, end, [&](const CellBlock& block) {
+        return results_.values(policy.*path, partition_, block);
+      }));
+    }
+    return steps;
+  }
+
+  void add_part(std::int64_t begin, std::int64_t end) {
+    const Steps delays = read(&AnswerPolicy::delay, begin, end),
+                triggers = read(&AnswerPolicy::trigger, begin, end);
+    for (std::int64_t cell = begin; cell < end; ++cell) {
+      const auto place = static_cast<std::size_t>(cell - begin);
+      ActionRuns::Entry entry;
+      for (std::size_t k = 0; k < runs_.policies.size(); ++k) {
+        entry.countdowns.push_back(triggers[k][place]);
+        add_sets(controller_.actions(runs_.policies[k], partition_, cell, delays[k][place]), entry);
+      }
+      const std::uint32_t number = entries_.number_of(entry);
+      if (!runs_.entry_of.empty() && runs_.entry_of.back() == number) continue;
+      runs_.start.push_back(static_cast<std::uint32_t>(cell));
+      runs_.entry_of.push_back(number);
+    }
+  }
+
+  void add_sets(const ActionSets& actions, ActionRuns::Entry& entry) {
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t c = 0; c < sets_.size(); ++c) {
+      const bool has_any = std::find(actions[c].begin(), actions[c].end(), true) != actions[c].end();
+      const bool is_first = entry.sets.empty();
+      numbers.push_back(has_any || is_first ? sets_[c].number_of(actions[c]) : entry.sets.front()[c]);
+    }
+    entry.sets.push_back(std::move(numbers));
+  }
+
+  const ResultsReader& results_;
+  std::size_t partition_;
+  CellController controller_;
+  Numbering<ActionRuns::Entry> entries_;
+  std::vector<Numbering<std::vector<bool>>> sets_;
+  ActionRuns runs_;
+};
+
 }  // namespace
 
 ActionRuns find_action_runs(const ResultsReader& results, std::size_t partition, ThreadTeam& team) {
-  CellController controller(results, team);
-  controller.prepare_all();
-  Numbering<ActionRuns::Entry> entries;
-  std::vector<Numbering<std::vector<bool>>> sets(results.partitions()[partition].classes.size());
-  ActionRuns runs;
-  for (std::int64_t begin = 0; begin < results.grid().cells(); begin += kPartCells) {
-    const std::int64_t end = std::min(begin + kPartCells, results.grid().cells());
-    const auto countdowns = results.stretch(
-        begin, end, [&](const CellBlock& block) { return results.trigger(partition, block); });
-    std::vector<std::int32_t> approach;
-    if (results.spec().goal) {
-      approach = results.stretch(begin, end, [&](const CellBlock& block) {
-        return results.values(results.field("/approach_trigger"), partition, block);
-      });
-    }
-    for (std::int64_t cell = begin; cell < end; ++cell) {
-      const auto actions = controller.actions(partition, cell);
-      ActionRuns::Entry entry{.countdown = countdowns[static_cast<std::size_t>(cell - begin)]};
-      for (std::size_t c = 0; c < sets.size(); ++c) entry.sets.push_back(sets[c].number_of(actions[c]));
-      if (results.spec().goal) {
-        entry.approach_countdown = approach[static_cast<std::size_t>(cell - begin)];
-        const auto nearer = controller.approach_actions(partition, cell);
-        for (std::size_t c = 0; c < sets.size(); ++c) {
-          const bool has_way = std::find(nearer[c].begin(), nearer[c].end(), true) != nearer[c].end();
-          entry.approach_sets.push_back(has_way ? sets[c].number_of(nearer[c]) : entry.sets[c]);
-        }
-      }
-      const std::uint32_t number = entries.number_of(entry);
-      if (!runs.entry_of.empty() && runs.entry_of.back() == number) continue;
-      runs.start.push_back(static_cast<std::uint32_t>(cell));
-      runs.entry_of.push_back(number);
-    }
-  }
-  runs.entries = std::move(entries).values();
-  for (auto& one : sets) runs.sets.push_back(std::move(one).values());
-  return runs;
+  return RunFinder(results, partition, team).run();
 }
 
 DimensionBounds dimension_bounds(const GridDimension& dimension) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/one_cell/policy.hpp"
 #include "base/thread_team.hpp"
 #include "model/uniform_grid.hpp"
 #include "results/results_reader.hpp"
@@ -12,17 +13,16 @@ namespace coordreq {
 
 /// Countdowns and actions of all cells of one partition, run-length coded.
 struct ActionRuns {
+  /// By policy, where it leaves a class nothing what the first one leaves it.
   struct Entry {
-    std::int32_t countdown = 0;
-    std::vector<std::uint32_t> sets;  ///< by class: number among `sets`
-    /// The same on the way to a goal, where there is one; without a way as above, and without a goal nothing.
-    std::int32_t approach_countdown = 0;
-    std::vector<std::uint32_t> approach_sets;
+    std::vector<std::int32_t> countdowns;
+    std::vector<std::vector<std::uint32_t>> sets;  ///< [policy][class]: number among ActionRuns::sets
     [[nodiscard]] auto operator<=>(const Entry&) const = default;
   };
-  std::vector<std::uint32_t> start;                  ///< first cell of each run, ascending from 0
-  std::vector<std::uint32_t> entry_of;               ///< entry of each run
-  std::vector<Entry> entries;                        ///< all different
+  std::vector<AnswerPolicy> policies;   ///< those with a trigger; the first is that of the delays
+  std::vector<std::uint32_t> start;     ///< first cell of each run, ascending from 0
+  std::vector<std::uint32_t> entry_of;  ///< entry of each run
+  std::vector<Entry> entries;           ///< all different
   std::vector<std::vector<std::vector<bool>>> sets;  ///< [class][number]: different sets of joint actions
 };
 

@@ -130,24 +130,22 @@ static inline double $P_input(uint32_t c, uint32_t a, uint32_t j) {{
 }}
 )c";
 
-inline constexpr char kApproach[] = R"c(
-/* Towards the goal. Where it cannot be forced, or is reached, the two below are of no use: go on with the two
-   above. */
-#define $M_GOAL_CANNOT_BE_FORCED (-4)
-
-/* Steps until the agents must start to connect, so as to lose no time, or one of the numbers above. */
-static inline int32_t $P_approach_countdown(int32_t cell) {{
+/// Of a policy that does not hold everywhere.
+inline constexpr char kPolicy[] = R"c(
+/* {purpose} */
+{codes}
+/* {countdown} */
+static inline int32_t $P_{policy}_countdown(int32_t cell) {{
   if (cell == $M_LEFT_SAFELY) return $M_NEVER;
   if (cell < 0 || cell >= $M_CELLS) return 0;
-  return $P_entry_approach_countdown[$P_entry_of(cell)];
+  return $P_entry_{policy}_countdown[$P_entry_of(cell)];
 }}
 
-/* Whether class c comes nearer to the goal by its joint action a, with some actions of the others. Where the goal
-   cannot be forced, or is reached: whether the action is allowed. */
-static inline int $P_approach_allowed(int32_t cell, uint32_t c, uint32_t a) {{
+/* {allowed} */
+static inline int $P_{policy}_allowed(int32_t cell, uint32_t c, uint32_t a) {{
   uint32_t set;
   if (cell < 0 || cell >= $M_CELLS || a >= $P_action_count(c)) return $P_allowed(cell, c, a);
-  set = $P_entry_approach_set[$P_entry_of(cell) * $M_CLASSES + c];
+  set = $P_entry_{policy}_set[$P_entry_of(cell) * $M_CLASSES + c];
   return $P_set_bits[$P_set_first[c] + set * $P_set_width[c] + a / 8] >> (a % 8) & 1;
 }}
 )c";

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "answers/field_table.hpp"
+#include "answers/invariance/fields.hpp"
 
 namespace coordreq {
 namespace {
@@ -64,7 +65,7 @@ std::int32_t share_code(float share) {
 
 ReportMap share_map(const ResultsReader& results, const Field& field, std::size_t entry) {
   const auto read = [&results, &field, entry](const CellBlock& block) {
-    std::vector<std::int32_t> values = results.collision_time(block);
+    std::vector<std::int32_t> values = results.values(paths::kCollisionTime, block);
     const std::vector<float> shares = results.shares(field, entry, block);
     for (std::size_t x = 0; x < values.size(); ++x)
       values[x] = values[x] == ResultsReader::kNever ? share_code(shares[x]) : values[x] == 0 ? -2 : -1;
@@ -79,19 +80,15 @@ ReportMap share_map(const ResultsReader& results, const Field& field, std::size_
 void add_maps(const ResultsReader& results, const Field& field, const ReportLimits& limits,
               std::vector<ReportMap>& maps) {
   const std::size_t entries = results.leading_length(field);
-  switch (field.shown.map.values) {
-    case FieldMap::Values::none:
-      return;
-    case FieldMap::Values::members:
-      maps.push_back(member_map(results, field, limits));
-      return;
-    case FieldMap::Values::shares:
-      for (std::size_t i = 0; i < std::min(entries, limits.agents); ++i)
-        maps.push_back(share_map(results, field, i));
-      return;
-    case FieldMap::Values::numbers:
-      if (entries == 0) maps.push_back(number_map(results, field, std::nullopt));
-      for (std::size_t i = 0; i < entries; ++i) maps.push_back(number_map(results, field, i));
+  if (entries == 0) {
+    maps.push_back(number_map(results, field, std::nullopt));
+  } else if (field.kind == FieldKind::set) {
+    maps.push_back(member_map(results, field, limits));
+  } else if (field.kind == FieldKind::share) {
+    for (std::size_t i = 0; i < std::min(entries, limits.agents); ++i)
+      maps.push_back(share_map(results, field, i));
+  } else {
+    for (std::size_t i = 0; i < entries; ++i) maps.push_back(number_map(results, field, i));
   }
 }
 
@@ -101,8 +98,7 @@ std::vector<ReportMap> list_maps(const ResultsReader& results, const std::vector
                                  const ReportLimits& limits) {
   std::vector<const Field*> drawn;
   for (const Field& field : answer_fields(results.spec())) {
-    if (field.shown.map.values != FieldMap::Values::none && results.has(field.path))
-      drawn.push_back(&results.field(field.path));
+    if (!field.shown.map.kind.empty() && results.has(field.path)) drawn.push_back(&results.field(field.path));
   }
   const auto others = std::stable_partition(
       drawn.begin(), drawn.end(), [](const Field* field) { return field->axes.front() == "/partition"; });

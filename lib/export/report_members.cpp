@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "answers/invariance/fields.hpp"
+
 namespace coordreq {
 
 MemberMap::MemberMap(const ResultsReader& results, ReadMember read, std::vector<std::string> names,
@@ -16,7 +18,7 @@ MemberMap::MemberMap(const ResultsReader& results, ReadMember read, std::vector<
       most_sets_(most_sets) {}
 
 std::vector<std::int32_t> MemberMap::read(const CellBlock& block) {
-  std::vector<std::int32_t> values = results_.collision_time(block);
+  std::vector<std::int32_t> values = results_.values(paths::kCollisionTime, block);
   std::vector<std::uint64_t> sets(values.size());
   for (std::size_t member = 0; member < shown_; ++member) {
     const std::vector<std::uint8_t> holds = read_(member, block);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/invariance/fields.hpp"
 #include "base/error.hpp"
 #include "cell/cell_controller.hpp"
 #include "results/scots_format.hpp"
@@ -23,7 +24,7 @@ Axis axis_of_state(const GridDimension& dimension) {
 Axis axis_of_input(const InputSpec& input, const ResultsReader& results) {
   const std::vector<Rational>& values = input.values;
   Axis axis{input.name, values.front(), values.back(), 1, static_cast<std::int64_t>(values.size())};
-  if (input.grid) {
+  if (input.grid && is_integer(axis.first / input.grid->step)) {
     axis.step = input.grid->step;
   } else if (values.size() > 1) {
     axis.step = values[1] - values[0];
@@ -85,7 +86,7 @@ void export_scots(const ResultsReader& results, ThreadTeam& team, const TextSink
   for (std::int64_t number = 0; number < results.inputs().count(); ++number) {
     input_positions.push_back(static_cast<std::size_t>(input_numbers.position_of(number)));
   }
-  const std::vector<std::uint8_t> invariant = results.invariant(all_cells(results.grid()));
+  const std::vector<std::uint8_t> invariant = results.members(paths::kInvariant, all_cells(results.grid()));
   std::string line;
   for (std::int64_t number = 0; number < results.grid().cells(); ++number) {
     const std::int64_t cell = state_numbers.position_of(number);

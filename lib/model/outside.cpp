@@ -15,10 +15,11 @@ std::int32_t saturate_index(std::int64_t index) {
 }
 
 IndexRange moved(IndexRange raw, std::int64_t by) {
-  // A first index at the lower limit may be farther out, and on a ring must still say so (wrap_range). The
-  // last one is beyond the domain either way.
-  return {raw.first == Limits::min() ? raw.first : saturate_index(raw.first + by),
-          saturate_index(raw.last + by)};
+  // An index at the lower limit may be farther out, and must still say so (wrap_range).
+  const auto one = [by](std::int32_t index) {
+    return index == Limits::min() ? index : saturate_index(std::int64_t{index} + by);
+  };
+  return {one(raw.first), one(raw.last)};
 }
 
 IndexRange wrap_range(IndexRange raw, std::int64_t count) {

@@ -11,6 +11,7 @@
 #include "model/pieces.hpp"
 #include "reach/affine_post.hpp"
 #include "reach/cells_meeting.hpp"
+#include "reach/stopped_row.hpp"
 #include "reach/table_layout.hpp"
 #include "reach/tube_table.hpp"
 #include "spec/system_spec.hpp"
@@ -86,6 +87,9 @@ class TableBuilder {
       slots[spec_.input_slot(at(i))] = inputs_[at(i)].values[static_cast<std::size_t>(k)];
       base += k * table_.input_stride[at(i)];
     }
+    const bool has_other_tubes = tube_ != nullptr && limits_ == Limits::obeyed;
+    if (!has_other_tubes && dynamics_.has_limit(state_) && fill_stopped(slots, base) && tube_ == nullptr)
+      return true;
     const std::optional<SampledRow> row = dynamics_.row(state_, slots, limits_);
     if (!row) return limits_ == Limits::ignored ? std::optional(false) : std::nullopt;
     AffinePost post = post_;
@@ -198,6 +202,27 @@ class TableBuilder {
       const std::int64_t last = attained ? upper.floor(cell) : upper.ceil(cell) - 1;
       return raw_range(grid_[state_], first, last);
     });
+  }
+
+  /// Where limits hold integrators alone. @returns false if they do not
+  bool fill_stopped(const std::vector<Rational>& slots, std::int64_t base) {
+    if (spec_.dynamics.time == Time::discrete || grid_[state_].discrete) return false;
+    const std::optional<StoppedRow> row = stopped_row(spec_, grid_, dependencies_, state_, slots);
+    if (!row) return false;
+    const GridDimension& target = grid_[state_];
+    post_.fill(table_, base, [&](const std::vector<std::int64_t>& cell) {
+      Rational lower = row->lower - target.measurement_error;
+      Rational upper = row->upper + target.measurement_error;
+      bool attained = true;
+      for (std::size_t j = 0; j < cell.size(); ++j) {
+        const StoppedRow::Part& part = row->parts[j][static_cast<std::size_t>(cell[j])];
+        lower += part.lower;
+        upper += part.upper;
+        attained = attained && part.attained;
+      }
+      return cells_meeting(target, spec_.abstraction.cells, lower, upper, attained);
+    });
+    return true;
   }
 
   void fill_points(const AffinePost& post, const SampledRow& row, const std::vector<Rational>& slots,

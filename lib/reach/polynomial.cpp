@@ -3,13 +3,10 @@
 #include <algorithm>
 
 #include "expression/domains.hpp"
+#include "expression/exact_equations.hpp"
 
 namespace coordreq {
 namespace {
-
-// Far above what a hand-written equation needs; beyond it the general enclosures take over.
-constexpr std::size_t kMaxTerms = 2000;
-constexpr std::uint32_t kMaxDegree = 32;
 
 Polynomial::Monomial product(const Polynomial::Monomial& a, const Polynomial::Monomial& b) {
   Polynomial::Monomial result;
@@ -55,7 +52,7 @@ Polynomial multiply(const Polynomial& a, const Polynomial& b) {
   if (a.is_constant()) return scale(b, a.constant);
   if (b.is_constant()) return scale(a, b.constant);
   if (!a.constant.is_point() || !b.constant.is_point()) return Polynomial::unknown();
-  if (a.degree() + b.degree() > kMaxDegree || a.terms.size() * b.terms.size() > kMaxTerms)
+  if (a.degree() + b.degree() > kMostDegreeOfExact || a.terms.size() * b.terms.size() > kMostTermsOfExact)
     return Polynomial::unknown();
   Polynomial result;
   result.constant = apply(Operator::multiply, a.constant, b.constant);
@@ -73,7 +70,7 @@ Polynomial multiply(const Polynomial& a, const Polynomial& b) {
 Polynomial power(const Polynomial& base, const Polynomial& exponent) {
   if (!exponent.is_constant() || !exponent.constant.is_point()) return Polynomial::unknown();
   const Rational& n = exponent.constant.lower;
-  if (!is_integer(n) || n < 0 || n > kMaxDegree) return Polynomial::unknown();
+  if (!is_integer(n) || n < 0 || n > kMostDegreeOfExact) return Polynomial::unknown();
   Polynomial result = Polynomial::value(1);
   for (std::int64_t i = floor_to_int(n); i > 0 && result.known; --i) result = multiply(result, base);
   return result;

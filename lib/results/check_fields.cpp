@@ -151,6 +151,10 @@ std::vector<double> SmallFields::numbers(const std::string& path) const {
   return file_.numbers(path);
 }
 
+std::vector<std::uint64_t> SmallFields::list(const std::string& path) const {
+  return file_.naturals(path);
+}
+
 std::vector<std::uint64_t> SmallFields::counted(const std::string& path) const {
   const auto found = parts_.counted.find(path);
   return found == parts_.counted.end() ? std::vector<std::uint64_t>() : found->second;

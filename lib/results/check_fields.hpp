@@ -29,6 +29,7 @@ class SmallFields : public FieldSource {
   [[nodiscard]] bool has(const std::string& path) const override;
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& path) const override;
   [[nodiscard]] std::vector<double> numbers(const std::string& path) const override;
+  [[nodiscard]] std::vector<std::uint64_t> list(const std::string& path) const override;
   [[nodiscard]] std::vector<std::uint64_t> counted(const std::string& path) const override;
   [[nodiscard]] std::int64_t attribute(const std::string& path, const std::string& name) const override;
   [[noreturn]] void fail(const std::string& what, const std::string& path) const override;

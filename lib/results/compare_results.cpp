@@ -158,10 +158,6 @@ void add_values(const ResultsReader& before, const ResultsReader& after, const C
   }
 }
 
-bool is_set(const Field& field) {
-  return field.types == std::vector<ElementType>{ElementType::uint8} && field.most == 1;
-}
-
 const ResultRequirement* find_requirement(const ResultsReader& file, const std::string& name) {
   const auto& all = file.requirements();
   const auto found = std::find_if(all.begin(), all.end(),
@@ -208,10 +204,10 @@ ResultsComparison compare_results(const ResultsReader& before, const ResultsRead
     if (!field.shown.compared.empty() && before.has(field.path)) compared.push_back(&field);
   }
   for (const Field* const field : compared) {
-    if (is_set(*field)) result.sets.push_back(compare_sets(before, after, *field));
+    if (field->kind == FieldKind::set) result.sets.push_back(compare_sets(before, after, *field));
   }
   for (const Field* const field : compared) {
-    if (!is_set(*field)) add_values(before, after, options, *field, result);
+    if (field->kind != FieldKind::set) add_values(before, after, options, *field, result);
   }
   compare_requirements(before, after, result);
   return result;

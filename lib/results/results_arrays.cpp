@@ -134,6 +134,10 @@ std::vector<std::int64_t> ResultsFile::integers(const std::string& dataset) cons
   return elements<std::int64_t>(dataset);
 }
 
+std::vector<std::uint64_t> ResultsFile::naturals(const std::string& dataset) const {
+  return elements<std::uint64_t>(dataset);
+}
+
 std::vector<double> ResultsFile::numbers(const std::string& dataset, std::uint64_t begin,
                                          std::uint64_t count) const {
   std::vector<double> values(count);

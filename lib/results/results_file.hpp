@@ -47,6 +47,7 @@ class ResultsFile {
   /// All elements of a short array. REQUIRES: expect_array() has passed.
   [[nodiscard]] std::vector<double> numbers(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& dataset) const;
+  [[nodiscard]] std::vector<std::uint64_t> naturals(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& dataset) const;
   /// A stretch of a list of floating point numbers.
   [[nodiscard]] std::vector<double> numbers(const std::string& dataset, std::uint64_t begin,

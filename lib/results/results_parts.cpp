@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "answers/coalition/fields.hpp"
 #include "answers/field_table.hpp"
 #include "answers/invariance/fields.hpp"
 #include "answers/layers/fields.hpp"
@@ -33,7 +32,6 @@ class PartsReader {
     check_layer_lists();
     parts_.requirements = read_requirement_values(parts_.spec, source);
     if (parts_.spec.output.abstraction) read_tables();
-    if (parts_.spec.coordination.horizon) parts_.pairs = pair_names(parts_.spec);
     return std::move(parts_);
   }
 

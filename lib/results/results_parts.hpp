@@ -27,7 +27,6 @@ struct ResultsParts {
   /// Attributes `cells`, by path; none where they are too many.
   std::map<std::string, std::vector<std::uint64_t>> counted;
   std::vector<TransitionTable> tables;  ///< without entries; none unless stored
-  std::vector<std::string> pairs;       ///< of agents, for which critical cells are stored
 };
 
 /// Reads them, and checks that the arrays are there, have their shapes and types, and that grid points,

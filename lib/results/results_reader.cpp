@@ -5,11 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "answers/coalition/fields.hpp"
-#include "answers/convention/fields.hpp"
-#include "answers/invariance/fields.hpp"
-#include "answers/layers/fields.hpp"
-#include "answers/network/fields.hpp"
 #include "base/error.hpp"
 #include "results/check_fields.hpp"
 #include "results/child_trial.hpp"
@@ -98,14 +93,6 @@ const Fields& ResultsReader::fields() const {
   return parts_->fields;
 }
 
-bool ResultsReader::has_coalition() const {
-  return parts_->spec.coordination.horizon.has_value();
-}
-
-const std::vector<std::string>& ResultsReader::pairs() const {
-  return parts_->pairs;
-}
-
 template <class Value>
 std::vector<Value> ResultsReader::elements(const std::string& dataset, ElementType type,
                                            const std::vector<std::uint64_t>& offset,
@@ -140,7 +127,7 @@ std::optional<std::int64_t> ResultsReader::lower_bound(const Field& field, std::
   return parts_->spec.coordination.max_delay;
 }
 
-std::vector<std::uint8_t> ResultsReader::members(const Field& field, std::optional<std::size_t> leading,
+std::vector<std::uint8_t> ResultsReader::members(const Field& field, Leading leading,
                                                  const CellBlock& block) const {
   const Part part(leading, block);
   std::vector<std::uint8_t> values =
@@ -151,7 +138,7 @@ std::vector<std::uint8_t> ResultsReader::members(const Field& field, std::option
   return values;
 }
 
-std::vector<std::int32_t> ResultsReader::values(const Field& field, std::optional<std::size_t> leading,
+std::vector<std::int32_t> ResultsReader::values(const Field& field, Leading leading,
                                                 const CellBlock& block) const {
   const Part part(leading, block);
   const ElementType type = reading(path_, [&] { return file_->element_type(field.path); });
@@ -171,8 +158,7 @@ std::vector<std::int32_t> ResultsReader::values(const Field& field, std::optiona
   return values;
 }
 
-std::vector<float> ResultsReader::shares(const Field& field, std::optional<std::size_t> leading,
-                                         const CellBlock& block) const {
+std::vector<float> ResultsReader::shares(const Field& field, Leading leading, const CellBlock& block) const {
   const Part part(leading, block);
   return elements<float>(field.path, ElementType::float32, part.offset, part.count);
 }
@@ -183,6 +169,10 @@ std::vector<std::int64_t> ResultsReader::integers(const std::string& path) const
 
 std::vector<double> ResultsReader::numbers(const std::string& path) const {
   return reading(path_, [&] { return SmallFields(*file_, *parts_).numbers(path); });
+}
+
+std::vector<std::uint64_t> ResultsReader::list(const std::string& path) const {
+  return reading(path_, [&] { return SmallFields(*file_, *parts_).list(path); });
 }
 
 std::int64_t ResultsReader::attribute(const std::string& path, const std::string& name) const {
@@ -203,115 +193,15 @@ std::vector<std::string> ResultsReader::datasets() const {
   return list();
 }
 
-std::vector<std::uint8_t> ResultsReader::safe(const CellBlock& block) const {
-  return members(field("/safe"), std::nullopt, block);
-}
-
-std::vector<std::uint8_t> ResultsReader::invariant(const CellBlock& block) const {
-  return members(field("/invariant"), std::nullopt, block);
-}
-
-std::vector<std::uint8_t> ResultsReader::network_safe(std::size_t first, std::size_t modes,
-                                                      const CellBlock& block) const {
-  std::vector<std::uint8_t> result;
-  for (std::size_t mode = first; mode < first + modes; ++mode) {
-    const std::vector<std::uint8_t> cells = members(field(paths::kNetworkSafe), mode, block);
-    result.insert(result.end(), cells.begin(), cells.end());
-  }
-  return result;
-}
-
-std::vector<std::int32_t> ResultsReader::collision_time(const CellBlock& block) const {
-  return values(field("/collision_time"), std::nullopt, block);
-}
-
-std::vector<std::int32_t> ResultsReader::delay(std::size_t partition, const CellBlock& block) const {
-  return values(field("/delay"), partition, block);
-}
-
-std::vector<std::int32_t> ResultsReader::trigger(std::size_t partition, const CellBlock& block) const {
-  return values(field("/trigger"), partition, block);
-}
-
-std::vector<std::int32_t> ResultsReader::coalition(const CellBlock& block) const {
-  return values(field(paths::kCoalition), std::nullopt, block);
-}
-
-std::vector<std::uint8_t> ResultsReader::critical_pair(std::size_t pair, const CellBlock& block) const {
-  return members(field(paths::kCriticalPair), pair, block);
-}
-
-bool ResultsReader::has_actions(std::size_t /*partition*/) const {
-  return parts_->spec.output.actions;
-}
-
-bool ResultsReader::has_controller() const {
-  return parts_->spec.output.controller;
-}
-
-bool ResultsReader::has_layers(std::size_t /*partition*/) const {
-  return parts_->spec.output.layers;
+std::vector<std::uint8_t> ResultsReader::bits(const Field& field, const CellBlock& block) const {
+  Part part(std::nullopt, block);
+  part.offset.push_back(0);
+  part.count.push_back(this->field(field.axes.back()).scale->least);
+  return elements<std::uint8_t>(field.path, ElementType::uint8, part.offset, part.count);
 }
 
 bool ResultsReader::has_abstraction() const {
   return !parts_->tables.empty();
-}
-
-std::vector<std::uint8_t> ResultsReader::bits(const std::string& dataset, std::int64_t actions,
-                                              const CellBlock& block) const {
-  std::vector<std::uint64_t> offset = unsigned_of(block.first);
-  std::vector<std::uint64_t> count = unsigned_of(block.count);
-  offset.push_back(0);
-  count.push_back(static_cast<std::uint64_t>((actions + 7) / 8));
-  return elements<std::uint8_t>(dataset, ElementType::uint8, offset, count);
-}
-
-std::vector<std::uint8_t> ResultsReader::action_bits(std::size_t partition, std::size_t class_number,
-                                                     const CellBlock& block) const {
-  return bits(paths::actions(parts_->spec, parts_->spec.coordination.partitions[partition], class_number),
-              parts_->partitions[partition].actions[class_number], block);
-}
-
-std::vector<std::uint8_t> ResultsReader::controller_bits(const CellBlock& block) const {
-  return bits(paths::kController, inputs_.count(), block);
-}
-
-std::vector<std::uint8_t> ResultsReader::listed_bits(const CellBlock& block) const {
-  return bits(paths::kListed, inputs_.count(), block);
-}
-
-bool ResultsReader::has_convention() const {
-  return parts_->spec.coordination.convention && parts_->spec.output.actions;
-}
-
-std::vector<std::uint8_t> ResultsReader::convention_bits(std::size_t agent, const CellBlock& block) const {
-  const AgentSpec& spec = parts_->spec.agents[agent];
-  std::int64_t actions = 1;
-  for (const std::int32_t input : spec.inputs) actions *= inputs_[static_cast<std::size_t>(input)].count();
-  return bits(paths::convention(spec), actions, block);
-}
-
-std::vector<std::uint64_t> ResultsReader::whole(const std::string& dataset) const {
-  const auto shape = reading(path_, [&] { return file_->shape(dataset); });
-  const auto type = reading(path_, [&] { return file_->element_type(dataset); });
-  const std::vector<std::uint64_t> origin(shape.size(), 0);
-  if (type == ElementType::uint64) return elements<std::uint64_t>(dataset, type, origin, shape);
-  const std::vector<std::uint32_t> values = elements<std::uint32_t>(dataset, type, origin, shape);
-  return {values.begin(), values.end()};
-}
-
-StoredLayers ResultsReader::layers(std::size_t partition) const {
-  const std::string path = paths::layers(parts_->spec.coordination.partitions[partition]);
-  StoredLayers layers{whole(path + "/start"), whole(path + "/cell")};
-  if (!std::is_sorted(layers.start.begin(), layers.start.end()) || layers.start.front() != 0 ||
-      layers.start.back() != layers.cell.size()) {
-    throw ResultsError("does not ascend from 0 to the number of cells", file_->place(path + "/start"));
-  }
-  const auto cells = static_cast<std::uint64_t>(grid_.cells());
-  if (std::any_of(layers.cell.begin(), layers.cell.end(), [&](std::uint64_t x) { return x >= cells; })) {
-    throw ResultsError("a cell that the grid does not have", file_->place(path + "/cell"));
-  }
-  return layers;
 }
 
 Abstraction ResultsReader::abstraction() const {

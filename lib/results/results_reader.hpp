@@ -74,76 +74,49 @@ class ResultsReader : public FieldSource {
   /// The number of steps of a field over partitions that says `at least`, since `max_delay` ended the
   /// iteration; none if F is known. REQUIRES: partition < partitions().size().
   [[nodiscard]] std::optional<std::int64_t> lower_bound(const Field& field, std::size_t partition) const;
+  /// Place along the axis before those of the cells; none where there is no such axis.
+  using Leading = std::optional<std::size_t>;
   /// Integers of a field over cells, kNever where the type's largest value means that there is no end.
-  /// @param leading place along an axis before those of the cells, if there is one
-  [[nodiscard]] std::vector<std::int32_t> values(const Field& field, std::optional<std::size_t> leading,
+  [[nodiscard]] std::vector<std::int32_t> values(const Field& field, Leading leading,
                                                  const CellBlock& block) const;
-  /// The same of a field of 0 and 1.
-  [[nodiscard]] std::vector<std::uint8_t> members(const Field& field, std::optional<std::size_t> leading,
+  /// The same of sets: 0 or 1.
+  [[nodiscard]] std::vector<std::uint8_t> members(const Field& field, Leading leading,
                                                   const CellBlock& block) const;
-  /// The same of a field of floating point.
-  [[nodiscard]] std::vector<float> shares(const Field& field, std::optional<std::size_t> leading,
-                                          const CellBlock& block) const;
+  /// The same of shares.
+  [[nodiscard]] std::vector<float> shares(const Field& field, Leading leading, const CellBlock& block) const;
+  /// Of a field of m actions: bytes [cells of the block, ceil(m / 8)], action a is bit a % 8 of byte a / 8.
+  [[nodiscard]] std::vector<std::uint8_t> bits(const Field& field, const CellBlock& block) const;
+  /// The same by path. REQUIRES: the file has it.
+  [[nodiscard]] std::vector<std::int32_t> values(const std::string& path, Leading leading,
+                                                 const CellBlock& block) const {
+    return values(field(path), leading, block);
+  }
+  [[nodiscard]] std::vector<std::int32_t> values(const std::string& path, const CellBlock& block) const {
+    return values(field(path), std::nullopt, block);
+  }
+  [[nodiscard]] std::vector<std::uint8_t> members(const std::string& path, const CellBlock& block) const {
+    return members(field(path), std::nullopt, block);
+  }
+  [[nodiscard]] std::vector<std::uint8_t> bits(const std::string& path, const CellBlock& block) const {
+    return bits(field(path), block);
+  }
   /// Small fields, as a whole.
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& path) const override;
   [[nodiscard]] std::vector<double> numbers(const std::string& path) const override;
+  [[nodiscard]] std::vector<std::uint64_t> list(const std::string& path) const override;
   [[nodiscard]] std::vector<std::uint64_t> counted(const std::string& path) const override;
   [[nodiscard]] std::int64_t attribute(const std::string& path, const std::string& name) const override;
   [[noreturn]] void fail(const std::string& what, const std::string& path) const override;
   /// Paths of all datasets, sorted; without bare dimensions, which hold no data.
   [[nodiscard]] std::vector<std::string> datasets() const;
 
-  /// Membership in S and K: 0 or 1.
-  [[nodiscard]] std::vector<std::uint8_t> safe(const CellBlock& block) const;
-  [[nodiscard]] std::vector<std::uint8_t> invariant(const CellBlock& block) const;
-  /// Steps; 0 outside S, kNever inside K.
-  [[nodiscard]] std::vector<std::int32_t> collision_time(const CellBlock& block) const;
-  /// Steps; -2 outside S, -1 in S but not in K, kNever: unbounded. REQUIRES: partition < partitions().size().
-  [[nodiscard]] std::vector<std::int32_t> delay(std::size_t partition, const CellBlock& block) const;
-  /// Steps; -2 and -1 likewise, -3: a connection must stand already, kNever: never.
-  [[nodiscard]] std::vector<std::int32_t> trigger(std::size_t partition, const CellBlock& block) const;
-
-  /// Whether each of some modes is safe for each cell: 0 or 1, [modes, cells of the block].
-  /// REQUIRES: the spec has a network with modes first, ..., first + modes - 1.
-  [[nodiscard]] std::vector<std::uint8_t> network_safe(std::size_t first, std::size_t modes,
-                                                       const CellBlock& block) const;
-  /// Whether the spec has a horizon, so that there is a coalition map.
-  [[nodiscard]] bool has_coalition() const;
-  /// Index into partitions() of the cheapest one that suffices; -3: none does, -2: outside S, -1: in S but
-  /// not in K. REQUIRES: has_coalition().
-  [[nodiscard]] std::vector<std::int32_t> coalition(const CellBlock& block) const;
-  /// Names of the pairs of agents, "a+b", in their order; none without a coalition map.
-  [[nodiscard]] const std::vector<std::string>& pairs() const;
-  /// 1 where the two are together in every partition of least cost that suffices, else 0.
-  /// REQUIRES: pair < pairs().size().
-  [[nodiscard]] std::vector<std::uint8_t> critical_pair(std::size_t pair, const CellBlock& block) const;
-
-  /// What is stored on request.
-  [[nodiscard]] bool has_actions(std::size_t partition) const;
-  [[nodiscard]] bool has_controller() const;
-  [[nodiscard]] bool has_layers(std::size_t partition) const;
   [[nodiscard]] bool has_abstraction() const;
-
-  /// Admissible joint actions of a class: bytes [cells of the block, ceil(m / 8)], action a is bit a % 8 of
-  /// byte a / 8. REQUIRES: has_actions(partition).
-  [[nodiscard]] std::vector<std::uint8_t> action_bits(std::size_t partition, std::size_t class_number,
-                                                      const CellBlock& block) const;
-  /// The same for C(x) over the joint inputs. REQUIRES: has_controller().
-  [[nodiscard]] std::vector<std::uint8_t> controller_bits(const CellBlock& block) const;
-  /// The same for the pairs that `controller.file` lists. REQUIRES: the spec has one.
-  [[nodiscard]] std::vector<std::uint8_t> listed_bits(const CellBlock& block) const;
-  /// What agents may do by convention is stored.
-  [[nodiscard]] bool has_convention() const;
-  /// As action_bits(), of one agent. REQUIRES: has_convention().
-  [[nodiscard]] std::vector<std::uint8_t> convention_bits(std::size_t agent, const CellBlock& block) const;
-  /// REQUIRES: has_layers(partition). `start` is checked to ascend from 0 to the number of cells, `cell` to
-  /// hold cells of the grid.
-  [[nodiscard]] StoredLayers layers(std::size_t partition) const;
   /// The finite abstraction. `exact` is not stored and left true. REQUIRES: has_abstraction().
   [[nodiscard]] Abstraction abstraction() const;
 
   /// The cells begin, ..., end - 1 by linear index: `read(block)` for each of the blocks that they are,
-  /// joined. Example: results.stretch(0, 1000, [&](const CellBlock& b) { return results.safe(b); })
+  /// joined. Example: results.stretch(0, 1000, [&](const CellBlock& b) { return results.members("/safe", b);
+  /// })
   template <class Read>
   [[nodiscard]] auto stretch(std::int64_t begin, std::int64_t end, const Read& read) const {
     decltype(read(CellBlock())) all;
@@ -159,9 +132,6 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] std::vector<Value> elements(const std::string& dataset, ElementType type,
                                             const std::vector<std::uint64_t>& offset,
                                             const std::vector<std::uint64_t>& count) const;
-  [[nodiscard]] std::vector<std::uint8_t> bits(const std::string& dataset, std::int64_t actions,
-                                               const CellBlock& block) const;
-  [[nodiscard]] std::vector<std::uint64_t> whole(const std::string& dataset) const;
 
   std::string path_;
   std::optional<std::uint64_t> max_memory_;

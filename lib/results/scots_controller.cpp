@@ -205,10 +205,12 @@ class Reader {
     if (line != scots::kMatrix)
       throw ControllerError(fmt::format("found '{}', expected '#MATRIX:DATA'", line), text_.place());
     const std::vector<std::int64_t> size = text_.begin();
-    if (size != std::vector{size_of(states_), size_of(inputs_)}) {
-      throw ControllerError(fmt::format("found a matrix of {} states and inputs, expected {} {}",
-                                        fmt::join(size, " "), size_of(states_), size_of(inputs_)),
-                            text_.place());
+    has_one_input_ = size.size() == 2 && size.back() == 1;
+    if (size != std::vector{size_of(states_), has_one_input_ ? 1 : size_of(inputs_)}) {
+      throw ControllerError(
+          fmt::format("found a matrix of {} states and inputs, expected {} {} (or {} 1: one input a state)",
+                      fmt::join(size, " "), size_of(states_), size_of(inputs_), size_of(states_)),
+          text_.place());
     }
   }
 
@@ -293,6 +295,12 @@ class Reader {
     };
     check("state", row.front(), static_cast<std::int64_t>(seen.size()));
     for (std::size_t j = 1; j < row.size(); ++j) check("input", row[j], size_of(inputs_));
+    if (has_one_input_ && row.size() != 2) {
+      throw ControllerError(fmt::format("WINNINGDOMAIN: found {} inputs of state {}, expected one, as the "
+                                        "matrix has one column",
+                                        row.size() - 1, row.front()),
+                            text_.place());
+    }
     const auto state = static_cast<std::size_t>(row.front());
     if (seen[state])
       throw ControllerError(fmt::format("WINNINGDOMAIN: state {} is listed twice", state), text_.place());
@@ -302,6 +310,7 @@ class Reader {
   ScotsText text_;
   std::vector<Axis> states_;
   std::vector<Axis> inputs_;
+  bool has_one_input_ = false;  ///< each line names one
 };
 
 }  // namespace

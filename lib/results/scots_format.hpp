@@ -28,7 +28,9 @@ inline constexpr std::string_view kDomain = "#TYPE:WINNINGDOMAIN";
 /// There may be a line that explains the matrix, which begins with kComment.
 inline constexpr std::string_view kComment = "#SCOTS:";
 inline constexpr std::string_view kColumns = "#SCOTS:i (state) j_0 ... j_n (valid inputs)";
-/// Then kBegin with the numbers of cells and of joint inputs, a line a cell, kEnd.
+/// Then kBegin with the numbers of cells and of joint inputs, a line a cell, kEnd. With 1 instead of the
+/// number of joint inputs each line names the one input of its cell (a reachability game); with more any
+/// number of them.
 inline constexpr std::string_view kMatrix = "#MATRIX:DATA";
 inline constexpr std::string_view kBegin = "#BEGIN:";
 inline constexpr std::string_view kEnd = "#END";

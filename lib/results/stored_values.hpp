@@ -16,10 +16,4 @@ struct StoredAttributes {
   std::string controller_sha256;  ///< of `controller.file`; empty if the spec has none
 };
 
-/// /layers/PARTITION: T(k) is cell[start[k]], ..., cell[start[k + 1] - 1].
-struct StoredLayers {
-  std::vector<std::uint64_t> start;
-  std::vector<std::uint64_t> cell;
-};
-
 }  // namespace coordreq

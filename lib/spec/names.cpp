@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 
 #include "base/error.hpp"
@@ -12,36 +11,57 @@
 namespace coordreq {
 namespace {
 
-constexpr std::array<std::string_view, 25> kDatasetNames{"abstraction",
-                                                         "action",
-                                                         "actions",
-                                                         "agent",
-                                                         "coalition",
-                                                         "collision_time",
-                                                         "controller",
-                                                         "convention_freedom",
-                                                         "counterexample",
-                                                         "critical_pair",
-                                                         "delay",
-                                                         "first",
-                                                         "fixed_point_index",
-                                                         "invariant",
-                                                         "last",
-                                                         "layer",
-                                                         "layer_size",
-                                                         "layers",
-                                                         "mode",
-                                                         "network_safe",
-                                                         "pair",
-                                                         "partition",
-                                                         "safe",
-                                                         "spec",
-                                                         "trigger"};
+using Node = JsonDocument::Node;
 
-/// Of specs with a goal.
-constexpr std::array<std::string_view, 6> kGoalDatasetNames{"approach_delay",   "approach_fixed_point_index",
-                                                            "approach_layer",   "approach_layer_size",
-                                                            "approach_trigger", "arrival"};
+/// A dataset, and the key of the spec that asks for it; none: it is always there.
+struct Dataset {
+  std::string_view name;
+  std::string_view object = {};
+  std::string_view key = {};
+};
+
+constexpr Dataset kDatasets[] = {{"collision_time"},
+                                 {"delay"},
+                                 {"fixed_point_index"},
+                                 {"invariant"},
+                                 {"layer"},
+                                 {"layer_size"},
+                                 {"partition"},
+                                 {"safe"},
+                                 {"spec"},
+                                 {"trigger"},
+                                 {"approach_delay", "goal"},
+                                 {"approach_fixed_point_index", "goal"},
+                                 {"approach_layer", "goal"},
+                                 {"approach_layer_size", "goal"},
+                                 {"approach_trigger", "goal"},
+                                 {"arrival", "goal"},
+                                 {"mode", "network"},
+                                 {"network_safe", "network"},
+                                 {"coalition", "coordination", "horizon"},
+                                 {"critical_pair", "coordination", "horizon"},
+                                 {"pair", "coordination", "horizon"},
+                                 {"coalition", "coordination", "horizon_time"},
+                                 {"critical_pair", "coordination", "horizon_time"},
+                                 {"pair", "coordination", "horizon_time"},
+                                 {"agent", "coordination", "convention"},
+                                 {"convention_freedom", "coordination", "convention"},
+                                 {"counterexample", "requirements"},
+                                 {"controller", "output", "controller"},
+                                 {"actions", "output", "actions"},
+                                 {"layers", "output", "layers"},
+                                 {"abstraction", "output", "abstraction"}};
+
+/// The key is there, and is not `false`.
+bool asks_for(const Node& root, const Dataset& dataset) {
+  const std::string object(dataset.object), key(dataset.key);
+  if (object.empty()) return true;
+  if (!root.has(object)) return false;
+  if (key.empty()) return true;
+  if (!root[object].has(key)) return false;
+  const Node value = root[object][key];
+  return value.is_number() || value.is_text() || (!value.is_null() && root[object].flag(key));
+}
 
 }  // namespace
 
@@ -51,16 +71,20 @@ std::string_view kind_in_words(NameKind kind) {
   return kWords[static_cast<std::size_t>(kind)];
 }
 
-bool is_dataset_name(std::string_view name, bool has_goal) {
-  if (has_goal && std::binary_search(kGoalDatasetNames.begin(), kGoalDatasetNames.end(), name)) return true;
-  return std::binary_search(kDatasetNames.begin(), kDatasetNames.end(), name);
+std::set<std::string, std::less<>> dataset_names(const Node& root) {
+  std::set<std::string, std::less<>> names;
+  for (const Dataset& dataset : kDatasets) {
+    if (asks_for(root, dataset)) names.emplace(dataset.name);
+  }
+  return names;
 }
 
 void NameTable::add(const std::string& name, NameKind kind, const std::string& pointer) {
   if (is_reserved_name(name)) {
     throw SpecError(quote_text(name) + " is a function or keyword, expected another name", pointer);
   }
-  if (is_dataset_name(name, has_goal_)) {
+  const bool is_axis = kind == NameKind::state || kind == NameKind::input;
+  if (is_axis && datasets_.contains(name)) {
     throw SpecError(quote_text(name) + " is a dataset of the results file, expected another name", pointer);
   }
   const auto [entry, is_new] = entries_.try_emplace(name, Entry{kind, pointer});

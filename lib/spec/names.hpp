@@ -1,11 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "spec/json_document.hpp"
 
 namespace coordreq {
 
@@ -15,12 +20,17 @@ enum class NameKind : std::uint8_t { state, input, disturbance, constant, defini
 /// "state", "input", ...
 [[nodiscard]] std::string_view kind_in_words(NameKind kind);
 
-/// The names of a spec. Invariant: all different, none a function, a keyword or a dataset of the results
-/// file.
+/// The datasets and groups that results of a spec have at their top, besides those of its states and inputs
+/// (contract, sections 4 and 5). REQUIRES: the document follows the schema.
+[[nodiscard]] std::set<std::string, std::less<>> dataset_names(const JsonDocument::Node& root);
+
+/// The names of a spec. Invariant: all different, none a function or a keyword, and no state or input, each
+/// of which has a dataset of its own, called like another one.
 class NameTable {
  public:
-  /// Reserves what only the results of a goal are called.
-  void reserve_goal_names() { has_goal_ = true; }
+  NameTable() = default;
+  explicit NameTable(std::set<std::string, std::less<>> datasets) : datasets_(std::move(datasets)) {}
+
   /// @throws SpecError if the name is taken or reserved; `pointer` says where it stands
   void add(const std::string& name, NameKind kind, const std::string& pointer);
 
@@ -33,10 +43,7 @@ class NameTable {
     std::string pointer;
   };
   std::map<std::string, Entry> entries_;
-  bool has_goal_ = false;
+  std::set<std::string, std::less<>> datasets_;
 };
-
-/// The datasets and groups that the results file has or will have at its top (contract, sections 4 and 5).
-[[nodiscard]] bool is_dataset_name(std::string_view name, bool has_goal);
 
 }  // namespace coordreq

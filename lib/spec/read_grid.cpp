@@ -37,14 +37,24 @@ GridSpec grid_by_step(const Scope& scope, const Node& object, const Rational& lo
   return {origin + Rational(first) * step, step, count.get_si()};
 }
 
-GridSpec grid_by_count(const Node& object, const Rational& lower, const Rational& upper, bool is_periodic) {
+/// REQUIRES: `node` is a count of 1.
+GridSpec single_point(const Node& object, const Node& node, const Rational& lower, const Rational& upper,
+                      GridOf kind) {
+  if (lower != upper) {
+    throw SpecError(
+        fmt::format("one point is lower and upper: expected {}, found {}", to_text(lower), to_text(upper)),
+        object["upper"].pointer());
+  }
+  if (kind == GridOf::points) return {lower, 1, 1};
+  throw SpecError("the cell of one point needs its width: expected 'step', found 'count'", node.pointer());
+}
+
+GridSpec grid_by_count(const Node& object, const Rational& lower, const Rational& upper, GridOf kind) {
   const Node node = object["count"];
   const mpz_class count(node.token());
+  const bool is_periodic = kind == GridOf::periodic_cells;
   check_point_count(count, node.pointer());
-  if (!is_periodic && count < 2) {
-    throw SpecError("expected a count >= 2 unless the state is periodic, found " + node.token(),
-                    node.pointer());
-  }
+  if (!is_periodic && count == 1) return single_point(object, node, lower, upper, kind);
   if (lower == upper) {
     throw SpecError(fmt::format("expected upper > lower = {}, found the same", to_text(lower)),
                     object["upper"].pointer());
@@ -67,7 +77,7 @@ void check_distinct(const GridSpec& grid, const std::string& pointer) {
 
 }  // namespace
 
-GridReading read_grid(const Scope& scope, const Node& object, bool is_periodic) {
+GridReading read_grid(const Scope& scope, const Node& object, GridOf kind) {
   GridReading reading;
   reading.lower = scope.number(object["lower"]);
   reading.upper = scope.number(object["upper"]);
@@ -76,10 +86,10 @@ GridReading read_grid(const Scope& scope, const Node& object, bool is_periodic) 
         fmt::format("expected upper >= lower = {}, found {}", to_text(reading.lower), to_text(reading.upper)),
         object["upper"].pointer());
   }
-  if (is_periodic && !object.has("count")) {
+  if (kind == GridOf::periodic_cells && !object.has("count")) {
     throw SpecError("a periodic state is given with 'count', found 'step'", object["step"].pointer());
   }
-  reading.grid = object.has("count") ? grid_by_count(object, reading.lower, reading.upper, is_periodic)
+  reading.grid = object.has("count") ? grid_by_count(object, reading.lower, reading.upper, kind)
                                      : grid_by_step(scope, object, reading.lower, reading.upper);
   check_distinct(reading.grid, object.pointer());
   return reading;

@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
-#include <array>
-
 #include "base/error.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/requirement_kind.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/wording.hpp"
@@ -36,29 +35,19 @@ std::optional<std::int32_t> read_partition(const Node& object, const std::vector
   throw SpecError(fmt::format("expected {}, found {}", expected, quote_text(node.text())), node.pointer());
 }
 
-/// The kind of requirement that a key of the spec, its last word "time" or not, stands for.
-struct KindKey {
-  RequirementKind kind;
-  StepRounding rounding;  ///< of a time
-};
-constexpr std::array<KindKey, 4> kKinds{{{RequirementKind::min_delay, StepRounding::up},
-                                         {RequirementKind::invariant, StepRounding::up},
-                                         {RequirementKind::max_arrival, StepRounding::down},
-                                         {RequirementKind::min_approach_delay, StepRounding::up}}};
-
 /// Sets kind and steps. @returns the key that says so
 std::string read_kind(const Scope& scope, const Node& object, const Rational& period,
                       RequirementSpec& requirement) {
   std::string key;
-  for (const KindKey& one : kKinds) {
-    const std::string name = requirement_kind_name(one.kind);
-    for (const std::string& own : {name, name + "_time"}) {
+  for (const RequirementTraits& kind : requirement_kinds()) {
+    for (const std::string& own : {kind.key, kind.key + "_time"}) {
       if (!object.has(own)) continue;
       key = own;
-      requirement.kind = one.kind;
-      if (one.kind == RequirementKind::invariant) continue;
-      requirement.steps = own == name ? read_integer(object[own])
-                                      : read_steps_of_time(scope, object[own], period, one.rounding);
+      requirement.kind = kind.kind;
+      if (kind.kind == RequirementKind::invariant) continue;
+      const StepRounding rounding = kind.is_upper_limit ? StepRounding::down : StepRounding::up;
+      requirement.steps = own == kind.key ? read_integer(object[own])
+                                          : read_steps_of_time(scope, object[own], period, rounding);
     }
   }
   return key;
@@ -84,10 +73,10 @@ RequirementSpec read_requirement(const Scope& scope, const Node& root, const Nod
   requirement.name = object["name"].text();
   requirement.where = scope.expression(object["where"], ExpectedType::condition, Over::states);
   const std::string key = read_kind(scope, object, period, requirement);
-  const bool is_of_goal = requirement.kind == RequirementKind::max_arrival ||
-                          requirement.kind == RequirementKind::min_approach_delay;
-  if (is_of_goal && !root.has("goal"))
-    throw SpecError(fmt::format("'{}' is for a spec with the key 'goal'", key), object[key].pointer());
+  const RequirementTraits& kind = traits(requirement.kind);
+  if (!kind.needs.empty() && !root.has(kind.needs))
+    throw SpecError(fmt::format("'{}' is for a spec with the key '{}'", key, kind.needs),
+                    object[key].pointer());
   if (!requirement.is_of_partition() && object.has("partition")) {
     throw SpecError(fmt::format("'{}' is about all partitions, found 'partition' too", key),
                     object["partition"].pointer());
@@ -113,11 +102,6 @@ std::vector<RequirementSpec> read_requirements(const Scope& scope, const Node& r
   }
   errors.raise();
   return requirements;
-}
-
-std::string requirement_kind_name(RequirementKind kind) {
-  constexpr std::array<const char*, 4> kNames{"min_delay", "invariant", "max_arrival", "min_approach_delay"};
-  return kNames[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace coordreq

@@ -55,11 +55,14 @@ StateSpec read_state(const Scope& scope, const Node& object, Time time, bool has
   state.name = object["name"].text();
   state.unit = read_unit(object);
   read_outside(object, time, has_goal, state);
-  GridReading reading = read_grid(scope, object, state.below == Outside::periodic);
+  state.discrete = object.flag("discrete");
+  GridReading reading = read_grid(scope, object,
+                                  state.below == Outside::periodic ? GridOf::periodic_cells
+                                  : state.discrete                 ? GridOf::points
+                                                                   : GridOf::cells);
   state.grid = std::move(reading.grid);
   state.lower = std::move(reading.lower);
   state.upper = std::move(reading.upper);
-  state.discrete = object.flag("discrete");
   if (object.has("measurement_error")) {
     const Node error = object["measurement_error"];
     state.measurement_error = scope.number(error);
@@ -104,7 +107,7 @@ InputSpec read_input(const Scope& scope, const Node& object) {
   if (object.has("values")) {
     input.values = listed_values(scope, object["values"]);
   } else {
-    input.grid = read_grid(scope, object, false).grid;
+    input.grid = read_grid(scope, object, GridOf::points).grid;
     check_value_count(input.grid->count, object.pointer());
     check_value_bits(*input.grid, object.pointer());
   }

@@ -82,8 +82,7 @@ struct Scope::MentionGraph {
   }
 };
 
-Scope::Scope(const Node& root, MemoryReader& memory) {
-  if (root.has("goal")) names_.reserve_goal_names();
+Scope::Scope(const Node& root, MemoryReader& memory) : names_(dataset_names(root)) {
   add_names(root, memory);
   for (const Node& state : root.elements("states")) is_box_.push_back(!state.flag("discrete"));
   centres_ = read_abstraction(root).safe == Membership::center;

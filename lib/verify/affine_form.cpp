@@ -6,14 +6,12 @@
 #include <utility>
 
 #include "expression/domains.hpp"
+#include "expression/exact_equations.hpp"
 #include "expression/truth_of.hpp"
 #include "verify/flint_rational.hpp"
 
 namespace coordreq {
 namespace {
-
-constexpr long kMostFormPower = 16;
-constexpr slong kMostMonomials = 4096;
 
 class Context {
  public:
@@ -78,8 +76,6 @@ class Multiplier {
         truths_[n] = truth_of(node, truths_, [&] { return comparison(node); });
       } else {
         forms_[n] = number(node);
-        if (forms_[n] && fmpq_mpoly_length(forms_[n]->get(), context_.get()) > kMostMonomials)
-          forms_[n].reset();
       }
     }
     if (!forms_.back() || fmpq_mpoly_total_degree_si(forms_.back()->get(), context_.get()) > 1)
@@ -148,27 +144,51 @@ class Multiplier {
         fmpq_mpoly_sub(result.get(), a.get(), b.get(), context_.get());
         return result;
       case Operator::multiply:
-        fmpq_mpoly_mul(result.get(), a.get(), b.get(), context_.get());
-        return result;
+        return product(a, b);
       case Operator::divide:
         if (!right || *right == 0) return std::nullopt;
         fmpq_mpoly_scalar_div_fmpq(result.get(), a.get(), FlintRational(*right).get(), context_.get());
         return result;
       case Operator::power:
-        if (!right || !is_integer(*right) || *right < 0 || *right > kMostFormPower) return std::nullopt;
-        fmpq_mpoly_pow_ui(result.get(), a.get(), right->get_num().get_ui(), context_.get());
-        return result;
+        if (!right || !is_integer(*right) || *right < 0 || *right > kMostDegreeOfExact) return std::nullopt;
+        return power(a, right->get_num().get_ui());
       default:
         return std::nullopt;
     }
   }
 
+  /// But for the constant.
+  [[nodiscard]] std::size_t terms_of(const Form& a) const {
+    const std::vector<ulong> none(variables_.size() + 1, 0);
+    FlintRational constant;
+    fmpq_mpoly_get_coeff_fmpq_ui(constant.get(), a.get(), none.data(), context_.get());
+    const auto length = static_cast<std::size_t>(fmpq_mpoly_length(a.get(), context_.get()));
+    return length - (constant.value() != 0 ? 1 : 0);
+  }
+
+  [[nodiscard]] std::optional<Form> product(const Form& a, const Form& b) const {
+    if (!a.constant() && !b.constant()) {
+      const slong degree = fmpq_mpoly_total_degree_si(a.get(), context_.get()) +
+                           fmpq_mpoly_total_degree_si(b.get(), context_.get());
+      if (degree > slong{kMostDegreeOfExact} || terms_of(a) * terms_of(b) > kMostTermsOfExact)
+        return std::nullopt;
+    }
+    Form result(context_);
+    fmpq_mpoly_mul(result.get(), a.get(), b.get(), context_.get());
+    return result;
+  }
+
+  [[nodiscard]] std::optional<Form> power(const Form& base, unsigned long exponent) const {
+    std::optional<Form> result = Form(context_, Rational(1));
+    for (unsigned long i = 0; i < exponent && result; ++i) result = product(*result, base);
+    return result;
+  }
+
   [[nodiscard]] std::optional<Form> choice(const Program::Node& node) const {
     const std::optional<Form>& yes = forms_[node.b];
     const std::optional<Form>& no = forms_[node.c];
-    if (truths_[node.a] != Truth::undecided) return truths_[node.a] == Truth::yes ? yes : no;
-    const bool same = yes && no && fmpq_mpoly_equal(yes->get(), no->get(), context_.get()) != 0;
-    return same ? yes : std::nullopt;
+    if (truths_[node.a] == Truth::undecided) return std::nullopt;
+    return truths_[node.a] == Truth::yes ? yes : no;
   }
 
   /// Decided where the difference is constant.

@@ -1,32 +1,55 @@
 #pragma once
 
 #include <algorithm>
-#include <ctime>
+#include <cstdint>
+#include <functional>
+
+#include "base/thread_team.hpp"
 
 namespace coordreq {
 
-/// Processor time that may be spent on what is hard to confirm, so that what else the machine does has no say
-/// in what is confirmed. Immutable; begins when it is made.
+/// Work is counted, not timed, so that neither other programs nor threads have a say in what is confirmed. A
+/// unit is about what one operation of an expression takes in ball arithmetic.
+using Work = std::int64_t;
+/// Units that a slow core does in a second, or more.
+inline constexpr double kWorkOfSecond = 3e7;
+[[nodiscard]] inline Work work_of_seconds(double seconds) {
+  constexpr double kMost = 1e18;
+  return static_cast<Work>(std::min(seconds * kWorkOfSecond, kMost));
+}
+
+/// Work that is left for questions, of which each may take an equal share, but at most a twentieth of the
+/// whole. Not thread-safe: shares are taken between loops.
 class Budget {
  public:
-  /// @param seconds for each thread, on average
-  Budget(double seconds, int threads)
-      : seconds_(seconds), threads_(threads), end_(now() + seconds * threads) {}
+  explicit Budget(Work all) : all_(all), left_(all) {}
 
-  [[nodiscard]] bool is_over() const { return now() >= end_; }
-  /// The end of what one of many questions may take that begins now.
-  [[nodiscard]] double end_of_one() const {
-    return std::min(end_, now() + kShareOfOne * seconds_ * threads_);
+  [[nodiscard]] bool is_over() const { return left_ <= 0; }
+  [[nodiscard]] Work left() const { return std::max<Work>(left_, 0); }
+  /// What one of so many questions may take; 0 once the budget is over.
+  [[nodiscard]] Work share(std::int64_t questions) const {
+    return is_over() ? 0 : std::clamp<Work>(left_ / std::max<std::int64_t>(questions, 1), 1, most_of_one());
   }
-  /// Processor time of all threads so far.
-  [[nodiscard]] static double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+  void spend(Work used) { left_ -= used; }
+  /// What some of several questions of different size may take together.
+  [[nodiscard]] Budget part(std::int64_t some, std::int64_t all) const {
+    const double share = static_cast<double>(some) / static_cast<double>(std::max<std::int64_t>(all, 1));
+    return Budget(static_cast<Work>(static_cast<double>(left()) * std::min(share, 1.0)));
+  }
 
  private:
-  static constexpr double kShareOfOne = 0.05;
+  [[nodiscard]] Work most_of_one() const { return std::max<Work>(all_ / 20, 1); }
 
-  double seconds_;
-  int threads_;
-  double end_;
+  Work all_;
+  Work left_;
 };
+
+/// Answers one question: may take `most`, if that is 0 nothing. @returns what it took
+using AnswerWithin = std::function<Work(std::int64_t question, Work most, int worker)>;
+
+/// Answers questions 0, ..., count - 1 block by block, so that a budget is over at the same question whatever
+/// the number of threads. @param block questions that share what is left before any of them is asked
+void answer_within(Budget& budget, std::int64_t count, std::int64_t block, ThreadTeam& team,
+                   const AnswerWithin& answer);
 
 }  // namespace coordreq

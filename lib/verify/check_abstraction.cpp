@@ -15,6 +15,19 @@ bool holds(const GridDimension& dimension, IndexRange outer, IndexRange inner) {
   return lead + (b.last - b.first) <= a.last - a.first;
 }
 
+namespace {
+
+/// An end that is cut to 32 bits before it is moved to the cell, or after: less than the dimension apart.
+IndexRange without_far_ends(const GridDimension& dimension, IndexRange range) {
+  const auto one = [&](std::int32_t index) {
+    if (std::int64_t{index} < INT32_MIN + dimension.count) return INT32_MIN;
+    return std::int64_t{index} > INT32_MAX - dimension.count ? INT32_MAX : index;
+  };
+  return dimension.periodic() ? range : IndexRange{one(range.first), one(range.last)};
+}
+
+}  // namespace
+
 Finding check_abstraction(const UniformGrid& grid, const InputSpace& inputs, std::size_t state,
                           const PostTable& own, const PostTable& claimed, const std::string& what) {
   const GridDimension& dimension = grid[state];
@@ -26,9 +39,9 @@ Finding check_abstraction(const UniformGrid& grid, const InputSpace& inputs, std
   }
   for (std::size_t e = 0; e < own.entries.size(); ++e) {
     tally.add_checked(1);
-    const IndexRange mine = own.entries[e];
+    const IndexRange mine = without_far_ends(dimension, own.entries[e]);
     const std::int64_t place = own.place_of(e);
-    const IndexRange found = claimed.at(place);
+    const IndexRange found = without_far_ends(dimension, claimed.at(place));
     if (found.first <= found.last && holds(dimension, found, mine) && holds(dimension, mine, found)) continue;
     tally.add_wrong(place, [&] {
       return fmt::format("{}: {} {}, expected {}", entry_text(grid, inputs, own, place), dimension.name,

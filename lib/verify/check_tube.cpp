@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "answers/checking/cell_parts.hpp"
 #include "answers/checking/cell_place.hpp"
-#include "model/pieces.hpp"
 #include "verify/check_abstraction.hpp"
 
 namespace coordreq {
@@ -39,7 +39,7 @@ bool TubeTally::is_exact(IndexRange claimed, std::int64_t by, const std::vector<
   IndexRange all = moved(own.front().outer, by);
   for (const OwnTube& tube : own) {
     if (tube.outer != tube.inner) return false;
-    all = merge_ranges(all, moved(tube.outer, by), dimension_);
+    all = both_of(all, moved(tube.outer, by), dimension_);
   }
   return holds(dimension_, all, claimed);
 }

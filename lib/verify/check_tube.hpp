@@ -68,7 +68,6 @@ class TubeTally {
 /// Checks the tubes of any other state by bounds of its derivative during steps of the period and of its
 /// value in between (range_during_period()); the steps get finer until the tube of the analysis holds what
 /// they enclose.
-/// @returns nothing where limits stop a state, or a flow jumps
-[[nodiscard]] std::optional<TubeFinding> check_outward_tubes(const PostQuestion& question, ThreadTeam& team);
+[[nodiscard]] TubeFinding check_outward_tubes(const PostQuestion& question, Budget& budget, ThreadTeam& team);
 
 }  // namespace coordreq

@@ -48,8 +48,8 @@ Finding find_beyond(const ProblemSpec& spec, const UniformGrid& grid, AnalysisTa
 }  // namespace
 
 CheckedTubes check_tubes(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
-                         AnalysisTables& analysis, const std::vector<std::uint8_t>& safe,
-                         const Budget& budget, ThreadTeam& team) {
+                         AnalysisTables& analysis, const std::vector<std::uint8_t>& safe, Budget& budget,
+                         ThreadTeam& team) {
   CheckedTubes result{.tables = {}, .beyond = safe};
   std::optional<Finding> beyond;
   if (may_go_beyond(spec)) beyond = find_beyond(spec, grid, analysis, safe, result, team);
@@ -61,10 +61,14 @@ CheckedTubes check_tubes(const ProblemSpec& spec, const UniformGrid& grid, const
                                 .state = i,
                                 .claimed = &result.tables[i],
                                 .cells = &analysis.cells(),
-                                .budget = &budget,
                                 .check = "tubes " + grid[i].name};
     std::optional<TubeFinding> found = check_corner_tubes(question, team);
-    if (!found) found = check_outward_tubes(question, team);
+    if (!found) {
+      Budget part = budget.part(1, static_cast<std::int64_t>(grid.size() - i));
+      const Work before = part.left();
+      found = check_outward_tubes(question, part, team);
+      budget.spend(before - part.left());
+    }
     result.exact = result.exact && found && found->exact;
     if (found) {
       result.findings.push_back(std::move(found->finding));

@@ -27,7 +27,7 @@ struct CheckedTubes {
 /// @param safe S as the file has it
 [[nodiscard]] CheckedTubes check_tubes(const ProblemSpec& spec, const UniformGrid& grid,
                                        const InputSpace& inputs, AnalysisTables& analysis,
-                                       const std::vector<std::uint8_t>& safe, const Budget& budget,
+                                       const std::vector<std::uint8_t>& safe, Budget& budget,
                                        ThreadTeam& team);
 
 }  // namespace coordreq

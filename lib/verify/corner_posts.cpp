@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <atomic>
 
+#include "answers/checking/cell_parts.hpp"
 #include "base/error.hpp"
 #include "model/odometer.hpp"
-#include "model/pieces.hpp"
 #include "spec/system_spec.hpp"
 #include "verify/own_posts.hpp"
 #include "verify/parameter_choices.hpp"
@@ -18,10 +18,12 @@ struct Contribution {
   struct Ends {
     Rational one;
     Rational other;
+    bool attained = true;  ///< the greater one, from a cell without its upper end
   };
   std::size_t source = 0;
   Rational factor;
   bool cut = false;                      ///< at the seam
+  const StoppedPart* stopped = nullptr;  ///< instead of the factor
   std::vector<std::vector<Ends>> cells;  ///< [cell][piece], once they are asked for
 };
 
@@ -69,12 +71,12 @@ class CornerPosts {
       // A state that others only move along goes round with its cell: that need not be cut at the seam.
       const std::size_t source = influences_.moving[j];
       const bool follows = source == state_ && map.coefficient[j] == 1;
-      parts.push_back({source, map.coefficient[j], cut && !follows, {}});
+      parts.push_back({source, map.coefficient[j], cut && !follows, nullptr, {}});
       parts.back().cells.resize(static_cast<std::size_t>(grid_[source].count));
     }
-    const bool attained = !map.exact || !grows_with_an_open_cell(map);
+    for (const StoppedPart& stopped : map.stopped) parts[stopped.moving].stopped = &stopped;
     cells_.for_each(base, std::nullopt, [&](const std::vector<std::int64_t>& cell, std::int64_t place) {
-      table_.entries[*table_.find(place)] = post(map, parts, cell, attained);
+      table_.entries[*table_.find(place)] = post(map, parts, cell);
     });
   }
 
@@ -89,29 +91,54 @@ class CornerPosts {
     return false;
   }
 
-  /// The upper end of a half-open cell is not in it, so neither is the greatest value of the map.
-  [[nodiscard]] bool grows_with_an_open_cell(const SampledMap& map) const {
-    for (std::size_t j = 0; j < influences_.moving.size(); ++j) {
-      if (map.coefficient[j] > 0 && !grid_[influences_.moving[j]].discrete) return true;
-    }
-    return false;
-  }
-
   const std::vector<Contribution::Ends>& ends_of(Contribution& part, std::int64_t k) const {
     auto& ends = part.cells[static_cast<std::size_t>(k)];
     if (!ends.empty()) return ends;
     const GridDimension& dimension = grid_[part.source];
     const Rational reach = dimension.radius() + dimension.measurement_error;
-    std::vector<Piece> places = {{dimension.point(k) - reach, dimension.point(k) + reach}};
-    if (part.cut) places = pieces(dimension, k);
-    for (const Piece& place : places)
-      ends.push_back({Rational(part.factor * place.lower), Rational(part.factor * place.upper)});
+    const RationalInterval cell{.lower = dimension.point(k) - reach, .upper = dimension.point(k) + reach};
+    if (part.stopped != nullptr) {
+      ends.push_back(ends_of_stopped(dimension, *part.stopped, parts_of(dimension, k).front(), cell.upper));
+      return ends;
+    }
+    // The upper end of a half-open cell is not in it, so neither is the greatest value if that grows with it.
+    const bool attained = !(part.factor > 0) || dimension.discrete;
+    for (const RationalInterval& place : part.cut ? parts_of(dimension, k) : std::vector{cell})
+      ends.push_back({Rational(part.factor * place.lower), Rational(part.factor * place.upper), attained});
     return ends;
+  }
+
+  /// @param uncut the upper end of the cell if there was no limit
+  [[nodiscard]] Contribution::Ends ends_of_stopped(const GridDimension& dimension, const StoppedPart& part,
+                                                   const RationalInterval& place,
+                                                   const Rational& uncut) const {
+    const Rational bottom = dimension.first;
+    const Rational top = dimension.point(dimension.count - 1);
+    const Rational& tau = spec_.dynamics.period;
+    const TimePolynomial sum = part.response.integral();
+    const auto from = [&](const Rational& start, const Rational& rate) {
+      Rational moving = tau;
+      if (rate < 0 && dimension.below == Outside::stop)
+        moving = std::min(moving, Rational((bottom - start) / rate));
+      if (rate > 0 && dimension.above == Outside::stop)
+        moving = std::min(moving, Rational((top - start) / rate));
+      return Rational(part.response.at(tau) * start + rate * (sum.at(tau) - sum.at(tau - moving)));
+    };
+    const Rational low = from(place.lower, part.slowest);
+    const Rational high = from(place.upper, part.fastest);
+    if (!part.rises) return {low, high, true};
+    if (dimension.above == Outside::stop && uncut > top)
+      return {low, high, true};  // the limit itself is in it
+    // All that comes near the end of the cell may be held at the same limit, if it is v itself.
+    const Rational end = place.upper + part.fastest * tau;
+    const bool held = (dimension.below == Outside::stop && end <= bottom) ||
+                      (dimension.above == Outside::stop && end > top);
+    return {low, high, held && part.response.is_one()};
   }
 
   /// The cells met from all pieces of one cell.
   [[nodiscard]] IndexRange post(const SampledMap& map, std::vector<Contribution>& parts,
-                                const std::vector<std::int64_t>& cell, bool attained) const {
+                                const std::vector<std::int64_t>& cell) const {
     std::vector<const std::vector<Contribution::Ends>*> ends;
     std::vector<std::int64_t> counts;
     for (std::size_t j = 0; j < parts.size(); ++j) {
@@ -124,14 +151,17 @@ class CornerPosts {
       std::vector<const Contribution::Ends*> box;
       for (std::size_t j = 0; j < ends.size(); ++j)
         box.push_back(&(*ends[j])[static_cast<std::size_t>(piece[j])]);
-      const IndexRange next = met_from(map, box, attained);
-      range = range ? merge_ranges(*range, next, target_) : next;
+      const IndexRange next = met_from(map, box);
+      range = range ? both_of(*range, next, target_) : next;
     } while (piece.advance());
     return *range;
   }
 
-  [[nodiscard]] IndexRange met_from(const SampledMap& map, const std::vector<const Contribution::Ends*>& box,
-                                    bool attained) const {
+  [[nodiscard]] IndexRange met_from(const SampledMap& map,
+                                    const std::vector<const Contribution::Ends*>& box) const {
+    const bool attained =
+        !map.exact ||
+        std::all_of(box.begin(), box.end(), [](const Contribution::Ends* ends) { return ends->attained; });
     Rational least = 0;
     Rational greatest = 0;
     for (std::uint64_t corner = 0; corner < std::uint64_t{1} << box.size(); ++corner) {
@@ -154,7 +184,7 @@ class CornerPosts {
                       "/dynamics/equations/" + target_.name);
     }
     const std::int64_t k = floor_to_int(index);
-    return raw_range(target_, k, k);
+    return cut_to_range(target_, k, k);
   }
 
   const SystemSpec& spec_;

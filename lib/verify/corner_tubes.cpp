@@ -2,8 +2,8 @@
 #include <atomic>
 #include <utility>
 
+#include "answers/checking/cell_parts.hpp"
 #include "model/odometer.hpp"
-#include "model/pieces.hpp"
 #include "spec/system_spec.hpp"
 #include "verify/check_tube.hpp"
 #include "verify/parameter_choices.hpp"
@@ -84,9 +84,10 @@ class CornerTubes {
     if (!ends.empty()) return ends;
     const GridDimension& dimension = grid_[part.source];
     const Rational reach = dimension.radius() + dimension.measurement_error;
-    std::vector<Piece> places = {{dimension.point(k) - reach, dimension.point(k) + reach}};
-    if (part.cut) places = pieces(dimension, k);
-    for (const Piece& place : places) ends.push_back({part.factor * place.lower, part.factor * place.upper});
+    std::vector<RationalInterval> places = {{dimension.point(k) - reach, dimension.point(k) + reach}};
+    if (part.cut) places = parts_of(dimension, k);
+    for (const RationalInterval& place : places)
+      ends.push_back({part.factor * place.lower, part.factor * place.upper});
     return ends;
   }
 

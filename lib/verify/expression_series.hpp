@@ -29,6 +29,7 @@ class ExpressionSeries {
   const ArbSeries& operator()(std::span<const ArbSeries> slots, slong length);
   /// Of the last result. Where it is not analytic, coefficients from 2 on mean nothing.
   [[nodiscard]] Smoothness smoothness() const { return smoothness_; }
+  [[nodiscard]] std::size_t operations() const { return values_.size(); }
 
  private:
   void run_number(std::size_t n, std::span<const ArbSeries> slots, slong length);

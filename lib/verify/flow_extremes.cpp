@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "spec/system_spec.hpp"
+#include "verify/piece_choices.hpp"
 #include "verify/transition_matrix.hpp"
 
 namespace coordreq {
@@ -32,7 +33,19 @@ FlowExtremes::FlowExtremes(const SystemSpec& spec, const Influences& influences,
       trajectory_(field_),
       period_(spec.dynamics.period),
       cell_(cell) {
-  for (const std::size_t j : influences.moving) states_.push_back(spec.state_slot(j));
+  for (const std::size_t j : influences.moving) {
+    states_.push_back(spec.state_slot(j));
+    const StateSpec& state = spec.states[j];
+    const Rational last =
+        state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
+    StopLimits& limits = limits_.emplace_back();
+    if (state.below == Outside::stop) limits.below = Arb(state.grid.first).lower();
+    if (state.above == Outside::stop) limits.above = Arb(last).upper();
+  }
+  for (const std::size_t j : seams_that_jump(spec, influences)) {
+    const StateSpec& state = spec.states[j];
+    seams_.push_back({*row_of(influences, j), state.lower, state.upper});
+  }
   for (const std::size_t l : influences.disturbances) disturbances_.push_back(spec.disturbance_slot(l));
 }
 
@@ -56,15 +69,29 @@ bool FlowExtremes::enclose(const SpanBox& box, const Effort& effort) {
   if (finer > effort.steps) steps = enclosed(finer);
   if (!steps) return false;
   steps_ = std::move(*steps);
+  if (passes_a_seam()) return false;
   effort_.steps = static_cast<int>(steps_.size());
   step_ = period_ / Arb(static_cast<double>(effort_.steps));
   influences_.assign(steps_.size() + 1, std::nullopt);
   return true;
 }
 
+/// Then another formula holds. What only falls does not get to the upper end, from which it does not start.
+bool FlowExtremes::passes_a_seam() const {
+  return std::any_of(seams_.begin(), seams_.end(), [this](const Seam& seam) {
+    return std::any_of(steps_.begin(), steps_.end(), [&](const TubeStep& step) {
+      const Arb& tube = step.tube[states_[seam.state]];
+      const Arb& change = step.change[seam.state];
+      const bool above = !change.is_nonpositive() && tube.upper_rational() >= seam.upper;
+      const bool below = !change.is_nonnegative() && tube.lower_rational() < seam.lower;
+      return above || below;
+    });
+  });
+}
+
 std::optional<std::vector<TubeStep>> FlowExtremes::enclosed(int steps) {
   const int pieces = effort_.steps < 8 ? 1 : std::min(effort_.steps / 4, 8);
-  return enclose_flow(field_, box_, period_, steps, pieces);
+  return enclose_flow(field_, limits_, box_, period_, steps, pieces);
 }
 
 int FlowExtremes::steps_for(const ArbMatrix& slopes, const Effort& effort) const {
@@ -97,14 +124,16 @@ const std::optional<FlowExtremes::Influence>& FlowExtremes::influence_after(std:
   return *known;
 }
 
-std::optional<FlowExtremes::Influence> FlowExtremes::find_influence(std::size_t steps) const {
+std::optional<FlowExtremes::Influence> FlowExtremes::find_influence(std::size_t steps) {
   const std::size_t n = states_.size();
   const std::size_t m = disturbances_.size();
   Influence result{.of_start = ArbMatrix(n, n)};
   arb_mat_one(result.of_start.get());
   result.of_disturbance.assign(steps, ArbMatrix(n, m));
+  constexpr std::size_t kProducts = 20;  // that the exponential of a matrix takes, about
   for (std::size_t k = steps; k-- > 0;) {
     if (!steps_[k].slopes) return std::nullopt;
+    matrix_work_ += static_cast<Work>(kProducts * n * n * (n + m));
     const ArbMatrix by_state = columns(*steps_[k].slopes, n, 0, n);
     if (m > 0) {
       const ArbMatrix within = result.of_start * transition_matrix(by_state, hull(Arb(), step_));

@@ -28,6 +28,10 @@ class FlowExtremes : public NextValue {
   [[nodiscard]] Extremes extremes(std::size_t state, const Enough& enough) override;
   [[nodiscard]] const std::vector<std::uint32_t>& divisible() const override { return states_; }
 
+  [[nodiscard]] Work work() const override {
+    return field_.work() + trajectory_.repeated_work() + matrix_work_;
+  }
+
   [[nodiscard]] const std::vector<TubeStep>& steps() const { return steps_; }
   /// The extreme after so many steps.
   [[nodiscard]] Extreme extreme_after(std::size_t steps, std::size_t state, bool greatest);
@@ -41,14 +45,22 @@ class FlowExtremes : public NextValue {
     std::vector<ArbMatrix> of_disturbance;  ///< [step]: of each disturbance, per time
   };
   [[nodiscard]] std::optional<std::vector<TubeStep>> enclosed(int steps);
+  [[nodiscard]] bool passes_a_seam() const;
   [[nodiscard]] int steps_for(const ArbMatrix& slopes, const Effort& effort) const;
   [[nodiscard]] const std::optional<Influence>& influence_after(std::size_t steps);
-  [[nodiscard]] std::optional<Influence> find_influence(std::size_t steps) const;
+  [[nodiscard]] std::optional<Influence> find_influence(std::size_t steps);
   [[nodiscard]] Extreme bound_after(std::size_t steps, std::size_t state, bool greatest) const;
   void follow(const Influence& influence, std::size_t state, bool greatest, Extreme& extreme);
   [[nodiscard]] bool move_on(ArbBox& now, const std::vector<std::vector<Arb>>& signal);
 
   SeriesField field_;
+  std::vector<StopLimits> limits_;  ///< [moving state]
+  struct Seam {
+    std::size_t state = 0;  ///< its place among the moving ones
+    Rational lower;
+    Rational upper;
+  };
+  std::vector<Seam> seams_;  ///< at which equations jump
   Trajectory trajectory_;
   std::vector<std::uint32_t> states_;
   std::vector<std::uint32_t> disturbances_;
@@ -59,6 +71,7 @@ class FlowExtremes : public NextValue {
   Arb step_;
   std::vector<TubeStep> steps_;
   std::vector<std::optional<std::optional<Influence>>> influences_;  ///< [steps]
+  Work matrix_work_ = 0;
 };
 
 }  // namespace coordreq

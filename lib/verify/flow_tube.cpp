@@ -30,22 +30,51 @@ Arb extreme_change(SeriesField& field, std::size_t i, const SpanBox& face,
 
 class StepMaker {
  public:
-  StepMaker(SeriesField& field, const Arb& duration, int pieces)
-      : field_(field), duration_(duration), pieces_(pieces) {}
+  StepMaker(SeriesField& field, const std::vector<StopLimits>& limits, const Arb& duration, int pieces)
+      : field_(field), limits_(limits), duration_(duration), pieces_(pieces) {}
 
   std::optional<TubeStep> make(const SpanBox& start) {
-    std::optional<Tube> tube = picard_tube(field_, all_of(start), duration_);
+    std::optional<Tube> tube = picard_tube(field_, all_of(start), duration_, limits_);
     if (!tube) return std::nullopt;
     step_ = {.tube = std::move(tube->box), .change = std::move(tube->change), .end = start};
     step_.slopes = field_.jacobian(step_.tube);
+    bool held = false;
     for (std::size_t i = 0; i < field_.size(); ++i) {
       ArbSpan& span = step_.end[field_.variables()[i]];
       span = {end_of(start, i, false), end_of(start, i, true)};
+      if (may_be_held(i, false) || may_be_held(i, true)) {
+        held = true;
+        span = held_end(i, span);
+      }
     }
+    if (held) step_.slopes.reset();
     return std::move(step_);
   }
 
  private:
+  [[nodiscard]] bool may_be_held(std::size_t i, bool above) const {
+    const std::optional<Arb>& limit = above ? limits_[i].above : limits_[i].below;
+    const Arb& tube = step_.tube[field_.variables()[i]];
+    return limit && !(above ? is_below(tube.upper(), *limit) : is_below(*limit, tube.lower()));
+  }
+
+  [[nodiscard]] ArbSpan held_end(std::size_t i, ArbSpan span) const {
+    const Arb zero;
+    const StopLimits& limit = limits_[i];
+    if (may_be_held(i, false)) {
+      const Arb up = greater(zero, step_.change[i].upper());
+      span.upper = greater(span.upper, *limit.below + duration_ * up).upper();
+      span.lower = greater(span.lower, *limit.below).lower();
+    }
+    if (may_be_held(i, true)) {
+      const Arb down = lesser(zero, step_.change[i].lower());
+      span.lower = lesser(span.lower, *limit.above + duration_ * down).lower();
+      span.upper = lesser(span.upper, *limit.above).upper();
+      if (limit.below) span.lower = greater(span.lower, *limit.below).lower();
+    }
+    return span;
+  }
+
   [[nodiscard]] Arb end_of(const SpanBox& start, std::size_t i, bool greatest) {
     const std::uint32_t slot = field_.variables()[i];
     const Arb from = greatest ? start[slot].upper : start[slot].lower;
@@ -89,6 +118,7 @@ class StepMaker {
   }
 
   SeriesField& field_;
+  const std::vector<StopLimits>& limits_;
   const Arb& duration_;
   int pieces_;
   TubeStep step_;
@@ -96,14 +126,15 @@ class StepMaker {
 
 }  // namespace
 
-std::optional<std::vector<TubeStep>> enclose_flow(SeriesField& field, const SpanBox& start,
-                                                  const Arb& duration, int steps, int pieces) {
+std::optional<std::vector<TubeStep>> enclose_flow(SeriesField& field, const std::vector<StopLimits>& limits,
+                                                  const SpanBox& start, const Arb& duration, int steps,
+                                                  int pieces) {
   const Arb share = duration / Arb(static_cast<double>(steps));
   std::vector<TubeStep> result;
   const SpanBox* now = &start;
   result.reserve(static_cast<std::size_t>(steps));
   for (int step = 0; step < steps; ++step) {
-    std::optional<TubeStep> next = StepMaker(field, share, pieces).make(*now);
+    std::optional<TubeStep> next = StepMaker(field, limits, share, pieces).make(*now);
     if (!next) return std::nullopt;
     result.push_back(std::move(*next));
     now = &result.back().end;

@@ -14,6 +14,7 @@ class MapExtremes : public NextValue {
   [[nodiscard]] bool enclose(const SpanBox& box, const Effort& effort) override;
   [[nodiscard]] Extremes extremes(std::size_t value, const Enough& enough) override;
   [[nodiscard]] const std::vector<std::uint32_t>& divisible() const override { return map_.variables(); }
+  [[nodiscard]] Work work() const override { return map_.work(); }
   /// True if the value is that of `slot` and something that does not depend on it.
   [[nodiscard]] bool follows(const ArbBox& box, std::uint32_t slot);
 

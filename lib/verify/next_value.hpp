@@ -56,6 +56,8 @@ class NextValue {
   [[nodiscard]] virtual Extremes extremes(std::size_t value, const Enough& enough) = 0;
   /// Slots of what may be cut into pieces: for each piece a bound holds by itself.
   [[nodiscard]] virtual const std::vector<std::uint32_t>& divisible() const = 0;
+  /// Done so far: the same for the same questions, whatever is remembered.
+  [[nodiscard]] virtual Work work() const = 0;
 };
 
 /// What a variable that moves a value with a slope adds beyond the place that is taken for the extreme.

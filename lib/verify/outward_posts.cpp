@@ -19,9 +19,10 @@
 namespace coordreq {
 namespace {
 
-/// One round after the other, of more work for what is still open.
-const PostEffort kRounds[] = {{1, {2, 1e-3}},   {2, {8, 1e-4}},    {16, {8, 1e-5}},
-                              {64, {16, 1e-6}}, {512, {32, 1e-7}}, {4096, {96, 1e-7}}};
+/// One round after the other, of more work for what is still open. Once more the same serves those that got
+/// a smaller share the first time.
+const PostEffort kRounds[] = {{1, {2, 1e-3}},    {2, {8, 1e-4}},     {16, {8, 1e-5}},   {64, {16, 1e-6}},
+                              {512, {32, 1e-7}}, {4096, {96, 1e-7}}, {4096, {96, 1e-7}}};
 
 /// The next value is the present one and something that does not depend on it.
 bool follows_itself(const PostQuestion& question, const Influences& influences) {
@@ -57,7 +58,6 @@ class OutwardPosts {
         spec_(*questions_.front().spec),
         grid_(*questions_.front().grid),
         inputs_(*questions_.front().inputs),
-        budget_(*questions_.front().budget),
         slots_(spec_.slot_count()),
         choices_(spec_, grid_, inputs_, table(0),
                  group_.shifts ? std::optional(group_.states.front()) : std::nullopt),
@@ -72,11 +72,13 @@ class OutwardPosts {
     }
   }
 
-  std::vector<Finding> run(ThreadTeam& team) {
+  std::vector<Finding> run(Budget& budget, const PostProgress& progress, ThreadTeam& team) {
+    const std::size_t all = open_.size();
     std::vector<std::unique_ptr<PostProver>> provers(static_cast<std::size_t>(team.size()));
     for (std::size_t round = 0; round < std::size(kRounds) && !open_.empty(); ++round) {
       is_last_ = round + 1 == std::size(kRounds);
-      run_round(kRounds[round], provers, team);
+      if (progress) progress(all - open_.size(), all);
+      run_round(kRounds[round], budget, provers, team);
     }
     std::vector<Finding> findings;
     for (const Tally& tally : tallies_) findings.push_back(tally.finding());
@@ -108,18 +110,18 @@ class OutwardPosts {
     return open;
   }
 
-  void run_round(const PostEffort& effort, std::vector<std::unique_ptr<PostProver>>& provers,
+  void run_round(const PostEffort& effort, Budget& budget, std::vector<std::unique_ptr<PostProver>>& provers,
                  ThreadTeam& team) {
     std::vector<std::uint8_t> still_open(open_.size());
     const auto count = static_cast<std::int64_t>(open_.size());
-    const std::int64_t grain = effort.most_boxes == 1 ? 16 : 1;
-    team.for_each(count, grain, [&](ThreadTeam::Range range, int worker) {
+    const std::int64_t block = effort.most_boxes == 1 ? 1024 : 64;
+    answer_within(budget, count, block, team, [&](std::int64_t i, Work most, int worker) {
       auto& prover = provers[static_cast<std::size_t>(worker)];
       if (!prover) prover = std::make_unique<PostProver>(spec_, grid_, group_);
-      for (std::int64_t i = range.begin; i < range.end; ++i) {
-        const auto place = static_cast<std::size_t>(i);
-        still_open[place] = settle(open_[place], effort, *prover) ? 0 : 1;
-      }
+      const Work before = prover->work();
+      const auto place = static_cast<std::size_t>(i);
+      still_open[place] = settle(open_[place], effort, most, *prover) ? 0 : 1;
+      return prover->work() - before;
     });
     std::size_t kept = 0;
     for (std::size_t i = 0; i < open_.size(); ++i) {
@@ -129,9 +131,9 @@ class OutwardPosts {
   }
 
   /// @returns false if it is to be tried again
-  bool settle(Open& open, const PostEffort& effort, PostProver& prover) {
+  bool settle(Open& open, const PostEffort& effort, Work most, PostProver& prover) {
     const Odometer choice(choices_.counts(), open.choice);
-    const bool over = budget_.is_over();
+    const bool over = most == 0;
     const std::vector<Claimed> all = claims_of(choice);
     std::vector<PostClaim> asked;
     std::vector<std::size_t> numbers;
@@ -143,7 +145,7 @@ class OutwardPosts {
     if (asked.empty()) return true;
     const std::vector<PostProof> proofs =
         over ? std::vector<PostProof>(asked.size(), {PostVerdict::open, "the budget ended"})
-             : prove(choice, asked, effort, prover);
+             : prove(choice, asked, effort, most, prover);
     bool settled = true;
     for (std::size_t k = 0; k < proofs.size(); ++k) {
       if (proofs[k].verdict == PostVerdict::open && !over && !is_last_) {
@@ -198,12 +200,11 @@ class OutwardPosts {
   }
 
   [[nodiscard]] std::vector<PostProof> prove(const Odometer& choice, const std::vector<PostClaim>& claims,
-                                             const PostEffort& effort, PostProver& prover) const {
-    const double end = budget_.end_of_one();
+                                             const PostEffort& effort, Work most, PostProver& prover) const {
     SpanBox slots = slots_;
     std::vector<PostProof> worst(claims.size());
     choices_.for_each_piece(choice, slots, [&](const Odometer&) {
-      std::vector<PostProof> proofs = prover.prove(slots, claims, effort, end);
+      std::vector<PostProof> proofs = prover.prove(slots, claims, effort, most);
       bool all_wrong = true;
       for (std::size_t c = 0; c < claims.size(); ++c) {
         if (proofs[c].verdict != PostVerdict::holds && worst[c].verdict != PostVerdict::wrong)
@@ -242,7 +243,6 @@ class OutwardPosts {
   const SystemSpec& spec_;
   const UniformGrid& grid_;
   const InputSpace& inputs_;
-  const Budget& budget_;
   SpanBox slots_;
   PieceChoices choices_;
   std::vector<Open> open_;
@@ -252,16 +252,19 @@ class OutwardPosts {
 
 bool can_be_asked(const PostQuestion& question, const Influences& influences) {
   const PostTable shape = empty_table(*question.grid, *question.inputs, influences, *question.cells);
-  return !has_stops(*question.spec, influences) && !jumps_on_the_way(*question.spec, influences) &&
-         question.claimed->states == shape.states && question.claimed->inputs == shape.inputs &&
+  return question.claimed->states == shape.states && question.claimed->inputs == shape.inputs &&
          question.claimed->entries.size() == shape.entries.size();
 }
 
 }  // namespace
 
 std::vector<std::optional<Finding>> check_outward_posts(const std::vector<PostQuestion>& questions,
+                                                        Budget& budget, const PostProgress& progress,
                                                         ThreadTeam& team) {
   std::vector<std::optional<Finding>> findings(questions.size());
+  std::vector<PostGroup> groups;
+  std::vector<std::vector<std::size_t>> members;
+  std::int64_t entries = 0;  // of groups that have not been looked at
   std::vector<bool> done(questions.size(), false);
   for (std::size_t q = 0; q < questions.size(); ++q) {
     if (done[q]) continue;
@@ -270,18 +273,28 @@ std::vector<std::optional<Finding>> check_outward_posts(const std::vector<PostQu
     if (!can_be_asked(questions[q], group.influences)) continue;
     group.shifts = follows_itself(questions[q], group.influences);
     const bool alone = group.shifts || spec.dynamics.time == Time::discrete;
-    std::vector<PostQuestion> together;
-    std::vector<std::size_t> places;
+    std::vector<std::size_t>& places = members.emplace_back();
     for (std::size_t other = q; other < (alone ? q + 1 : questions.size()); ++other) {
       if (!(influences_on(spec, questions[other].state) == group.influences)) continue;
       if (!can_be_asked(questions[other], group.influences)) continue;
       done[other] = true;
       places.push_back(other);
-      together.push_back(questions[other]);
       group.states.push_back(questions[other].state);
     }
-    std::vector<Finding> found = OutwardPosts(std::move(together), std::move(group)).run(team);
-    for (std::size_t k = 0; k < places.size(); ++k) findings[places[k]] = std::move(found[k]);
+    groups.push_back(std::move(group));
+    entries += static_cast<std::int64_t>(questions[q].claimed->entries.size());
+  }
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    std::vector<PostQuestion> together;
+    for (const std::size_t q : members[g]) together.push_back(questions[q]);
+    const auto own = static_cast<std::int64_t>(together.front().claimed->entries.size());
+    Budget part = budget.part(own, entries);
+    const Work before = part.left();
+    std::vector<Finding> found =
+        OutwardPosts(std::move(together), std::move(groups[g])).run(part, progress, team);
+    budget.spend(before - part.left());
+    entries -= own;
+    for (std::size_t k = 0; k < found.size(); ++k) findings[members[g][k]] = std::move(found[k]);
   }
   return findings;
 }

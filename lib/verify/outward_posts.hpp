@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,18 +21,20 @@ struct PostQuestion {
   std::size_t state = 0;
   const PostTable* claimed = nullptr;
   const std::vector<std::int64_t>* cells = nullptr;  ///< whose entries `claimed` has, ascending; all if empty
-  const Budget* budget = nullptr;
-  std::string check;  ///< name of the finding
+  std::string check;                                 ///< name of the finding
 };
+
+/// How many posts are settled, of how many; called by the caller's thread. May be empty.
+using PostProgress = std::function<void(std::size_t done, std::size_t all)>;
 
 /// Proves the entries of states' tables by enclosures in ball arithmetic: a little work for all, then more
 /// and more for those that do not fit, until the budget ends. What follows its own present value is proven
 /// once for all its cells; states with the same influences are enclosed together. An entry is wrong only if a
 /// value that does come next is not in it.
 /// @param questions that differ in state, table and name
-/// @returns a finding for each; nothing where these do not do: limits that stop a state, jumps in a flow,
-///   another table's shape
+/// @returns a finding for each; nothing where these do not do: jumps in a flow, another table's shape
 [[nodiscard]] std::vector<std::optional<Finding>> check_outward_posts(
-    const std::vector<PostQuestion>& questions, ThreadTeam& team);
+    const std::vector<PostQuestion>& questions, Budget& budget, const PostProgress& progress,
+    ThreadTeam& team);
 
 }  // namespace coordreq

@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "model/pieces.hpp"
+#include "answers/checking/cell_parts.hpp"
 #include "spec/system_spec.hpp"
 #include "verify/check_tube.hpp"
 #include "verify/flow_range.hpp"
@@ -18,7 +18,6 @@ class OutwardTubes {
  public:
   explicit OutwardTubes(const PostQuestion& question)
       : spec_(*question.spec),
-        budget_(*question.budget),
         state_(question.state),
         target_((*question.grid)[state_]),
         claimed_(*question.claimed),
@@ -39,23 +38,25 @@ class OutwardTubes {
       return;
     }
     own_ = choices_.variable(spec_.state_slot(state_));
-    for (std::int64_t k = 0; k < target_.count; ++k) places_.push_back(pieces(target_, k));
+    for (std::int64_t k = 0; k < target_.count; ++k) places_.push_back(parts_of(target_, k));
   }
 
-  std::optional<TubeFinding> run(ThreadTeam& team) {
-    if (has_stops(spec_, influences_) || jumps_on_the_way(spec_, influences_)) return std::nullopt;
+  TubeFinding run(Budget& budget, ThreadTeam& team) {
     std::vector<std::unique_ptr<FlowExtremes>> flows(static_cast<std::size_t>(team.size()));
-    team.for_each(static_cast<std::int64_t>(asked_.size()), 16, [&](ThreadTeam::Range range, int worker) {
+    const auto count = static_cast<std::int64_t>(asked_.size());
+    answer_within(budget, count, 1024, team, [&](std::int64_t i, Work most, int worker) {
       auto& flow = flows[static_cast<std::size_t>(worker)];
       if (!flow) flow = std::make_unique<FlowExtremes>(spec_, influences_, target_.step.get_d());
-      for (std::int64_t i = range.begin; i < range.end; ++i)
-        check(Odometer(choices_.counts(), asked_[static_cast<std::size_t>(i)]), *flow);
+      const Work before = flow->work();
+      check(Odometer(choices_.counts(), asked_[static_cast<std::size_t>(i)]), before + most, *flow);
+      return flow->work() - before;
     });
     return tally_.finding(false);
   }
 
  private:
-  void check(const Odometer& choice, FlowExtremes& flow) {
+  /// @param end of the work of `flow`
+  void check(const Odometer& choice, Work end, FlowExtremes& flow) {
     const std::int64_t stride = claimed_.state_stride[state_];
     std::int64_t place = choices_.position(choice);
     std::int64_t k = 0;
@@ -63,7 +64,7 @@ class OutwardTubes {
     const bool unbounded = tally_.is_unbounded(place);
     std::vector<OwnTube> own;
     for (const Effort& effort : kEfforts) {
-      if (unbounded || budget_.is_over() || tally_.is_enough(place, k, own)) break;
+      if (unbounded || flow.work() >= end || tally_.is_enough(place, k, own)) break;
       std::optional<std::vector<OwnTube>> next = tubes(choice, flow, effort);
       if (next) own = std::move(*next);
     }
@@ -87,14 +88,14 @@ class OutwardTubes {
     return result;
   }
 
-  [[nodiscard]] const Piece& place_of(const Odometer& choice, const Odometer& piece) const {
+  [[nodiscard]] const RationalInterval& place_of(const Odometer& choice, const Odometer& piece) const {
     if (alike_) return places_.front().front();
     return places_[static_cast<std::size_t>(choice[own_])][static_cast<std::size_t>(piece[own_])];
   }
 
   /// Values are those of the state itself, or of the difference to its beginning. What does not leave the
   /// initial place on one side has its end there, exactly.
-  [[nodiscard]] OwnTube tube_from(const FlowRange& range, const Piece& place) const {
+  [[nodiscard]] OwnTube tube_from(const FlowRange& range, const RationalInterval& place) const {
     const Rational base_lower = alike_ ? place.lower : Rational(0);
     const Rational base_upper = alike_ ? place.upper : Rational(0);
     Rational lower = place.lower;
@@ -111,7 +112,6 @@ class OutwardTubes {
   }
 
   const SystemSpec& spec_;
-  const Budget& budget_;
   std::size_t state_;
   const GridDimension& target_;
   const PostTable& claimed_;
@@ -121,15 +121,15 @@ class OutwardTubes {
   std::vector<std::int64_t> asked_;  ///< numbers of choices
   SpanBox slots_;
   TubeTally tally_;
-  std::size_t moving_ = 0;                  ///< place among the moving states
-  std::size_t own_ = 0;                     ///< among the variables of choices_
-  std::vector<std::vector<Piece>> places_;  ///< [own index][piece]
+  std::size_t moving_ = 0;                             ///< place among the moving states
+  std::size_t own_ = 0;                                ///< among the variables of choices_
+  std::vector<std::vector<RationalInterval>> places_;  ///< [own index][piece]
 };
 
 }  // namespace
 
-std::optional<TubeFinding> check_outward_tubes(const PostQuestion& question, ThreadTeam& team) {
-  return OutwardTubes(question).run(team);
+TubeFinding check_outward_tubes(const PostQuestion& question, Budget& budget, ThreadTeam& team) {
+  return OutwardTubes(question).run(budget, team);
 }
 
 }  // namespace coordreq

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/pieces.hpp"
+#include "answers/checking/cell_parts.hpp"
 
 namespace coordreq {
 
@@ -36,7 +36,7 @@ IndexRange cells_met(const GridDimension& dimension, Cells cells, const Rational
   const bool closed = cells == Cells::closed;
   const std::int64_t first = closed ? ceil_to_int(low) : floor_to_int(low) + 1;
   const std::int64_t last = closed || upper_attained ? floor_to_int(high) : ceil_to_int(high) - 1;
-  return raw_range(dimension, first, last);
+  return cut_to_range(dimension, first, last);
 }
 
 IndexRange with_measurements_at_limits(const GridDimension& dimension, Cells cells, IndexRange range) {

@@ -5,8 +5,9 @@
 #include <set>
 #include <utility>
 
-#include "model/pieces.hpp"
+#include "answers/checking/cell_parts.hpp"
 #include "spec/system_spec.hpp"
+#include "verify/seam_use.hpp"
 
 namespace coordreq {
 namespace {
@@ -15,7 +16,8 @@ std::vector<std::vector<ArbSpan>> boxes_in(const GridDimension& dimension) {
   std::vector<std::vector<ArbSpan>> result;
   for (std::int64_t k = 0; k < dimension.count; ++k) {
     auto& boxes = result.emplace_back();
-    for (const Piece& piece : pieces(dimension, k)) boxes.push_back(span_of(piece.lower, piece.upper));
+    for (const RationalInterval& piece : parts_of(dimension, k))
+      boxes.push_back(span_of(piece.lower, piece.upper));
   }
   return result;
 }
@@ -26,55 +28,34 @@ std::vector<std::vector<ArbSpan>> boxes_in(const InputSpace::Dimension& input) {
   return result;
 }
 
-/// True if the variable occurs other than within sin, cos and tan.
-bool uses_as_number(const Program& equation, std::uint32_t slot) {
-  std::vector<bool> uses;
-  for (const Program::Node& node : equation.nodes) {
-    switch (node.op) {
-      case Operator::variable:
-        uses.push_back(node.a == slot);
-        break;
-      case Operator::constant:
-      case Operator::literal_true:
-      case Operator::literal_false:
-      case Operator::sine:
-      case Operator::cosine:
-      case Operator::tangent:
-        uses.push_back(false);
-        break;
-      case Operator::if_else:
-        uses.push_back(uses[node.a] || uses[node.b] || uses[node.c]);
-        break;
-      default: {
-        const bool is_unary = is_unary_function(node.op) || node.op == Operator::logical_not;
-        uses.push_back(uses[node.a] || (!is_unary && uses[node.b]));
-      }
-    }
-  }
-  return uses.back();
+bool stops(const StateSpec& state) {
+  return state.below == Outside::stop || state.above == Outside::stop;
 }
 
 }  // namespace
 
-bool jumps_on_the_way(const SystemSpec& spec, const Influences& influences) {
-  if (spec.dynamics.time == Time::discrete) return false;
+std::vector<std::size_t> seams_that_jump(const SystemSpec& spec, const Influences& influences) {
+  std::vector<std::size_t> result;
+  if (spec.dynamics.time == Time::discrete) return result;
   for (const std::size_t j : influences.moving) {
-    if (spec.states[j].below != Outside::periodic) continue;
-    for (const std::size_t i : influences.moving) {
-      if (uses_as_number(spec.dynamics.equations[i], spec.state_slot(j))) return true;
-    }
+    const StateSpec& state = spec.states[j];
+    if (state.below != Outside::periodic) continue;
+    const bool jumps = std::any_of(influences.moving.begin(), influences.moving.end(), [&](std::size_t i) {
+      return jumps_at_seam(spec.dynamics.equations[i], spec.state_slot(j), state.upper - state.lower);
+    });
+    if (jumps) result.push_back(j);
   }
-  return false;
+  return result;
 }
 
 bool has_stops(const SystemSpec& spec, const Influences& influences) {
-  return std::any_of(influences.moving.begin(), influences.moving.end(), [&](std::size_t j) {
-    return spec.states[j].below == Outside::stop || spec.states[j].above == Outside::stop;
-  });
+  return std::any_of(influences.moving.begin(), influences.moving.end(),
+                     [&](std::size_t j) { return stops(spec.states[j]); });
 }
 
 bool flows_alike(const SystemSpec& spec, const Influences& influences, std::size_t state) {
   const std::uint32_t own = spec.state_slot(state);
+  if (stops(spec.states[state])) return false;
   return std::none_of(influences.moving.begin(), influences.moving.end(), [&](std::size_t j) {
     const std::vector<std::uint32_t> used = spec.dynamics.equations[j].variables();
     return std::find(used.begin(), used.end(), own) != used.end();

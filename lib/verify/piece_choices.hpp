@@ -15,14 +15,15 @@ namespace coordreq {
   return {Arb(lower), Arb(upper)};
 }
 
-/// True if, in continuous time, an equation of the moving states uses a periodic one as a number, outside of
-/// sin, cos and tan: it jumps where that state passes its seam within the period.
-[[nodiscard]] bool jumps_on_the_way(const SystemSpec& spec, const Influences& influences);
+/// The periodic ones of the moving states at whose seams, in continuous time, some equation of these jumps
+/// (see jumps_at_seam()).
+[[nodiscard]] std::vector<std::size_t> seams_that_jump(const SystemSpec& spec, const Influences& influences);
 
 /// True if a `stop` limit holds one of the moving states.
 [[nodiscard]] bool has_stops(const SystemSpec& spec, const Influences& influences);
 
-/// In continuous time: x(t) - x(0) of the state does not depend on x(0): no equation mentions the state.
+/// In continuous time: x(t) - x(0) of the state does not depend on x(0): no equation mentions the
+/// state, and no limit stops it.
 [[nodiscard]] bool flows_alike(const SystemSpec& spec, const Influences& influences, std::size_t state);
 
 /// All choices of one index for each state and input that a table ranges over, with their boxes. Immutable.

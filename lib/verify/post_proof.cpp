@@ -49,7 +49,8 @@ PostProver::PostProver(const SystemSpec& spec, const UniformGrid& grid, const Po
 
 /// Pieces are proven one after the other; only those where something does not fit are cut.
 std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<PostClaim>& claims,
-                                         const PostEffort& effort, double end) {
+                                         const PostEffort& effort, Work most) {
+  const Work end = work() + most;
   std::vector<PostProof> proofs(claims.size());
   std::vector<Piece> pending = {{box, std::vector<std::size_t>(claims.size())}};
   std::iota(pending.front().claims.begin(), pending.front().claims.end(), std::size_t{0});
@@ -59,7 +60,7 @@ std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<P
     // Of what is lost already no more need be known.
     std::erase_if(piece.claims, [&](std::size_t c) { return proofs[c].verdict != PostVerdict::holds; });
     if (piece.claims.empty()) continue;
-    const bool may_cut = boxes + static_cast<int>(pending.size()) < effort.most_boxes && Budget::now() < end;
+    const bool may_cut = boxes + static_cast<int>(pending.size()) < effort.most_boxes && work() < end;
     std::vector<PostProof> own(claims.size());
     const std::optional<std::uint32_t> cut = prove_piece(piece, claims, effort.effort, own);
     std::erase_if(piece.claims, [&](std::size_t c) {

@@ -52,10 +52,12 @@ class PostProver {
   PostProver(const SystemSpec& spec, const UniformGrid& grid, const PostGroup& group);
 
   /// @param box where the present state can be
-  /// @param end of Budget::now(); a piece that is begun is finished
+  /// @param most work; a piece that is begun is finished
   /// @returns one a claim
   [[nodiscard]] std::vector<PostProof> prove(const SpanBox& box, const std::vector<PostClaim>& claims,
-                                             const PostEffort& effort, double end);
+                                             const PostEffort& effort, Work most);
+  /// Done so far.
+  [[nodiscard]] Work work() const { return next_->work(); }
 
  private:
   struct Piece {

@@ -37,7 +37,7 @@ std::optional<SampledMap> next_value(const SystemSpec& spec, const Influences& i
       affine_form(spec.dynamics.equations[state], variables_of(spec, influences), slots);
   if (!next) return std::nullopt;
   const std::size_t n = influences.moving.size();
-  SampledMap map{.lower = next->constant, .upper = next->constant};
+  SampledMap map{.coefficient = {}, .stopped = {}, .lower = next->constant, .upper = next->constant};
   map.coefficient.assign(next->slope.begin(), next->slope.begin() + static_cast<std::ptrdiff_t>(n));
   for (std::size_t l = 0; l < influences.disturbances.size(); ++l) {
     const Rational& slope = next->slope[n + l];
@@ -148,6 +148,19 @@ std::optional<LinearFlow> solved(const std::vector<ExactForm>& equations, std::s
   return flow;
 }
 
+/// Those of the moving states, if all are affine.
+std::optional<std::vector<ExactForm>> equations_of(const SystemSpec& spec, const Influences& influences,
+                                                   const std::vector<Rational>& slots) {
+  std::vector<ExactForm> equations;
+  for (const std::size_t i : influences.moving) {
+    std::optional<ExactForm> equation =
+        affine_form(spec.dynamics.equations[i], variables_of(spec, influences), slots);
+    if (!equation) return std::nullopt;
+    equations.push_back(std::move(*equation));
+  }
+  return equations;
+}
+
 std::optional<LinearFlow> linear_flow(const SystemSpec& spec, const Influences& influences, std::size_t state,
                                       const std::vector<Rational>& slots) {
   const std::optional<std::size_t> row = row_of(influences, state);
@@ -157,33 +170,129 @@ std::optional<LinearFlow> linear_flow(const SystemSpec& spec, const Influences& 
                      .kernel = std::vector<TimePolynomial>(influences.disturbances.size())};
     return still;
   }
-  if (has_stops(spec, influences) || jumps_on_the_way(spec, influences)) return std::nullopt;
-  std::vector<ExactForm> equations;
-  for (const std::size_t i : influences.moving) {
-    std::optional<ExactForm> equation =
-        affine_form(spec.dynamics.equations[i], variables_of(spec, influences), slots);
-    if (!equation) return std::nullopt;
-    equations.push_back(std::move(*equation));
-  }
-  return solved(equations, *row, influences.disturbances.size());
+  if (has_stops(spec, influences) || !seams_that_jump(spec, influences).empty()) return std::nullopt;
+  const std::optional<std::vector<ExactForm>> equations = equations_of(spec, influences, slots);
+  if (!equations) return std::nullopt;
+  return solved(*equations, *row, influences.disturbances.size());
 }
+
+/// Adds all values that a disturbance can bring about, if it acts through a kernel.
+void add_values(SampledMap& map, const DisturbanceSpec& w, const TimePolynomial& kernel,
+                const Rational& tau) {
+  const Rational plain = kernel.integral().at(tau);
+  const SwitchingIntegral switching = integrate_switching(kernel, tau);
+  const Rational middle = (w.lower + w.upper) / 2;
+  const Rational radius = (w.upper - w.lower) / 2;
+  map.lower += middle * plain - radius * switching.value;
+  map.upper += middle * plain + radius * switching.value;
+  if (!switching.exact && radius != 0) map.exact = false;
+}
+
+/// A flow in which some states are stopped. These integrate what is constant or a disturbance, so that v
+/// moves as if there was no limit until it is held for good; x_i responds to what v moves as to what v is.
+class StoppedFlow {
+ public:
+  StoppedFlow(const SystemSpec& spec, const Influences& influences, std::vector<ExactForm> equations)
+      : spec_(spec), influences_(influences), equations_(std::move(equations)) {}
+
+  /// @param row of x_i
+  [[nodiscard]] std::optional<SampledMap> after_period(std::size_t row) const {
+    const std::size_t n = equations_.size();
+    for (std::size_t j = 0; j < n; ++j) {
+      const auto begin = equations_[j].slope.begin();
+      const bool is_integrator = std::all_of(begin, begin + static_cast<std::ptrdiff_t>(n),
+                                             [](const Rational& slope) { return slope == 0; });
+      if (stops(j) && !is_integrator) return std::nullopt;
+    }
+    const std::optional<LinearFlow> flow = solved(equations_, row, influences_.disturbances.size());
+    if (!flow) return std::nullopt;
+    const Rational& tau = spec_.dynamics.period;
+    SampledMap map{.coefficient = std::vector<Rational>(n), .stopped = {}};
+    for (std::size_t j = 0; j < n; ++j) {
+      const TimePolynomial& response = flow->coefficient[j];
+      if (!stops(j)) {
+        map.coefficient[j] = response.at(tau);
+        map.lower += equations_[j].constant * response.integral().at(tau);
+        continue;
+      }
+      std::optional<StoppedPart> part = part_of(j, row, response);
+      if (!part) return std::nullopt;
+      map.stopped.push_back(std::move(*part));
+    }
+    map.upper = map.lower;
+    if (!add_disturbances(*flow, map)) return std::nullopt;
+    return map;
+  }
+
+ private:
+  [[nodiscard]] bool stops(std::size_t j) const {
+    const StateSpec& state = spec_.states[influences_.moving[j]];
+    return state.below == Outside::stop || state.above == Outside::stop;
+  }
+
+  [[nodiscard]] std::optional<StoppedPart> part_of(std::size_t j, std::size_t row,
+                                                   const TimePolynomial& response) const {
+    StoppedPart part{.moving = j,
+                     .rises = true,
+                     .response = response,
+                     .slowest = equations_[j].constant,
+                     .fastest = equations_[j].constant};
+    for (std::size_t l = 0; l < influences_.disturbances.size(); ++l) {
+      const Rational& slope = equations_[j].slope[equations_.size() + l];
+      const DisturbanceSpec& w = spec_.disturbances[influences_.disturbances[l]];
+      part.slowest += std::min(Rational(slope * w.lower), Rational(slope * w.upper));
+      part.fastest += std::max(Rational(slope * w.lower), Rational(slope * w.upper));
+    }
+    if (j == row) return part;
+    // How x_i changes with v at any time: with one sign, or it is not monotone.
+    const TimePolynomial kernel = response.derivative();
+    const Rational plain = kernel.integral().at(spec_.dynamics.period);
+    const SwitchingIntegral switching = integrate_switching(kernel, spec_.dynamics.period);
+    if (!switching.exact || switching.value != abs(plain)) return std::nullopt;
+    part.rises = plain > 0;
+    return part;
+  }
+
+  /// @returns false if one acts on a state that is stopped and on others
+  [[nodiscard]] bool add_disturbances(const LinearFlow& flow, SampledMap& map) const {
+    for (std::size_t l = 0; l < influences_.disturbances.size(); ++l) {
+      std::size_t all = 0;
+      bool on_stopped = false;
+      for (std::size_t j = 0; j < equations_.size(); ++j) {
+        if (equations_[j].slope[equations_.size() + l] == 0) continue;
+        ++all;
+        on_stopped = on_stopped || stops(j);
+      }
+      if (on_stopped && all > 1) return false;
+      if (!on_stopped)
+        add_values(map, spec_.disturbances[influences_.disturbances[l]], flow.kernel[l],
+                   spec_.dynamics.period);
+    }
+    return true;
+  }
+
+  const SystemSpec& spec_;
+  const Influences& influences_;
+  std::vector<ExactForm> equations_;
+};
 
 std::optional<SampledMap> flow_after_period(const SystemSpec& spec, const Influences& influences,
                                             std::size_t state, const std::vector<Rational>& slots) {
+  const std::optional<std::size_t> row = row_of(influences, state);
+  if (row && has_stops(spec, influences)) {
+    if (!seams_that_jump(spec, influences).empty()) return std::nullopt;
+    std::optional<std::vector<ExactForm>> equations = equations_of(spec, influences, slots);
+    if (!equations) return std::nullopt;
+    return StoppedFlow(spec, influences, std::move(*equations)).after_period(*row);
+  }
   const std::optional<LinearFlow> flow = linear_flow(spec, influences, state, slots);
   if (!flow) return std::nullopt;
   const Rational& tau = spec.dynamics.period;
-  SampledMap map{.lower = flow->drift.at(tau), .upper = flow->drift.at(tau)};
+  SampledMap map{
+      .coefficient = {}, .stopped = {}, .lower = flow->drift.at(tau), .upper = flow->drift.at(tau)};
   for (const TimePolynomial& coefficient : flow->coefficient) map.coefficient.push_back(coefficient.at(tau));
   for (std::size_t l = 0; l < influences.disturbances.size(); ++l) {
-    const DisturbanceSpec& w = spec.disturbances[influences.disturbances[l]];
-    const Rational plain = flow->kernel[l].integral().at(tau);
-    const SwitchingIntegral switching = integrate_switching(flow->kernel[l], tau);
-    const Rational middle = (w.lower + w.upper) / 2;
-    const Rational radius = (w.upper - w.lower) / 2;
-    map.lower += middle * plain - radius * switching.value;
-    map.upper += middle * plain + radius * switching.value;
-    if (!switching.exact && radius != 0) map.exact = false;
+    add_values(map, spec.disturbances[influences.disturbances[l]], flow->kernel[l], tau);
   }
   return map;
 }

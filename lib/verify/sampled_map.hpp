@@ -24,10 +24,21 @@ struct Influences {
 /// Where a state is among the moving ones; nothing for a parameter.
 [[nodiscard]] std::optional<std::size_t> row_of(const Influences& influences, std::size_t state);
 
+/// A moving state v that a `stop` limit may hold on the way, v' in [slowest, fastest] but there: what comes
+/// of it, monotone in its present value and in v'.
+struct StoppedPart {
+  std::size_t moving = 0;   ///< its place in Influences::moving
+  bool rises = true;        ///< with them; else it falls
+  TimePolynomial response;  ///< to a unit that v moves, so much time ago
+  Rational slowest;
+  Rational fastest;
+};
+
 /// One state a period later, as a function of the moving states x now:
-/// { sum_j coefficient[j] x_j + r : lower <= r <= upper }.
+/// { sum_j coefficient[j] x_j + r : lower <= r <= upper }, and what comes of states that are stopped.
 struct SampledMap {
-  std::vector<Rational> coefficient;  ///< one for each of Influences::moving
+  std::vector<Rational> coefficient;  ///< one for each of Influences::moving; 0 for those that are stopped
+  std::vector<StoppedPart> stopped;
   Rational lower;
   Rational upper;
   bool exact = true;  ///< every r is taken by some disturbance; else the range is an enclosure
@@ -37,7 +48,8 @@ struct SampledMap {
 /// the matrix exponential as the finite sum of A^k tau^k / k!, A nilpotent; a disturbance of range m +- r
 /// adds m integral(g) +- r integral(|g|), g(s) its entry of exp(A s) B.
 /// @param slots values of parameters and inputs at their slots
-/// @returns nothing if the equations are not of this kind for these values, or a limit stops a state
+/// Limits may stop states in whose equations no state is.
+/// @returns nothing if the equations are not of this kind for these values
 [[nodiscard]] std::optional<SampledMap> sampled_map(const SystemSpec& spec, const Influences& influences,
                                                     std::size_t state, const std::vector<Rational>& slots);
 
@@ -55,7 +67,7 @@ struct TimedMap {
 /// Solves one state at all times of the period, by the truncated exponential series. A disturbance of range
 /// m +- r adds m integral(g) +- r integral(|g|) as above, where |g| is bounded term by term if g changes its
 /// sign.
-/// @returns nothing where sampled_map() does not, or in discrete time
+/// @returns nothing where sampled_map() does not, in discrete time, or if a limit stops a state
 [[nodiscard]] std::optional<TimedMap> timed_map(const SystemSpec& spec, const Influences& influences,
                                                 std::size_t state, const std::vector<Rational>& slots);
 

@@ -29,9 +29,24 @@ int compare(const Arb& a, const Arb& b) {
   return middles != 0 ? middles : mag_cmp(arb_radref(a.get()), arb_radref(b.get()));
 }
 
+/// Whether a state in `range` may be held at a limit.
+bool touches(const StopLimits& limits, const Arb& range) {
+  return (limits.below && !is_below(*limits.below, range.lower())) ||
+         (limits.above && !is_below(range.upper(), *limits.above));
+}
+
+Arb within(const StopLimits& limits, const Arb& range) {
+  Arb lower = range.lower();
+  Arb upper = range.upper();
+  if (limits.below) lower = greater(lower, *limits.below).lower();
+  if (limits.above) upper = lesser(upper, *limits.above).upper();
+  return hull(lower, upper);
+}
+
 }  // namespace
 
-std::optional<Tube> picard_tube(SeriesField& field, const ArbBox& start, const Arb& duration) {
+std::optional<Tube> picard_tube(SeriesField& field, const ArbBox& start, const Arb& duration,
+                                const std::vector<StopLimits>& limits) {
   Tube tube{.box = start, .change = std::vector<Arb>(field.size())};
   const Arb time = from_zero(duration);
   for (int attempt = 0; attempt < kPicardTries; ++attempt) {
@@ -41,7 +56,10 @@ std::optional<Tube> picard_tube(SeriesField& field, const ArbBox& start, const A
       const std::uint32_t slot = field.variables()[i];
       tube.change[i] = field.value(i, tube.box);
       if (!tube.change[i].is_finite()) return std::nullopt;
+      const bool may_be_held = !limits.empty() && touches(limits[i], tube.box[slot]);
+      if (may_be_held) tube.change[i] = hull(tube.change[i], Arb());
       next[slot] = start[slot] + time * tube.change[i];
+      if (may_be_held) next[slot] = within(limits[i], next[slot]);
       inside = inside && tube.box[slot].holds(next[slot]);
     }
     if (inside) {
@@ -52,6 +70,12 @@ std::optional<Tube> picard_tube(SeriesField& field, const ArbBox& start, const A
     for (std::size_t i = 0; i < field.size(); ++i) {
       const std::uint32_t slot = field.variables()[i];
       tube.box[slot] = hull(tube.box[slot], widened(hull(start[slot], next[slot])));
+      if (limits.empty()) continue;
+      // Only there are ends of balls exact.
+      if (limits[i].below && limits[i].below->is_zero())
+        tube.box[slot] = ending_at_zero(tube.box[slot], true);
+      if (limits[i].above && limits[i].above->is_zero())
+        tube.box[slot] = ending_at_zero(tube.box[slot], false);
     }
   }
   return std::nullopt;
@@ -68,18 +92,24 @@ bool Trajectory::advance(ArbBox& box, const Arb& duration, double tolerance) {
   key.push_back(duration);
   key.emplace_back(tolerance);
   const auto [place, is_new] = known_.try_emplace(std::move(key));
+  Known& known = place->second;
   if (is_new) {
+    const Work before = field_->work();
     ArbBox end = box;
-    if (integrate(end, duration, tolerance)) place->second = std::move(end);
+    if (integrate(end, duration, tolerance)) known.end = std::move(end);
+    known.work = field_->work() - before;
+  } else {
+    repeated_work_ += known.work;
   }
-  if (!place->second) return false;
-  box = *place->second;
+  if (!known.end) return false;
+  box = *known.end;
   return true;
 }
 
 bool Trajectory::integrate(ArbBox& box, const Arb& duration, double tolerance) {
   std::uint32_t left = kFinest;
-  std::uint32_t parts = parts_;
+  std::uint32_t parts = kFinest;  // not what did before: that would let one question change another
+  may_double_ = true;
   while (left > 0) {
     parts = std::min(parts, left);
     const Arb share(static_cast<double>(parts) / kFinest);
@@ -87,7 +117,6 @@ bool Trajectory::integrate(ArbBox& box, const Arb& duration, double tolerance) {
     if (next) {
       box = std::move(*next);
       left -= parts;
-      parts_ = parts;
       if (left % (2 * parts) == 0 && may_double_) parts *= 2;
     } else if (parts > 1) {
       parts /= 2;

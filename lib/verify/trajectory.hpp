@@ -20,6 +20,8 @@ class Trajectory {
   /// a step is taken all the same
   /// @returns false if the solution may not last so long; then the box is not changed
   [[nodiscard]] bool advance(ArbBox& box, const Arb& duration, double tolerance);
+  /// What was asked again would have been so much work for the field.
+  [[nodiscard]] Work repeated_work() const { return repeated_work_; }
 
  private:
   struct Order {
@@ -36,17 +38,31 @@ class Trajectory {
 
   static constexpr std::uint32_t kFinest = 1U << 12U;  // parts of a duration
 
+  struct Known {
+    std::optional<ArbBox> end;
+    Work work = 0;
+  };
+
   SeriesField* field_;
-  std::uint32_t parts_ = kFinest;                         ///< that the last step took
-  bool may_double_ = true;                                ///< a step of twice its length looks promising
-  std::map<ArbBox, std::optional<ArbBox>, Order> known_;  ///< by box and duration
+  bool may_double_ = true;                ///< a step of twice its length looks promising
+  std::map<ArbBox, Known, Order> known_;  ///< by box and duration
+  Work repeated_work_ = 0;
 };
 
-/// A box that no solution from `start` leaves within [0, duration] (Picard), and the range of f over it.
+/// What a state cannot pass: points, where it is held while its derivative points out.
+struct StopLimits {
+  std::optional<Arb> below;
+  std::optional<Arb> above;
+};
+
+/// A box that no solution from `start` leaves within [0, duration] (Picard), and the range of derivatives
+/// over it: of f, and 0 where a state may be held.
 struct Tube {
   ArbBox box;
   std::vector<Arb> change;
 };
-[[nodiscard]] std::optional<Tube> picard_tube(SeriesField& field, const ArbBox& start, const Arb& duration);
+/// @param limits one a state; none: there are no such
+[[nodiscard]] std::optional<Tube> picard_tube(SeriesField& field, const ArbBox& start, const Arb& duration,
+                                              const std::vector<StopLimits>& limits = {});
 
 }  // namespace coordreq

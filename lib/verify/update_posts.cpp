@@ -2,11 +2,11 @@
 #include <memory>
 #include <set>
 
+#include "answers/checking/cell_parts.hpp"
 #include "answers/checking/corner_truth.hpp"
 #include "base/error.hpp"
 #include "expression/condition.hpp"
 #include "expression/tape_builder.hpp"
-#include "model/pieces.hpp"
 #include "spec/system_spec.hpp"
 #include "verify/own_posts.hpp"
 #include "verify/parameter_choices.hpp"
@@ -171,12 +171,8 @@ Rational kept_value(const PastOperator& past, Truth one, Truth other, const std:
 std::vector<SlotBox> places_of(const GridDimension& dimension, bool centres) {
   std::vector<SlotBox> places;
   for (std::int64_t k = 0; k < dimension.count; ++k) {
-    SlotBox& parts = places.emplace_back();
     const Rational centre = dimension.point(k);
-    if (centres) parts.push_back({.lower = centre, .upper = centre});
-    if (centres) continue;
-    for (const Piece& piece : pieces(dimension, k))
-      parts.push_back({.lower = piece.lower, .upper = piece.upper});
+    places.push_back(centres ? SlotBox{{.lower = centre, .upper = centre}} : parts_of(dimension, k));
   }
   return places;
 }
@@ -188,7 +184,7 @@ IndexRange indices_of(const std::set<Rational>& values, const GridDimension& tar
     if (!is_integer(index)) throw SpecError("the discrete state '" + target.name + "' can leave its grid");
     indices.insert(floor_to_int(index));
   }
-  return raw_range(target, *indices.begin(), *indices.rbegin());
+  return cut_to_range(target, *indices.begin(), *indices.rbegin());
 }
 
 }  // namespace

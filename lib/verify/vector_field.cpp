@@ -25,9 +25,15 @@ void SeriesField::put(const ArbBox& box) {
   for (std::size_t s = 0; s < box.size(); ++s) slots_[s].assign(box[s]);
 }
 
+/// A product of series takes as many operations as the square of their length.
+const ArbSeries& SeriesField::run(std::size_t equation, slong length) {
+  work_ += static_cast<Work>(equations_[equation].operations()) * length * (length + 1) / 2;
+  return equations_[equation](slots_, length);
+}
+
 Arb SeriesField::value(std::size_t equation, const ArbBox& box) {
   put(box);
-  return equations_[equation](slots_, 1)[0];
+  return run(equation, 1)[0];
 }
 
 std::optional<std::vector<Arb>> SeriesField::slopes(std::size_t equation, const ArbBox& box) {
@@ -40,7 +46,7 @@ std::optional<std::vector<Arb>> SeriesField::slopes(std::size_t equation, const 
       continue;
     }
     slots_[slot].set(1, Arb(1.0));
-    const Arb slope = equations_[equation](slots_, 2)[1];
+    const Arb slope = run(equation, 2)[1];
     slots_[slot].assign(box[slot]);
     if (equations_[equation].smoothness() == Smoothness::jumps || !slope.is_finite()) return std::nullopt;
     result.push_back(slope);
@@ -62,9 +68,9 @@ std::optional<std::vector<ArbSeries>> SeriesField::taylor(const ArbBox& box, slo
   put(box);
   for (slong known = 1; known < length; ++known) {
     std::vector<Arb> next;
-    for (ExpressionSeries& equation : equations_) {
-      const Arb slope = equation(slots_, known)[known - 1];
-      if (equation.smoothness() != Smoothness::analytic || !slope.is_finite()) return std::nullopt;
+    for (std::size_t i = 0; i < equations_.size(); ++i) {
+      const Arb slope = run(i, known)[known - 1];
+      if (equations_[i].smoothness() != Smoothness::analytic || !slope.is_finite()) return std::nullopt;
       next.push_back(slope / Arb(static_cast<double>(known)));
     }
     for (std::size_t i = 0; i < next.size(); ++i) slots_[variables_[i]].set(known, next[i]);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "spec/spec_types.hpp"
+#include "verify/budget.hpp"
 #include "verify/expression_series.hpp"
 #include "verify/sampled_map.hpp"
 
@@ -23,6 +24,8 @@ class SeriesField {
               const std::vector<std::size_t>& equations);
 
   [[nodiscard]] std::size_t size() const { return equations_.size(); }
+  /// Done so far.
+  [[nodiscard]] Work work() const { return work_; }
   /// Slots of x, then of w.
   [[nodiscard]] const std::vector<std::uint32_t>& variables() const { return variables_; }
 
@@ -39,11 +42,13 @@ class SeriesField {
 
  private:
   void put(const ArbBox& box);
+  const ArbSeries& run(std::size_t equation, slong length);
 
   std::vector<ExpressionSeries> equations_;
   std::vector<std::vector<bool>> mentions_;  ///< [equation][variable]
   std::vector<std::uint32_t> variables_;
   std::vector<ArbSeries> slots_;
+  Work work_ = 0;
 };
 
 }  // namespace coordreq

@@ -15,6 +15,7 @@
 #include "verify/check_tubes.hpp"
 #include "verify/outward_posts.hpp"
 #include "verify/own_posts.hpp"
+#include "verify/work_of_posts.hpp"
 
 namespace coordreq {
 namespace {
@@ -48,13 +49,15 @@ class Verifier {
     }
     std::stable_sort(checks_.begin(), checks_.end(),
                      [](const auto& a, const auto& b) { return a->section() < b->section(); });
-    if (options.sample && *options.sample < grid_.cells())
-      sample_ = drawn_cells(grid_.cells(), *options.sample);
+    asked_ = std::min(options.sample.value_or(grid_.cells()), grid_.cells());
+    const std::int64_t sample = std::min(asked_, most_cells());
+    if (sample < grid_.cells()) sample_ = drawn_cells(grid_.cells(), sample);
     if (!sample_.empty()) cells_of_posts_ = with_paths(sample_);
   }
 
   Verification run() {
     result_.name = spec_.name;
+    if (claims_.listed) result_.given.emplace_back("/controller:file");
     result_.cells = grid_.cells();
     compare_sizes();
     report({.stage = "posts"});
@@ -68,6 +71,14 @@ class Verifier {
  private:
   void report(const VerifyProgress& progress) const {
     if (options_.progress) options_.progress(progress);
+  }
+
+  /// Whose posts can be found within the budget.
+  [[nodiscard]] std::int64_t most_cells() const {
+    if (!options_.budget_seconds) return grid_.cells();
+    const WorkOfPosts work = work_of_posts(spec_, grid_, inputs_, !claims_.abstraction.empty());
+    const Work most = work_of_seconds(std::max(*options_.budget_seconds, 1.0));
+    return work.of_all <= most ? grid_.cells() : std::max<Work>(most / work.of_cell, 1);
   }
 
   /// A sample and the cells that counterexamples lead through: their posts are asked for as well.
@@ -110,14 +121,18 @@ class Verifier {
                                : analysis().posts(i));
       enclosed.push_back(i);
     }
-    budget_.emplace(options_.budget_seconds, team_.size());
-    prove(enclosed, stored ? "abstraction " : "reachable sets ", findings);
+    const Work most = work_of_seconds(options_.budget_seconds.value_or(VerifyOptions::kDefaultBudget));
+    budget_.emplace(most);
+    Budget own = budget_->part(1, spec_.abstraction.between_samples ? 2 : 1);
+    const Work before = own.left();
+    prove(enclosed, stored ? "abstraction " : "reachable sets ", own, findings);
+    budget_->spend(before - own.left());
     for (std::optional<Finding>& finding : findings) {
       if (finding) result_.findings.push_back(std::move(*finding));
     }
   }
 
-  void prove(const std::vector<std::size_t>& states, const std::string& check,
+  void prove(const std::vector<std::size_t>& states, const std::string& check, Budget& budget,
              std::vector<std::optional<Finding>>& all) {
     std::vector<PostQuestion> questions;
     for (const std::size_t i : states) {
@@ -127,13 +142,19 @@ class Verifier {
                            .state = i,
                            .claimed = &tables_[i],
                            .cells = &cells_of_posts_,
-                           .budget = &*budget_,
                            .check = check + grid_[i].name});
     }
-    std::vector<std::optional<Finding>> findings = check_outward_posts(questions, team_);
+    const auto progress = [this](std::size_t done, std::size_t of) {
+      report(
+          {.stage = "posts", .done = static_cast<std::int64_t>(done), .all = static_cast<std::int64_t>(of)});
+    };
+    std::vector<std::optional<Finding>> findings = check_outward_posts(questions, budget, progress, team_);
     for (std::size_t k = 0; k < states.size(); ++k) {
       if (!findings[k]) {
-        borrow(grid_[states[k]].name);
+        const std::string& name = grid_[states[k]].name;
+        borrow(name);
+        all[states[k]] = not_independent(check + name, tables_[states[k]]);
+        result_.enclosed += all[states[k]]->checked;
         continue;
       }
       result_.enclosed += findings[k]->checked;
@@ -142,11 +163,29 @@ class Verifier {
     }
   }
 
+  /// What nothing of the verifier's own confirms.
+  [[nodiscard]] static Finding not_independent(std::string check, const PostTable& table) {
+    const auto entries = static_cast<std::int64_t>(table.entries.size());
+    return {.check = std::move(check),
+            .checked = entries,
+            .wrong = 0,
+            .unproven = entries,
+            .examples = {},
+            .doubts = {"these are those of the analysis alone: there is no second method for them"},
+            .note = {}};
+  }
+
   void find_tubes() {
     report({.stage = "tubes"});
     CheckedTubes checked = check_tubes(spec_, grid_, inputs_, analysis(), claims_.safe, *budget_, team_);
     result_.tubes = checked.exact ? PostBasis::exact : PostBasis::computed;
-    for (const std::string& state : checked.borrowed) borrow(state);
+    for (const std::string& state : checked.borrowed) {
+      borrow(state);
+      for (const PostTable& table : checked.tables) {
+        if (grid_[static_cast<std::size_t>(&table - checked.tables.data())].name == state)
+          result_.findings.push_back(not_independent("tubes " + state, table));
+      }
+    }
     append(result_.findings, std::move(checked.findings));
     tube_tables_ = std::move(checked.tables);
     tubes_ = make_tubes(grid_, inputs_, tube_tables_, claims_.safe, checked.beyond);
@@ -169,11 +208,20 @@ class Verifier {
         stored || claims_.same_version ? PostsAre::those_of_the_result : PostsAre::perhaps_others;
     ground_.posts = &posts;
     ground_.tubes = tubes_ ? &*tubes_ : nullptr;
-    result_.cells_checked = sample_.empty() ? grid_.cells() : static_cast<std::int64_t>(sample_.size());
-    check_cells(
-        ground_, checks_, sample_,
+    std::optional<Budget> budget;
+    if (options_.budget_seconds) budget.emplace(work_of_seconds(std::max(*options_.budget_seconds, 1.0)));
+    result_.cells_checked = check_cells(
+        ground_, checks_, sample_, budget ? &*budget : nullptr,
         [this](std::int64_t done, std::int64_t all) { report({.stage = "cells", .done = done, .all = all}); },
         team_);
+    if (result_.cells_checked < asked_) {
+      result_.findings.push_back({.check = "cells",
+                                  .checked = asked_,
+                                  .unproven = asked_ - result_.cells_checked,
+                                  .examples = {},
+                                  .doubts = {"the budget ended"},
+                                  .note = {}});
+    }
     for (const std::unique_ptr<AnswerCheck>& check : checks_) {
       check->check_all(team_);
       append(result_.findings, check->findings());
@@ -188,7 +236,8 @@ class Verifier {
   InputSpace inputs_;
   CheckGround ground_;
   std::vector<std::unique_ptr<AnswerCheck>> checks_;  ///< in the order of the report
-  std::optional<Budget> budget_;                      ///< begins after the analysis
+  std::optional<Budget> budget_;                      ///< of reachable sets
+  std::int64_t asked_ = 0;                            ///< cells that are to be checked
   std::vector<std::int64_t> sample_;                  ///< cells to be checked; all if empty
   std::vector<std::int64_t> cells_of_posts_;          ///< and those whose posts are; all if empty
   std::vector<PostTable> tables_;

@@ -21,8 +21,11 @@ struct VerifyProgress {
 };
 
 struct VerifyOptions {
-  std::optional<std::int64_t> sample;      ///< check so many cells, evenly drawn; all if none
-  double budget_seconds = kDefaultBudget;  ///< for reachable sets that are hard to confirm
+  std::optional<std::int64_t> sample;  ///< check so many cells, evenly drawn; all if none
+  /// Of work, see work_of_seconds(): for reachable sets that are hard to confirm, and as much again, or that
+  /// of a second, for posts that have to be found, and for cells. None: kDefaultBudget for the former,
+  /// and no bound for the rest.
+  std::optional<double> budget_seconds;
 
   static constexpr double kDefaultBudget = 60;
   std::function<void(const VerifyProgress&)> progress;  ///< may be empty
@@ -53,6 +56,7 @@ struct Verification {
   /// States whose reachable sets, or ways between the samples, are only those of the analysis, computed anew:
   /// the verifier's own integrator does not do for them.
   std::vector<std::string> borrowed;
+  std::vector<std::string> given;   ///< paths of what was taken as it is
   std::int64_t enclosed = 0;        ///< reachable sets that are not exact and were looked at
   std::int64_t confirmed = 0;       ///< how many of them the verifier's own enclosures confirm
   std::int64_t posts_computed = 0;  ///< how many posts of the analysis, a state each, were worked out anew

@@ -2,16 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
 #include "answers/coalition/fields.hpp"
 #include "answers/convention/fields.hpp"
 #include "answers/field_parts.hpp"
+#include "answers/invariance/fields.hpp"
+#include "answers/layers/fields.hpp"
 #include "answers/network/fields.hpp"
 #include "base/error.hpp"
 #include "results/results_reader.hpp"
 #include "results/version.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {
@@ -38,17 +42,19 @@ std::vector<PostTable> stored_tables(const ResultsReader& results) {
 }
 
 PartitionClaims read_partition(const ResultsReader& results, std::size_t p, const CellBlock& all) {
+  const ProblemSpec& spec = results.spec();
   const StoredPartition& stored = results.partitions()[p];
   PartitionClaims claims{.name = stored.name,
-                         .delay = results.delay(p, all),
-                         .trigger = results.trigger(p, all),
+                         .delay = results.values(paths::kDelay, p, all),
+                         .trigger = results.values(paths::kTrigger, p, all),
                          .fixed_point_index = stored.fixed_point_index,
                          .layer_sizes = stored.padded_sizes,
-                         .has_layers = results.has_layers(p)};
-  for (std::size_t c = 0; results.has_actions(p) && c < stored.classes.size(); ++c)
-    claims.actions.push_back(results.action_bits(p, c, all));
+                         .has_layers = spec.output.layers};
+  const PartitionSpec& partition = spec.coordination.partitions[p];
+  for (std::size_t c = 0; spec.output.actions && c < stored.classes.size(); ++c)
+    claims.actions.push_back(results.bits(paths::actions(spec, partition, c), all));
   if (claims.has_layers) {
-    StoredLayers layers = results.layers(p);
+    StoredLayers layers = read_layer_lists(spec, partition, results);
     claims.layer_start = std::move(layers.start);
     claims.layer_cell = std::move(layers.cell);
   }
@@ -59,10 +65,10 @@ void read_coalition(const ResultsReader& results, const CellBlock& all, Claims& 
   const std::vector<std::uint64_t> given = results.counted(paths::kCoalition);
   const std::vector<std::uint64_t> critical = results.counted(paths::kCriticalPair);
   claims.coalition_cells.assign(given.begin(), given.end());
-  claims.pairs = results.pairs();
+  claims.pairs = pair_names(results.spec());
   claims.critical_pair_cells.assign(critical.begin(), critical.end());
-  for (std::size_t pair = 0; pair < results.pairs().size(); ++pair)
-    claims.critical_pairs.push_back(results.critical_pair(pair, all));
+  for (std::size_t pair = 0; pair < claims.pairs.size(); ++pair)
+    claims.critical_pairs.push_back(results.members(results.field(paths::kCriticalPair), pair, all));
 }
 
 /// Fields of numbers over cells alone that have no member in Claims.
@@ -73,6 +79,25 @@ std::vector<const Field*> plain_numbers(const ResultsReader& results) {
   for (const Field& field : results.fields()) {
     const bool integers = !field.types.empty() && field.types.front() != ElementType::float32;
     if (integers && field.axes == axes && !known.contains(field.path)) fields.push_back(&field);
+  }
+  return fields;
+}
+
+/// Fields of bits over cells that have no member in Claims.
+std::vector<const Field*> plain_bits(const ResultsReader& results) {
+  std::vector<std::string> known = {paths::kController, paths::kListed};
+  const ProblemSpec& spec = results.spec();
+  for (const AgentSpec& agent : spec.agents) known.push_back(paths::convention(agent));
+  for (const PartitionSpec& partition : spec.coordination.partitions) {
+    for (std::size_t c = 0; c < partition.classes.size(); ++c)
+      known.push_back(paths::actions(spec, partition, c));
+  }
+  std::vector<const Field*> fields;
+  for (const Field& field : results.fields()) {
+    std::vector<std::string> axes = cell_axes(spec);
+    axes.push_back(field.path + ":byte");
+    if (field.axes == axes && std::find(known.begin(), known.end(), field.path) == known.end())
+      fields.push_back(&field);
   }
   return fields;
 }
@@ -110,12 +135,17 @@ void read_partition_numbers(const ResultsReader& results, const CellBlock& all, 
   }
 }
 
+/// What agents may do by convention is stored.
+bool has_convention(const ProblemSpec& spec) {
+  return spec.coordination.convention && spec.output.actions;
+}
+
 Claims read_all(const ResultsReader& results) {
   const CellBlock all = all_cells(results.grid());
-  Claims claims{.safe = results.safe(all),
-                .invariant = results.invariant(all),
-                .collision_time = results.collision_time(all),
-                .has_controller = results.has_controller(),
+  Claims claims{.safe = results.members(paths::kSafe, all),
+                .invariant = results.members(paths::kInvariant, all),
+                .collision_time = results.values(paths::kCollisionTime, all),
+                .has_controller = results.spec().output.controller,
                 .same_version = results.attributes().coordreq_version == program_version(),
                 .safe_cells = results.attributes().safe_cells,
                 .invariant_cells = results.attributes().invariant_cells,
@@ -127,21 +157,23 @@ Claims read_all(const ResultsReader& results) {
     read_attributes(results, *field, claims);
   }
   read_partition_numbers(results, all, claims);
+  for (const Field* const field : plain_bits(results)) claims.bits[field->path] = results.bits(*field, all);
   const std::size_t modes = results.spec().network ? results.spec().network->modes.size() : 0;
   for (std::size_t mode = 0; mode < modes; ++mode)
-    claims.network.push_back(results.network_safe(mode, 1, all));
+    claims.network.push_back(results.members(results.field(paths::kNetworkSafe), mode, all));
   claims.network_cells = results.counted(paths::kNetworkSafe);
   claims.requirements = results.requirements();
-  if (claims.has_controller) claims.controller = results.controller_bits(all);
+  if (claims.has_controller) claims.controller = results.bits(paths::kController, all);
   if (results.spec().controller.file)
-    claims.listed = {.inputs = results.inputs().count(), .bytes = results.listed_bits(all)};
+    claims.listed = {.inputs = results.inputs().count(), .bytes = results.bits(paths::kListed, all)};
   for (std::size_t i = 0; i < results.spec().agents.size(); ++i) {
     if (results.spec().coordination.convention)
       claims.convention_freedom.push_back(results.shares(results.field(paths::kConventionFreedom), i, all));
-    if (results.has_convention()) claims.convention.push_back(results.convention_bits(i, all));
+    if (has_convention(results.spec()))
+      claims.convention.push_back(results.bits(paths::convention(results.spec().agents[i]), all));
   }
   if (results.has_abstraction()) claims.abstraction = stored_tables(results);
-  if (results.has_coalition()) read_coalition(results, all, claims);
+  if (results.spec().coordination.horizon) read_coalition(results, all, claims);
   return claims;
 }
 
@@ -157,24 +189,26 @@ std::uint64_t memory_need(const ResultsReader& results) {
   std::uint64_t bytes_of_cell = 2 + 2 * sizeof(std::int32_t);
   for (std::size_t p = 0; p < results.partitions().size(); ++p) {
     bytes_of_cell += 2 * sizeof(std::int32_t);
-    if (results.has_layers(p)) bytes_of_cell += 4 * sizeof(std::uint64_t);
+    if (results.spec().output.layers) bytes_of_cell += 4 * sizeof(std::uint64_t);
     for (const std::int64_t actions : results.partitions()[p].actions)
-      bytes_of_cell += results.has_actions(p) ? static_cast<std::uint64_t>((actions + 7) / 8) : 0;
+      bytes_of_cell += results.spec().output.actions ? static_cast<std::uint64_t>((actions + 7) / 8) : 0;
   }
   if (results.spec().network) bytes_of_cell += 2 * results.spec().network->modes.size();  // and targets
   bytes_of_cell += plain_numbers(results).size() * 2 * sizeof(std::int32_t);
+  for (const Field* const field : plain_bits(results))
+    bytes_of_cell += results.field(field->axes.back()).scale->most;
   for (const Field* const field : partition_numbers(results)) {
     if (is_over_cells(*field, results.spec()))
       bytes_of_cell += 2 * sizeof(std::int32_t) * results.partitions().size();
   }
-  if (results.has_coalition()) bytes_of_cell += results.pairs().size();
+  if (results.spec().coordination.horizon) bytes_of_cell += pair_names(results.spec()).size();
   if (!results.requirements().empty()) bytes_of_cell += 1;  // what is found about a region
-  const int joint = (results.has_controller() ? 1 : 0) + (results.spec().controller.file ? 1 : 0);
+  const int joint = (results.spec().output.controller ? 1 : 0) + (results.spec().controller.file ? 1 : 0);
   for (int i = 0; i < joint; ++i)
     bytes_of_cell += static_cast<std::uint64_t>((results.inputs().count() + 7) / 8);
   for (const AgentSpec& agent : results.spec().agents) {
     if (results.spec().coordination.convention) bytes_of_cell += 2 * sizeof(float);
-    if (results.has_convention())
+    if (has_convention(results.spec()))
       bytes_of_cell += static_cast<std::uint64_t>(agent_bytes(results.inputs(), agent));
   }
   return bytes_of_cell * static_cast<std::uint64_t>(results.grid().cells());

@@ -16,6 +16,11 @@ NOT_SAFE, NOT_INVARIANT, NO_WAY, FREE = range(4)
 _COLORS = (style.NOT_SAFE, style.NOT_INVARIANT, style.NO_PARTITION, style.FREE)
 _TEXTS = ("not safe", "safe, not invariant", "goal cannot be forced", "silent for ever, in time")
 
+# Where so few cells take so many times as long as the others, these share the colours.
+_FEW = 0.02
+_FAR = 3
+_FEW_LINES = 12  # of more steps than that lines are drawn at some
+
 
 @dataclass(frozen=True)
 class Panel:
@@ -23,13 +28,25 @@ class Panel:
     kinds: np.ndarray  # [x, y]
     steps: np.ndarray  # masked where `kinds` says all
 
+    @property
+    def most(self):
+        """Steps of any cell."""
+        return int(self.steps.max()) if self.steps.count() else 0
+
+    @property
+    def shown(self):
+        """Steps with a colour of their own; all others have that of the greatest."""
+        if not self.steps.count():
+            return 0
+        usual = int(np.quantile(self.steps.compressed(), 1 - _FEW, method="higher"))
+        return usual if 0 < _FAR * usual < self.most else self.most
+
 
 @dataclass(frozen=True)
 class Goal:
     cut: Cut
     partition: str
     panels: list[Panel]
-    most: int  # steps of all panels
 
 
 def add_arguments(parser):
@@ -47,8 +64,7 @@ def prepare(arguments):
         _panel("time to the goal", cut.read("/arrival"), results.flags("/arrival")),
         _panel("silence that costs no time", cut.read("/approach_delay", partition), results.flags("/approach_delay")),
     ]
-    most = max((int(panel.steps.max()) for panel in panels if panel.steps.count()), default=0)
-    return Goal(cut, results.partitions[partition], panels, most)
+    return Goal(cut, results.partitions[partition], panels)
 
 
 def _panel(title, values, flags):
@@ -63,18 +79,24 @@ def _panel(title, values, flags):
 
 
 def draw(goal, size=None):
+    """Each panel has colours of its own: the way may take a hundred times as long as silence may last."""
     results, cut = goal.cut.results, goal.cut
-    figure = style.new_figure(size, (1.6 + 3.4 * len(goal.panels), 4.3))
+    figure = style.new_figure(size, (0.8 + 4.4 * len(goal.panels), 4.3))
     grid = figure.subplots(1, len(goal.panels), squeeze=False, sharex=True, sharey=True)
     for axes, panel in zip(grid.flat, goal.panels):
         style.kind_image(axes, panel.kinds, _COLORS, style.extent_of(cut))
-        style.step_image(axes, panel.steps, goal.most, style.extent_of(cut))
+        style.step_image(axes, panel.steps, panel.shown, style.extent_of(cut))
         style.label_plane(axes, cut)
-        axes.set_title(panel.title)
+        most = results.seconds(panel.most)
+        axes.set_title(f"{panel.title}\nup to {most}" if panel.steps.count() else panel.title)
     for axes in grid.flat:
         axes.label_outer()
-    if any(panel.steps.count() for panel in goal.panels):
-        style.add_step_bar(figure, list(grid.flat), goal.most, "", results)
+    for axes, panel in zip(grid.flat, goal.panels):
+        if panel.steps.count():
+            lines = style.step_lines(axes, panel.steps, panel.shown, cut) if panel.shown > _FEW_LINES else None
+            bar = style.add_step_bar(figure, axes, panel.shown, "", results, is_cut=panel.shown < panel.most)
+            if lines is not None:
+                bar.add_lines(lines)
     style.add_title(figure, f"{results.title}, {goal.partition}", cut.title)
     found = {int(kind) for panel in goal.panels for kind in np.unique(panel.kinds)}
     style.legend_below(figure, [(_COLORS[kind], _TEXTS[kind]) for kind in sorted(found - {-1})])

@@ -44,10 +44,14 @@ def whole_steps(most):
     return [int(k) for k in MaxNLocator(10, integer=True, min_n_ticks=1).tick_values(0, most) if 0 <= k <= most]
 
 
-def add_step_bar(figure, axes, most, label, results, location="right", shrink=1.0, pad=0.02):
-    """A colour bar for steps, with times on its other side if the file has a unit of time."""
+def add_step_bar(figure, axes, most, label, results, location="right", shrink=1.0, pad=0.02, is_cut=False):
+    """A colour bar for steps, with times on its other side if the file has a unit of time.
+
+    @param is_cut whether there are more steps, in the last colour
+    """
     cmap, norm = step_colors(most)
     place = {"location": location, "shrink": shrink, "fraction": 0.06, "pad": pad}
+    place["extend"] = "max" if is_cut else "neither"
     bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, cmap), ax=axes, **place)
     steps = whole_steps(most)
     bar.ax.yaxis.set_major_locator(FixedLocator(steps))
@@ -75,6 +79,15 @@ def step_image(axes, steps, most, extent):
     """Cells [x, y] of steps, a masked array."""
     cmap, norm = step_colors(most)
     return axes.imshow(steps.T, cmap=cmap, norm=norm, **_image(extent))
+
+
+def step_lines(axes, steps, most, cut):
+    """Lines where the ticks of the colour bar are, between cells; None for a single state, or without a line."""
+    ticks = [k for k in whole_steps(most) if steps.min() < k <= steps.max()]
+    if len(cut.axes) < 2 or min(steps.shape) < 2 or not ticks:
+        return None
+    centres = [(axis.edges[:-1] + axis.edges[1:]) / 2 for axis in cut.axes]
+    return axes.contour(*centres, steps.T, levels=[k - 0.5 for k in ticks], colors="white", linewidths=0.6, alpha=0.7)
 
 
 def _image(extent):

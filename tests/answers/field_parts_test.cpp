@@ -9,12 +9,12 @@ namespace {
 
 Field steps_field() {
   return {.path = "/time",
+          .kind = FieldKind::steps,
           .types = {ElementType::int16, ElementType::int32},
           .axes = {"/x"},
           .least = -2,
           .attributes = described("a time") +
-                        std::vector<FieldAttribute>{flags({{-2, "not_safe"}, {kLargestValue, "never"}})},
-          .shown = {.steps = true}};
+                        std::vector<FieldAttribute>{flags({{-2, "not_safe"}, {kLargestValue, "never"}})}};
 }
 
 TEST(FieldValue, IsItselfUnlessItMeansAWord) {
@@ -34,7 +34,7 @@ TEST(FieldValue, TheLargestIsReadAsThatOfThirtyTwoBits) {
 TEST(FieldValue, WithoutFlagsIsANumber) {
   Field field = steps_field();
   field.attributes = described("a number");
-  field.shown.steps = false;
+  field.kind = FieldKind::choice;
   EXPECT_TRUE(flags_of(field).empty());
   EXPECT_EQ(status_of(field, -2), "number");
   EXPECT_EQ(value_json(field, -2), -2);

@@ -15,6 +15,7 @@ using test::LoopFixture;
 
 /// Agent a goes 0 or 1 up, b 1 or 0 down; above 8 it is unsafe. Joint inputs: 0 = (0, -1), 1 = (0, 0),
 /// 2 = (1, -1), 3 = (1, 0).
+constexpr std::int32_t kUnbounded = DelayLayers::kUnbounded;
 const std::vector<std::int32_t> kDelays = {8, 7, 6, 5, 4, 3, 2, 1, 0, -2};
 
 std::string ladder(const std::string& prefer_of_a = "", const std::string& prefer_of_b = "") {
@@ -35,7 +36,8 @@ std::optional<std::int64_t> chosen(const LoopFixture& loop, Policy policy, const
   const std::vector<Rational> error{Rational(0)};
   next.begin(state, {}, error, floor_to_int(x + Rational(1) / 2));
   RandomStream random(seed, 0, RandomStream::Purpose::actions);
-  return chooser.choose(floor_to_int(x + Rational(1) / 2), state, coordinated, false, next, random);
+  return chooser.choose(floor_to_int(x + Rational(1) / 2), state, {.countdown = coordinated ? 0 : 1}, next,
+                        random);
 }
 
 TEST(ActionChooser, RandomIsUniformInTheControllerWhenCoordinated) {
@@ -104,6 +106,21 @@ TEST(ActionChooser, AnUndefinedPreferenceIsTheWorst) {
 TEST(ActionChooser, WithoutAnActionThereIsNoChoice) {
   const LoopFixture lost(line_spec(10, "x + 1"), {-1, -1, -1, -1, -1, 3, -1, -1, -1, -1});
   EXPECT_EQ(chosen(lost, Policy::random, 5, true), std::nullopt);
+}
+
+/// From 3 a step of 6 ends in K, across an obstacle.
+TEST(ActionChooser, NobodyGoesThroughWhatIsUnsafeOnTheWay) {
+  const LoopFixture loop(R"json({"coordreq": 1, "name": "jump",
+    "states": [{"name": "x", "lower": 0, "upper": 12, "step": 1}],
+    "inputs": [{"name": "u", "values": [0, 6]}], "agents": [{"name": "a", "inputs": ["u"]}],
+    "dynamics": {"time": "continuous", "period": 1, "equations": {"x": "u"}},
+    "safe": "abs(x - 6) >= 1.5", "abstraction": {"between_samples": true}})json",
+                         {kUnbounded, kUnbounded, kUnbounded, kUnbounded, kUnbounded, -2, -2, -2, kUnbounded,
+                          kUnbounded, kUnbounded, kUnbounded, kUnbounded});
+  for (const bool coordinated : {false, true}) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed)
+      EXPECT_EQ(chosen(loop, Policy::random, 3, coordinated, seed), 0);
+  }
 }
 
 TEST(AdmissibleInputs, AreThoseOfTheDefinition) {

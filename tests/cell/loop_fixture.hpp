@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "answers/layers/fields.hpp"
+#include "answers/layers/policy.hpp"
 #include "cell/closed_loop.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
@@ -27,7 +29,8 @@ class LoopFixture {
     return {.spec = &spec_,
             .abstraction = &abstraction_,
             .partition = &spec_.coordination.partitions.front(),
-            .delay = delay_,
+            .policies = layer_policies(spec_),
+            .values = {{paths::kDelay, delay_}},
             .connection_delay = connection_delay_};
   }
   [[nodiscard]] const ProblemSpec& spec() const { return spec_; }

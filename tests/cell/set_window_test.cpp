@@ -28,7 +28,8 @@ TEST(SetWindow, SaysOfEveryBoxWhetherItIsInside) {
   analyze_into(folder / "still.h5", kSpec, "", team);
   const ResultsReader results(folder / "still.h5");
   ASSERT_EQ(results.attributes().invariant_cells, 19U);
-  SetWindow window(results.grid(), [&](const CellBlock& block) { return results.invariant(block); });
+  SetWindow window(results.grid(),
+                   [&](const CellBlock& block) { return results.members("/invariant", block); });
   // Small boxes and large ones by turns, so that the window is replaced, kept and enlarged.
   for (std::int32_t first = 0; first < 5; ++first) {
     for (std::int32_t last = first; last < first + 5; ++last) {

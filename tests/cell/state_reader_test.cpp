@@ -44,8 +44,30 @@ TEST(StateReader, JsonLines) {
             (States{{Rational("10000000000000000001"), Rational(1) / 10}}));
 }
 
+std::string extra(const StateReader& reader) {
+  std::string text;
+  for (const StateReader::Extra& own : reader.extra()) text += own.name + "=" + own.value + ";";
+  return text;
+}
+
+TEST(StateReader, KeepsWhatNamesNoState) {
+  std::istringstream csv("time,y,note,x,\n 0.50 ,0.1,\"a, \"\"b\"\"\",1,\n1,1/3,,-2,z\n");
+  StateReader reader(csv, {"x", "y"}, "input");
+  EXPECT_EQ(reader.extra_names(), (std::vector<std::string>{"time", "note", ""}));
+  EXPECT_EQ(reader.next(), kExpected[0]);
+  EXPECT_EQ(extra(reader), "time= 0.50 ;note=a, \"b\";=;");
+  EXPECT_EQ(reader.next(), kExpected[1]);
+  EXPECT_EQ(extra(reader), "time=1;note=;=z;");
+  std::istringstream lines("{\"y\":0.1,\"x\":1,\"t\":[1,\"a\"]}\n{\"x\":-2,\"y\":\"1/3\"}\n");
+  StateReader other(lines, {"x", "y"}, "input");
+  EXPECT_EQ(other.next(), kExpected[0]);
+  EXPECT_EQ(extra(other), "t=[1,\"a\"];");
+  EXPECT_EQ(other.next(), kExpected[1]);
+  EXPECT_EQ(extra(other), "");
+}
+
 TEST(StateReader, ErrorsOfCsvNameTheLine) {
-  EXPECT_EQ(defect("x,z\n"), "'z' is no state, expected 'x' or 'y' (input, line 1)");
+  EXPECT_EQ(defect("x,z,\"a,b\"\n"), "no column for the state 'y'; no state is 'z', 'a,b' (input, line 1)");
   EXPECT_EQ(defect("\nx\n"), "no column for the state 'y' (input, line 2)");
   EXPECT_EQ(defect("x,y,x\n"), "'x' is given twice (input, line 1)");
   EXPECT_EQ(defect("x,y\n1,2\n\n3\n"), "expected 2 values, found 1 (input, line 4)");
@@ -58,7 +80,7 @@ TEST(StateReader, ErrorsOfCsvNameTheLine) {
 TEST(StateReader, ErrorsOfJsonNameTheLine) {
   EXPECT_EQ(defect("{\"x\": 1}\n"), "no value for the state 'y' (input, line 1)");
   EXPECT_EQ(defect("{\"x\":1,\"y\":2}\n[1, 2]\n"), "expected a JSON object a line (input, line 2)");
-  EXPECT_EQ(defect("{\"x\":1,\"y\":2,\"z\":3}\n"), "'z' is no state, expected 'x' or 'y' (input, line 1)");
+  EXPECT_EQ(defect("{\"x\":1,\"z\":3}\n"), "no value for the state 'y'; no state is 'z' (input, line 1)");
   EXPECT_EQ(defect("{\"x\":true,\"y\":2}\n"), "expected a number or a string (input, line 1, x)");
   EXPECT_EQ(defect("{\"x\":1,\"y\":2}\n{\"x\":1,\"y\":}\n"),
             "expected a value, found '}' (input, line 2, column 12)");

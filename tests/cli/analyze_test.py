@@ -256,6 +256,52 @@ $""",
             self.run_program("analyze", "spec.json").stdout.decode(),
         )
 
+    def test_names_of_datasets_that_are_not_there(self):
+        """A state called `mode`: no network, no such dataset. Constants have no dataset at all."""
+        names = {"x": "mode", "y": "pair", "u": "action", "v": "agent"}
+        spec = spec_with(
+            states=[dict(state, name=names[state["name"]]) for state in SPEC["states"]],
+            inputs=[dict(one, name=names[one["name"]]) for one in SPEC["inputs"]],
+            agents=[{"name": "a", "inputs": ["action"]}, {"name": "b", "inputs": ["agent"]}],
+            constants={"delay": 6, "trigger": 1},
+            dynamics=dict(SPEC["dynamics"], equations={"mode": "mode + trigger*action", "pair": "pair + agent"}),
+            safe="mode + pair <= delay",
+        )
+        self.write("named.json", spec)
+        self.write("small.json", SPEC)
+        named, small = self.analyze("named.json", "-o", "named.h5"), self.analyze("small.json", "-o", "small.h5")
+        self.assertEqual(named["partitions"], small["partitions"])
+        for command in (
+            ("query", "named.h5", "--at", "mode=1,pair=2"),
+            ("verify", "named.h5"),
+            ("simulate", "named.h5", "--from", "mode=1,pair=2", "--steps", "5", "-o", "runs.h5"),
+            ("export", "named.h5", "--format", "csv", "-o", "named.csv"),
+            ("export", "named.h5", "--format", "c-header", "-o", "named.h"),
+            ("report", "named.h5", "-o", "named.html"),
+        ):
+            result = self.run_program(*command)
+            self.assertEqual((result.returncode, result.stderr), (0, b""), command)
+
+    def test_a_single_point_by_its_count(self):
+        """As by its step."""
+        point = {"name": "z", "lower": 2, "upper": 2, "discrete": True}
+        force = {"name": "w", "lower": 0.5, "upper": 0.5}
+        found = []
+        for grid in ({"count": 1}, {"step": 0.5}):
+            spec = spec_with(
+                states=[*SPEC["states"], {**point, **grid}],
+                inputs=[*SPEC["inputs"], {**force, **grid}],
+                agents=[*SPEC["agents"], {"name": "c", "inputs": ["w"]}],
+                dynamics=dict(SPEC["dynamics"], equations={"x": "x + u", "y": "y + 2*w*v", "z": "z"}),
+                output={"controller": True},
+            )
+            self.write("point.json", spec)
+            found.append(self.analyze("point.json"))
+            exported = self.run_program("export", "small.h5", "--format", "scs", "-o", f"{len(found)}.scs")
+            self.assertEqual((exported.returncode, exported.stderr), (0, b""))
+        self.assertEqual(found[0]["partitions"], found[1]["partitions"])
+        self.assertEqual((found[0]["cells"], found[0]["joint_inputs"]), (25, 9))
+
     def test_quiet_prints_nothing(self):
         self.assert_prints("", "analyze", CIRCLE, "--quiet")
         self.assertEqual(self.files(), ["circle.h5"])

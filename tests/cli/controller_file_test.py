@@ -93,6 +93,15 @@ class Cases(Case):
             self.assertEqual(file["invariant"][...].tolist(), [1, 1, 0, 0])
             self.assertEqual(file["controller"][...].ravel().tolist(), [0b001, 0b100, 0, 0])
         self.assert_verified("small.h5")
+        # A reachability game names one input a state: 0 and 1 go to 2, which stays.
+        reach = text[: text.index("#BEGIN:4 3")] + "#BEGIN:4 1\n0 2\n1 2\n2 1\n#END\n"
+        self.write("c.scs", reach)
+        spec["controller"] = {"file": "c.scs", "synthesis": "given"}
+        self.analyzed("small", spec)
+        with h5py.File(self.folder / "small.h5") as file:
+            self.assertEqual(file["invariant"][...].tolist(), [1, 1, 1, 0])
+            self.assertEqual(file["controller"][...].ravel().tolist(), [0b001, 0b001, 0b010, 0])
+        self.assert_verified("small.h5")
 
     # The results file needs no other.
 

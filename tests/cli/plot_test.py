@@ -320,6 +320,41 @@ class Cases(PlotCase):
         self.rewrite(change)
         self.assert_plot_fails(3, "no partition has the number 2 of /coalition (out.h5)", *words)
 
+    # goal
+
+    def test_goal_is_readable_where_the_way_is_long(self):
+        self.analyzed(spec_with(goal="x <= 1 and y <= 1"))
+        arrival = np.arange(25).reshape(5, 5) * 40
+        delay = np.full((5, 5), 3)
+        delay[0, 0], delay[4, 4] = UNBOUNDED, -4
+
+        def change(file):
+            file["arrival"][...] = arrival
+            file["approach_delay"][...] = delay
+
+        self.rewrite(change)
+        _, figure = self.plotted("goal")
+        way, silence = figure.axes[:2]
+        # The image of the steps lies above that of the kinds. Each is read at a bar of its own, up to its greatest.
+        shown = [axes.images[1] for axes in (way, silence)]
+        self.assert_arrays_equal(shown[0].get_array(), arrival.T)
+        self.assertEqual([image.norm.vmax for image in shown], [960.5, 3.5])
+        self.assertEqual(titles(figure)[1:], ["time to the goal\nup to 960 steps (480 s)",
+                                              "silence that costs no time\nup to 3 steps (1.5 s)"])  # fmt: skip
+        # Lines at ticks of the bar, of many steps only.
+        self.assertEqual([len(axes.collections) > 0 for axes in (way, silence)], [True, False])
+
+    def test_goal_keeps_colours_for_what_is_usual(self):
+        self.analyzed(spec_with(states=[{**SPEC["states"][0], "upper": 59}, {**SPEC["states"][1], "upper": 59}],
+                                safe="true", goal="x <= 1 and y <= 1"))  # fmt: skip
+        arrival = np.add.outer(np.arange(60), np.arange(60))
+        arrival[50, 50:] = 20000
+        self.rewrite(lambda file: file["arrival"].__setitem__(..., arrival))
+        data, figure = self.plotted("goal")
+        self.assertEqual((data.panels[0].shown, data.panels[0].most), (108, 20000))
+        self.assertEqual(figure.axes[0].images[1].norm.vmax, 108.5)
+        self.assertIn("up to 20000 steps (10000 s)", titles(figure)[1])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -271,6 +271,43 @@ class Cases(Case):
             result.stderr.decode(), "coordreq: error: 'a' is not defined (standard input, line 3, y, column 1)\n"
         )
 
+    LOG = b'time,y,notes,x,cell\n0.50,3/2,"calm, ""dry\"\"",1,a\n1,1,,9,\n'
+
+    def test_columns_of_a_log_are_ignored_with_a_warning(self):
+        self.analyzed()
+        plain = self.query("out.h5", stdin=b"x,y\n1,1.5\n9,1\n")
+        result = self.run_program("query", "out.h5", stdin=self.LOG)
+        self.assertEqual((result.returncode, result.stdout.decode()), (0, plain))
+        ignored = "no state is called 'time', 'notes', 'cell': ignored; --extra passes it through (standard input)"
+        self.assertEqual(result.stderr.decode(), f"coordreq: warning: {ignored}\n")
+        self.assertEqual(self.query("out.h5", "--quiet", stdin=self.LOG), plain)
+        lines = b'{"x": 1, "y": 1, "t": 2}\n{"x": 1, "y": 1, "t": 2, "s": null}\n'
+        result = self.run_program("query", "out.h5", stdin=lines)
+        self.assertEqual(
+            result.stderr, b"coordreq: warning: no state is called 't': ignored; --extra passes it through (standard input)\n"
+        )
+        first, second = result.stdout.splitlines()
+        self.assertEqual(json.loads(first), self.at("x=1,y=1"))
+        self.assertEqual(first, second)
+
+    def test_columns_of_a_log_are_passed_through(self):
+        self.analyzed()
+        plain = self.query("out.h5", stdin=b"x,y\n1,1.5\n9,1\n").splitlines()
+        told = self.query("out.h5", "--extra", stdin=self.LOG)
+        extra = [",time,notes,extra:cell", ',0.50,"calm, ""dry""",a', ",1,,"]
+        self.assertEqual(told.splitlines(), [line + more for line, more in zip(plain, extra)])
+        lines = b'{"x": 1, "y": 1, "t": [2.50, "a"]}\n{"x": 9, "y": 1}\n'
+        first, second = map(json.loads, self.query("out.h5", "--extra", stdin=lines).splitlines())
+        self.assertEqual((first.pop("extra"), second.pop("extra")), ({"t": [2.5, "a"]}, {}))
+        self.assertEqual((first, second), (self.at("x=1,y=1"), self.at("x=9,y=1")))
+        first, second = map(json.loads, self.query("out.h5", "--extra", "--json", stdin=self.LOG).splitlines())
+        self.assertEqual(first["extra"], {"time": "0.50", "notes": 'calm, "dry"', "cell": "a"})
+
+    def test_a_slip_in_a_name_is_told(self):
+        self.analyzed()
+        message = "no column for the state 'y'; no state is 'Y', 'time' (standard input, line 1)"
+        self.assert_fails(2, message, "query", "out.h5", stdin=b"x,Y,time\n1,1,1\n")
+
     def test_answers_come_line_by_line(self):
         self.analyzed()
         with subprocess.Popen(

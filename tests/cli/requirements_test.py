@@ -200,6 +200,29 @@ datasets
         )
         self.assertEqual(self.run_program("verify", "small.h5", "--quiet").returncode, 0)
 
+    def test_regions_end_exactly_at_faces(self):
+        """y in three points from -1.7 to 0.3: cells end at -2.2, -1.2, -0.2 and 0.8, of which none is a double."""
+        regions = {
+            "-2.2 < y < 0.8": (15, None),
+            "-1.2 < y < 0.8": (10, None),
+            "-1.2 <= y < -0.2": (10, None),
+            "-1.2 < y and not y >= -0.2": (5, None),
+            "-1.2 < y <= 0.8": (10, {"state": "y", "side": "above"}),
+        }
+        spec = asking(
+            *({"name": where, "where": f"x < 9 and {where}", "invariant": True} for where in regions),
+            states=[
+                {"name": "x", "lower": 0, "upper": 4, "step": 1, "outside": "saturate"},
+                {"name": "y", "lower": -1.7, "upper": 0.3, "count": 3, "outside": "unsafe"},
+            ],
+            dynamics={"time": "discrete", "period": 0.5, "unit": "s", "equations": {"x": "x + u", "y": "y"}},
+            safe="true",
+        )
+        for own in self.requirements(spec, 1):
+            cells, outside = regions[own["name"]]
+            self.assertEqual((own["cells"], own["reaches_outside"], own["holds"]), (cells, outside, outside is None))
+        self.assertEqual(self.run_program("verify", "small.h5", "--strict", "--quiet").returncode, 0)
+
     def test_nothing_is_allowed(self):
         spec = asking(
             {"name": "top", "where": "3.6 < x < 4.4 and -0.4 < y < 0.4", "invariant": True},

@@ -77,7 +77,7 @@ class Cases(Case):
         self.assertEqual(
             list(summary),
             ["file", "name", "holds", "verdict", "cells", "cells_checked", "reachable_sets", "between_samples",
-             "not_independent", "confirmed", "posts_computed", "checks", "threads", "seconds"],
+             "not_independent", "taken_as_given", "confirmed", "posts_computed", "checks", "threads", "seconds"],
         )  # fmt: skip
         self.assertEqual((summary["name"], summary["holds"], summary["reachable_sets"]), ("small", True, "exact"))
         self.assertEqual((summary["verdict"], summary["confirmed"]), ("holds", {"reachable_sets": 0, "of": 0}))
@@ -206,17 +206,6 @@ class Cases(Case):
             file.attrs.modify("guarantee", "continuous")
         self.assertIn(b"attributes", self.verify("results.h5").stdout)
         self.assert_found(path, "guarantee")
-
-    def test_limits_that_stop_are_said_to_be_not_independent(self):
-        spec = config("intersection_coarse.json")
-        for state in spec["states"]:
-            if state["name"].startswith("v"):
-                state["outside"] = "stop"
-        self.results(spec)
-        result = self.verify("results.h5", "--json", "--sample", "1000")
-        self.assertEqual(result.returncode, 0)
-        self.assertEqual(json.loads(result.stdout)["not_independent"], ["p1", "v1", "v2", "p2"])
-        self.assertIn(b"(but for p1, v1, v2, p2)", self.verify("results.h5", "--sample", "10").stdout)
 
     def flip_everything(self, spec):
         """One file after the other in which one bit is the other way; all but free text has to be found."""

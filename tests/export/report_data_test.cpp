@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "answers/invariance/fields.hpp"
 #include "cell/analyzed_file.hpp"
 #include "results/scratch_folder.hpp"
 
@@ -84,9 +85,10 @@ void expect_true_values(const ResultsReader& results, const SortedJson& json) {
         for (std::size_t i = grid.size(); i-- > 0; rest /= indices[i].size())
           cell += indices[i][rest % indices[i].size()] * grid.stride(i);
         const CellBlock block = one_cell(grid, cell);
-        const std::int32_t expected = head["kind"] == "delay"
-                                          ? results.delay(head["partition"].get<std::size_t>(), block).front()
-                                          : results.collision_time(block).front();
+        const std::int32_t expected =
+            head["kind"] == "delay"
+                ? results.values("/delay", head["partition"].get<std::size_t>(), block).front()
+                : results.values("/collision_time", block).front();
         ASSERT_EQ(values[place], expected) << head << " cell " << cell;
       }
     }
@@ -145,7 +147,8 @@ TEST_F(ReportDataOfThree, TakesFewerCellsUntilTheTextIsShort) {
 
 TEST_F(ReportDataOfThree, TheBestCellIsTheFirstWithTheLongestFiniteDelay) {
   const ReportData data = report_data(*results_, {0, 1});
-  const std::vector<std::int32_t> delay = results_->delay(0, all_cells(results_->grid()));
+  const std::vector<std::int32_t> delay =
+      results_->values(results_->field("/delay"), 0, all_cells(results_->grid()));
   std::int32_t longest = 0;
   for (const std::int32_t value : delay) {
     if (value != ResultsReader::kNever) longest = std::max(longest, value);
@@ -153,7 +156,8 @@ TEST_F(ReportDataOfThree, TheBestCellIsTheFirstWithTheLongestFiniteDelay) {
   EXPECT_GT(longest, 0);
   EXPECT_EQ(data.best_cells[0], std::find(delay.begin(), delay.end(), longest) - delay.begin());
   // Together every delay is unbounded.
-  const std::vector<std::uint8_t> invariant = results_->invariant(all_cells(results_->grid()));
+  const std::vector<std::uint8_t> invariant =
+      results_->members(paths::kInvariant, all_cells(results_->grid()));
   EXPECT_EQ(data.best_cells[1], std::find(invariant.begin(), invariant.end(), 1) - invariant.begin());
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "answers/invariance/fields.hpp"
 #include "cell/analyzed_file.hpp"
 #include "export/report_data.hpp"
 #include "results/scratch_folder.hpp"
@@ -44,7 +45,7 @@ class ReportMembersOfLine : public testing::Test {
   }
   [[nodiscard]] MemberMap modes(std::size_t most, std::size_t most_sets) const {
     const auto read = [this](std::size_t mode, const CellBlock& block) {
-      return results_->network_safe(mode, 1, block);
+      return results_->members(results_->field("/network_safe"), mode, block);
     };
     return {*results_, read, names(), most, most_sets};
   }
@@ -54,9 +55,11 @@ class ReportMembersOfLine : public testing::Test {
     const CellBlock all = all_cells(results_->grid());
     const std::vector<std::int32_t> values = map.read(all);
     ASSERT_TRUE(map.fits());
-    const std::vector<std::uint8_t> safe = results_->safe(all), kept = results_->invariant(all);
+    const std::vector<std::uint8_t> safe = results_->members(paths::kSafe, all),
+                                    kept = results_->members(paths::kInvariant, all);
     for (std::size_t mode = 0; mode < map.names().size(); ++mode) {
-      const std::vector<std::uint8_t> expected = results_->network_safe(mode, 1, all);
+      const std::vector<std::uint8_t> expected =
+          results_->members(results_->field("/network_safe"), mode, all);
       for (std::size_t x = 0; x < values.size(); ++x) {
         if (kept[x] == 0) {
           ASSERT_EQ(values[x], safe[x] == 0 ? -2 : -1);

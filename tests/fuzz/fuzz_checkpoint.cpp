@@ -103,7 +103,13 @@ AnalysisOptions with_checkpoint(const std::string& path, bool resume) {
   return options;
 }
 
-/// All that a run leaves on its way.
+std::size_t size_of(const Pieces& pieces) {
+  std::size_t size = 0;
+  for (const Piece& piece : pieces) size += piece.bytes.size();
+  return size;
+}
+
+/// All that a run leaves on its way, the one that has most first.
 std::vector<Pieces> checkpoints(const ProblemSpec& spec, ThreadTeam& team) {
   const std::string path = test::InputFile::new_path();
   std::set<std::string> found;
@@ -119,6 +125,8 @@ std::vector<Pieces> checkpoints(const ProblemSpec& spec, ThreadTeam& team) {
     all.push_back(Taker(bytes).pieces());
     if (file_of(all.back()) != bytes) std::abort();
   }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Pieces& a, const Pieces& b) { return size_of(a) > size_of(b); });
   return all;
 }
 
@@ -134,12 +142,6 @@ void cut_behind(Pieces& pieces, std::size_t place) {
   for (; place >= pieces[i].bytes.size(); ++i) place -= pieces[i].bytes.size();
   pieces[i].bytes.resize(place + 1);
   pieces.resize(i + 1);
-}
-
-std::size_t size_of(const Pieces& pieces) {
-  std::size_t size = 0;
-  for (const Piece& piece : pieces) size += piece.bytes.size();
-  return size;
 }
 
 std::string changed(Pieces pieces, const std::uint8_t* data, std::size_t size) {

@@ -8,7 +8,10 @@
 
 #include "answers/invariance/safe_set.hpp"
 #include "answers/invariance/safe_tubes.hpp"
+#include "answers/layers/fields.hpp"
+#include "answers/layers/policy.hpp"
 #include "cell/simulate_runs.hpp"
+#include "model/locate.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 #include "support/members.hpp"
@@ -41,7 +44,8 @@ struct Analysed {
     return {.spec = &spec,
             .abstraction = &abstraction,
             .partition = &spec.coordination.partitions[partition],
-            .delay = plain.partitions[partition].delay,
+            .policies = layer_policies(spec),
+            .values = {{paths::kDelay, plain.partitions[partition].delay}},
             .safe_beyond = beyond ? &*beyond : nullptr,
             .connection_delay = spec.coordination.connection_delay};
   }
@@ -52,6 +56,27 @@ struct Analysed {
   std::optional<CellSet> beyond;
   PlainAnalysis plain;
 };
+
+std::int64_t cell_of(const UniformGrid& grid, const std::vector<double>& measured) {
+  std::vector<Rational> state(measured.begin(), measured.end());
+  return locate(grid, state).cell;
+}
+
+/// What is done is in C(x), or, where nobody coordinates, in its projections, of the cell that was measured.
+void expect_admissible(const Analysed& analysed, std::size_t p, const RunTrace& trace) {
+  const Abstraction& a = analysed.abstraction;
+  const PlainAnalysis& plain = analysed.plain;
+  const auto classes = input_classes(analysed.spec, a.inputs, analysed.spec.coordination.partitions[p]);
+  for (std::size_t k = 0; k < trace.steps.size(); ++k) {
+    const auto x = static_cast<std::size_t>(cell_of(a.grid, trace.samples[k].measured));
+    const std::int64_t u = trace.steps[k].input;
+    if (trace.steps[k].coordinated) RC_ASSERT(plain.controller[x][static_cast<std::size_t>(u)]);
+    for (std::size_t c = 0; c < classes.size(); ++c) {
+      const std::vector<std::int64_t> action = classes[c].project({u});
+      RC_ASSERT(plain.partitions[p].projection[c][x][static_cast<std::size_t>(action.front())]);
+    }
+  }
+}
 
 void expect_sound(const Analysed& analysed, const RunTrace& trace) {
   RC_ASSERT(!is_violation(trace.outcome));
@@ -64,10 +89,10 @@ void expect_sound(const Analysed& analysed, const RunTrace& trace) {
   }
 }
 
-TEST(ClosedLoop, NoSelfTriggeredRunFromKLeavesIt) {
+void expect_runs_stay(RandomTime time) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("runs stay in K", [&] {
-    const Analysed analysed(team);
+    const Analysed analysed(team, time);
     RC_CLASSIFY(!analysed.is_empty(), "K not empty");
     RC_CLASSIFY(!analysed.spec.disturbances.empty(), "disturbed");
     if (analysed.is_empty()) return;
@@ -80,6 +105,7 @@ TEST(ClosedLoop, NoSelfTriggeredRunFromKLeavesIt) {
                                    .runs = 4};
           for (const RunTrace& trace : simulate_runs(analysed.problem(p), options, team)) {
             expect_sound(analysed, trace);
+            expect_admissible(analysed, p, trace);
             coordinated = coordinated || trace.coordinated_steps() > 0;
             silent = silent || trace.longest_silence() > 0;
           }
@@ -88,6 +114,14 @@ TEST(ClosedLoop, NoSelfTriggeredRunFromKLeavesIt) {
     }
     RC_CLASSIFY(silent && coordinated, "silent and coordinated");
   }));
+}
+
+TEST(ClosedLoop, NoSelfTriggeredRunFromKLeavesIt) {
+  expect_runs_stay(RandomTime::any);
+}
+
+TEST(ClosedLoop, NoSelfTriggeredRunThatIsSafeBetweenTheSamplesLeavesIt) {
+  expect_runs_stay(RandomTime::between_samples);
 }
 
 void expect_plain_inputs(RandomTime kind) {

@@ -139,5 +139,23 @@ TEST(EqualWork, GivesTheSameLevelsWhereOnlyDifferencesMatter) {
   }
 }
 
+/// Rows of which the ranges begin at the same places, and only the width of some tells them apart.
+TEST(EqualWork, IsNotWhatOnlyTheWidthOfARangeMakesDifferent) {
+  ThreadTeam team(2);
+  const ProblemSpec spec = read_spec(R"json({"coordreq": 1, "name": "widths",
+"states": [{"name": "x", "lower": 0, "upper": 31, "step": 1, "outside": "saturate"},
+           {"name": "y", "lower": 0, "upper": 39, "step": 1, "outside": "saturate"}],
+"inputs": [{"name": "u", "values": [0, 1]}, {"name": "v", "values": [-1, 0, 1]}],
+"disturbances": [{"name": "w", "lower": 0, "upper": 1}],
+"agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
+"dynamics": {"time": "discrete", "period": 1,
+             "equations": {"x": "x - 0.05 + if(x >= 15.5 or u >= 1, w, 0)", "y": "y + v"}},
+"safe": "x - 3*floor(x/3) <= 1 or y >= 3", "abstraction": {"safe": "center", "cells": "half_open"}})json",
+                                     "widths");
+  const FastAnalysis fast(spec, build_abstraction(spec, team), team);
+  EXPECT_TRUE(expect_same_work(fast, team).rows);
+  expect_agreement(fast, plainly(spec, fast), team);
+}
+
 }  // namespace
 }  // namespace coordreq

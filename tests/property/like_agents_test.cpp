@@ -104,5 +104,28 @@ TEST(LikeAgents, GiveTheSameBesideACoupledMotion) {
   expect_agreement(fast, plainly(spec, fast), team);
 }
 
+/// Rows that nothing was left to do in have work again where an image of theirs has changed.
+TEST(LikeAgents, GiveTheSameForAListOfPartitions) {
+  const ProblemSpec spec = read_spec(R"({"coordreq": 1, "name": "listed",
+    "states": [{"name": "p0", "lower": 0, "upper": 6, "step": 1, "outside": "saturate"},
+               {"name": "p1", "lower": 0, "upper": 6, "step": 1, "outside": "saturate"},
+               {"name": "p2", "lower": 0, "upper": 6, "step": 1, "outside": "saturate"},
+               {"name": "h", "lower": 0, "upper": 2, "count": 2, "outside": "periodic"},
+               {"name": "y", "lower": -7, "upper": 7, "step": 1, "outside": "safe"}],
+    "inputs": [{"name": "u0", "values": [0, 1]}, {"name": "u1", "values": [0, 1]}, {"name": "u2", "values": [0, 1]}],
+    "agents": [{"name": "a", "inputs": ["u0"]}, {"name": "b", "inputs": ["u1"]}, {"name": "c", "inputs": ["u2"]}],
+    "dynamics": {"time": "discrete", "period": 1,
+                 "equations": {"p0": "5 - p0 + u0", "p1": "5 - p1 + u1", "p2": "5 - p2 + u2", "h": "h + 1", "y": "y - h"}},
+    "safe": "p0 + p1 != 6 and p0 + p2 != 6 and p1 + p2 != 6",
+    "coordination": {"partitions": [{"classes": [["a"], ["b", "c"]]}, {"classes": [["a"], ["b"], ["c"]]}]},
+    "abstraction": {"safe": "center", "cells": "half_open"}})",
+                                     "listed");
+  ThreadTeam team(2);
+  const FastAnalysis fast(spec, team);
+  EXPECT_TRUE(fast.actions[1].mirror.has_value());
+  EXPECT_EQ(fast.layers[1].sizes, (std::vector<std::int64_t>{5580, 4260, 240, 0}));
+  expect_agreement(fast, plainly(spec, fast), team);
+}
+
 }  // namespace
 }  // namespace coordreq

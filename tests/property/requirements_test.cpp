@@ -22,6 +22,7 @@
 #include "support/draw.hpp"
 #include "support/members.hpp"
 #include "support/plain_engine.hpp"
+#include "support/plain_goal.hpp"
 #include "support/random_requirements.hpp"
 
 namespace coordreq {
@@ -35,7 +36,13 @@ struct Both {
         abstraction(build_abstraction(spec, team)),
         safe(safe_set(spec, abstraction, team)),
         beyond(safe_beyond_limits(spec, abstraction, safe, team)),
-        plain(analyze_plainly(spec, abstraction, members(safe), members(beyond.value_or(safe)))) {}
+        plain(analyze_plainly(spec, abstraction, members(safe), members(beyond.value_or(safe)))) {
+    if (!spec.goal) return;
+    const CellSet satisfying =
+        cells_that_satisfy(*spec.goal, spec, abstraction.grid, abstraction.inputs, team);
+    goal = reach_goal_plainly(spec, abstraction, members(safe), members(beyond.value_or(safe)), plain,
+                              members(satisfying));
+  }
 
   static std::vector<ResultRequirement> judged(const ProblemSpec& spec, ThreadTeam& team) {
     const Model model = make_model(spec);
@@ -44,8 +51,12 @@ struct Both {
     return answers.get<RequirementVerdicts>().requirements;
   }
 
-  /// As in `/delay`, of the partition that a requirement means.
+  /// What a requirement judges a cell by, as in `/delay` of the partition that it means, `/arrival` or
+  /// `/approach_delay`.
   [[nodiscard]] std::int32_t delay(const RequirementSpec& requirement, std::size_t x) const {
+    if (requirement.kind == RequirementKind::max_arrival) return goal->arrival[x];
+    if (requirement.kind == RequirementKind::min_approach_delay)
+      return goal->partitions[at(*requirement.partition)].delay[x];
     if (requirement.partition) return plain.partitions[at(*requirement.partition)].delay[x];
     return !safe.test(static_cast<std::int64_t>(x)) ? -2 : plain.invariant[x] ? INT32_MAX : -1;
   }
@@ -56,7 +67,14 @@ struct Both {
   CellSet safe;
   std::optional<CellSet> beyond;
   PlainAnalysis plain;
+  std::optional<PlainGoal> goal;
 };
+
+/// Greater where a cell is better; outside S, K and W it is worst, in this order.
+std::int64_t merit(RequirementKind kind, std::int32_t value) {
+  if (value < 0) return INT64_MIN + (value == -2 ? 0 : value == -1 ? 1 : 2);
+  return kind == RequirementKind::max_arrival ? -std::int64_t{value} : std::int64_t{value};
+}
 
 /// The cells of a region lie between these: those with a point in it, and those that natural interval
 /// evaluation does not tell from it.
@@ -171,12 +189,16 @@ void expect_real_path(const Both& both, const RequirementSpec& asked, const Resu
     RC_ASSERT(both.plain.invariant[at(x)] == (path.phase[s] == EscapePhase::independent));
     if (path.phase[s] == EscapePhase::independent) {
       ++independent;
+      RC_CLASSIFY(path.end == EscapeEnd::not_allowed, "ends with what is forbidden");
       RC_ASSERT(is_independent_choice(both, at(*asked.partition), x, u));
     }
     if (s + 1 == path.samples()) {
-      RC_ASSERT(path.end == EscapeEnd::left_domain || path.end == EscapeEnd::unsafe_between_samples);
+      const bool is_forbidden = !both.plain.permitted[at(x)][at(u)];
+      RC_ASSERT(is_forbidden == (path.end == EscapeEnd::not_allowed));
+      RC_ASSERT(is_forbidden || path.end == EscapeEnd::left_domain ||
+                path.end == EscapeEnd::unsafe_between_samples);
       // Posts that are only blocked by what happens on the way do not end with the domain's edge.
-      RC_ASSERT(!both.abstraction.tubes.empty() || !post(both, x, u));
+      RC_ASSERT(is_forbidden || !both.abstraction.tubes.empty() || !post(both, x, u));
       continue;
     }
     const auto cells = post(both, x, u);
@@ -202,23 +224,24 @@ void expect_plain_verdict(const Both& both, std::size_t r) {
   const ResultRequirement& found = both.requirements[r];
   const PlainRegion region(both.spec, asked.where, both.abstraction.grid);
   std::uint64_t least = 0, most = 0, least_failing = 0, most_failing = 0;
-  std::int32_t worst = INT32_MAX;
+  std::int64_t worst = INT64_MAX;
+  const bool is_limit = asked.kind == RequirementKind::max_arrival;
   for (std::size_t x = 0; x < region.natural.size(); ++x) {
     const std::int32_t delay = both.delay(asked, x);
-    const bool fails = delay < 0 || delay < asked.steps;
+    const bool fails = delay < 0 || (is_limit ? delay > asked.steps : delay < asked.steps);
     RC_ASSERT(region.natural[x] || !region.sampled[x]);
     least += region.sampled[x] ? 1U : 0U;
     most += region.natural[x] ? 1U : 0U;
     least_failing += region.sampled[x] && fails ? 1U : 0U;
     most_failing += region.natural[x] && fails ? 1U : 0U;
-    if (region.sampled[x]) worst = std::min(worst, delay);
+    if (region.sampled[x]) worst = std::min(worst, merit(asked.kind, delay));
   }
   RC_CLASSIFY(least == most, "region known exactly");
   RC_ASSERT(least <= found.cells);
   RC_ASSERT(found.cells <= most);
   RC_ASSERT(least_failing <= found.failing);
   RC_ASSERT(found.failing <= most_failing);
-  RC_ASSERT(found.least_delay <= worst);
+  RC_ASSERT(merit(asked.kind, found.least_delay) <= worst);
   RC_ASSERT(found.holds == (found.failing == 0 && !found.reached_side));
   RC_ASSERT(found.path.has_value() == (found.failing > 0));
   RC_CLASSIFY(found.holds, "holds");
@@ -227,6 +250,8 @@ void expect_plain_verdict(const Both& both, std::size_t r) {
   RC_CLASSIFY(found.path->steps() > 2, "a way out of more than two steps");
   RC_ASSERT(region.natural[found.path->cell.front()]);
   RC_ASSERT(both.delay(asked, found.path->cell.front()) == found.least_delay);
+  // Ways that miss a goal are looked at by `verify`.
+  if (is_limit || asked.kind == RequirementKind::min_approach_delay) return;
   expect_real_path(both, asked, *found.path);
 }
 
@@ -254,6 +279,28 @@ TEST(Requirements, BetweenTheSamplesAreJudgedAsThePlainEngineDoes) {
     const std::string text = with_requirements(draw_problem(RandomTime::between_samples));
     const Both both(text, team);
     for (std::size_t r = 0; r < both.spec.requirements.size(); ++r) expect_plain_verdict(both, r);
+  }));
+}
+
+TEST(Requirements, HoldAtTheirExactBoundAndNoFurther) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("the worst value is the bound", [&] {
+    ProblemSpec spec = read_spec(with_requirements(draw_problem()), "random");
+    const std::vector<ResultRequirement> found = Both::judged(spec, team);
+    for (const std::int64_t further : {0, 1}) {
+      for (std::size_t r = 0; r < found.size(); ++r) {
+        const bool is_limit = spec.requirements[r].kind == RequirementKind::max_arrival;
+        spec.requirements[r].steps = found[r].least_delay + (is_limit ? -further : further);
+      }
+      const std::vector<ResultRequirement> again = Both::judged(spec, team);
+      for (std::size_t r = 0; r < found.size(); ++r) {
+        const std::int32_t bound = found[r].least_delay;
+        if (bound < 0 || bound == INT32_MAX || spec.requirements[r].kind == RequirementKind::invariant)
+          continue;
+        RC_CLASSIFY(further == 1, requirement_kind_name(spec.requirements[r].kind));
+        RC_ASSERT((again[r].failing == 0) == (further == 0));
+      }
+    }
   }));
 }
 

@@ -47,8 +47,8 @@ struct RandomEngine {
   ProblemSpec spec = read_spec(draw_problem(), "random");
   ThreadTeam team{1};
   Abstraction abstraction = build_abstraction(spec, team);
-  std::optional<PairTable> allow = allow_table(spec, abstraction, team);
-  RowEngine engine{abstraction, allow ? &*allow : nullptr, {}};
+  PairRules pairs = pair_rules(spec, abstraction, team);
+  RowEngine engine{abstraction, &pairs, {}};
 };
 
 bool holds(const IndexRange& range, std::int64_t count, std::int64_t k) {

@@ -236,6 +236,7 @@ TEST(ManyRanks, DivideTablesByCells) {
     expect_same(folder, spec(equation, ""));
     expect_same(folder, spec(equation, R"json(, "output": {"abstraction": true, "controller": true})json"));
     expect_same(folder, spec(equation, R"json(, "controller": {"allow": "u <= 0 or x < 0.5"})json"));
+    expect_same(folder, spec(equation, R"json(, "controller": {"allow": "u != w or q + m < 5"})json"));
   }
 }
 

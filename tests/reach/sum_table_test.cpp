@@ -160,6 +160,22 @@ TEST(SumTable, MeasurementErrorsByHand) {
   EXPECT_EQ(scaled.raw(0, 50, 0), (IndexRange{1, 4}));
 }
 
+/// Two terms of 1/2 + 2^-33 a side: rounded inward, each would be 2^-32 short, and the sum would not reach
+/// the face that it reaches.
+TEST(SumTable, EndsOfTermsAreRoundedOutward) {
+  const std::string states =
+      R"({"name": "x", "lower": 0, "upper": 9, "step": 1}, {"name": "y", "lower": 0, "upper": 3, "step": 1}, {"name": "z", "lower": 0, "upper": 3, "step": 1})";
+  const auto first_cell = [&](const std::string& rest) {
+    const Abstraction a = build(problem(states, "discrete",
+                                        R"json("x": "(1 + 2^-32)*y*cos(u) + (1 + 2^-32)*z*cos(u) )json" +
+                                            rest + R"json(", "y": "y", "z": "z")json"));
+    EXPECT_TRUE(a.tables[0].is_sum());
+    return a.raw(0, 0, 5);  // u = 0
+  };
+  EXPECT_EQ(first_cell("+ 0.5 - 2^-32").last, 2);
+  EXPECT_EQ(first_cell("- 0.5 + 2^-32").first, -2);
+}
+
 TEST(SumTable, SourcesWithPointCells) {
   const std::string states =
       R"({"name": "x", "lower": -3, "upper": 3, "step": 0.5}, {"name": "k", "lower": 1, "upper": 3, "step": 1, "discrete": true})";

@@ -13,9 +13,9 @@
 namespace coordreq {
 namespace {
 
-using Numbers = std::vector<std::int32_t>;
+using Elements = std::vector<std::int32_t>;
 
-NumberRows rows_of(const Numbers& numbers, std::int64_t length) {
+NumberRows rows_of(const Elements& numbers, std::int64_t length) {
   return number_rows(numbers.data(), length, static_cast<std::int64_t>(numbers.size()) / length, length);
 }
 
@@ -27,7 +27,7 @@ class CheckpointFile : public testing::Test {
   void write_small() {
     CheckpointWriter writer(path(), path(), {{"spec", "s"}}, {});
     writer.begin("first", {{"finished", true}});
-    const Numbers numbers = {1, -2, 3, -4, 5, -6};
+    const Elements numbers = {1, -2, 3, -4, 5, -6};
     writer.add(rows_of(numbers, 2));
     writer.begin("second", Json::object());
     const std::vector<double> more = {0.5};
@@ -54,14 +54,14 @@ TEST_F(CheckpointFile, WhatIsWrittenIsRead) {
   CheckpointReader reader(path());
   EXPECT_EQ(reader.digest(), digest_);
   EXPECT_EQ(reader.header()["spec"], "s");
-  Numbers found(6);
+  Elements found(6);
   double more = 0;
   EXPECT_FALSE(reader.begin("second").is_null());
   EXPECT_TRUE(reader.read(number_rows(&more, 1, 1, 1)));
   EXPECT_TRUE(reader.read(rows_of(found, 6)));
   EXPECT_FALSE(reader.read(rows_of(found, 6)));  // there is no more
   EXPECT_EQ(more, 0.5);
-  EXPECT_EQ(found, (Numbers{1, -2, 3, -4, 5, -6}));
+  EXPECT_EQ(found, (Elements{1, -2, 3, -4, 5, -6}));
   EXPECT_EQ(reader.begin("first")["finished"], true);
   EXPECT_TRUE(reader.begin("third").is_null());
   EXPECT_FALSE(reader.read(rows_of(found, 6)));
@@ -70,7 +70,7 @@ TEST_F(CheckpointFile, WhatIsWrittenIsRead) {
 TEST_F(CheckpointFile, AListOfAnotherShapeOrTypeIsNotTaken) {
   write_small();
   CheckpointReader reader(path());
-  Numbers found(6);
+  Elements found(6);
   std::vector<std::uint32_t> other(6);
   std::vector<float> real(6);
   for (const NumberRows& rows : {rows_of(found, 3), rows_of(found, 1), number_rows(other.data(), 2, 3, 2),
@@ -99,7 +99,7 @@ TEST_F(CheckpointFile, RowsStandWhereTheyAreSaidTo) {
 /// Of so many rows that the list is cut into blocks, inside of rows too.
 TEST_F(CheckpointFile, SomeRowsOfAListAreThoseOfTheWhole) {
   constexpr std::int64_t kRows = 1000, kLength = 777;
-  Numbers numbers(kRows * kLength);
+  Elements numbers(kRows * kLength);
   std::iota(numbers.begin(), numbers.end(), 5);
   CheckpointWriter writer(path(), path(), Json::object(), {});
   writer.begin("one", Json::object());
@@ -109,7 +109,7 @@ TEST_F(CheckpointFile, SomeRowsOfAListAreThoseOfTheWhole) {
   static_cast<void>(reader.begin("one"));
   const std::pair<std::int64_t, std::int64_t> parts[] = {{0, 1000}, {0, 1}, {84, 2}, {500, 337}, {999, 1}};
   for (const auto& [first, count] : parts) {
-    Numbers found(static_cast<std::size_t>(count * kLength));
+    Elements found(static_cast<std::size_t>(count * kLength));
     ASSERT_TRUE(reader.read_some(0, rows_of(found, kLength), first, kRows));
     EXPECT_TRUE(std::equal(found.begin(), found.end(), numbers.begin() + first * kLength)) << first;
   }
@@ -209,7 +209,7 @@ TEST_F(CheckpointFile, AFullDiskIsTold) {
   try {
     CheckpointWriter writer("/dev/full", "saved", Json::object(), {});
     writer.begin("one", Json::object());
-    const Numbers numbers(1 << 20);
+    const Elements numbers(1 << 20);
     writer.add(rows_of(numbers, 1));
     writer.finish();
     ADD_FAILURE() << "nothing told";

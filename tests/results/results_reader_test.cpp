@@ -7,6 +7,7 @@
 
 #include "answers/coalition/fields.hpp"
 #include "answers/field_table.hpp"
+#include "answers/layers/fields.hpp"
 #include "answers/network/fields.hpp"
 #include "base/error.hpp"
 #include "base/thread_team.hpp"
@@ -114,11 +115,11 @@ TEST_F(Reader, ATruncatedPartitionHasAllItsLayers) {
 /// Every array over cells in a block, against the formulas.
 void expect_block(const ResultsReader& results, const CellBlock& block, ElementType steps) {
   const auto cells = static_cast<std::size_t>(block.cells());
-  const auto safe = results.safe(block);
-  const auto invariant = results.invariant(block);
-  const auto times = results.collision_time(block);
-  const auto delay = results.delay(1, block);
-  const auto trigger = results.trigger(1, block);
+  const auto safe = results.members("/safe", block);
+  const auto invariant = results.members("/invariant", block);
+  const auto times = results.values("/collision_time", block);
+  const auto delay = results.values("/delay", 1, block);
+  const auto trigger = results.values("/trigger", 1, block);
   ASSERT_EQ(safe.size(), cells);
   ASSERT_EQ(trigger.size(), cells);
   const auto widened = [steps](std::int64_t value) {
@@ -152,7 +153,7 @@ TEST_F(Reader, BlocksHoldWhatWasWritten) {
       expect_block(results, one_cell(results.grid(), 0), steps);
       expect_block(results, one_cell(results.grid(), results.grid().cells() - 1), steps);
       expect_block(results, {{2, 1, 3}, {3, 4, 1}}, steps);
-      EXPECT_TRUE(results.safe({{0, 0, 0}, {2, 0, 3}}).empty());
+      EXPECT_TRUE(results.members("/safe", {{0, 0, 0}, {2, 0, 3}}).empty());
     }
   }
 }
@@ -161,7 +162,8 @@ TEST_F(Reader, AStretchIsTheCellsInTheirOrder) {
   write();
   const ResultsReader results(path_);
   for (const auto& [begin, end] : {std::pair<std::int64_t, std::int64_t>{0, 120}, {7, 113}, {5, 6}, {9, 9}}) {
-    const auto delays = results.stretch(begin, end, [&](const CellBlock& b) { return results.delay(0, b); });
+    const auto delays =
+        results.stretch(begin, end, [&](const CellBlock& b) { return results.values("/delay", 0, b); });
     ASSERT_EQ(static_cast<std::int64_t>(delays.size()), end - begin);
     for (std::int64_t x = begin; x < end; ++x) {
       const std::int64_t value = sample::delay(0, static_cast<std::uint64_t>(x), ElementType::int16);
@@ -170,18 +172,22 @@ TEST_F(Reader, AStretchIsTheCellsInTheirOrder) {
   }
 }
 
+StoredLayers layer_lists(const ResultsReader& results) {
+  return read_layer_lists(results.spec(), results.spec().coordination.partitions.front(), results);
+}
+
 TEST_F(Reader, WhatIsStoredOnRequest) {
   write();
   const ResultsReader results(path_);
-  ASSERT_TRUE(results.has_actions(0));
-  ASSERT_TRUE(results.has_actions(1) && results.has_controller() && results.has_layers(0));
+  for (const char* const path : {"/actions/alone/a", "/actions/a|b+c/a", "/controller", "/layers/alone/cell"})
+    ASSERT_TRUE(results.has(path)) << path;
   const CellBlock cell = one_cell(results.grid(), 77);
-  EXPECT_EQ(results.action_bits(1, 0, cell), std::vector<std::uint8_t>{sample::action_byte(77)});
-  EXPECT_EQ(results.action_bits(1, 1, all_cells(results.grid())).size(), 240U);
+  EXPECT_EQ(results.bits("/actions/a|b+c/a", cell), std::vector<std::uint8_t>{sample::action_byte(77)});
+  EXPECT_EQ(results.bits("/actions/a|b+c/b+c", all_cells(results.grid())).size(), 240U);
   std::vector<std::uint8_t> expected;
   for (std::uint64_t i = 770; i < 780; ++i) expected.push_back(sample::action_byte(i));
-  EXPECT_EQ(results.controller_bits(cell), expected);
-  const StoredLayers layers = results.layers(0);
+  EXPECT_EQ(results.bits("/controller", cell), expected);
+  const StoredLayers layers = layer_lists(results);
   EXPECT_EQ(layers.start, (std::vector<std::uint64_t>{0, 59, 59, 60}));
   ASSERT_EQ(layers.cell.size(), 60U);
   EXPECT_EQ(layers.cell[21], 42U);
@@ -205,8 +211,9 @@ TEST_F(Reader, TheAbstraction) {
 TEST_F(Reader, NothingMoreThanWasAskedFor) {
   write({.points = {6, 5, 4}, .with_extras = false});
   const ResultsReader results(path_);
-  EXPECT_FALSE(results.has_actions(1) || results.has_controller() || results.has_layers(1) ||
-               results.has_abstraction());
+  for (const char* const path : {"/actions/a|b+c/a", "/controller", "/layers/a|b+c/cell"})
+    EXPECT_FALSE(results.has(path)) << path;
+  EXPECT_FALSE(results.has_abstraction());
 }
 
 TEST_F(Reader, WhatCannotBeReadIsAnInputError) {
@@ -288,16 +295,20 @@ TEST_F(Reader, ValuesThatMeanNothingAreRefused) {
   overwrite("/safe", H5T_NATIVE_INT32, values.data());
   EXPECT_EQ(defect(), "");
   overwrite("/safe", H5T_NATIVE_INT32, values.data() + 100);
-  EXPECT_EQ(defect([](const ResultsReader& r) { static_cast<void>(r.safe(all_cells(r.grid()))); }),
-            "a value other than 0 and 1: damaged (FILE:/safe)");
+  EXPECT_EQ(
+      defect([](const ResultsReader& r) { static_cast<void>(r.members("/safe", all_cells(r.grid()))); }),
+      "a value other than 0 and 1: damaged (FILE:/safe)");
   values[200] = -3;
   overwrite("/delay", H5T_NATIVE_INT32, values.data());
-  EXPECT_EQ(defect([](const ResultsReader& r) { static_cast<void>(r.delay(0, all_cells(r.grid()))); }), "");
-  EXPECT_EQ(defect([](const ResultsReader& r) { static_cast<void>(r.delay(1, all_cells(r.grid()))); }),
-            "found -3, expected at least -2 (FILE:/delay)");
+  EXPECT_EQ(
+      defect([](const ResultsReader& r) { static_cast<void>(r.values("/delay", 0, all_cells(r.grid()))); }),
+      "");
+  EXPECT_EQ(
+      defect([](const ResultsReader& r) { static_cast<void>(r.values("/delay", 1, all_cells(r.grid()))); }),
+      "found -3, expected at least -2 (FILE:/delay)");
   std::vector<std::uint64_t> starts = {0, 9, 8, 60};
   overwrite("/layers/alone/start", H5T_NATIVE_UINT64, starts.data());
-  EXPECT_EQ(defect([](const ResultsReader& r) { static_cast<void>(r.layers(0)); }),
+  EXPECT_EQ(defect([](const ResultsReader& r) { static_cast<void>(layer_lists(r)); }),
             "does not ascend from 0 to the number of cells (FILE:/layers/alone/start)");
 }
 
@@ -313,18 +324,17 @@ TEST_F(Reader, AnotherElementTypeIsRefused) {
 /// Everything that can be read.
 void read_all(const ResultsReader& results) {
   const CellBlock cells = all_cells(results.grid());
-  static_cast<void>(results.safe(cells));
-  static_cast<void>(results.invariant(cells));
-  static_cast<void>(results.collision_time(cells));
-  for (std::size_t p = 0; p < results.partitions().size(); ++p) {
-    static_cast<void>(results.delay(p, cells));
-    static_cast<void>(results.trigger(p, cells));
-    if (results.has_layers(p)) static_cast<void>(results.layers(p));
-    for (std::size_t c = 0; results.has_actions(p) && c < results.partitions()[p].classes.size(); ++c) {
-      static_cast<void>(results.action_bits(p, c, cells));
-    }
+  for (const Field& field : results.fields()) {
+    const std::size_t entries = results.leading_length(field);
+    if (field.kind == FieldKind::actions) static_cast<void>(results.bits(field, cells));
+    if (field.kind != FieldKind::set && field.kind != FieldKind::steps) continue;
+    if (entries == 0) static_cast<void>(results.values(field, std::nullopt, cells));
+    for (std::size_t i = 0; i < entries; ++i) static_cast<void>(results.values(field, i, cells));
   }
-  if (results.has_controller()) static_cast<void>(results.controller_bits(cells));
+  for (const PartitionSpec& partition : results.spec().coordination.partitions) {
+    if (results.has(paths::layers(partition) + "/cell"))
+      static_cast<void>(read_layer_lists(results.spec(), partition, results));
+  }
   if (results.has_abstraction()) static_cast<void>(results.abstraction());
 }
 

@@ -96,7 +96,7 @@ TEST_F(ScotsController, NamesLineSectionFoundAndExpected) {
   EXPECT_EQ(complaint(with(kHead, "#BEGIN:2", "#BEGIN:1")), "found 1 of ETA, expected 2 (, line 8)");
   EXPECT_EQ(complaint(with(kHead, "0.3", "wide")), "found 'wide', expected a number (, line 29)");
   EXPECT_EQ(complaint(with(kHead, "#BEGIN:6 3", "#BEGIN:6 4")),
-            "found a matrix of 6 4 states and inputs, expected 6 3 (, line 44)");
+            "found a matrix of 6 4 states and inputs, expected 6 3 (or 6 1: one input a state) (, line 44)");
   EXPECT_EQ(complaint(kHead + "6 0\n#END\n"),
             "WINNINGDOMAIN: found state 6, expected one below 6 (, line 45)");
   EXPECT_EQ(complaint(kHead + "0 3\n#END\n"),
@@ -105,6 +105,21 @@ TEST_F(ScotsController, NamesLineSectionFoundAndExpected) {
   EXPECT_EQ(complaint(kHead + "1 x\n"), "found '1 x', expected natural numbers (, line 45)");
   EXPECT_EQ(complaint(kHead + "1 -1\n"), "found '1 -1', expected natural numbers (, line 45)");
   EXPECT_EQ(complaint(kHead + "1 0\n"), "the file ends, expected #END (, line 45)");
+}
+
+TEST_F(ScotsController, OfAReachabilityGameNamesOneInputAState) {
+  const std::string head = with(kHead, "#BEGIN:6 3", "#BEGIN:6 1");
+  const PackedPairs pairs = read(head + "1 0\n3 2\n5 1\n#END\n");
+  EXPECT_EQ(pairs.count(), 3);
+  EXPECT_TRUE(pairs.test(2, 2) && pairs.test(1, 0) && pairs.test(5, 1));
+  EXPECT_EQ(complaint(head + "1 3\n#END\n"),
+            "WINNINGDOMAIN: found input 3, expected one below 3 (, line 45)");
+  EXPECT_EQ(
+      complaint(head + "0 0\n1 0 2\n#END\n"),
+      "WINNINGDOMAIN: found 2 inputs of state 1, expected one, as the matrix has one column (, line 46)");
+  EXPECT_EQ(
+      complaint(head + "1\n#END\n"),
+      "WINNINGDOMAIN: found 0 inputs of state 1, expected one, as the matrix has one column (, line 45)");
 }
 
 TEST_F(ScotsController, RefusesListsThatScotsDoesNotKnow) {

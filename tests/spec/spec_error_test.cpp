@@ -131,8 +131,8 @@ TEST(SpecError, NamesAreWellFormedAndDifferent) {
       {"/definitions/R", "\"1\"", "the name 'R' is taken, it stands at /constants/R too (/definitions/R)"},
       {"/states/0/name", "\"delay\"",
        "'delay' is a dataset of the results file, expected another name (/states/0/name)"},
-      {"/constants/trigger", "1",
-       "'trigger' is a dataset of the results file, expected another name (/constants/trigger)"},
+      {"/inputs/1/name", "\"trigger\"",
+       "'trigger' is a dataset of the results file, expected another name (/inputs/1/name)"},
       {"/disturbances/0/name", "\"pi\"",
        "'pi' is a function or keyword, expected another name (/disturbances/0/name)"},
       {"/inputs/0/name", "\"and\"", "'and' is a function or keyword, expected another name (/inputs/0/name)"},
@@ -142,37 +142,45 @@ TEST(SpecError, NamesAreWellFormedAndDifferent) {
   });
 }
 
-TEST(SpecError, EveryDatasetNameIsReserved) {
-  for (const std::string name : {"spec",
-                                 "partition",
-                                 "layer",
-                                 "safe",
-                                 "invariant",
-                                 "collision_time",
-                                 "delay",
-                                 "trigger",
-                                 "layer_size",
-                                 "fixed_point_index",
-                                 "layers",
-                                 "actions",
-                                 "controller",
-                                 "abstraction",
-                                 "mode",
-                                 "pair",
-                                 "agent",
-                                 "action",
-                                 "coalition",
-                                 "critical_pair",
-                                 "network_safe",
-                                 "convention_freedom",
-                                 "counterexample",
-                                 "first",
-                                 "last"}) {
-    EXPECT_EQ(
-        error_of(example_with("/constants/" + name, "1")),
-        "'" + name + "' is a dataset of the results file, expected another name (/constants/" + name + ")");
+/// A state called so, in a spec with something more.
+std::string error_of_state(const std::string& name, const std::string& addition) {
+  nlohmann::json spec = example();
+  spec["definitions"] = {{"x1", name}};
+  spec["states"][0]["name"] = name;
+  spec["dynamics"]["equations"] = {{name, "u1"}, {"x2", "u2"}};
+  spec["safe"] = "x1 <= R";
+  spec.update(nlohmann::json::parse(addition));
+  return error_of(spec);
+}
+
+TEST(SpecError, NamesOfDatasetsAreReservedWhereTheyAreWritten) {
+  const auto expected = [](const std::string& name) {
+    return "'" + name + "' is a dataset of the results file, expected another name (/states/0/name)";
+  };
+  for (const std::string name : {"collision_time", "delay", "fixed_point_index", "invariant", "layer",
+                                 "layer_size", "partition", "safe", "spec", "trigger"})
+    EXPECT_EQ(error_of_state(name, "{}"), expected(name));
+  const std::vector<std::pair<std::string, std::string>> additions = {
+      {"arrival", R"({"goal": "x2 <= 0"})"},
+      {"mode", R"({"network": {"delay": 2}})"},
+      {"pair", R"({"coordination": {"horizon": 2}})"},
+      {"agent", R"({"coordination": {"convention": true}})"},
+      {"counterexample", R"({"requirements": [{"name": "r", "where": "x2 <= 0", "invariant": true}]})"},
+      {"controller", R"({"output": {"controller": true}})"},
+      {"abstraction", R"({"output": {"abstraction": true}})"}};
+  for (const auto& [name, addition] : additions) {
+    EXPECT_EQ(error_of_state(name, addition), expected(name));
+    EXPECT_EQ(error_of_state(name, "{}"), "");
   }
-  EXPECT_EQ(error_of(example_with("/constants/start", "1")), "");
+  for (const std::string name : {"action", "first", "last", "start"})
+    EXPECT_EQ(error_of_state(name, "{}"), "");
+}
+
+TEST(SpecError, OnlyStatesAndInputsHaveDatasets) {
+  for (const std::string name : {"delay", "mode", "safe"}) {
+    EXPECT_EQ(error_of(example_with("/constants/" + name, "1")), "");
+    EXPECT_EQ(error_of(example_with("/definitions/" + name, "\"x1 + 1\"")), "");
+  }
 }
 
 TEST(SpecError, ConstantsAndDefinitionsHaveNoCycles) {
@@ -199,7 +207,11 @@ TEST(SpecError, GridsHavePoints) {
       {"/states/0", R"({"name": "x1", "lower": 1, "upper": 2, "step": 3})",
        "no grid point 0 + k*3 lies in [1, 2] (/states/0)"},
       {"/states/0", R"({"name": "x1", "lower": 1, "upper": 2, "count": 1})",
-       "expected a count >= 2 unless the state is periodic, found 1 (/states/0/count)"},
+       "one point is lower and upper: expected 1, found 2 (/states/0/upper)"},
+      {"/states/0", R"({"name": "x1", "lower": 1, "upper": 1, "count": 1})",
+       "the cell of one point needs its width: expected 'step', found 'count' (/states/0/count)"},
+      {"/inputs/0", R"({"name": "u1", "lower": 1, "upper": 2, "count": 1})",
+       "one point is lower and upper: expected 1, found 2 (/inputs/0/upper)"},
       {"/states/0", R"({"name": "x1", "lower": 1, "upper": 2, "count": 0})",
        "expected an integer >= 1, found 0 (/states/0/count)"},
       {"/states/0", R"({"name": "x1", "lower": 1, "upper": 1, "count": 2})",

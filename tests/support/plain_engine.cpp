@@ -37,6 +37,7 @@ class PlainEngine {
     find_controller();
     for (const PartitionSpec& partition : spec_.coordination.partitions) layers(partition);
     if (spec_.network) network(*spec_.network);
+    result_.permitted = permitted_;
     return result_;
   }
 
@@ -46,6 +47,7 @@ class PlainEngine {
   void find_allowed() {
     for (std::int64_t x = 0; x < cells_; ++x) {
       allowed_.emplace_back(at(inputs_), true);
+      permitted_.emplace_back(at(inputs_), true);
       for (std::int64_t u = 0; listed_ != nullptr && u < inputs_; ++u)
         allowed_.back()[at(u)] = listed_->test(x, u);
       if (!spec_.controller.allow) continue;
@@ -60,7 +62,8 @@ class PlainEngine {
           const Rational& value = a_.inputs[i].values[at(a_.inputs.index(u, i))];
           point[a_.grid.size() + i] = {.lower = value, .upper = value};
         }
-        if (allow.condition(point) != Truth::yes) allowed_.back()[at(u)] = false;
+        if (allow.condition(point) == Truth::yes) continue;
+        allowed_.back()[at(u)] = permitted_.back()[at(u)] = false;
       }
     }
   }
@@ -191,7 +194,8 @@ class PlainEngine {
   bool stays_in_mode(std::int64_t x, const PartitionSpec& partition, bool resynthesise,
                      const Set& target) const {
     std::vector<bool> leads_there;
-    for (std::int64_t u = 0; u < inputs_; ++u) leads_there.push_back(stays_in(x, u, target));
+    for (std::int64_t u = 0; u < inputs_; ++u)
+      leads_there.push_back(permitted_[at(x)][at(u)] && stays_in(x, u, target));
     std::vector<bool> controller = result_.controller[at(x)];
     std::vector<bool> good = leads_there;
     if (resynthesise) {
@@ -226,7 +230,7 @@ class PlainEngine {
         for (std::int64_t u = 0; u < inputs_ && every; ++u) {
           if (!reasonable(x, u)) continue;
           some = true;
-          every = stays_in(x, u, layer);
+          every = permitted_[at(x)][at(u)] && stays_in(x, u, layer);
         }
         if (some && every) continue;
         next[at(x)] = false;
@@ -252,7 +256,8 @@ class PlainEngine {
   const PackedPairs* listed_;
   std::int64_t cells_;
   std::int64_t inputs_;
-  std::vector<std::vector<bool>> allowed_;
+  std::vector<std::vector<bool>> allowed_;    ///< by `allow`, and listed
+  std::vector<std::vector<bool>> permitted_;  ///< by `allow`, whatever is listed
   PlainAnalysis result_;
 };
 

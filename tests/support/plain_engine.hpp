@@ -23,6 +23,7 @@ struct PlainAnalysis {
   std::vector<bool> invariant;
   std::vector<std::int32_t> collision_time;
   std::int64_t iterations = 0;
+  std::vector<std::vector<bool>> permitted;   ///< [cell][joint input] by `allow`, whatever is listed
   std::vector<std::vector<bool>> controller;  ///< [cell][joint input]
   std::vector<Partition> partitions;
   std::vector<std::vector<bool>> network;  ///< [mode][cell] W(q), if there is a network

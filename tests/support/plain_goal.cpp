@@ -151,7 +151,8 @@ class GoalFinder {
         for (std::size_t y = 0; y < nearer.size(); ++y) nearer[y] = nearer[y] && layer[y];
         bool every = true;
         for (std::int64_t u = 0; u < inputs_; ++u)
-          every = every && (!independent[at(x)][at(u)] || comes_to(x, u, nearer));
+          every = every &&
+                  (!independent[at(x)][at(u)] || (plain_.permitted[at(x)][at(u)] && comes_to(x, u, nearer)));
         next[at(x)] = every;
       }
       is_known = next == layer && still(k);

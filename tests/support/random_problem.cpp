@@ -159,7 +159,10 @@ class ProblemWriter {
     if (draw(0, 9) > 0) text += fmt::format(" + {}u{}", pick<std::string>({"", "0.5*", "0.25*"}), i);
     const int other = (static_cast<int>(i) + draw(1, inputs - 1)) % inputs;
     if ((coupled_ || crowd_) && draw(0, 1) == 0) text += fmt::format(" + 0.5*u{}", other);
-    return text + (disturbed && draw(0, 3) == 0 ? " + 0.25*w" : "");
+    if (!disturbed || draw(0, 3) > 0) return text;
+    // At times from somewhere on, so that ranges differ in nothing but their width.
+    if (continuous_time_ || edges_ == RandomEdges::plain || draw(0, 2) > 0) return text + " + 0.25*w";
+    return text + fmt::format(" + if(x{} >= 3.5, w, 0)", draw(0, static_cast<int>(discrete_.size()) - 1));
   }
 
   std::string equation(std::size_t i, bool disturbed) {
@@ -225,11 +228,22 @@ class ProblemWriter {
                            : fmt::format("({}) {} ({})", atom(), pick<std::string>({"and", "or"}), atom());
   }
 
+  /// Each may do what they must not do together.
+  static std::string joint_allow_condition(int i, int u, int v) {
+    return pick<std::string>({fmt::format("u{} + u{} <= {}", u, v, draw(0, 1)),
+                              fmt::format("x{} <= {} or u{} != u{}", i, draw(0, 5), u, v),
+                              fmt::format("not (u{} == 1 and u{} < 0)", u, v),
+                              fmt::format("u{} * u{} <= 0 or x{} == {}", u, v, i, draw(0, 4)),
+                              fmt::format("abs(u{} - u{}) < 2 and u{} <= {}", u, v, u, draw(0, 1))});
+  }
+
   std::string allow_condition() {
     const int i = draw(0, static_cast<int>(discrete_.size()) - 1);
-    const int u = draw(0, static_cast<int>(input_text_.size()) - 1);
-    const int v = draw(0, static_cast<int>(input_text_.size()) - 1);
+    const int inputs = static_cast<int>(input_text_.size());
+    const int u = draw(0, inputs - 1);
+    const int v = inputs == 1 ? u : (u + draw(1, inputs - 1)) % inputs;  // mostly of another agent
     if (plane_ && draw(0, crowd_ ? 3 : 1) > 0) return "true";
+    if (draw(0, 1) == 0) return joint_allow_condition(i, u, v);
     return pick<std::string>({"true", "true", fmt::format("u{} <= 0", u), fmt::format("x{} != 3", i),
                               fmt::format("x{} >= 2 or u{} != 1", i, u),
                               fmt::format("u{} + u{} <= 1 and x{} + u{} >= 0", u, v, i, v)});

@@ -11,7 +11,7 @@ enum class RandomTime {
 };
 enum class RandomEdges {
   any,
-  plain,  ///< no periodic states, no measurement errors
+  plain,  ///< no periodic states, no measurement errors, no disturbance from somewhere on
 };
 
 enum class RandomAgents {

@@ -86,16 +86,25 @@ std::string draw_team() {
 std::string with_requirements(std::string text) {
   const ProblemSpec spec = read_spec(text, "random");
   const auto most = static_cast<int>(std::min<std::int64_t>(spec.coordination.max_delay.value_or(4), 4));
+  const bool has_goal = draw(0, 1) == 0;
   std::vector<std::string> requirements;
   for (int r = 0; r < 2; ++r) {
-    const std::string asked =
-        draw(0, 3) == 0 ? R"("invariant": true)"
-                        : fmt::format(R"("partition": "{}", "min_delay": {})",
-                                      pick(spec.coordination.partitions).name, draw(std::min(1, most), most));
+    const auto of_partition = [&](const std::string& kind) {
+      return fmt::format(R"("partition": "{}", "{}": {})", pick(spec.coordination.partitions).name, kind,
+                         draw(std::min(1, most), most));
+    };
+    const std::vector<std::string> of_goal = {fmt::format(R"("max_arrival": {})", draw(0, 4)),
+                                              of_partition("min_approach_delay")};
+    const std::string asked = has_goal && draw(0, 1) == 0 ? pick(of_goal)
+                              : draw(0, 3) == 0           ? R"("invariant": true)"
+                                                          : of_partition("min_delay");
     requirements.push_back(
         fmt::format(R"({{"name": "r{}", "where": "{}", {}}})", r, region_on_grid(spec), asked));
   }
   text.erase(text.rfind('}'));
+  if (has_goal)
+    text += fmt::format(R"(, "goal": "{} {} {}.5")", pick(spec.states).name, pick<std::string>({"<=", ">="}),
+                        draw(0, 6));
   return text + fmt::format(", \"requirements\": [{}]}}", join(requirements));
 }
 

@@ -10,7 +10,8 @@ namespace coordreq {
 /// and all together; drawn inside a RapidCheck property.
 [[nodiscard]] std::string draw_team();
 
-/// The spec with two random requirements whose regions meet its grid.
+/// The spec with two random requirements, of any kind, whose regions meet its grid; half of the time with a
+/// goal.
 [[nodiscard]] std::string with_requirements(std::string text);
 
 }  // namespace coordreq

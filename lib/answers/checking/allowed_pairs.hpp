@@ -29,8 +29,10 @@ class AllowedPairs {
   void go_to(std::int64_t cell);
   /// @throws SpecError where `allow` cannot be decided
   [[nodiscard]] bool operator()(std::int64_t u) const {
-    return (permitted_.empty() || permitted_[number_of(u)]) && (!listed_ || listed_->test(cell_, u));
+    return permits(u) && (!listed_ || listed_->test(cell_, u));
   }
+  /// The same, whatever the file lists.
+  [[nodiscard]] bool permits(std::int64_t u) const { return permitted_.empty() || permitted_[number_of(u)]; }
 
  private:
   [[nodiscard]] std::size_t number_of(std::int64_t u) const { return numbers_[static_cast<std::size_t>(u)]; }

@@ -33,8 +33,14 @@ class CheckedCell {
   /// Every allowed joint input keeps the cell in K. REQUIRES: is_invariant().
   [[nodiscard]] bool all_stay() const { return all_stay_; }
 
+  /// Minima asked for and cells looked at for them, so far: a measure of the work.
+  [[nodiscard]] std::int64_t looked_at() const { return posts_.looked_at(); }
+
   // REQUIRES, for what follows: is_safe().
   [[nodiscard]] bool is_allowed(std::int64_t u) const { return allowed_(u); }
+  /// `allow` does not permit it; a file that does not list it forbids nothing. Blocked, where classes act by
+  /// themselves.
+  [[nodiscard]] bool is_forbidden(std::int64_t u) const { return !allowed_.permits(u); }
   /// The way to the next sample is safe, if that counts.
   [[nodiscard]] bool is_way_safe(std::int64_t u) { return !tubes_ || tubes_->is_safe(u); }
   /// min over y in f(x, u) of values[y]; `forever` where all has left safely, `blocked` if there is no post.

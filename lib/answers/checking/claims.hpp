@@ -50,6 +50,8 @@ struct Claims {
   std::map<std::string, std::vector<std::int32_t>> numbers;
   /// The same over partitions and cells: [path][partition][cell].
   std::map<std::string, std::vector<std::vector<std::int32_t>>> partition_numbers;
+  /// [path]: bytes [cells, ceil(m / 8)] of fields of one bit an action that have no member here.
+  std::map<std::string, std::vector<std::uint8_t>> bits;
   std::map<std::string, std::vector<std::int64_t>> lists;  ///< [path]: small fields of partitions
   std::map<std::string, std::int64_t> attributes;          ///< "PATH NAME": of those fields, as found
   // With a horizon:

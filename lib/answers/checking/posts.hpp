@@ -40,6 +40,8 @@ class PostMinima {
   void go_to(std::int64_t cell);
   /// How many minima are remembered.
   [[nodiscard]] std::size_t memory_size() const { return static_cast<std::size_t>(boxes_ + parts_); }
+  /// Minima asked for and cells looked at for them, so far: a measure of the work.
+  [[nodiscard]] std::int64_t looked_at() const { return looked_at_; }
   /// min over y in f(x, u) of values[y]; `forever` where all has left safely, `blocked` if there is no post.
   /// @param values over all cells
   /// @param memory memory_size() minima of this cell and these values, kNotKnown before the first call
@@ -47,6 +49,7 @@ class PostMinima {
   [[nodiscard]] std::int32_t least(std::int64_t u, const std::vector<Value>& values, std::int32_t blocked,
                                    std::int32_t forever, std::vector<std::int32_t>& memory) {
     std::int64_t box = 0;
+    ++looked_at_;
     for (std::size_t i = 0; i < ranks_.size(); ++i) {
       const std::int64_t rank =
           ranks_[i][static_cast<std::size_t>((*input_part_)[i][static_cast<std::size_t>(u)])];
@@ -64,7 +67,7 @@ class PostMinima {
 
   template <class Value>
   [[nodiscard]] std::int32_t compute(std::int64_t box, const Value* values, std::int32_t blocked,
-                                     std::int32_t forever, std::vector<std::int32_t>& memory) const {
+                                     std::int32_t forever, std::vector<std::int32_t>& memory) {
     bool gone = false;
     for (const ResolvedRange* range : box_) {
       if (range->blocked) return blocked;
@@ -78,7 +81,7 @@ class PostMinima {
   template <class Value>
   [[nodiscard]] std::int32_t least_from(std::size_t i, std::int64_t cell, std::int64_t window,
                                         std::int64_t inner_box, const Value* values, std::int32_t forever,
-                                        std::vector<std::int32_t>& memory) const {
+                                        std::vector<std::int32_t>& memory) {
     if (i != split_ || parts_ == 0) return least_over(i, cell, window, inner_box, values, forever, memory);
     std::int32_t& known = memory[static_cast<std::size_t>(boxes_ + window * inner_boxes_ + inner_box)];
     if (known == kNotKnown) known = least_over(i, cell, window, inner_box, values, forever, memory);
@@ -88,10 +91,11 @@ class PostMinima {
   template <class Value>
   [[nodiscard]] std::int32_t least_over(std::size_t i, std::int64_t cell, std::int64_t window,
                                         std::int64_t inner_box, const Value* values, std::int32_t forever,
-                                        std::vector<std::int32_t>& memory) const {
+                                        std::vector<std::int32_t>& memory) {
     const GridDimension& dimension = (*grid_)[i];
     const IndexRange range = box_[i]->inside;
     std::int32_t least = forever;
+    looked_at_ += range.last - range.first + 1;
     for (std::int64_t k = range.first; k <= range.last; ++k) {
       const std::int64_t next = cell + (k < dimension.count ? k : k - dimension.count) * grid_->stride(i);
       const std::int64_t place = window * (window_[i].last - window_[i].first + 1) + (k - window_[i].first);
@@ -113,6 +117,7 @@ class PostMinima {
   std::vector<const ResolvedRange*> box_;
   std::int64_t inner_boxes_ = 1;
   std::int64_t boxes_ = 0;  ///< remembered boxes; 0: too many
+  std::int64_t looked_at_ = 0;
   std::int64_t parts_ = 0;  ///< remembered minima over the last dimensions; 0: too many
 };
 

@@ -71,6 +71,7 @@ Fields coalition_fields(const ProblemSpec& spec) {
   const std::size_t partitions = spec.coordination.partitions.size();
   Fields fields = {
       {.path = paths::kCoalition,
+       .kind = FieldKind::choice,
        .section = FieldSection::maps,
        .types = {ElementType::int16, ElementType::int32},
        .axes = cell_axes(spec),
@@ -83,15 +84,22 @@ Fields coalition_fields(const ProblemSpec& spec) {
            std::vector<FieldAttribute>{flags({{kNoPartitionSuffices, "no_partition_suffices"},
                                               {DelayLayers::kOutsideSafe, "not_safe"},
                                               {DelayLayers::kOutsideInvariant, "not_invariant"}})},
-       .shown = {.map = {.values = FieldMap::Values::numbers,
-                         .kind = "coalition",
-                         .legend = choices_of(spec.coordination)}}}};
+       .shown = {.asked = {.name = "partition",
+                           .words = "cheapest partition",
+                           .meanings = {{"no_partition_suffices", "none: no partition of the file suffices"},
+                                        {"not_safe", "none"},
+                                        {"not_invariant", "none"}},
+                           .group = "coalition",
+                           .heading = "without further contact",
+                           .attribute = "horizon"},
+                 .map = {.kind = "coalition", .legend = choices_of(spec.coordination)}}}};
   std::vector<std::string> pairs = pair_names(spec);
   if (pairs.empty()) return fields;
   const std::size_t count = pairs.size();
   fields.push_back(name_scale("/pair", FieldSection::names, std::move(pairs), "pair of agents"));
   fields.push_back(
       {.path = paths::kCriticalPair,
+       .kind = FieldKind::set,
        .section = FieldSection::maps,
        .types = {ElementType::uint8},
        .axes = cell_axes("/pair", spec),
@@ -99,7 +107,8 @@ Fields coalition_fields(const ProblemSpec& spec) {
        .attributes = described("the two are together in every partition of least cost that suffices") +
                      counted_cells(count) +
                      std::vector<FieldAttribute>{flags({{0, "not_critical"}, {1, "critical"}})},
-       .shown = {.map = {.values = FieldMap::Values::members, .kind = "pairs"}}});
+       .shown = {.asked = {.name = "critical_pairs", .words = "critical pairs", .group = "coalition"},
+                 .map = {.kind = "pairs"}}});
   return fields;
 }
 

@@ -35,11 +35,12 @@ Fields convention_fields(const ProblemSpec& spec) {
   fields.push_back(name_scale("/agent", FieldSection::names, std::move(names), "agent"));
   fields.push_back(
       {.path = paths::kConventionFreedom,
+       .kind = FieldKind::share,
        .section = FieldSection::maps,
        .types = {ElementType::float32},
        .axes = cell_axes("/agent", spec),
        .attributes = described("part of its admissible actions that an agent keeps under the convention"),
-       .shown = {.map = {.values = FieldMap::Values::shares, .kind = "freedom"}}});
+       .shown = {.map = {.kind = "freedom"}}});
   for (const AgentSpec& agent : spec.agents) {
     if (!spec.output.actions) break;
     add_bits(fields, paths::convention(agent), FieldSection::convention, spec, agent.inputs,

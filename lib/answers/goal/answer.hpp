@@ -12,6 +12,7 @@
 #include "answers/layers/delay_layers.hpp"
 #include "answers/memory_need.hpp"
 #include "answers/stage.hpp"
+#include "answers/warning.hpp"
 #include "base/json.hpp"
 #include "engine/wave.hpp"
 
@@ -39,6 +40,8 @@ struct Goal {
 [[nodiscard]] std::vector<Stage> goal_stages(const ProblemSpec& spec);
 [[nodiscard]] MemoryNeed goal_memory(const EngineSizes& sizes, int threads);
 void summarise_goal(const Answers& answers, Json& summary, Json& work);
+/// A goal that nothing arrives at, or nothing but what is there already.
+[[nodiscard]] Warnings advise_on_goal(const Answers& answers);
 void tell_goal(const ProblemSpec& spec, const FieldSource& source, Json& info);
 
 /// C where no progress is asked for, and P on W \ G: controllers of cells that are not the same, which

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "answers/checking/claimed_progress.hpp"
 #include "answers/checking/claimed_values.hpp"
 #include "answers/invariance/check_safe.hpp"
 #include "model/input_class.hpp"
+#include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -19,15 +22,18 @@ constexpr std::int32_t kMustStand = -3;
 /// What all threads share about one partition.
 struct ApproachTallies {
   explicit ApproachTallies(const std::string& name)
-      : delay("approach delay " + name), trigger("approach trigger " + name) {}
+      : delay("approach delay " + name),
+        trigger("approach trigger " + name),
+        actions("actions to the goal " + name) {}
 
-  Tally delay, trigger;
+  Tally delay, trigger, actions;
 };
 
 /// What all threads share.
 struct GoalTallies {
   Tally goal{"goal"};
   Tally arrival{"arrival"};
+  Tally controller{"controller to the goal"};
   std::deque<ApproachTallies> approach;  // they cannot be moved
 };
 
@@ -36,11 +42,25 @@ struct GoalClaims {
   explicit GoalClaims(const Claims& claims)
       : arrival(claims.numbers.at("/arrival")),
         delay(claims.partition_numbers.at("/approach_delay")),
-        trigger(claims.partition_numbers.at("/approach_trigger")) {}
+        trigger(claims.partition_numbers.at("/approach_trigger")),
+        bits(claims.bits) {}
+
+  /// Null: not stored.
+  [[nodiscard]] const std::vector<std::uint8_t>* bits_of(const std::string& path) const {
+    const auto found = bits.find(path);
+    return found == bits.end() ? nullptr : &found->second;
+  }
 
   const std::vector<std::int32_t>& arrival;
   const std::vector<std::vector<std::int32_t>>& delay;    ///< [partition][cell]
   const std::vector<std::vector<std::int32_t>>& trigger;  ///< likewise
+  const std::map<std::string, std::vector<std::uint8_t>>& bits;
+};
+
+/// A class of a partition, and what the file says of its actions.
+struct GoalClass {
+  InputClass own;
+  const std::vector<std::uint8_t>* actions = nullptr;  ///< null: not stored
 };
 
 class GoalChecker : public CellChecker {
@@ -50,11 +70,17 @@ class GoalChecker : public CellChecker {
         claims_(claims),
         tallies_(tallies),
         by_definition_(ground),
+        controller_(claims.bits_of("/controller:goal")),
         judge_(*ground.spec, *ground.spec->goal, *ground.grid, memory) {
-    for (const PartitionSpec& partition : ground.spec->coordination.partitions) {
-      std::vector<InputClass>& own = classes_.emplace_back();
-      for (const auto& agents : partition.classes)
-        own.emplace_back(class_of(*ground.spec, *ground.inputs, agents)).tabulate();
+    const ProblemSpec& spec = *ground.spec;
+    for (const PartitionSpec& partition : spec.coordination.partitions) {
+      std::vector<GoalClass>& all = classes_.emplace_back();
+      for (const auto& agents : partition.classes) {
+        const std::string name = class_name(spec.agents, agents);
+        GoalClass& one = all.emplace_back(GoalClass{class_of(spec, *ground.inputs, agents)});
+        one.own.tabulate();
+        one.actions = claims.bits_of("/actions:goal/" + partition.name + "/" + name);
+      }
     }
   }
 
@@ -62,14 +88,63 @@ class GoalChecker : public CellChecker {
     const std::int32_t arrival = claims_.arrival[cell.at()];
     if (cell.is_invariant()) check_goal(cell, arrival == 0);
     check_arrival(cell, arrival);
-    if (cell.is_invariant() && by_definition_.is_on_the_way(cell.at())) progress_ = by_definition_.of(cell);
+    find_progress(cell, arrival);
+    if (controller_ != nullptr)
+      compare(tallies_.controller, cell, compare_bits(*controller_, cell.at(), progress_));
     for (std::size_t p = 0; p < classes_.size(); ++p) {
+      project(p);
       check_approach(cell, p);
       check_trigger(cell, p);
+      check_actions(cell, p);
     }
   }
 
  private:
+  /// P(x); in the goal C(x), and nothing from where the goal cannot be forced.
+  void find_progress(CheckedCell& cell, std::int32_t arrival) {
+    progress_.assign(cell.admitted().size(), 0);
+    if (!cell.is_invariant()) return;
+    if (arrival == 0) progress_ = cell.admitted();
+    if (by_definition_.is_on_the_way(cell.at())) progress_ = by_definition_.of(cell);
+  }
+
+  /// The actions of each class of a partition that some joint input of P(x) has.
+  void project(std::size_t p) {
+    projections_.clear();
+    for (const GoalClass& one : classes_[p]) {
+      std::vector<std::uint8_t>& projection =
+          projections_.emplace_back(static_cast<std::size_t>(one.own.actions()), std::uint8_t{0});
+      for (std::size_t u = 0; u < progress_.size(); ++u) {
+        if (progress_[u] != 0)
+          projection[static_cast<std::size_t>(one.own.action(static_cast<std::int64_t>(u)))] = 1;
+      }
+    }
+  }
+
+  void check_actions(const CheckedCell& cell, std::size_t p) {
+    BitDifference found;
+    bool any = false;
+    for (std::size_t c = 0; c < classes_[p].size(); ++c) {
+      if (classes_[p][c].actions == nullptr) continue;
+      any = true;
+      const BitDifference own = compare_bits(*classes_[p][c].actions, cell.at(), projections_[c]);
+      found = {.extra = found.extra + own.extra, .fewer = found.fewer || own.fewer};
+    }
+    if (any) compare(tallies_.approach[p].actions, cell, found);
+  }
+
+  void compare(Tally& tally, const CheckedCell& cell, const BitDifference& found) const {
+    tally.add_checked(1);
+    if (found.extra > 0) {
+      tally.add_wrong(cell.number(),
+                      [&] { return fmt::format("{}: {} too many", cell.place(), found.extra); });
+    } else if (found.fewer && ground_.sound_only()) {
+      tally.add_unproven();
+    } else if (found.fewer) {
+      wrong(tally, cell, "some are missing");
+    }
+  }
+
   void check_goal(const CheckedCell& cell, bool is_claimed) {
     tallies_.goal.add_checked(1);
     const SafeVerdict verdict = judge_.judge(cell.number(), is_claimed);
@@ -129,22 +204,13 @@ class GoalChecker : public CellChecker {
   }
 
   [[nodiscard]] std::int32_t approach_by_definition(CheckedCell& cell, std::size_t p) {
-    std::vector<std::vector<std::uint8_t>> projections;
-    for (const InputClass& own : classes_[p]) {
-      std::vector<std::uint8_t>& projection =
-          projections.emplace_back(static_cast<std::size_t>(own.actions()), std::uint8_t{0});
-      for (std::size_t u = 0; u < progress_.size(); ++u) {
-        if (progress_[u] != 0)
-          projection[static_cast<std::size_t>(own.action(static_cast<std::int64_t>(u)))] = 1;
-      }
-    }
     std::vector<std::int64_t> choices;
     for (std::int64_t u = 0; u < ground_.inputs->count(); ++u) {
       bool is_choice = true;
-      for (std::size_t c = 0; is_choice && c < projections.size(); ++c)
-        is_choice = projections[c][static_cast<std::size_t>(classes_[p][c].action(u))] != 0;
+      for (std::size_t c = 0; is_choice && c < projections_.size(); ++c)
+        is_choice = projections_[c][static_cast<std::size_t>(classes_[p][c].own.action(u))] != 0;
       if (!is_choice) continue;
-      if (!by_definition_.comes_nearer(cell, u)) return 0;
+      if (cell.is_forbidden(u) || !by_definition_.comes_nearer(cell, u)) return 0;
       choices.push_back(u);
     }
     std::int32_t worst = kForever;
@@ -178,9 +244,12 @@ class GoalChecker : public CellChecker {
   const GoalClaims& claims_;
   GoalTallies& tallies_;
   ClaimedProgress by_definition_;
+  const std::vector<std::uint8_t>* controller_;  ///< null: not stored
   SafeJudge judge_;
-  std::vector<std::vector<InputClass>> classes_;  ///< [partition]
-  std::vector<std::uint8_t> progress_;            ///< P(x) of the cell at work
+  std::vector<std::vector<GoalClass>> classes_;  ///< [partition]
+  // Of the cell at work:
+  std::vector<std::uint8_t> progress_;                  ///< P(x), in the goal C(x)
+  std::vector<std::vector<std::uint8_t>> projections_;  ///< [class of the partition at work][action]
 };
 
 class GoalCheck : public AnswerCheck {
@@ -207,7 +276,10 @@ class GoalCheck : public AnswerCheck {
     sizes.expect("|W|", found.at("/arrival winning_cells"), winning);
     sizes.expect("longest arrival", found.at("/arrival longest_arrival"), longest);
     std::vector<Finding> findings;
-    for (std::size_t p = 0; p < claims_.delay.size(); ++p) findings.push_back(compare_layers(p));
+    std::size_t layers = 1;
+    for (std::size_t p = 0; p < claims_.delay.size(); ++p) findings.push_back(compare_layers(p, layers));
+    const std::size_t found_layers = ground_.claims->lists.at("/approach_layer_size").size();
+    sizes.expect("length of /approach_layer", found_layers, layers * claims_.delay.size());
     return findings;
   }
   std::unique_ptr<CellChecker> cell_checker() override {
@@ -215,23 +287,28 @@ class GoalCheck : public AnswerCheck {
   }
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result = {tallies_.goal.finding(), tallies_.arrival.finding()};
+    if (ground_.spec->output.controller) result.push_back(tallies_.controller.finding());
     for (const ApproachTallies& own : tallies_.approach) {
       result.push_back(own.delay.finding());
       result.push_back(own.trigger.finding());
+      if (ground_.spec->output.actions) result.push_back(own.actions.finding());
     }
     return result;
   }
 
  private:
   /// |A_k| of one partition, and F, with the delays of its cells.
-  [[nodiscard]] Finding compare_layers(std::size_t p) const {
+  /// @param layers the most of any partition so far
+  [[nodiscard]] Finding compare_layers(std::size_t p, std::size_t& layers) const {
     Comparison comparison("approach layers " + ground_.claims->partitions[p].name);
     const std::vector<std::int64_t>& all = ground_.claims->lists.at("/approach_layer_size");
     const std::size_t length = all.size() / claims_.delay.size();
     std::vector<std::int64_t> sizes(length, 0);
     std::int64_t last = -1;  // the greatest delay that is not unbounded
+    bool unbounded = false;
     for (const std::int32_t delay : claims_.delay[p]) {
       if (delay < 0) continue;
+      unbounded = unbounded || delay == kForever;
       if (delay != kForever) last = std::max(last, std::int64_t{delay});
       for (std::size_t k = 0; k < length && (delay == kForever || static_cast<std::int64_t>(k) <= delay); ++k)
         ++sizes[k];
@@ -239,8 +316,24 @@ class GoalCheck : public AnswerCheck {
     for (std::size_t k = 0; k < length; ++k)
       comparison.expect(fmt::format("|A_{}|", k), all[p * length + k], sizes[k]);
     const std::int64_t index = ground_.claims->lists.at("/approach_fixed_point_index")[p];
-    if (index >= 0) comparison.expect("F", index, last + 1);
+    comparison.expect("F", index, is_stopped(p, last, unbounded, index < 0) ? -1 : last + 1);
+    layers = std::max(layers, static_cast<std::size_t>(index < 0 ? last : last + 1) + 1);
     return comparison.finding();
+  }
+
+  /// Whether `max_delay` M stopped the iteration: unless A_M is empty, or A and Z stood still before.
+  /// @param claimed then cells of delay M are those that were left
+  [[nodiscard]] bool is_stopped(std::size_t p, std::int64_t last, bool unbounded, bool claimed) const {
+    const std::optional<std::int64_t> most = ground_.spec->coordination.max_delay;
+    if (!most) return false;
+    if (claimed && (unbounded || last != *most)) return false;
+    if (!claimed && !unbounded) return last >= *most;  // all have left before
+    std::int64_t fixed = 0;                            // from here on A stands still
+    for (const std::int32_t delay : claims_.delay[p]) {
+      if (delay >= 0 && delay != kForever && delay < *most) fixed = std::max(fixed, std::int64_t{delay} + 1);
+    }
+    const std::int32_t of_safety = ground_.claims->partitions[p].fixed_point_index;
+    return of_safety < 0 || std::max<std::int64_t>(fixed, of_safety) >= *most;
   }
 
   const CheckGround& ground_;

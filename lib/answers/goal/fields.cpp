@@ -31,7 +31,8 @@ std::string progress_path(const ProblemSpec& spec, const PartitionSpec& partitio
 }
 
 Field arrival_field(const ProblemSpec& spec) {
-  return {.path = "/arrival",
+  return {.path = paths::kArrival,
+          .kind = FieldKind::steps,
           .section = FieldSection::steps,
           .types = {ElementType::int16, ElementType::int32},
           .axes = cell_axes(spec),
@@ -42,13 +43,11 @@ Field arrival_field(const ProblemSpec& spec) {
                             {"goal_cells", std::uint64_t{0}, true},
                             {"winning_cells", std::uint64_t{0}, true},
                             {"longest_arrival", std::int64_t{0}, true}},
-          .shown = {
-              .column = "arrival",
-              .steps = true,
-              .compared = "time to the goal",
-              .less_is_better = true,
-              .asked = "time to the goal",
-              .map = {.values = FieldMap::Values::numbers, .kind = "arrival", .title = "Time to the goal"}}};
+          .shown = {.column = "arrival",
+                    .compared = "time to the goal",
+                    .less_is_better = true,
+                    .asked = {.name = "arrival", .words = "time to the goal"},
+                    .map = {.kind = "arrival", .title = "Time to the goal"}}};
 }
 
 void add_approach(Fields& fields, const ProblemSpec& spec) {
@@ -58,11 +57,9 @@ void add_approach(Fields& fields, const ProblemSpec& spec) {
           std::vector<FieldAttribute>{
               flags({kNotWinning, kNotSafe, kNotInvariant, {kLargestValue, "unbounded"}})},
       {.column = "approach_delay",
-       .steps = true,
        .compared = "approach delay",
-       .map = {.values = FieldMap::Values::numbers,
-               .kind = "approach_delay",
-               .title = "Silence that costs no time to the goal"}},
+       .asked = {.words = "approach delay"},
+       .map = {.kind = "approach_delay", .title = "Silence that costs no time to the goal"}},
       "/approach_fixed_point_index"));
   fields.push_back(steps_field(
       "approach_trigger", spec, kOutsideWinning,
@@ -74,7 +71,9 @@ void add_approach(Fields& fields, const ProblemSpec& spec) {
                      kNotInvariant,
                      {kLargestValue, "never"}}),
               {"connection_delay", spec.coordination.connection_delay}},
-      {.column = "approach_countdown", .below_zero = TriggerTable::kMustBeConnected, .steps = true}));
+      {.column = "approach_countdown",
+       .below_zero = TriggerTable::kMustBeConnected,
+       .asked = {.words = "approach countdown"}}));
 }
 
 template <class Integer>
@@ -127,9 +126,9 @@ void fill_approach(const Answers& answers, const Goal& goal, FieldValues& values
     triggers.push_back(
         with_losing_cells(trigger_array(own, times, connection_delay, order, type), goal, order));
   }
-  values.entries["/approach_delay"].array = stacked_array(cell_count(spec), std::move(delays));
-  values.entries["/approach_trigger"].array = stacked_array(cell_count(spec), std::move(triggers));
-  if (connection_delay == 0) values.entries["/approach_trigger"].equals = "/approach_delay";
+  values.entries[paths::kApproachDelay].array = stacked_array(cell_count(spec), std::move(delays));
+  values.entries[paths::kApproachTrigger].array = stacked_array(cell_count(spec), std::move(triggers));
+  if (connection_delay == 0) values.entries[paths::kApproachTrigger].equals = paths::kApproachDelay;
   fill_sizes(goal.approach, "/approach_", values);
 }
 
@@ -178,7 +177,7 @@ void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& val
   const LevelMap& times = answers.get<Invariance>().collision_time;
   const CellOrder& order = *answers.ground.order;
   const ElementType type = level_type(goal->longest.value_or(0));
-  values.entries["/arrival"] = {
+  values.entries[paths::kArrival] = {
       .array = {type, type == ElementType::int16 ? fill_arrival<std::int16_t>(*goal, times, order)
                                                  : fill_arrival<std::int32_t>(*goal, times, order)},
       .attributes = {{"goal_cells", static_cast<std::uint64_t>(goal->sizes.cells)},

@@ -8,6 +8,13 @@
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
+namespace paths {
+
+inline constexpr char kArrival[] = "/arrival";
+inline constexpr char kApproachDelay[] = "/approach_delay";
+inline constexpr char kApproachTrigger[] = "/approach_trigger";
+
+}  // namespace paths
 
 /// Approach delay of a cell in K from where the goal cannot be forced.
 inline constexpr std::int32_t kOutsideWinning = -4;

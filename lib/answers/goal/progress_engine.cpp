@@ -26,7 +26,7 @@ ProgressEngine::ProgressEngine(const Ground& ground) : ground_(&ground) {
   abstraction_->grid = without_safe_sides(abstraction_->grid);
   TubeSets tubes = ground.tubes();
   tubes.grid = &ground.abstraction->grid;
-  engine_.emplace(*abstraction_, ground.allow ? &*ground.allow : nullptr, tubes, ground.shared_rows());
+  engine_.emplace(*abstraction_, &ground.pairs, tubes, ground.shared_rows());
   hull_.emplace(*engine_);
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "answers/checking/cell_parts.hpp"
 #include "model/odometer.hpp"
-#include "model/pieces.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -13,10 +13,7 @@ std::vector<RationalInterval> places_of(const ProblemSpec& spec, const GridDimen
                                         std::int64_t k) {
   const Rational centre = dimension.point(k);
   if (spec.abstraction.safe == Membership::center) return {{.lower = centre, .upper = centre}};
-  std::vector<RationalInterval> places;
-  for (const Piece& piece : pieces(dimension, k))
-    places.push_back({.lower = piece.lower, .upper = piece.upper});
-  return places;
+  return parts_of(dimension, k);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ namespace {
 Field set_of_cells(const std::string& name, const std::string& compared, const ProblemSpec& spec,
                    const std::string& long_name) {
   return {.path = "/" + name,
+          .kind = FieldKind::set,
           .section = FieldSection::sets,
           .types = {ElementType::uint8},
           .axes = cell_axes(spec),
@@ -29,7 +30,8 @@ Fields invariance_fields(const ProblemSpec& spec) {
   Fields fields = {set_of_cells("safe", "safe set", spec, "cell is in the safe set S"),
                    set_of_cells("invariant", "invariance set", spec, "cell is in the invariance set K")};
   fields.push_back(
-      {.path = "/collision_time",
+      {.path = paths::kCollisionTime,
+       .kind = FieldKind::steps,
        .section = FieldSection::sets,
        .types = {ElementType::int16, ElementType::int32},
        .axes = cell_axes(spec),
@@ -37,8 +39,7 @@ Fields invariance_fields(const ProblemSpec& spec) {
            described("steps within which the worst case leaves the safe set, whatever is coordinated") +
            std::vector<FieldAttribute>{flags({{0, "not_safe"}, {kLargestValue, "never"}}),
                                        {"iterations", std::int64_t{0}, true}},
-       .shown = {.column = "collision_time",
-                 .map = {.values = FieldMap::Values::numbers, .kind = "collision_time"}}});
+       .shown = {.column = "collision_time", .map = {.kind = "collision_time"}}});
   if (spec.output.controller) {
     add_bits(fields, paths::kController, FieldSection::controller, spec, all_inputs(spec),
              "joint inputs that the controller admits, one bit each");
@@ -55,13 +56,14 @@ void fill_invariance_fields(const Answers& answers, ThreadTeam& team, FieldValue
   const Ground& ground = answers.ground;
   const auto& invariance = answers.get<Invariance>();
   const LevelMap& times = invariance.collision_time;
-  values.entries["/safe"] = {.array = safe_array(times, *ground.order),
-                             .attributes = {{"cells", static_cast<std::uint64_t>(ground.safe_cells)}}};
-  values.entries["/invariant"] = {.array = invariant_array(times, *ground.order),
-                                  .attributes = {{"cells", static_cast<std::uint64_t>(invariance.cells)}}};
+  values.entries[paths::kSafe] = {.array = safe_array(times, *ground.order),
+                                  .attributes = {{"cells", static_cast<std::uint64_t>(ground.safe_cells)}}};
+  values.entries[paths::kInvariant] = {
+      .array = invariant_array(times, *ground.order),
+      .attributes = {{"cells", static_cast<std::uint64_t>(invariance.cells)}}};
   // K is in S.
-  if (invariance.cells == ground.safe_cells) values.entries["/invariant"].equals = "/safe";
-  values.entries["/collision_time"] = {
+  if (invariance.cells == ground.safe_cells) values.entries[paths::kInvariant].equals = paths::kSafe;
+  values.entries[paths::kCollisionTime] = {
       .array = collision_array(times, *ground.order, level_type(invariance.iterations - 1)),
       .attributes = {{"iterations", invariance.iterations}}};
   if (ground.spec.output.controller) {

@@ -8,6 +8,11 @@
 namespace coordreq {
 namespace paths {
 
+// What all answers stand on, so that readers may know it by name.
+inline constexpr char kSafe[] = "/safe";
+inline constexpr char kInvariant[] = "/invariant";
+inline constexpr char kCollisionTime[] = "/collision_time";
+
 inline constexpr char kController[] = "/controller";
 /// The pairs of `controller.file`. No state can have this name.
 inline constexpr char kListed[] = "/controller:file";

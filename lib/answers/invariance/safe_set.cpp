@@ -121,17 +121,17 @@ CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, Thread
   return cells_that_satisfy(spec.safe, spec, abstraction.grid, abstraction.inputs, team);
 }
 
-std::optional<PairTable> allow_table(const ProblemSpec& spec, const Abstraction& abstraction,
-                                     ThreadTeam& team, const PackedPairs* listed, const RowShare* share) {
+PairRules pair_rules(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team,
+                     const PackedPairs* listed, const RowShare* share) {
   const UniformGrid& grid = abstraction.grid;
   const RowShare::Range rows = own_rows(share, grid.rows());
   std::optional<RowShare::Range> leading;
   if (share != nullptr && grid.across() > 0) leading = leading_indices(grid, rows);
-  const std::optional<ConditionTable> allow = condition_table(spec, abstraction, leading, team);
-  if (listed != nullptr)
-    return PairTable(grid, abstraction.inputs, *listed, allow ? &*allow : nullptr, rows, team);
-  if (!allow) return std::nullopt;
-  return PairTable(*allow);
+  PairRules rules;
+  if (const auto allow = condition_table(spec, abstraction, leading, team)) rules.permitted.emplace(*allow);
+  const PairTable* const permitted = rules.permitted ? &*rules.permitted : nullptr;
+  if (listed != nullptr) rules.listed.emplace(grid, abstraction.inputs, *listed, permitted, rows, team);
+  return rules;
 }
 
 }  // namespace coordreq

@@ -31,14 +31,13 @@ void add_cells_that_satisfy(const Program& condition, const ProblemSpec& spec, c
 /// S, contract "Safe set".
 [[nodiscard]] CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team);
 
-/// The admissible pairs: those that `allow` permits at grid points of states and inputs, and that are listed
-/// if there is a list; nothing if everything is admissible.
+/// The pairs that `allow` permits at grid points of states and inputs, and of these those that are listed if
+/// there is a list.
 /// @param listed may be null; cells in the order of the abstraction's grid
 /// @param share then what its own rows need; null: there is one process
 /// @throws SpecError naming the first grid point where `allow` cannot be decided (contract, "Conditions"),
 ///   unless a memory may be why: that counts as false
-[[nodiscard]] std::optional<PairTable> allow_table(const ProblemSpec& spec, const Abstraction& abstraction,
-                                                   ThreadTeam& team, const PackedPairs* listed = nullptr,
-                                                   const RowShare* share = nullptr);
+[[nodiscard]] PairRules pair_rules(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team,
+                                   const PackedPairs* listed = nullptr, const RowShare* share = nullptr);
 
 }  // namespace coordreq

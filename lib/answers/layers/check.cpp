@@ -96,7 +96,9 @@ class PartitionChecker {
     for (std::int64_t u = 0; u < ground_.inputs->count() && worst > kOutsideInvariant; ++u) {
       if (!is_choice(u)) continue;
       any = true;
-      worst = std::min(worst, std::max(cell.least(u, claims_.delay, kOutsideInvariant), kOutsideInvariant));
+      const std::int32_t least =
+          cell.is_forbidden(u) ? kOutsideInvariant : cell.least(u, claims_.delay, kOutsideInvariant);
+      worst = std::min(worst, std::max(least, kOutsideInvariant));
     }
     const std::int32_t delay = any ? one_more(worst) : 0;
     const std::optional<std::int64_t> most = ground_.spec->coordination.max_delay;

@@ -25,6 +25,15 @@ std::uint64_t most_layers(const ProblemSpec& spec, std::uint64_t cells) {
   return 1 + (most ? std::min(cells, static_cast<std::uint64_t>(*most)) : cells);
 }
 
+std::map<std::string, std::string> countdown_meanings(const ProblemSpec& spec) {
+  const bool takes_time = spec.coordination.connection_delay > 0;
+  return {{"connection_must_stand_already", "a connection must exist already"},
+          {"never", "never need to connect"},
+          {"not_safe", "none"},
+          {"not_invariant", "none"},
+          {"0", takes_time ? "start to connect now" : "coordinate now"}};
+}
+
 void add_steps(Fields& fields, const ProblemSpec& spec) {
   const FieldFlag outside_safe{DelayLayers::kOutsideSafe, "not_safe"};
   const FieldFlag outside_invariant{DelayLayers::kOutsideInvariant, "not_invariant"};
@@ -33,9 +42,13 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
       described("largest number of steps without coordination that keeps the system safe") +
           std::vector<FieldAttribute>{flags({outside_safe, outside_invariant, {kLargestValue, "unbounded"}})},
       {.column = "delay",
-       .steps = true,
        .compared = "delay",
-       .map = {.values = FieldMap::Values::numbers, .kind = "delay"}},
+       .asked = {.words = "delay",
+                 .meanings = {{"not_safe", "none: the cell is not safe"},
+                              {"not_invariant",
+                               "none: on this grid no coordination keeps the system safe from here"},
+                              {"unbounded", "unbounded: safe without coordination for ever"}}},
+       .map = {.kind = "delay"}},
       "/fixed_point_index"));
   fields.push_back(
       steps_field("trigger", spec, TriggerTable::kMustBeConnected,
@@ -46,7 +59,9 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
                                  outside_invariant,
                                  {kLargestValue, "never"}}),
                           {"connection_delay", spec.coordination.connection_delay}},
-                  {.column = "countdown", .below_zero = TriggerTable::kMustBeConnected, .steps = true}));
+                  {.column = "countdown",
+                   .below_zero = TriggerTable::kMustBeConnected,
+                   .asked = {.words = "countdown", .meanings = countdown_meanings(spec)}}));
 }
 
 void add_lists(Fields& fields, const PartitionSpec& partition, std::uint64_t cells, std::uint64_t layers) {
@@ -77,9 +92,9 @@ void fill_steps(const Answers& answers, const std::vector<DelayLayers>& partitio
     delays.push_back(delay_array(layers, times, order, type));
     triggers.push_back(trigger_array(layers, times, spec.coordination.connection_delay, order, type));
   }
-  values.entries["/delay"].array = stacked_array(cell_count(spec), std::move(delays));
-  values.entries["/trigger"].array = stacked_array(cell_count(spec), std::move(triggers));
-  if (spec.coordination.connection_delay == 0) values.entries["/trigger"].equals = "/delay";
+  values.entries[paths::kDelay].array = stacked_array(cell_count(spec), std::move(delays));
+  values.entries[paths::kTrigger].array = stacked_array(cell_count(spec), std::move(triggers));
+  if (spec.coordination.connection_delay == 0) values.entries[paths::kTrigger].equals = paths::kDelay;
 }
 
 void fill_lists(const Answers& answers, const PartitionSpec& partition, const DelayLayers& layers,
@@ -126,6 +141,7 @@ std::string actions(const ProblemSpec& spec, const PartitionSpec& partition, std
 Field steps_field(const std::string& name, const ProblemSpec& spec, std::int64_t least,
                   std::vector<FieldAttribute> attributes, FieldShown shown, std::string fixed_points) {
   return {.path = "/" + name,
+          .kind = FieldKind::steps,
           .section = FieldSection::steps,
           .types = {ElementType::int16, ElementType::int32},
           .axes = cell_axes("/partition", spec),
@@ -235,6 +251,19 @@ std::vector<StoredPartition> read_partition_values(const ProblemSpec& spec, cons
       partition.layer_sizes.resize(static_cast<std::size_t>(partition.fixed_point_index) + 1);
   }
   return result;
+}
+
+StoredLayers read_layer_lists(const ProblemSpec& spec, const PartitionSpec& partition,
+                              const FieldSource& source) {
+  const std::string path = paths::layers(partition);
+  StoredLayers layers{source.list(path + "/start"), source.list(path + "/cell")};
+  if (!std::is_sorted(layers.start.begin(), layers.start.end()) || layers.start.front() != 0 ||
+      layers.start.back() != layers.cell.size())
+    source.fail("does not ascend from 0 to the number of cells", path + "/start");
+  const std::uint64_t cells = cell_count(spec);
+  if (std::any_of(layers.cell.begin(), layers.cell.end(), [&](std::uint64_t x) { return x >= cells; }))
+    source.fail("a cell that the grid does not have", path + "/cell");
+  return layers;
 }
 
 }  // namespace coordreq

@@ -15,6 +15,8 @@
 namespace coordreq {
 namespace paths {
 
+inline constexpr char kDelay[] = "/delay";
+inline constexpr char kTrigger[] = "/trigger";
 [[nodiscard]] std::string layers(const PartitionSpec& partition);
 [[nodiscard]] std::string actions(const ProblemSpec& spec, const PartitionSpec& partition,
                                   std::size_t class_number);
@@ -31,6 +33,10 @@ void fill_layer_fields(const Answers& answers, ThreadTeam& team, FieldValues& va
 /// @throws ResultsError if an F is no layer
 [[nodiscard]] std::vector<StoredPartition> read_partition_values(const ProblemSpec& spec,
                                                                  const FieldSource& source);
+/// REQUIRES: they are stored. @throws ResultsError unless `start` ascends from 0 to the number of cells and
+/// `cell` holds cells of the grid
+[[nodiscard]] StoredLayers read_layer_lists(const ProblemSpec& spec, const PartitionSpec& partition,
+                                            const FieldSource& source);
 
 /// The fields `PREFIXlayer`, `PREFIXlayer_size`, `PREFIXfixed_point_index`: how many cells layers have,
 /// constant once fixed, and F. @param layer what layers are called: "Z"

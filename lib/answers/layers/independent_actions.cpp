@@ -44,7 +44,9 @@ bool IndependentActions<Level>::next_levels(const RowPlace& place, PostReader<Le
   Workspace& work = work_[static_cast<std::size_t>(worker)];
   const auto n = static_cast<std::size_t>(grouping_.engine().row_length());
   hull_.box(place, work.box);
-  if (work.box.covers && posts.kernels().is_settled(posts.minimum(work.box), old, n)) return false;
+  const bool is_by_posts = projections_.forbidden(place.row).empty();
+  if (is_by_posts && work.box.covers && posts.kernels().is_settled(posts.minimum(work.box), old, n))
+    return false;
   // No level rises: what cannot lower a cell is not looked at.
   constexpr Level kTop = PostReader<Level>::kTop;
   std::transform(old, old + posts.lanes(), next, [](Level level) {
@@ -76,6 +78,7 @@ void IndependentActions<Level>::lower(const RowPlace& place, PostReader<Level>& 
       grouping_.group(place, work.groups);
       lower_by_projections(place, posts, next, work);
   }
+  for_each_bit(projections_.forbidden(place.row), [next](std::int64_t x) { next[x] = 0; });
 }
 
 template <class Level>

@@ -8,9 +8,10 @@
 
 namespace coordreq {
 
-/// level(x) = 1 + min over u in IND_C(x) of min over f(x,u): the greatest level where IND_C(x) is empty, as
-/// it is nowhere in K. That is the coordination-free predecessor IPRE of the paper, Eq. (5), for all layers
-/// Z_0, Z_1, ... at once: x is in IPRE(Z_k) if its level is above k + 1.
+/// level(x) = 1 + min over u in IND_C(x) of min over f(x,u), which is empty where u is forbidden: the
+/// greatest level where IND_C(x) is empty, as it is nowhere in K. That is the coordination-free predecessor
+/// IPRE of the paper, Eq. (5), for all layers Z_0, Z_1, ... at once: x is in IPRE(Z_k) if its level is above
+/// k + 1.
 template <class Level>
 class IndependentActions final : public RowOperator<Level> {
  public:

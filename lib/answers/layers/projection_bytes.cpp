@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "answers/layers/forbidden_choices.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -25,8 +26,9 @@ double projection_bytes(const EngineSizes& sizes, const std::vector<InputClass>&
   if (classes.size() == 1) return 0;
   double actions = 0;
   for (const InputClass& inputs : classes) actions += static_cast<double>(inputs.actions());
-  const double masks = sizes.set() * actions + sizes.rows() * kBytesOfList;
   const ProblemSpec& spec = sizes.model().spec();
+  const double forbidden = allow_joins_agents(spec) ? sizes.set() : 0;  // at most
+  const double masks = sizes.set() * actions + forbidden + sizes.rows() * kBytesOfList;
   const bool is_simple = !spec.abstraction.between_samples && !spec.controller.allow &&
                          !spec.controller.file && spec.controller.synthesis == Synthesis::maximal;
   if (!is_simple || !is_product(sizes.model(), classes)) return masks;

@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "answers/invariance/controller_row.hpp"
+#include "answers/layers/forbidden_choices.hpp"
 #include "answers/layers/free_rows.hpp"
 #include "answers/layers/pair_projection.hpp"
 #include "engine/level_map.hpp"
@@ -39,17 +40,19 @@ LaneRange missing_lanes(ConstRow set, ConstRow other) {
 template <class Level>
 class Projections::Builder {
  public:
-  Builder(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
-          const LevelRows<Level>& levels)
+  Builder(const Controller& controller, const ActionGrouping& grouping, const ForbiddenChoices& choices,
+          const RowHull& hull, const LevelRows<Level>& levels)
       : controller_(controller),
         levels_(levels),
         grouping_(grouping),
+        choices_(choices),
         boxes_(grouping),
         pair_(controller, boxes_, grouping.size()),
         independent_(controller.engine->row_words()),
         posts_(*controller.engine, levels),
         free_(controller, hull, posts_),
         members_(controller.engine->row_words()),
+        forbidden_(controller.engine->row_words()),
         masks_(grouping.size()) {}
 
   void enter() { posts_.enter(); }
@@ -80,6 +83,7 @@ class Projections::Builder {
     }
     found.is_product = is_product;
     found.packed = packed_;
+    if (choices_.find(place, groups_, masks_, work_, forbidden_)) found.forbidden = forbidden_;
     return found;
   }
 
@@ -166,6 +170,8 @@ class Projections::Builder {
   const Controller& controller_;
   const LevelRows<Level>& levels_;
   const ActionGrouping& grouping_;
+  const ForbiddenChoices& choices_;
+  ForbiddenChoices::Workspace work_;
   RowBoxes boxes_;
   PairProjection pair_;
   bool is_simple_ = false;  ///< all joint posts of the row are boxes, and everything is allowed
@@ -177,6 +183,7 @@ class Projections::Builder {
   TupleWalk tuple_;
   RowBox box_;
   std::vector<Word> members_;
+  std::vector<Word> forbidden_;
   std::vector<std::vector<Word>> masks_;
   std::vector<std::uint8_t> known_;
   std::vector<Word> packed_;
@@ -191,10 +198,11 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
   const RowEngine& engine = *controller.engine;
   number_rows_of(*controller.invariant, engine.share());
   stores_.resize(static_cast<std::size_t>(team.size()));
+  const ForbiddenChoices choices(grouping, team);
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<Builder<Level>> builders;
-    for (int w = 0; w < team.size(); ++w) builders.emplace_back(controller, grouping, hull, levels);
+    for (int w = 0; w < team.size(); ++w) builders.emplace_back(controller, grouping, choices, hull, levels);
     for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
       Builder<Level>& builder = builders[static_cast<std::size_t>(worker)];
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
@@ -204,7 +212,9 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
         if (number == kNothing || of(place.row).row != place.row) continue;
         Found& found = found_[number - 1];
         found = builder.project(place);
-        found.packed = stores_[static_cast<std::size_t>(worker)].keep(found.packed);
+        Store& store = stores_[static_cast<std::size_t>(worker)];
+        found.packed = store.keep(found.packed);
+        found.forbidden = store.keep(found.forbidden);
       }
     });
   });

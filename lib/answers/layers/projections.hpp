@@ -51,6 +51,10 @@ class Projections {
   /// For IndependentPosts::unpack(). Boxes are those of a row that is the same, seen from itself: they lie
   /// somewhere else by shift(). REQUIRES: form(row) is `product`.
   [[nodiscard]] ConstRow packed(std::int64_t row) const { return of(row).packed; }
+  /// The cells of the row where IND_C holds a joint input that is forbidden; empty if there are none.
+  [[nodiscard]] ConstRow forbidden(std::int64_t row) const {
+    return number_[static_cast<std::size_t>(row)] == kNothing ? ConstRow() : of(row).forbidden;
+  }
   /// @returns whether boxes have to be moved at all
   bool find_shift(std::int64_t row, std::vector<std::int32_t>& shift) const {
     if (of(row).row == row) return false;
@@ -80,7 +84,8 @@ class Projections {
     std::int64_t row = 0;
     bool is_product = false;
     bool is_full = false;
-    std::span<const Word> packed = {};  ///< masks: groups of class 0, then of class 1, ...
+    std::span<const Word> packed = {};     ///< masks: groups of class 0, then of class 1, ...
+    std::span<const Word> forbidden = {};  ///< see Projections::forbidden()
   };
 
   [[nodiscard]] const Found& of(std::int64_t row) const {

@@ -17,4 +17,10 @@ struct StoredPartition {
   [[nodiscard]] bool truncated() const { return fixed_point_index < 0; }
 };
 
+/// /layers/PARTITION: T(k) is cell[start[k]], ..., cell[start[k + 1] - 1].
+struct StoredLayers {
+  std::vector<std::uint64_t> start;
+  std::vector<std::uint64_t> cell;
+};
+
 }  // namespace coordreq

@@ -72,8 +72,9 @@ class NetworkChecker : public CellChecker {
   void compare(std::size_t mode, bool claimed) {
     const std::vector<std::int64_t>& choices = choices_[network_.partition_of[mode]];
     const bool expected =
-        !choices.empty() && std::all_of(choices.begin(), choices.end(),
-                                        [&](std::int64_t u) { return is_inside(u, network_.target[mode]); });
+        !choices.empty() && std::all_of(choices.begin(), choices.end(), [&](std::int64_t u) {
+          return !cell_->is_forbidden(u) && is_inside(u, network_.target[mode]);
+        });
     if (claimed == expected) return;
     doubt(mode, claimed ? "safe, but agents may leave" : "not safe, but agents cannot leave");
   }

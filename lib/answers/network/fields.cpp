@@ -1,8 +1,11 @@
 #include "answers/network/fields.hpp"
 
+#include <fmt/format.h>
+
 #include "answers/field_arrays.hpp"
 #include "answers/field_parts.hpp"
 #include "answers/network/answer.hpp"
+#include "answers/network/network_meaning.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -14,6 +17,7 @@ Fields network_fields(const ProblemSpec& spec) {
   const std::size_t count = modes.size();
   return {name_scale("/mode", FieldSection::names, std::move(modes), "mode of the network"),
           {.path = paths::kNetworkSafe,
+           .kind = FieldKind::set,
            .section = FieldSection::maps,
            .types = {ElementType::uint8},
            .axes = cell_axes("/mode", spec),
@@ -21,7 +25,12 @@ Fields network_fields(const ProblemSpec& spec) {
            .attributes = described("from here the agents stay safe if the network is in this mode") +
                          counted_cells(count) +
                          std::vector<FieldAttribute>{flags({{0, "not_safe"}, {1, "safe"}})},
-           .shown = {.map = {.values = FieldMap::Values::members, .kind = "modes"}}}};
+           .shown = {.asked = {.name = "safe_modes",
+                               .words = "safe in",
+                               .heading = fmt::format("network {}: {}", network_kind_name(spec.network->kind),
+                                                      network_meaning(*spec.network)),
+                               .entry = "mode"},
+                     .map = {.kind = "modes"}}}};
 }
 
 void fill_network_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {

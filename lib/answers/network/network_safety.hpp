@@ -50,11 +50,12 @@ struct NetworkWatch {
 /// From which cells the agents stay safe in each mode, whatever the network does from there on. With T(q) the
 /// intersection of W(q') over the successors q' of q:
 /// - usually the greatest W with W(q) = {x in K : empty != f(x,u) subset of T(q) for all u in IND_C(x)},
-///   IND_C that of q's partition. The operator is monotone, so that any order of work gives the same;
+///   IND_C that of q's partition, and f(x,u) empty where u is forbidden (see ForbiddenChoices). The operator
+///   is monotone, so that any order of work gives the same;
 /// - `resynthesise`: agents restrict themselves to C_q(x) = {u allowed : empty != f(x,u) subset of T(q)}.
 ///   From W(q) = K on, synchronously, W(q) <- W(q) n {x : C_q(x) != empty, IND(C_q)(x) subset of C_q(x)}
 ///   until nothing changes. Sound, as the last W is a fixed point; perhaps not the largest, as the operator
-///   is not monotone. Where everything is allowed it has all cells of the W above: at those C_q = C = IND_C
+///   is not monotone. Without a controller file it has all cells of the W above: at those C_q = C = IND_C
 ///   in every iteration, since T(q) lies between that of the W above and K.
 ///
 /// Memory: a set of cells for each mode (`resynthesise`: up to two), a byte a cell, and the projections of C

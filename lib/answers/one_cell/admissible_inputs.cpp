@@ -116,7 +116,7 @@ bool AdmissibleInputs::is_allowed(std::int64_t x, std::int64_t u) {
 }
 
 bool AdmissibleInputs::allows(std::int64_t x, std::int64_t u) {
-  return (!allow_ || is_allowed(x, u)) && (!sets_.listed || sets_.listed(x, u));
+  return !forbids(x, u) && (!sets_.listed || sets_.listed(x, u));
 }
 
 /// The component's states under `u`; nothing if blocked. `given` does not ask: all moves are alike.

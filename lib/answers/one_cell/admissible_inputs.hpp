@@ -41,6 +41,8 @@ class AdmissibleInputs {
   [[nodiscard]] const std::vector<std::int64_t>& of(std::int64_t x);
   /// Whether `allow` permits u at any cell x of the grid, and `controller.file` lists it.
   [[nodiscard]] bool allows(std::int64_t x, std::int64_t u);
+  /// Whether `allow` does not permit it; what the file does not list is not forbidden.
+  [[nodiscard]] bool forbids(std::int64_t x, std::int64_t u) { return allow_ && !is_allowed(x, u); }
 
  private:
   using Box = std::vector<IndexRange>;  ///< of some states

@@ -9,14 +9,15 @@
 #include "answers/requirements/fields.hpp"
 #include "answers/requirements/judge_requirements.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/requirement_kind.hpp"
 
 namespace coordreq {
 namespace {
 
 const char* end_word(EscapeEnd end) {
-  constexpr std::array<const char*, 7> kWords{"outside_safe_set",  "left_domain", "unsafe_between_samples",
+  constexpr std::array<const char*, 8> kWords{"outside_safe_set",  "left_domain", "unsafe_between_samples",
                                               "no_allowed_action", "arrived",     "never_arrives",
-                                              "time_lost"};
+                                              "time_lost",         "not_allowed"};
   return kWords[static_cast<std::size_t>(end)];
 }
 
@@ -49,7 +50,7 @@ Json sample_json(const ResultPath& path, std::size_t sample, RequirementKind kin
   Json json;
   json["state"] = state_json(path, sample, spec);
   json["cell"] = path.cell[sample];
-  put_value(json, requirement_value_name(kind), kind, path.delay[sample]);
+  put_value(json, traits(kind).value, kind, path.delay[sample]);
   json["collision_time"] = time == DelayLayers::kUnbounded ? Json() : Json(time);
   return json;
 }
@@ -93,15 +94,6 @@ Json story_json(const ResultPath& path, RequirementKind kind, const ProblemSpec&
   return json;
 }
 
-std::string requirement_value_name(RequirementKind kind) {
-  if (kind == RequirementKind::max_arrival) return "arrival";
-  return kind == RequirementKind::min_approach_delay ? "approach_delay" : "delay";
-}
-
-std::string requirement_worst_name(RequirementKind kind) {
-  return (kind == RequirementKind::max_arrival ? "longest_" : "least_") + requirement_value_name(kind);
-}
-
 Json delay_json(std::int32_t delay) {
   return delay < 0 || delay == DelayLayers::kUnbounded ? Json() : Json(delay);
 }
@@ -119,15 +111,15 @@ Json requirement_json(const ResultRequirement& result, const RequirementSpec& as
   Json json;
   json["name"] = result.name;
   json["holds"] = result.holds;
-  json["kind"] = requirement_kind_name(asked.kind);
+  json["kind"] = traits(asked.kind).key;
   json["partition"] =
       asked.partition ? Json(spec.coordination.partitions[static_cast<std::size_t>(*asked.partition)].name)
                       : Json();
   json["min_delay"] = Json();
-  if (asked.kind != RequirementKind::invariant) json[requirement_kind_name(asked.kind)] = asked.steps;
+  if (asked.kind != RequirementKind::invariant) json[traits(asked.kind).key] = asked.steps;
   json["cells"] = result.cells;
   json["failing"] = result.failing;
-  put_value(json, requirement_worst_name(asked.kind), asked.kind, result.least_delay);
+  put_value(json, traits(asked.kind).worst(), asked.kind, result.least_delay);
   json["reaches_outside"] = side_json(result.reached_side, spec);
   json["counterexample"] = result.holds ? Json() : counterexample_json(result, asked.kind, spec);
   return json;
@@ -163,7 +155,7 @@ void tell_requirements(const ProblemSpec& spec, const FieldSource& source, Json&
     const RequirementKind kind = spec.requirements[r].kind;
     Json& json = info["requirements"].emplace_back(
         Json{{"name", own.name}, {"holds", own.holds}, {"cells", own.cells}, {"failing", own.failing}});
-    put_value(json, requirement_worst_name(kind), kind, own.least_delay);
+    put_value(json, traits(kind).worst(), kind, own.least_delay);
     json["counterexample_steps"] = own.path ? Json(own.path->steps()) : Json();
   }
 }

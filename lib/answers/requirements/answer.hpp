@@ -27,10 +27,6 @@ struct RequirementVerdicts {
                                     const ProblemSpec& spec);
 /// The counterexample of a requirement of this kind, step by step.
 [[nodiscard]] Json story_json(const ResultPath& path, RequirementKind kind, const ProblemSpec& spec);
-/// What a requirement judges states by, "delay", "arrival" or "approach_delay", and its key for the worst of
-/// them: "least_delay", "longest_arrival", "least_approach_delay".
-[[nodiscard]] std::string requirement_value_name(RequirementKind kind);
-[[nodiscard]] std::string requirement_worst_name(RequirementKind kind);
 /// A delay as in `/delay`: the number of steps, else null.
 [[nodiscard]] Json delay_json(std::int32_t delay);
 /// "steps", "unbounded", "not_invariant", "not_safe" or "goal_cannot_be_forced".

@@ -28,7 +28,7 @@ std::int64_t rank_by_definition(RequirementKind kind, std::int32_t value) {
 struct Bounds {
   std::uint64_t sure = 0, possible = 0;
   std::uint64_t sure_failing = 0, possible_failing = 0;
-  std::uint64_t open_failing = 0;  ///< neither sure nor shown to be apart
+  std::uint64_t doubted_failing = 0;  ///< not counted, but not shown to be apart
   Rank sure_worst{INT64_MAX, kForever, INT64_MAX};
   std::int64_t sure_least = INT64_MAX, possible_least = INT64_MAX;  ///< ranks
 
@@ -37,7 +37,7 @@ struct Bounds {
     possible += other.possible;
     sure_failing += other.sure_failing;
     possible_failing += other.possible_failing;
-    open_failing += other.open_failing;
+    doubted_failing += other.doubted_failing;
     sure_worst = std::min(sure_worst, other.sure_worst);
     sure_least = std::min(sure_least, other.sure_least);
     possible_least = std::min(possible_least, other.possible_least);
@@ -50,7 +50,7 @@ class RequirementChecker {
       : ground_(ground),
         asked_(ground.spec->requirements[number]),
         claim_(ground.claims->requirements[number]),
-        region_(*ground.spec, asked_.where, *ground.grid, team),
+        region_(*ground.spec, asked_.where, *ground.grid, ground.claims->same_version, team),
         tally_("requirement " + asked_.name) {}
 
   Finding run(ThreadTeam& team) {
@@ -61,7 +61,7 @@ class RequirementChecker {
     const bool holds = claim_.failing == 0 && !claim_.reached_side;
     if (claim_.holds != holds) wrong("the verdict does not follow from what is said");
     // The analysis had to show that such a cell does not meet the region, which is not shown here.
-    if (claim_.failing == 0 && bounds.open_failing > 0) tally_.add_unproven();
+    if (claim_.failing == 0 && bounds.doubted_failing > 0) tally_.add_unproven();
     if (claim_.path.has_value() != (claim_.failing > 0)) wrong("a counterexample without a failing cell");
     if (claim_.path) check_path(*claim_.path, bounds);
     return tally_.finding();
@@ -99,11 +99,12 @@ class RequirementChecker {
     const std::int32_t value = value_at(x);
     const std::int64_t rank = rank_by_definition(asked_.kind, value);
     const bool failing = fails(value);
+    if (failing && meeting != Meeting::counted) ++bounds.doubted_failing;
+    if (meeting == Meeting::doubted) return;
     ++bounds.possible;
     bounds.possible_failing += failing ? 1 : 0;
     bounds.possible_least = std::min(bounds.possible_least, rank);
-    if (meeting == Meeting::open && failing) ++bounds.open_failing;
-    if (meeting != Meeting::common) return;
+    if (meeting != Meeting::counted) return;
     ++bounds.sure;
     bounds.sure_least = std::min(bounds.sure_least, rank);
     if (!failing) return;
@@ -150,7 +151,7 @@ class RequirementChecker {
     const std::uint64_t first = path.cell.front();
     const auto cell = static_cast<std::int64_t>(first);
     const std::int32_t value = value_at(first);
-    if (region_.of(cell) == Meeting::off) wrong("the counterexample begins outside the region");
+    if (region_.of(cell) < Meeting::perhaps) wrong("the counterexample begins outside the region");
     if (!fails(value)) wrong("the counterexample begins in a cell that does not fail");
     if (value != claim_.least_delay) wrong("the counterexample begins with another value than the worst");
     if (Rank(rank_by_definition(asked_.kind, value), ground_.claims->collision_time[first], cell) >

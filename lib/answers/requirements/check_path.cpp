@@ -154,6 +154,7 @@ void PathChecker::check_evasive(std::size_t step, std::int64_t u) {
 }
 
 void PathChecker::check_next(std::size_t step, std::int64_t u) {
+  if (cell_.is_forbidden(u)) return differs(step, "goes on with a joint input that is forbidden");
   if (is_blocked(u) || !cell_.is_way_safe(u)) return differs(step, "goes on where there is no post");
   if (!is_in_post(u, static_cast<std::int64_t>(path_->cell[step + 1])))
     differs(step, "the next cell is not in the post");
@@ -162,6 +163,10 @@ void PathChecker::check_next(std::size_t step, std::int64_t u) {
 /// The last action leads nowhere.
 void PathChecker::check_last_step(std::int64_t u) {
   const std::size_t step = path_->steps() - 1;
+  if ((path_->end == EscapeEnd::not_allowed) != cell_.is_forbidden(u))
+    return differs(step, cell_.is_forbidden(u) ? "the last joint input is forbidden, but the end is another"
+                                               : "the last joint input is not forbidden");
+  if (path_->end == EscapeEnd::not_allowed) return;
   if (path_->end >= EscapeEnd::arrived) return;  // all has left through a `goal` side, or a `safe` one
   if (path_->end == EscapeEnd::unsafe_between_samples) {
     if (is_blocked(u) || cell_.is_way_safe(u)) differs(step, "the way to the next sample is safe");
@@ -183,7 +188,7 @@ void PathChecker::check_end() {
     bool any = false;
     for (std::int64_t u = 0; safe && u < ground_.inputs->count() && !any; ++u) any = cell_.is_allowed(u);
     if (!stays || !safe || any) wrong(path_->samples(), "in the last cell something is allowed");
-  } else if (path_->end >= EscapeEnd::arrived) {
+  } else if (path_->end >= EscapeEnd::arrived && path_->end != EscapeEnd::not_allowed) {
     check_goal_end();
   } else if (stays) {
     wrong(path_->samples(), "the end is another");

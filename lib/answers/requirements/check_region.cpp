@@ -4,10 +4,11 @@
 #include <cmath>
 #include <optional>
 
+#include "answers/checking/cell_parts.hpp"
 #include "answers/checking/corner_truth.hpp"
+#include "expression/condition.hpp"
 #include "expression/evaluate.hpp"
 #include "model/odometer.hpp"
-#include "model/pieces.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -25,42 +26,58 @@ Program negation_of(const Program& condition) {
 /// Looks at one box after the other; scratch of one thread.
 class BoxJudge {
  public:
-  BoxJudge(const Program& where, const Program& negation, const std::vector<std::size_t>& states)
-      : rough_(where), exact_(where), nowhere_(negation, states) {}
+  BoxJudge(const Program& where, const Program& negation, const std::vector<std::size_t>& states,
+           bool same_version)
+      : decider_(where), nowhere_(negation, states), same_version_(same_version) {}
 
   [[nodiscard]] Meeting judge(const Box& box) {
     std::vector<Interval> rough;
     for (const RationalInterval& range : box) rough.push_back(enclose(range));
-    Truth truth = rough_.condition(rough);
-    if (truth == Truth::undecided) truth = exact_.condition(box);
-    if (truth != Truth::undecided) return truth == Truth::yes ? Meeting::common : Meeting::off;
-    switch (nowhere_.everywhere(box)) {
-      case Truth::yes:
-        return Meeting::apart;
-      case Truth::no:
-        return Meeting::common;
-      default:
-        return Meeting::open;
-    }
+    const Truth told = decider_.decide(std::span<const Interval>(rough),
+                                       [&] { return std::span<const RationalInterval>(box); });
+    if (told == Truth::yes) return Meeting::counted;
+    const Truth nowhere = nowhere_.everywhere(box);
+    if (nowhere == Truth::no) return Meeting::counted;
+    if (told == Truth::undecided) return same_version_ ? Meeting::counted : Meeting::perhaps;
+    return nowhere == Truth::yes ? Meeting::off : Meeting::doubted;
   }
 
  private:
-  Evaluator<Interval> rough_;
-  Evaluator<RationalInterval> exact_;
+  ConditionDecider decider_;
   CornerTruth nowhere_;
+  bool same_version_;
 };
 
-/// Halves a box in the coordinates t of x = t / (1 - |t|), which make the whole line finite.
+/// Where a state can be while another one is outside; without an end where it is not bounded.
+struct Extent {
+  std::optional<Rational> lower, upper;
+
+  [[nodiscard]] Interval rough() const {
+    return {lower ? lower_double(*lower) : -outward::kInfinity,
+            upper ? upper_double(*upper) : outward::kInfinity};
+  }
+  [[nodiscard]] RationalInterval exact() const {
+    if (!lower || !upper) return {.bounded = false};
+    return {.lower = *lower, .upper = *upper};
+  }
+};
+
+/// Halves a box in the coordinates t of x = t / (1 - |t|), which make the whole line finite. What
+/// doubles leave open is asked again of the exact ends of the states that are bounded.
 class CompactSearch {
  public:
   static constexpr int kMostBoxes = 4096;
 
-  explicit CompactSearch(const Program& where) : evaluator_(where), variables_(where.variables()) {}
+  explicit CompactSearch(const Program& where)
+      : rough_(where), exact_(where), variables_(where.variables()) {}
 
-  [[nodiscard]] bool is_empty(const std::vector<Interval>& box) {
+  [[nodiscard]] bool is_empty(const std::vector<Extent>& box) {
     boxes_left_ = kMostBoxes;
     std::vector<Interval> compact;
-    for (const Interval& range : box) compact.push_back({to_compact(range.lower), to_compact(range.upper)});
+    for (const Extent& extent : box) {
+      const Interval range = extent.rough();
+      compact.push_back({to_compact(range.lower), to_compact(range.upper)});
+    }
     return visit(box, compact, 0);
   }
 
@@ -72,34 +89,46 @@ class CompactSearch {
   }
   static double from_compact(double t) { return t / (1.0 - std::abs(t)); }
 
-  bool visit(std::vector<Interval> box, std::vector<Interval> compact, std::size_t depth) {
-    const Truth truth = evaluator_.condition(box);
+  [[nodiscard]] Truth judge(const std::vector<Extent>& box) {
+    std::vector<Interval> rough;
+    std::vector<RationalInterval> exact;
+    for (const Extent& extent : box) {
+      rough.push_back(extent.rough());
+      exact.push_back(extent.exact());
+    }
+    const Truth truth = rough_.condition(rough);
+    return truth == Truth::undecided ? exact_.condition(exact) : truth;
+  }
+
+  bool visit(std::vector<Extent> box, std::vector<Interval> compact, std::size_t depth) {
+    const Truth truth = judge(box);
     if (truth != Truth::undecided) return truth == Truth::no;
     if (--boxes_left_ <= 0 || variables_.empty()) return false;
     const std::uint32_t slot = variables_[depth % variables_.size()];
     const double middle = (compact[slot].lower + compact[slot].upper) / 2;
     const double cut = from_compact(middle);
-    const Interval range = box[slot];
+    const Interval range = box[slot].rough();
     const Interval compact_range = compact[slot];
     if (!(range.lower < cut && cut < range.upper))
       return range.is_point() && visit_others(box, compact, depth);
-    box[slot].upper = cut;
+    const Extent whole = box[slot];
+    box[slot].upper = exact(cut);
     compact[slot].upper = middle;
     if (!visit(box, compact, depth + 1)) return false;
-    box[slot] = {cut, range.upper};
+    box[slot] = {exact(cut), whole.upper};
     compact[slot] = {middle, compact_range.upper};
     return visit(box, compact, depth + 1);
   }
 
   /// A variable that is a point cannot be halved; the next one may.
-  bool visit_others(const std::vector<Interval>& box, const std::vector<Interval>& compact,
-                    std::size_t depth) {
+  bool visit_others(const std::vector<Extent>& box, const std::vector<Interval>& compact, std::size_t depth) {
     const bool all_points = std::all_of(variables_.begin(), variables_.end(),
-                                        [&box](std::uint32_t slot) { return box[slot].is_point(); });
+                                        [&box](std::uint32_t slot) { return box[slot].rough().is_point(); });
     return !all_points && visit(box, compact, depth + 1);
   }
 
-  Evaluator<Interval> evaluator_;
+  Evaluator<Interval> rough_;
+  Evaluator<RationalInterval> exact_;
   std::vector<std::uint32_t> variables_;
   int boxes_left_ = 0;
 };
@@ -108,16 +137,11 @@ bool ends_at_limit(Outside side) {
   return side == Outside::saturate || side == Outside::stop || side == Outside::periodic;
 }
 
-/// Where a state can be while another one is outside; without an end where it is not bounded.
-struct Extent {
-  std::optional<Rational> lower, upper;
-};
-
 Extent extent_of(const GridDimension& dimension) {
   if (dimension.periodic()) return {dimension.lower, dimension.upper};
   Extent extent;
-  if (ends_at_limit(dimension.below)) extent.lower = pieces(dimension, 0).front().lower;
-  if (ends_at_limit(dimension.above)) extent.upper = pieces(dimension, dimension.count - 1).back().upper;
+  if (ends_at_limit(dimension.below)) extent.lower = parts_of(dimension, 0).front().lower;
+  if (ends_at_limit(dimension.above)) extent.upper = parts_of(dimension, dimension.count - 1).back().upper;
   return extent;
 }
 
@@ -178,7 +202,7 @@ bool reaches_a_sample(const Program& where, const UniformGrid& grid, const std::
 }  // namespace
 
 RegionJudge::RegionJudge(const ProblemSpec& spec, const Program& where, const UniformGrid& grid,
-                         ThreadTeam& team)
+                         bool same_version, ThreadTeam& team)
     : grid_(&grid) {
   std::vector<std::vector<std::vector<RationalInterval>>> places;  // [state mentioned][index][piece]
   std::vector<std::int64_t> counts;
@@ -190,14 +214,16 @@ RegionJudge::RegionJudge(const ProblemSpec& spec, const Program& where, const Un
     auto& indices = places.emplace_back();
     for (std::int64_t k = 0; k < grid[slot].count; ++k) {
       auto& parts = indices.emplace_back();
-      for (const Piece& piece : pieces(grid[slot], k))
-        parts.push_back({.lower = piece.lower, .upper = piece.upper});
+      for (const RationalInterval& part : parts_of(grid[slot], k)) {
+        const bool is_seam = !parts.empty() && part.lower == part.upper;  // the lower end of the next cell
+        if (!is_seam) parts.push_back(part);
+      }
     }
   }
   meetings_.assign(static_cast<std::size_t>(choices), Meeting::off);
   const Program negation = negation_of(where);
   team.for_each(choices, 256, [&](ThreadTeam::Range range, int) {
-    BoxJudge judge(where, negation, states_);
+    BoxJudge judge(where, negation, states_, same_version);
     Box box(spec.slot_count());
     Odometer choice(counts, range.begin);
     for (std::int64_t c = range.begin; c < range.end; ++c, choice.advance()) {
@@ -211,7 +237,7 @@ RegionJudge::RegionJudge(const ProblemSpec& spec, const Program& where, const Un
           box[states_[s]] = places[s][static_cast<std::size_t>(choice[s])][static_cast<std::size_t>(part[s])];
         }
         most = std::max(most, judge.judge(box));
-      } while (most != Meeting::common && part.advance());
+      } while (most != Meeting::counted && part.advance());
       meetings_[static_cast<std::size_t>(c)] = most;
     }
   });
@@ -223,14 +249,11 @@ Reach reach_beyond(const ProblemSpec& spec, const Program& where, const UniformG
   for (std::size_t i = 0; i < grid.size(); ++i)
     extents.push_back(i == side.state ? outside_of(grid[i], side.above) : extent_of(grid[i]));
   std::vector<Interval> box(spec.slot_count());
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    box[i].lower = extents[i].lower ? lower_double(*extents[i].lower) : -outward::kInfinity;
-    box[i].upper = extents[i].upper ? upper_double(*extents[i].upper) : outward::kInfinity;
-  }
+  for (std::size_t i = 0; i < grid.size(); ++i) box[i] = extents[i].rough();
   const Truth whole = Evaluator<Interval>(where).condition(box);
   if (whole != Truth::undecided) return whole == Truth::yes ? Reach::reached : Reach::never;
   if (reaches_a_sample(where, grid, extents)) return Reach::reached;
-  return CompactSearch(where).is_empty(box) ? Reach::not_far : Reach::open;
+  return CompactSearch(where).is_empty(extents) ? Reach::not_far : Reach::open;
 }
 
 }  // namespace coordreq

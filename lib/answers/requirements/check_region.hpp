@@ -11,18 +11,22 @@
 
 namespace coordreq {
 
-/// What is found about a cell and the region of a requirement.
+/// What is found about a cell and the region of a requirement. How hard the analysis tries to tell them apart
+/// decides which cells it counts; that it tells no more apart than are is checked.
 enum class Meeting : std::uint8_t {
-  off,     ///< natural interval evaluation shows that they do not meet: the cell must not be counted
-  apart,   ///< they do not, but that takes more to see: the cell may be counted
-  open,    ///< neither shown nor refuted: the cell may be counted
-  common,  ///< they have a point in common: the cell must be counted
+  off,      ///< they do not meet: the cell must not be counted
+  doubted,  ///< nor must this one, since the analysis tells them apart, but here that is neither shown nor
+            ///< refuted
+  perhaps,  ///< they do not, or are not told apart: the cell may be counted, if another version did
+  counted,  ///< they have a point in common, or are not told apart: the cell must be counted
 };
 
 /// All cells and one region (contract, section 2, `where`), remembered for the states that `where` mentions.
 class RegionJudge {
  public:
-  RegionJudge(const ProblemSpec& spec, const Program& where, const UniformGrid& grid, ThreadTeam& team);
+  /// @param same_version the file is written by this version of the program, which tells apart what it told
+  RegionJudge(const ProblemSpec& spec, const Program& where, const UniformGrid& grid, bool same_version,
+              ThreadTeam& team);
 
   [[nodiscard]] Meeting of(std::int64_t cell) const {
     std::int64_t number = 0;

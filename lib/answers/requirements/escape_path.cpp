@@ -116,6 +116,7 @@ class EscapeFinder {
     std::int64_t joint_input = 0;
     std::int64_t level = kNeverLost;
     CellPost post;
+    bool is_forbidden = false;
   };
 
   AdmissibleInputs::Sets members() {
@@ -186,12 +187,14 @@ class EscapeFinder {
     posts_.move_to(cell);
     for (std::int64_t u = 0; u < posts_.inputs().count(); ++u) {
       if (!choices[static_cast<std::size_t>(u)]) continue;
+      const bool is_forbidden = inputs_.forbids(cell, u);
       const CellPost post = posts_.post(u, tubes_);
-      if (post.blocked == CellPost::Blocked::no && progress_.worst(cell, u) < arrival(cell)) continue;
+      const bool is_blocked = is_forbidden || post.blocked != CellPost::Blocked::no;
+      if (!is_blocked && progress_.worst(cell, u) < arrival(cell)) continue;
       path_.joint_inputs.push_back(u);
       path_.phases.push_back(EscapePhase::approaching);
-      if (post.blocked != CellPost::Blocked::no) {
-        end_at_block(post);
+      if (is_blocked) {
+        end_at_block(post, is_forbidden);
         return false;
       }
       path_.end = EscapeEnd::time_lost;
@@ -205,7 +208,9 @@ class EscapeFinder {
     return false;
   }
 
-  void end_at_block(const CellPost& post) {
+  void end_at_block(const CellPost& post, bool is_forbidden) {
+    path_.end = EscapeEnd::not_allowed;
+    if (is_forbidden) return;
     const bool left = post.blocked == CellPost::Blocked::left_domain;
     path_.end = left ? EscapeEnd::left_domain : EscapeEnd::unsafe_between_samples;
     path_.sides = post.sides;
@@ -238,7 +243,8 @@ class EscapeFinder {
     for (std::int64_t u = 0; u < posts_.inputs().count(); ++u) {
       if (!is_candidate(u)) continue;
       Choice choice{.joint_input = u, .post = posts_.post(u, tubes_)};
-      choice.level = worst_level(choice.post, levels, known);
+      choice.is_forbidden = inputs_.forbids(path_.cells.back(), u);
+      choice.level = choice.is_forbidden ? 0 : worst_level(choice.post, levels, known);
       if (target == kLeast ? !best || choice.level < best->level : choice.level == target) {
         best = std::move(choice);
       }
@@ -270,8 +276,8 @@ class EscapeFinder {
     }
     path_.joint_inputs.push_back(choice->joint_input);
     path_.phases.push_back(phase);
-    if (choice->post.blocked != CellPost::Blocked::no) {
-      end_at_block(choice->post);
+    if (choice->is_forbidden || choice->post.blocked != CellPost::Blocked::no) {
+      end_at_block(choice->post, choice->is_forbidden);
       return false;
     }
     path_.cells.push_back(

@@ -16,7 +16,7 @@ namespace coordreq {
 /// time on the way to the goal, or never get there.
 struct EscapePath {
   /// Visited; each but the first is in f(the cell before, the joint input before). One more than there are
-  /// steps, unless the last action leads nowhere (`left_domain`, `unsafe_between_samples`).
+  /// steps, unless the last action leads nowhere (`left_domain`, `unsafe_between_samples`, `not_allowed`).
   std::vector<std::int64_t> cells;
   std::vector<std::int64_t> joint_inputs;  ///< one a step
   std::vector<EscapePhase> phases;         ///< one a step
@@ -45,7 +45,7 @@ struct EscapeSets {
 ///
 /// - From x in K with delay k, k + 1 steps lead out of K, and fewer cannot: each takes the lowest-numbered u
 ///   in IND_C(x) that may lead to delay k - 1, and there the lowest-numbered such cell. With k = 0 it is the
-///   u that leads out of K to the least collision time.
+///   u that leads out of K to the least collision time, which is 0 where it is blocked, or forbidden.
 /// - From x outside K, collision_time(x) steps lead out of S, the worst successor each time: C can do no
 ///   better. The lowest-numbered u, and the lowest-numbered successor, of those that are equal.
 /// - `max_arrival`, from x in K: all take the lowest-numbered u of least worst arrival, the world the

@@ -3,6 +3,7 @@
 #include "answers/field_parts.hpp"
 #include "answers/goal/fields.hpp"
 #include "answers/layers/delay_layers.hpp"
+#include "answers/layers/forbidden_choices.hpp"
 #include "answers/requirements/answer.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -76,6 +77,7 @@ std::vector<FieldFlag> end_flags(const ProblemSpec& spec) {
                                    {3, "unsafe_between_samples"},
                                    {4, "no_allowed_action"}};
   if (spec.goal) result.insert(result.end(), {{5, "arrived"}, {6, "never_arrives"}, {7, "time_lost"}});
+  if (allow_joins_agents(spec)) result.push_back({8, "not_allowed"});
   return result;
 }
 

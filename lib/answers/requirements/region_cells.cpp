@@ -14,6 +14,14 @@ RationalInterval exact_range(const Piece& piece) {
   return {.lower = piece.lower, .upper = piece.upper};
 }
 
+/// What a state can be where the cell is measured. One that ends at a seam ends in front of it: the seam is
+/// the lower end of the period, and of the next cell.
+std::vector<Piece> measured_pieces(const GridDimension& dimension, std::int64_t k) {
+  std::vector<Piece> parts = pieces(dimension, k);
+  if (parts.size() > 1 && parts.back().lower == parts.back().upper) parts.pop_back();
+  return parts;
+}
+
 /// What the states that `where` mentions can be in each of their cells.
 struct Ranges {
   std::vector<std::uint32_t> states;                              // mentioned, ascending
@@ -28,7 +36,7 @@ struct Ranges {
       auto& hulls = hull.emplace_back();
       for (std::int64_t k = 0; k < grid[i].count; ++k) {
         std::vector<RationalInterval>& parts = indices.emplace_back();
-        for (const Piece& piece : pieces(grid[i], k)) parts.push_back(exact_range(piece));
+        for (const Piece& piece : measured_pieces(grid[i], k)) parts.push_back(exact_range(piece));
         RationalInterval whole = parts.front();
         for (const RationalInterval& part : parts) whole = coordreq::hull(whole, part);
         hulls.push_back(enclose(whole));

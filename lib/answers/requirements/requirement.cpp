@@ -6,6 +6,8 @@
 #include "answers/goal/arrival.hpp"
 #include "answers/goal/fields.hpp"
 #include "engine/row_operations.hpp"
+#include "spec/problem_spec.hpp"
+#include "spec/requirement_kind.hpp"
 
 namespace coordreq {
 namespace {
@@ -65,13 +67,13 @@ std::int32_t CellRequirement::value_of(std::int64_t cell) const {
 }
 
 bool fails(RequirementKind kind, std::int64_t steps, std::int32_t value) {
-  return value < 0 || (kind == RequirementKind::max_arrival ? value > steps : value < steps);
+  return value < 0 || (traits(kind).is_upper_limit ? value > steps : value < steps);
 }
 
 std::int64_t rank_of(RequirementKind kind, std::int32_t value) {
   if (value == kOutsideWinning) return -1;
   if (value < 0) return INT64_MIN + 2 + value;
-  return kind == RequirementKind::max_arrival ? -std::int64_t{value} : std::int64_t{value};
+  return traits(kind).is_upper_limit ? -std::int64_t{value} : std::int64_t{value};
 }
 
 CellVerdict judge_cells(const CellSet& region, const UniformGrid& grid, const CellRequirement& requirement,

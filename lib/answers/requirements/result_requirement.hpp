@@ -29,6 +29,7 @@ enum class EscapeEnd : std::uint8_t {
   arrived,                 ///< in the goal, later than was asked for
   never_arrives,           ///< a cell comes again, or all has left safely: the goal cannot be forced
   time_lost,               ///< the last cell is not nearer to the goal than the one before
+  not_allowed,             ///< the last action takes of each class what it may do, and `allow` forbids it
 };
 
 /// One end of one state.

@@ -39,12 +39,13 @@ TEST(PairTable, HasThePairsThatAreListedAndAllowed) {
         if (*rc::gen::inRange(0, 3) < density) listed.set(x, u);
       }
     }
-    const std::optional<PairTable> table = allow_table(spec, system, team, &listed);
+    const PairRules rules = pair_rules(spec, system, team, &listed);
+    RC_ASSERT(rules.permitted.has_value() == !all);
     for (std::int64_t x = 0; x < system.grid.cells(); ++x) {
       for (std::int64_t u = 0; u < inputs; ++u) {
         const bool allowed =
             all || system.grid.index(x, 0) + system.inputs.index(u, 0) >= 2 || system.inputs.index(u, 1) > 3;
-        const ConstRow row = table->row(x / length, u);
+        const ConstRow row = rules.admissible()->row(x / length, u);
         const auto column = static_cast<std::size_t>(x % length);
         RC_ASSERT((row[column / 64] >> (column % 64) & 1U) == (allowed && listed.test(x, u) ? 1U : 0U));
       }
@@ -56,7 +57,7 @@ TEST(PairTable, IsNoneWhereEverythingIsAdmissible) {
   ThreadTeam team(1);
   const ProblemSpec spec = problem(5, "true");
   const Abstraction system{.grid = make_grid(spec), .inputs = make_input_space(spec)};
-  EXPECT_FALSE(allow_table(spec, system, team).has_value());
+  EXPECT_EQ(pair_rules(spec, system, team).admissible(), nullptr);
 }
 
 }  // namespace

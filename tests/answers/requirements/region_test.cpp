@@ -72,6 +72,26 @@ TEST(RegionOutside, TheOuterFaceBelongsToTheOutside) {
   EXPECT_EQ(side(region("1 <= x <= 4.4 and 1 <= y <= 3")), "");
 }
 
+/// Faces that are no doubles: y from -1.7 to 0.3 in three points ends at 0.8, and begins at -2.2.
+std::string side_of_tenths(const std::string& where, const std::string& x = R"("outside": "unsafe")") {
+  ProblemSpec spec = region(where, x);
+  spec.states[1].grid = {Rational(-17, 10), 1, 3};
+  return side(spec);
+}
+
+TEST(RegionOutside, BeginsExactlyAtTheFace) {
+  EXPECT_EQ(side_of_tenths("1 <= x <= 3 and -2.2 < y < 0.8"), "");
+  EXPECT_EQ(side_of_tenths("1 <= x <= 3 and -2.2 <= y < 0.8"), "y below");
+  EXPECT_EQ(side_of_tenths("1 <= x <= 3 and -2.2 < y <= 0.8"), "y above");
+  EXPECT_EQ(side_of_tenths("1 <= x <= 3 and not (y >= 0.8 or y <= -2.2)"), "");
+  EXPECT_EQ(side_of_tenths("1 <= x <= 3 and 0 < y + 2.2 and 10*y < 8"), "");
+  EXPECT_EQ(side_of_tenths("1 <= x <= 3 and abs(y + 0.7) < 1.5"), "");
+  EXPECT_EQ(side_of_tenths("1 <= x <= 3 and abs(y + 0.7) <= 1.5"), "y below");
+  EXPECT_EQ(side_of_tenths("1 <= x <= 3 and (y + 0.7)^2 < 2.25 and y*y*y < 0.512"), "");
+  // Whatever x is: it has no bound of its own.
+  EXPECT_EQ(side_of_tenths("x^2 <= 9 + y and -2.2 < y < 0.8", R"("outside": "safe")"), "");
+}
+
 TEST(RegionOutside, WhatMayBeMeasuredThereCounts) {
   const std::string error = R"("measurement_error": 0.25)";
   EXPECT_EQ(side(region("1 <= x <= 4.3 and 1 <= y <= 3", error)), "x above");
@@ -118,6 +138,21 @@ TEST(Region, CellsThatTouchItBelongToIt) {
   EXPECT_EQ(cells(region("x > 7")), "00000 00000 00000 00000 00000");
 }
 
+/// Faces that are no doubles: cells of y are [0.25, 0.35], [0.35, 0.45], ...
+TEST(Region, ComparisonsAtFacesAreExact) {
+  const auto rows = [](const std::string& where) {
+    ProblemSpec spec = region(where);
+    spec.states[1].grid = {Rational(3, 10), Rational(1, 10), 5};
+    return cells(spec);
+  };
+  EXPECT_EQ(rows("x < 0.5 and 0.45 < y < 0.55"), "00100 00000 00000 00000 00000");
+  EXPECT_EQ(rows("x < 0.5 and 0.45 <= y < 0.55"), "01100 00000 00000 00000 00000");
+  EXPECT_EQ(rows("x <= 0.5 and 0.45 < y <= 0.55"), "00110 00110 00000 00000 00000");
+  EXPECT_EQ(rows("x < 0.5 and not (y <= 0.45 or 0.55 <= y)"), "00100 00000 00000 00000 00000");
+  EXPECT_EQ(rows("x < 0.5 and abs(y - 0.5) < 0.05"), "00100 00000 00000 00000 00000");
+  EXPECT_EQ(rows("x < 0.5 and (y - 0.5)*(y - 0.5) < 0.0025"), "00100 00000 00000 00000 00000");
+}
+
 TEST(Region, IsWidenedByMeasurementErrors) {
   EXPECT_EQ(cells(region("1.6 <= x <= 2 and 1 <= y <= 1", R"("measurement_error": 0.25)")),
             "00000 01000 01000 00000 00000");
@@ -125,6 +160,13 @@ TEST(Region, IsWidenedByMeasurementErrors) {
 
 TEST(Region, PeriodicCellsAreBothOfTheirPieces) {
   EXPECT_EQ(cells(region("x >= 3.7 and y <= 0", kPeriodic)), "10000 00000 00000 00000");
+}
+
+TEST(Region, ACellThatEndsAtTheSeamEndsInFrontOfIt) {
+  const std::string error =
+      kPeriodic + R"(, "measurement_error": 0.5)";  // cell 3 is [2, 4], and cell 1 [0, 2]
+  EXPECT_EQ(cells(region("x <= 0.1 and y <= 0", error)), "10000 10000 00000 00000");
+  EXPECT_EQ(cells(region("x >= 3.9 and y <= 0", error)), "10000 00000 00000 10000");
 }
 
 int draw(int low, int high) {

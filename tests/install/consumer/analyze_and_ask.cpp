@@ -25,16 +25,17 @@ void ask(const std::string& path, const std::string& state) {
   coordreq::ThreadTeam team;
   coordreq::StateQuery query(results, team);
   const coordreq::StateAnswer answer = query.at(coordreq::parse_state(state, names, "STATE"));
-  if (!answer.invariant) {
+  if (answer.location.kind != coordreq::Location::Kind::cell || answer.value("/invariant") == 0) {
     std::cout << state << ": not in the invariance set\n";
     return;
   }
-  for (std::size_t p = 0; p < answer.partitions.size(); ++p) {
+  for (std::size_t p = 0; p < results.partitions().size(); ++p) {
+    const std::int32_t delay = answer.value("/delay", p);
     std::cout << state << ", " << results.partitions()[p].name << ": ";
-    if (answer.partitions[p].delay == coordreq::ResultsReader::kNever) {
+    if (delay == coordreq::ResultsReader::kNever) {
       std::cout << "any number of steps of silence\n";
     } else {
-      std::cout << answer.partitions[p].delay << " steps of silence\n";
+      std::cout << delay << " steps of silence\n";
     }
   }
 }

@@ -1,0 +1,87 @@
+#include "answers/convention/policy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "answers/convention/convention.hpp"
+#include "answers/convention/fields.hpp"
+#include "answers/goal/policy.hpp"
+#include "base/grouped.hpp"
+#include "base/index.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+class ConventionPolicy : public CellPolicy {
+ public:
+  explicit ConventionPolicy(const PolicyGround& ground)
+      : joint_inputs_(ground.posts->inputs().count()),
+        way_(ground.spec->goal ? make_goal_policy(ground) : nullptr) {}
+
+  bool holds(std::int64_t /*cell*/) override { return true; }
+
+  const Numbers& together(std::int64_t cell, const Numbers& admissible) override {
+    return way_ && way_->holds(cell) ? way_->together(cell, admissible) : admissible;
+  }
+
+  std::vector<Numbers> alone(std::int64_t /*cell*/, std::int32_t /*countdown*/, const Numbers& together,
+                             const std::vector<InputClass>& classes) override {
+    std::vector<bool> inputs(at(joint_inputs_), false);
+    for (const std::int64_t u : together) inputs[at(u)] = true;
+    std::vector<Numbers> actions;
+    for (const std::vector<bool>& own : convention_at(inputs, classes)) {
+      Numbers& numbers = actions.emplace_back();
+      for (std::size_t a = 0; a < own.size(); ++a) {
+        if (own[a]) numbers.push_back(static_cast<std::int64_t>(a));
+      }
+    }
+    return actions;
+  }
+
+ private:
+  std::int64_t joint_inputs_;
+  std::unique_ptr<CellPolicy> way_;
+};
+
+}  // namespace
+
+AnswerPolicy convention_policy() {
+  return {.name = "convention",
+          .words = "actions",
+          .is_by_agent = true,
+          .make = [](const PolicyGround& ground) -> std::unique_ptr<CellPolicy> {
+            return std::make_unique<ConventionPolicy>(ground);
+          },
+          .stored = [](const ProblemSpec& spec, const PartitionSpec& /*partition*/,
+                       std::size_t agent) { return paths::convention(spec.agents[agent]); }};
+}
+
+Explained explain_convention(const ExplainGround& ground) {
+  Explained result{.key = "convention", .found = std::make_shared<Json>(Json::array())};
+  if (ground.delay < 0) return result;
+  const std::vector<std::vector<bool>> actions = ground.actions(convention_policy());
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    const std::string& agent = ground.spec->agents[i].name;
+    const auto kept = std::count(actions[i].begin(), actions[i].end(), true);
+    result.found->push_back({{"agent", agent}, {"kept", kept}, {"total", actions[i].size()}});
+    parts.push_back(fmt::format("{} {} of {}", agent, grouped(std::int64_t{kept}),
+                                grouped(std::uint64_t{actions[i].size()})));
+  }
+  if (!ground.is_bounded) return result;
+  result.sentences = {
+      fmt::format("With a convention (\"convention\": true) agents would keep {} actions here, "
+                  "and agents that keep to it never need to coordinate.",
+                  listed_words(parts))};
+  return result;
+}
+
+std::vector<AnswerPolicy> convention_policies(const ProblemSpec& spec) {
+  if (!spec.coordination.convention) return {};
+  return {convention_policy()};
+}
+
+}  // namespace coordreq

@@ -1,0 +1,56 @@
+#include "answers/goal/policy.hpp"
+
+#include "answers/goal/arrival.hpp"
+#include "answers/goal/fields.hpp"
+#include "answers/one_cell/progress_inputs.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+class GoalPolicy : public CellPolicy {
+ public:
+  explicit GoalPolicy(const PolicyGround& ground)
+      : arrival_(ground.values(paths::kArrival)), progress_(*ground.spec, *ground.posts, arrival_) {}
+
+  bool holds(std::int64_t cell) override {
+    const std::int32_t arrival = arrival_(cell);
+    return arrival > 0 && arrival != kNeverArrives;
+  }
+  const Numbers& together(std::int64_t cell, const Numbers& admissible) override {
+    progressing_ = progress_.of(cell, admissible);
+    return progressing_;
+  }
+
+ private:
+  CellValue arrival_;
+  ProgressInputs progress_;
+  Numbers progressing_;  ///< P(x) of the cell at work
+};
+
+}  // namespace
+
+std::vector<AnswerPolicy> goal_policies(const ProblemSpec& spec) {
+  if (!spec.goal) return {};
+  return {{.name = "approach",
+           .words = "approach",
+           .gain = "loses no time",
+           .delay = paths::kApproachDelay,
+           .trigger = paths::kApproachTrigger,
+           .aim = {.path = paths::kArrival, .words = "steps within which the goal can be forced"},
+           .make = make_goal_policy,
+           .header = {.where = "on the way to the goal",
+                      .purpose = "Towards the goal. Where it cannot be forced, or is reached, the two below "
+                                 "are of no use: go on with the two\n   above.",
+                      .countdown = "Steps until the agents must start to connect, so as to lose no time, or "
+                                   "one of the numbers above.",
+                      .allowed = "Whether class c comes nearer to the goal by its joint action a, with some "
+                                 "actions of the others. Where the goal\n   cannot be forced, or is reached: "
+                                 "whether the action is allowed."}}};
+}
+
+std::unique_ptr<CellPolicy> make_goal_policy(const PolicyGround& ground) {
+  return std::make_unique<GoalPolicy>(ground);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,88 @@
+#include "answers/layers/forbidden_choices.hpp"
+
+#include <algorithm>
+
+#include "engine/action_sources.hpp"
+
+namespace coordreq {
+
+bool allow_joins_agents(const ProblemSpec& spec) {
+  if (!spec.controller.allow) return false;
+  const std::vector<std::uint32_t> used = spec.controller.allow->variables();
+  const auto is_used = [&](std::int32_t i) {
+    return std::ranges::binary_search(used, spec.input_slot(static_cast<std::size_t>(i)));
+  };
+  return std::ranges::count_if(spec.agents, [&](const AgentSpec& agent) {
+           return std::ranges::any_of(agent.inputs, is_used);
+         }) > 1;
+}
+
+ForbiddenChoices::ForbiddenChoices(const ActionGrouping& grouping, ThreadTeam& team) {
+  const RowEngine& engine = grouping.engine();
+  if (engine.permitted() == nullptr) return;
+  const ActionSource source = source_of(*engine.permitted(), engine.abstraction().inputs);
+  std::vector<InputClass> classes;
+  std::size_t joined = 0;
+  for (std::size_t c = 0; c < grouping.size(); ++c) {
+    classes.push_back(grouping[c]);
+    joined += std::ranges::any_of(source.inputs, [&](std::int32_t i) { return grouping[c].contains(i); });
+  }
+  if (joined < 2) return;
+  permitted_ = engine.permitted();
+  pairs_.emplace_back(engine, classes, std::vector<ActionSource>{source}, team);
+}
+
+bool ForbiddenChoices::find(const RowPlace& place, const RowGroups& groups,
+                            const std::vector<std::vector<Word>>& masks, Workspace& work,
+                            std::vector<Word>& found) const {
+  if (permitted_ == nullptr) return false;
+  const ActionGrouping& pairs = pairs_.front();
+  pairs.group(place, work.groups);
+  work.masks.resize(pairs.size());
+  work.open.resize(pairs.size() + 1);
+  for (std::size_t c = 0; c < pairs.size(); ++c) join_groups(c, *groups.classes[c], masks[c], work);
+  work.open.front().assign(found.size(), ~Word{0});
+  std::ranges::fill(found, Word{0});
+  add(0, pairs.sources().front().base(place), work, found);
+  return any_set(found);
+}
+
+/// Where any action of a group that `allow` does not tell apart is in the projection.
+void ForbiddenChoices::join_groups(std::size_t c, const ActionGroups& groups, const std::vector<Word>& masks,
+                                   Workspace& work) const {
+  const ActionGroups& own = *work.groups.classes[c];
+  const std::size_t words = pairs_.front().engine().row_words();
+  work.masks[c].assign(own.size() * words, 0);
+  work.joined.assign(own.size() * groups.size(), 0);
+  for (std::size_t a = 0; a < own.group_of.size(); ++a) {
+    const std::size_t to = own.group_of[a], from = groups.group_of[a];
+    std::uint8_t& is_joined = work.joined[to * groups.size() + from];
+    for (std::size_t w = 0; is_joined == 0 && w < words; ++w)
+      work.masks[c][to * words + w] |= masks[from * words + w];
+    is_joined = 1;
+  }
+}
+
+/// Adds the forbidden choices of class c and those after it, with what the others have chosen.
+/// @param position in the table, of that
+void ForbiddenChoices::add(std::size_t c, std::int64_t position, Workspace& work,
+                           std::vector<Word>& found) const {
+  const std::vector<Word>& open = work.open[c];
+  if (c == work.masks.size()) {
+    const ConstRow permitted = permitted_->row(position);
+    for (std::size_t w = 0; w < found.size(); ++w) found[w] |= open[w] & ~permitted[w];
+    return;
+  }
+  const ActionGroups& own = *work.groups.classes[c];
+  for (std::size_t g = 0; g < own.size(); ++g) {
+    std::vector<Word>& next = work.open[c + 1];
+    next.resize(found.size());
+    Word any = 0;
+    for (std::size_t w = 0; w < found.size(); ++w)
+      any |= next[w] = open[w] & work.masks[c][g * found.size() + w] & ~found[w];
+    if (any != 0)
+      add(c + 1, position + pairs_.front().contribution(c, 0, own.representative[g]), work, found);
+  }
+}
+
+}  // namespace coordreq

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace coordreq {
+
+/// What is no error and can mislead: a result that shows the grid rather than the system, a name that nothing
+/// uses. It never changes a result.
+struct Warning {
+  std::string kind;   ///< "grid", "unused", "motion", "blocked", "empty", "no_silence",
+                      ///< "goal" or "memory"
+  std::string place;  ///< JSON pointer
+  std::string text;   ///< one line
+};
+using Warnings = std::vector<Warning>;
+
+}  // namespace coordreq

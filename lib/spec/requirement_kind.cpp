@@ -1,0 +1,54 @@
+#include "spec/requirement_kind.hpp"
+
+#include <algorithm>
+
+namespace coordreq {
+
+const std::vector<RequirementTraits>& requirement_kinds() {
+  static const std::vector<RequirementTraits> kinds = {
+      {.kind = RequirementKind::min_delay,
+       .key = "min_delay",
+       .needs = "",
+       .value = "delay",
+       .is_upper_limit = false,
+       .claim = "delay of {partition} at least {steps}",
+       .failing = "has a delay of {steps}"},
+      {.kind = RequirementKind::invariant,
+       .key = "invariant",
+       .needs = "",
+       .value = "delay",
+       .is_upper_limit = false,
+       .claim = "in the invariance set",
+       .failing = "has a delay of {steps}"},
+      {.kind = RequirementKind::max_arrival,
+       .key = "max_arrival",
+       .needs = "goal",
+       .value = "arrival",
+       .is_upper_limit = true,
+       .claim = "in the goal after at most {steps}",
+       .failing = "takes {steps} to the goal"},
+      {.kind = RequirementKind::min_approach_delay,
+       .key = "min_approach_delay",
+       .needs = "goal",
+       .value = "approach_delay",
+       .is_upper_limit = false,
+       .claim = "approach delay of {partition} at least {steps}",
+       .failing = "has an approach delay of {steps}"},
+  };
+  return kinds;
+}
+
+const RequirementTraits& traits(RequirementKind kind) {
+  return requirement_kinds()[static_cast<std::size_t>(kind)];
+}
+
+std::string requirement_kind_name(RequirementKind kind) {
+  return traits(kind).key;
+}
+
+const RequirementTraits& requirement_traits(const std::string& key) {
+  return *std::find_if(requirement_kinds().begin(), requirement_kinds().end(),
+                       [&key](const RequirementTraits& own) { return own.key == key; });
+}
+
+}  // namespace coordreq

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spec/spec_types.hpp"
+
+namespace coordreq {
+
+/// What is true of all requirements of a kind.
+struct RequirementTraits {
+  RequirementKind kind;
+  std::string key;      ///< of the spec that stands for it
+  std::string needs;    ///< a key at the top of the spec without which it cannot be; empty: none
+  std::string value;    ///< what states are judged by: "delay", "arrival"
+  bool is_upper_limit;  ///< at most so many steps; else at least
+  // In words; {steps} stands for the steps, {partition} for the name of the partition.
+  std::string claim;    ///< what is asked of each cell: "delay of {partition} at least {steps}"
+  std::string failing;  ///< what is the matter with one: "has a delay of {steps}"
+
+  /// The key of the worst value: "least_delay", "longest_arrival".
+  [[nodiscard]] std::string worst() const { return (is_upper_limit ? "longest_" : "least_") + value; }
+};
+/// By number of the kind.
+[[nodiscard]] const std::vector<RequirementTraits>& requirement_kinds();
+[[nodiscard]] const RequirementTraits& traits(RequirementKind kind);
+/// REQUIRES: it is one.
+[[nodiscard]] const RequirementTraits& requirement_traits(const std::string& key);
+
+}  // namespace coordreq
