@@ -115,7 +115,11 @@ const Field& ResultsReader::field(const std::string& path) const {
 }
 
 std::size_t ResultsReader::leading_length(const Field& field) const {
-  return field.axes.size() > grid_.size() ? leading_names(field).size() : 0;
+  if (field.axes.size() <= grid_.size()) return 0;
+  // Of a field of bits the axis that is more comes last.
+  const auto& first = this->field(field.axes.front()).scale->coordinates;
+  const auto* const names = std::get_if<std::vector<std::string>>(&first);
+  return names == nullptr ? 0 : names->size();
 }
 
 const std::vector<std::string>& ResultsReader::leading_names(const Field& field) const {
