@@ -9,6 +9,7 @@
 #include "engine/level_kernels.hpp"
 #include "engine/limits.hpp"
 #include "reach/usual_offsets.hpp"
+#include "reach/usual_slices.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -48,6 +49,7 @@ EngineSizes::EngineSizes(const Model& model, RowPart part)
     : model_(&model),
       part_(std::move(part)),
       offsets_(usual_offsets(model.spec())),
+      widths_(usual_widths(model.spec())),
       grid_(join_rows(model, offsets_)) {
   part_.held = std::max(part_.held, 1 / in_double(grid_.rows()));
   part_.own = std::max(part_.own, 1 / in_double(grid_.rows()));
@@ -57,6 +59,8 @@ EngineSizes::EngineSizes(const Model& model, RowPart part)
     shape_.dimensions.push_back(
         {dimension.count, grid_.stride(i), margins, {dimension.below, dimension.above}});
   }
+  part_.slices.reserve(grid_.size());
+  for (std::size_t t = part_.slices.size(); t < grid_.size(); ++t) part_.slices.push_back(usual_bytes(t));
 }
 
 double EngineSizes::set() const {
@@ -70,10 +74,8 @@ double EngineSizes::levels() const {
   return (rows() + 1) * in_double((row + kAlign - 1) / kAlign * kAlign) + kLevelBlock;
 }
 
-double EngineSizes::slices(std::size_t t) const {
-  constexpr double kUsualSegments = 12;  // that a row is cut into where cells do not move alike
+double EngineSizes::usual_bytes(std::size_t t) const {
   constexpr double kBytesOfSlice = 240;  // its list, and where it stands while equal ones are looked for
-  if (!part_.slices.empty()) return part_.slices[t];
   const TableShape& shape = model_->arranged_shapes()[t];
   if (model_->keeps_sums() && shape.sum) return shape.bytes;  // the same numbers laid out for reading
   double choices = 1;
@@ -85,9 +87,14 @@ double EngineSizes::slices(std::size_t t) const {
     is_cut = is_cut || (is_along && !(i == t && shape.shift && !shape.sum));
   }
   for (const std::int32_t j : shape.inputs) choices *= in_double(model_->inputs()[at(j)].count());
-  const double segments = std::min(kUsualSegments, in_double(grid_.row_length()));
-  const double slice = is_cut ? segments * sizeof(RowSegment) + kBytesOfSlice : 0;
-  return part_of_table(t) * choices * (sizeof(std::uint32_t) + slice);
+  double bytes = choices * sizeof(std::uint32_t);
+  if (is_cut) {
+    const std::size_t state = grid_.state(t);
+    const UsualSlices usual =
+        usual_slices(model_->spec(), state, model_->shapes()[state], grid_.state(grid_.size() - 1));
+    bytes += std::min(usual.different, choices) * (usual.segments * sizeof(RowSegment) + kBytesOfSlice);
+  }
+  return part_of_table(t) * bytes;
 }
 
 double EngineSizes::part_of_table(std::size_t t) const {
@@ -199,15 +206,29 @@ double EngineSizes::readers(int threads) const {
     const double unit = levels() / in_double(grid_[0].count);
     return threads * (one + std::min(levels(), std::max(2 * unit, in_double(kSharedBytes))));
   }
-  constexpr double kUsualSlots = 40;
-  constexpr double kUsualSizes = 9;
-  constexpr double kUsualMargins = 14;
-  double block = 1;
+  return threads * (one + sum_reader());
+}
+
+/// SumReader: blocks for the ranges of the leading dimensions that a unit goes to, with what lies beyond.
+double EngineSizes::sum_reader() const {
+  constexpr double kUsualSizes = 2;  // of a box, in each dimension
+  constexpr double kUsualJoined = 8;
+  constexpr double kBytesOfMargin = 12;
+  double block = 1, inside = 1, sizes = 1, led = 1;
   for (std::size_t i = 0; i < grid_.size(); ++i) {
-    if (model_->arranged_shapes()[i].sum) block *= in_double(grid_[i].count) + kUsualMargins;
+    const TableShape& shape = model_->arranged_shapes()[i];
+    if (!shape.sum) {
+      for (const std::int32_t j : shape.inputs) led *= in_double(model_->inputs()[at(j)].count());
+      continue;
+    }
+    const double reach = widths_[grid_.state(i)] + most_wider(static_cast<std::int32_t>(grid_[i].count));
+    inside *= in_double(grid_[i].count);
+    block *= in_double(grid_[i].count) + 2 * (reach + 1);
+    sizes *= kUsualSizes;
   }
-  const double of_all_sizes = std::min(static_cast<double>(kBlockBytes), kUsualSlots * kUsualSizes * block);
-  return threads * (one + of_all_sizes + kJoinedBlocks * block);
+  const double fitting = std::max(2.0, static_cast<double>(kBlockBytes) / (sizes * block));
+  const double slots = std::min(led, fitting);
+  return (slots * sizes + kUsualJoined) * block + kBytesOfMargin * (block - inside);
 }
 
 double EngineSizes::wave(int threads) const {

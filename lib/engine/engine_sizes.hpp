@@ -41,7 +41,7 @@ class EngineSizes {
   [[nodiscard]] double set() const;     ///< CellSet
   [[nodiscard]] double levels() const;  ///< LevelRows of 8 bits
   /// RowSlices of the table of dimension t; and that table itself.
-  [[nodiscard]] double slices(std::size_t t) const;
+  [[nodiscard]] double slices(std::size_t t) const { return part_.slices[t]; }
   [[nodiscard]] double table(std::size_t t) const {
     return part_of_table(t) * model_->arranged_shapes()[t].bytes;
   }
@@ -65,6 +65,9 @@ class EngineSizes {
   [[nodiscard]] double recent_levels() const { return model_->keeps_sums() ? levels() + set() : 0; }
 
  private:
+  [[nodiscard]] double sum_reader() const;
+  /// Of slices, before they are known.
+  [[nodiscard]] double usual_bytes(std::size_t t) const;
   [[nodiscard]] double groups_of_class(const InputClass& inputs) const;
   [[nodiscard]] RowMargins reach_of(std::size_t i) const;
   /// That the process has: of tables by cells the entries of its own rows.
@@ -72,7 +75,8 @@ class EngineSizes {
 
   const Model* model_;
   RowPart part_;
-  std::vector<IndexRange> offsets_;  ///< by state, usual_offsets()
+  std::vector<IndexRange> offsets_;   ///< by state, usual_offsets()
+  std::vector<std::int32_t> widths_;  ///< by state, usual_widths()
   UniformGrid grid_;
   RowShape shape_;  ///< of the rows of posts
 };

@@ -31,4 +31,10 @@ inline constexpr std::size_t kBlockBytes = std::size_t{1} << 24;
 /// Blocks of one thread that are eroded by a single size, for bounds of several choices.
 inline constexpr std::size_t kJoinedBlocks = 128;
 
+/// By how many indices such a block's size may be wider than the widest box of one choice, on a side of so
+/// many: blocks have room for it beyond the domain, which must not cost more than it saves.
+[[nodiscard]] constexpr std::int32_t most_wider(std::int32_t count) {
+  return count < 32 ? count / 8 : 4;
+}
+
 }  // namespace coordreq

@@ -13,12 +13,6 @@ using Kind = RowSegment::Kind;
 
 constexpr std::size_t kMostSlots = 1024;
 
-/// By how many indices a joined box may be wider than the widest of one choice, on a side of so many: blocks
-/// have room for it beyond the domain, which must not cost more than it saves.
-std::int32_t most_wider(std::int32_t count) {
-  return std::min(4, count / 8);
-}
-
 /// A range that holds two, on a ring from an index of the domain on.
 IndexRange around_both(IndexRange one, IndexRange other, const GridDimension& dimension) {
   const auto n = static_cast<std::int32_t>(dimension.count);
@@ -95,7 +89,13 @@ template <class Level>
 void SumReader<Level>::find_margins() {
   const std::size_t outer = engine_.outer();
   const std::size_t inner = sides_.size();
+  std::int64_t cells = 1, in_domain = 1;
+  for (std::size_t i = 0; i < inner; ++i) {
+    in_domain *= sides_[i].count;
+    cells *= sides_[i].count + 2 * (reach_[i] + 1);
+  }
   std::vector<std::int32_t> index(inner);
+  margins_.reserve(static_cast<std::size_t>(cells - in_domain));
   for (std::size_t i = 0; i < inner; ++i) index[i] = -(reach_[i] + 1);
   for (std::int32_t cell = 0;; ++cell) {
     bool outside = false;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+
+#include "model/table_shape.hpp"
+#include "spec/spec_types.hpp"
+
+namespace coordreq {
+
+/// What a table says of the rows along one state: in how many pieces all of whose cells move alike, or to the
+/// same place, and how many rows are different.
+struct UsualSlices {
+  double segments = 1;   ///< of a row
+  double different = 1;  ///< rows, of all choices of other states and inputs that the table depends on
+};
+/// Draws rows, the same ones whenever it is asked, and encloses their posts roughly. Proves nothing; for
+/// estimates, on the high side where most drawn rows are different.
+/// @param shape of the table of `state` @param along the state along the rows, on which the table depends
+[[nodiscard]] UsualSlices usual_slices(const SystemSpec& spec, std::size_t state, const TableShape& shape,
+                                       std::size_t along);
+
+}  // namespace coordreq
