@@ -54,9 +54,10 @@ std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const
                                                   const AnalyzeOptions& asked, const std::string& prefix) {
   const Model model = make_model(spec);
   // Of several processes each knows what it holds only later.
-  if (asked.ranks == nullptr || asked.ranks->count() == 1)
-    check_memory(model, asked.memory(), asked.threads, asked.checkpoint.has_value());
-  ThreadTeam team(asked.threads);
+  const bool is_alone = asked.ranks == nullptr || asked.ranks->count() == 1;
+  ThreadTeam team(is_alone
+                      ? threads_within(model, asked.memory(), asked.threads, asked.checkpoint.has_value())
+                      : asked.threads);
   InterruptPolicy interrupts;
   ProgressDisplay shown(asked.progress, asked.quiet);
   AnalysisOptions options;

@@ -1,16 +1,11 @@
 #include "app/memory_limit.hpp"
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <thread>
-
-#include "base/sanitizers.hpp"
-#include "base/timer.hpp"
 
 namespace coordreq {
 namespace {
@@ -46,36 +41,6 @@ void lower_by_groups(std::optional<std::uint64_t>& limit, const fs::path& mount,
 }
 
 }  // namespace
-
-void hold_to_memory(std::uint64_t bytes, int threads) {
-  if (kIsSanitized) return;
-  constexpr std::uint64_t kAlwaysGranted = std::uint64_t{16} << 20U;
-  const std::uint64_t data = status_bytes("VmData");
-  if (data == 0) return;
-  // Data counts whether or not it is in memory yet; parts of the program and its libraries do not count.
-  const std::uint64_t untouched = data - std::min(data, status_bytes("RssAnon"));
-  const std::uint64_t program = std::min(bytes, status_bytes("RssFile"));
-  rlimit stack{};
-  if (getrlimit(RLIMIT_STACK, &stack) != 0) return;
-  constexpr std::uint64_t kUsualStack = std::uint64_t{8} << 20U;
-  constexpr std::uint64_t kArena = std::uint64_t{256} << 10U;  // what the allocator sets aside for a thread
-  const std::uint64_t of_thread = (stack.rlim_cur == RLIM_INFINITY ? kUsualStack : stack.rlim_cur) + kArena;
-  const auto all = threads > 0 ? static_cast<unsigned>(threads) : std::thread::hardware_concurrency();
-  const std::uint64_t stacks =
-      std::uint64_t{std::max(all, 1U) - 1} * of_thread;  // the first one does not count
-  rlimit limit{};
-  if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
-  const std::uint64_t counted = std::min(bytes, std::uint64_t{1} << 62U);
-  const std::uint64_t accepted = counted + counted / 10;  // estimates are no closer
-  const rlim_t wanted = std::max(accepted - program + untouched, data + kAlwaysGranted) + stacks;
-  limit.rlim_cur = std::min(limit.rlim_max, wanted);
-  static_cast<void>(setrlimit(RLIMIT_DATA, &limit));
-}
-
-bool is_held_to_memory() {
-  rlimit limit{};
-  return getrlimit(RLIMIT_DATA, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-}
 
 std::optional<std::uint64_t> available_memory() {
   std::optional<std::uint64_t> limit = physical_memory();

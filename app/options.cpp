@@ -4,13 +4,17 @@
 
 #include <CLI/CLI.hpp>
 
-#include "analysis/estimate_memory.hpp"
 #include "app/memory_limit.hpp"
 #include "app/option_values.hpp"
 #include "app/text.hpp"
 #include "base/error.hpp"
 
 namespace coordreq {
+namespace {
+
+constexpr double kReadingBytes = 1024 * 1024;  // buffers and tables of the smallest files
+
+}  // namespace
 
 void Options::argument(std::string& target, const char* name, const char* description, const char* takes) {
   Argument& own = arguments_.emplace_back(Argument{.name = name, .takes = takes, .one = &target});
@@ -69,16 +73,17 @@ std::optional<std::uint64_t> CommonOptions::memory() const {
   return memory;
 }
 
+void CommonOptions::hold_to_memory() const {
+  if (max_memory) coordreq::hold_to_memory(*max_memory);
+}
+
 void CommonOptions::keep_to_memory() const {
-  constexpr double kReadingBytes = 8.0 * 1024 * 1024;  // buffers and tables of the smallest files
-  if (!max_memory) return;
-  const double needed = memory_of_program() + kReadingBytes;
-  if (needed > static_cast<double>(*max_memory)) {
-    throw LimitError(fmt::format("reading results needs at least {} of memory, the limit is {}",
-                                 byte_size(static_cast<std::uint64_t>(needed)), byte_size(*max_memory)),
-                     "--max-memory");
-  }
-  hold_to_memory(*max_memory, threads);
+  expect_memory("reading results needs at least", kReadingBytes, max_memory);
+  hold_to_memory();
+}
+
+int CommonOptions::threads_for(const std::string& subject, const MemoryDemand& demand) const {
+  return threads_within(subject, demand, threads, memory());
 }
 
 void declare_threads(Options& options, int& threads, const char* description) {
@@ -91,7 +96,7 @@ void declare_common(Options& options, CommonOptions& common, const CommonUse& us
   if (use.memory)
     options.option(common.max_memory, "--max-memory", "SIZE",
                    "Refuse what would need more, as 500M or 1.5G (default: the memory of the machine)",
-                   memory_size);
+                   [](const auto& text, const auto& option) { return memory_size(text, option); });
   if (!use.answer) return;
   options.flag(common.json, "--json", "Print one JSON document instead of text");
   options.flag(common.quiet, "--quiet", "No text summary and no progress");

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/process_memory.hpp"
+
 namespace CLI {
 class App;
 class Option;
@@ -104,9 +106,13 @@ struct CommonOptions {
 
   /// What the work may use: --max-memory, else what the machine has for each of those that share it.
   [[nodiscard]] std::optional<std::uint64_t> memory() const;
-  /// For what reads results: from now on no more than --max-memory is taken, if it was given.
-  /// @throws LimitError if reading any file takes more
+  /// From now on no more than --max-memory is taken, if it was given.
+  void hold_to_memory() const;
+  /// For what reads results: the same. @throws LimitError if reading any file takes more
   void keep_to_memory() const;
+  /// Asks for room for what such work takes, with --threads or as many as there is room for:
+  /// threads_within().
+  [[nodiscard]] int threads_for(const std::string& subject, const MemoryDemand& demand) const;
 };
 
 /// Of the common options, --threads by itself.

@@ -9,10 +9,10 @@
 #include <string>
 #include <string_view>
 
-#include "app/memory_limit.hpp"
 #include "app/standard_streams.hpp"
 #include "app/text.hpp"
 #include "base/error.hpp"
+#include "base/process_memory.hpp"
 #include "spec/spec_errors.hpp"
 
 namespace coordreq {

@@ -5,7 +5,6 @@
 #include "app/analyze_run.hpp"
 #include "app/commands/all.hpp"
 #include "app/load_spec.hpp"
-#include "app/memory_limit.hpp"
 #include "app/option_values.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -13,7 +12,7 @@ namespace coordreq {
 namespace {
 
 ExitCode run(const AnalyzeOptions& own) {
-  if (own.max_memory) hold_to_memory(*own.max_memory, own.threads);
+  own.hold_to_memory();
   if (own.is_batch()) return run_analyze_batch(own);
   const ProblemSpec spec = load_spec(own.specs.front(), own.settings, own.memory());
   return analyze_and_print(spec, own);

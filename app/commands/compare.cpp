@@ -30,6 +30,8 @@ ExitCode run(const CompareArguments& own) {
   own.keep_to_memory();
   const ResultsReader before(own.before, own.max_memory);
   const ResultsReader after(own.after, own.max_memory);
+  static_cast<void>(
+      own.threads_for("comparing needs", {.once = before.reading_bytes() + after.reading_bytes()}));
   const ResultsComparison comparison = compare_with_progress(before, after, own);
   print_comparison(own, comparison, before, after, own.compare);
   return comparison.is_worse() ? ExitCode::requirement_failed : ExitCode::success;

@@ -48,7 +48,11 @@ class Blocks {
   std::string text_;
 };
 
-using Exporter = std::function<void(const TextSink&)>;
+/// What an export takes, and how it is done.
+struct Exporter {
+  double bytes = 0;
+  std::function<void(const TextSink&, ThreadTeam&)> write;
+};
 
 std::vector<std::string> partition_names(const ResultsReader& results) {
   std::vector<std::string> names;
@@ -86,10 +90,12 @@ TableSelection selection_of(const ExportOptions& own, const ResultsReader& resul
   return selection;
 }
 
-Exporter exporter(const ExportOptions& own, const ResultsReader& results, ThreadTeam& team) {
+Exporter exporter(const ExportOptions& own, const ResultsReader& results) {
   if (own.format == Format::csv) {
     const TableSelection selection = selection_of(own, results);
-    return [&results, selection](const TextSink& sink) { export_csv(results, selection, sink); };
+    return {CellTable::bytes(results, selection), [&results, selection](const TextSink& sink, ThreadTeam&) {
+              export_csv(results, selection, sink);
+            }};
   }
   if (own.format == Format::vtk) {
     if (!own.output || !own.output->ends_with(".vti")) {
@@ -98,17 +104,21 @@ Exporter exporter(const ExportOptions& own, const ResultsReader& results, Thread
                        "-o");
     }
     const TableSelection selection = selection_of(own, results);
-    return [&results, selection](const TextSink& sink) { export_vti(cell_image(results, selection), sink); };
+    return {image_bytes(results, selection), [&results, selection](const TextSink& sink, ThreadTeam&) {
+              export_vti(cell_image(results, selection), sink);
+            }};
   }
   refuse_selection(own);
   if (own.format == Format::scs) {
     if (own.partition)
       throw UsageError("scs holds the controller, which no partition changes", "--partition");
-    return [&](const TextSink& sink) { export_scots(results, team, sink); };
+    return {scots_bytes(results),
+            [&results](const TextSink& sink, ThreadTeam& team) { export_scots(results, team, sink); }};
   }
   const std::size_t partition = one_partition(own, results);
-  return
-      [&results, &team, partition](const TextSink& sink) { export_c_header(results, partition, team, sink); };
+  return {c_header_bytes(results), [&results, partition](const TextSink& sink, ThreadTeam& team) {
+            export_c_header(results, partition, team, sink);
+          }};
 }
 
 ExitCode run(const ExportOptions& own) {
@@ -116,12 +126,12 @@ ExitCode run(const ExportOptions& own) {
   if (own.output) check_output(own.results, *own.output, "the export");
   own.keep_to_memory();
   const ResultsReader results(own.results, own.max_memory);
-  ThreadTeam team(own.threads);
-  const Exporter write = exporter(own, results, team);
+  const Exporter wanted = exporter(own, results);
+  ThreadTeam team(own.threads_for("exporting needs", {.once = wanted.bytes}));
   std::optional<LateFile> file;
   if (own.output) file.emplace(*own.output, "the export");
   Blocks blocks([&file](std::string_view text) { file ? file->write(text) : write_output(text); });
-  write([&blocks](std::string_view text) { blocks.add(text); });
+  wanted.write([&blocks](std::string_view text) { blocks.add(text); }, team);
   blocks.flush();
   if (file) file->commit();
   return ExitCode::success;

@@ -83,6 +83,7 @@ struct ReportOptions : CommonOptions {
 ExitCode run(const ReportOptions& own) {
   own.keep_to_memory();
   const ResultsReader results(own.results, own.max_memory);
+  static_cast<void>(own.threads_for("a report needs", {.once = report_bytes(results)}));
   const std::string path = own.output.value_or(results.spec().name + ".html");
   check_output(own.results, path, "the report");
   LateFile file(path, "the report");

@@ -47,6 +47,8 @@ void check_complete(const SimulateOptions& own) {
 
 Simulation simulate_with_care(const ResultsReader& results, SimulationOptions& options,
                               const SimulateOptions& own) {
+  const std::string runs = fmt::format("{} runs of {} steps need", options.runs, options.steps);
+  ThreadTeam team(own.threads_for(runs, simulation_demand(results, options)));
   ProgressDisplay shown(own.progress, own.quiet);
   Progress progress;
   // A signal waits while there may be a temporary file; without one it ends the program at once.
@@ -61,7 +63,6 @@ Simulation simulate_with_care(const ResultsReader& results, SimulationOptions& o
       delay.emplace();
     }
   };
-  ThreadTeam team(own.threads);
   team.set_watch([&](std::int64_t done, std::int64_t all) {
     if (delay && is_interrupted()) throw Error(ExitCode::interrupted, "interrupted", "");
     progress.done = done;
@@ -81,7 +82,6 @@ ExitCode run(const SimulateOptions& own) {
   check_complete(own);
   if (own.simulation.output) check_output(own.results, *own.simulation.output, "the runs");
   SimulationOptions options = own.simulation;
-  options.max_memory = own.memory();
   own.keep_to_memory();
   const ResultsReader results(own.results, own.max_memory);
   const Simulation simulation = simulate_with_care(results, options, own);

@@ -10,7 +10,6 @@
 #include "answers/requirements/judge_requirements.hpp"
 #include "app/commands/all.hpp"
 #include "app/load_spec.hpp"
-#include "app/memory_limit.hpp"
 #include "app/option_values.hpp"
 #include "app/print_answer.hpp"
 #include "app/print_warnings.hpp"
@@ -174,15 +173,15 @@ struct ValidateOptions : CommonOptions {
 };
 
 ExitCode run(const ValidateOptions& own) {
-  if (own.max_memory) hold_to_memory(*own.max_memory, own.threads);
+  own.hold_to_memory();
   const std::optional<std::uint64_t> memory = own.memory();
   const ProblemSpec spec = load_spec(own.spec, own.settings, memory);
   const Model model = make_model(spec);
-  if (!own.ranks) check_memory(model, own.max_memory, own.threads, false);
-  const SpecReport report = inspect(model, own.threads);
+  const int threads = own.ranks ? own.threads : threads_within(model, own.max_memory, own.threads, false);
+  const SpecReport report = inspect(model, threads);
   Json found = report_json(report);
   if (!memory || report.memory_bytes <= *memory) {
-    ThreadTeam team(own.threads);
+    ThreadTeam team(threads);
     check_regions(spec, team);
     found["warnings"] = warnings_json(advise_before(model, team));
   } else {

@@ -40,7 +40,7 @@ ExitCode run(const VerifyArguments& own) {
   const Clock::time_point start = Clock::now();
   own.keep_to_memory();
   const ClaimedFile file = read_claims(own.results, own.memory());
-  ThreadTeam team(own.threads);
+  ThreadTeam team(own.threads_for("verifying needs", file.demand));
   const Verification result = verify_with_progress(file, own, team);
   print_verification(own, result, own.results, seconds_since(start), team.size());
   const bool passes = result.verdict() == Verdict::holds || (result.holds() && !own.strict);

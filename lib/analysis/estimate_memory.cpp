@@ -3,41 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <string>
-#include <thread>
 
 #include "answers/plan.hpp"
-#include "base/error.hpp"
 #include "base/grouped.hpp"
 #include "base/timer.hpp"
 #include "results/write_results.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
-namespace {
-
-/// Parts of the program and its libraries that come into memory only when they are used.
-constexpr double kProgramBytes = 8.5 * 1024 * 1024;
-/// What a thread takes before it does anything: the part of its stack that is touched, and what the allocator
-/// keeps for it.
-constexpr double kThreadBytes = 108.0 * 1024;
-
-std::string in_words(double bytes) {
-  const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB"};
-  std::size_t unit = 0;
-  while (bytes >= 1024 && unit + 1 < std::size(units)) {
-    bytes /= 1024;
-    ++unit;
-  }
-  return fmt::format("{:.1f} {}", bytes, units[unit]);
-}
-
-}  // namespace
-
-double memory_of_program() {
-  return static_cast<double>(resident_bytes()) + kProgramBytes;
-}
 
 double estimate_memory(const Model& model, int threads) {
   return std::max(static_cast<double>(peak_memory_bytes()),
@@ -45,9 +19,9 @@ double estimate_memory(const Model& model, int threads) {
 }
 
 double estimate_memory_of_rank(const Model& model, int threads, double before, const RowPart& part) {
-  const int team = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int team = all_threads(threads);
   const EngineSizes sizes(model, part);
-  double held = before + (team - 1) * kThreadBytes;
+  double held = before + memory_of_threads(team);
   double most = 0, written = 0, longest = 0;
   const auto add = [&](const MemoryNeed& need) {
     most = std::max(most, held + need.kept + need.work);
@@ -60,18 +34,28 @@ double estimate_memory_of_rank(const Model& model, int threads, double before, c
 }
 
 void check_memory_limit(const ProblemSpec& spec, double needed, double limit, const std::string& by_whom) {
-  if (needed <= limit) return;
   std::int64_t cells = 1;
   for (const StateSpec& state : spec.states) cells *= state.grid.count;
-  throw LimitError(fmt::format("{} cells need about {} of memory, {}the limit is {}", grouped(cells),
-                               in_words(needed), by_whom, in_words(limit)),
-                   "--max-memory");
+  check_memory_need(fmt::format("{} cells need", grouped(cells)), needed, limit, by_whom);
 }
 
-void check_memory(const Model& model, std::optional<std::uint64_t> limit, int threads, bool saves) {
-  if (!limit) return;
-  check_memory_limit(model.spec(), estimate_memory(model, threads) + (saves ? kCheckpointBytes : 0),
-                     static_cast<double>(*limit), "");
+int threads_within(const Model& model, std::optional<std::uint64_t> limit, int threads, bool saves) {
+  int most = all_threads(threads);
+  if (!limit) return most;
+  const auto most_bytes = static_cast<double>(*limit);
+  const auto need = [&](int team) { return estimate_memory(model, team) + (saves ? kCheckpointBytes : 0); };
+  if (need(most) <= most_bytes) return most;
+  check_memory_limit(model.spec(), need(1), most_bytes, "");
+  int least = 1;
+  while (least < most) {
+    const int middle = (least + most + 1) / 2;
+    if (need(middle) <= most_bytes) {
+      least = middle;
+    } else {
+      most = middle - 1;
+    }
+  }
+  return least;
 }
 
 }  // namespace coordreq

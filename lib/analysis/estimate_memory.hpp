@@ -4,15 +4,12 @@
 #include <optional>
 #include <string>
 
+#include "base/process_memory.hpp"
 #include "engine/engine_sizes.hpp"
 #include "model/model.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
-
-/// What this process holds now, and the parts of the program and its libraries that any work brings into
-/// memory, in bytes.
-[[nodiscard]] double memory_of_program();
 
 /// About the most that this process will hold at a time if it analyses the problem now, in bytes: what it
 /// holds already, with the spec as it was read, and what the types that will hold the rest tell of
@@ -34,8 +31,10 @@ inline constexpr double kCheckpointBytes = 4.5 * 1024 * 1024;
 /// @throws LimitError with the two if more is needed than the limit
 void check_memory_limit(const ProblemSpec& spec, double needed, double limit, const std::string& by_whom);
 
-/// @param saves whether the work will be saved in a checkpoint now and then
-/// @throws LimitError with the estimate if that is above the limit
-void check_memory(const Model& model, std::optional<std::uint64_t> limit, int threads, bool saves);
+/// How many threads may work: as many as were asked for, or, where memory is short, as many as there is room
+/// for. @param threads 0: all cores @param saves whether the work will be saved in a checkpoint now and then
+/// @throws LimitError with the estimate if there is no room for one
+[[nodiscard]] int threads_within(const Model& model, std::optional<std::uint64_t> limit, int threads,
+                                 bool saves);
 
 }  // namespace coordreq

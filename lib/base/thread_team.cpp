@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/process_memory.hpp"
+
 namespace coordreq {
 
 /// Waits a little while for what is about to happen: loops often follow one another within microseconds, and
@@ -127,6 +129,8 @@ ThreadTeam::ThreadTeam(int threads) : state_(std::make_unique<State>()) {
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int size = threads > 0 ? threads : cores;
   state_->threads.reserve(static_cast<std::size_t>(size - 1));
+  if (size == 1) return;
+  const LimitMove room_for_stacks;
   for (int worker = 1; worker < size; ++worker) {
     try {
       state_->threads.emplace_back([state = state_.get(), worker] { state->help(worker); });
@@ -138,6 +142,8 @@ ThreadTeam::ThreadTeam(int threads) : state_(std::make_unique<State>()) {
 }
 
 ThreadTeam::~ThreadTeam() {
+  if (state_->threads.empty()) return;
+  const LimitMove stacks_go;
   {
     const std::lock_guard lock(state_->mutex);
     state_->stopping = true;

@@ -1,10 +1,14 @@
 #include "cell/cell_controller.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "answers/invariance/fields.hpp"
 #include "answers/plan.hpp"
 #include "base/error.hpp"
 #include "base/index.hpp"
 #include "model/input_class.hpp"
+#include "reach/table_shapes.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"
 
@@ -25,13 +29,53 @@ CellPolicy::Numbers numbers_of(const std::vector<bool>& members) {
   return numbers;
 }
 
+/// Entries of tables, and of the largest, written out in full.
+std::pair<double, double> entries_of(const ResultsReader& results, const std::vector<TableShape>& shapes) {
+  double all = 0, most = 0;
+  for (const TableShape& shape : shapes) {
+    double own = 1;
+    for (const std::int32_t j : shape.states) own *= static_cast<double>(results.grid()[at(j)].count);
+    for (const std::int32_t j : shape.inputs) own *= static_cast<double>(results.inputs()[at(j)].count());
+    all += own;
+    most = std::max(most, own);
+  }
+  return {all, most};
+}
+
 /// Tubes are not stored.
+bool is_stored(const ResultsReader& results) {
+  return results.has_abstraction() && !results.spec().abstraction.between_samples;
+}
+
 std::optional<Abstraction> stored_abstraction(const ResultsReader& results) {
-  if (!results.has_abstraction() || results.spec().abstraction.between_samples) return std::nullopt;
+  if (!is_stored(results)) return std::nullopt;
   return results.abstraction();
 }
 
 }  // namespace
+
+double abstraction_bytes(const ResultsReader& results) {
+  const std::vector<TableShape> shapes = table_shapes(results.spec());
+  if (is_stored(results)) {
+    const auto [all, most] = entries_of(results, shapes);
+    return (all + most) * sizeof(IndexRange);  // and both ends of one while it is read
+  }
+  double bytes = 0;
+  for (const TableShape& shape : shapes) bytes += shape.bytes;
+  return results.spec().abstraction.between_samples ? 2 * bytes : bytes;
+}
+
+double controller_bytes(const ResultsReader& results, bool for_all_cells) {
+  constexpr double kBytesOfInput = 64;  // sets of them, and where their posts lie
+  const double inputs = kBytesOfInput * static_cast<double>(results.inputs().count());
+  const double sums = for_all_cells ? static_cast<double>(results.grid().cells()) : 0;
+  const double windows = results.spec().abstraction.between_samples ? 2 : 1;
+  const std::vector<TableShape> shapes = table_shapes(results.spec());
+  const bool is_whole =
+      for_all_cells || is_stored(results) ||
+      std::any_of(shapes.begin(), shapes.end(), [](const TableShape& shape) { return shape.sum; });
+  return inputs + windows * sums * (sizeof(std::int32_t) + 1) + (is_whole ? abstraction_bytes(results) : 0);
+}
 
 CellController::CellController(const ResultsReader& results, ThreadTeam& team)
     : results_(results),

@@ -21,6 +21,12 @@ namespace coordreq {
 /// Whether each class may take each of its actions: [class][action].
 using ActionSets = std::vector<std::vector<bool>>;
 
+/// Bytes of the finite abstraction of a file, as it is read or worked out whole.
+[[nodiscard]] double abstraction_bytes(const ResultsReader& results);
+/// What a CellController takes: at most, or where a cell and its like are asked for, with what the posts of
+/// one cell reach.
+[[nodiscard]] double controller_bytes(const ResultsReader& results, bool for_all_cells);
+
 /// The controller C(x) of a results file, and what policies leave of it to classes, one cell at a time
 /// (contract, "Controller", "Partition"): from the file where they are stored, else from the definition, with
 /// K from the file and posts and tubes from the embedded spec.

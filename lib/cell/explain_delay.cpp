@@ -18,11 +18,10 @@ constexpr std::int32_t kNever = ResultsReader::kNever;
 
 class Explainer {
  public:
-  Explainer(const ResultsReader& results, std::size_t partition, std::optional<std::uint64_t> max_memory,
-            ThreadTeam& team)
+  Explainer(const ResultsReader& results, std::size_t partition, ThreadTeam& team)
       : results_(results),
         partition_(partition),
-        sets_(results, partition, max_memory, team),
+        sets_(results, partition, team),
         controller_(results, team),
         posts_(*sets_.ground().abstraction),
         classes_(input_classes(results.spec(), results.inputs(),
@@ -156,9 +155,15 @@ class Explainer {
 
 }  // namespace
 
+MemoryDemand explain_demand(const ResultsReader& results) {
+  // Neighbours may be so many that all posts are worked out once more.
+  return {.once = results.reading_bytes() + FileSets::bytes(results) +
+                  std::max(controller_bytes(results, false), abstraction_bytes(results))};
+}
+
 DelayExplanation explain_delay(const ResultsReader& results, std::size_t partition, std::int64_t cell,
-                               std::optional<std::uint64_t> max_memory, ThreadTeam& team) {
-  return Explainer(results, partition, max_memory, team).run(cell);
+                               ThreadTeam& team) {
+  return Explainer(results, partition, team).run(cell);
 }
 
 }  // namespace coordreq

@@ -6,6 +6,7 @@
 
 #include "answers/one_cell/explain_ground.hpp"
 #include "answers/requirements/result_requirement.hpp"
+#include "base/process_memory.hpp"
 #include "base/thread_team.hpp"
 #include "results/results_reader.hpp"
 
@@ -45,11 +46,12 @@ struct DelayExplanation {
   std::optional<Neighbour> freer_is_shorter;  ///< the nearest, of equals in the first dimension, below first
 };
 
-/// @param cell its number in the spec's grid @param max_memory bytes that the program may take
+/// What it takes to explain a delay.
+[[nodiscard]] MemoryDemand explain_demand(const ResultsReader& results);
+/// @param cell its number in the spec's grid
 /// @throws as FileSets and CellController
 /// Cost: that of reading the arrays of the partition and of the abstraction, and of the way out.
 [[nodiscard]] DelayExplanation explain_delay(const ResultsReader& results, std::size_t partition,
-                                             std::int64_t cell, std::optional<std::uint64_t> max_memory,
-                                             ThreadTeam& team);
+                                             std::int64_t cell, ThreadTeam& team);
 
 }  // namespace coordreq

@@ -1,13 +1,9 @@
 #include "cell/file_sets.hpp"
 
-#include <fmt/format.h>
-
 #include "answers/invariance/fields.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/fields.hpp"
-#include "base/error.hpp"
-#include "base/grouped.hpp"
-#include "base/timer.hpp"
+#include "cell/cell_controller.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/make_model.hpp"
 #include "spec/problem_spec.hpp"
@@ -25,10 +21,16 @@ std::uint32_t level_of_steps(std::int32_t steps, std::int32_t first) {
 
 }  // namespace
 
-FileSets::FileSets(const ResultsReader& results, std::size_t partition,
-                   std::optional<std::uint64_t> max_memory, ThreadTeam& team)
+double FileSets::bytes(const ResultsReader& results) {
+  constexpr double kBytesOfCell = 2 * sizeof(std::uint32_t) + 1;  // two levels, narrowed after all, and sets
+  double of_cell = kBytesOfCell;
+  if (results.spec().controller.file)
+    of_cell += 2 * static_cast<double>(PackedPairs::bytes_for(results.inputs().count()));
+  return of_cell * static_cast<double>(results.grid().cells()) + abstraction_bytes(results);
+}
+
+FileSets::FileSets(const ResultsReader& results, std::size_t partition, ThreadTeam& team)
     : results_(results), model_(make_model(results.spec())), ground_(model_) {
-  check_memory(max_memory);
   // Tubes are not stored.
   const bool is_stored = results.has_abstraction() && !results.spec().abstraction.between_samples;
   ground_.abstraction =
@@ -36,20 +38,6 @@ FileSets::FileSets(const ResultsReader& results, std::size_t partition,
   read_cells(partition);
   if (results.spec().controller.file) read_listed();
   ground_.beyond = safe_beyond_limits(results.spec(), *ground_.abstraction, ground_.safe, team);
-}
-
-void FileSets::check_memory(std::optional<std::uint64_t> max_memory) const {
-  if (!max_memory) return;
-  double bytes = 9.0 * static_cast<double>(results_.grid().cells());
-  for (const TableShape& shape : model_.shapes()) bytes += shape.bytes;
-  if (results_.spec().controller.file)
-    bytes += static_cast<double>(results_.grid().cells()) *
-             static_cast<double>(PackedPairs::bytes_for(results_.inputs().count()));
-  if (bytes + static_cast<double>(resident_bytes()) <= static_cast<double>(*max_memory)) return;
-  throw LimitError(fmt::format("{} cells need about {:.0f} MiB of memory, the limit is {:.0f} MiB",
-                               grouped(results_.grid().cells()), bytes / 1048576,
-                               static_cast<double>(*max_memory) / 1048576),
-                   "--max-memory");
 }
 
 void FileSets::read_cells(std::size_t partition) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "answers/ground.hpp"
@@ -17,9 +16,11 @@ namespace coordreq {
 /// no engine.
 class FileSets {
  public:
-  /// @param max_memory bytes that the program may take. @throws LimitError; ResultsError; SpecError
-  FileSets(const ResultsReader& results, std::size_t partition, std::optional<std::uint64_t> max_memory,
-           ThreadTeam& team);
+  /// What an object takes.
+  [[nodiscard]] static double bytes(const ResultsReader& results);
+
+  /// @throws ResultsError; SpecError
+  FileSets(const ResultsReader& results, std::size_t partition, ThreadTeam& team);
 
   [[nodiscard]] const Ground& ground() const { return ground_; }
   [[nodiscard]] const Invariance& invariance() const { return invariance_; }
@@ -28,7 +29,6 @@ class FileSets {
   [[nodiscard]] std::vector<std::int64_t> number_stride() const;
 
  private:
-  void check_memory(std::optional<std::uint64_t> max_memory) const;
   void read_cells(std::size_t partition);
   void read_listed();
 

@@ -11,6 +11,7 @@
 #include "answers/layers/forbidden_choices.hpp"
 #include "answers/plan.hpp"
 #include "base/error.hpp"
+#include "cell/cell_controller.hpp"
 #include "cell/invariant_cells.hpp"
 #include "cell/state_text.hpp"
 #include "cell/write_runs.hpp"
@@ -125,30 +126,6 @@ std::vector<std::string> loop_paths(const std::vector<AnswerPolicy>& policies) {
   return paths;
 }
 
-/// Refuses up front what would not fit: delays, tables, traces.
-void check_simulation_memory(const ResultsReader& results, const SimulationOptions& options) {
-  const ProblemSpec& spec = results.spec();
-  const auto states = static_cast<double>(spec.states.size());
-  const auto disturbances = static_cast<double>(spec.disturbances.size());
-  const auto arrays = static_cast<double>(loop_paths(loop_policies(spec)).size());
-  double bytes = 32e6 + arrays * sizeof(std::int32_t) * static_cast<double>(results.grid().cells());
-  if (spec.controller.file) {
-    bytes += static_cast<double>(PackedPairs::bytes_for(results.inputs().count())) *
-             static_cast<double>(results.grid().cells());
-  }
-  const double tables = spec.abstraction.between_samples ? 2 : 1;  // of posts, of tubes
-  for (const TableShape& shape : table_shapes(spec)) bytes += tables * shape.bytes;
-  const double sample = sizeof(RunTrace::Sample) + 2 * (16 + 8 * states);
-  const double step = sizeof(RunTrace::Step) + (disturbances > 0 ? 16 + 8 * disturbances : 0);
-  bytes += static_cast<double>(options.runs) * (static_cast<double>(options.steps) + 1) * 2 * (sample + step);
-  if (!options.max_memory || bytes <= static_cast<double>(*options.max_memory)) return;
-  constexpr double kMebi = 1024 * 1024;
-  throw LimitError(fmt::format("{} runs of {} steps need about {:.0f} MiB of memory, the limit is {:.0f} MiB",
-                               options.runs, options.steps, bytes / kMebi,
-                               static_cast<double>(*options.max_memory) / kMebi),
-                   "--max-memory");
-}
-
 std::vector<std::int32_t> read_cells(const ResultsReader& results, const std::string& path,
                                      std::size_t partition) {
   const Field& field = results.field(path);
@@ -174,6 +151,24 @@ std::size_t find_partition(const ProblemSpec& spec, const std::string& name) {
                    "--partition");
 }
 
+MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOptions& options) {
+  const ProblemSpec& spec = results.spec();
+  const auto cells = static_cast<double>(results.grid().cells());
+  const auto states = static_cast<double>(spec.states.size());
+  const auto disturbances = static_cast<double>(spec.disturbances.size());
+  constexpr double kCopies = 2;  // of an array while it is read
+  const auto arrays = static_cast<double>(loop_paths(loop_policies(spec)).size());
+  double of_cell = (arrays + kCopies) * sizeof(std::int32_t);
+  if (spec.controller.file) of_cell += static_cast<double>(PackedPairs::bytes_for(results.inputs().count()));
+  const double sample = sizeof(RunTrace::Sample) + 2 * (16 + 8 * states);
+  const double step = sizeof(RunTrace::Step) + (disturbances > 0 ? 16 + 8 * disturbances : 0);
+  const double samples = static_cast<double>(options.runs) * (static_cast<double>(options.steps) + 1);
+  constexpr double kBytesOfInput = 64;  // what a thread knows of each at a cell
+  return {.once = results.reading_bytes() + of_cell * cells + abstraction_bytes(results) +
+                  2 * samples * (sample + step),
+          .of_thread = kBytesOfInput * static_cast<double>(results.inputs().count())};
+}
+
 Simulation simulate(const ResultsReader& results, const SimulationOptions& options, ThreadTeam& team) {
   const ProblemSpec& spec = results.spec();
   const std::size_t partition = find_partition(spec, options.partition);
@@ -187,7 +182,6 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
                            .until_goal = options.until_goal},
                   .runs = options.runs};
   if (options.start) runs.start = start_state(results, *options.start);
-  check_simulation_memory(results, options);
   const auto enter = [&options](const char* stage) {
     if (options.entered) options.entered(stage);
   };

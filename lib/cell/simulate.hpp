@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/process_memory.hpp"
 #include "base/thread_team.hpp"
 #include "cell/simulate_runs.hpp"
 #include "results/results_reader.hpp"
@@ -24,9 +25,8 @@ struct SimulationOptions {
   Disturbance disturbance = Disturbance::random;
   NamedValues constant_disturbance;  ///< those not named are in the middle of their ranges
   std::uint64_t seed = 1;
-  bool until_goal = false;                  ///< runs end where they reach the goal
-  std::optional<std::string> output;        ///< path of the file of runs
-  std::optional<std::uint64_t> max_memory;  ///< bytes
+  bool until_goal = false;            ///< runs end where they reach the goal
+  std::optional<std::string> output;  ///< path of the file of runs
   /// Told which stage begins: "checking", "running", "writing"; there are temporary files in all but
   /// "running". May be empty.
   std::function<void(const std::string& stage)> entered;
@@ -59,11 +59,13 @@ struct Simulation {
 /// @throws UsageError
 [[nodiscard]] std::size_t find_partition(const ProblemSpec& spec, const std::string& name);
 
+/// What these runs take, all of them kept.
+[[nodiscard]] MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOptions& options);
 /// Self-triggered closed loops on the system of a results file, from its K, its delays and its abstraction,
 /// which is built again unless it is stored. Writes them to `options.output`, also runs that contradict the
 /// analysis.
 /// @throws UsageError naming the option whose value does not fit the results; SpecError if the spec holds
-///   what this version cannot do; LimitError, ResultsError, IoError
+///   what this version cannot do; ResultsError, IoError
 [[nodiscard]] Simulation simulate(const ResultsReader& results, const SimulationOptions& options,
                                   ThreadTeam& team);
 

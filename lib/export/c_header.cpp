@@ -281,6 +281,12 @@ class HeaderWriter {
 
 }  // namespace
 
+double c_header_bytes(const ResultsReader& results) {
+  constexpr double kUsualRuns = 0.5;  // a cell
+  return results.reading_bytes() + controller_bytes(results, true) +
+         2 * kUsualRuns * sizeof(std::uint32_t) * static_cast<double>(results.grid().cells());
+}
+
 void export_c_header(const ResultsReader& results, std::size_t partition, ThreadTeam& team,
                      const TextSink& sink) {
   if (results.grid().cells() > std::numeric_limits<std::int32_t>::max()) {

@@ -18,5 +18,7 @@ namespace coordreq {
 /// @throws LimitError beyond 2^31 - 1 cells; ResultsError if the actions cannot be computed
 void export_c_header(const ResultsReader& results, std::size_t partition, ThreadTeam& team,
                      const TextSink& sink);
+/// What that takes.
+[[nodiscard]] double c_header_bytes(const ResultsReader& results);
 
 }  // namespace coordreq

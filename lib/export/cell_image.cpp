@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "numeric/rational.hpp"
+#include "results/chunk_codec.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/wording.hpp"
 
@@ -62,6 +63,16 @@ ResultArray as_numbers(std::shared_ptr<const Steps> steps) {
 }
 
 }  // namespace
+
+double image_bytes(const ResultsReader& results, const TableSelection& selection) {
+  double cells = 1;
+  for (const std::size_t i : drawn_states(results.grid(), selection))
+    cells *= static_cast<double>(results.grid()[i].count);
+  const auto columns = static_cast<double>(cell_columns(results, selection.partition).size());
+  constexpr double kUsualPacked = 2;  // of a number of eight bytes; all are kept until they are written
+  return CellTable::bytes(results, selection) + columns * cells * (sizeof(std::int32_t) + kUsualPacked) +
+         ChunkCodec::kBytes;
+}
 
 ImageContent cell_image(const ResultsReader& results, const TableSelection& selection) {
   const std::vector<std::size_t> drawn = drawn_states(results.grid(), selection);

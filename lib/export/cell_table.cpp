@@ -4,16 +4,19 @@
 #include <map>
 #include <utility>
 
+#include "base/process_memory.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
 
-/// Cells of which all columns are read at a time: they take half of the memory that reading may take.
+/// Cells of which all columns are read at a time: they take a quarter of what is left of the memory that
+/// reading may take.
 std::int64_t part_cells(std::optional<std::uint64_t> max_memory, std::size_t columns) {
   if (!max_memory) return kPartCells;
-  const std::uint64_t cells = *max_memory / 2 / (sizeof(std::int32_t) * columns);
-  return static_cast<std::int64_t>(std::clamp<std::uint64_t>(cells, 1, kPartCells));
+  const double left = static_cast<double>(*max_memory) - memory_of_program();
+  const double cells = left / 4 / static_cast<double>(sizeof(std::int32_t) * columns);
+  return static_cast<std::int64_t>(std::clamp<double>(cells, 1, kPartCells));
 }
 
 }  // namespace
@@ -42,6 +45,26 @@ std::vector<CellColumn> cell_columns(const ResultsReader& results, std::optional
     }
   }
   return columns;
+}
+
+double CellTable::bytes(const ResultsReader& results, const TableSelection& selection) {
+  const auto columns = static_cast<double>(cell_columns(results, selection.partition).size());
+  double left = 1, all = 1;
+  for (std::size_t i = 0; i < results.grid().size(); ++i) {
+    const auto is_this = [i](const auto& part) { return part.dimension == i; };
+    const auto count = static_cast<double>(results.grid()[i].count);
+    const bool is_sliced = std::ranges::any_of(selection.slices, is_this);
+    all *= is_sliced ? 1 : count;
+    // Projections of another kind come later.
+    const auto found = std::ranges::find_if(selection.projections, is_this);
+    const bool is_gone =
+        found != selection.projections.end() && found->largest == selection.projections.front().largest;
+    left *= is_sliced || is_gone ? 1 : count;
+  }
+  constexpr double kLeastPart = 4096;
+  const double projected = selection.projections.empty() ? 0 : left;
+  return results.reading_bytes() +
+         columns * sizeof(std::int32_t) * (projected + std::min<double>(all, kLeastPart));
 }
 
 CellTable::CellTable(const ResultsReader& results, TableSelection selection)

@@ -46,6 +46,9 @@ struct CellColumn {
 /// the first projections of one kind.
 class CellTable {
  public:
+  /// What it takes to go over the rows of a table.
+  [[nodiscard]] static double bytes(const ResultsReader& results, const TableSelection& selection);
+
   /// REQUIRES: `results` outlives this object; every dimension at most once in the selection.
   CellTable(const ResultsReader& results, TableSelection selection);
 

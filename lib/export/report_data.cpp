@@ -104,6 +104,27 @@ std::string text_of(const Json& json) {
 
 }  // namespace
 
+double report_bytes(const ResultsReader& results, const ReportLimits& limits) {
+  constexpr double kBytesOfValue = 2 * sizeof(std::int32_t);  // with its code, packed or not
+  constexpr double kUsualPacked = 0.3, kCopies = 6;           // of the text, on its way into the page
+  constexpr double kTemplate = 1.5 * 1024 * 1024;
+  const auto cells = static_cast<double>(results.grid().cells());
+  double maps = 0;
+  for (const Field& field : results.fields()) {
+    if (field.shown.map.kind.empty()) continue;
+    const std::size_t leading = results.leading_length(field);
+    maps += static_cast<double>(std::clamp<std::size_t>(leading, 1, limits.partitions));
+  }
+  const double packed =
+      std::min(static_cast<double>(limits.packed_bytes), kUsualPacked * cells * std::max(maps, 1.0));
+  double points = 0;
+  for (const GridDimension& dimension : results.grid().dimensions())
+    points += static_cast<double>(dimension.count);
+  constexpr double kBytesOfPoint = 100;  // a number in JSON, its text, and where it stands in a set of cells
+  return results.reading_bytes() + kBytesOfValue * std::min(cells, static_cast<double>(limits.values)) +
+         kCopies * packed + kBytesOfPoint * points + kTemplate;
+}
+
 ReportData report_data(const ResultsReader& results, std::vector<std::size_t> partitions,
                        const ReportLimits& limits) {
   const UniformGrid& grid = results.grid();

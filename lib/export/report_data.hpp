@@ -28,6 +28,8 @@ struct ReportData {
   bool is_whole = true;  ///< every cell is in it
 };
 
+/// What it takes to make a page of that, with the text of it.
+[[nodiscard]] double report_bytes(const ResultsReader& results, const ReportLimits& limits = {});
 /// The maps over cells as one JSON document: grid points and layers, and for each set of cells that
 /// choose_cells() finds the delay of each of `partitions` and the collision time; where the file has them the
 /// coalition, the critical pairs, the modes of the network that are safe, and the freedom that the convention

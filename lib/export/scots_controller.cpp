@@ -65,6 +65,11 @@ std::string grid_text(std::string_view head, const std::vector<Axis>& axes) {
 
 }  // namespace
 
+double scots_bytes(const ResultsReader& results) {
+  return results.reading_bytes() + controller_bytes(results, true) +
+         static_cast<double>(results.grid().cells());
+}
+
 void export_scots(const ResultsReader& results, ThreadTeam& team, const TextSink& sink) {
   std::vector<Axis> states, inputs;
   for (const GridDimension& dimension : results.grid().dimensions())

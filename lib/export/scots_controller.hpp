@@ -11,5 +11,7 @@ namespace coordreq {
 /// @throws ResultsError if SCOTS cannot have the grids: points that are no multiples of the step, or listed
 ///   input values that are not evenly spaced and ascending
 void export_scots(const ResultsReader& results, ThreadTeam& team, const TextSink& sink);
+/// What that takes.
+[[nodiscard]] double scots_bytes(const ResultsReader& results);
 
 }  // namespace coordreq

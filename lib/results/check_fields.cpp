@@ -6,6 +6,7 @@
 
 #include "answers/field_table.hpp"
 #include "base/error.hpp"
+#include "base/process_memory.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -20,16 +21,12 @@ class FieldChecker {
   }
 
   Fields run(const Fields& table, std::optional<std::uint64_t> max_memory) {
+    expect_memory("the datasets in the file need", kBytesOfDataset * datasets(table), max_memory);
     Fields present;
     for (const Field& field : table) {
       if (field.scale ? check_scale(field) : check_array(field)) present.push_back(field);
     }
-    if (max_memory && bytes_ > *max_memory) {
-      throw LimitError(
-          fmt::format("reading the lists in the file needs about {} MiB of memory, the limit is {} MiB",
-                      bytes_ >> 20U, *max_memory >> 20U),
-          file_.place("/"));
-    }
+    expect_memory("the lists in the file need", static_cast<double>(bytes_), max_memory);
     for (const Field& field : present) {
       if (field.scale) check_coordinates(field);
     }
@@ -37,6 +34,14 @@ class FieldChecker {
   }
 
  private:
+  /// What the library keeps of one that is open.
+  static constexpr double kBytesOfDataset = 24.0 * 1024;
+
+  [[nodiscard]] double datasets(const Fields& table) const {
+    return static_cast<double>(
+        std::ranges::count_if(table, [this](const Field& field) { return file_.exists(field.path); }));
+  }
+
   [[noreturn]] void fail(const std::string& what, const Field& field) const {
     throw ResultsError(what, file_.place(field.path));
   }

@@ -10,6 +10,7 @@
 #include <new>
 #include <utility>
 
+#include "base/process_memory.hpp"
 #include "results/output_driver.hpp"
 
 namespace coordreq::hdf5 {
@@ -23,7 +24,7 @@ constexpr unsigned kOrder = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
 /// Without a limit the system gives what is asked for, unless a damaged file asks for too much.
 bool may_lack_memory() {
   rlimit limit{};
-  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  return is_held_to_memory() || (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY);
 }
 
 /// The library does not always say why it failed.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/process_memory.hpp"
 #include "results/check_fields.hpp"
 #include "results/child_trial.hpp"
 #include "results/reading.hpp"
@@ -42,15 +43,18 @@ std::vector<std::int32_t> widened(const std::vector<Integer>& values) {
   return result;
 }
 
-/// Of unpacked chunks.
+/// Of unpacked chunks: a part of what is left.
 std::size_t cache_bytes(std::optional<std::uint64_t> max_memory) {
-  constexpr std::uint64_t kMost = std::uint64_t{128} << 20U;
-  return static_cast<std::size_t>(std::min(kMost, max_memory.value_or(kMost) / 4));
+  constexpr double kLeast = double{1U << 20U}, kMost = 128 * kLeast;
+  if (!max_memory) return static_cast<std::size_t>(kMost);
+  const double left = static_cast<double>(*max_memory) - memory_of_program();
+  return static_cast<std::size_t>(std::clamp(left / 8, kLeast, kMost));
 }
 
 /// The file, which has been read in a child process.
-std::unique_ptr<ResultsFile> tried_file(const std::string& path, std::optional<std::uint64_t> max_memory) {
-  const auto open = [&] { return std::make_unique<ResultsFile>(path, cache_bytes(max_memory)); };
+std::unique_ptr<ResultsFile> tried_file(const std::string& path, std::optional<std::uint64_t> max_memory,
+                                        std::size_t cache) {
+  const auto open = [&] { return std::make_unique<ResultsFile>(path, cache); };
   try_in_child(path, [&] { reading(path, [&] { static_cast<void>(read_parts(*open(), max_memory)); }); });
   return reading(path, open);
 }
@@ -60,7 +64,8 @@ std::unique_ptr<ResultsFile> tried_file(const std::string& path, std::optional<s
 ResultsReader::ResultsReader(const std::string& path, std::optional<std::uint64_t> max_memory)
     : path_(path),
       max_memory_(max_memory),
-      file_(tried_file(path, max_memory)),
+      cache_bytes_(cache_bytes(max_memory)),
+      file_(tried_file(path, max_memory, cache_bytes_)),
       parts_(reading(path,
                      [&] { return std::make_unique<const ResultsParts>(read_parts(*file_, max_memory)); })),
       grid_(make_grid(parts_->spec)),
@@ -99,11 +104,9 @@ std::vector<Value> ResultsReader::elements(const std::string& dataset, ElementTy
                                            const std::vector<std::uint64_t>& count) const {
   std::uint64_t product = 1;
   for (const std::uint64_t length : count) product *= length;
-  if (max_memory_ && product > *max_memory_ / sizeof(Value)) {
-    throw LimitError(fmt::format("reading needs about {} MiB of memory, the limit is {} MiB",
-                                 product * sizeof(Value) >> 20U, *max_memory_ >> 20U),
-                     file_->place(dataset));
-  }
+  constexpr std::uint64_t kShort = std::uint64_t{1} << 18U;  // no matter
+  if (product > kShort)
+    expect_memory("reading needs", static_cast<double>(product) * sizeof(Value), max_memory_);
   std::vector<Value> values(product);
   if (product == 0) return values;
   reading(path_, [&] { file_->read_block(dataset, type, offset, count, values.data()); });
@@ -112,6 +115,24 @@ std::vector<Value> ResultsReader::elements(const std::string& dataset, ElementTy
 
 const Field& ResultsReader::field(const std::string& path) const {
   return parts_->fields[field_of_path_.at(path)];
+}
+
+double ResultsReader::elements(const Field& field) const {
+  double elements = 1;
+  for (const std::uint64_t length : reading(path_, [&] { return file_->shape(field.path); }))
+    elements *= static_cast<double>(length);
+  return elements;
+}
+
+double ResultsReader::reading_bytes() const {
+  constexpr double kBytesOfCell = 16;  // as it is stored, widened, and joined with others
+  double stored = 0;
+  for (const Field& field : parts_->fields) {
+    if (field.scale || field.types.empty()) continue;
+    stored += elements(field) * static_cast<double>(element_size(file_->element_type(field.path)));
+  }
+  return std::min(stored, static_cast<double>(cache_bytes_)) +
+         kBytesOfCell * static_cast<double>(std::min(grid_.cells(), kPartCells));
 }
 
 std::size_t ResultsReader::leading_length(const Field& field) const {

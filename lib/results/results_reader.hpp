@@ -51,6 +51,8 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] const std::string& path() const { return path_; }
   /// Bytes that reading may take, if that is limited.
   [[nodiscard]] std::optional<std::uint64_t> max_memory() const { return max_memory_; }
+  /// What reading cells takes, at most a part of them at a time (kPartCells), with the chunks that are kept.
+  [[nodiscard]] double reading_bytes() const;
   /// The embedded spec, read by read_spec().
   [[nodiscard]] const ProblemSpec& spec() const;
   [[nodiscard]] const UniformGrid& grid() const { return grid_; }
@@ -67,6 +69,7 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] bool has(const std::string& path) const override { return field_of_path_.contains(path); }
   /// REQUIRES: the file has it.
   [[nodiscard]] const Field& field(const std::string& path) const;
+  [[nodiscard]] double elements(const Field& field) const;
   /// Entries along the axis before those of the cells; 0: there is none.
   [[nodiscard]] std::size_t leading_length(const Field& field) const;
   /// What each entry along that axis is called. REQUIRES: there is one.
@@ -135,6 +138,7 @@ class ResultsReader : public FieldSource {
 
   std::string path_;
   std::optional<std::uint64_t> max_memory_;
+  std::size_t cache_bytes_;
   std::unique_ptr<ResultsFile> file_;  // HDF5 stays inside this module
   std::unique_ptr<const ResultsParts> parts_;
   std::map<std::string, std::size_t> field_of_path_;

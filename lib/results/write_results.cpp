@@ -224,8 +224,13 @@ void write_fields(const std::string& path, const FileKind& kind,
 }
 
 double write_results_bytes(const ProblemSpec& spec, double longest, int threads) {
-  constexpr double kCopiesOfText = 3;  // HDF5 asks for three, and touches a little more than two
-  return ArrayWriter::bytes(longest, threads) + kCopiesOfText * static_cast<double>(spec.text.size());
+  constexpr double kCopiesOfText = 3;              // HDF5 asks for three, and touches a little more than two
+  constexpr double kBytesOfDataset = 22.0 * 1024;  // what the library keeps of one
+  const Fields fields = result_fields(spec);
+  const auto datasets = static_cast<double>(std::ranges::count_if(
+      fields, [](const Field& field) { return !field.path.starts_with("/counterexample"); }));
+  return kBytesOfDataset * datasets + ArrayWriter::bytes(longest, threads) +
+         kCopiesOfText * static_cast<double>(spec.text.size());
 }
 
 void check_writable(const std::string& path) {

@@ -1,7 +1,5 @@
 #include "verify/verify_file.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -17,6 +15,7 @@
 #include "results/version.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"
+#include "verify/verify_memory.hpp"
 
 namespace coordreq {
 namespace {
@@ -177,61 +176,19 @@ Claims read_all(const ResultsReader& results) {
   return claims;
 }
 
-/// Bytes of one bit an action.
-std::int64_t agent_bytes(const InputSpace& inputs, const AgentSpec& agent) {
-  std::int64_t actions = 1;
-  for (const std::int32_t i : agent.inputs) actions *= inputs[static_cast<std::size_t>(i)].count();
-  return PackedPairs::bytes_for(actions);
-}
-
-/// Bytes of the claims, with a copy of each array while it is read.
-std::uint64_t memory_need(const ResultsReader& results) {
-  std::uint64_t bytes_of_cell = 2 + 2 * sizeof(std::int32_t);
-  for (std::size_t p = 0; p < results.partitions().size(); ++p) {
-    bytes_of_cell += 2 * sizeof(std::int32_t);
-    if (results.spec().output.layers) bytes_of_cell += 4 * sizeof(std::uint64_t);
-    for (const std::int64_t actions : results.partitions()[p].actions)
-      bytes_of_cell += results.spec().output.actions ? static_cast<std::uint64_t>((actions + 7) / 8) : 0;
-  }
-  if (results.spec().network) bytes_of_cell += 2 * results.spec().network->modes.size();  // and targets
-  bytes_of_cell += plain_numbers(results).size() * 2 * sizeof(std::int32_t);
-  for (const Field* const field : plain_bits(results))
-    bytes_of_cell += results.field(field->axes.back()).scale->most;
-  for (const Field* const field : partition_numbers(results)) {
-    if (is_over_cells(*field, results.spec()))
-      bytes_of_cell += 2 * sizeof(std::int32_t) * results.partitions().size();
-  }
-  if (results.spec().coordination.horizon) bytes_of_cell += pair_names(results.spec()).size();
-  if (!results.requirements().empty()) bytes_of_cell += 1;  // what is found about a region
-  const int joint = (results.spec().output.controller ? 1 : 0) + (results.spec().controller.file ? 1 : 0);
-  for (int i = 0; i < joint; ++i)
-    bytes_of_cell += static_cast<std::uint64_t>((results.inputs().count() + 7) / 8);
-  for (const AgentSpec& agent : results.spec().agents) {
-    if (results.spec().coordination.convention) bytes_of_cell += 2 * sizeof(float);
-    if (has_convention(results.spec()))
-      bytes_of_cell += static_cast<std::uint64_t>(agent_bytes(results.inputs(), agent));
-  }
-  return bytes_of_cell * static_cast<std::uint64_t>(results.grid().cells());
-}
-
-void check_memory(const ResultsReader& results, std::optional<std::uint64_t> max_memory) {
-  const std::uint64_t need = memory_need(results);
-  if (!max_memory || need <= *max_memory) return;
-  throw LimitError(fmt::format("verifying needs about {} MiB of memory, more than the limit of {} MiB",
-                               need >> 20U, *max_memory >> 20U),
-                   results.path());
-}
-
 }  // namespace
 
 ClaimedFile read_claims(const std::string& path, std::optional<std::uint64_t> max_memory) {
   const ResultsReader results(path, max_memory);
-  check_memory(results, max_memory);
+  const VerifyMemory memory = verify_memory(results);
+  expect_memory("verifying needs",
+                results.reading_bytes() + memory.claims + memory.work.once + memory.work.of_thread,
+                max_memory);
   const std::vector<StoredObject> expected = expected_objects(results.spec(), results.fields());
   std::vector<std::string> paths;
   for (const StoredObject& object : expected) paths.push_back(object.path);
   Finding attributes = check_objects(expected, read_objects(path, paths));
-  return {results.spec(), read_all(results), std::move(attributes)};
+  return {results.spec(), read_all(results), std::move(attributes), memory.work};
 }
 
 Verification verify_file(const ClaimedFile& file, const VerifyOptions& options, ThreadTeam& team) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "base/process_memory.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/expected_objects.hpp"
 #include "verify/verify.hpp"
@@ -15,6 +16,7 @@ struct ClaimedFile {
   ProblemSpec spec;
   Claims claims;
   Finding attributes;
+  MemoryDemand demand = {};  ///< of what is to be done
 };
 
 /// Reads a results file whole. Starts no thread, and must be called before any is (see try_in_child()).

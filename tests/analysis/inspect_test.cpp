@@ -59,11 +59,21 @@ TEST(Inspect, MemoryGrowsWithTheCells) {
             inspect(spec_of("99"), 1).memory_bytes + 1000000 * 80U);
 }
 
-TEST(CheckMemory, RefusesWithTheEstimateBeforeAnythingRuns) {
-  EXPECT_NO_THROW(check_memory(make_model(spec_of("99")), std::nullopt, 1, false));
-  EXPECT_NO_THROW(check_memory(make_model(spec_of("99")), std::uint64_t{1} << 30, 1, false));
+TEST(ThreadsOfAnAnalysis, AreFewerWhereMemoryIsShort) {
+  const ProblemSpec spec = spec_of("99");
+  const Model model = make_model(spec);
+  EXPECT_EQ(threads_within(model, std::nullopt, 64, false), 64);
+  EXPECT_EQ(threads_within(model, std::uint64_t{1} << 40U, 64, false), 64);
+  const double few = estimate_memory(model, 5), many = estimate_memory(model, 64);
+  ASSERT_LT(few, many);
+  const int within = threads_within(model, static_cast<std::uint64_t>(few + 100000), 64, false);
+  EXPECT_GE(within, 5);
+  EXPECT_LT(within, 10);
+}
+
+TEST(ThreadsOfAnAnalysis, RefusesWithTheEstimateBeforeAnythingRuns) {
   try {
-    check_memory(make_model(spec_of("99999999")), std::uint64_t{1} << 30, 1, false);
+    static_cast<void>(threads_within(make_model(spec_of("99999999")), std::uint64_t{1} << 30, 1, false));
     FAIL() << "expected a LimitError";
   } catch (const LimitError& error) {
     EXPECT_EQ(std::string(error.what()).substr(0, 30), "1,000,000,000 cells need about");

@@ -1,28 +1,16 @@
-"""--max-memory is a promise: what validate tells, and analyze accepts, is not exceeded.
+"""--max-memory is a promise in every command: it is kept, or the work is refused with what it needs.
 
-COORDREQ_MEMORY_SPECS=N tries N random specs instead of a few."""
+COORDREQ_MEMORY_SPECS=N tries N random specs instead of a few; random_memory.py as many as asked in all commands."""
 
 import json
 import os
 import random
-import subprocess
-import sys
 import unittest
 
 from program import CONFIGS, PROGRAM, SANITIZED, SPEC, Case, spec_with
+from random_memory import MEBI, PERMITTED, Promise, measured
 from random_systems import random_analysis
 
-MEBI = 2**20
-# The kernel counts what stood in a process before a program was started in it, so a small one starts the program.
-MEASURE = """
-import os, sys
-quiet = [(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)]
-child = os.posix_spawn(sys.argv[1], sys.argv[1:], os.environ, file_actions=quiet)
-_, status, usage = os.wait4(child, 0)
-print(os.waitstatus_to_exitcode(status), usage.ru_maxrss)
-"""
-# What the promise leaves room for.
-PERMITTED = 1.1
 STORED_ACTIONS = (
     *("--set", "dynamics.period=0.02"),
     *("--set", "output.controller=true"),
@@ -54,9 +42,7 @@ class Cases(Case):
 
     def peak(self, *arguments):
         """Exit code, and the most that the program held in memory."""
-        command = [sys.executable, "-I", "-S", "-c", MEASURE, PROGRAM, *arguments]
-        code, kib = map(int, subprocess.run(command, stdout=subprocess.PIPE, check=True).stdout.split())
-        return code, kib * 1024
+        return measured(PROGRAM, *arguments)
 
     def assert_kept(self, spec, threads, codes=(0, 1), settings=()):
         """That analyze accepts what validate tells, and keeps to it. @returns estimate and peak"""
@@ -101,12 +87,33 @@ class Cases(Case):
         self.write("s.json", SPEC)
         self.assert_kept("s.json", 300)
 
+    def test_fewer_threads_where_memory_is_short(self):
+        self.write("s.json", SPEC)
+        limit = round(1.02 * self.estimate("s.json", "--threads", "3"))
+        told = json.loads(self.run_program("analyze", "s.json", "--threads", "300", "--max-memory", str(limit), "--json").stdout)
+        self.assertGreaterEqual(told["threads"], 3)
+        self.assertLess(told["threads"], 30)
+        self.assertEqual(self.run_program("verify", "small.h5", "--threads", "300", "--max-memory", "40M").returncode, 0)
+
+    def check_promise(self, seeds):
+        promise = Promise(PROGRAM, self.folder)
+        analysed = sum(promise.check_spec(seed) for seed in seeds)
+        self.assertEqual(promise.broken, [])
+        self.assertGreater(analysed, 0)
+        self.assertGreater(min(promise.counts["kept"], promise.counts["refused at once"]), 0)
+
+    def test_random_specs_in_all_commands(self):
+        self.check_promise(range(4))
+
+    def test_more_random_specs_in_all_commands(self):
+        self.check_promise(range(4, 8))
+
     def test_a_checkpoint(self):
         """It takes some more than validate can tell."""
         spec = str(CONFIGS / "circle.json")
-        options = (*STORED_ACTIONS, "--threads", "2", "--quiet", "-o", str(self.folder / "o.h5"))
+        options = (*STORED_ACTIONS, "--threads", "1", "--quiet", "-o", str(self.folder / "o.h5"))
         saved = ("--checkpoint", str(self.folder / "saved"), "--checkpoint-every", "0")
-        estimate = round(1.02 * self.estimate(spec, *STORED_ACTIONS, "--threads", "2"))
+        estimate = round(1.02 * self.estimate(spec, *STORED_ACTIONS, "--threads", "1"))
         self.assertEqual(self.peak("analyze", spec, *options, *saved, "--max-memory", str(estimate))[0], 4)
         limit = estimate + 5 * MEBI
         code, peak = self.peak("analyze", spec, *options, *saved, "--max-memory", str(limit))

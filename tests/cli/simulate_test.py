@@ -412,7 +412,7 @@ $""",
         self.assertEqual((result.returncode, result.stdout), (4, b""))
         self.assertRegex(
             result.stderr.decode(),
-            r"^coordreq: error: 1 runs of 1000000 steps need about \d+ MiB of memory, the limit is 100 MiB"
+            r"^coordreq: error: 1 runs of 1000000 steps need about [0-9.]+ MiB of memory, the limit is 100.0 MiB"
             r" \(--max-memory\)\n$",
         )
 

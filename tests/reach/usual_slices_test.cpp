@@ -4,6 +4,7 @@
 
 #include "reach/table_shapes.hpp"
 #include "reach/usual_offsets.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {

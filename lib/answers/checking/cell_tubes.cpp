@@ -17,6 +17,7 @@ Tubes make_tubes(const UniformGrid& grid, const InputSpace& inputs, const std::v
               .beyond = {beyond.begin(), beyond.end()}};
   for (std::size_t i = 0; i < tables.size(); ++i) {
     auto& passes = tubes.passes.emplace_back();
+    passes.reserve(tables[i].entries.size());
     for (const IndexRange& raw : tables[i].entries) passes.push_back(passes_saturation(grid[i], raw) ? 1 : 0);
   }
   return tubes;

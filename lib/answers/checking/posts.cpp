@@ -47,6 +47,7 @@ Posts make_posts(const UniformGrid& grid, const InputSpace& inputs, const std::v
     const PostTable& table = tables[i];
     posts.tables.push_back(&table);
     auto& resolved = posts.resolved.emplace_back();
+    resolved.reserve(table.entries.size());
     for (const IndexRange& raw : table.entries) resolved.push_back(after_leaving(raw, grid[i]));
     auto& parts = posts.input_part.emplace_back();
     for (std::int64_t u = 0; u < inputs.count(); ++u) {

@@ -22,21 +22,23 @@ std::int32_t trigger_by_definition(std::int32_t delay, std::int64_t connection_d
 
 /// What all threads share about one partition.
 struct PartitionTallies {
-  explicit PartitionTallies(const PartitionClaims& claims)
-      : delay("delay " + claims.name), trigger("trigger " + claims.name), actions("actions " + claims.name) {}
+  PartitionTallies(const CheckGround& ground, std::size_t p)
+      : delay("delay " + ground.claims->partitions[p].name),
+        trigger("trigger " + ground.claims->partitions[p].name),
+        actions("actions " + ground.claims->partitions[p].name) {
+    for (const auto& agents : ground.spec->coordination.partitions[p].classes)
+      classes.emplace_back(class_of(*ground.spec, *ground.inputs, agents)).tabulate();
+  }
 
   Tally delay, trigger, actions;
+  std::vector<InputClass> classes;
 };
 
 class PartitionChecker {
  public:
   PartitionChecker(const CheckGround& ground, std::size_t p, PartitionTallies& tallies)
-      : ground_(ground), claims_(ground.claims->partitions[p]), tallies_(tallies) {
-    for (const auto& agents : ground.spec->coordination.partitions[p].classes) {
-      classes_.push_back(class_of(*ground.spec, *ground.inputs, agents));
-      classes_.back().tabulate();
-      projection_.emplace_back(static_cast<std::size_t>(classes_.back().actions()));
-    }
+      : ground_(ground), claims_(ground.claims->partitions[p]), tallies_(tallies), classes_(tallies.classes) {
+    for (const InputClass& own : classes_) projection_.emplace_back(static_cast<std::size_t>(own.actions()));
   }
 
   void check(CheckedCell& cell) {
@@ -136,7 +138,7 @@ class PartitionChecker {
   const CheckGround& ground_;
   const PartitionClaims& claims_;
   PartitionTallies& tallies_;
-  std::vector<InputClass> classes_;
+  const std::vector<InputClass>& classes_;
   std::vector<std::vector<std::uint8_t>> projection_;  ///< [class][action], of the cell at work
 };
 
@@ -156,7 +158,7 @@ class DelayChecker : public CellChecker {
 class LayersCheck : public AnswerCheck {
  public:
   explicit LayersCheck(const CheckGround& ground) : AnswerCheck(CheckSection::steps), ground_(ground) {
-    for (const PartitionClaims& claims : ground.claims->partitions) tallies_.emplace_back(claims);
+    for (std::size_t p = 0; p < ground.claims->partitions.size(); ++p) tallies_.emplace_back(ground, p);
   }
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {

@@ -1,0 +1,116 @@
+#include "verify/verify_memory.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "answers/checking/posts.hpp"
+#include "answers/field.hpp"
+#include "answers/field_parts.hpp"
+#include "answers/requirements/result_requirement.hpp"
+#include "reach/table_shapes.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Of one element in memory: numbers of steps are widened.
+double bytes_in_claims(const Field& field) {
+  const bool is_widened = std::ranges::find(field.types, ElementType::int16) != field.types.end();
+  return is_widened ? sizeof(std::int32_t) : static_cast<double>(element_size(field.types.front()));
+}
+
+/// Elements of a field over cells for each of them; 0: it is not over cells. Layers list every cell once.
+double elements_of_cell(const ResultsReader& results, const Field& field) {
+  if (field.path.starts_with("/layers/") && field.path.ends_with("/cell")) return 1;
+  const std::vector<std::string> cells = cell_axes(results.spec());
+  const auto found = std::search(field.axes.begin(), field.axes.end(), cells.begin(), cells.end());
+  if (field.types.empty() || found == field.axes.end()) return 0;
+  return results.elements(field) / static_cast<double>(results.grid().cells());
+}
+
+double bytes_of_claims(const ResultsReader& results) {
+  double bytes = 0, copied = 0;
+  for (const Field& field : results.fields()) {
+    const double elements = elements_of_cell(results, field);
+    if (elements == 0) continue;
+    const bool is_list = field.path.starts_with("/layers/");
+    bytes += elements * (is_list ? sizeof(std::uint64_t) : bytes_in_claims(field));
+    copied = std::max(copied, 2 * bytes_in_claims(field));
+  }
+  return (bytes + copied) * static_cast<double>(results.grid().cells());
+}
+
+/// Entries of all tables that are written out for every choice of what they depend on.
+double entries_of_posts(const ResultsReader& results, const std::vector<TableShape>& shapes) {
+  double all = 0;
+  for (const TableShape& shape : shapes) {
+    double own = 1;
+    for (const std::int32_t j : shape.states)
+      own *= static_cast<double>(results.grid()[static_cast<std::size_t>(j)].count);
+    for (const std::int32_t j : shape.inputs)
+      own *= static_cast<double>(results.inputs()[static_cast<std::size_t>(j)].count());
+    all += own;
+  }
+  return all;
+}
+
+double bytes_of_posts(const ResultsReader& results) {
+  const std::vector<TableShape> shapes = table_shapes(results.spec());
+  const double entries = entries_of_posts(results, shapes);
+  const bool has_tubes = results.spec().abstraction.between_samples;
+  double of_entry = sizeof(IndexRange) + sizeof(ResolvedRange);
+  if (results.has_abstraction()) of_entry += sizeof(IndexRange);
+  double bytes = 0;
+  for (const TableShape& shape : shapes) bytes += (has_tubes ? 2 : 1) * shape.bytes;  // of the analysis
+  if (has_tubes) of_entry += 2 * sizeof(IndexRange) + sizeof(ResolvedRange) + sizeof(std::uint8_t);
+  bytes += of_entry * entries;
+  const auto inputs = static_cast<double>(results.inputs().count());
+  return bytes + 2 * inputs * sizeof(std::int32_t) * static_cast<double>(shapes.size());
+}
+
+/// Of the classes of all partitions the action in each joint input.
+double bytes_of_classes(const ResultsReader& results) {
+  constexpr double kBytesOfClass = 400;
+  double classes = 0;
+  for (const PartitionSpec& partition : results.spec().coordination.partitions)
+    classes += static_cast<double>(partition.classes.size());
+  const double one = static_cast<double>(results.inputs().count()) * sizeof(std::int32_t) + kBytesOfClass;
+  return classes * one;
+}
+
+/// Beside claims, what checks keep of each cell.
+double kept_of_cell(const ResultsReader& results) {
+  double bytes = results.requirements().empty() ? 0 : 1;  // what is found about a region
+  if (results.spec().network) bytes += static_cast<double>(results.spec().network->modes.size());  // targets
+  if (results.spec().abstraction.between_samples) bytes += 2 * sizeof(std::int32_t) + 1;
+  return bytes;
+}
+
+double bytes_of_thread(const ResultsReader& results) {
+  const ProblemSpec& spec = results.spec();
+  const auto inputs = static_cast<double>(results.inputs().count());
+  // Of boxes, and of parts of them; and of two sets for tubes.
+  const double remembered = 2 * std::min(static_cast<double>(PostMinima::kMostMinima), 4 * inputs);
+  double bytes = remembered * sizeof(std::int32_t) * (spec.abstraction.between_samples ? 3 : 1);
+  constexpr double kBytesOfPartition = 100;
+  double points = 0;
+  // What an answer knows of a class of one partition.
+  for (const PartitionSpec& partition : spec.coordination.partitions)
+    bytes += kBytesOfPartition * static_cast<double>(partition.classes.size());
+  constexpr double kBytesOfInput = 32, kBytesOfPoint = 250;  // flags and places; ends of cells as rationals
+  for (const GridDimension& dimension : results.grid().dimensions())
+    points += static_cast<double>(dimension.count);
+  return bytes + kBytesOfInput * inputs + kBytesOfPoint * points;
+}
+
+}  // namespace
+
+VerifyMemory verify_memory(const ResultsReader& results) {
+  return {.claims = bytes_of_claims(results),
+          .work = {.once = bytes_of_posts(results) + bytes_of_classes(results) +
+                           kept_of_cell(results) * static_cast<double>(results.grid().cells()),
+                   .of_thread = bytes_of_thread(results)}};
+}
+
+}  // namespace coordreq
