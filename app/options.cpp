@@ -96,7 +96,7 @@ void declare_common(Options& options, CommonOptions& common, const CommonUse& us
   if (use.memory)
     options.option(common.max_memory, "--max-memory", "SIZE",
                    "Refuse what would need more, as 500M or 1.5G (default: the memory of the machine)",
-                   [](const auto& text, const auto& option) { return memory_size(text, option); });
+                   memory_size);
   if (!use.answer) return;
   options.flag(common.json, "--json", "Print one JSON document instead of text");
   options.flag(common.quiet, "--quiet", "No text summary and no progress");

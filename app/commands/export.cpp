@@ -50,7 +50,7 @@ class Blocks {
 
 /// What an export takes, and how it is done.
 struct Exporter {
-  double bytes = 0;
+  MemoryDemand demand;
   std::function<void(const TextSink&, ThreadTeam&)> write;
 };
 
@@ -93,9 +93,9 @@ TableSelection selection_of(const ExportOptions& own, const ResultsReader& resul
 Exporter exporter(const ExportOptions& own, const ResultsReader& results) {
   if (own.format == Format::csv) {
     const TableSelection selection = selection_of(own, results);
-    return {CellTable::bytes(results, selection), [&results, selection](const TextSink& sink, ThreadTeam&) {
-              export_csv(results, selection, sink);
-            }};
+    return {
+        {.once = CellTable::bytes(results, selection)},
+        [&results, selection](const TextSink& sink, ThreadTeam&) { export_csv(results, selection, sink); }};
   }
   if (own.format == Format::vtk) {
     if (!own.output || !own.output->ends_with(".vti")) {
@@ -104,7 +104,8 @@ Exporter exporter(const ExportOptions& own, const ResultsReader& results) {
                        "-o");
     }
     const TableSelection selection = selection_of(own, results);
-    return {image_bytes(results, selection), [&results, selection](const TextSink& sink, ThreadTeam&) {
+    return {{.once = image_bytes(results, selection)},
+            [&results, selection](const TextSink& sink, ThreadTeam&) {
               export_vti(cell_image(results, selection), sink);
             }};
   }
@@ -112,11 +113,11 @@ Exporter exporter(const ExportOptions& own, const ResultsReader& results) {
   if (own.format == Format::scs) {
     if (own.partition)
       throw UsageError("scs holds the controller, which no partition changes", "--partition");
-    return {scots_bytes(results),
+    return {scots_demand(results),
             [&results](const TextSink& sink, ThreadTeam& team) { export_scots(results, team, sink); }};
   }
   const std::size_t partition = one_partition(own, results);
-  return {c_header_bytes(results), [&results, partition](const TextSink& sink, ThreadTeam& team) {
+  return {c_header_demand(results), [&results, partition](const TextSink& sink, ThreadTeam& team) {
             export_c_header(results, partition, team, sink);
           }};
 }
@@ -127,7 +128,7 @@ ExitCode run(const ExportOptions& own) {
   own.keep_to_memory();
   const ResultsReader results(own.results, own.max_memory);
   const Exporter wanted = exporter(own, results);
-  ThreadTeam team(own.threads_for("exporting needs", {.once = wanted.bytes}));
+  ThreadTeam team(own.threads_for("exporting needs", wanted.demand));
   std::optional<LateFile> file;
   if (own.output) file.emplace(*own.output, "the export");
   Blocks blocks([&file](std::string_view text) { file ? file->write(text) : write_output(text); });

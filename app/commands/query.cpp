@@ -67,7 +67,7 @@ void answer_standard_input(const QueryOptions& own, const ResultsReader& results
 ExitCode run(const QueryOptions& own) {
   own.keep_to_memory();
   const ResultsReader results(own.results, own.max_memory);
-  ThreadTeam team(own.threads_for("answering needs", query_demand(results, !own.at)));
+  ThreadTeam team(own.threads_for("answering needs", controller_demand(results, !own.at)));
   StateQuery query(results, team);
   if (!own.at) {
     answer_standard_input(own, results, query);

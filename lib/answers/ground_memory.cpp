@@ -2,6 +2,7 @@
 
 #include "answers/memory_need.hpp"
 #include "base/index.hpp"
+#include "reach/thread_memory.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -17,7 +18,7 @@ double entries_in_full(const Model& model, const TableShape& shape) {
 
 }  // namespace
 
-MemoryNeed ground_memory(const EngineSizes& sizes, int /*threads*/) {
+MemoryNeed ground_memory(const EngineSizes& sizes, int threads) {
   const Model& model = sizes.model();
   const ProblemSpec& spec = model.spec();
   MemoryNeed need{.kept = sizes.set() + sizes.hull(),
@@ -33,6 +34,8 @@ MemoryNeed ground_memory(const EngineSizes& sizes, int /*threads*/) {
     need.array = std::max(need.array, entries * sizeof(std::int32_t));
     need.written = std::max(need.written, entries * sizeof(IndexRange));
   }
+  // What the allocator has set aside for a thread it does not give back.
+  need.kept += (threads - 1) * kBytesOfPostThread;
   // They are there before tables are cut into rows.
   const double tubes = spec.abstraction.between_samples ? 2 : 1;
   need.work = std::max(need.work, tubes * (sizes.untold_entries() - slices));

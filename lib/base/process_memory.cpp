@@ -59,7 +59,7 @@ double memory_of_threads(int threads) {
   return (all_threads(threads) - 1) * kThreadBytes;
 }
 
-std::string memory_size(double bytes) {
+std::string bytes_in_words(double bytes) {
   const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB", "PiB"};
   std::size_t unit = 0;
   while (bytes >= 1024 && unit + 1 < std::size(units)) {
@@ -73,8 +73,8 @@ std::string memory_size(double bytes) {
 
 void check_memory_need(const std::string& subject, double needed, double limit, const std::string& by_whom) {
   if (needed <= limit) return;
-  throw LimitError(subject + " about " + memory_size(needed) + " of memory, " + by_whom + "the limit is " +
-                       memory_size(limit),
+  throw LimitError(subject + " about " + bytes_in_words(needed) + " of memory, " + by_whom + "the limit is " +
+                       bytes_in_words(limit),
                    "--max-memory");
 }
 

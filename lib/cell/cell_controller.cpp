@@ -9,6 +9,7 @@
 #include "base/index.hpp"
 #include "model/input_class.hpp"
 #include "reach/table_shapes.hpp"
+#include "reach/thread_memory.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"
 
@@ -75,6 +76,11 @@ double controller_bytes(const ResultsReader& results, bool for_all_cells) {
       for_all_cells || is_stored(results) ||
       std::any_of(shapes.begin(), shapes.end(), [](const TableShape& shape) { return shape.sum; });
   return inputs + windows * sums * (sizeof(std::int32_t) + 1) + (is_whole ? abstraction_bytes(results) : 0);
+}
+
+MemoryDemand controller_demand(const ResultsReader& results, bool for_all_cells) {
+  return {.once = results.reading_bytes() + controller_bytes(results, for_all_cells),
+          .of_thread = is_stored(results) ? 0 : kBytesOfPostThread};
 }
 
 CellController::CellController(const ResultsReader& results, ThreadTeam& team)

@@ -11,6 +11,7 @@
 #include "answers/one_cell/admissible_inputs.hpp"
 #include "answers/one_cell/cell_posts.hpp"
 #include "answers/one_cell/policy.hpp"
+#include "base/process_memory.hpp"
 #include "base/thread_team.hpp"
 #include "cell/safe_beyond_file.hpp"
 #include "cell/set_window.hpp"
@@ -26,6 +27,8 @@ using ActionSets = std::vector<std::vector<bool>>;
 /// What a CellController takes: at most, or where a cell and its like are asked for, with what the posts of
 /// one cell reach.
 [[nodiscard]] double controller_bytes(const ResultsReader& results, bool for_all_cells);
+/// The same, with reading, and what threads take that work out posts.
+[[nodiscard]] MemoryDemand controller_demand(const ResultsReader& results, bool for_all_cells);
 
 /// The controller C(x) of a results file, and what policies leave of it to classes, one cell at a time
 /// (contract, "Controller", "Partition"): from the file where they are stored, else from the definition, with

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "answers/layers/fields.hpp"
 #include "answers/plan.hpp"
 #include "answers/requirements/escape_result.hpp"
 #include "answers/requirements/requirement.hpp"
@@ -155,10 +156,15 @@ class Explainer {
 
 }  // namespace
 
-MemoryDemand explain_demand(const ResultsReader& results) {
+MemoryDemand explain_demand(const ResultsReader& results, std::size_t partition, std::int64_t cell) {
+  constexpr double kBytesOfNumber = 1100;  // of a step of the way out, as it is found and told
+  MemoryDemand demand = controller_demand(results, false);
   // Neighbours may be so many that all posts are worked out once more.
-  return {.once = results.reading_bytes() + FileSets::bytes(results) +
-                  std::max(controller_bytes(results, false), abstraction_bytes(results))};
+  demand.once += FileSets::bytes(results) + abstraction_bytes(results);
+  const std::int32_t delay = results.values(paths::kDelay, partition, one_cell(results.grid(), cell)).front();
+  const auto numbers = static_cast<double>(results.grid().size() + results.inputs().size() + 2);
+  if (delay > 0 && delay != kNever) demand.once += kBytesOfNumber * numbers * delay;
+  return demand;
 }
 
 DelayExplanation explain_delay(const ResultsReader& results, std::size_t partition, std::int64_t cell,

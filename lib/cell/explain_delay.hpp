@@ -46,8 +46,9 @@ struct DelayExplanation {
   std::optional<Neighbour> freer_is_shorter;  ///< the nearest, of equals in the first dimension, below first
 };
 
-/// What it takes to explain a delay.
-[[nodiscard]] MemoryDemand explain_demand(const ResultsReader& results);
+/// What it takes to explain the delay of a cell, and to tell of it.
+[[nodiscard]] MemoryDemand explain_demand(const ResultsReader& results, std::size_t partition,
+                                          std::int64_t cell);
 /// @param cell its number in the spec's grid
 /// @throws as FileSets and CellController
 /// Cost: that of reading the arrays of the partition and of the abstraction, and of the way out.

@@ -18,7 +18,7 @@
 #include "model/locate.hpp"
 #include "model/sample_reset.hpp"
 #include "reach/build_abstraction.hpp"
-#include "reach/table_shapes.hpp"
+#include "reach/thread_memory.hpp"
 #include "results/write_results.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"
@@ -166,7 +166,7 @@ MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOpt
   constexpr double kBytesOfInput = 64;  // what a thread knows of each at a cell
   return {.once = results.reading_bytes() + of_cell * cells + abstraction_bytes(results) +
                   2 * samples * (sample + step),
-          .of_thread = kBytesOfInput * static_cast<double>(results.inputs().count())};
+          .of_thread = kBytesOfPostThread + kBytesOfInput * static_cast<double>(results.inputs().count())};
 }
 
 Simulation simulate(const ResultsReader& results, const SimulationOptions& options, ThreadTeam& team) {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "base/process_memory.hpp"
 #include "base/thread_team.hpp"
 #include "cell/cell_controller.hpp"
 #include "model/locate.hpp"
@@ -35,11 +34,6 @@ struct StateAnswer {
 
 /// The fields of the file that are told as FieldAsked says, without the steps of policies.
 [[nodiscard]] std::vector<const Field*> asked_fields(const ResultsReader& results);
-
-/// What it takes to answer a question, or any number of them.
-[[nodiscard]] inline MemoryDemand query_demand(const ResultsReader& results, bool of_any_number) {
-  return {.once = results.reading_bytes() + controller_bytes(results, of_any_number)};
-}
 
 /// Answers questions about states. Not thread-safe.
 class StateQuery {

@@ -281,10 +281,11 @@ class HeaderWriter {
 
 }  // namespace
 
-double c_header_bytes(const ResultsReader& results) {
+MemoryDemand c_header_demand(const ResultsReader& results) {
   constexpr double kUsualRuns = 0.5;  // a cell
-  return results.reading_bytes() + controller_bytes(results, true) +
-         2 * kUsualRuns * sizeof(std::uint32_t) * static_cast<double>(results.grid().cells());
+  MemoryDemand demand = controller_demand(results, true);
+  demand.once += 2 * kUsualRuns * sizeof(std::uint32_t) * static_cast<double>(results.grid().cells());
+  return demand;
 }
 
 void export_c_header(const ResultsReader& results, std::size_t partition, ThreadTeam& team,

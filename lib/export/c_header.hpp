@@ -19,6 +19,6 @@ namespace coordreq {
 void export_c_header(const ResultsReader& results, std::size_t partition, ThreadTeam& team,
                      const TextSink& sink);
 /// What that takes.
-[[nodiscard]] double c_header_bytes(const ResultsReader& results);
+[[nodiscard]] MemoryDemand c_header_demand(const ResultsReader& results);
 
 }  // namespace coordreq

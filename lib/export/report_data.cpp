@@ -120,9 +120,15 @@ double report_bytes(const ResultsReader& results, const ReportLimits& limits) {
   double points = 0;
   for (const GridDimension& dimension : results.grid().dimensions())
     points += static_cast<double>(dimension.count);
+  // Of a counterexample every step is told in the text, and drawn.
+  constexpr double kBytesOfNumber = 350;
+  const auto numbers = static_cast<double>(results.grid().size() + results.inputs().size() + 2);
+  double steps = 0;
+  for (const ResultRequirement& own : results.requirements())
+    steps += own.path ? static_cast<double>(own.path->cell.size()) : 0;
   constexpr double kBytesOfPoint = 100;  // a number in JSON, its text, and where it stands in a set of cells
   return results.reading_bytes() + kBytesOfValue * std::min(cells, static_cast<double>(limits.values)) +
-         kCopies * packed + kBytesOfPoint * points + kTemplate;
+         kCopies * packed + kBytesOfPoint * points + kBytesOfNumber * numbers * steps + kTemplate;
 }
 
 ReportData report_data(const ResultsReader& results, std::vector<std::size_t> partitions,

@@ -65,9 +65,10 @@ std::string grid_text(std::string_view head, const std::vector<Axis>& axes) {
 
 }  // namespace
 
-double scots_bytes(const ResultsReader& results) {
-  return results.reading_bytes() + controller_bytes(results, true) +
-         static_cast<double>(results.grid().cells());
+MemoryDemand scots_demand(const ResultsReader& results) {
+  MemoryDemand demand = controller_demand(results, true);
+  demand.once += static_cast<double>(results.grid().cells());
+  return demand;
 }
 
 void export_scots(const ResultsReader& results, ThreadTeam& team, const TextSink& sink) {

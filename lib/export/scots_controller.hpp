@@ -12,6 +12,6 @@ namespace coordreq {
 ///   input values that are not evenly spaced and ascending
 void export_scots(const ResultsReader& results, ThreadTeam& team, const TextSink& sink);
 /// What that takes.
-[[nodiscard]] double scots_bytes(const ResultsReader& results);
+[[nodiscard]] MemoryDemand scots_demand(const ResultsReader& results);
 
 }  // namespace coordreq

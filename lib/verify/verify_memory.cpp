@@ -9,6 +9,7 @@
 #include "answers/field_parts.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "reach/table_shapes.hpp"
+#include "reach/thread_memory.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -101,7 +102,7 @@ double bytes_of_thread(const ResultsReader& results) {
   constexpr double kBytesOfInput = 32, kBytesOfPoint = 250;  // flags and places; ends of cells as rationals
   for (const GridDimension& dimension : results.grid().dimensions())
     points += static_cast<double>(dimension.count);
-  return bytes + kBytesOfInput * inputs + kBytesOfPoint * points;
+  return kBytesOfPostThread + bytes + kBytesOfInput * inputs + kBytesOfPoint * points;
 }
 
 }  // namespace

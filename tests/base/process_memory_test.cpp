@@ -87,10 +87,10 @@ TEST(ThreadsWithin, ThrowsWithTheNeedIfOneIsTooMany) {
   }
 }
 
-TEST(MemorySize, HasATenthAndAUnit) {
-  EXPECT_EQ(memory_size(512), "512.0 B");
-  EXPECT_EQ(memory_size(1536), "1.5 KiB");
-  EXPECT_EQ(memory_size(25.0 * kMebi), "25.0 MiB");
+TEST(BytesInWords, HasATenthAndAUnit) {
+  EXPECT_EQ(bytes_in_words(512), "512.0 B");
+  EXPECT_EQ(bytes_in_words(1536), "1.5 KiB");
+  EXPECT_EQ(bytes_in_words(25.0 * kMebi), "25.0 MiB");
 }
 
 }  // namespace
