@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "base/process_memory.hpp"
 #include "base/thread_team.hpp"
 #include "export/text_sink.hpp"
 #include "results/results_reader.hpp"

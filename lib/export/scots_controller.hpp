@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/process_memory.hpp"
 #include "base/thread_team.hpp"
 #include "export/text_sink.hpp"
 #include "results/results_reader.hpp"

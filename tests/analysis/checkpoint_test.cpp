@@ -37,7 +37,8 @@ class ResumedAnalysis : public testing::Test {
  protected:
   AnalysisOptions options(bool resume) {
     AnalysisOptions result{.output = folder_ / "results.h5"};
-    result.checkpoint = CheckpointOptions{.file = folder_ / "saved", .every_seconds = 0, .resume = resume};
+    result.checkpoint =
+        CheckpointOptions{.file = folder_ / "saved", .every_seconds = resume ? 1e9 : 0.0, .resume = resume};
     return result;
   }
 

@@ -3,7 +3,8 @@
 import json
 import unittest
 
-from program import Case
+from magnitudes import complaint
+from program import PROGRAM, Case
 from random_systems import random_system
 
 
@@ -126,6 +127,15 @@ class Cases(Case):
             with self.subTest(shift=shift):
                 self.assert_confirmed(spec)
                 self.assert_confirmed(dict(spec, output={"abstraction": True}))
+
+    def test_wild_magnitudes_are_answered_or_refused(self):
+        """A sample; `magnitudes.py PROGRAM` runs many."""
+        happened = []
+        for seed in range(8):
+            what, wrong = complaint(PROGRAM, seed, self.folder, 270)
+            self.assertIsNone(wrong, f"{seed}: {wrong}")
+            happened.append(what)
+        self.assertEqual(set(happened), {"answered", "refused"})
 
     def check_random_systems(self, seeds):
         """A sample; `random_systems.py PROGRAM` runs all 500."""

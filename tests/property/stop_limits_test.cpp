@@ -10,15 +10,12 @@
 #include "model/pieces.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
+#include "support/draw.hpp"
 
 namespace coordreq {
 namespace {
 
-std::int64_t draw(std::int64_t low, std::int64_t high) {
-  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1));
-}
-
-ProblemSpec draw_spec() {
+ProblemSpec integrator_with_limits() {
   const auto side = [] { return *rc::gen::element<std::string>("stop", "stop", "unsafe"); };
   return read_spec(fmt::format(R"({{"coordreq": 1, "name": "stop",
 "states": [{{"name": "x", "lower": -4, "upper": 4, "step": 0.25}},
@@ -33,22 +30,22 @@ ProblemSpec draw_spec() {
                    "stop");
 }
 
-struct Point {
+struct Motion {
   Rational x, v;
 };
 
 /// The limits of v, far off where it has none.
-struct Limits {
+struct SpeedLimits {
   Rational lower, upper;
 
-  explicit Limits(const GridDimension& v)
+  explicit SpeedLimits(const GridDimension& v)
       : lower(v.below == Outside::stop ? v.first : Rational(-99)),
         upper(v.above == Outside::stop ? v.point(v.count - 1) : Rational(99)) {}
 };
 
 /// At the end of a period, and whether v was stopped on the way.
-Point solution(const Point& start, const Rational& u, const Rational& tau, const Limits& limits,
-               bool& is_stopped) {
+Motion solution(const Motion& start, const Rational& u, const Rational& tau, const SpeedLimits& limits,
+                bool& is_stopped) {
   const Rational free = start.v + u * tau;
   const Rational end = std::clamp(free, limits.lower, limits.upper);
   is_stopped = is_stopped || end != free;
@@ -57,7 +54,7 @@ Point solution(const Point& start, const Rational& u, const Rational& tau, const
   return {.x = start.x + (start.v + end) / 2 * moving + end * (tau - moving), .v = end};
 }
 
-struct Ends {
+struct HullEnds {
   Rational lower, upper;
   void take(const Rational& value, bool is_first) {
     lower = is_first ? value : std::min(lower, value);
@@ -69,21 +66,22 @@ struct Ends {
 TEST(StopLimits, PostsReachTheEndsOfSolutionsAndNoFartherWhereNobodyIsStopped) {
   ThreadTeam team(1);
   EXPECT_TRUE(rc::check("posts against solutions", [&] {
-    const ProblemSpec spec = draw_spec();
+    const ProblemSpec spec = integrator_with_limits();
     const bool is_closed = spec.abstraction.cells == Cells::closed;
     const Abstraction a = build_abstraction(spec, team);
-    const Limits limits(a.grid[1]);
+    const SpeedLimits limits(a.grid[1]);
     for (int attempt = 0; attempt < 40; ++attempt) {
-      const std::int64_t cell = draw(0, a.grid.cells() - 1);
-      const std::int64_t u = draw(0, a.inputs.count() - 1);
+      const std::int64_t cell = draw(std::int64_t{0}, a.grid.cells() - 1);
+      const std::int64_t u = draw(std::int64_t{0}, a.inputs.count() - 1);
       const Piece x = pieces(a.grid[0], a.grid.index(cell, 0)).front();
       const Piece v = pieces(a.grid[1], a.grid.index(cell, 1)).front();
-      Ends ends[2];
+      HullEnds ends[2];
       bool is_stopped = false;
       for (int corner = 0; corner < 4; ++corner) {
-        const Point start{.x = corner % 2 == 0 ? x.lower : x.upper, .v = corner / 2 == 0 ? v.lower : v.upper};
-        const Point end = solution(start, a.inputs[0].values[static_cast<std::size_t>(u)],
-                                   spec.dynamics.period, limits, is_stopped);
+        const Motion start{.x = corner % 2 == 0 ? x.lower : x.upper,
+                           .v = corner / 2 == 0 ? v.lower : v.upper};
+        const Motion end = solution(start, a.inputs[0].values[static_cast<std::size_t>(u)],
+                                    spec.dynamics.period, limits, is_stopped);
         ends[0].take(end.x, corner == 0);
         ends[1].take(end.v, corner == 0);
       }

@@ -23,7 +23,6 @@ CLOCKS = {
     "lib/analysis/stage_reporter": "how often progress is told",
     "app/progress_display": "how often progress is told",
     "lib/analysis/checkpoint": "how often work is saved",
-    "lib/verify/budget": "processor time, which the user sets",
     "app/mpi/mpi_ranks": "which rank tells of an error",
     "app/mpi/batch_on_ranks": "how often rank 0 looks for answers",
 }

@@ -34,8 +34,8 @@ std::string spec_text(const Kind& kind, const std::string& error) {
 
 TEST(MeasurementErrors, CountInEveryKindOfPost) {
   const Kind kinds[] = {
-      {"an affine map", "discrete", "0.5*x + 3*u", "y + v"},
-      {"a shift", "discrete", "x + 3*u", "y + v"},
+      {"an affine map", "discrete", "0.5*x + 0.2 + 3*u", "y + v"},
+      {"a shift", "discrete", "x + 0.3 + 3*u", "y + v"},
       {"a nonlinear map", "discrete", "0.05*x^2 + 3*u", "y + v"},
       {"a nonlinear map that shifts", "discrete", "x + 0.35*sin(y) + 3*u", "y + v"},
       {"a sum", "discrete", "0.5*x + 0.3*y*cos(u) + sin(v)", "y + v"},

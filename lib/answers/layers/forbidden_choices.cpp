@@ -1,8 +1,11 @@
 #include "answers/layers/forbidden_choices.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "engine/action_sources.hpp"
+#include "engine/row_engine.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 

@@ -4,7 +4,7 @@
 
 #include "engine/action_groups.hpp"
 #include "engine/cell_set.hpp"
-#include "spec/problem_spec.hpp"
+#include "spec/spec_types.hpp"
 
 namespace coordreq {
 

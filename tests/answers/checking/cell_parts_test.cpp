@@ -58,9 +58,9 @@ TEST(CellParts, TheArcThatHoldsBothIsTheShortest) {
 TEST(CellParts, AreThoseOfTheAnalysis) {
   EXPECT_TRUE(rc::check([] {
     const auto pick = [](int low, int high) { return *rc::gen::inRange(low, high + 1); };
-    GridDimension dimension = ring(pick(1, 12), Rational(pick(0, 30), 10));
-    dimension.first = Rational(pick(-30, 30), 10);
-    dimension.step = Rational(pick(1, 30), 10);
+    GridDimension dimension = ring(pick(1, 12), Rational(pick(0, 30)) / 10);
+    dimension.first = Rational(pick(-30, 30)) / 10;
+    dimension.step = Rational(pick(1, 30)) / 10;
     dimension.discrete = pick(0, 3) == 0;
     dimension.lower = dimension.first;
     dimension.upper = dimension.first + dimension.step * Rational(static_cast<long>(dimension.count));
