@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "answers/field_table.hpp"
 #include "answers/invariance/fields.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -9,8 +10,9 @@ namespace coordreq {
 
 std::vector<const Field*> asked_fields(const ResultsReader& results) {
   std::vector<const Field*> fields;
-  for (const Field& field : results.fields()) {
-    if (!field.shown.asked.name.empty()) fields.push_back(&field);
+  for (const Field& field : answer_fields(results.spec())) {
+    if (!field.shown.asked.name.empty() && results.has(field.path))
+      fields.push_back(&results.field(field.path));
   }
   return fields;
 }
@@ -33,7 +35,7 @@ StateAnswer StateQuery::at(std::vector<Rational> state) {
       answer.actions[policy.name].push_back(controller_.actions(policy, p, cell, countdown));
     }
   }
-  for (const Field* const field : asked_fields(results_)) read_values(field->path, block, answer);
+  for (const Field* const field : asked_) read_values(field->path, block, answer);
   return answer;
 }
 

@@ -32,7 +32,8 @@ struct StateAnswer {
   }
 };
 
-/// The fields of the file that are told as FieldAsked says, without the steps of policies.
+/// The fields of the file that are told as FieldAsked says, in the order of the answers, without the steps of
+/// policies.
 [[nodiscard]] std::vector<const Field*> asked_fields(const ResultsReader& results);
 
 /// Answers questions about states. Not thread-safe.
@@ -40,7 +41,7 @@ class StateQuery {
  public:
   /// REQUIRES: `results` and `team` outlive this object.
   StateQuery(const ResultsReader& results, ThreadTeam& team)
-      : results_(results), controller_(results, team) {}
+      : results_(results), controller_(results, team), asked_(asked_fields(results)) {}
 
   /// @param state one value a state of the spec. A state outside of the domain has an answer too.
   /// @throws ResultsError if the file is damaged, or needed actions are neither stored nor computable
@@ -52,6 +53,7 @@ class StateQuery {
 
   const ResultsReader& results_;
   CellController controller_;
+  std::vector<const Field*> asked_;
 };
 
 /// The box of a cell: its lower and upper ends in every dimension, equal for a discrete one.
