@@ -52,6 +52,15 @@ class Cases(Case):
     def test_text(self):
         self.assert_prints(TEXT, "query", self.analyzed(), "--at", "y=1,x=3/5")
 
+    def test_sections_come_in_the_order_of_the_answers(self):
+        answers = {"coordination": {"horizon": 1, "convention": True}, "network": {"delay": 1}}
+        name = self.analyzed(spec_with(**answers))
+        header = self.query(name, stdin=b"x,y\n0,0\n").splitlines()[0].split(",")
+        sections = ("coalition", "critical_pairs", "safe_modes", "convention:a", "convention:b")
+        self.assertEqual([column for column in header if column in sections], list(sections))
+        keys = list(self.at("x=0,y=0", name))
+        self.assertLess(keys.index("coalition"), keys.index("safe_modes"))
+
     def test_states_as_far_away_as_numbers_go(self):
         self.analyzed()
         for state in ("x=1e300,y=0", "x=0,y=-1e300", "x=9.3e18,y=9.3e18", "x=-9.3e18,y=1"):
