@@ -56,13 +56,13 @@ class Cases(Case):
     def test_file_size_of_a_checkpoint(self):
         result = self.limited(
             resource.RLIMIT_FSIZE,
-            512,
+            64,
             *("analyze", "s.json", "--sweep", "name=a", "--quiet"),
         )
         self.assertEqual((result.returncode, result.stderr), (0, b""))  # writes nothing
         result = self.limited(
             resource.RLIMIT_FSIZE,
-            512,
+            64,
             *("analyze", "s.json", "--checkpoint", "c", "--checkpoint-every", "0"),
         )
         lines = result.stderr.decode().splitlines()

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "expression/evaluate.hpp"
 #include "model/input_class.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/problem_spec.hpp"
@@ -50,6 +51,21 @@ class World {
     }
     if (left) cells.push_back(kGone);
     return cells;
+  }
+
+  /// Whether `allow` forbids the pair.
+  [[nodiscard]] bool forbids(std::int64_t x, std::int64_t u) const {
+    if (!file_.spec.controller.allow) return false;
+    std::vector<RationalInterval> point(file_.spec.slot_count());
+    const auto put = [&point](std::size_t slot, const Rational& value) {
+      point[slot] = {.lower = value, .upper = value};
+    };
+    const UniformGrid& grid = abstraction_.grid;
+    const InputSpace& inputs = abstraction_.inputs;
+    for (std::size_t i = 0; i < grid.size(); ++i) put(i, grid[i].point(grid.index(x, i)));
+    for (std::size_t j = 0; j < inputs.size(); ++j)
+      put(grid.size() + j, inputs[j].values[static_cast<std::size_t>(inputs.index(u, j))]);
+    return Evaluator<RationalInterval>(*file_.spec.controller.allow).condition(point) != Truth::yes;
   }
 
   /// C(x), or IND_C(x) of a partition.
@@ -135,7 +151,7 @@ TEST(Propositions, AStateThatLeavesTheLayersHasAChoiceThatLeavesItsOwn) {
         const auto outside = [&](std::int64_t y) {
           return y != kGone && claims.delay[static_cast<std::size_t>(y)] < k;
         };
-        return !next || std::any_of(next->begin(), next->end(), outside);
+        return !next || world.forbids(x, u) || std::any_of(next->begin(), next->end(), outside);
       };
       const std::vector<std::int64_t> choices = world.choices(x, p);
       RC_ASSERT((choices.empty() || std::any_of(choices.begin(), choices.end(), leaves)));

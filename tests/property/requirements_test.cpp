@@ -289,8 +289,10 @@ TEST(Requirements, HoldAtTheirExactBoundAndNoFurther) {
     const std::vector<ResultRequirement> found = Both::judged(spec, team);
     for (const std::int64_t further : {0, 1}) {
       for (std::size_t r = 0; r < found.size(); ++r) {
-        const bool is_limit = spec.requirements[r].kind == RequirementKind::max_arrival;
-        spec.requirements[r].steps = found[r].least_delay + (is_limit ? -further : further);
+        const RequirementKind kind = spec.requirements[r].kind;
+        const std::int64_t bound = found[r].least_delay;
+        if (bound < 0 || bound == INT32_MAX || kind == RequirementKind::invariant) continue;
+        spec.requirements[r].steps = bound + (kind == RequirementKind::max_arrival ? -further : further);
       }
       const std::vector<ResultRequirement> again = Both::judged(spec, team);
       for (std::size_t r = 0; r < found.size(); ++r) {
