@@ -100,7 +100,7 @@ void hold_to_memory(std::uint64_t bytes) {
   const auto accepted = static_cast<std::int64_t>(std::min(bytes, std::uint64_t{1} << 62U));
   // Files in memory are no data.
   const std::int64_t wanted =
-      accepted + accepted / 20 - static_cast<std::int64_t>(bytes_of_files()) + untouched_bytes();
+      accepted + accepted / 10 - static_cast<std::int64_t>(bytes_of_files()) + untouched_bytes();
   set_limit_of_data(static_cast<rlim_t>(std::max(wanted, data + kAlwaysGranted)));
 }
 

@@ -42,7 +42,7 @@ struct MemoryDemand {
 [[nodiscard]] int threads_within(const std::string& subject, const MemoryDemand& demand, int threads,
                                  std::optional<std::uint64_t> limit);
 
-/// From now on the system refuses this process what would take it beyond so many bytes and a twentieth:
+/// From now on the system refuses this process what would take it beyond so many bytes and a tenth:
 /// std::bad_alloc is thrown then. Little more than what it holds already is always granted, so that it can
 /// say so. Stacks of a ThreadTeam are made room for. Without effect under a sanitiser.
 void hold_to_memory(std::uint64_t bytes);
