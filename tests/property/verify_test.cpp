@@ -21,7 +21,7 @@ TEST(Verify, ResultsOfRandomSystemsHold) {
   EXPECT_TRUE(rc::check("what analyze writes holds", [&] {
     const std::string text = draw_problem();
     const ClaimedFile file = analysed_file(draw(0, 1) == 0 ? text : storing_everything(text), team);
-    const Verification result = verify_file(file, {}, team);
+    const Verification result = verify_file(file, {.budget_seconds = 2}, team);
     RC_LOG(complaints(result));
     RC_CLASSIFY(result.basis == PostBasis::exact, "exact");
     RC_ASSERT(result.holds());
@@ -33,7 +33,7 @@ TEST(Verify, ResultsThatAreSafeBetweenTheSamplesHold) {
   EXPECT_TRUE(rc::check("what analyze writes with tubes holds", [&] {
     const std::string text = draw_problem(RandomTime::between_samples);
     const ClaimedFile file = analysed_file(draw(0, 1) == 0 ? text : storing_everything(text), team);
-    const Verification result = verify_file(file, {}, team);
+    const Verification result = verify_file(file, {.budget_seconds = 2}, team);
     RC_LOG(complaints(result));
     RC_CLASSIFY(result.tubes == PostBasis::exact, "exact");
     for (const Finding& finding : result.findings) RC_ASSERT(finding.unproven == 0);
@@ -100,7 +100,7 @@ TEST(Verify, CoalitionsOfManyAgentsHoldAndOneOtherIsFound) {
   EXPECT_TRUE(rc::check("coalition maps", [&] {
     ClaimedFile file =
         analysed_file(draw_problem(RandomTime::any, RandomEdges::any, RandomAgents::many), team);
-    const Verification result = verify_file(file, {}, team);
+    const Verification result = verify_file(file, {.budget_seconds = 2}, team);
     RC_LOG(complaints(result));
     RC_ASSERT(result.holds());
     corrupt_coalition(file.claims);
