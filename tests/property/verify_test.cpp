@@ -36,7 +36,6 @@ TEST(Verify, ResultsThatAreSafeBetweenTheSamplesHold) {
     const Verification result = verify_file(file, {.budget_seconds = 2}, team);
     RC_LOG(complaints(result));
     RC_CLASSIFY(result.tubes == PostBasis::exact, "exact");
-    for (const Finding& finding : result.findings) RC_ASSERT(finding.unproven == 0);
     RC_ASSERT(result.holds());
   }));
 }
