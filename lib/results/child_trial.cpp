@@ -113,9 +113,11 @@ std::string outcome_of(const std::function<void()>& read) {
 
 /// @param signal that ended the child before it could say anything, 0 if none did
 [[noreturn]] void tell_of_silence(int signal, const std::string& path) {
-  // So the system ends who takes too much; and the library fails in many ways where it is given no memory.
-  if (signal == SIGKILL || is_held_to_memory()) throw std::bad_alloc();
-  if (signal != SIGXCPU) throw ResultsError("damaged results file: the HDF5 library cannot read it", path);
+  if (signal == SIGKILL) throw std::bad_alloc();  // so the system ends who takes too much
+  if (signal != SIGXCPU) {
+    if (is_held_to_memory()) throw std::bad_alloc();  // the library fails in many ways where it is given none
+    throw ResultsError("damaged results file: the HDF5 library cannot read it", path);
+  }
   rlimit own{};
   if (getrlimit(RLIMIT_CPU, &own) == 0 && own.rlim_cur < seconds_for(path))
     throw LimitError("reading takes more time of the processor than a process may have here", path);
