@@ -12,6 +12,7 @@
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/plan.hpp"
 #include "answers/requirements/answer.hpp"
+#include "answers/requirements/result_requirement.hpp"
 #include "base/index.hpp"
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"

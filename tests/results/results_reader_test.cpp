@@ -9,6 +9,7 @@
 #include "answers/field_table.hpp"
 #include "answers/layers/fields.hpp"
 #include "answers/network/fields.hpp"
+#include "answers/requirements/result_requirement.hpp"
 #include "base/error.hpp"
 #include "base/thread_team.hpp"
 #include "results/hdf5_handle.hpp"
