@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "answers/plan.hpp"
+#include "app/answers/all.hpp"
 #include "app/render.hpp"
 #include "app/requirement_text.hpp"
 #include "spec/problem_spec.hpp"
@@ -119,31 +119,6 @@ std::string partitions_table(const Json& summary) {
   return "\n" + table_text(summary["partitions"], columns) + connection;
 }
 
-/// Where an agent keeps at most half of its actions.
-std::string cells_of_half(const Json& own) {
-  const auto histogram = own["histogram"].get<std::vector<std::int64_t>>();
-  return cells(std::accumulate(histogram.begin(), histogram.begin() + 5, std::int64_t{0}));
-}
-
-std::string convention_text(const Json& convention) {
-  return fmt::format(
-      "\nconvention\n{}  Agents that keep to it never need to coordinate inside the invariance set.\n",
-      table_text(convention,
-                 {{"  agent", Align::left, [](const Json& own) { return "  " + text_of(own["agent"]); }},
-                  {"keeps on average", Align::right,
-                   [](const Json& own) { return fmt::format("{:.1f} %", 100 * own["mean"].get<double>()); }},
-                  {"all in", Align::right, [](const Json& own) { return cells(own["full"]); }},
-                  {"at most half in", Align::right, cells_of_half}}));
-}
-
-std::string goal_text(const Json& summary) {
-  const Json& goal = summary["goal"];
-  const std::string size = cells(goal["cells"]);
-  if (goal["longest_arrival"].is_null()) return size + "; it cannot be forced from anywhere";
-  return fmt::format("{}; forced from {}, within {}", size, cells(goal["winning"]),
-                     duration(goal["longest_arrival"], summary));
-}
-
 std::string sets_text(const Json& summary) {
   Facts facts;
   if (summary.contains("controller")) {
@@ -156,7 +131,7 @@ std::string sets_text(const Json& summary) {
   facts.emplace_back("safe set", cells(summary["safe"]));
   facts.emplace_back("invariance set", fmt::format("{} after {}", cells(summary["invariant"]),
                                                    count_of(number_of(summary["iterations"]), "sweep")));
-  if (summary.contains("goal")) facts.emplace_back("goal", goal_text(summary));
+  for (const AddFacts add : analysis_facts()) add(summary, facts);
   facts.emplace_back("guarantee", guarantee_text(text_of(summary["guarantee"])));
   return facts_text(facts);
 }
@@ -173,12 +148,10 @@ std::string partitions_text(const Json& summary, const ProblemSpec& spec) {
     return "\nThe invariance set is empty on this grid: no state can be kept safe, even if all agents always "
            "coordinate.\n";
   }
-  if (summary["partitions"].size() > kMostPartitionsInFull) return partitions_table(summary);
+  if (!tells_partitions_in_full(summary)) return partitions_table(summary);
   std::string text;
   const std::vector<AnswerPolicy> policies = answer_policies(spec);
   for (const Json& partition : summary["partitions"]) text += partition_text(partition, summary, policies);
-  if (spec.network) text += network_text(summary, *spec.network);
-  if (summary.contains("convention")) text += convention_text(summary["convention"]);
   return text;
 }
 
@@ -192,10 +165,17 @@ std::string closing_text(const Json& summary) {
 }  // namespace
 
 std::string summary_text(const Json& summary, const ProblemSpec& spec) {
-  return sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec) +
-         coalition_text(summary) +
-         others_text(summary, {"controller", "coalition", "goal", "network", "seconds", "work", "warnings"}) +
-         requirements_text(summary["requirements"], spec) + closing_text(summary);
+  std::string text = sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec);
+  for (const AnalysisSection section : analysis_sections()) text += section(summary, spec);
+  std::vector<std::string> told = {"controller", "seconds", "work", "warnings"};
+  told.insert(told.end(), told_members().begin(), told_members().end());
+  return text + others_text(summary, told) + requirements_text(summary["requirements"], spec) +
+         closing_text(summary);
+}
+
+bool tells_partitions_in_full(const Json& summary) {
+  return summary["safe"] != 0 && summary["invariant"] != 0 &&
+         summary["partitions"].size() <= kMostPartitionsInFull;
 }
 
 std::string fixed_point_text(const Json& partition) {

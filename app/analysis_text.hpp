@@ -14,6 +14,8 @@ namespace coordreq {
 
 /// With more partitions than this each gets one line of a table.
 inline constexpr std::size_t kMostPartitionsInFull = 3;
+/// They are not in a table, and there is something to say of them.
+[[nodiscard]] bool tells_partitions_in_full(const Json& summary);
 
 /// Figures of a partition in tables: F, |Z_F|, and the largest delay of the cells that have a finite one,
 /// which is empty if none has.
@@ -23,12 +25,5 @@ inline constexpr std::size_t kMostPartitionsInFull = 3;
 
 /// The wall time of all stages.
 [[nodiscard]] double seconds_of(const Json& summary);
-
-/// Who must talk to whom: the partitions that cells are given and the pairs that are critical. Empty if the
-/// spec has no horizon or K has no cell.
-[[nodiscard]] std::string coalition_text(const Json& summary);
-
-/// The modes of the network and where they are safe. REQUIRES: there is one.
-[[nodiscard]] std::string network_text(const Json& summary, const NetworkSpec& network);
 
 }  // namespace coordreq

@@ -45,10 +45,11 @@ Json change_json(const ValueChange& change, const Field& field, const Files& fil
 }
 
 Json values_json(const ValueComparison& own, const Files& files) {
+  const Field& field = files.after.field("/" + own.name);
   Json json;
-  if (own.partition) {
-    json["name"] = files.after.partitions()[own.partition->after].name;
-    json["name_before"] = files.before.partitions()[own.partition->before].name;
+  if (own.entry) {
+    json["name"] = files.after.leading_names(field)[own.entry->after];
+    json["name_before"] = files.before.leading_names(field)[own.entry->before];
   }
   json["lost"] = own.lost;
   json["left"] = own.left;
@@ -57,8 +58,7 @@ Json values_json(const ValueComparison& own, const Files& files) {
   json["tolerated"] = own.tolerated;
   json["gained"] = own.gained;
   json["worst"] = Json::array();
-  for (const ValueChange& change : own.worst)
-    json["worst"].push_back(change_json(change, files.after.field("/" + own.name), files));
+  for (const ValueChange& change : own.worst) json["worst"].push_back(change_json(change, field, files));
   return json;
 }
 
@@ -103,7 +103,12 @@ std::string sets_table(const std::vector<Compared>& sets) {
   return table.text();
 }
 
-/// "alone", or "alone (was: a|b)"; the words of a field that is not over partitions.
+/// What entries of the leading axis are: "partition".
+std::string axis_of(const Field& field) {
+  return field.axes.front().substr(1);
+}
+
+/// "alone", or "alone (was: a|b)"; the words of a field without a leading axis.
 std::string name_of(const Json& own, const Field& field) {
   if (!own.contains("name")) return field.shown.compared;
   const Json& old = own["name_before"];
@@ -113,7 +118,7 @@ std::string name_of(const Json& own, const Field& field) {
 std::string values_table(const Compared& values, bool tolerant) {
   const Field& field = values.field;
   const auto count = [](const char* key) { return [key](const Json& own) { return grouped(own[key]); }; };
-  std::vector<Column> columns = {{values.found.front().contains("name") ? "partition" : "", Align::left,
+  std::vector<Column> columns = {{values.found.front().contains("name") ? axis_of(field) : "", Align::left,
                                   [&field](const Json& own) { return name_of(own, field); }},
                                  {"lost " + field.shown.compared, Align::right, count("lost")},
                                  {"left the set", Align::right, count("left")},
@@ -135,7 +140,7 @@ bool is_lower_bound(const Json& value, const Json& partition, const Field& field
 /// @param partition its name in this file; null if there is none
 std::string value_text(const Json& value, const Json& status, const Json& partition, const Field& field,
                        const ResultsReader& file) {
-  if (status == "number") return grouped(value);
+  if (status == "number") return value.is_number_float() ? probability_text(value) : grouped(value);
   if (status == "not_invariant") return "not in the invariance set";
   if (status != "steps") {
     std::string word = text_of(status);
@@ -158,20 +163,21 @@ std::string worst_text(const Json& own, const Field& field, const Files& files) 
                          return fmt::format("{:.6g}", change["state"][state.name].get<double>());
                        }});
   }
-  const bool is_partition = own.contains("name");
+  const bool is_entry = own.contains("name");
   const auto value = [&field](const std::string& when, const Json& partition, const ResultsReader& file) {
     return [&field, &file, when, partition](const Json& change) {
       return value_text(change[when], change[when + "_status"], partition, field, file);
     };
   };
   columns.push_back(
-      {"before", Align::left, value("before", is_partition ? own["name_before"] : Json(), files.before)});
-  columns.push_back({"after", Align::left, value("after", is_partition ? own["name"] : Json(), files.after)});
+      {"before", Align::left, value("before", is_entry ? own["name_before"] : Json(), files.before)});
+  columns.push_back({"after", Align::left, value("after", is_entry ? own["name"] : Json(), files.after)});
   const auto named = static_cast<std::int64_t>(own["worst"].size());
   const std::string which =
       named < number_of(own["lost"]) ? fmt::format("the worst {} of ", grouped(named)) : "";
-  return fmt::format("\n{}{}: {}{} that lost {}\n{}", is_partition ? "partition " : "", name_of(own, field),
-                     which, cells(own["lost"]), field.shown.compared, table_text(own["worst"], columns));
+  return fmt::format("\n{}{}: {}{} that lost {}\n{}", is_entry ? axis_of(field) + " " : "",
+                     name_of(own, field), which, cells(own["lost"]), field.shown.compared,
+                     table_text(own["worst"], columns));
 }
 
 /// Where analyses stopped at max_delay, what they found is less than the whole truth.
@@ -225,7 +231,7 @@ Json comparison_json(const ResultsComparison& comparison, const ResultsReader& b
   for (const SetComparison& set : comparison.sets) json[set.name] = set_json(set);
   for (const ValueComparison& own : comparison.values) {
     Json& place = json[key_of(own.name)];
-    if (own.partition) {
+    if (own.entry) {
       place.push_back(values_json(own, files));
     } else {
       place = values_json(own, files);

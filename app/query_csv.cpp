@@ -16,6 +16,11 @@ std::string csv_steps(std::int32_t steps) {
   return steps == ResultsReader::kNever ? "inf" : std::to_string(steps);
 }
 
+/// Of a probability all digits: one that is rounded could be less than it.
+std::string csv_number(const Field& field, std::int32_t value) {
+  return field.kind == FieldKind::probability ? fmt::format("{}", probability_of(value)) : csv_steps(value);
+}
+
 std::string csv_actions(const std::vector<bool>& actions) {
   std::string text;
   for (std::size_t a = 0; a < actions.size(); ++a) {
@@ -30,10 +35,15 @@ std::string csv_actions(const ActionSets& sets) {
   return text;
 }
 
-/// A number, or the names of the entries that hold.
+/// A number, one for each entry, or the names of the entries that hold.
 std::string csv_section(const Field& field, const std::vector<std::int32_t>& values,
                         const ResultsReader& results) {
-  if (field.kind != FieldKind::set) return std::to_string(values.front());
+  if (field.kind == FieldKind::choice) return std::to_string(values.front());
+  if (field.kind == FieldKind::probability) {
+    std::string text;
+    for (const std::int32_t value : values) text += (text.empty() ? "" : ",") + csv_number(field, value);
+    return text;
+  }
   std::string names;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] != 0) names += (names.empty() ? "" : " ") + results.leading_names(field)[i];
@@ -79,7 +89,7 @@ std::string csv_partition(const StateAnswer& answer, std::size_t p, const QueryF
             csv_steps(answer.value(policy.trigger, p)) + csv_actions(answer.actions.at(policy.name)[p]);
   }
   for (const Field* const field : form.numbers) {
-    if (QueryForm::is_of_partitions(*field)) line += "," + csv_steps(answer.value(field->path, p));
+    if (QueryForm::is_of_partitions(*field)) line += "," + csv_number(*field, answer.value(field->path, p));
   }
   return line;
 }
@@ -94,7 +104,11 @@ std::string header_of_answers(const QueryForm& form) {
   for (const StoredPartition& partition : results.partitions()) line += csv_partition_header(partition, form);
   for (const Field* const field : form.others) {
     const FieldAsked& asked = field->shown.asked;
-    line += "," + answer_column(field->kind == FieldKind::choice ? asked.group : asked.name, results);
+    if (field->kind == FieldKind::probability) {
+      for (const std::string& entry : results.leading_names(*field)) line += "," + asked.name + ":" + entry;
+    } else {
+      line += "," + answer_column(field->kind == FieldKind::choice ? asked.group : asked.name, results);
+    }
   }
   for (const AnswerPolicy& policy : form.of_agents) {
     for (const AgentSpec& agent : form.spec().agents) line += "," + policy.name + ":" + agent.name;
@@ -123,7 +137,7 @@ std::string line_of_answers(const StateAnswer& answer, const QueryForm& form) {
   for (const AnswerPolicy& policy : form.of_agents)
     line += csv_actions(answer.actions.at(policy.name).front());
   for (const Field* const field : form.numbers) {
-    if (!QueryForm::is_of_partitions(*field)) line += "," + csv_steps(answer.value(field->path));
+    if (!QueryForm::is_of_partitions(*field)) line += "," + csv_number(*field, answer.value(field->path));
   }
   return line;
 }

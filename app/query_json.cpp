@@ -117,7 +117,8 @@ Json partition_json(const StateAnswer& answer, std::size_t p, const QueryForm& f
   return json;
 }
 
-/// A partition that is chosen, or why there is none; else the entries of the leading axis that hold.
+/// A partition that is chosen, or why there is none; the probabilities of the entries of the leading axis;
+/// else those that hold.
 void add_to_section(Json& json, const Field& field, const std::vector<std::int32_t>& values,
                     const ResultsReader& results) {
   const FieldAsked& asked = field.shown.asked;
@@ -126,6 +127,11 @@ void add_to_section(Json& json, const Field& field, const std::vector<std::int32
     const std::int32_t p = values.front();
     json[asked.name] = p >= 0 ? Json(results.partitions()[static_cast<std::size_t>(p)].name) : Json();
     json["status"] = p >= 0 ? asked.name : status_of(field, p);
+    return;
+  }
+  if (field.kind == FieldKind::probability) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      json[asked.name][results.leading_names(field)[i]] = probability_of(values[i]);
     return;
   }
   Json& names = json[asked.name] = Json::array();
@@ -140,8 +146,8 @@ QueryForm::QueryForm(const ResultsReader& file) : results(file) {
   for (const AnswerPolicy& policy : answer_policies(file.spec()))
     (policy.is_by_agent ? of_agents : policies).push_back(policy);
   for (const Field* const field : asked_fields(file)) {
-    const bool is_number =
-        field->kind == FieldKind::steps && (file.leading_length(*field) == 0 || is_of_partitions(*field));
+    const bool is_number = (field->kind == FieldKind::steps || field->kind == FieldKind::probability) &&
+                           (file.leading_length(*field) == 0 || is_of_partitions(*field));
     (is_number ? numbers : others).push_back(field);
   }
 }

@@ -217,10 +217,22 @@ class AnswerText {
   /// @param is_chosen set to false where a partition is to be chosen and none is
   [[nodiscard]] std::string section_text(const Field& field, const Json& own, bool& is_chosen) const {
     const FieldAsked& asked = field.shown.asked;
+    if (field.kind == FieldKind::probability) return probabilities_text(own[asked.name]);
     if (field.kind != FieldKind::choice)
       return names_text(field, own[asked.name].get<std::vector<std::string>>());
     is_chosen = own["status"] == asked.name;
     return is_chosen ? text_of(own[asked.name]) : status_words(field, text_of(own["status"]));
+  }
+
+  /// "up 1.3e-07, down 0.002".
+  [[nodiscard]] static std::string probabilities_text(const Json& of_entries) {
+    std::string text;
+    std::size_t shown = 0;
+    for (const auto& [name, value] : of_entries.items()) {
+      if (++shown > kMostNames) return text + " ...";
+      text += (text.empty() ? "" : ", ") + name + " " + probability_text(value);
+    }
+    return text;
   }
 
   /// The entries of a set that hold, counted if the field says what they are called.

@@ -36,7 +36,7 @@ std::string status_words(const Field& field, const std::string& status) {
 std::string value_words(const Field& field, const Json& of, const std::string& key,
                         const std::function<std::string(const Json& steps)>& steps_text) {
   const std::string status = text_of(of[key + "_status"]);
-  if (status == "number") return grouped(of[key]);
+  if (status == "number") return of[key].is_number_float() ? probability_text(of[key]) : grouped(of[key]);
   if (status == "at_least") return "at least " + steps_text(of[key]);
   if (status != "steps") return status_words(field, status);
   return of[key] == 0 && field.shown.asked.meanings.contains("0") ? status_words(field, "0")

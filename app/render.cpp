@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace coordreq {
@@ -36,6 +37,14 @@ std::string values_text(const Json& values) {
   for (const auto& [name, value] : values.items())
     text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, value.get<double>());
   return text;
+}
+
+std::string probability_text(const Json& probability) {
+  const auto value = probability.get<double>();
+  const auto text = [](double p) { return fmt::format("{:.3g}", p); };
+  if (std::stod(text(value)) >= value) return text(value);
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
+  return text(value + unit / 2);
 }
 
 std::string sides_text(const Json& outside) {

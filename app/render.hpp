@@ -23,6 +23,8 @@ namespace coordreq {
 [[nodiscard]] std::string duration(const Json& steps, const Json& document);
 /// "x = 0.1, v = -2", of an object of numbers.
 [[nodiscard]] std::string values_text(const Json& values);
+/// Three digits, rounded up: no probability looks less than it is.
+[[nodiscard]] std::string probability_text(const Json& probability);
 /// "saturate", "unsafe below, safe above".
 [[nodiscard]] std::string sides_text(const Json& outside);
 

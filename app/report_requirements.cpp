@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "answers/requirements/answer.hpp"
+#include "answers/requirements/result_requirement.hpp"
 #include "app/render.hpp"
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
@@ -87,8 +88,9 @@ std::string failure(std::size_t& way, const Json& own, const ProblemSpec& spec) 
 std::string report_requirements(const ResultsReader& results) {
   const ProblemSpec& spec = results.spec();
   std::vector<Json> all;
-  for (std::size_t r = 0; r < results.requirements().size(); ++r)
-    all.push_back(requirement_json(results.requirements()[r], spec.requirements[r], spec));
+  const std::vector<ResultRequirement> requirements = read_requirement_values(spec, results);
+  for (std::size_t r = 0; r < requirements.size(); ++r)
+    all.push_back(requirement_json(requirements[r], spec.requirements[r], spec));
   if (all.empty()) return "";
   const auto failed = static_cast<std::uint64_t>(
       std::count_if(all.begin(), all.end(), [](const Json& own) { return !own["holds"].get<bool>(); }));

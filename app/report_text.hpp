@@ -27,13 +27,4 @@ namespace coordreq {
 /// Each requirement with its verdict, and what goes wrong where one fails; empty if there are none.
 [[nodiscard]] std::string report_requirements(const ResultsReader& results);
 
-/// How soon the goal is reached; empty without one.
-[[nodiscard]] std::string report_goal(const ResultsReader& results);
-
-/// Who must talk to whom, in numbers of states; empty without a coalition map.
-[[nodiscard]] std::string report_coalitions(const ResultsReader& results);
-
-/// From how many states the agents stay safe on the network; empty without one.
-[[nodiscard]] std::string report_network(const ResultsReader& results);
-
 }  // namespace coordreq

@@ -3,11 +3,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/answers/all.hpp"
 #include "app/commands/all.hpp"
-#include "app/network_report.hpp"
 #include "app/print_answer.hpp"
 #include "app/render.hpp"
-#include "app/requirement_text.hpp"
 #include "results/read_info.hpp"
 
 namespace coordreq {
@@ -30,13 +29,7 @@ std::string head_text(const Json& info) {
        {"cells", grouped(info["cells"])},
        {"safe set", grouped(info["safe"])},
        {"invariance set", grouped(info["invariant"])}});
-  if (info.contains("goal")) {
-    const Json& goal = info["goal"];
-    facts.emplace_back("goal", grouped(goal["cells"]));
-    facts.emplace_back("goal can be forced", grouped(goal["winning"]));
-    if (!goal["longest_arrival"].is_null())
-      facts.emplace_back("longest way to it", duration(goal["longest_arrival"], info));
-  }
+  for (const auto add : info_facts()) add(info, facts);
   return facts_text(facts);
 }
 
@@ -64,49 +57,11 @@ std::string described_partitions(const Json& partitions) {
                       }}});
 }
 
-/// How many cells are given which partition, and where pairs are critical, as far as there are any.
-std::string coalition_text(const Json& info) {
-  const Json& coalition = info["coalition"];
-  if (coalition.is_null()) return "";
-  Table table({Align::left, Align::right});
-  const auto add = [&table](const std::string& name, const Json& count) {
-    if (!count.is_null() && count > 0) table.add({name, cells(count)});
-  };
-  for (const Json& own : coalition["partitions"]) add("  " + line_of(own["name"]), own["cells"]);
-  add("  none suffices", coalition["no_partition_suffices"]);
-  for (const Json& own : coalition["critical_pairs"])
-    add("  critical pair " + line_of(own["name"]), own["cells"]);
-  return fmt::format("\ncoalitions for {}\n{}", duration(coalition["horizon"], info), table.text());
-}
-
-std::string requirements_text(const Json& info) {
-  const auto least = [&info](const Json& own) {
-    const std::string key = worst_key(own);
-    const Json& status = own[key + "_status"];
-    return status == "steps" ? duration(own[key], info) : text_of(status);
-  };
-  const auto story = [&info](const Json& own) {
-    const Json& steps = own["counterexample_steps"];
-    return !steps.is_null() ? duration(steps, info) : own["holds"] ? "-" : "outside the domain";
-  };
-  if (info["requirements"].empty()) return "";
-  return "\n" +
-         table_text(
-             info["requirements"],
-             {{"requirement", Align::left, [](const Json& own) { return line_of(own["name"]); }},
-              {"verdict", Align::left, [](const Json& own) { return own["holds"] ? "holds" : "FAILS"; }},
-              {"cells", Align::right, [](const Json& own) { return grouped(own["cells"]); }},
-              {"failing", Align::right, [](const Json& own) { return grouped(own["failing"]); }},
-              {info.contains("goal") ? "worst" : "least delay", Align::left, least},
-              {"counterexample", Align::right, story}});
-}
-
 std::string info_text(const Json& info) {
-  std::string text = head_text(info) + "\n" + axes_text(info) + "\n" +
-                     described_partitions(info["partitions"]) + coalition_text(info) +
-                     requirements_text(info);
-  if (info.contains("modes")) text += "\n" + modes_text(info["modes"]);
-  text += others_text(info, {"coalition", "goal"});
+  std::string text =
+      head_text(info) + "\n" + axes_text(info) + "\n" + described_partitions(info["partitions"]);
+  for (const InfoSection section : info_sections()) text += section(info);
+  text += others_text(info, told_members());
   text += "\ndatasets\n";
   for (const Json& dataset : info["datasets"]) text += "  " + line_of(dataset) + "\n";
   return text;

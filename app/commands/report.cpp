@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "app/answers/all.hpp"
 #include "app/commands/all.hpp"
 #include "app/files_in_use.hpp"
 #include "app/json_text.hpp"
@@ -37,17 +38,13 @@ std::vector<std::size_t> shown_partitions(const ResultsReader& results) {
   return order;
 }
 
-/// What only some files have, in the order of the page; each is empty in the others.
-constexpr std::string (*kSections[])(const ResultsReader& results) = {report_goal, report_requirements,
-                                                                      report_coalitions, report_network};
-
 std::string page_of(const ResultsReader& results, ReportData& data) {
   data = report_data(results, shown_partitions(results));
   ReportPage page;
   page.title = printable(report_title(results.spec()));
   page.summary = "<h1>" + html_line(report_title(results.spec())) + "</h1>\n" + report_task(results) +
                  report_answer(results, data);
-  for (const auto section : kSections) page.summary += section(results);
+  for (const ReportSection section : report_sections()) page.summary += section(results);
   page.details = report_details(results) + report_footer(results);
   page.data = std::move(data.json);
   return report_page(page);

@@ -117,16 +117,19 @@ enum class FieldSection : std::uint8_t {
 /// What a field says of each cell. Together with the axis before those of the cells (none, /partition, or one
 /// that names modes, pairs, agents, ...) it tells every reader how to read, compare, show and draw the field.
 enum class FieldKind : std::uint8_t {
-  none,     ///< nothing of single cells: scales, sizes, lists, tables
-  set,      ///< 0 or 1: the cell is in the set, or in that of an entry of the leading axis
-  steps,    ///< a number of steps, or what a flag says
-  choice,   ///< a place along the axis /partition, or what a flag says
-  share,    ///< float32, in K a part of 1
+  none,    ///< nothing of single cells: scales, sizes, lists, tables
+  set,     ///< 0 or 1: the cell is in the set, or in that of an entry of the leading axis
+  steps,   ///< a number of steps, or what a flag says
+  choice,  ///< a place along the axis /partition, or what a flag says
+  share,   ///< float32, in K a part of 1
+  /// float32 from 0 to 1. As an integer it is its bits, which order like the numbers.
+  probability,
   actions,  ///< which joint actions of some inputs: a bit each, along a last axis of bytes
 };
 
 /// How the page of a report draws a field over cells: numbers as one map, or one for each entry of the
-/// leading axis; sets over an axis as one map of the entries that hold; shares one map for each entry.
+/// leading axis; sets over an axis as one map of the entries that hold; shares one map for each entry;
+/// probabilities likewise, by their logarithm.
 struct FieldMap {
   std::string kind = {};  ///< what the page knows it by: "delay"; empty: it is not drawn
   /// Of kinds that the page has no words for: "Time to arrival".
@@ -136,7 +139,8 @@ struct FieldMap {
 };
 
 /// How `query` tells a field of the cell asked for; where nothing is said it does not. Those over /partition
-/// that are no steps of a policy, and those of other axes: sets as the names of the entries that hold.
+/// that are no steps of a policy, and those of other axes: sets as the names of the entries that hold,
+/// probabilities one for each entry.
 struct FieldAsked {
   std::string name = {};   ///< key in JSON: "arrival", "safe_modes"
   std::string words = {};  ///< before it in the text: "time to the goal"
@@ -153,12 +157,13 @@ struct FieldAsked {
 
 /// How commands show a field over cells; where nothing is said they do not.
 struct FieldShown {
-  /// As a column of tables over cells (CSV, VTK): "delay", and "delay:alone" where it is over /partition.
+  /// As a column of tables over cells (CSV, VTK): "delay", and "delay:alone" where it is over /partition, or
+  /// over other names.
   std::string column = {};
   /// In a table a value that is worse than every number of steps, but better than what is lower; 0: none.
   std::int32_t below_zero = 0;
   /// What it is called in the comparison of two files: "safe set", "delay". Sets are compared as such; others
-  /// by value, of which more is better, or less. Without a leading axis, or over /partition.
+  /// by value, of which more is better, or less; over an axis each with that of the same name.
   std::string compared = {};
   bool less_is_better = false;
   FieldAsked asked = {};
@@ -184,6 +189,8 @@ using Fields = std::vector<Field>;
 [[nodiscard]] std::vector<FieldFlag> flags_of(const Field& field);
 /// The word that a value means; "steps" or "number" if it is one.
 [[nodiscard]] std::string status_of(const Field& field, std::int64_t value);
+/// The probability that an integer of such a field stands for.
+[[nodiscard]] double probability_of(std::int32_t bits);
 /// The value; null if it means a word.
 [[nodiscard]] Json value_json(const Field& field, std::int64_t value);
 

@@ -1,6 +1,7 @@
 #include "answers/field_parts.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -144,7 +145,12 @@ std::string status_of(const Field& field, std::int64_t value) {
   return field.kind == FieldKind::steps ? "steps" : "number";
 }
 
+double probability_of(std::int32_t bits) {
+  return std::bit_cast<float>(bits);
+}
+
 Json value_json(const Field& field, std::int64_t value) {
+  if (field.kind == FieldKind::probability) return probability_of(static_cast<std::int32_t>(value));
   const std::string status = status_of(field, value);
   return status == "steps" || status == "number" ? Json(value) : Json();
 }

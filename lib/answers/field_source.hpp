@@ -6,7 +6,7 @@
 
 namespace coordreq {
 
-/// Reads small fields, whose shapes and values are as declared.
+/// What is said in small fields, whose shapes are as declared: by a results file, or by what was read of one.
 class FieldSource {
  public:
   virtual ~FieldSource() = default;
@@ -18,8 +18,11 @@ class FieldSource {
   [[nodiscard]] virtual std::vector<std::uint64_t> list(const std::string& path) const = 0;
   /// The attribute `cells`; empty if there is none, of the field or of the path.
   [[nodiscard]] virtual std::vector<std::uint64_t> counted(const std::string& path) const = 0;
-  /// An integer attribute of a field.
+  /// An attribute of a field: an integer, or a floating point number.
   [[nodiscard]] virtual std::int64_t attribute(const std::string& path, const std::string& name) const = 0;
+  [[nodiscard]] virtual double number(const std::string& path, const std::string& name) const = 0;
+  /// @throws ResultsError if a list has another length
+  virtual void expect_length(const std::string& path, std::uint64_t length) const = 0;
   /// @throws ResultsError that names the file and the field
   [[noreturn]] virtual void fail(const std::string& what, const std::string& path) const = 0;
 };

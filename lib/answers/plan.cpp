@@ -50,6 +50,7 @@ const std::vector<Answer>& all_answers() {
        .fields = layer_fields,
        .fill = fill_layer_fields,
        .summarise = summarise_layers,
+       .examine = examine_layers,
        .tell = tell_layers,
        .policies = layer_policies,
        .check = check_layers},
@@ -74,8 +75,10 @@ const std::vector<Answer>& all_answers() {
        .fields = network_fields,
        .fill = fill_network_fields,
        .summarise = summarise_network,
+       .examine = examine_network,
        .tell = tell_network,
-       .check = check_network},
+       .check = check_network,
+       .check_memory = network_check_memory},
       {.stages = convention_stages,
        .memory = convention_memory,
        .fields = convention_fields,
@@ -90,8 +93,10 @@ const std::vector<Answer>& all_answers() {
        .fields = requirement_fields,
        .fill = fill_requirement_fields,
        .summarise = summarise_requirements,
+       .examine = examine_requirements,
        .tell = tell_requirements,
-       .check = check_requirements},
+       .check = check_requirements,
+       .check_memory = requirements_check_memory},
   };
   return plan;
 }

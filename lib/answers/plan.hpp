@@ -36,6 +36,8 @@ struct Answer {
   /// Adds its keys to the JSON summary (contract, section 3), and what its fixed points took to `work`, by
   /// stage. Called whether or not it was asked for.
   void (*summarise)(const Answers& answers, Json& summary, Json& work) = nullptr;
+  /// Fails where small fields of a file do not fit together; null: they always do.
+  void (*examine)(const ProblemSpec& spec, const FieldSource& source) = nullptr;
   /// Adds to what `info` says of a file: the same keys, as far as the file tells them. Called whether or not
   /// it was asked for; null: nothing.
   void (*tell)(const ProblemSpec& spec, const FieldSource& source, Json& info) = nullptr;
@@ -47,6 +49,8 @@ struct Answer {
   Explained (*explain)(const ExplainGround& ground) = nullptr;
   /// What it says in a file, to be checked by its definition; null, or a null result: nothing is.
   std::unique_ptr<AnswerCheck> (*check)(const CheckGround& ground) = nullptr;
+  /// Bytes that this keeps of each cell beside what the file says; null: none.
+  double (*check_memory)(const ProblemSpec& spec) = nullptr;
 };
 
 /// In the order of need; the first is the ground, on which all others stand.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 
 #include "base/error.hpp"
@@ -51,13 +50,10 @@ std::string cut_text(const ResultsReader& results, const TableSelection& selecti
   return text;
 }
 
-ResultArray as_numbers(std::shared_ptr<const Steps> steps) {
-  const auto fill = [steps = std::move(steps)](std::uint64_t begin, std::uint64_t count, void* out) {
+ResultArray as_numbers(const CellColumn& column, std::shared_ptr<const Steps> steps) {
+  const auto fill = [column, steps = std::move(steps)](std::uint64_t begin, std::uint64_t count, void* out) {
     auto* numbers = static_cast<double*>(out);
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const std::int32_t value = (*steps)[begin + i];
-      numbers[i] = value == ResultsReader::kNever ? std::numeric_limits<double>::infinity() : value;
-    }
+    for (std::uint64_t i = 0; i < count; ++i) numbers[i] = column.number((*steps)[begin + i]);
   };
   return {ElementType::float64, fill};
 }
@@ -93,7 +89,7 @@ ImageContent cell_image(const ResultsReader& results, const TableSelection& sele
   std::vector<std::shared_ptr<Steps>> columns;
   for (const CellColumn& column : table.columns()) {
     columns.push_back(std::make_shared<Steps>(cells));
-    image.arrays.push_back({column.name, as_numbers(columns.back())});
+    image.arrays.push_back({column.name, as_numbers(column, columns.back())});
   }
   // How far apart neighbours are in the image, by dimension of the table; 0 for one that is sliced.
   std::vector<std::uint64_t> stride;

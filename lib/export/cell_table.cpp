@@ -1,6 +1,7 @@
 #include "export/cell_table.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -23,6 +24,11 @@ std::int64_t part_cells(std::optional<std::uint64_t> max_memory, std::size_t col
 
 double CellColumn::rank(std::int32_t value) const {
   return field->shown.below_zero != 0 && value == field->shown.below_zero ? -0.5 : value;
+}
+
+double CellColumn::number(std::int32_t value) const {
+  if (field->kind == FieldKind::probability) return probability_of(value);
+  return value == ResultsReader::kNever ? std::numeric_limits<double>::infinity() : value;
 }
 
 std::vector<CellColumn> cell_columns(const ResultsReader& results, std::optional<std::size_t> partition) {

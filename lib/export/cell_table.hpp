@@ -26,14 +26,16 @@ struct TableSelection {
   std::optional<std::size_t> partition;  ///< none: all
 };
 
-/// A column of numbers over cells: of each field that is shown as one, and for each partition where it is
-/// over these.
+/// A column of numbers over cells: of each field that is shown as one, and for each entry where it has a
+/// leading axis.
 struct CellColumn {
   std::string name;
   const Field* field = nullptr;
   std::optional<std::size_t> leading;  ///< place along the axis before those of the cells
   /// Rank of a value where numbers are compared: codes of what is no number of steps have their place.
   [[nodiscard]] double rank(std::int32_t value) const;
+  /// What a value is as a number: infinity for kNever, a probability for its bits.
+  [[nodiscard]] double number(std::int32_t value) const;
 };
 [[nodiscard]] std::vector<CellColumn> cell_columns(const ResultsReader& results,
                                                    std::optional<std::size_t> partition);

@@ -27,7 +27,9 @@ void export_csv(const ResultsReader& results, const TableSelection& selection, c
     for (std::size_t i = 0; i < index.size(); ++i) text += points[i][static_cast<std::size_t>(index[i])];
     for (std::size_t c = 0; c < values.size(); ++c) {
       if (c > 0) text += ',';
-      if (values[c] == ResultsReader::kNever) {
+      if (table.columns()[c].field->kind == FieldKind::probability) {
+        fmt::format_to(std::back_inserter(text), "{}", probability_of(values[c]));
+      } else if (values[c] == ResultsReader::kNever) {
         text += "inf";
       } else {
         fmt::format_to(std::back_inserter(text), "{}", values[c]);

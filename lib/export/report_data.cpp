@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "answers/requirements/result_requirement.hpp"
 #include "export/report_map_list.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -65,8 +66,9 @@ Json sets_json(const ResultsReader& results, std::vector<ReportMap>& maps,
 /// The cells that the counterexamples visit; `independent` steps lead out of K.
 Json ways_json(const ResultsReader& results) {
   Json ways = Json::array();
-  for (std::size_t r = 0; r < results.requirements().size(); ++r) {
-    const ResultRequirement& requirement = results.requirements()[r];
+  const std::vector<ResultRequirement> all = read_requirement_values(results.spec(), results);
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    const ResultRequirement& requirement = all[r];
     if (!requirement.path) continue;
     Json& way = ways.emplace_back();
     const auto& partition = results.spec().requirements[r].partition;
@@ -124,7 +126,7 @@ double report_bytes(const ResultsReader& results, const ReportLimits& limits) {
   constexpr double kBytesOfNumber = 350;
   const auto numbers = static_cast<double>(results.grid().size() + results.inputs().size() + 2);
   double steps = 0;
-  for (const ResultRequirement& own : results.requirements())
+  for (const ResultRequirement& own : read_requirement_values(results.spec(), results))
     steps += own.path ? static_cast<double>(own.path->cell.size()) : 0;
   constexpr double kBytesOfPoint = 100;  // a number in JSON, its text, and where it stands in a set of cells
   return results.reading_bytes() + kBytesOfValue * std::min(cells, static_cast<double>(limits.values)) +

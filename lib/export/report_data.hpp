@@ -14,7 +14,7 @@ struct ReportLimits {
   std::size_t packed_bytes = std::size_t{12} << 20;
   std::size_t partitions = 8;   ///< of which the delay is shown for each cell
   std::size_t members = 64;     ///< pairs of agents, modes of the network; at most 64
-  std::size_t agents = 8;       ///< whose freedom under the convention is shown
+  std::size_t agents = 8;       ///< of which shares are shown, and modes of which probabilities are
   std::size_t subsets = 65536;  ///< different sets of members that there may be
 };
 
@@ -33,7 +33,8 @@ struct ReportData {
 /// The maps over cells as one JSON document: grid points and layers, and for each set of cells that
 /// choose_cells() finds the delay of each of `partitions` and the collision time; where the file has them the
 /// coalition, the critical pairs, the modes of the network that are safe, and the freedom that the convention
-/// leaves each agent, in hundredths of a per cent. With them the ways of the counterexamples.
+/// leaves each agent, in hundredths of a per cent; of probabilities 0, or 1 and the hundredths of powers of
+/// ten above 1e-12, rounded up. With them the ways of the counterexamples.
 ///
 /// Of pairs and modes a map holds numbers of sets, which its head lists as hexadecimal digits of bits, the
 /// first member the lowest bit. If there are more members than the limits say, or more sets than these, only

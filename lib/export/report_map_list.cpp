@@ -63,16 +63,34 @@ std::int32_t share_code(float share) {
   return std::clamp(static_cast<std::int32_t>(std::lround(share * float{kAll})), 1, kAll - 1);
 }
 
-ReportMap share_map(const ResultsReader& results, const Field& field, std::size_t entry) {
-  const auto read = [&results, &field, entry](const CellBlock& block) {
+/// 0, or 1 and hundredths of a power of ten from the least one on that is told apart; rounded up.
+std::int32_t probability_code(float probability) {
+  constexpr double kParts = 100, kLeast = -12;
+  if (probability == 0) return 0;
+  const double power = std::max(std::log10(double{probability}), kLeast);
+  return 1 + static_cast<std::int32_t>(std::ceil((power - kLeast) * kParts));
+}
+
+/// A share or a probability, of one entry of the leading axis; outside K there are none.
+ReportMap real_map(const ResultsReader& results, const Field& field, Leading leading) {
+  const auto code = field.kind == FieldKind::share ? share_code : probability_code;
+  const auto read = [&results, &field, leading, code](const CellBlock& block) {
     std::vector<std::int32_t> values = results.values(paths::kCollisionTime, block);
-    const std::vector<float> shares = results.shares(field, entry, block);
+    const std::vector<float> reals = results.reals(field, leading, block);
     for (std::size_t x = 0; x < values.size(); ++x)
-      values[x] = values[x] == ResultsReader::kNever ? share_code(shares[x]) : values[x] == 0 ? -2 : -1;
+      values[x] = values[x] == ResultsReader::kNever ? code(reals[x]) : values[x] == 0 ? -2 : -1;
     return values;
   };
   ReportMap map{.head = head_of(field), .read = read};
-  (*map.head)[field.axes.front().substr(1)] = results.leading_names(field)[entry];
+  Json& head = *map.head;
+  if (field.kind == FieldKind::share) {
+    head[field.axes.front().substr(1)] = results.leading_names(field)[*leading];
+    return map;
+  }
+  head["title"] = field.shown.map.title;
+  head["scale"] = "logarithm";
+  head["axis"] = leading ? Json(field.axes.front().substr(1)) : Json();
+  head["entry"] = leading ? Json(results.leading_names(field)[*leading]) : Json();
   return map;
 }
 
@@ -80,13 +98,15 @@ ReportMap share_map(const ResultsReader& results, const Field& field, std::size_
 void add_maps(const ResultsReader& results, const Field& field, const ReportLimits& limits,
               std::vector<ReportMap>& maps) {
   const std::size_t entries = results.leading_length(field);
+  const bool is_real = field.kind == FieldKind::share || field.kind == FieldKind::probability;
   if (entries == 0) {
-    maps.push_back(number_map(results, field, std::nullopt));
+    maps.push_back(is_real ? real_map(results, field, std::nullopt)
+                           : number_map(results, field, std::nullopt));
   } else if (field.kind == FieldKind::set) {
     maps.push_back(member_map(results, field, limits));
-  } else if (field.kind == FieldKind::share) {
+  } else if (is_real) {
     for (std::size_t i = 0; i < std::min(entries, limits.agents); ++i)
-      maps.push_back(share_map(results, field, i));
+      maps.push_back(real_map(results, field, i));
   } else {
     for (std::size_t i = 0; i < entries; ++i) maps.push_back(number_map(results, field, i));
   }

@@ -169,6 +169,14 @@ std::int64_t SmallFields::attribute(const std::string& path, const std::string& 
   return file_.integer(path, name);
 }
 
+double SmallFields::number(const std::string& path, const std::string& name) const {
+  return file_.number(path, name);
+}
+
+void SmallFields::expect_length(const std::string& path, std::uint64_t length) const {
+  file_.expect_shape(path, {length});
+}
+
 void SmallFields::fail(const std::string& what, const std::string& path) const {
   throw ResultsError(what, file_.place(path));
 }

@@ -32,6 +32,8 @@ class SmallFields : public FieldSource {
   [[nodiscard]] std::vector<std::uint64_t> list(const std::string& path) const override;
   [[nodiscard]] std::vector<std::uint64_t> counted(const std::string& path) const override;
   [[nodiscard]] std::int64_t attribute(const std::string& path, const std::string& name) const override;
+  [[nodiscard]] double number(const std::string& path, const std::string& name) const override;
+  void expect_length(const std::string& path, std::uint64_t length) const override;
   [[noreturn]] void fail(const std::string& what, const std::string& path) const override;
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "answers/requirements/result_requirement.hpp"
 #include "base/error.hpp"
 #include "results/comparable_results.hpp"
 
@@ -120,9 +121,12 @@ class ValueCounter {
 void compare_values(const ResultsReader& before, const ResultsReader& after, const CompareOptions& options,
                     const Field& field, ValueComparison& result) {
   using Leading = std::optional<std::size_t>;
-  const auto& pair = result.partition;
-  ValueCounter counter(result, options, pair ? after.lower_bound(field, pair->after) : std::nullopt);
-  const std::string subject = pair ? "partition " + before.partitions()[pair->before].name : result.words;
+  const auto& pair = result.entry;
+  CompareOptions own = options;
+  if (field.kind == FieldKind::probability) own.tolerance = 0;
+  ValueCounter counter(result, own, pair ? after.lower_bound(field, pair->after) : std::nullopt);
+  const std::string subject =
+      pair ? field.axes.front().substr(1) + " " + before.leading_names(field)[pair->before] : result.words;
   const auto read = [&](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool earlier) {
     const Leading leading = pair ? Leading(earlier ? pair->before : pair->after) : std::nullopt;
     return file.stretch(begin, end,
@@ -143,14 +147,30 @@ void compare_values(const ResultsReader& before, const ResultsReader& after, con
     change = {change.cell, turned_back(change.before), turned_back(change.after)};
 }
 
-/// Of every pair of partitions, where the field is over these.
+/// The entries of the leading axis that both files have: partitions as they are matched, others by name.
+std::vector<EntryPair> common_entries(const ResultsReader& before, const ResultsReader& after,
+                                      const Field& field, const ResultsComparison& result) {
+  if (field.axes.front() == "/partition") return result.partitions;
+  const std::vector<std::string>& old = before.leading_names(field);
+  const std::vector<std::string>& now = after.leading_names(field);
+  std::vector<EntryPair> pairs;
+  for (std::size_t i = 0; i < old.size(); ++i) {
+    const auto found = std::find(now.begin(), now.end(), old[i]);
+    if (found != now.end()) pairs.push_back({i, static_cast<std::size_t>(found - now.begin())});
+  }
+  return pairs;
+}
+
+/// Of every common entry, where the field has a leading axis.
 void add_values(const ResultsReader& before, const ResultsReader& after, const CompareOptions& options,
                 const Field& field, ResultsComparison& result) {
   const ValueComparison begun{.name = field.path.substr(1), .words = field.shown.compared};
   std::vector<ValueComparison> all;
-  if (after.leading_length(field) == 0) all.push_back(begun);
-  for (const PartitionPair& pair : result.partitions) {
-    if (field.axes.front() == "/partition") all.emplace_back(begun).partition = pair;
+  if (after.leading_length(field) == 0) {
+    all.push_back(begun);
+  } else {
+    for (const EntryPair& pair : common_entries(before, after, field, result))
+      all.emplace_back(begun).entry = pair;
   }
   for (ValueComparison& own : all) {
     compare_values(before, after, options, field, own);
@@ -158,16 +178,16 @@ void add_values(const ResultsReader& before, const ResultsReader& after, const C
   }
 }
 
-const ResultRequirement* find_requirement(const ResultsReader& file, const std::string& name) {
-  const auto& all = file.requirements();
+using Requirements = std::vector<ResultRequirement>;
+
+const ResultRequirement* find_requirement(const Requirements& all, const std::string& name) {
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&name](const ResultRequirement& own) { return own.name == name; });
   return found == all.end() ? nullptr : &*found;
 }
 
-void compare_requirements(const ResultsReader& before, const ResultsReader& after,
-                          ResultsComparison& result) {
-  for (const ResultRequirement& old : before.requirements()) {
+void compare_requirements(const Requirements& before, const Requirements& after, ResultsComparison& result) {
+  for (const ResultRequirement& old : before) {
     const ResultRequirement* const now = find_requirement(after, old.name);
     if (now == nullptr) {
       result.requirements_only_before.push_back(old.name);
@@ -175,7 +195,7 @@ void compare_requirements(const ResultsReader& before, const ResultsReader& afte
       result.verdicts.push_back({old.name, now->holds});
     }
   }
-  for (const ResultRequirement& now : after.requirements()) {
+  for (const ResultRequirement& now : after) {
     if (find_requirement(before, now.name) == nullptr) result.requirements_only_after.push_back(now.name);
   }
 }
@@ -209,7 +229,8 @@ ResultsComparison compare_results(const ResultsReader& before, const ResultsRead
   for (const Field* const field : compared) {
     if (field->kind != FieldKind::set) add_values(before, after, options, *field, result);
   }
-  compare_requirements(before, after, result);
+  compare_requirements(read_requirement_values(before.spec(), before),
+                       read_requirement_values(after.spec(), after), result);
   return result;
 }
 

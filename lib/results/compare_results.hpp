@@ -30,20 +30,21 @@ struct ValueChange {
   std::int32_t after = 0;
 };
 
-/// Where a field is over partitions: one that both files have.
-struct PartitionPair {
-  std::size_t before = 0;  ///< index into the partitions of the earlier file
+/// Where a field has a leading axis, such as that of partitions: an entry that both files have.
+struct EntryPair {
+  std::size_t before = 0;  ///< place along the axis in the earlier file
   std::size_t after = 0;
 };
 
-/// A field of numbers, such as the delay, of which more is better, or of arrivals, of which less is. Delays
+/// A field of numbers, such as the delay, of which more is better, or of arrivals, of which less is. Of
+/// probabilities values are the bits, see probability_of(), and nothing is tolerated. Delays
 /// are compared as what each file guarantees: a cell outside K tolerates less than a cell with delay 0,
 /// unbounded is more than every number, and where `max_delay` stopped an analysis its last delay counts as it
 /// is, though the true one may be larger.
 struct ValueComparison {
   std::string name;   ///< "delay"
   std::string words;  ///< what it is called
-  std::optional<PartitionPair> partition;
+  std::optional<EntryPair> entry;
   std::int64_t lost = 0;          ///< cells with a smaller value than before
   std::int64_t left = 0;          ///< of these, cells that have left K
   std::int64_t from_forever = 0;  ///< of these, cells that are in K and were unbounded
@@ -64,10 +65,10 @@ struct VerdictChange {
 struct ResultsComparison {
   // Of the fields that both files have and are compared by:
   std::vector<SetComparison> sets;
-  std::vector<ValueComparison> values;    ///< one field after the other, partition by partition
-  std::vector<PartitionPair> partitions;  ///< that both files have
-  std::vector<std::size_t> only_before;   ///< partitions that the later file does not have
-  std::vector<std::size_t> only_after;    ///< partitions that the earlier file does not have
+  std::vector<ValueComparison> values;   ///< one field after the other, partition by partition
+  std::vector<EntryPair> partitions;     ///< that both files have
+  std::vector<std::size_t> only_before;  ///< partitions that the later file does not have
+  std::vector<std::size_t> only_after;   ///< partitions that the earlier file does not have
   std::vector<VerdictChange> verdicts;
   std::vector<std::string> requirements_only_before;
   std::vector<std::string> requirements_only_after;

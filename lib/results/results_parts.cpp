@@ -4,9 +4,7 @@
 
 #include "answers/field_table.hpp"
 #include "answers/invariance/fields.hpp"
-#include "answers/layers/fields.hpp"
-#include "answers/network/fields.hpp"
-#include "answers/requirements/fields.hpp"
+#include "answers/plan.hpp"
 #include "base/error.hpp"
 #include "results/check_fields.hpp"
 #include "results/results_file.hpp"
@@ -29,8 +27,9 @@ class PartsReader {
     read_found();
     const SmallFields source(file_, parts_);
     parts_.partitions = read_partition_values(parts_.spec, source);
-    check_layer_lists();
-    parts_.requirements = read_requirement_values(parts_.spec, source);
+    for (const Answer& answer : all_answers()) {
+      if (answer.examine != nullptr) answer.examine(parts_.spec, source);
+    }
     if (parts_.spec.output.abstraction) read_tables();
     return std::move(parts_);
   }
@@ -79,9 +78,6 @@ class PartsReader {
     attributes.iterations = file_.integer("/collision_time", "iterations");
     attributes.connection_delay = file_.integer("/trigger", "connection_delay");
     if (parts_.spec.controller.file) attributes.controller_sha256 = file_.text(paths::kListed, "sha256");
-    const auto& network = parts_.spec.network;
-    if (network && parts_.counted[paths::kNetworkSafe].size() != network->modes.size())
-      fail("the attribute cells does not hold a number a mode", paths::kNetworkSafe);
   }
 
   /// A list may be missing.
@@ -93,13 +89,6 @@ class PartsReader {
       if (count == 0 || !file_.has(field.path, "cells")) return;
     }
     parts_.counted[field.path] = file_.naturals(field.path, "cells", count);
-  }
-
-  void check_layer_lists() const {
-    for (std::size_t p = 0; parts_.spec.output.layers && p < parts_.partitions.size(); ++p) {
-      file_.expect_shape(paths::layers(parts_.spec.coordination.partitions[p]) + "/start",
-                         {parts_.partitions[p].layer_sizes.size() + 1});
-    }
   }
 
   /// Of each state, from the axes that its table has.

@@ -8,7 +8,6 @@
 
 #include "answers/field.hpp"
 #include "answers/layers/stored_partition.hpp"
-#include "answers/requirements/result_requirement.hpp"
 #include "reach/abstraction.hpp"
 #include "results/stored_values.hpp"
 #include "spec/problem_spec.hpp"
@@ -23,7 +22,6 @@ struct ResultsParts {
   Fields fields;  ///< that the file has
   StoredAttributes attributes;
   std::vector<StoredPartition> partitions;  ///< as many as the spec has, in its order
-  std::vector<ResultRequirement> requirements;
   /// Attributes `cells`, by path; none where they are too many.
   std::map<std::string, std::vector<std::uint64_t>> counted;
   std::vector<TransitionTable> tables;  ///< without entries; none unless stored

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <limits>
 
 #include "base/error.hpp"
@@ -90,10 +92,6 @@ const std::vector<StoredPartition>& ResultsReader::partitions() const {
   return parts_->partitions;
 }
 
-const std::vector<ResultRequirement>& ResultsReader::requirements() const {
-  return parts_->requirements;
-}
-
 const Fields& ResultsReader::fields() const {
   return parts_->fields;
 }
@@ -165,6 +163,13 @@ std::vector<std::uint8_t> ResultsReader::members(const Field& field, Leading lea
 
 std::vector<std::int32_t> ResultsReader::values(const Field& field, Leading leading,
                                                 const CellBlock& block) const {
+  if (field.kind == FieldKind::probability) {
+    const std::vector<float> found = reals(field, leading, block);
+    std::vector<std::int32_t> values(found.size());
+    std::transform(found.begin(), found.end(), values.begin(),
+                   [](float value) { return std::bit_cast<std::int32_t>(value); });
+    return values;
+  }
   const Part part(leading, block);
   const ElementType type = reading(path_, [&] { return file_->element_type(field.path); });
   if (type == ElementType::uint8) {
@@ -183,9 +188,18 @@ std::vector<std::int32_t> ResultsReader::values(const Field& field, Leading lead
   return values;
 }
 
-std::vector<float> ResultsReader::shares(const Field& field, Leading leading, const CellBlock& block) const {
+std::vector<float> ResultsReader::reals(const Field& field, Leading leading, const CellBlock& block) const {
   const Part part(leading, block);
-  return elements<float>(field.path, ElementType::float32, part.offset, part.count);
+  std::vector<float> values = elements<float>(field.path, ElementType::float32, part.offset, part.count);
+  if (field.kind != FieldKind::probability) return values;
+  // As an integer -0 would be less than all others.
+  const auto found = std::find_if(values.begin(), values.end(), [](float value) {
+    return !(value >= 0 && value <= 1) || std::signbit(value);
+  });
+  if (found != values.end())
+    throw ResultsError(fmt::format("found {}, expected a number from 0 to 1", *found),
+                       file_->place(field.path));
+  return values;
 }
 
 std::vector<std::int64_t> ResultsReader::integers(const std::string& path) const {
@@ -204,8 +218,16 @@ std::int64_t ResultsReader::attribute(const std::string& path, const std::string
   return SmallFields(*file_, *parts_).attribute(path, name);
 }
 
+double ResultsReader::number(const std::string& path, const std::string& name) const {
+  return SmallFields(*file_, *parts_).number(path, name);
+}
+
 std::vector<std::uint64_t> ResultsReader::counted(const std::string& path) const {
   return SmallFields(*file_, *parts_).counted(path);
+}
+
+void ResultsReader::expect_length(const std::string& path, std::uint64_t length) const {
+  reading(path_, [&] { SmallFields(*file_, *parts_).expect_length(path, length); });
 }
 
 void ResultsReader::fail(const std::string& what, const std::string& path) const {

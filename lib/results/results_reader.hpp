@@ -10,7 +10,6 @@
 #include "answers/field.hpp"
 #include "answers/field_source.hpp"
 #include "answers/layers/stored_partition.hpp"
-#include "answers/requirements/result_requirement.hpp"
 #include "model/cell_block.hpp"
 #include "model/input_space.hpp"
 #include "model/uniform_grid.hpp"
@@ -61,9 +60,6 @@ class ResultsReader : public FieldSource {
   /// As many as the spec has, in its order.
   [[nodiscard]] const std::vector<StoredPartition>& partitions() const;
 
-  /// As many as the spec has, in its order.
-  [[nodiscard]] const std::vector<ResultRequirement>& requirements() const;
-
   /// What the file holds.
   [[nodiscard]] const Fields& fields() const;
   [[nodiscard]] bool has(const std::string& path) const override { return field_of_path_.contains(path); }
@@ -79,14 +75,15 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] std::optional<std::int64_t> lower_bound(const Field& field, std::size_t partition) const;
   /// Place along the axis before those of the cells; none where there is no such axis.
   using Leading = std::optional<std::size_t>;
-  /// Integers of a field over cells, kNever where the type's largest value means that there is no end.
+  /// Integers of a field over cells, kNever where the type's largest value means that there is no end; of
+  /// probabilities the bits, see probability_of().
   [[nodiscard]] std::vector<std::int32_t> values(const Field& field, Leading leading,
                                                  const CellBlock& block) const;
   /// The same of sets: 0 or 1.
   [[nodiscard]] std::vector<std::uint8_t> members(const Field& field, Leading leading,
                                                   const CellBlock& block) const;
-  /// The same of shares.
-  [[nodiscard]] std::vector<float> shares(const Field& field, Leading leading, const CellBlock& block) const;
+  /// The same of shares and probabilities.
+  [[nodiscard]] std::vector<float> reals(const Field& field, Leading leading, const CellBlock& block) const;
   /// Of a field of m actions: bytes [cells of the block, ceil(m / 8)], action a is bit a % 8 of byte a / 8.
   [[nodiscard]] std::vector<std::uint8_t> bits(const Field& field, const CellBlock& block) const;
   /// The same by path. REQUIRES: the file has it.
@@ -109,6 +106,8 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] std::vector<std::uint64_t> list(const std::string& path) const override;
   [[nodiscard]] std::vector<std::uint64_t> counted(const std::string& path) const override;
   [[nodiscard]] std::int64_t attribute(const std::string& path, const std::string& name) const override;
+  [[nodiscard]] double number(const std::string& path, const std::string& name) const override;
+  void expect_length(const std::string& path, std::uint64_t length) const override;
   [[noreturn]] void fail(const std::string& what, const std::string& path) const override;
   /// Paths of all datasets, sorted; without bare dimensions, which hold no data.
   [[nodiscard]] std::vector<std::string> datasets() const;

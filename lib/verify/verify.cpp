@@ -81,12 +81,11 @@ class Verifier {
     return work.of_all <= most ? grid_.cells() : std::max<Work>(most / work.of_cell, 1);
   }
 
-  /// A sample and the cells that counterexamples lead through: their posts are asked for as well.
+  /// A sample and the cells that checks look at whatever the sample is: their posts are asked for as well.
   [[nodiscard]] std::vector<std::int64_t> with_paths(const std::vector<std::int64_t>& cells) const {
     std::set<std::int64_t> all(cells.begin(), cells.end());
-    for (const ResultRequirement& requirement : claims_.requirements) {
-      if (!requirement.path) continue;
-      for (const std::uint64_t cell : requirement.path->cell) {
+    for (const std::unique_ptr<AnswerCheck>& check : checks_) {
+      for (const std::uint64_t cell : check->more_cells()) {
         if (cell < static_cast<std::uint64_t>(grid_.cells())) all.insert(static_cast<std::int64_t>(cell));
       }
     }
@@ -177,7 +176,8 @@ class Verifier {
 
   void find_tubes() {
     report({.stage = "tubes"});
-    CheckedTubes checked = check_tubes(spec_, grid_, inputs_, analysis(), claims_.safe, *budget_, team_);
+    CheckedTubes checked =
+        check_tubes(spec_, grid_, inputs_, analysis(), claims_.members("/safe"), *budget_, team_);
     result_.tubes = checked.exact ? PostBasis::exact : PostBasis::computed;
     for (const std::string& state : checked.borrowed) {
       borrow(state);
@@ -188,7 +188,7 @@ class Verifier {
     }
     append(result_.findings, std::move(checked.findings));
     tube_tables_ = std::move(checked.tables);
-    tubes_ = make_tubes(grid_, inputs_, tube_tables_, claims_.safe, checked.beyond);
+    tubes_ = make_tubes(grid_, inputs_, tube_tables_, claims_.members("/safe"), checked.beyond);
   }
 
   void borrow(const std::string& state) {

@@ -7,7 +7,7 @@
 #include "answers/checking/posts.hpp"
 #include "answers/field.hpp"
 #include "answers/field_parts.hpp"
-#include "answers/requirements/result_requirement.hpp"
+#include "answers/plan.hpp"
 #include "reach/table_shapes.hpp"
 #include "reach/thread_memory.hpp"
 #include "spec/problem_spec.hpp"
@@ -82,8 +82,10 @@ double bytes_of_classes(const ResultsReader& results) {
 
 /// Beside claims, what checks keep of each cell.
 double kept_of_cell(const ResultsReader& results) {
-  double bytes = results.requirements().empty() ? 0 : 1;  // what is found about a region
-  if (results.spec().network) bytes += static_cast<double>(results.spec().network->modes.size());  // targets
+  double bytes = 0;
+  for (const Answer& answer : all_answers()) {
+    if (answer.check_memory != nullptr) bytes += answer.check_memory(results.spec());
+  }
   if (results.spec().abstraction.between_samples) bytes += 2 * sizeof(std::int32_t) + 1;
   return bytes;
 }

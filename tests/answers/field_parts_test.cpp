@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <nlohmann/json.hpp>
 
 namespace coordreq {
@@ -38,6 +39,18 @@ TEST(FieldValue, WithoutFlagsIsANumber) {
   EXPECT_TRUE(flags_of(field).empty());
   EXPECT_EQ(status_of(field, -2), "number");
   EXPECT_EQ(value_json(field, -2), -2);
+}
+
+TEST(FieldValue, OfProbabilitiesAreTheirBitsWhichOrderLikeThem) {
+  const Field field = {.path = "/risk", .kind = FieldKind::probability, .types = {ElementType::float32}};
+  const auto bits = [](float p) { return std::bit_cast<std::int32_t>(p); };
+  EXPECT_EQ(value_json(field, bits(0.25F)), 0.25);
+  EXPECT_EQ(value_json(field, bits(0)), 0.0);
+  EXPECT_EQ(status_of(field, bits(1)), "number");
+  EXPECT_EQ(bits(0), 0);
+  EXPECT_LT(bits(0), bits(1e-40F));
+  EXPECT_LT(bits(1e-40F), bits(1e-7F));
+  EXPECT_LT(bits(1e-7F), bits(1));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "answers/layers/fields.hpp"
 #include "expression/evaluate.hpp"
 #include "model/input_class.hpp"
 #include "reach/build_abstraction.hpp"
@@ -74,7 +75,7 @@ class World {
     std::vector<std::int64_t> result;
     for (std::int64_t u = 0; u < abstraction_.inputs.count(); ++u) {
       if (partition ? independent(x, u, *partition)
-                    : bit(claims().controller, x, u, abstraction_.inputs.count()))
+                    : bit(*claims().bits("/controller"), x, u, abstraction_.inputs.count()))
         result.push_back(u);
     }
     return result;
@@ -87,11 +88,12 @@ class World {
   }
 
   [[nodiscard]] bool independent(std::int64_t x, std::int64_t u, std::size_t p) const {
-    const auto& classes = coordination().partitions[p].classes;
-    for (std::size_t c = 0; c < classes.size(); ++c) {
-      const InputClass actions = class_of(file_.spec, abstraction_.inputs, classes[c]);
+    const PartitionSpec& partition = coordination().partitions[p];
+    for (std::size_t c = 0; c < partition.classes.size(); ++c) {
+      const InputClass actions = class_of(file_.spec, abstraction_.inputs, partition.classes[c]);
       const std::int64_t action = actions.action(u);
-      if (!bit(claims().partitions[p].actions[c], x, action, actions.actions())) return false;
+      const std::string path = paths::actions(file_.spec, partition, c);
+      if (!bit(*claims().bits(path), x, action, actions.actions())) return false;
     }
     return true;
   }
@@ -104,14 +106,14 @@ class World {
 std::optional<std::int64_t> draw_invariant(const World& world) {
   std::vector<std::int64_t> cells;
   for (std::int64_t x = 0; x < world.cells(); ++x) {
-    if (world.claims().invariant[static_cast<std::size_t>(x)] != 0) cells.push_back(x);
+    if (world.claims().members("/invariant")[static_cast<std::size_t>(x)] != 0) cells.push_back(x);
   }
   if (cells.empty()) return std::nullopt;
   return pick(cells);
 }
 
 std::size_t draw_partition(const World& world) {
-  return static_cast<std::size_t>(draw(0, static_cast<int>(world.claims().partitions.size()) - 1));
+  return static_cast<std::size_t>(draw(0, static_cast<int>(world.coordination().partitions.size()) - 1));
 }
 
 TEST(Propositions, AStateOfDelayKSurvivesKStepsOfAnyChoices) {
@@ -123,14 +125,14 @@ TEST(Propositions, AStateOfDelayKSurvivesKStepsOfAnyChoices) {
     RC_PRE(start.has_value());
     for (int run = 0; run < 20; ++run) {
       std::int64_t x = *start;
-      const std::int32_t delay = world.claims().partitions[p].delay[static_cast<std::size_t>(x)];
+      const std::int32_t delay = world.claims().values("/delay", p)[static_cast<std::size_t>(x)];
       for (std::int32_t step = 0; step < std::min(delay, 25) && x != kGone; ++step) {
         const std::vector<std::int64_t> choices = world.choices(x, p);
         RC_ASSERT(!choices.empty());
         const auto next = world.post(x, pick(choices));
         RC_ASSERT((next.has_value() && !next->empty()));
         x = pick(*next);
-        RC_ASSERT((x == kGone || world.claims().invariant[static_cast<std::size_t>(x)] != 0));
+        RC_ASSERT((x == kGone || world.claims().members("/invariant")[static_cast<std::size_t>(x)] != 0));
       }
     }
   }));
@@ -141,15 +143,15 @@ TEST(Propositions, AStateThatLeavesTheLayersHasAChoiceThatLeavesItsOwn) {
   EXPECT_TRUE(rc::check("x in T(k), k < F: some post is not inside Z_k", [&] {
     const World world(draw_problem(), team);
     const std::size_t p = draw_partition(world);
-    const PartitionClaims& claims = world.claims().partitions[p];
+    const std::vector<std::int32_t>& delay = world.claims().values("/delay", p);
+    const bool is_truncated = world.claims().at("/fixed_point_index").integers[p] < 0;
     for (std::int64_t x = 0; x < world.cells(); ++x) {
-      const std::int32_t k = claims.delay[static_cast<std::size_t>(x)];
-      if (k < 0 || k == kForever || (claims.fixed_point_index < 0 && k == *world.coordination().max_delay))
-        continue;
+      const std::int32_t k = delay[static_cast<std::size_t>(x)];
+      if (k < 0 || k == kForever || (is_truncated && k == *world.coordination().max_delay)) continue;
       const auto leaves = [&](std::int64_t u) {
         const auto next = world.post(x, u);
         const auto outside = [&](std::int64_t y) {
-          return y != kGone && claims.delay[static_cast<std::size_t>(y)] < k;
+          return y != kGone && delay[static_cast<std::size_t>(y)] < k;
         };
         return !next || world.forbids(x, u) || std::any_of(next->begin(), next->end(), outside);
       };
@@ -165,7 +167,7 @@ TEST(Propositions, NoSelfTriggeredRunFromKLeavesS) {
   EXPECT_TRUE(rc::check("self-triggered runs stay in S", [&] {
     const World world(draw_problem(), team);
     const std::size_t p = draw_partition(world);
-    const std::vector<std::int32_t>& delay = world.claims().partitions[p].delay;
+    const std::vector<std::int32_t>& delay = world.claims().values("/delay", p);
     const std::optional<std::int64_t> start = draw_invariant(world);
     RC_PRE(start.has_value());
     std::int64_t x = *start;
@@ -180,7 +182,7 @@ TEST(Propositions, NoSelfTriggeredRunFromKLeavesS) {
       RC_ASSERT((next.has_value() && !next->empty()));
       x = pick(*next);
       if (x == kGone) break;
-      RC_ASSERT(world.claims().safe[static_cast<std::size_t>(x)] != 0);
+      RC_ASSERT(world.claims().members("/safe")[static_cast<std::size_t>(x)] != 0);
       if (!alone) {
         countdown = delay[static_cast<std::size_t>(x)];
       } else if (countdown != kForever) {

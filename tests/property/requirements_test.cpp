@@ -12,6 +12,7 @@
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/plan.hpp"
 #include "answers/requirements/answer.hpp"
+#include "answers/requirements/result_requirement.hpp"
 #include "base/index.hpp"
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
@@ -317,43 +318,54 @@ TEST(Requirements, ThatWereWrittenVerify) {
   }));
 }
 
+std::string of_path(std::size_t requirement, const char* name) {
+  return counterexample_path(requirement, name);
+}
+
 /// Another number in the verdict that the file could also hold.
-void corrupt_verdict(ResultRequirement& requirement, const UniformGrid& grid) {
+void corrupt_verdict(Claims& claims, std::size_t requirement, const UniformGrid& grid) {
+  const auto value = [&](const char* name) -> std::int64_t& {
+    return claims.fields.at(counterexample_path(name)).integers[requirement];
+  };
   switch (draw(0, 3)) {
     case 0:
-      requirement.cells += static_cast<std::uint64_t>(2 * grid.cells());
+      value("cells") += 2 * grid.cells();
       return;
     case 1:
-      requirement.failing = requirement.failing == 0 ? 1 : 0;
+      value("failing") = value("failing") == 0 ? 1 : 0;
       return;
     case 2:
-      requirement.least_delay = requirement.least_delay == -2 ? INT32_MAX : -3;
+      value("least_delay") = value("least_delay") == -2 ? INT32_MAX : -3;
       return;
     default:
-      requirement.holds = !requirement.holds;
+      value("holds") = 1 - value("holds");
       return;
   }
 }
 
 /// The same in the counterexample. REQUIRES: it has a step.
-void corrupt_path(ResultPath& path, const UniformGrid& grid) {
-  const auto step = static_cast<std::size_t>(draw(0, static_cast<int>(path.steps()) - 1));
+void corrupt_path(Claims& claims, std::size_t requirement, const UniformGrid& grid) {
+  const auto list = [&](const char* name) -> std::vector<std::int64_t>& {
+    return claims.fields.at(of_path(requirement, name)).integers;
+  };
+  std::vector<double>& inputs = claims.fields.at(of_path(requirement, "input")).numbers;
+  const std::size_t steps = list("phase").size();
+  const auto step = static_cast<std::size_t>(draw(0, static_cast<int>(steps) - 1));
   switch (draw(0, 4)) {
     case 0:
-      path.state[step * grid.size()] += 1;
+      claims.fields.at(of_path(requirement, "state")).numbers[step * grid.size()] += 1;
       return;
     case 1:
-      path.delay[step] += 1;
+      list("delay")[step] += 1;
       return;
     case 2:
-      path.input[step * path.input.size() / path.steps()] = 17;
+      inputs[step * inputs.size() / steps] = 17;
       return;
     case 3:
-      path.phase[step] =
-          path.phase[step] == EscapePhase::evasive ? EscapePhase::independent : EscapePhase::evasive;
+      list("phase")[step] = list("phase")[step] == 1 ? 0 : 1;  // evasive, independent
       return;
     default:
-      path.cell[step] = (path.cell[step] + 1) % static_cast<std::uint64_t>(grid.cells());
+      list("cell")[step] = (list("cell")[step] + 1) % grid.cells();
       return;
   }
 }
@@ -363,13 +375,12 @@ TEST(Requirements, OneOtherNumberIsFound) {
   EXPECT_TRUE(rc::check("a corrupted requirement does not hold", [&] {
     const std::string text = with_requirements(draw_problem());
     ClaimedFile file = analysed_file(text, team);
-    auto& requirements = file.claims.requirements;
-    const auto chosen = static_cast<std::size_t>(draw(0, static_cast<int>(requirements.size()) - 1));
-    ResultRequirement& requirement = requirements[chosen];
-    if (draw(0, 1) == 0 && requirement.path && requirement.path->steps() > 0) {
-      corrupt_path(*requirement.path, make_grid(file.spec));
+    const auto chosen =
+        static_cast<std::size_t>(draw(0, static_cast<int>(file.spec.requirements.size()) - 1));
+    if (draw(0, 1) == 0 && file.claims.has(of_path(chosen, "phase"))) {
+      corrupt_path(file.claims, chosen, make_grid(file.spec));
     } else {
-      corrupt_verdict(requirement, make_grid(file.spec));
+      corrupt_verdict(file.claims, chosen, make_grid(file.spec));
     }
     RC_ASSERT(!verify_file(file, {}, team).holds());
   }));

@@ -67,9 +67,9 @@ TEST(Verify, AResultWithoutTubesIsFoundUnlessItIsTheSame) {
     text.replace(text.find(asked), asked.size(), R"("between_samples": false)");
     ClaimedFile wrong = analysed_file(text, team);
     wrong.spec = right.spec;
-    bool same = wrong.claims.collision_time == right.claims.collision_time;
-    for (std::size_t p = 0; p < right.claims.partitions.size(); ++p)
-      same = same && wrong.claims.partitions[p].delay == right.claims.partitions[p].delay;
+    bool same = true;
+    for (const char* const path : {"/collision_time", "/delay"})
+      same = same && wrong.claims.at(path).values == right.claims.at(path).values;
     RC_CLASSIFY(same, "same");
     RC_ASSERT(verify_file(wrong, {.budget_seconds = 0.1}, team).holds() == same);
   }));
@@ -79,18 +79,18 @@ TEST(Verify, AResultWithoutTubesIsFoundUnlessItIsTheSame) {
 void corrupt_coalition(Claims& claims) {
   switch (draw(0, 3)) {
     case 0: {
-      std::int32_t& chosen = draw_one_of(claims.numbers.at("/coalition"));
+      std::int32_t& chosen = draw_one_of(claims.fields.at("/coalition").values.front());
       chosen = chosen == 0 ? -3 : chosen - 1;
       return;
     }
     case 1:
-      draw_one_of(draw_one_of(claims.critical_pairs)) ^= 1U;
+      draw_one_of(draw_one_of(claims.fields.at("/critical_pair").members)) ^= 1U;
       return;
     case 2:
-      draw_one_of(claims.coalition_cells) += 1;
+      draw_one_of(claims.fields.at("/coalition").cells) += 1;
       return;
     default:
-      draw_one_of(claims.critical_pair_cells) += 1;
+      draw_one_of(claims.fields.at("/critical_pair").cells) += 1;
   }
 }
 
@@ -107,48 +107,65 @@ TEST(Verify, CoalitionsOfManyAgentsHoldAndOneOtherIsFound) {
   }));
 }
 
+/// One of the fields, without scales, whose paths begin and end so.
+std::string draw_path(const Claims& claims, const std::string& begin, const std::string& end) {
+  std::vector<std::string> paths;
+  for (const auto& [path, field] : claims.fields) {
+    if (path.starts_with(begin) && path.ends_with(end) && !path.ends_with(":byte")) paths.push_back(path);
+  }
+  return draw_one_of(paths);
+}
+
 /// Another number that the file could also hold at one place. @returns false if there is no such place
 bool corrupt(Claims& claims) {
-  PartitionClaims& partition = draw_one_of(claims.partitions);
+  const auto values = [&claims](const char* path) -> std::vector<std::vector<std::int32_t>>& {
+    return claims.fields.at(path).values;
+  };
+  const auto flip = [](std::vector<std::uint8_t>& bits) {
+    draw_one_of(bits) ^= static_cast<std::uint8_t>(1U << draw(0, 7));
+  };
   const std::int32_t step = draw(0, 1) == 0 ? 1 : -1;
   switch (draw(0, 9)) {
     case 0:
-      draw_one_of(claims.safe) ^= 1U;
+      draw_one_of(claims.fields.at("/safe").members.front()) ^= 1U;
       return true;
     case 1:
-      draw_one_of(claims.invariant) ^= 1U;
+      draw_one_of(claims.fields.at("/invariant").members.front()) ^= 1U;
       return true;
     case 2: {
-      std::int32_t& time = draw_one_of(claims.collision_time);
+      std::int32_t& time = draw_one_of(values("/collision_time").front());
       time = time == kForever ? 1 : time + 1;
       return true;
     }
     case 3: {
-      std::int32_t& delay = draw_one_of(partition.delay);
+      std::int32_t& delay = draw_one_of(draw_one_of(values("/delay")));
       delay = delay == kForever ? draw(0, 3) : std::max(delay + step, -2 + (delay == -2 ? 1 : 0));
       return true;
     }
     case 4: {
-      std::int32_t& trigger = draw_one_of(partition.trigger);
+      std::int32_t& trigger = draw_one_of(draw_one_of(values("/trigger")));
       trigger = trigger == kForever ? 0 : trigger + 1;
       return true;
     }
     case 5:
-      partition.fixed_point_index += 1;
+      draw_one_of(claims.fields.at("/fixed_point_index").integers) += 1;
       return true;
     case 6:
-      draw_one_of(partition.layer_sizes) += 1;
+      draw_one_of(claims.fields.at("/layer_size").integers) += 1;
       return true;
     case 7:
-      draw_one_of(claims.controller) ^= static_cast<std::uint8_t>(1U << draw(0, 7));
+      flip(claims.fields.at("/controller").bits);
       return true;
     case 8:
-      draw_one_of(draw_one_of(partition.actions)) ^= static_cast<std::uint8_t>(1U << draw(0, 7));
+      flip(claims.fields.at(draw_path(claims, "/actions/", "")).bits);
       return true;
-    default:
-      if (partition.layer_cell.empty()) return false;
-      draw_one_of(partition.layer_cell) += 1;
+    default: {
+      std::vector<std::int64_t>& cells = claims.fields.at(draw_path(claims, "/layers/", "/cell")).integers;
+      if (cells.empty()) return false;
+      std::int64_t& cell = draw_one_of(cells);
+      cell = cell == 0 ? 1 : cell - 1;
       return true;
+    }
   }
 }
 
@@ -167,19 +184,21 @@ TEST(Verify, ALayerThatIsTooLargeIsFoundThoughAllCountsAgree) {
   ThreadTeam team(2);
   const auto found = [&] {
     ClaimedFile file = analysed_file(draw_problem(), team);
-    PartitionClaims& partition = file.claims.partitions.front();
-    RC_PRE(partition.fixed_point_index >= 1);
-    const std::int32_t layer = draw(0, partition.fixed_point_index - 1);
-    std::uint64_t moved = 0;
-    for (std::size_t x = 0; x < partition.delay.size(); ++x) {
-      if (partition.delay[x] != layer) continue;
-      partition.delay[x] = kForever;
-      partition.trigger[x] = kForever;
+    std::vector<std::int32_t>& delay = file.claims.fields.at("/delay").values.front();
+    std::vector<std::int64_t>& sizes = file.claims.fields.at("/layer_size").integers;
+    const std::size_t layers = sizes.size() / file.spec.coordination.partitions.size();
+    const auto last = static_cast<int>(file.claims.at("/fixed_point_index").integers.front());
+    RC_PRE(last >= 1);
+    const std::int32_t layer = draw(0, last - 1);
+    std::int64_t moved = 0;
+    for (std::size_t x = 0; x < delay.size(); ++x) {
+      if (delay[x] != layer) continue;
+      delay[x] = kForever;
+      file.claims.fields.at("/trigger").values.front()[x] = kForever;
       ++moved;
       break;
     }
-    for (std::size_t k = static_cast<std::size_t>(layer) + 1; k < partition.layer_sizes.size(); ++k)
-      partition.layer_sizes[k] += moved;
+    for (std::size_t k = static_cast<std::size_t>(layer) + 1; k < layers; ++k) sizes[k] += moved;
     RC_ASSERT(!verify_file(file, {.budget_seconds = 0.1}, team).holds());
   };
   EXPECT_TRUE(rc::check("one cell that claims to be unbounded", found));

@@ -71,7 +71,12 @@ def includes_point_left(root):
 
 
 # What a check may know of answers and of the engine: what is claimed, not how it is found.
-CLAIMED = ("engine/packed_pairs.hpp", "answers/requirements/result_requirement.hpp")
+CLAIMED = (
+    "engine/packed_pairs.hpp",
+    "answers/field_source.hpp",
+    "answers/layers/stored_partition.hpp",
+    "answers/requirements/result_requirement.hpp",
+)
 ROOMS_OF_CHECKS = ("base", "numeric", "expression", "spec", "model")
 
 

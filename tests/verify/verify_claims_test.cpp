@@ -50,7 +50,7 @@ TEST(VerifyClaims, OfAnotherVersionLessSafetyIsLeftOpenAndMoreIsWrong) {
   ThreadTeam team(2);
   ClaimedFile file = analysed_file(kFriction, team);
   file.claims.same_version = false;
-  std::vector<std::int32_t>& times = file.claims.collision_time;
+  std::vector<std::int32_t>& times = file.claims.fields.at("/collision_time").values.front();
   const auto late =
       std::find_if(times.begin(), times.end(), [](std::int32_t t) { return t >= 2 && t != kForever; });
   ASSERT_NE(late, times.end());
@@ -74,16 +74,20 @@ TEST(VerifyClaims, ASampleLooksAtSoManyCells) {
 TEST(VerifyClaims, AGreaterKThanThereIsIsFound) {
   ThreadTeam team(2);
   ClaimedFile file = analysed_file(kFriction, team);
-  const auto outside = std::find(file.claims.collision_time.begin(), file.claims.collision_time.end(), 1);
-  ASSERT_NE(outside, file.claims.collision_time.end());
-  const auto x = static_cast<std::size_t>(outside - file.claims.collision_time.begin());
-  file.claims.invariant[x] = 1;
-  file.claims.invariant_cells += 1;
-  file.claims.collision_time[x] = kForever;
-  for (PartitionClaims& partition : file.claims.partitions) {
-    partition.delay[x] = 0;
-    partition.trigger[x] = 0;
-    partition.layer_sizes[0] += 1;
+  auto& fields = file.claims.fields;
+  std::vector<std::int32_t>& times = fields.at("/collision_time").values.front();
+  const auto outside = std::find(times.begin(), times.end(), 1);
+  ASSERT_NE(outside, times.end());
+  const auto x = static_cast<std::size_t>(outside - times.begin());
+  fields.at("/invariant").members.front()[x] = 1;
+  fields.at("/invariant").cells.front() += 1;
+  times[x] = kForever;
+  std::vector<std::int64_t>& sizes = fields.at("/layer_size").integers;
+  const std::size_t partitions = fields.at("/delay").values.size();
+  for (std::size_t p = 0; p < partitions; ++p) {
+    fields.at("/delay").values[p][x] = 0;
+    fields.at("/trigger").values[p][x] = 0;
+    sizes[p * (sizes.size() / partitions)] += 1;
   }
   EXPECT_TRUE(has_wrong(verify_file(file, {}, team), "K"));
 }
@@ -92,15 +96,17 @@ TEST(VerifyClaims, ASmallerKThanThereIsIsFoundThoughItIsSafe) {
   ThreadTeam team(2);
   ClaimedFile file = analysed_file(kFriction, team);
   // Nobody in K at all: safe, but by far not the greatest.
-  std::fill(file.claims.invariant.begin(), file.claims.invariant.end(), 0);
-  file.claims.invariant_cells = 0;
-  for (std::int32_t& time : file.claims.collision_time) time = time == kForever ? 1 : time;
-  for (PartitionClaims& partition : file.claims.partitions) {
-    for (std::int32_t& delay : partition.delay) delay = std::min(delay, -1);
-    partition.trigger = partition.delay;
-    partition.fixed_point_index = 0;
-    partition.layer_sizes = {0};
+  auto& fields = file.claims.fields;
+  std::vector<std::uint8_t>& invariant = fields.at("/invariant").members.front();
+  std::fill(invariant.begin(), invariant.end(), 0);
+  fields.at("/invariant").cells = {0};
+  for (std::int32_t& time : fields.at("/collision_time").values.front()) time = time == kForever ? 1 : time;
+  for (std::vector<std::int32_t>& own : fields.at("/delay").values) {
+    for (std::int32_t& delay : own) delay = std::min(delay, -1);
   }
+  fields.at("/trigger").values = fields.at("/delay").values;
+  fields.at("/fixed_point_index").integers.assign(fields.at("/delay").values.size(), 0);
+  fields.at("/layer_size").integers.assign(fields.at("/delay").values.size(), 0);
   EXPECT_TRUE(has_wrong(verify_file(file, {}, team), "collision time"));
 }
 

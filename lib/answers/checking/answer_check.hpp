@@ -35,6 +35,8 @@ class AnswerCheck {
   virtual std::vector<Finding> compare_sizes(Comparison& /*sizes*/) { return {}; }
   /// Null: single cells are not looked at. REQUIRES: this object outlives the result.
   [[nodiscard]] virtual std::unique_ptr<CellChecker> cell_checker() { return nullptr; }
+  /// Cells that check_all() asks for the posts of, whatever the sample is.
+  [[nodiscard]] virtual std::vector<std::uint64_t> more_cells() const { return {}; }
   /// Whatever takes more than one cell at a time.
   virtual void check_all(ThreadTeam& /*team*/) {}
   /// After all that.

@@ -9,6 +9,9 @@ namespace coordreq {
 
 CheckedCell::CheckedCell(const CheckGround& ground)
     : ground_(ground),
+      safe_(ground.claims->members("/safe")),
+      invariant_(ground.claims->members("/invariant")),
+      delay_(ground.claims->values("/delay")),
       posts_(*ground.posts),
       allowed_(*ground.spec, *ground.grid, *ground.inputs, ground.claims->listed),
       admitted_(static_cast<std::size_t>(ground.inputs->count())) {
@@ -34,8 +37,7 @@ void CheckedCell::find_admitted() {
   for (std::size_t u = 0; u < admitted_.size(); ++u) {
     const auto input = static_cast<std::int64_t>(u);
     if (!is_allowed(input)) continue;
-    const bool stays =
-        least(input, ground_.claims->partitions.front().delay, kOutsideInvariant) > kOutsideInvariant;
+    const bool stays = least(input, delay_, kOutsideInvariant) > kOutsideInvariant;
     all_stay_ = all_stay_ && stays;
     admitted_[u] = given || stays ? 1 : 0;
   }

@@ -24,9 +24,9 @@ class CheckedCell {
   /// "x1 = 0.1, x2 = 0".
   [[nodiscard]] std::string place() const;
   /// As claimed.
-  [[nodiscard]] bool is_safe() const { return ground_.claims->safe[at()] != 0; }
+  [[nodiscard]] bool is_safe() const { return safe_[at()] != 0; }
   /// As claimed; what is not safe is not invariant.
-  [[nodiscard]] bool is_invariant() const { return is_safe() && ground_.claims->invariant[at()] != 0; }
+  [[nodiscard]] bool is_invariant() const { return is_safe() && invariant_[at()] != 0; }
 
   /// C(x): [joint input] 1 or 0; none outside K.
   [[nodiscard]] const std::vector<std::uint8_t>& admitted() const { return admitted_; }
@@ -61,6 +61,9 @@ class CheckedCell {
   void find_admitted();
 
   const CheckGround& ground_;
+  const std::vector<std::uint8_t>& safe_;
+  const std::vector<std::uint8_t>& invariant_;
+  const std::vector<std::int32_t>& delay_;  ///< of the first partition
   PostMinima posts_;
   std::optional<CellTubes> tubes_;  ///< if the ways between the samples count
   AllowedPairs allowed_;

@@ -13,7 +13,7 @@ constexpr std::int32_t kOutside = -1;
 }  // namespace
 
 ClaimedProgress::ClaimedProgress(const CheckGround& ground)
-    : ground_(ground), arrival_(ground.claims->numbers.at("/arrival")) {
+    : ground_(ground), arrival_(ground.claims->values("/arrival")) {
   for (const std::int32_t steps : arrival_) nearness_.push_back(steps < 0 ? kOutside : kForever - steps);
 }
 

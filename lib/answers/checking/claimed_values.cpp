@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "spec/problem_spec.hpp"
+#include "spec/requirement_kind.hpp"
 
 namespace coordreq {
 
@@ -18,19 +19,11 @@ std::uint64_t count_members(const std::vector<std::uint8_t>& set) {
   return set.size() - static_cast<std::uint64_t>(std::count(set.begin(), set.end(), 0));
 }
 
-std::int32_t claimed_delay(const Claims& claims, std::optional<std::size_t> partition, std::size_t cell) {
-  if (partition) return claims.partitions[*partition].delay[cell];
-  if (claims.safe[cell] == 0) return kOutsideSafe;
-  return claims.invariant[cell] == 0 ? kOutsideInvariant : kForever;
-}
-
-std::int32_t claimed_value(const Claims& claims, const RequirementSpec& asked, std::size_t cell) {
-  if (asked.kind == RequirementKind::max_arrival) return claims.numbers.at("/arrival")[cell];
-  std::optional<std::size_t> partition;
-  if (asked.partition) partition = static_cast<std::size_t>(*asked.partition);
-  if (asked.kind == RequirementKind::min_approach_delay)
-    return claims.partition_numbers.at("/approach_delay")[*partition][cell];
-  return claimed_delay(claims, partition, cell);
+ClaimedValues::ClaimedValues(const Claims& claims, const RequirementSpec& asked)
+    : safe_(claims.members("/safe")), invariant_(claims.members("/invariant")) {
+  if (asked.kind == RequirementKind::invariant) return;
+  values_ =
+      &claims.values("/" + traits(asked.kind).value, static_cast<std::size_t>(asked.partition.value_or(0)));
 }
 
 BitDifference compare_bits(const std::vector<std::uint8_t>& bytes, std::size_t cell,

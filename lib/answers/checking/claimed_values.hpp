@@ -15,12 +15,24 @@ namespace coordreq {
 [[nodiscard]] std::int32_t one_more(std::int32_t steps);
 /// How many are not 0.
 [[nodiscard]] std::uint64_t count_members(const std::vector<std::uint8_t>& set);
-/// The delay of a cell; without a partition that of all agents together.
-[[nodiscard]] std::int32_t claimed_delay(const Claims& claims, std::optional<std::size_t> partition,
-                                         std::size_t cell);
-/// What a requirement judges a cell by: its delay, arrival or approach delay.
-[[nodiscard]] std::int32_t claimed_value(const Claims& claims, const RequirementSpec& asked,
-                                         std::size_t cell);
+/// What a requirement judges cells by: a field of the name that its kind gives. Without a partition the delay
+/// is that of all agents together.
+class ClaimedValues {
+ public:
+  /// REQUIRES: `claims` outlives this object.
+  ClaimedValues(const Claims& claims, const RequirementSpec& asked);
+
+  [[nodiscard]] std::int32_t operator()(std::size_t cell) const {
+    if (values_ != nullptr) return (*values_)[cell];
+    if (safe_[cell] == 0) return kOutsideSafe;
+    return invariant_[cell] == 0 ? kOutsideInvariant : kForever;
+  }
+
+ private:
+  const std::vector<std::uint8_t>& safe_;
+  const std::vector<std::uint8_t>& invariant_;
+  const std::vector<std::int32_t>* values_ = nullptr;  ///< null: of all agents together
+};
 
 /// How bits of a cell differ from those expected.
 struct BitDifference {

@@ -9,6 +9,7 @@
 
 #include "answers/checking/cell_place.hpp"
 #include "base/index.hpp"
+#include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -82,13 +83,21 @@ class CoalitionCheck : public AnswerCheck {
   explicit CoalitionCheck(const CheckGround& ground)
       : AnswerCheck(CheckSection::costs),
         grid_(*ground.grid),
-        claims_(*ground.claims),
-        chosen_(ground.claims->numbers.at("/coalition")),
+        safe_(ground.claims->members("/safe")),
+        invariant_(ground.claims->members("/invariant")),
+        delay_(ground.claims->at("/delay").values),
+        choice_(ground.claims->at("/coalition")),
+        chosen_(choice_.values.front()),
         horizon_(*ground.spec->coordination.horizon) {
     const ProblemSpec& spec = *ground.spec;
     for (const PartitionSpec& partition : spec.coordination.partitions)
       candidates_.push_back(candidate_of(partition, spec.agents.size(), spec.coordination.link_cost));
     rank();
+    for (std::int32_t a = 0; at(a) < spec.agents.size(); ++a) {
+      for (std::int32_t b = a + 1; at(b) < spec.agents.size(); ++b)
+        pair_names_.push_back(class_name(spec.agents, {a, b}));
+    }
+    if (!pair_names_.empty()) critical_ = &ground.claims->at("/critical_pair");
   }
 
   void check_all(ThreadTeam& team) override {
@@ -121,11 +130,11 @@ class CoalitionCheck : public AnswerCheck {
 
   /// What the map must say of a cell.
   [[nodiscard]] std::int32_t cheapest_at(std::size_t x) const {
-    if (claims_.safe[x] == 0) return kOutsideSafe;
-    if (claims_.invariant[x] == 0) return kOutsideInvariant;
+    if (safe_[x] == 0) return kOutsideSafe;
+    if (invariant_[x] == 0) return kOutsideInvariant;
     std::int32_t best = kNoneSuffices;
     for (std::size_t p = 0; p < rank_.size(); ++p) {
-      if (claims_.partitions[p].delay[x] < horizon_) continue;
+      if (delay_[p][x] < horizon_) continue;
       if (best == kNoneSuffices || rank_[p] < rank_[at(best)]) best = static_cast<std::int32_t>(p);
     }
     return best;
@@ -145,35 +154,41 @@ class CoalitionCheck : public AnswerCheck {
 
   void check_pairs(std::int64_t cell, std::int32_t cheapest) {
     const auto x = static_cast<std::size_t>(cell);
-    for (std::size_t pair = 0; pair < claims_.critical_pairs.size(); ++pair) {
+    for (std::size_t pair = 0; pair < critical_pairs().members.size(); ++pair) {
       bool critical = cheapest >= 0;
       for (std::size_t p = 0; p < rank_.size() && critical; ++p) {
-        const bool counts =
-            cost_rank_[p] == cost_rank_[at(cheapest)] && claims_.partitions[p].delay[x] >= horizon_;
+        const bool counts = cost_rank_[p] == cost_rank_[at(cheapest)] && delay_[p][x] >= horizon_;
         critical = !counts || candidates_[p].together[pair] != 0;
       }
       pairs_.add_checked(1);
-      if ((claims_.critical_pairs[pair][x] != 0) == critical) continue;
+      if ((critical_pairs().members[pair][x] != 0) == critical) continue;
       pairs_.add_wrong(cell, [&] {
-        return fmt::format("{}: {} is {}critical", place_of(grid_, cell), claims_.pairs[pair],
+        return fmt::format("{}: {} is {}critical", place_of(grid_, cell), pair_names_[pair],
                            critical ? "" : "not ");
       });
     }
   }
 
   void check_sizes() {
-    expect_size(coalition_, "numbers in cells", length(claims_.coalition_cells), counted(candidates_.size()));
-    expect_size(pairs_, "numbers in cells", length(claims_.critical_pair_cells),
-                counted(claims_.pairs.size()));
-    for (std::size_t p = 0; p < claims_.coalition_cells.size(); ++p) {
+    expect_size(coalition_, "numbers in cells", length(choice_.cells), counted(candidates_.size()));
+    expect_size(pairs_, "numbers in cells", length(critical_pairs().cells), counted(pair_names_.size()));
+    for (std::size_t p = 0; p < choice_.cells.size(); ++p) {
       const auto found = std::count(chosen_.begin(), chosen_.end(), static_cast<std::int32_t>(p));
-      expect_size(coalition_, "cells of " + candidates_[p].name, claims_.coalition_cells[p], found);
+      expect_size(coalition_, "cells of " + candidates_[p].name, static_cast<std::int64_t>(choice_.cells[p]),
+                  found);
     }
-    for (std::size_t pair = 0; pair < claims_.critical_pair_cells.size(); ++pair) {
+    for (std::size_t pair = 0; pair < critical_pairs().cells.size(); ++pair) {
       const auto found =
-          std::count(claims_.critical_pairs[pair].begin(), claims_.critical_pairs[pair].end(), 1);
-      expect_size(pairs_, "cells of " + claims_.pairs[pair], claims_.critical_pair_cells[pair], found);
+          std::count(critical_pairs().members[pair].begin(), critical_pairs().members[pair].end(), 1);
+      expect_size(pairs_, "cells of " + pair_names_[pair],
+                  static_cast<std::int64_t>(critical_pairs().cells[pair]), found);
     }
+  }
+
+  /// [pair]; nothing if there are none.
+  [[nodiscard]] const FieldClaims& critical_pairs() const {
+    static const FieldClaims nothing;
+    return critical_ == nullptr ? nothing : *critical_;
   }
 
   /// As many as the attribute `cells` has for so many values.
@@ -182,14 +197,14 @@ class CoalitionCheck : public AnswerCheck {
     return values <= kMostCounted ? static_cast<std::int64_t>(values) : 0;
   }
 
-  static std::int64_t length(const std::vector<std::int64_t>& counts) {
+  static std::int64_t length(const std::vector<std::uint64_t>& counts) {
     return static_cast<std::int64_t>(counts.size());
   }
 
   void expect_size(Tally& tally, const std::string& what, std::int64_t claimed, std::int64_t found) const {
     tally.add_checked(1);
     if (claimed == found) return;
-    tally.add_wrong(grid_.cells() + static_cast<std::int64_t>(claims_.coalition_cells.size()),
+    tally.add_wrong(grid_.cells() + static_cast<std::int64_t>(choice_.cells.size()),
                     [&] { return fmt::format("{}: {}, expected {}", what, claimed, found); });
   }
 
@@ -200,8 +215,13 @@ class CoalitionCheck : public AnswerCheck {
   }
 
   const UniformGrid& grid_;
-  const Claims& claims_;
+  const std::vector<std::uint8_t>& safe_;
+  const std::vector<std::uint8_t>& invariant_;
+  const std::vector<std::vector<std::int32_t>>& delay_;  ///< [partition][cell]
+  const FieldClaims& choice_;
   const std::vector<std::int32_t>& chosen_;  ///< [cell] index of a partition, or what the words say
+  const FieldClaims* critical_ = nullptr;    ///< null: there are no pairs
+  std::vector<std::string> pair_names_;
   std::int64_t horizon_;
   std::vector<Candidate> candidates_;   ///< by partition
   std::vector<std::size_t> rank_;       ///< [partition] place in the order of preference

@@ -28,7 +28,7 @@ class ConventionChecker : public CellChecker {
     admitted_ = is_on_the_way ? progress_->of(cell) : cell.admitted();
     find(admitted_);
     check_freedom(cell);
-    if (!claims_.convention.empty()) check_actions(cell);
+    if (actions_.front() != nullptr) check_actions(cell);
   }
 
  private:
@@ -43,7 +43,8 @@ class ConventionChecker : public CellChecker {
   void check_freedom(const CheckedCell& cell);
 
   const CheckGround& ground_;
-  const Claims& claims_;
+  const std::vector<std::vector<float>>& freedom_;         ///< [agent][cell]
+  std::vector<const std::vector<std::uint8_t>*> actions_;  ///< [agent]; null: not stored
   ConventionTallies& tallies_;
   std::vector<InputClass> agents_;
   /// [agent][action]: the joint inputs with it.
@@ -54,9 +55,10 @@ class ConventionChecker : public CellChecker {
 };
 
 ConventionChecker::ConventionChecker(const CheckGround& ground, ConventionTallies& tallies)
-    : ground_(ground), claims_(*ground.claims), tallies_(tallies) {
+    : ground_(ground), freedom_(ground.claims->at("/convention_freedom").reals), tallies_(tallies) {
   if (ground.spec->goal) progress_.emplace(ground);
   for (std::size_t a = 0; a < ground.spec->agents.size(); ++a) {
+    actions_.push_back(ground.claims->bits("/actions:convention/" + ground.spec->agents[a].name));
     InputClass& own =
         agents_.emplace_back(class_of(*ground.spec, *ground.inputs, {static_cast<std::int32_t>(a)}));
     own.tabulate();
@@ -112,7 +114,7 @@ ConventionChecker::Sets ConventionChecker::claimed_sets(std::size_t cell) const 
   Sets sets;
   for (std::size_t i = 0; i < agents_.size(); ++i) {
     const auto bytes = static_cast<std::size_t>(agents_[i].bytes());
-    const std::uint8_t* const own = claims_.convention[i].data() + cell * bytes;
+    const std::uint8_t* const own = actions_[i]->data() + cell * bytes;
     // Bits beyond the last action have to be 0; one that is not makes the sets differ.
     std::vector<std::uint8_t>& set = sets.emplace_back(bytes * 8);
     for (std::size_t a = 0; a < set.size(); ++a) set[a] = own[a / 8] >> (a % 8) & 1U;
@@ -146,7 +148,7 @@ void ConventionChecker::check_freedom(const CheckedCell& cell) {
                  ? 1
                  : 0;
     }
-    const float claimed = claims_.convention_freedom[i][cell.at()];
+    const float claimed = freedom_[i][cell.at()];
     if (all == 0 && std::isnan(claimed)) continue;
     const auto expected = static_cast<float>(static_cast<double>(kept) / static_cast<double>(all));
     if (all > 0 && claimed == expected) continue;
@@ -171,7 +173,7 @@ class ConventionCheck : public AnswerCheck {
   }
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result = {tallies_.freedom.finding()};
-    if (!ground_.claims->convention.empty()) result.push_back(tallies_.actions.finding());
+    if (ground_.spec->output.actions) result.push_back(tallies_.actions.finding());
     return result;
   }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -40,21 +39,21 @@ struct GoalTallies {
 /// What the file says, as far as the goal is concerned.
 struct GoalClaims {
   explicit GoalClaims(const Claims& claims)
-      : arrival(claims.numbers.at("/arrival")),
-        delay(claims.partition_numbers.at("/approach_delay")),
-        trigger(claims.partition_numbers.at("/approach_trigger")),
-        bits(claims.bits) {}
-
-  /// Null: not stored.
-  [[nodiscard]] const std::vector<std::uint8_t>* bits_of(const std::string& path) const {
-    const auto found = bits.find(path);
-    return found == bits.end() ? nullptr : &found->second;
-  }
+      : arrival(claims.values("/arrival")),
+        delay(claims.at("/approach_delay").values),
+        trigger(claims.at("/approach_trigger").values),
+        safety(claims.at("/delay").values),
+        sizes(claims.at("/approach_layer_size").integers),
+        fixed_points(claims.at("/approach_fixed_point_index").integers),
+        of_safety(claims.at("/fixed_point_index").integers) {}
 
   const std::vector<std::int32_t>& arrival;
   const std::vector<std::vector<std::int32_t>>& delay;    ///< [partition][cell]
   const std::vector<std::vector<std::int32_t>>& trigger;  ///< likewise
-  const std::map<std::string, std::vector<std::uint8_t>>& bits;
+  const std::vector<std::vector<std::int32_t>>& safety;   ///< delays, likewise
+  const std::vector<std::int64_t>& sizes;                 ///< [partition, layer]
+  const std::vector<std::int64_t>& fixed_points;          ///< [partition]
+  const std::vector<std::int64_t>& of_safety;             ///< likewise, of the delays
 };
 
 /// A class of a partition, and what the file says of its actions.
@@ -70,7 +69,7 @@ class GoalChecker : public CellChecker {
         claims_(claims),
         tallies_(tallies),
         by_definition_(ground),
-        controller_(claims.bits_of("/controller:goal")),
+        controller_(ground.claims->bits("/controller:goal")),
         judge_(*ground.spec, *ground.spec->goal, *ground.grid, memory) {
     const ProblemSpec& spec = *ground.spec;
     for (const PartitionSpec& partition : spec.coordination.partitions) {
@@ -79,7 +78,7 @@ class GoalChecker : public CellChecker {
         const std::string name = class_name(spec.agents, agents);
         GoalClass& one = all.emplace_back(GoalClass{class_of(spec, *ground.inputs, agents)});
         one.own.tabulate();
-        one.actions = claims.bits_of("/actions:goal/" + partition.name + "/" + name);
+        one.actions = ground.claims->bits("/actions:goal/" + partition.name + "/" + name);
       }
     }
   }
@@ -188,10 +187,10 @@ class GoalChecker : public CellChecker {
     std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
     if (cell.is_invariant()) {
       expected = arrival == kForever ? kNoWayToGoal
-                 : arrival == 0      ? ground_.claims->partitions[p].delay[cell.at()]
+                 : arrival == 0      ? claims_.safety[p][cell.at()]
                                      : approach_by_definition(cell, p);
       const std::optional<std::int64_t> most = ground_.spec->coordination.max_delay;
-      if (most && ground_.claims->lists.at("/approach_fixed_point_index")[p] < 0)
+      if (most && claims_.fixed_points[p] < 0)
         expected = std::min(expected, static_cast<std::int32_t>(*most));
     }
     if (claimed == expected) return;
@@ -259,7 +258,7 @@ class GoalCheck : public AnswerCheck {
         ground_(ground),
         claims_(*ground.claims),
         memory_(*ground.spec->goal, *ground.grid) {
-    for (const PartitionClaims& partition : ground.claims->partitions)
+    for (const PartitionSpec& partition : ground.spec->coordination.partitions)
       tallies_.approach.emplace_back(partition.name);
   }
 
@@ -271,15 +270,14 @@ class GoalCheck : public AnswerCheck {
       ++winning;
       longest = std::max(longest, std::int64_t{arrival});
     }
-    const std::map<std::string, std::int64_t>& found = ground_.claims->attributes;
-    sizes.expect("|G|", found.at("/arrival goal_cells"), goal);
-    sizes.expect("|W|", found.at("/arrival winning_cells"), winning);
-    sizes.expect("longest arrival", found.at("/arrival longest_arrival"), longest);
+    const Claims& claims = *ground_.claims;
+    sizes.expect("|G|", claims.attribute("/arrival", "goal_cells"), goal);
+    sizes.expect("|W|", claims.attribute("/arrival", "winning_cells"), winning);
+    sizes.expect("longest arrival", claims.attribute("/arrival", "longest_arrival"), longest);
     std::vector<Finding> findings;
     std::size_t layers = 1;
     for (std::size_t p = 0; p < claims_.delay.size(); ++p) findings.push_back(compare_layers(p, layers));
-    const std::size_t found_layers = ground_.claims->lists.at("/approach_layer_size").size();
-    sizes.expect("length of /approach_layer", found_layers, layers * claims_.delay.size());
+    sizes.expect("length of /approach_layer", claims_.sizes.size(), layers * claims_.delay.size());
     return findings;
   }
   std::unique_ptr<CellChecker> cell_checker() override {
@@ -300,9 +298,8 @@ class GoalCheck : public AnswerCheck {
   /// |A_k| of one partition, and F, with the delays of its cells.
   /// @param layers the most of any partition so far
   [[nodiscard]] Finding compare_layers(std::size_t p, std::size_t& layers) const {
-    Comparison comparison("approach layers " + ground_.claims->partitions[p].name);
-    const std::vector<std::int64_t>& all = ground_.claims->lists.at("/approach_layer_size");
-    const std::size_t length = all.size() / claims_.delay.size();
+    Comparison comparison("approach layers " + ground_.spec->coordination.partitions[p].name);
+    const std::size_t length = claims_.sizes.size() / claims_.delay.size();
     std::vector<std::int64_t> sizes(length, 0);
     std::int64_t last = -1;  // the greatest delay that is not unbounded
     bool unbounded = false;
@@ -314,8 +311,8 @@ class GoalCheck : public AnswerCheck {
         ++sizes[k];
     }
     for (std::size_t k = 0; k < length; ++k)
-      comparison.expect(fmt::format("|A_{}|", k), all[p * length + k], sizes[k]);
-    const std::int64_t index = ground_.claims->lists.at("/approach_fixed_point_index")[p];
+      comparison.expect(fmt::format("|A_{}|", k), claims_.sizes[p * length + k], sizes[k]);
+    const std::int64_t index = claims_.fixed_points[p];
     comparison.expect("F", index, is_stopped(p, last, unbounded, index < 0) ? -1 : last + 1);
     layers = std::max(layers, static_cast<std::size_t>(index < 0 ? last : last + 1) + 1);
     return comparison.finding();
@@ -332,8 +329,8 @@ class GoalCheck : public AnswerCheck {
     for (const std::int32_t delay : claims_.delay[p]) {
       if (delay >= 0 && delay != kForever && delay < *most) fixed = std::max(fixed, std::int64_t{delay} + 1);
     }
-    const std::int32_t of_safety = ground_.claims->partitions[p].fixed_point_index;
-    return of_safety < 0 || std::max<std::int64_t>(fixed, of_safety) >= *most;
+    const std::int64_t of_safety = claims_.of_safety[p];
+    return of_safety < 0 || std::max(fixed, of_safety) >= *most;
   }
 
   const CheckGround& ground_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "answers/checking/claimed_values.hpp"
 #include "answers/invariance/check_safe.hpp"
@@ -23,7 +24,9 @@ class SetChecker : public CellChecker {
  public:
   SetChecker(const CheckGround& ground, SetTallies& tallies, SafeMemory& memory)
       : ground_(ground),
-        claims_(*ground.claims),
+        invariant_(ground.claims->members("/invariant")),
+        collision_time_(ground.claims->values("/collision_time")),
+        controller_(ground.claims->bits("/controller")),
         tallies_(tallies),
         judge_(*ground.spec, ground.spec->safe, *ground.grid, memory) {}
 
@@ -36,7 +39,7 @@ class SetChecker : public CellChecker {
     } else {
       check_stay(cell);
     }
-    if (claims_.has_controller) check_controller(cell);
+    if (controller_ != nullptr) check_controller(cell);
   }
 
  private:
@@ -54,7 +57,7 @@ class SetChecker : public CellChecker {
 
   void check_outside(const CheckedCell& cell) {
     tallies_.invariant.add_checked(1);
-    if (claims_.invariant[cell.at()] != 0) wrong(tallies_.invariant, cell, "in K, but not in S");
+    if (invariant_[cell.at()] != 0) wrong(tallies_.invariant, cell, "in K, but not in S");
     check_collision_time(cell, 0);
   }
 
@@ -66,7 +69,7 @@ class SetChecker : public CellChecker {
     for (std::int64_t u = 0; u < ground_.inputs->count(); ++u) {
       if (!cell.is_allowed(u)) continue;
       any = true;
-      const std::int32_t time = cell.least(u, claims_.collision_time, 0);
+      const std::int32_t time = cell.least(u, collision_time_, 0);
       best = maximal ? std::max(best, time) : std::min(best, time);
     }
     tallies_.invariant.add_checked(1);
@@ -92,7 +95,7 @@ class SetChecker : public CellChecker {
 
   void check_collision_time(const CheckedCell& cell, std::int32_t expected) {
     tallies_.collision_time.add_checked(1);
-    const std::int32_t claimed = claims_.collision_time[cell.at()];
+    const std::int32_t claimed = collision_time_[cell.at()];
     if (claimed == expected) return;
     if (ground_.sound_only() && claimed < expected && claimed > 0) {
       tallies_.collision_time.add_unproven();
@@ -105,7 +108,7 @@ class SetChecker : public CellChecker {
 
   void check_controller(const CheckedCell& cell) {
     tallies_.controller.add_checked(1);
-    const BitDifference found = compare_bits(claims_.controller, cell.at(), cell.admitted());
+    const BitDifference found = compare_bits(*controller_, cell.at(), cell.admitted());
     if (found.extra > 0) {
       tallies_.controller.add_wrong(cell.number(), [&] {
         return fmt::format("{}: {} joint inputs too many", cell.place(), found.extra);
@@ -122,7 +125,9 @@ class SetChecker : public CellChecker {
   }
 
   const CheckGround& ground_;
-  const Claims& claims_;
+  const std::vector<std::uint8_t>& invariant_;
+  const std::vector<std::int32_t>& collision_time_;
+  const std::vector<std::uint8_t>* controller_;  ///< null: not stored
   SetTallies& tallies_;
   SafeJudge judge_;
 };
@@ -134,13 +139,14 @@ class InvarianceCheck : public AnswerCheck {
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
     const Claims& claims = *ground_.claims;
-    sizes.expect("|S|", claims.safe_cells, count_members(claims.safe));
-    sizes.expect("|K|", claims.invariant_cells, count_members(claims.invariant));
+    for (const auto& [words, path] : {std::pair("|S|", "/safe"), std::pair("|K|", "/invariant")})
+      sizes.expect(words, claims.at(path).cells.front(), count_members(claims.members(path)));
     std::int64_t last = 0;
-    for (const std::int32_t time : claims.collision_time) {
+    for (const std::int32_t time : claims.values("/collision_time")) {
       if (time != kForever) last = std::max(last, std::int64_t{time});
     }
-    sizes.expect("iterations", claims.iterations, last + 1);  // the last sweep removes nothing
+    sizes.expect("iterations", claims.attribute("/collision_time", "iterations"),
+                 last + 1);  // the last sweep removes nothing
     return {};
   }
   std::unique_ptr<CellChecker> cell_checker() override {
@@ -149,7 +155,7 @@ class InvarianceCheck : public AnswerCheck {
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result = {tallies_.safe.finding(), tallies_.invariant.finding(),
                                    tallies_.collision_time.finding()};
-    if (ground_.claims->has_controller) result.push_back(tallies_.controller.finding());
+    if (ground_.claims->has("/controller")) result.push_back(tallies_.controller.finding());
     return result;
   }
 

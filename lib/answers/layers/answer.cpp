@@ -9,6 +9,7 @@
 #include "answers/layers/fields.hpp"
 #include "answers/layers/projection_bytes.hpp"
 #include "answers/layers/refinement.hpp"
+#include "answers/layers/stored_partition.hpp"
 #include "answers/work_json.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
@@ -111,6 +112,14 @@ void summarise_layers(const Answers& answers, Json& summary, Json& work) {
     const DelayLayers& layers = answers.get<PartitionLayers>().partitions[p];
     summary["partitions"].push_back(partition_json(spec, partition, layers));
     work["layers " + partition.name] = work_json(layers.counts);
+  }
+}
+
+void examine_layers(const ProblemSpec& spec, const FieldSource& source) {
+  const std::vector<StoredPartition> partitions = read_partition_values(spec, source);
+  for (std::size_t p = 0; spec.output.layers && p < partitions.size(); ++p) {
+    const std::string path = paths::layers(spec.coordination.partitions[p]) + "/start";
+    source.expect_length(path, partitions[p].layer_sizes.size() + 1);
   }
 }
 

@@ -35,6 +35,8 @@ struct PartitionActions {
 [[nodiscard]] std::vector<Stage> layers_stages(const ProblemSpec& spec);
 [[nodiscard]] MemoryNeed layers_memory(const EngineSizes& sizes, int threads);
 void summarise_layers(const Answers& answers, Json& summary, Json& work);
+/// Fails where an F is no layer, or a list of layers has another length.
+void examine_layers(const ProblemSpec& spec, const FieldSource& source);
 void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info);
 
 }  // namespace coordreq

@@ -23,21 +23,23 @@ std::int32_t trigger_by_definition(std::int32_t delay, std::int64_t connection_d
 /// What all threads share about one partition.
 struct PartitionTallies {
   PartitionTallies(const CheckGround& ground, std::size_t p)
-      : delay("delay " + ground.claims->partitions[p].name),
-        trigger("trigger " + ground.claims->partitions[p].name),
-        actions("actions " + ground.claims->partitions[p].name) {
-    for (const auto& agents : ground.spec->coordination.partitions[p].classes)
+      : claims(*ground.spec, *ground.claims, p),
+        delay("delay " + claims.partition.name),
+        trigger("trigger " + claims.partition.name),
+        actions("actions " + claims.partition.name) {
+    for (const auto& agents : claims.partition.classes)
       classes.emplace_back(class_of(*ground.spec, *ground.inputs, agents)).tabulate();
   }
 
+  PartitionClaims claims;
   Tally delay, trigger, actions;
   std::vector<InputClass> classes;
 };
 
 class PartitionChecker {
  public:
-  PartitionChecker(const CheckGround& ground, std::size_t p, PartitionTallies& tallies)
-      : ground_(ground), claims_(ground.claims->partitions[p]), tallies_(tallies), classes_(tallies.classes) {
+  PartitionChecker(const CheckGround& ground, PartitionTallies& tallies)
+      : ground_(ground), claims_(tallies.claims), tallies_(tallies), classes_(tallies.classes) {
     for (const InputClass& own : classes_) projection_.emplace_back(static_cast<std::size_t>(own.actions()));
   }
 
@@ -66,7 +68,7 @@ class PartitionChecker {
     tallies_.actions.add_checked(1);
     BitDifference found;
     for (std::size_t c = 0; c < classes_.size(); ++c) {
-      const std::vector<std::uint8_t>& bytes = claims_.actions[c];
+      const std::vector<std::uint8_t>& bytes = *claims_.actions[c];
       std::vector<std::uint8_t>& projection = projection_[c];
       const BitDifference own = compare_bits(bytes, cell.at(), projection);
       found = {.extra = found.extra + own.extra, .fewer = found.fewer || own.fewer};
@@ -145,7 +147,7 @@ class PartitionChecker {
 class DelayChecker : public CellChecker {
  public:
   DelayChecker(const CheckGround& ground, std::deque<PartitionTallies>& tallies) {
-    for (std::size_t p = 0; p < tallies.size(); ++p) partitions_.emplace_back(ground, p, tallies[p]);
+    for (PartitionTallies& own : tallies) partitions_.emplace_back(ground, own);
   }
   void check(CheckedCell& cell) override {
     for (PartitionChecker& partition : partitions_) partition.check(cell);
@@ -158,16 +160,16 @@ class DelayChecker : public CellChecker {
 class LayersCheck : public AnswerCheck {
  public:
   explicit LayersCheck(const CheckGround& ground) : AnswerCheck(CheckSection::steps), ground_(ground) {
-    for (std::size_t p = 0; p < ground.claims->partitions.size(); ++p) tallies_.emplace_back(ground, p);
+    for (std::size_t p = 0; p < ground.spec->coordination.partitions.size(); ++p)
+      tallies_.emplace_back(ground, p);
   }
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
     std::vector<Finding> findings;
     std::size_t longest = 1;
-    const std::vector<PartitionClaims>& partitions = ground_.claims->partitions;
-    for (const PartitionClaims& partition : partitions)
-      findings.push_back(compare_layers(*ground_.spec, partition, longest));
-    const std::size_t row = partitions.empty() ? longest : partitions.front().layer_sizes.size();
+    for (const PartitionTallies& own : tallies_)
+      findings.push_back(compare_layers(*ground_.spec, *ground_.claims, own.claims, longest));
+    const std::size_t row = tallies_.empty() ? longest : tallies_.front().claims.layer_sizes.size();
     sizes.expect("length of /layer", row, longest);
     return findings;
   }
@@ -176,10 +178,10 @@ class LayersCheck : public AnswerCheck {
   }
   [[nodiscard]] std::vector<Finding> findings() const override {
     std::vector<Finding> result;
-    for (std::size_t p = 0; p < tallies_.size(); ++p) {
-      if (!ground_.claims->partitions[p].actions.empty()) result.push_back(tallies_[p].actions.finding());
-      result.push_back(tallies_[p].delay.finding());
-      result.push_back(tallies_[p].trigger.finding());
+    for (const PartitionTallies& own : tallies_) {
+      if (!own.claims.actions.empty()) result.push_back(own.actions.finding());
+      result.push_back(own.delay.finding());
+      result.push_back(own.trigger.finding());
     }
     return result;
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "answers/layers/stored_partition.hpp"
+#include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -10,15 +12,15 @@ namespace {
 
 /// The layers as the delays of the cells say.
 struct Layers {
-  std::vector<std::uint64_t> sizes;  ///< |Z_0|, ..., |Z_F| or, if truncated, up to max_delay
-  std::int32_t fixed_point_index = -1;
+  std::vector<std::int64_t> sizes;  ///< |Z_0|, ..., |Z_F| or, if truncated, up to max_delay
+  std::int64_t fixed_point_index = -1;
 };
 
 /// @returns nothing if the delays cannot be those of an iteration that max_delay stops, or does not
 std::optional<Layers> layers_of(const ProblemSpec& spec, const PartitionClaims& claims) {
   std::int32_t longest = -1;
   bool unbounded = false;
-  std::uint64_t invariant = 0;
+  std::int64_t invariant = 0;
   for (const std::int32_t delay : claims.delay) {
     invariant += delay >= 0 ? 1 : 0;
     unbounded = unbounded || delay == kForever;
@@ -32,7 +34,7 @@ std::optional<Layers> layers_of(const ProblemSpec& spec, const PartitionClaims& 
   // Not stopped: Z_limit is empty, or was found to be fixed before.
   if (!truncated && longest + 1 >= limit && (longest == limit || unbounded)) return std::nullopt;
 
-  std::vector<std::uint64_t> leaving(static_cast<std::size_t>(longest + 1), 0);
+  std::vector<std::int64_t> leaving(static_cast<std::size_t>(longest + 1), 0);
   for (const std::int32_t delay : claims.delay) {
     if (delay >= 0 && delay != kForever) ++leaving[static_cast<std::size_t>(delay)];
   }
@@ -44,7 +46,8 @@ std::optional<Layers> layers_of(const ProblemSpec& spec, const PartitionClaims& 
   return layers;
 }
 
-void check_lists(const PartitionClaims& claims, const Layers& layers, Comparison& comparison) {
+void check_lists(const PartitionClaims& claims, const StoredLayers& stored, const Layers& layers,
+                 Comparison& comparison) {
   const auto layer_of = [&](std::int32_t delay) {
     return delay == kForever ? layers.sizes.size() - 1 : static_cast<std::size_t>(delay);
   };
@@ -52,19 +55,18 @@ void check_lists(const PartitionClaims& claims, const Layers& layers, Comparison
   for (std::size_t x = 0; x < claims.delay.size(); ++x) {
     if (claims.delay[x] >= 0) lists[layer_of(claims.delay[x])].push_back(x);
   }
-  comparison.expect("length of start", claims.layer_start.size(), lists.size() + 1);
+  comparison.expect("length of start", stored.start.size(), lists.size() + 1);
   std::uint64_t position = 0;
-  for (std::size_t k = 0; k < lists.size() && k < claims.layer_start.size(); ++k) {
-    comparison.expect(fmt::format("start[{}]", k), claims.layer_start[k], position);
+  for (std::size_t k = 0; k < lists.size() && k < stored.start.size(); ++k) {
+    comparison.expect(fmt::format("start[{}]", k), stored.start[k], position);
     for (const std::uint64_t cell : lists[k]) {
-      const std::uint64_t found =
-          position < claims.layer_cell.size() ? claims.layer_cell[position] : UINT64_MAX;
+      const std::uint64_t found = position < stored.cell.size() ? stored.cell[position] : UINT64_MAX;
       comparison.expect(fmt::format("cell[{}]", position), found, cell);
       ++position;
     }
   }
-  if (!claims.layer_start.empty()) comparison.expect("end of start", claims.layer_start.back(), position);
-  comparison.expect<std::uint64_t>("length of cell", claims.layer_cell.size(), position);
+  if (!stored.start.empty()) comparison.expect("end of start", stored.start.back(), position);
+  comparison.expect<std::uint64_t>("length of cell", stored.cell.size(), position);
 }
 
 void check_sizes(const PartitionClaims& claims, const Layers& layers, Comparison& comparison) {
@@ -77,18 +79,35 @@ void check_sizes(const PartitionClaims& claims, const Layers& layers, Comparison
 
 }  // namespace
 
-Finding compare_layers(const ProblemSpec& spec, const PartitionClaims& claims, std::size_t& longest) {
-  Comparison comparison("layers " + claims.name);
-  const std::optional<Layers> layers = layers_of(spec, claims);
+PartitionClaims::PartitionClaims(const ProblemSpec& spec, const Claims& claims, std::size_t p)
+    : partition(spec.coordination.partitions[p]),
+      delay(claims.values("/delay", p)),
+      trigger(claims.values("/trigger", p)),
+      fixed_point_index(claims.at("/fixed_point_index").integers[p]) {
+  const std::vector<std::int64_t>& sizes = claims.at("/layer_size").integers;
+  const auto layers = static_cast<std::ptrdiff_t>(sizes.size() / spec.coordination.partitions.size());
+  const auto row = sizes.begin() + static_cast<std::ptrdiff_t>(p) * layers;
+  layer_sizes.assign(row, row + layers);
+  for (const auto& agents : partition.classes) {
+    const auto* const own = claims.bits("/actions/" + partition.name + "/" + class_name(spec.agents, agents));
+    if (own != nullptr) actions.push_back(own);
+  }
+}
+
+Finding compare_layers(const ProblemSpec& spec, const Claims& claims, const PartitionClaims& own,
+                       std::size_t& longest) {
+  Comparison comparison("layers " + own.partition.name);
+  const std::optional<Layers> layers = layers_of(spec, own);
   if (!layers) {
     comparison.expect<std::string_view>(
         "F and the delays", "contradict each other",
-        claims.fixed_point_index < 0 ? "an iteration stopped by max_delay" : "a fixed point");
+        own.fixed_point_index < 0 ? "an iteration stopped by max_delay" : "a fixed point");
     return comparison.finding();
   }
   longest = std::max(longest, layers->sizes.size());
-  check_sizes(claims, *layers, comparison);
-  if (claims.has_layers) check_lists(claims, *layers, comparison);
+  check_sizes(own, *layers, comparison);
+  if (spec.output.layers)
+    check_lists(own, read_layer_lists(spec, own.partition, claims), *layers, comparison);
   return comparison.finding();
 }
 

@@ -1,15 +1,30 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "answers/checking/claims.hpp"
 #include "answers/checking/comparison.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
 
+/// What a file says about one partition. REQUIRES: the claims outlive it.
+struct PartitionClaims {
+  PartitionClaims(const ProblemSpec& spec, const Claims& claims, std::size_t p);
+
+  const PartitionSpec& partition;
+  const std::vector<std::int32_t>& delay;
+  const std::vector<std::int32_t>& trigger;
+  std::int64_t fixed_point_index;         ///< F; negative: unknown because max_delay stopped the iteration
+  std::vector<std::int64_t> layer_sizes;  ///< the whole row of the file
+  std::vector<const std::vector<std::uint8_t>*> actions;  ///< [class]; none if they are not stored
+};
+
 /// Compares F, whether max_delay stopped the iteration, layer sizes and layer lists of a partition with the
 /// delays of the cells.
 /// @param longest the most layers of any partition so far
-[[nodiscard]] Finding compare_layers(const ProblemSpec& spec, const PartitionClaims& claims,
-                                     std::size_t& longest);
+[[nodiscard]] Finding compare_layers(const ProblemSpec& spec, const Claims& claims,
+                                     const PartitionClaims& own, std::size_t& longest);
 
 }  // namespace coordreq

@@ -6,9 +6,7 @@
 
 #include "answers/answers.hpp"
 #include "answers/field.hpp"
-#include "answers/field_source.hpp"
 #include "answers/layers/delay_layers.hpp"
-#include "answers/layers/stored_partition.hpp"
 #include "base/thread_team.hpp"
 #include "spec/spec_types.hpp"
 
@@ -29,14 +27,6 @@ inline constexpr char kTrigger[] = "/trigger";
 
 /// What was found for them. The arrays refer to the answers, which must outlive the writing.
 void fill_layer_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
-
-/// @throws ResultsError if an F is no layer
-[[nodiscard]] std::vector<StoredPartition> read_partition_values(const ProblemSpec& spec,
-                                                                 const FieldSource& source);
-/// REQUIRES: they are stored. @throws ResultsError unless `start` ascends from 0 to the number of cells and
-/// `cell` holds cells of the grid
-[[nodiscard]] StoredLayers read_layer_lists(const ProblemSpec& spec, const PartitionSpec& partition,
-                                            const FieldSource& source);
 
 /// The fields `PREFIXlayer`, `PREFIXlayer_size`, `PREFIXfixed_point_index`: how many cells layers have,
 /// constant once fixed, and F. @param layer what layers are called: "Z"

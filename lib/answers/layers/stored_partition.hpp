@@ -4,6 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "answers/field_source.hpp"
+#include "spec/spec_types.hpp"
+
 namespace coordreq {
 
 /// What is stored of a partition besides arrays over cells.
@@ -22,5 +25,13 @@ struct StoredLayers {
   std::vector<std::uint64_t> start;
   std::vector<std::uint64_t> cell;
 };
+
+/// @throws ResultsError if an F is no layer
+[[nodiscard]] std::vector<StoredPartition> read_partition_values(const ProblemSpec& spec,
+                                                                 const FieldSource& source);
+/// REQUIRES: they are stored. @throws ResultsError unless `start` ascends from 0 to the number of cells and
+/// `cell` holds cells of the grid
+[[nodiscard]] StoredLayers read_layer_lists(const ProblemSpec& spec, const PartitionSpec& partition,
+                                            const FieldSource& source);
 
 }  // namespace coordreq

@@ -94,6 +94,11 @@ void summarise_network(const Answers& answers, Json& summary, Json& work) {
   work["network"] = work_json(safety->counts);
 }
 
+void examine_network(const ProblemSpec& spec, const FieldSource& source) {
+  if (spec.network && source.counted(paths::kNetworkSafe).size() != spec.network->modes.size())
+    source.fail("the attribute cells does not hold a number a mode", paths::kNetworkSafe);
+}
+
 void tell_network(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   if (!spec.network) return;
   const std::vector<std::uint64_t> cells = source.counted(paths::kNetworkSafe);

@@ -13,6 +13,8 @@ namespace {
 
 using Members = std::vector<std::uint8_t>;
 
+constexpr char kNetworkSafe[] = "/network_safe";
+
 /// What all threads read.
 struct Network {
   explicit Network(const CheckGround& ground) : spec(*ground.spec->network) {
@@ -24,7 +26,7 @@ struct Network {
     target.assign(spec.modes.size(), Members(static_cast<std::size_t>(ground.grid->cells()), 1));
     for (const auto& [from, to] : spec.transitions) {
       Members& own = target[static_cast<std::size_t>(from)];
-      const Members& next = ground.claims->network[static_cast<std::size_t>(to)];
+      const Members& next = ground.claims->members(kNetworkSafe, static_cast<std::size_t>(to));
       for (std::size_t x = 0; x < own.size(); ++x) own[x] = own[x] & next[x];
     }
   }
@@ -41,6 +43,7 @@ class NetworkChecker : public CellChecker {
       : ground_(ground),
         network_(network),
         tally_(tally),
+        claimed_(ground.claims->at(kNetworkSafe).members),
         inputs_(static_cast<std::size_t>(ground.inputs->count())),
         choices_(network.partitions.size()) {
     for (const auto& partition : network.partitions) {
@@ -56,7 +59,7 @@ class NetworkChecker : public CellChecker {
       for (std::size_t p = 0; p < choices_.size(); ++p) choices_[p] = independent(cell.admitted(), p);
     }
     for (std::size_t mode = 0; mode < network_.spec.modes.size(); ++mode) {
-      const bool claimed = ground_.claims->network[mode][cell.at()] != 0;
+      const bool claimed = claimed_[mode][cell.at()] != 0;
       tally_.add_checked(1);
       if (!cell.is_invariant()) {
         if (claimed) complain(mode, "safe, but not in K");
@@ -135,6 +138,7 @@ class NetworkChecker : public CellChecker {
   const CheckGround& ground_;
   const Network& network_;
   Tally& tally_;
+  const std::vector<Members>& claimed_;  ///< [mode][cell]
   std::size_t inputs_;
   std::vector<std::vector<InputClass>> classes_;    ///< [partition]
   std::vector<std::vector<std::int64_t>> choices_;  ///< [partition] IND_C of this cell
@@ -150,10 +154,10 @@ class NetworkCheck : public AnswerCheck {
   }
 
   std::vector<Finding> compare_sizes(Comparison& sizes) override {
-    const Claims& claims = *ground_.claims;
-    for (std::size_t mode = 0; mode < claims.network.size(); ++mode) {
-      sizes.expect("cells of mode " + network_.spec.modes[mode].name, claims.network_cells[mode],
-                   count_members(claims.network[mode]));
+    const FieldClaims& claims = ground_.claims->at(kNetworkSafe);
+    for (std::size_t mode = 0; mode < claims.members.size(); ++mode) {
+      sizes.expect("cells of mode " + network_.spec.modes[mode].name, claims.cells[mode],
+                   count_members(claims.members[mode]));
     }
     return {};
   }
@@ -169,6 +173,10 @@ class NetworkCheck : public AnswerCheck {
 };
 
 }  // namespace
+
+double network_check_memory(const ProblemSpec& spec) {
+  return spec.network ? static_cast<double>(spec.network->modes.size()) : 0;
+}
 
 std::unique_ptr<AnswerCheck> check_network(const CheckGround& ground) {
   if (!ground.spec->network) return nullptr;

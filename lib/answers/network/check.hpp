@@ -18,4 +18,7 @@ namespace coordreq {
 /// @returns null: the spec has no network
 [[nodiscard]] std::unique_ptr<AnswerCheck> check_network(const CheckGround& ground);
 
+/// The set that the choices in each mode must lead into.
+[[nodiscard]] double network_check_memory(const ProblemSpec& spec);
+
 }  // namespace coordreq

@@ -33,6 +33,8 @@ struct RequirementVerdicts {
 [[nodiscard]] const char* delay_word(std::int32_t delay);
 [[nodiscard]] MemoryNeed requirements_memory(const EngineSizes& sizes, int threads);
 void summarise_requirements(const Answers& answers, Json& summary, Json& work);
+/// Fails where verdicts and counterexamples do not fit together.
+void examine_requirements(const ProblemSpec& spec, const FieldSource& source);
 void tell_requirements(const ProblemSpec& spec, const FieldSource& source, Json& info);
 
 }  // namespace coordreq

@@ -46,10 +46,13 @@ struct Bounds {
 
 class RequirementChecker {
  public:
-  RequirementChecker(const CheckGround& ground, std::size_t number, ThreadTeam& team)
+  RequirementChecker(const CheckGround& ground, std::size_t number, const ResultRequirement& claim,
+                     ThreadTeam& team)
       : ground_(ground),
         asked_(ground.spec->requirements[number]),
-        claim_(ground.claims->requirements[number]),
+        claim_(claim),
+        value_of_(*ground.claims, asked_),
+        collision_time_(ground.claims->values("/collision_time")),
         region_(*ground.spec, asked_.where, *ground.grid, ground.claims->same_version, team),
         tally_("requirement " + asked_.name) {}
 
@@ -72,9 +75,6 @@ class RequirementChecker {
     tally_.add_wrong(number_++, [&what] { return what; });
   }
 
-  [[nodiscard]] std::int32_t value_at(std::size_t cell) const {
-    return claimed_value(*ground_.claims, asked_, cell);
-  }
   [[nodiscard]] bool fails(std::int32_t value) const {
     return value < 0 ||
            (asked_.kind == RequirementKind::max_arrival ? value > asked_.steps : value < asked_.steps);
@@ -96,7 +96,7 @@ class RequirementChecker {
     const Meeting meeting = region_.of(cell);
     if (meeting == Meeting::off) return;
     const auto x = static_cast<std::size_t>(cell);
-    const std::int32_t value = value_at(x);
+    const std::int32_t value = value_of_(x);
     const std::int64_t rank = rank_by_definition(asked_.kind, value);
     const bool failing = fails(value);
     if (failing && meeting != Meeting::counted) ++bounds.doubted_failing;
@@ -109,7 +109,7 @@ class RequirementChecker {
     bounds.sure_least = std::min(bounds.sure_least, rank);
     if (!failing) return;
     ++bounds.sure_failing;
-    bounds.sure_worst = std::min(bounds.sure_worst, {rank, ground_.claims->collision_time[x], cell});
+    bounds.sure_worst = std::min(bounds.sure_worst, {rank, collision_time_[x], cell});
   }
 
   void check_counts(const Bounds& bounds) {
@@ -150,12 +150,11 @@ class RequirementChecker {
   void check_path(const ResultPath& path, const Bounds& bounds) {
     const std::uint64_t first = path.cell.front();
     const auto cell = static_cast<std::int64_t>(first);
-    const std::int32_t value = value_at(first);
+    const std::int32_t value = value_of_(first);
     if (region_.of(cell) < Meeting::perhaps) wrong("the counterexample begins outside the region");
     if (!fails(value)) wrong("the counterexample begins in a cell that does not fail");
     if (value != claim_.least_delay) wrong("the counterexample begins with another value than the worst");
-    if (Rank(rank_by_definition(asked_.kind, value), ground_.claims->collision_time[first], cell) >
-        bounds.sure_worst)
+    if (Rank(rank_by_definition(asked_.kind, value), collision_time_[first], cell) > bounds.sure_worst)
       wrong("the counterexample does not begin in the worst cell");
     PathChecker(ground_, asked_).check(path, tally_);
   }
@@ -163,6 +162,8 @@ class RequirementChecker {
   const CheckGround& ground_;
   const RequirementSpec& asked_;
   const ResultRequirement& claim_;
+  ClaimedValues value_of_;
+  const std::vector<std::int32_t>& collision_time_;
   RegionJudge region_;
   Tally tally_;
   std::int64_t number_ = -1000;  // before the steps of the counterexample
@@ -171,20 +172,34 @@ class RequirementChecker {
 class RequirementsCheck : public AnswerCheck {
  public:
   explicit RequirementsCheck(const CheckGround& ground)
-      : AnswerCheck(CheckSection::requirements), ground_(ground) {}
+      : AnswerCheck(CheckSection::requirements),
+        ground_(ground),
+        claims_(read_requirement_values(*ground.spec, *ground.claims)) {}
 
+  [[nodiscard]] std::vector<std::uint64_t> more_cells() const override {
+    std::vector<std::uint64_t> cells;
+    for (const ResultRequirement& claim : claims_) {
+      if (claim.path) cells.insert(cells.end(), claim.path->cell.begin(), claim.path->cell.end());
+    }
+    return cells;
+  }
   void check_all(ThreadTeam& team) override {
-    for (std::size_t r = 0; r < ground_.claims->requirements.size(); ++r)
-      findings_.push_back(RequirementChecker(ground_, r, team).run(team));
+    for (std::size_t r = 0; r < claims_.size(); ++r)
+      findings_.push_back(RequirementChecker(ground_, r, claims_[r], team).run(team));
   }
   [[nodiscard]] std::vector<Finding> findings() const override { return findings_; }
 
  private:
   const CheckGround& ground_;
+  std::vector<ResultRequirement> claims_;
   std::vector<Finding> findings_;
 };
 
 }  // namespace
+
+double requirements_check_memory(const ProblemSpec& spec) {
+  return spec.requirements.empty() ? 0 : 1;
+}
 
 std::unique_ptr<AnswerCheck> check_requirements(const CheckGround& ground) {
   return std::make_unique<RequirementsCheck>(ground);

@@ -11,4 +11,7 @@ namespace coordreq {
 /// as not checked where that decides. Verdicts are about the whole file, whichever cells are checked.
 [[nodiscard]] std::unique_ptr<AnswerCheck> check_requirements(const CheckGround& ground);
 
+/// What is found about a region.
+[[nodiscard]] double requirements_check_memory(const ProblemSpec& spec);
+
 }  // namespace coordreq

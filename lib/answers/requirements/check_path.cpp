@@ -4,14 +4,18 @@
 
 #include <algorithm>
 
-#include "answers/checking/claimed_values.hpp"
 #include "base/index.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 
 PathChecker::PathChecker(const CheckGround& ground, const RequirementSpec& asked)
-    : ground_(ground), asked_(asked), cell_(ground) {
+    : ground_(ground),
+      asked_(asked),
+      value_of_(*ground.claims, asked),
+      invariant_(ground.claims->members("/invariant")),
+      collision_time_(ground.claims->values("/collision_time")),
+      cell_(ground) {
   if (asked.kind == RequirementKind::max_arrival || asked.kind == RequirementKind::min_approach_delay)
     progress_.emplace(ground);
   if (!asked.partition) return;
@@ -49,9 +53,8 @@ void PathChecker::check_sample(std::size_t sample) {
     if (path_->state[sample * grid.size() + i] != nearest_double(grid[i].point(grid.index(cell, i))))
       wrong(sample, "the state is not the centre of the cell");
   }
-  if (path_->delay[sample] != claimed_value(*ground_.claims, asked_, at(cell)))
-    wrong(sample, "the delay is not that of the cell");
-  if (path_->collision_time[sample] != ground_.claims->collision_time[at(cell)])
+  if (path_->delay[sample] != value_of_(at(cell))) wrong(sample, "the delay is not that of the cell");
+  if (path_->collision_time[sample] != collision_time_[at(cell)])
     wrong(sample, "the collision time is not that of the cell");
 }
 
@@ -99,7 +102,7 @@ void PathChecker::check_step(std::size_t step) {
 
 /// What agents do in the cell at work. Those that have reached the goal go on as if there was none.
 EscapePhase PathChecker::phase_of(std::size_t step) const {
-  if (ground_.claims->invariant[cell_.at()] == 0) return EscapePhase::evasive;
+  if (invariant_[cell_.at()] == 0) return EscapePhase::evasive;
   if (!progress_) return EscapePhase::independent;
   if (asked_.kind == RequirementKind::max_arrival) return EscapePhase::together;
   const std::int32_t arrival = progress_->arrival(cell_.at());
@@ -134,9 +137,8 @@ void PathChecker::check_approaching(std::size_t step, std::int64_t u) {
 void PathChecker::check_independent(std::size_t step, std::int64_t u) {
   if (!partition_) return wrong(step, "begins in the invariance set");
   if (!is_choice(u, cell_.admitted())) differs(step, "the joint input is not an independent choice");
-  const auto delay_of = [&](std::size_t sample) {
-    return claimed_delay(*ground_.claims, partition_, path_->cell[sample]);
-  };
+  const std::vector<std::int32_t>& delays = ground_.claims->values("/delay", *partition_);
+  const auto delay_of = [&](std::size_t sample) { return delays[path_->cell[sample]]; };
   const std::int32_t delay = delay_of(step);
   const bool goes_on = step + 1 < path_->samples();
   const std::int32_t next = goes_on ? std::max(delay_of(step + 1), kOutsideInvariant) : kOutsideInvariant;
@@ -146,7 +148,7 @@ void PathChecker::check_independent(std::size_t step, std::int64_t u) {
 void PathChecker::check_evasive(std::size_t step, std::int64_t u) {
   if (!cell_.is_allowed(u)) differs(step, "the joint input is not allowed");
   const std::int32_t expected = path_->collision_time[step] - 1;
-  const std::int32_t worst = cell_.least(u, ground_.claims->collision_time, 0);
+  const std::int32_t worst = cell_.least(u, collision_time_, 0);
   if (worst != expected)
     differs(step, fmt::format("leads to collision time {}, expected {}", worst, expected));
   if (step + 1 < path_->samples() && path_->collision_time[step + 1] != expected)

@@ -7,6 +7,7 @@
 
 #include "answers/checking/checked_cell.hpp"
 #include "answers/checking/claimed_progress.hpp"
+#include "answers/checking/claimed_values.hpp"
 #include "answers/checking/tally.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "model/input_class.hpp"
@@ -52,6 +53,9 @@ class PathChecker {
 
   const CheckGround& ground_;
   const RequirementSpec& asked_;
+  ClaimedValues value_of_;
+  const std::vector<std::uint8_t>& invariant_;
+  const std::vector<std::int32_t>& collision_time_;
   std::optional<std::size_t> partition_;     ///< none for `invariant` and `max_arrival`
   std::optional<ClaimedProgress> progress_;  ///< of requirements about the goal
   std::vector<InputClass> classes_;

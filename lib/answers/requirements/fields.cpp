@@ -5,20 +5,13 @@
 #include "answers/layers/delay_layers.hpp"
 #include "answers/layers/forbidden_choices.hpp"
 #include "answers/requirements/answer.hpp"
+#include "answers/requirements/result_requirement.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
 
 constexpr FieldSection kSection = FieldSection::requirements;
-std::string at(const std::string& name) {
-  return "/counterexample/" + name;
-}
-
-/// Of the path of a requirement.
-std::string at(std::size_t requirement, const std::string& name) {
-  return at(std::to_string(requirement) + "/" + name);
-}
 
 template <class Variable>
 std::vector<std::string> names_of(const std::vector<Variable>& variables) {
@@ -101,17 +94,13 @@ std::int32_t side_number(const std::optional<ResultSide>& side) {
   return side ? static_cast<std::int32_t>(2 * side->state) + (side->above ? 2 : 1) : 0;
 }
 
-std::optional<ResultSide> side_of_number(std::int64_t number) {
-  if (number == 0) return std::nullopt;
-  return ResultSide{static_cast<std::size_t>((number - 1) / 2), number % 2 == 0};
-}
-
 void add_verdicts(Fields& fields, const ProblemSpec& spec) {
-  const std::string axis = at("requirement");
+  const std::string axis = counterexample_path("requirement");
   const auto sides = static_cast<std::int64_t>(2 * spec.states.size());
   const auto add = [&](const std::string& name, ElementType type, const std::string& long_name,
                        std::int64_t least, std::int64_t most, std::vector<FieldFlag> meanings = {}) {
-    fields.push_back(list(at(name), axis, type, long_name, least, most, std::move(meanings)));
+    fields.push_back(
+        list(counterexample_path(name), axis, type, long_name, least, most, std::move(meanings)));
   };
   add("holds", ElementType::uint8, "verdict", 0, 1, {{0, "fails"}, {1, "holds"}});
   add("cells", ElementType::uint64, "cells that may meet the region", 0, kLargestValue);
@@ -127,7 +116,7 @@ void add_verdicts(Fields& fields, const ProblemSpec& spec) {
 }
 
 void add_path(Fields& fields, const ProblemSpec& spec, std::size_t requirement) {
-  const auto path = [requirement](const char* name) { return at(requirement, name); };
+  const auto path = [requirement](const char* name) { return counterexample_path(requirement, name); };
   const std::uint64_t cells = cell_count(spec);
   const std::string sample = path("sample");
   const std::string step = path("step");
@@ -138,15 +127,15 @@ void add_path(Fields& fields, const ProblemSpec& spec, std::size_t requirement) 
   fields.push_back(std::move(samples));
   fields.push_back(list(path("cell"), sample, ElementType::uint64, "row-major linear index of the cell", 0,
                         static_cast<std::int64_t>(cells) - 1));
-  fields.push_back(
-      table(path("state"), {sample, at("state_name")}, "centre of the cell: " + component_text(spec.states)));
+  fields.push_back(table(path("state"), {sample, counterexample_path("state_name")},
+                         "centre of the cell: " + component_text(spec.states)));
   fields.push_back(list(path("delay"), sample, ElementType::int32, "delay of the cell", least_delay(spec),
                         kLargestValue, delay_flags(spec)));
   fields.push_back(list(path("collision_time"), sample, ElementType::int32, "collision time of the cell", 0,
                         kLargestValue, {{0, "not_safe"}, {kLargestValue, "never"}}));
   fields.push_back(std::move(steps));
-  fields.push_back(
-      table(path("input"), {step, at("input_name")}, "joint input: " + component_text(spec.inputs)));
+  fields.push_back(table(path("input"), {step, counterexample_path("input_name")},
+                         "joint input: " + component_text(spec.inputs)));
   const std::vector<FieldFlag> phases = phase_flags(spec);
   fields.push_back(list(path("phase"), step, ElementType::uint8, "what the joint input is taken from", 0,
                         phases.back().value, phases));
@@ -159,59 +148,37 @@ void add_of_each(FieldValues& values, const std::vector<ResultRequirement>& requ
   std::vector<Value> list;
   for (const ResultRequirement& requirement : requirements)
     list.push_back(static_cast<Value>(get(requirement)));
-  values.entries[at(name)].array = owned_array(type, std::move(list));
+  values.entries[counterexample_path(name)].array = owned_array(type, std::move(list));
 }
 
 void add_path_values(const ResultPath& path, std::size_t requirement, FieldValues& values) {
   const auto set = [&](const char* name, ElementType type, auto list) {
-    values.entries[at(requirement, name)].array = owned_array(type, std::move(list));
+    values.entries[counterexample_path(requirement, name)].array = owned_array(type, std::move(list));
   };
-  values.lengths[at(requirement, "sample")] = path.samples();
+  values.lengths[counterexample_path(requirement, "sample")] = path.samples();
   set("cell", ElementType::uint64, path.cell);
   set("state", ElementType::float64, path.state);
   set("delay", ElementType::int32, path.delay);
   set("collision_time", ElementType::int32, path.collision_time);
   if (path.steps() == 0) return;
-  values.lengths[at(requirement, "step")] = path.steps();
+  values.lengths[counterexample_path(requirement, "step")] = path.steps();
   set("input", ElementType::float64, path.input);
   std::vector<std::uint8_t> phases;
   for (const EscapePhase phase : path.phase) phases.push_back(static_cast<std::uint8_t>(phase));
   set("phase", ElementType::uint8, std::move(phases));
 }
 
-std::vector<std::int32_t> narrow(const std::vector<std::int64_t>& values) {
-  return {values.begin(), values.end()};
-}
-
-ResultPath read_path(const FieldSource& source, std::size_t requirement) {
-  const auto path = [requirement](const char* name) { return at(requirement, name); };
-  const std::vector<std::int64_t> cells = source.integers(path("cell"));
-  ResultPath result{.cell = {cells.begin(), cells.end()},
-                    .state = source.numbers(path("state")),
-                    .delay = narrow(source.integers(path("delay"))),
-                    .collision_time = narrow(source.integers(path("collision_time")))};
-  if (source.has(path("step"))) {
-    result.input = source.numbers(path("input"));
-    for (const std::int64_t phase : source.integers(path("phase")))
-      result.phase.push_back(static_cast<EscapePhase>(phase));
-  }
-  const std::size_t samples = result.samples(), steps = result.steps();
-  if (steps != samples && steps + 1 != samples) {
-    source.fail("found " + std::to_string(steps) + " steps between " + std::to_string(samples) + " samples",
-                at(std::to_string(requirement)));
-  }
-  return result;
-}
-
 }  // namespace
 
 Fields requirement_fields(const ProblemSpec& spec) {
   if (spec.requirements.empty()) return {};
-  Fields fields = {
-      name_scale(at("requirement"), kSection, names_of(spec.requirements), "name of the requirement")};
+  Fields fields = {name_scale(counterexample_path("requirement"), kSection, names_of(spec.requirements),
+                              "name of the requirement")};
   add_verdicts(fields, spec);
-  fields.push_back(name_scale(at("state_name"), kSection, names_of(spec.states), "name of the state"));
-  fields.push_back(name_scale(at("input_name"), kSection, names_of(spec.inputs), "name of the input"));
+  fields.push_back(
+      name_scale(counterexample_path("state_name"), kSection, names_of(spec.states), "name of the state"));
+  fields.push_back(
+      name_scale(counterexample_path("input_name"), kSection, names_of(spec.inputs), "name of the input"));
   for (std::size_t r = 0; r < spec.requirements.size(); ++r) add_path(fields, spec, r);
   return fields;
 }
@@ -237,33 +204,6 @@ void fill_requirement_fields(const Answers& answers, ThreadTeam& /*team*/, Field
   for (std::size_t r = 0; r < requirements.size(); ++r) {
     if (requirements[r].path) add_path_values(*requirements[r].path, r, values);
   }
-}
-
-std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec, const FieldSource& source) {
-  if (spec.requirements.empty()) return {};
-  const auto of_each = [&source](const char* name) { return source.integers(at(name)); };
-  const auto holds = of_each("holds"), cells = of_each("cells"), failing = of_each("failing");
-  const auto delays = of_each("least_delay"), reached = of_each("reached_side");
-  const auto ends = of_each("end"), left = of_each("left_side");
-  std::vector<ResultRequirement> result;
-  for (std::size_t r = 0; r < spec.requirements.size(); ++r) {
-    ResultRequirement& requirement =
-        result.emplace_back(ResultRequirement{.name = spec.requirements[r].name,
-                                              .holds = holds[r] != 0,
-                                              .cells = static_cast<std::uint64_t>(cells[r]),
-                                              .failing = static_cast<std::uint64_t>(failing[r]),
-                                              .least_delay = static_cast<std::int32_t>(delays[r]),
-                                              .reached_side = side_of_number(reached[r])});
-    const bool has_path = source.has(at(r, "sample"));
-    if (ends[r] == 0 && left[r] != 0) source.fail("a side without a counterexample", at("left_side"));
-    if (has_path != (ends[r] != 0))
-      source.fail("an end without a counterexample, or the other way round", at("end"));
-    if (!has_path) continue;
-    requirement.path = read_path(source, r);
-    requirement.path->end = static_cast<EscapeEnd>(ends[r] - 1);
-    requirement.path->left_side = side_of_number(left[r]);
-  }
-  return result;
 }
 
 }  // namespace coordreq

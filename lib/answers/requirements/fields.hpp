@@ -1,12 +1,7 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "answers/answers.hpp"
 #include "answers/field.hpp"
-#include "answers/field_source.hpp"
-#include "answers/requirements/result_requirement.hpp"
 #include "base/thread_team.hpp"
 #include "spec/spec_types.hpp"
 
@@ -18,8 +13,5 @@ namespace coordreq {
 
 /// What was found for them.
 void fill_requirement_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
-
-[[nodiscard]] std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec,
-                                                                     const FieldSource& source);
 
 }  // namespace coordreq

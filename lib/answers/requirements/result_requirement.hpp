@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "answers/field_source.hpp"
+#include "spec/spec_types.hpp"
+
 // Requirements, their verdicts and counterexamples as a results file holds them and reports tell them.
 namespace coordreq {
 
@@ -71,5 +74,14 @@ struct ResultRequirement {
 
   [[nodiscard]] bool operator==(const ResultRequirement&) const = default;
 };
+
+/// As many as the spec has, in its order. @throws ResultsError where verdicts and counterexamples do not fit
+/// together
+[[nodiscard]] std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec,
+                                                                     const FieldSource& source);
+
+/// The path of a field of all requirements, and of one of the path of a requirement.
+[[nodiscard]] std::string counterexample_path(const std::string& name);
+[[nodiscard]] std::string counterexample_path(std::size_t requirement, const std::string& name);
 
 }  // namespace coordreq

@@ -40,8 +40,14 @@ function kindTitle(kind) {
   return kKinds[kind] ?? data.maps.find((map) => map.kind === kind).title;
 }
 
+// Of a probability.
+function isLogarithm(map) {
+  return map.scale === "logarithm";
+}
+
 function meaningsOf(map) {
   if (map.kind in kMeanings) return kMeanings[map.kind];
+  if (isLogarithm(map)) return new Map([...kLost, [0, [kColors.free, "0"]]]);
   return new Map(
     map.meanings.map(([value, word]) => {
       if (value === "infinite") return [Infinity, [kColors.free, word]];
@@ -61,14 +67,13 @@ function coloringOf(map, member) {
 
 function colorsOfSteps(map) {
   const meanings = meaningsOf(map);
-  const isShare = map.kind === "freedom";
+  const [label, high] = isLogarithm(map) ? [probabilityText, kWholeLogarithm] : map.kind === "freedom" ? [freedomText, kWholeShare] : [timeText, map.largest];
   const low = meanings.has(0) ? Math.min(1, map.largest) : 0;
-  const high = isShare ? kWholeShare : map.largest;
   const known = colorsKnown(meanings);
   return {
     low,
     high,
-    label: isShare ? freedomText : timeText,
+    label,
     color: (value) => {
       if (!known.has(value)) known.set(value, scaleColor(high > low ? (value - low) / (high - low) : 0));
       return known.get(value);

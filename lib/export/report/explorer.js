@@ -108,7 +108,7 @@ class Explorer {
   shownMap() {
     const first = data.maps.findIndex((map) => map.kind === this.kind);
     if (this.kind === "delay") return this.map;
-    return this.kind === "freedom" ? first + this.members.freedom : first;
+    return this.kind === "freedom" || isLogarithm(data.maps[first]) ? first + (this.members[this.kind] ?? 0) : first;
   }
 
   // The controls say what is chosen, by whatever way it was.
@@ -117,9 +117,9 @@ class Explorer {
     find("partition").value = this.map;
     const names = memberNames(this.kind);
     find("member-field").hidden = names.length < 2;
-    find("member-label").textContent = names.length < 2 ? "" : `${kMembers[this.kind].label} `;
+    find("member-label").textContent = names.length < 2 ? "" : `${memberLabel(this.kind)} `;
     find("member").replaceChildren(...names.map((name, value) => make("option", { value, textContent: name })));
-    if (names.length > 0) find("member").value = this.members[this.kind];
+    if (names.length > 0) find("member").value = this.members[this.kind] ?? 0;
     for (const button of document.querySelectorAll("button.visit")) {
       button.hidden = false;
       button.disabled = !this.holds(data.ways[button.dataset.way].cells[button.dataset.sample]);
@@ -284,7 +284,13 @@ function thinnedText(names) {
 // What can be chosen of a kind of map: pairs, modes, agents.
 function memberNames(kind) {
   const maps = data.maps.filter((map) => map.kind === kind);
+  if (isLogarithm(maps[0])) return maps[0].entry === null ? [] : maps.map((map) => map.entry);
   return kind === "freedom" ? maps.map((map) => map.agent) : (maps[0].members ?? []);
+}
+
+function memberLabel(kind) {
+  const axis = data.maps.find((map) => map.kind === kind).axis ?? "";
+  return kMembers[kind]?.label ?? axis.charAt(0).toUpperCase() + axis.slice(1);
 }
 
 function wayText({ requirement, independent, cells }) {

@@ -39,6 +39,7 @@ function furtherReading(map, cell) {
     case "collision_time":
       return [];
     default:
+      if (isLogarithm(map)) return [[map.title + (map.entry === null ? "" : `, ${map.entry}`), value < 0 ? "-" : probabilityText(value)]];
       return [[map.title, meaningsOf(map).get(value)?.[1] ?? timeText(value)]];
   }
 }

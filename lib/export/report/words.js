@@ -59,3 +59,12 @@ function freedomText(share) {
   if (share === kWholeShare) return "all";
   return `${share % 100 === 0 ? share / 100 : (share / 100).toFixed(share % 10 === 0 ? 1 : 2)} %`;
 }
+
+const kWholeLogarithm = 1201; // probabilities: 0, or 1 and hundredths of a power of ten above 1e-12, rounded up
+
+function probabilityText(code) {
+  if (code < 2) return code === 0 ? "0" : "at most 1e-12";
+  const power = (code - 1) / 100 - 12;
+  const unit = 10 ** (Math.floor(power) - 1);
+  return `at most ${numberText(Math.min(1, Math.ceil(10 ** power / unit - 1e-9) * unit))}`;
+}

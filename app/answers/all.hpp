@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/json_text.hpp"
+#include "app/render.hpp"
+#include "results/results_reader.hpp"
+#include "spec/spec_types.hpp"
+
+// What commands say of single answers, beyond what they say of any: members of JSON for which nothing is here
+// are told as they are. All other texts know no answer by name.
+namespace coordreq {
+
+/// Facts about the sets, of the summary of `analyze` and of `info`; nothing where there are none.
+using AddFacts = void (*)(const Json& document, Facts& facts);
+[[nodiscard]] const std::vector<AddFacts>& analysis_facts();
+[[nodiscard]] const std::vector<AddFacts>& info_facts();
+
+/// Sections in their order; each is empty where there is nothing to say.
+using AnalysisSection = std::string (*)(const Json& summary, const ProblemSpec& spec);
+[[nodiscard]] const std::vector<AnalysisSection>& analysis_sections();
+using InfoSection = std::string (*)(const Json& info);
+[[nodiscard]] const std::vector<InfoSection>& info_sections();
+/// Of the page of `report`, as HTML for people who do not code.
+using ReportSection = std::string (*)(const ResultsReader& results);
+[[nodiscard]] const std::vector<ReportSection>& report_sections();
+
+/// Members of both documents that these tell of.
+[[nodiscard]] const std::vector<std::string>& told_members();
+
+// Of each answer, in a file of its own:
+void add_goal_of_analysis(const Json& summary, Facts& facts);
+void add_goal_of_file(const Json& info, Facts& facts);
+[[nodiscard]] std::string report_goal(const ResultsReader& results);
+/// Who must talk to whom: the partitions that cells are given and the pairs that are critical.
+[[nodiscard]] std::string coalitions_of_analysis(const Json& summary, const ProblemSpec& spec);
+[[nodiscard]] std::string coalitions_of_file(const Json& info);
+[[nodiscard]] std::string report_coalitions(const ResultsReader& results);
+/// The modes of the network and where they are safe.
+[[nodiscard]] std::string network_of_analysis(const Json& summary, const ProblemSpec& spec);
+[[nodiscard]] std::string network_of_file(const Json& info);
+[[nodiscard]] std::string report_network(const ResultsReader& results);
+[[nodiscard]] std::string convention_of_analysis(const Json& summary, const ProblemSpec& spec);
+[[nodiscard]] std::string requirements_of_file(const Json& info);
+
+/// A row of a table of the page: "NAME, DETAIL, 1,234, 12 %".
+[[nodiscard]] std::string count_row(const std::string& name, const std::string& detail, std::uint64_t count,
+                                    std::uint64_t whole);
+
+}  // namespace coordreq

@@ -1,0 +1,44 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/answers/all.hpp"
+#include "app/requirement_text.hpp"
+#include "spec/requirement_kind.hpp"
+
+namespace coordreq {
+namespace {
+
+using Align = Table::Align;
+
+/// Of files with an answer by which requirements may judge states otherwise than by delays.
+bool has_other_values(const Json& info) {
+  return std::ranges::any_of(requirement_kinds(), [&info](const RequirementTraits& kind) {
+    return !kind.needs.empty() && info.contains(kind.needs);
+  });
+}
+
+}  // namespace
+
+std::string requirements_of_file(const Json& info) {
+  const auto least = [&info](const Json& own) {
+    const std::string key = worst_key(own);
+    const Json& status = own[key + "_status"];
+    return status == "steps" ? duration(own[key], info) : text_of(status);
+  };
+  const auto story = [&info](const Json& own) {
+    const Json& steps = own["counterexample_steps"];
+    return !steps.is_null() ? duration(steps, info) : own["holds"] ? "-" : "outside the domain";
+  };
+  if (info["requirements"].empty()) return "";
+  return "\n" +
+         table_text(
+             info["requirements"],
+             {{"requirement", Align::left, [](const Json& own) { return line_of(own["name"]); }},
+              {"verdict", Align::left, [](const Json& own) { return own["holds"] ? "holds" : "FAILS"; }},
+              {"cells", Align::right, [](const Json& own) { return grouped(own["cells"]); }},
+              {"failing", Align::right, [](const Json& own) { return grouped(own["failing"]); }},
+              {has_other_values(info) ? "worst" : "least delay", Align::left, least},
+              {"counterexample", Align::right, story}});
+}
+
+}  // namespace coordreq
