@@ -168,8 +168,8 @@ double steps(std::int32_t delay) {
 void expect_sums(const ResultsReader& before, const ResultsReader& after, const ValueComparison& found,
                  std::int64_t tolerance) {
   const CellBlock all = all_cells(before.grid());
-  const std::vector<std::int32_t> old = before.values("/delay", found.partition->before, all),
-                                  now = after.values("/delay", found.partition->after, all);
+  const std::vector<std::int32_t> old = before.values("/delay", found.entry->before, all),
+                                  now = after.values("/delay", found.entry->after, all);
   ValueComparison expected;
   for (std::size_t i = 0; i < old.size(); ++i) {
     const double a = steps(old[i]), b = steps(now[i]);
