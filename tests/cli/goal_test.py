@@ -134,6 +134,16 @@ class Cases(Case):
         story = json.loads(result.stdout)["requirements"][0]["counterexample"]
         self.assertEqual((story["end"], len(story["steps"])), ("never_arrives", 1))
 
+    def test_approaches_that_have_more_layers_than_cells(self):
+        """They stand still while the layers of safety shrink by a cell each, and shrink after that."""
+        self.write("spec.json", spec([state("x", 9, discrete=True)], {"u": [0, 1], "v": [0, 1]}, {"x": "x + u - v"}, "x == 0", safe="x <= 7"))
+        summary = self.analyze("spec.json")
+        apart = summary["partitions"][-1]["approach"]
+        self.assertEqual(apart["F"], 15)
+        with h5py.File(self.folder / "hand.h5") as file:
+            self.assertEqual(file["approach_layer_size"][-1].tolist(), [8] * 8 + [7, 6, 5, 4, 3, 2, 1, 0])
+        self.assertEqual(self.run_program("verify", "hand.h5", "--quiet").returncode, 0)
+
     def test_the_file_verifies(self):
         for problem in (spec(*TWO, WALK, "p == 0 or q == 0"), HOLD, leaving("goal"), leaving("safe")):
             problem["requirements"] = [{"name": "r", "where": "true", "max_arrival": 1}]

@@ -154,7 +154,8 @@ Fields goal_fields(const ProblemSpec& spec) {
   if (!spec.goal) return {};
   Fields fields = {arrival_field(spec)};
   add_approach(fields, spec);
-  add_sizes(fields, "/approach_", 'A', spec);
+  // They can stand still while the layers of safety lose a cell each, and lose one each after that.
+  add_sizes(fields, "/approach_", 'A', 2 * cell_count(spec), spec);
   if (spec.output.controller) {
     add_bits(fields, progress_path(), FieldSection::controller, spec, all_inputs(spec),
              "joint inputs that come nearer to the goal, one bit each; in the goal those of the controller");

@@ -19,10 +19,10 @@
 namespace coordreq {
 namespace {
 
-/// The most layers that there can be: each but the last loses a cell.
-std::uint64_t most_layers(const ProblemSpec& spec, std::uint64_t cells) {
+/// The most layers that there can be: each but the last loses something.
+std::uint64_t most_layers(const ProblemSpec& spec, std::uint64_t losses) {
   const std::optional<std::int64_t>& most = spec.coordination.max_delay;
-  return 1 + (most ? std::min(cells, static_cast<std::uint64_t>(*most)) : cells);
+  return 1 + (most ? std::min(losses, static_cast<std::uint64_t>(*most)) : losses);
 }
 
 std::map<std::string, std::string> countdown_meanings(const ProblemSpec& spec) {
@@ -151,8 +151,9 @@ Field steps_field(const std::string& name, const ProblemSpec& spec, std::int64_t
           .fixed_points = std::move(fixed_points)};
 }
 
-void add_sizes(Fields& fields, const std::string& prefix, char layer, const ProblemSpec& spec) {
-  fields.push_back(number_scale(prefix + "layer", FieldSection::axes, 1, most_layers(spec, cell_count(spec)),
+void add_sizes(Fields& fields, const std::string& prefix, char layer, std::uint64_t losses,
+               const ProblemSpec& spec) {
+  fields.push_back(number_scale(prefix + "layer", FieldSection::axes, 1, most_layers(spec, losses),
                                 "number k of the layer"));
   fields.push_back({.path = prefix + "layer_size",
                     .section = FieldSection::layers,
@@ -199,7 +200,7 @@ Fields layer_fields(const ProblemSpec& spec) {
   const std::uint64_t layers = most_layers(spec, cells);
   Fields fields;
   add_steps(fields, spec);
-  add_sizes(fields, "/", 'Z', spec);
+  add_sizes(fields, "/", 'Z', cells, spec);
   for (const PartitionSpec& partition : spec.coordination.partitions) {
     if (spec.output.layers) add_lists(fields, partition, cells, layers);
     for (std::size_t c = 0; spec.output.actions && c < partition.classes.size(); ++c) {

@@ -30,7 +30,9 @@ void fill_layer_fields(const Answers& answers, ThreadTeam& team, FieldValues& va
 
 /// The fields `PREFIXlayer`, `PREFIXlayer_size`, `PREFIXfixed_point_index`: how many cells layers have,
 /// constant once fixed, and F. @param layer what layers are called: "Z"
-void add_sizes(Fields& fields, const std::string& prefix, char layer, const ProblemSpec& spec);
+/// @param losses the most layers that can differ from the one before them
+void add_sizes(Fields& fields, const std::string& prefix, char layer, std::uint64_t losses,
+               const ProblemSpec& spec);
 void fill_sizes(const std::vector<DelayLayers>& partitions, const std::string& prefix, FieldValues& values);
 /// Type of the delays of all partitions, which share an array.
 [[nodiscard]] ElementType delay_type(const std::vector<DelayLayers>& partitions);
