@@ -21,7 +21,7 @@ bool is_disturbed(const ProblemSpec& spec) {
 }
 
 bool is_lossy(const Json& simulation) {
-  return !simulation["network"].is_null();
+  return simulation.contains("network");
 }
 
 /// Who is connected.
@@ -152,10 +152,11 @@ Json simulation_json(const Simulation& simulation, const ResultsReader& results,
   json["name"] = spec.name;
   json["results"] = results.path();
   json["guarantee"] = results.attributes().guarantee;
-  const bool lossy = simulation.partition.empty();
-  json["partition"] = lossy ? Json() : Json(simulation.partition);
-  json["network"] = lossy ? Json(network_kind_name(spec.network->kind)) : Json();
-  json["risk"] = simulation.risk ? Json(*simulation.risk) : Json();
+  json["partition"] = simulation.partition.empty() ? Json() : Json(simulation.partition);
+  if (simulation.partition.empty()) {
+    json["network"] = network_kind_name(spec.network->kind);
+    json["risk"] = simulation.risk ? Json(*simulation.risk) : Json();
+  }
   json["connection_delay"] = spec.coordination.connection_delay;
   json["policy"] = policy_name(options.policy);
   json["disturbance"] = disturbance_name(options.disturbance);

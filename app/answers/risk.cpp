@@ -31,6 +31,7 @@ std::string number_or_dash(const Json& number) {
 
 /// The rate as one of the unit of time, where there is a period with one.
 std::string rate_text(double rate, const ProblemSpec& spec) {
+  if (rate == 0) return "nothing";
   const std::string& unit = spec.dynamics.unit;
   if (unit.empty()) return fmt::format("{} a step", probability_text(rate));
   return fmt::format("{} a step, {} per {}", probability_text(rate),

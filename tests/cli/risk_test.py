@@ -176,6 +176,8 @@ class Cases(Case):
         self.assertEqual(result.returncode, 0, result.stderr)
         found = json.loads(result.stdout)
         self.assertEqual((found["network"], found["partition"]), ("loss", None))
+        plain = self.run_program("simulate", "results.h5", "--from", "d=0", "--steps", "5", "--json")
+        self.assertNotIn("network", json.loads(plain.stdout))
         left = found["outcomes"]["left_invariant"] / 4000
         self.assertLess(left, found["risk"] + 0.01)
         self.assertGreater(left, 0.002)
