@@ -11,6 +11,7 @@
 #include "answers/network/network_problem.hpp"
 #include "answers/risk/answer.hpp"
 #include "answers/risk/risk_levels.hpp"
+#include "base/json.hpp"
 #include "spec/read_spec.hpp"
 #include "support/agreement.hpp"
 #include "support/draw.hpp"
@@ -19,8 +20,6 @@
 
 namespace coordreq {
 namespace {
-
-using Json = nlohmann::json;
 
 /// Parts of 1 in eighths, perhaps with a range about them, of which some may be 0 for certain.
 std::vector<Json> draw_probabilities(int count) {
@@ -43,7 +42,7 @@ Json draw_probability() {
   return draw_probabilities(2).front();
 }
 
-std::vector<std::string> partition_names(const ProblemSpec& spec) {
+std::vector<std::string> names_of_partitions(const ProblemSpec& spec) {
   std::vector<std::string> names;
   for (const PartitionSpec& partition : spec.coordination.partitions) names.push_back(partition.name);
   std::string all;
@@ -52,14 +51,14 @@ std::vector<std::string> partition_names(const ProblemSpec& spec) {
   return names;
 }
 
-Json draw_network(const ProblemSpec& spec) {
+Json draw_numbers(const ProblemSpec& spec) {
   Json network;
   if (draw(0, 1) == 0) {
     network["loss"] = draw_probability();
     if (draw(0, 1) == 0) network["after_loss"] = draw_probability();
     return network;
   }
-  const std::vector<std::string> partitions = partition_names(spec);
+  const std::vector<std::string> partitions = names_of_partitions(spec);
   const int modes = draw(1, 4);
   for (int q = 0; q < modes; ++q) {
     network["modes"].push_back({{"name", std::to_string(q)}, {"partition", pick(partitions)}});
@@ -74,7 +73,7 @@ Json draw_network(const ProblemSpec& spec) {
 /// A random problem with a network of numbers, and a risk. @param horizon less than 1: random
 ProblemSpec draw_risky(int horizon, bool any) {
   Json spec = Json::parse(draw_problem(draw(0, 3) == 0 ? RandomTime::between_samples : RandomTime::any));
-  spec["network"] = draw_network(read_spec(spec.dump(), "random"));
+  spec["network"] = draw_numbers(read_spec(spec.dump(), "random"));
   spec["risk"]["horizon"] = horizon < 1 ? draw(1, 5) : horizon;
   const bool is_given = spec["controller"].value("synthesis", "maximal") == "given";
   if (!any && !is_given && draw(0, 1) == 0) spec["risk"]["coordinated"] = "safest";

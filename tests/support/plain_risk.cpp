@@ -10,7 +10,7 @@
 namespace coordreq {
 namespace {
 
-std::size_t at(std::int64_t i) {
+std::size_t place_of(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
@@ -30,8 +30,8 @@ std::vector<bool> independent(const std::vector<bool>& controller, const Problem
     const auto action = [&](std::size_t u) {
       std::vector<std::int64_t> values;
       for (const std::int32_t agent : agents) {
-        for (const std::int32_t i : spec.agents[at(agent)].inputs)
-          values.push_back(inputs.index(static_cast<std::int64_t>(u), at(i)));
+        for (const std::int32_t i : spec.agents[place_of(agent)].inputs)
+          values.push_back(inputs.index(static_cast<std::int64_t>(u), place_of(i)));
       }
       return values;
     };
@@ -63,7 +63,7 @@ PlainRisk::PlainRisk(const ProblemSpec& spec, const Abstraction& abstraction, co
         has_left = has_left || range.all_left();
         box.push_back(range.inside);
       }
-      post.is_blocked = post.is_blocked || !plain.permitted[at(x)][at(u)] ||
+      post.is_blocked = post.is_blocked || !plain.permitted[place_of(x)][place_of(u)] ||
                         (!abstraction.tubes.empty() && !plainly.has_safe_tube(x, u));
       if (!post.is_blocked && !has_left) add_cells(grid, box, 0, 0, post.cells);
     }
@@ -77,7 +77,7 @@ PlainRisk::PlainRisk(const ProblemSpec& spec, const Abstraction& abstraction, co
   for (std::size_t t = 0; t < spec.network->transitions.size(); ++t) {
     const auto& [from, to] = spec.network->transitions[t];
     const ProbabilityRange& range = spec.network->probabilities[t];
-    successors_[at(from)].push_back({at(to), range.low, range.high});
+    successors_[place_of(from)].push_back({place_of(to), range.low, range.high});
   }
 }
 
@@ -102,7 +102,7 @@ Rational PlainRisk::expected(const PlainRisks& risks, std::size_t mode, std::int
     for (const std::size_t i : order) {
       const Rational more = std::min(Rational(next[i].high - next[i].low), rest);
       rest -= more;
-      sum += (next[i].low + more) * risks[next[i].mode][at(cell)];
+      sum += (next[i].low + more) * risks[next[i].mode][place_of(cell)];
     }
     greatest = std::max(greatest, sum);
   } while (std::next_permutation(order.begin(), order.end()));
@@ -125,7 +125,7 @@ PlainRisks PlainRisk::next(const PlainRisks& risks, bool is_safest) const {
         some = true;
         const Post& post = posts_[x][u];
         Rational worst = post.is_blocked ? 1 : 0;
-        for (const std::int64_t y : post.cells) worst = std::max(worst, expected_risk[at(y)]);
+        for (const std::int64_t y : post.cells) worst = std::max(worst, expected_risk[place_of(y)]);
         chosen = is_least ? std::min(chosen, worst) : std::max(chosen, worst);
       }
       result[mode][x] = some ? chosen : Rational(1);

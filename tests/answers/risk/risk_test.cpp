@@ -18,13 +18,12 @@
 
 #include "answers/risk/answer.hpp"
 #include "answers/risk/risk_levels.hpp"
+#include "base/json.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 
 namespace coordreq {
 namespace {
-
-using Json = nlohmann::json;
 
 Json brink() {
   return Json::parse(R"json({"coordreq": 1, "name": "brink", "states": [
@@ -43,7 +42,7 @@ struct Found {
   std::vector<RiskFigures> figures;
 };
 
-Found find(const Json& spec) {
+Found find_brink(const Json& spec) {
   ThreadTeam team(2);
   const FastAnalysis fast(read_spec(spec.dump(), "brink"), team);
   const RiskAnswer& answer = fast.answers->get<RiskAnswer>();
@@ -76,7 +75,7 @@ Rational parts(long numerator, long denominator) {
 }
 
 TEST(RiskOfABrink, SlackIsWastedWhileAgentsAreConnected) {
-  const Found found = find(brink());
+  const Found found = find_brink(brink());
   expect_risks(found.risk[0], {parts(3439, 10000), parts(3439, 10000), parts(271, 1000), parts(19, 100)});
   expect_rate(found.rate, parts(81, 1000));
 }
@@ -84,7 +83,7 @@ TEST(RiskOfABrink, SlackIsWastedWhileAgentsAreConnected) {
 TEST(RiskOfABrink, OneStepLess) {
   Json spec = brink();
   spec["risk"]["horizon"] = 4;
-  const Found found = find(spec);
+  const Found found = find_brink(spec);
   expect_risks(found.risk[0], {parts(271, 1000), parts(271, 1000), parts(19, 100), parts(1, 10)});
   expect_risks(found.risk[1], {1, parts(271, 1000), parts(19, 100), parts(1, 10)});
 }
@@ -92,7 +91,7 @@ TEST(RiskOfABrink, OneStepLess) {
 TEST(RiskOfABrink, WhatIsForbiddenBlocksTheProduct) {
   Json spec = brink();
   spec["controller"]["allow"] = "u1 == u2";
-  const Found found = find(spec);
+  const Found found = find_brink(spec);
   const Rational up = parts(3439, 10000);
   expect_risks(found.risk[0], {up, up, up, up});
   expect_risks(found.risk[1], {1, 1, 1, 1});
@@ -101,7 +100,7 @@ TEST(RiskOfABrink, WhatIsForbiddenBlocksTheProduct) {
 TEST(RiskOfABrink, TheSafestGiveSlackBack) {
   Json spec = brink();
   spec["risk"]["coordinated"] = "safest";
-  const Found found = find(spec);
+  const Found found = find_brink(spec);
   expect_risks(found.risk[0], {parts(59, 5000), parts(1, 1000), parts(1, 10000), parts(1, 10000)});
   expect_rate(found.rate, parts(81, 50000));
 }
@@ -110,16 +109,16 @@ TEST(RiskOfABrink, BurstsCostMore) {
   Json spec = brink();
   spec["network"]["after_loss"] = 0.5;
   spec["risk"]["coordinated"] = "safest";
-  const Found found = find(spec);
+  const Found found = find_brink(spec);
   expect_risks(found.risk[0], {parts(3, 40), parts(1, 40), parts(1, 80), parts(1, 80)});
   expect_rate(found.rate, parts(3, 160));
 }
 
 TEST(RiskOfABrink, TheWorstOfARangeIsItsUpperEnd) {
   Json spec = brink();
-  const Found sure = find(spec);
+  const Found sure = find_brink(spec);
   spec["network"]["loss"] = {0, 0.1};
-  const Found range = find(spec);
+  const Found range = find_brink(spec);
   for (std::size_t mode = 0; mode < 2; ++mode) {
     for (std::size_t x = 0; x < 4; ++x) EXPECT_NEAR(range.risk[mode][x], sure.risk[mode][x], 1e-7);
   }
@@ -129,7 +128,7 @@ TEST(RiskOfABrink, TheWorstOfARangeIsItsUpperEnd) {
 TEST(RiskOfABrink, WithoutLossesThereIsNoRisk) {
   Json spec = brink();
   spec["network"]["loss"] = 0;
-  const Found found = find(spec);
+  const Found found = find_brink(spec);
   EXPECT_EQ(found.risk[0], (std::vector<double>(4, 0)));
   EXPECT_EQ(found.rate, 0);
 }
@@ -137,13 +136,13 @@ TEST(RiskOfABrink, WithoutLossesThereIsNoRisk) {
 TEST(RiskOfABrink, FiguresCountTheCellsOfK) {
   Json spec = brink();
   spec["risk"]["coordinated"] = "safest";
-  const std::vector<RiskFigures> figures = find(spec).figures;
+  const std::vector<RiskFigures> figures = find_brink(spec).figures;
   EXPECT_NEAR(*figures[0].worst, 59.0 / 5000, 1e-8);
   EXPECT_NEAR(*figures[0].mean, (59.0 / 5000 + 1e-3 + 2e-4) / 4, 1e-9);
   // At most 1e-4 is none, as it is rounded up; at most 1e-3 two, 1e-2 three, 1e-1 four.
   EXPECT_EQ(figures[0].within, (std::array<std::int64_t, 13>{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 3, 4}));
   spec["safe"] = "false";
-  const RiskFigures none = find(spec).figures[0];
+  const RiskFigures none = find_brink(spec).figures[0];
   EXPECT_FALSE(none.worst.has_value());
   EXPECT_FALSE(none.mean.has_value());
 }
