@@ -77,6 +77,7 @@ std::string failure(std::size_t& way, const Json& own, const ProblemSpec& spec) 
   std::string html = fmt::format("<h3>{}</h3>\n<p>{}.</p>\n", html_line(own["name"].get<std::string>()),
                                  html_line(capital(failure_line(own, spec))));
   if (own["counterexample"]["state"].is_null()) return html;
+  if (!has_story(own)) return html + "<p>" + visit_button(way++, 0, "Show in the picture", "") + "</p>\n";
   html += "<p>";
   for (const std::string& sentence : story_sentences(own, spec)) html += html_line(sentence) + " ";
   html += "</p>\n<p>" + visit_button(way, 0, "Show in the picture", "") + "</p>\n";

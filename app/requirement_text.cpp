@@ -109,8 +109,11 @@ std::string worst_text(const Json& kind, const Json& value, const Json& status, 
   if (status == "not_safe") return "is not safe";
   if (status == "not_invariant") return "cannot be kept safe, even if all agents coordinate";
   if (status == "goal_cannot_be_forced") return "cannot be made to reach the goal";
-  return fmt::format(fmt::runtime(requirement_traits(kind.get<std::string>()).failing),
-                     fmt::arg("steps", steps_text(value.get<std::int64_t>(), spec)));
+  const RequirementTraits& own = requirement_traits(kind.get<std::string>());
+  const bool is_risk = own.is_probability;
+  return fmt::format(fmt::runtime(own.failing),
+                     fmt::arg("steps", is_risk ? "" : steps_text(value.get<std::int64_t>(), spec)),
+                     fmt::arg("risk", is_risk ? probability_text(value) : ""));
 }
 
 std::string outside_text(const Json& own) {
@@ -119,6 +122,10 @@ std::string outside_text(const Json& own) {
 
 std::string claim_text(const Json& own, const ProblemSpec& spec) {
   const RequirementTraits& kind = traits_of(own);
+  if (kind.is_probability) {
+    const std::string per = own["per"].is_null() ? "" : " per " + text_of(own["per"]);
+    return fmt::format(fmt::runtime(kind.claim), fmt::arg("risk", fmt::format("{:g}{}", own[kind.key].get<double>(), per)));
+  }
   const std::string steps = own.contains(kind.key) ? steps_text(number_of(own[kind.key]), spec) : "";
   return fmt::format(fmt::runtime(kind.claim), fmt::arg("steps", steps),
                      fmt::arg("partition", own["partition"].is_null() ? "" : text_of(own["partition"])));
@@ -136,8 +143,12 @@ std::string failure_text(const Json& own, const ProblemSpec& spec) {
   std::string text;
   if (!own["reaches_outside"].is_null()) text += fmt::format("  FAILS: {}.\n", outside_text(own));
   if (own["counterexample"]["state"].is_null()) return text;
-  text += fmt::format("  FAILS: {}.\n\n", cell_failures(own, spec));
-  return text + story_text(own, spec);
+  text += fmt::format("  FAILS: {}.\n", cell_failures(own, spec));
+  return has_story(own) ? text + "\n" + story_text(own, spec) : text;
+}
+
+bool has_story(const Json& own) {
+  return own["counterexample"]["end"] != "too_risky";
 }
 
 StoryTable story_table(const Json& own, const ProblemSpec& spec) {

@@ -33,6 +33,9 @@ namespace coordreq {
 /// The same with the story of its counterexample: lines that end in newlines.
 [[nodiscard]] std::string failure_text(const Json& own, const ProblemSpec& spec);
 
+/// There is more to tell than the worst cell. REQUIRES: it fails.
+[[nodiscard]] bool has_story(const Json& own);
+
 /// One row a sample: where, what is left, and what each agent does next.
 struct StoryTable {
   std::vector<std::string> heads;

@@ -20,11 +20,20 @@ bool is_disturbed(const ProblemSpec& spec) {
                      [](const StateSpec& state) { return state.measurement_error != 0; });
 }
 
+bool is_lossy(const Json& simulation) {
+  return simulation.contains("network");
+}
+
+/// Who is connected.
+std::string connection_text(const Json& simulation) {
+  return is_lossy(simulation) ? "losses of network " + text_of(simulation["network"])
+                              : "partition " + text_of(simulation["partition"]);
+}
+
 std::string heading(const Json& simulation, const ProblemSpec& spec) {
-  std::string text =
-      fmt::format("{}, partition {}: {} of {}, policy {}", text_of(simulation["name"]),
-                  text_of(simulation["partition"]), count_of(number_of(simulation["runs"]), "run"),
-                  duration(simulation["steps"], simulation), text_of(simulation["policy"]));
+  std::string text = fmt::format("{}, {}: {} of {}, policy {}", text_of(simulation["name"]),
+                                 connection_text(simulation), count_of(number_of(simulation["runs"]), "run"),
+                                 duration(simulation["steps"], simulation), text_of(simulation["policy"]));
   if (is_disturbed(spec)) text += ", disturbance " + text_of(simulation["disturbance"]);
   return text + fmt::format(", seed {}\n", simulation["seed"].get<std::uint64_t>());
 }
@@ -58,11 +67,13 @@ std::string coordinated_text(const Json& simulation) {
                      count_of(steps, "step"), percent);
 }
 
-/// Of the first run that contradicts the analysis.
-std::string violation_text(const Json& traces) {
-  const auto violates = [](const Json& trace) {
-    return trace["outcome"] == "left_invariant" || trace["outcome"] == "no_action" ||
-           trace["outcome"] == "late" || trace["outcome"] == "not_allowed";
+/// Of the first run that contradicts the analysis. Where losses are drawn the invariance set may be left.
+std::string violation_text(const Json& simulation) {
+  const Json& traces = simulation["traces"];
+  const auto violates = [lossy = is_lossy(simulation)](const Json& trace) {
+    if (trace["outcome"] == "no_action") return true;
+    return !lossy && (trace["outcome"] == "left_invariant" || trace["outcome"] == "late" ||
+                      trace["outcome"] == "not_allowed");
   };
   const auto first = std::find_if(traces.begin(), traces.end(), violates);
   if (first == traces.end()) return {};
@@ -105,18 +116,30 @@ std::string goal_of_runs_text(const Json& simulation) {
   return fmt::format("reached by {} of {}, after at most {}", grouped(count), count_of(runs, "run"), when);
 }
 
+/// How many runs leave the invariance set, and how many of them are to be expected at the most.
+std::string left_text(const Json& simulation) {
+  const Json& outcomes = simulation["outcomes"];
+  std::int64_t count = number_of(outcomes["left_invariant"]);
+  if (outcomes.contains("not_allowed")) count += number_of(outcomes["not_allowed"]);
+  const std::string text =
+      fmt::format("{} of {}", grouped(count), count_of(number_of(simulation["runs"]), "run"));
+  const Json& risk = simulation["risk"];
+  return risk.is_null() ? text : fmt::format("{}; the risk is at most {}", text, probability_text(risk));
+}
+
 std::string simulation_text(const Json& simulation, const ProblemSpec& spec) {
   const Json& traces = simulation["traces"];
   Facts facts = {{"outcome", outcomes_text(simulation)},
                  {"coordinated", coordinated_text(simulation)},
                  {"longest silence", duration(simulation["longest_silence"], simulation)},
                  {"smallest margin", fmt::format("{:.6g}", simulation["smallest_margin"].get<double>())}};
+  if (is_lossy(simulation)) facts.emplace_back("left", left_text(simulation));
   if (spec.goal) facts.emplace_back("goal", goal_of_runs_text(simulation));
   if (traces.size() == 1) {
     facts.emplace_back("start", values_text(traces.front()["start"]));
     facts.emplace_back("end", values_text(traces.front()["end"]));
   }
-  std::string text = heading(simulation, spec) + facts_text(facts) + violation_text(traces);
+  std::string text = heading(simulation, spec) + facts_text(facts) + violation_text(simulation);
   if (!simulation["output"].is_null()) text += fmt::format("\nruns in {}\n", line_of(simulation["output"]));
   return text;
 }
@@ -129,7 +152,11 @@ Json simulation_json(const Simulation& simulation, const ResultsReader& results,
   json["name"] = spec.name;
   json["results"] = results.path();
   json["guarantee"] = results.attributes().guarantee;
-  json["partition"] = simulation.partition;
+  json["partition"] = simulation.partition.empty() ? Json() : Json(simulation.partition);
+  if (simulation.partition.empty()) {
+    json["network"] = network_kind_name(spec.network->kind);
+    json["risk"] = simulation.risk ? Json(*simulation.risk) : Json();
+  }
   json["connection_delay"] = spec.coordination.connection_delay;
   json["policy"] = policy_name(options.policy);
   json["disturbance"] = disturbance_name(options.disturbance);

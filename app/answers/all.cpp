@@ -17,25 +17,26 @@ const std::vector<AddFacts>& info_facts() {
 }
 
 const std::vector<AnalysisSection>& analysis_sections() {
-  static const std::vector<AnalysisSection> all = {network_of_analysis, convention_of_analysis,
-                                                   coalitions_of_analysis};
+  static const std::vector<AnalysisSection> all = {network_of_analysis, risk_of_analysis,
+                                                   convention_of_analysis, coalitions_of_analysis};
   return all;
 }
 
 const std::vector<InfoSection>& info_sections() {
-  static const std::vector<InfoSection> all = {coalitions_of_file, requirements_of_file, network_of_file};
+  static const std::vector<InfoSection> all = {coalitions_of_file, requirements_of_file, network_of_file,
+                                               risk_of_file};
   return all;
 }
 
 const std::vector<ReportSection>& report_sections() {
   static const std::vector<ReportSection> all = {report_goal, report_requirements, report_coalitions,
-                                                 report_network};
+                                                 report_network, report_risk};
   return all;
 }
 
 const std::vector<std::string>& told_members() {
-  static const std::vector<std::string> all = {"goal",       "coalition",    "network",
-                                               "convention", "requirements", "modes"};
+  static const std::vector<std::string> all = {"goal",         "coalition", "network", "convention",
+                                               "requirements", "modes",     "risk"};
   return all;
 }
 

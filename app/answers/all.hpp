@@ -41,6 +41,10 @@ void add_goal_of_file(const Json& info, Facts& facts);
 [[nodiscard]] std::string network_of_analysis(const Json& summary, const ProblemSpec& spec);
 [[nodiscard]] std::string network_of_file(const Json& info);
 [[nodiscard]] std::string report_network(const ResultsReader& results);
+/// How likely the agents are to leave the invariance set.
+[[nodiscard]] std::string risk_of_analysis(const Json& summary, const ProblemSpec& spec);
+[[nodiscard]] std::string risk_of_file(const Json& info);
+[[nodiscard]] std::string report_risk(const ResultsReader& results);
 [[nodiscard]] std::string convention_of_analysis(const Json& summary, const ProblemSpec& spec);
 [[nodiscard]] std::string requirements_of_file(const Json& info);
 

@@ -117,6 +117,7 @@ Run declare_simulate(Options& options) {
                  [&simulation](const auto& text, const auto& option) {
                    simulation.until_goal = OneOf<bool>{{{"goal", true}}}(text, option);
                  });
+  options.flag(simulation.is_lossy, "--lossy", "Lose steps as the numbers of the network say");
   options.option(simulation.partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
   options.option(simulation.output, "-o,--output", "FILE", "File for the runs (default: none)", file_name);
   declare_progress(options, own->progress);

@@ -14,6 +14,7 @@ struct VerifyArguments : CommonOptions {
   std::string results;
   std::optional<std::int64_t> sample;
   std::optional<double> budget;
+  bool full = false;
   bool strict = false;
   ProgressOptions progress;
 };
@@ -28,6 +29,7 @@ Verification verify_with_progress(const ClaimedFile& file, const VerifyArguments
   ProgressDisplay shown(own.progress, own.quiet);
   VerifyOptions options{.sample = own.sample};
   options.budget_seconds = own.budget;
+  options.full = own.full;
   options.progress = [&](const VerifyProgress& progress) {
     shown.update({.stage = "checking " + progress.stage, .done = progress.done, .all = progress.all});
   };
@@ -37,6 +39,8 @@ Verification verify_with_progress(const ClaimedFile& file, const VerifyArguments
 }
 
 ExitCode run(const VerifyArguments& own) {
+  if (own.full && (own.sample || own.budget))
+    throw UsageError("expected --full alone, found --sample or --budget too", "--full");
   const Clock::time_point start = Clock::now();
   own.keep_to_memory();
   const ClaimedFile file = read_claims(own.results, own.memory());
@@ -58,6 +62,7 @@ Run declare_verify(Options& options) {
   options.option(own->budget, "--budget", "SECONDS",
                  "Processor time of each thread for enclosures; 0 confirms only exact posts (default: 60)",
                  seconds);
+  options.flag(own->full, "--full", "Work out again, too, what takes many looks at all cells: risks");
   options.flag(own->strict, "--strict", "Fail if something is not confirmed");
   declare_progress(options, own->progress);
   declare_common(options, *own);

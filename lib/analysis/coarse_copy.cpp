@@ -35,6 +35,7 @@ void leave_only(std::size_t partition, ProblemSpec& spec) {
   CoordinationSpec& own = spec.coordination;
   own = CoordinationSpec{.partitions = {own.partitions[partition]}, .max_delay = 1};
   spec.network.reset();
+  spec.risk.reset();
   spec.goal.reset();
   spec.requirements.clear();
   spec.output = {};

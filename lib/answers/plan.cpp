@@ -28,6 +28,9 @@
 #include "answers/requirements/answer.hpp"
 #include "answers/requirements/check.hpp"
 #include "answers/requirements/fields.hpp"
+#include "answers/risk/answer.hpp"
+#include "answers/risk/check.hpp"
+#include "answers/risk/fields.hpp"
 
 namespace coordreq {
 
@@ -79,6 +82,15 @@ const std::vector<Answer>& all_answers() {
        .tell = tell_network,
        .check = check_network,
        .check_memory = network_check_memory},
+      {.stages = risk_stages,
+       .memory = risk_memory,
+       .fields = risk_fields,
+       .fill = fill_risk_fields,
+       .summarise = summarise_risk,
+       .examine = examine_risk,
+       .tell = tell_risk,
+       .check = check_risk,
+       .check_memory = risk_check_memory},
       {.stages = convention_stages,
        .memory = convention_memory,
        .fields = convention_fields,

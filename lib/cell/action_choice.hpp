@@ -10,6 +10,7 @@
 
 #include "answers/one_cell/admissible_inputs.hpp"
 #include "answers/one_cell/policy.hpp"
+#include "cell/lossy_network.hpp"
 #include "cell/margin.hpp"
 #include "cell/next_states.hpp"
 #include "cell/random_stream.hpp"
@@ -38,6 +39,10 @@ struct LoopProblem {
   const CellSet* safe_beyond = nullptr;  ///< TubeSets::beyond
   const PackedPairs* listed = nullptr;   ///< what `controller.file` lists; null: it has none
   std::int64_t connection_delay = 0;     ///< D, steps
+  /// Who is connected in a step, drawn step by step; null: agents are silent for as long as they can.
+  const LossyNetwork* network = nullptr;
+  /// [mode] what safest_policy() asks of cells, beside `values`; none: agents take anything in C(x).
+  std::vector<std::map<std::string, std::span<const std::int32_t>>> mode_values = {};
 
   /// [cells]; DelayLayers names what has none.
   [[nodiscard]] std::span<const std::int32_t> delay() const { return values.at(policies.front().delay); }

@@ -59,9 +59,11 @@ ClosedLoop::ClosedLoop(const LoopProblem& problem, const LoopOptions& options)
   for (const AnswerPolicy& policy : problem_.policies) {
     if (!policy.aim.path.empty()) to_aim_ = problem_.values.at(policy.aim.path);
   }
+  mode_choosers_ = choosers_of_modes();
 }
 
 RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
+  if (problem_.network != nullptr) return run_lossy(std::move(measured), run);
   RandomStream actions(options_.seed, run, RandomStream::Purpose::actions);
   RandomStream disturbances(options_.seed, run, RandomStream::Purpose::disturbances);
   State state = first_state(std::move(measured), draw_nature(disturbances));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -85,6 +86,9 @@ struct RunTrace {
 /// a run that begins with it is there within the steps that its start has. (On the way to a goal, contract,
 /// section 5: approach delay, P and IND_P, within arrival(start) steps.)
 ///
+/// On a network that loses steps (LoopProblem::network) agents act by the mode of each step: from C if all
+/// are connected, else from IND_C of those that are. A run that leaves K is no contradiction then.
+///
 /// Holds the scratch memory of a run: one object a thread.
 class ClosedLoop {
  public:
@@ -102,6 +106,8 @@ class ClosedLoop {
     NextStates::Place place;
   };
 
+  [[nodiscard]] RunTrace run_lossy(std::vector<Rational> measured, std::uint64_t run);
+  [[nodiscard]] std::vector<std::shared_ptr<ActionChooser>> choosers_of_modes();
   [[nodiscard]] Nature draw_nature(RandomStream& random) const;
   [[nodiscard]] State first_state(std::vector<Rational> measured, const Nature& nature) const;
   /// @returns whether the next state is known
@@ -124,7 +130,8 @@ class ClosedLoop {
   Margin margin_;
   std::vector<Rational> slots_;
   std::span<const std::int32_t> delay_;
-  std::span<const std::int32_t> to_aim_;  ///< [cells] steps; empty: no policy has an aim
+  std::span<const std::int32_t> to_aim_;                       ///< [cells] steps; empty: no policy has an aim
+  std::vector<std::shared_ptr<ActionChooser>> mode_choosers_;  ///< [mode] of a network that loses steps
 };
 
 }  // namespace coordreq

@@ -14,7 +14,7 @@ namespace coordreq {
 /// mix(mix(mix(seed) + run) + purpose), mix being the output function of SplitMix64.
 class RandomStream {
  public:
-  enum class Purpose : std::uint64_t { start = 0, actions = 1, disturbances = 2 };
+  enum class Purpose : std::uint64_t { start = 0, actions = 1, disturbances = 2, losses = 3 };
 
   RandomStream(std::uint64_t seed, std::uint64_t run, Purpose purpose);
 

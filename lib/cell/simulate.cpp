@@ -13,6 +13,8 @@
 #include "base/error.hpp"
 #include "cell/cell_controller.hpp"
 #include "cell/invariant_cells.hpp"
+#include "cell/lossy_network.hpp"
+#include "cell/risk_values.hpp"
 #include "cell/state_text.hpp"
 #include "cell/write_runs.hpp"
 #include "model/locate.hpp"
@@ -102,6 +104,16 @@ void check_prefer(const ProblemSpec& spec, Policy policy) {
   throw UsageError("no agent of the spec has a 'prefer'", "--policy");
 }
 
+/// The partition of the delays. Who is connected a network says itself, so that any will do for that.
+std::size_t partition_of_loop(const ProblemSpec& spec, const SimulationOptions& options) {
+  if (!options.is_lossy) return find_partition(spec, options.partition);
+  if (!spec.network || spec.network->probabilities.empty())
+    throw UsageError("the spec has no network with probabilities", "--lossy");
+  if (!options.partition.empty())
+    throw UsageError("the network says who is connected, expected no partition", "--partition");
+  return 0;
+}
+
 CellSet safe_cells(const UniformGrid& grid, std::span<const std::int32_t> delay) {
   CellSet safe(grid.rows(), grid.row_length());
   for (std::int64_t x = 0; x < grid.cells(); ++x) {
@@ -160,6 +172,7 @@ MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOpt
   const auto arrays = static_cast<double>(loop_paths(loop_policies(spec)).size());
   double of_cell = (arrays + kCopies) * sizeof(std::int32_t);
   if (spec.controller.file) of_cell += static_cast<double>(PackedPairs::bytes_for(results.inputs().count()));
+  if (options.is_lossy) of_cell += bytes_of_risk_values(spec);
   const double sample = sizeof(RunTrace::Sample) + 2 * (16 + 8 * states);
   const double step = sizeof(RunTrace::Step) + (disturbances > 0 ? 16 + 8 * disturbances : 0);
   const double samples = static_cast<double>(options.runs) * (static_cast<double>(options.steps) + 1);
@@ -171,7 +184,7 @@ MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOpt
 
 Simulation simulate(const ResultsReader& results, const SimulationOptions& options, ThreadTeam& team) {
   const ProblemSpec& spec = results.spec();
-  const std::size_t partition = find_partition(spec, options.partition);
+  const std::size_t partition = partition_of_loop(spec, options);
   check_prefer(spec, options.policy);
   if (options.until_goal && !spec.goal) throw UsageError("the spec has no goal", "--until");
   RunOptions runs{.loop = {.steps = options.steps,
@@ -223,7 +236,16 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
                       .listed = listed ? &*listed : nullptr,
                       .connection_delay = spec.coordination.connection_delay};
   for (const auto& [path, cells] : values) problem.values[path] = cells;
-  Simulation simulation{.partition = problem.partition->name, .traces = simulate_runs(problem, runs, team)};
+  std::optional<LossyNetwork> network;
+  const RiskValues risks = options.is_lossy ? read_risk_values(results) : RiskValues();
+  if (options.is_lossy) problem.network = &network.emplace(*spec.network);
+  for (const auto& of_mode : risks) problem.mode_values.emplace_back(of_mode.begin(), of_mode.end());
+  std::optional<double> risk;
+  if (options.is_lossy && spec.risk && runs.start)
+    risk = risk_of_runs(results, locate(results.grid(), *runs.start).cell, options.steps);
+  Simulation simulation{.partition = options.is_lossy ? "" : problem.partition->name,
+                        .traces = simulate_runs(problem, runs, team),
+                        .risk = risk};
   if (options.output) {
     enter("writing");
     write_runs(*options.output, results, options, simulation, team);
@@ -261,8 +283,10 @@ double Simulation::smallest_margin() const {
 }
 
 std::optional<std::size_t> Simulation::violation() const {
-  const auto found = std::find_if(traces.begin(), traces.end(),
-                                  [](const RunTrace& trace) { return is_violation(trace.outcome); });
+  const bool is_lossy = partition.empty();
+  const auto found = std::find_if(traces.begin(), traces.end(), [is_lossy](const RunTrace& trace) {
+    return is_lossy ? trace.outcome == Outcome::no_action : is_violation(trace.outcome);
+  });
   if (found == traces.end()) return std::nullopt;
   return static_cast<std::size_t>(found - traces.begin());
 }

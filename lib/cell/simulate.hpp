@@ -26,6 +26,7 @@ struct SimulationOptions {
   NamedValues constant_disturbance;  ///< those not named are in the middle of their ranges
   std::uint64_t seed = 1;
   bool until_goal = false;            ///< runs end where they reach the goal
+  bool is_lossy = false;              ///< steps are lost as the numbers of the network say
   std::optional<std::string> output;  ///< path of the file of runs
   /// Told which stage begins: "checking", "running", "writing"; there are temporary files in all but
   /// "running". May be empty.
@@ -34,8 +35,11 @@ struct SimulationOptions {
 
 /// Runs, and what they say together.
 struct Simulation {
-  std::string partition;
+  std::string partition;  ///< empty: that of the mode of each step
   std::vector<RunTrace> traces;
+  /// Where losses are drawn, of a start that all runs have: what the file says of the probability that such a
+  /// run leaves K.
+  std::optional<double> risk = {};
 
   [[nodiscard]] std::int64_t count(Outcome outcome) const;
   /// Over all runs.
@@ -43,7 +47,7 @@ struct Simulation {
   [[nodiscard]] std::int64_t coordinated_steps() const;
   [[nodiscard]] std::int64_t longest_silence() const;
   [[nodiscard]] double smallest_margin() const;
-  /// The first run that contradicts the analysis.
+  /// The first run that contradicts the analysis. Where losses are drawn K may be left.
   [[nodiscard]] std::optional<std::size_t> violation() const;
 };
 

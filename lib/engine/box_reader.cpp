@@ -285,5 +285,6 @@ const Level* BoxReader<Level>::shared_row(Shared& shared, std::int64_t inner) {
 template class BoxReader<std::uint8_t>;
 template class BoxReader<std::uint16_t>;
 template class BoxReader<std::uint32_t>;
+template class BoxReader<std::uint64_t>;
 
 }  // namespace coordreq

@@ -78,5 +78,6 @@ class BoxReader final : public RowReader<Level> {
 extern template class BoxReader<std::uint8_t>;
 extern template class BoxReader<std::uint16_t>;
 extern template class BoxReader<std::uint32_t>;
+extern template class BoxReader<std::uint64_t>;
 
 }  // namespace coordreq

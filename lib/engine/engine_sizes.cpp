@@ -199,14 +199,15 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
          (distinct + at_once) * one_grouping(actions, std::min(groups, actions));
 }
 
-double EngineSizes::readers(int threads) const {
+double EngineSizes::readers(int threads, double level_bytes) const {
   constexpr double kRows = 8;  // that a reader and its operator work on
-  const double one = kRows * levels() / rows();
+  const double all = level_bytes * levels();
+  const double one = kRows * all / rows();
   if (!model_->keeps_sums()) {
-    const double unit = levels() / in_double(grid_[0].count);
-    return threads * (one + std::min(levels(), std::max(2 * unit, in_double(kSharedBytes))));
+    const double unit = all / in_double(grid_[0].count);
+    return threads * (one + std::min(all, std::max(2 * unit, in_double(kSharedBytes))));
   }
-  return threads * (one + sum_reader());
+  return threads * (one + level_bytes * sum_reader());
 }
 
 /// SumReader: blocks for the ranges of the leading dimensions that a unit goes to, with what lies beyond.

@@ -57,8 +57,8 @@ class EngineSizes {
   [[nodiscard]] double pair_table() const;
   /// ActionGrouping
   [[nodiscard]] double groups(const std::vector<InputClass>& classes) const;
-  /// PostReader, one a thread.
-  [[nodiscard]] double readers(int threads) const;
+  /// PostReader of levels of so many bytes, one a thread.
+  [[nodiscard]] double readers(int threads, double level_bytes = 1) const;
   /// run_wave() beside its levels.
   [[nodiscard]] double wave(int threads) const;
   /// And where its operator is a minimum.

@@ -10,6 +10,7 @@ namespace coordreq {
   extern const LevelKernels<std::uint8_t> kKernels8;   \
   extern const LevelKernels<std::uint16_t> kKernels16; \
   extern const LevelKernels<std::uint32_t> kKernels32; \
+  extern const LevelKernels<std::uint64_t> kKernels64; \
   extern const SumKernels kSumKernels;                 \
   extern const BitKernels kBitKernels;                 \
   }
@@ -61,6 +62,10 @@ const LevelKernels<std::uint16_t>& level_kernels(InstructionSet set) {
 template <>
 const LevelKernels<std::uint32_t>& level_kernels(InstructionSet set) {
   return choose(set, portable_kernels::kKernels32, avx2_kernels::kKernels32, avx512_kernels::kKernels32);
+}
+template <>
+const LevelKernels<std::uint64_t>& level_kernels(InstructionSet set) {
+  return choose(set, portable_kernels::kKernels64, avx2_kernels::kKernels64, avx512_kernels::kKernels64);
 }
 
 const SumKernels& sum_kernels(InstructionSet set) {

@@ -60,7 +60,8 @@ inline constexpr std::size_t kLevelBlock = 64;
 
 /// The fastest set that this processor has.
 [[nodiscard]] InstructionSet best_instruction_set();
-/// The kernels for a set. REQUIRES: the processor has it. Level: std::uint8_t, std::uint16_t, std::uint32_t.
+/// The kernels for a set. REQUIRES: the processor has it. Level: an unsigned integer of 8 to 64
+/// bits.
 template <class Level>
 [[nodiscard]] const LevelKernels<Level>& level_kernels(InstructionSet set);
 template <>
@@ -69,5 +70,7 @@ template <>
 const LevelKernels<std::uint16_t>& level_kernels<std::uint16_t>(InstructionSet set);
 template <>
 const LevelKernels<std::uint32_t>& level_kernels<std::uint32_t>(InstructionSet set);
+template <>
+const LevelKernels<std::uint64_t>& level_kernels<std::uint64_t>(InstructionSet set);
 
 }  // namespace coordreq

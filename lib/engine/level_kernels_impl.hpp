@@ -294,8 +294,10 @@ constexpr LevelKernels<Level> kKernels{
 extern const LevelKernels<uint8_t> kKernels8;
 extern const LevelKernels<uint16_t> kKernels16;
 extern const LevelKernels<uint32_t> kKernels32;
+extern const LevelKernels<uint64_t> kKernels64;
 const LevelKernels<uint8_t> kKernels8 = kKernels<uint8_t>;
 const LevelKernels<uint16_t> kKernels16 = kKernels<uint16_t>;
 const LevelKernels<uint32_t> kKernels32 = kKernels<uint32_t>;
+const LevelKernels<uint64_t> kKernels64 = kKernels<uint64_t>;
 
 }  // namespace coordreq::COORDREQ_KERNEL_NAMESPACE

@@ -34,5 +34,6 @@ const Level* PostReader<Level>::with_tubes(std::span<const std::uint32_t> ids, c
 template class PostReader<std::uint8_t>;
 template class PostReader<std::uint16_t>;
 template class PostReader<std::uint32_t>;
+template class PostReader<std::uint64_t>;
 
 }  // namespace coordreq

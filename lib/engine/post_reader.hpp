@@ -100,5 +100,6 @@ class PostReader {
 extern template class PostReader<std::uint8_t>;
 extern template class PostReader<std::uint16_t>;
 extern template class PostReader<std::uint32_t>;
+extern template class PostReader<std::uint64_t>;
 
 }  // namespace coordreq

@@ -342,5 +342,6 @@ void SumReader<Level>::erode(Slot& slot, std::size_t size) {
 template class SumReader<std::uint8_t>;
 template class SumReader<std::uint16_t>;
 template class SumReader<std::uint32_t>;
+template class SumReader<std::uint64_t>;
 
 }  // namespace coordreq

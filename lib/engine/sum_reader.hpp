@@ -112,5 +112,6 @@ class SumReader final : public RowReader<Level> {
 extern template class SumReader<std::uint8_t>;
 extern template class SumReader<std::uint16_t>;
 extern template class SumReader<std::uint32_t>;
+extern template class SumReader<std::uint64_t>;
 
 }  // namespace coordreq

@@ -9,7 +9,7 @@
 #include "numeric/rational.hpp"
 #include "spec/spec_types.hpp"
 
-// Who acts together: partitions of the agents, and networks.
+// Who acts together: partitions of the agents, networks, and what their losses risk.
 namespace coordreq {
 
 /// Classes of agents that coordinate within a step. Canonical: agents ascending within a class, classes by
@@ -42,15 +42,31 @@ struct NetworkModeSpec {
   std::string name;         ///< as given, or the history of losses (see loss_automaton.hpp)
   PartitionSpec partition;  ///< who is connected; not necessarily one of CoordinationSpec::partitions
 };
+/// What a probability may be, 0 <= low <= high <= 1; anything in between, anew in each step.
+struct ProbabilityRange {
+  Rational low;
+  Rational high;
+};
 /// Whatever its kind is, the network as an automaton, and the numbers that it was unfolded from.
 struct NetworkSpec {
   NetworkKind kind = NetworkKind::automaton;
   std::vector<NetworkModeSpec> modes;                              ///< the first one is the initial mode
   std::vector<std::pair<std::int32_t, std::int32_t>> transitions;  ///< indices into modes; each has one
+  /// Of each transition, if the network has numbers, else none. Those of a mode can be 1 in sum, with each of
+  /// them at either end of its range, of which the upper one is above 0.
+  std::vector<ProbabilityRange> probabilities;
   std::int64_t delay = 0;
   std::int64_t burst_length = 0, burst_gap = 0;
   std::int64_t misses = 0, window = 0;
+  ProbabilityRange loss, after_loss;  ///< as written
   bool resynthesise = false;
+};
+
+/// What is asked of the probability to leave K. Only beside a network with numbers.
+struct RiskSpec {
+  std::int64_t horizon = 0;              ///< steps, at least 1; from "horizon_time" by ceil(time / period)
+  std::optional<Rational> horizon_time;  ///< as written; `horizon` has its steps
+  bool is_safest = false;  ///< agents who are all connected agree on the least risk; else on anything
 };
 
 }  // namespace coordreq

@@ -34,8 +34,11 @@ struct RequirementSpec {
   Program where;  ///< over states
   RequirementKind kind = RequirementKind::min_delay;
   std::optional<std::int32_t> partition;  ///< index into partitions; none where it is about all of them
-  /// What is asked for, 0 for `invariant`. From a time by ceil(time / period), an upper limit by floor.
+  /// What is asked for, 0 for `invariant`. From a time by ceil(time / period), an upper limit by floor. Of
+  /// `max_risk` n: its rate is added so often.
   std::int64_t steps = 0;
+  Rational risk = 0;  ///< of `max_risk`: what is asked for
+  std::string per;    ///< likewise, "s", "min" or "h"; empty: within the horizon
 
   [[nodiscard]] bool is_of_partition() const {
     return kind == RequirementKind::min_delay || kind == RequirementKind::min_approach_delay;
@@ -60,6 +63,7 @@ struct ProblemSpec : SystemSpec {
   ControllerSpec controller;
   CoordinationSpec coordination;
   std::optional<NetworkSpec> network;
+  std::optional<RiskSpec> risk;
   std::vector<RequirementSpec> requirements;
   OutputSpec output;
 };

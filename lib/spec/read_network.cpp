@@ -8,6 +8,7 @@
 #include "spec/check_limits.hpp"
 #include "spec/coordination_spec.hpp"
 #include "spec/loss_automaton.hpp"
+#include "spec/loss_numbers.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/system_spec.hpp"
@@ -44,7 +45,19 @@ PartitionSpec read_partition_name(const Node& node, const std::vector<AgentSpec>
   return as_listed(*std::move(partition), coordination);
 }
 
-void read_automaton(const Node& object, const std::vector<AgentSpec>& agents,
+/// Of all transitions or of none.
+void read_probabilities(const Scope& scope, const Node& object, NetworkSpec& network) {
+  for (const Node& transition : object.elements("transitions")) {
+    if (transition.size() == 3) network.probabilities.push_back(read_probability(scope, transition[2]));
+  }
+  const std::size_t with = network.probabilities.size(), all = object["transitions"].size();
+  if (with == 0 || with == all) return;
+  throw SpecError(
+      fmt::format("expected a probability in all transitions or in none, found {} of {} with one", with, all),
+      object["transitions"].pointer());
+}
+
+void read_automaton(const Scope& scope, const Node& object, const std::vector<AgentSpec>& agents,
                     const CoordinationSpec& coordination, NetworkSpec& network) {
   check_mode_count(object["modes"].size(), kMostModes, object["modes"].pointer());
   std::vector<std::string> names;
@@ -72,6 +85,8 @@ void read_automaton(const Node& object, const std::vector<AgentSpec>& agents,
                       object["modes"][mode].pointer());
     }
   }
+  read_probabilities(scope, object, network);
+  settle_probabilities(network, object["transitions"].pointer());
 }
 
 void read_weakly_hard(const Node& object, NetworkSpec& network) {
@@ -91,6 +106,19 @@ PartitionSpec read_side(const Node& object, const std::string& key, const AgentC
   return as_listed(make_partition(agents, usual, ""), coordination);
 }
 
+/// Connected steps, in the first mode, and lost ones.
+LossAutomaton read_loss(const Scope& scope, const Node& object, NetworkSpec& network) {
+  network.kind = NetworkKind::loss;
+  network.loss = read_probability(scope, object["loss"]);
+  network.after_loss =
+      object.has("after_loss") ? read_probability(scope, object["after_loss"]) : network.loss;
+  for (const ProbabilityRange& lost : {network.loss, network.after_loss}) {
+    network.probabilities.push_back({1 - lost.high, 1 - lost.low});
+    network.probabilities.push_back(lost);
+  }
+  return {.names = {"1", "0"}, .transitions = {{0, 0}, {0, 1}, {1, 0}, {1, 1}}};
+}
+
 std::optional<LossAutomaton> read_losses(const Node& object, NetworkSpec& network) {
   if (object.has("delay")) {
     network.kind = NetworkKind::delay;
@@ -108,10 +136,17 @@ std::optional<LossAutomaton> read_losses(const Node& object, NetworkSpec& networ
   return weakly_hard_automaton(network.misses, network.window, kMostModes);
 }
 
+/// Of networks that know no more than the present step a word.
+std::string mode_name(const LossAutomaton& losses, std::size_t mode, NetworkKind kind) {
+  if (kind != NetworkKind::loss) return losses.names[mode];
+  return losses.is_up(mode) ? "up" : "down";
+}
+
 /// Everyone is connected or nobody is, in turns that the network's kind allows.
-void unfold_losses(const Node& object, const std::vector<AgentSpec>& agents,
+void unfold_losses(const Scope& scope, const Node& object, const std::vector<AgentSpec>& agents,
                    const CoordinationSpec& coordination, NetworkSpec& network) {
-  std::optional<LossAutomaton> losses = read_losses(object, network);
+  std::optional<LossAutomaton> losses =
+      object.has("loss") ? read_loss(scope, object, network) : read_losses(object, network);
   const std::string kind = network_kind_name(network.kind);
   if (!losses) {
     throw LimitError(fmt::format("more than {} modes, the most that are possible", kMostModes),
@@ -122,8 +157,9 @@ void unfold_losses(const Node& object, const std::vector<AgentSpec>& agents,
   const PartitionSpec up = read_side(object, "up", everyone, agents, coordination);
   const PartitionSpec down = read_side(object, "down", {}, agents, coordination);
   for (std::size_t mode = 0; mode < losses->names.size(); ++mode)
-    network.modes.push_back({losses->names[mode], losses->is_up(mode) ? up : down});
+    network.modes.push_back({mode_name(*losses, mode, network.kind), losses->is_up(mode) ? up : down});
   network.transitions = std::move(losses->transitions);
+  settle_probabilities(network, object.pointer());
 }
 
 }  // namespace
@@ -138,19 +174,21 @@ std::string network_kind_name(NetworkKind kind) {
       return "burst";
     case NetworkKind::weakly_hard:
       return "weakly_hard";
+    case NetworkKind::loss:
+      return "loss";
   }
   return {};
 }
 
-NetworkSpec read_network(const Node& root, const std::vector<AgentSpec>& agents,
+NetworkSpec read_network(const Scope& scope, const Node& root, const std::vector<AgentSpec>& agents,
                          const CoordinationSpec& coordination) {
   const Node object = root["network"];
   NetworkSpec network;
   network.resynthesise = object.flag("resynthesise");
   if (object.has("modes")) {
-    read_automaton(object, agents, coordination, network);
+    read_automaton(scope, object, agents, coordination, network);
   } else {
-    unfold_losses(object, agents, coordination, network);
+    unfold_losses(scope, object, agents, coordination, network);
   }
   return network;
 }

@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
+#include <map>
+#include <optional>
+
 #include "base/error.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/requirement_kind.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
+#include "spec/unit_text.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -35,6 +39,44 @@ std::optional<std::int32_t> read_partition(const Node& object, const std::vector
   throw SpecError(fmt::format("expected {}, found {}", expected, quote_text(node.text())), node.pointer());
 }
 
+/// Seconds of a unit of time, as udunits_spelling() has it.
+std::optional<Rational> seconds_of(const std::string& unit) {
+  static const std::map<std::string, Rational> kUnits = {
+      {"ns", Rational(1, 1'000'000'000)}, {"us", Rational(1, 1'000'000)}, {"ms", Rational(1, 1000)}, {"s", 1},
+      {"min", 60}, {"h", 3600}, {"d", 86400}};
+  const auto found = kUnits.find(unit);
+  return found == kUnits.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// How many periods a unit of time has, rounded up.
+std::int64_t periods_per(const Node& per, const std::string& unit, const Rational& period) {
+  const std::optional<Rational> seconds = seconds_of(udunits_spelling(unit));
+  if (!seconds) {
+    throw SpecError(fmt::format("'per' needs a unit of time under 'dynamics', found {}",
+                                unit.empty() ? "none" : quote_text(unit)),
+                    per.pointer());
+  }
+  return ceil_to_int(*seconds_of(per.text()) / (period * *seconds));
+}
+
+/// The probability, and how often the rate is added to what it is compared with.
+void read_risk_limit(const Scope& scope, const Node& root, const Node& object,
+                     const std::optional<RiskSpec>& risk, const Rational& period,
+                     RequirementSpec& requirement) {
+  requirement.risk = scope.number(object["max_risk"]);
+  if (requirement.risk < 0 || requirement.risk > 1) {
+    throw SpecError("expected a probability from 0 to 1, found " + to_text(requirement.risk),
+                    object["max_risk"].pointer());
+  }
+  requirement.per = object.text_or("per", "");
+  // Agents without a clock are as safe as that says: see RiskSpec::is_safest.
+  if (requirement.per.empty()) {
+    requirement.steps = risk && risk->is_safest ? risk->horizon : 0;
+  } else {
+    requirement.steps = periods_per(object["per"], root["dynamics"].text_or("unit", ""), period);
+  }
+}
+
 /// Sets kind and steps. @returns the key that says so
 std::string read_kind(const Scope& scope, const Node& object, const Rational& period,
                       RequirementSpec& requirement) {
@@ -44,7 +86,7 @@ std::string read_kind(const Scope& scope, const Node& object, const Rational& pe
       if (!object.has(own)) continue;
       key = own;
       requirement.kind = kind.kind;
-      if (kind.kind == RequirementKind::invariant) continue;
+      if (kind.kind == RequirementKind::invariant || kind.is_probability) continue;
       const StepRounding rounding = kind.is_upper_limit ? StepRounding::down : StepRounding::up;
       requirement.steps = own == kind.key ? read_integer(object[own])
                                           : read_steps_of_time(scope, object[own], period, rounding);
@@ -68,7 +110,7 @@ void check_decidable(const Node& asked, const RequirementSpec& requirement,
 
 RequirementSpec read_requirement(const Scope& scope, const Node& root, const Node& object,
                                  const std::vector<AgentSpec>& agents, const CoordinationSpec& coordination,
-                                 const Rational& period) {
+                                 const std::optional<RiskSpec>& risk, const Rational& period) {
   RequirementSpec requirement;
   requirement.name = object["name"].text();
   requirement.where = scope.expression(object["where"], ExpectedType::condition, Over::states);
@@ -77,6 +119,7 @@ RequirementSpec read_requirement(const Scope& scope, const Node& root, const Nod
   if (!kind.needs.empty() && !root.has(kind.needs))
     throw SpecError(fmt::format("'{}' is for a spec with the key '{}'", key, kind.needs),
                     object[key].pointer());
+  if (kind.is_probability) read_risk_limit(scope, root, object, risk, period, requirement);
   if (!requirement.is_of_partition() && object.has("partition")) {
     throw SpecError(fmt::format("'{}' is about all partitions, found 'partition' too", key),
                     object["partition"].pointer());
@@ -90,7 +133,8 @@ RequirementSpec read_requirement(const Scope& scope, const Node& root, const Nod
 
 std::vector<RequirementSpec> read_requirements(const Scope& scope, const Node& root,
                                                const std::vector<AgentSpec>& agents,
-                                               const CoordinationSpec& coordination, const Rational& period) {
+                                               const CoordinationSpec& coordination,
+                                               const std::optional<RiskSpec>& risk, const Rational& period) {
   std::vector<RequirementSpec> requirements;
   std::vector<std::string> names;
   ErrorList errors;
@@ -98,7 +142,9 @@ std::vector<RequirementSpec> read_requirements(const Scope& scope, const Node& r
     errors.attempt([&] { check_new_name(object["name"], names, "requirement"); });
     names.push_back(object["name"].text());
     errors.attempt(
-        [&] { requirements.push_back(read_requirement(scope, root, object, agents, coordination, period)); });
+        [&] {
+          requirements.push_back(read_requirement(scope, root, object, agents, coordination, risk, period));
+        });
   }
   errors.raise();
   return requirements;

@@ -75,10 +75,16 @@ void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
   });
   if (is_coordinated) {
     errors.attempt([&] {
-      if (root.has("network")) spec.network = read_network(root, spec.agents, spec.coordination);
+      if (root.has("network")) spec.network = read_network(scope, root, spec.agents, spec.coordination);
     });
-    errors.attempt(
-        [&] { spec.requirements = read_requirements(scope, root, spec.agents, spec.coordination, period); });
+    const bool is_risk_known = errors.attempt([&] {
+      if (root.has("risk")) spec.risk = read_risk(scope, root, period);
+    });
+    errors.attempt([&] {
+      if (!is_risk_known) return;
+      spec.requirements =
+          read_requirements(scope, root, spec.agents, spec.coordination, spec.risk, period);
+    });
   }
   errors.raise();
 }

@@ -34,6 +34,14 @@ const std::vector<RequirementTraits>& requirement_kinds() {
        .is_upper_limit = false,
        .claim = "approach delay of {partition} at least {steps}",
        .failing = "has an approach delay of {steps}"},
+      {.kind = RequirementKind::max_risk,
+       .key = "max_risk",
+       .needs = "risk",
+       .value = "risk",
+       .is_upper_limit = true,
+       .claim = "risk at most {risk}",
+       .failing = "has a risk of {risk}",
+       .is_probability = true},
   };
   return kinds;
 }

@@ -14,12 +14,16 @@ struct RequirementTraits {
   std::string needs;    ///< a key at the top of the spec without which it cannot be; empty: none
   std::string value;    ///< what states are judged by: "delay", "arrival"
   bool is_upper_limit;  ///< at most so many steps; else at least
-  // In words; {steps} stands for the steps, {partition} for the name of the partition.
+  // In words; {steps} stands for the steps, {partition} for the name of the partition, {risk} for a risk.
   std::string claim;    ///< what is asked of each cell: "delay of {partition} at least {steps}"
   std::string failing;  ///< what is the matter with one: "has a delay of {steps}"
 
-  /// The key of the worst value: "least_delay", "longest_arrival".
-  [[nodiscard]] std::string worst() const { return (is_upper_limit ? "longest_" : "least_") + value; }
+  bool is_probability = false;  ///< instead of steps
+
+  /// The key of the worst value: "least_delay", "longest_arrival", "greatest_risk".
+  [[nodiscard]] std::string worst() const {
+    return (is_probability ? "greatest_" : is_upper_limit ? "longest_" : "least_") + value;
+  }
 };
 /// By number of the kind.
 [[nodiscard]] const std::vector<RequirementTraits>& requirement_kinds();

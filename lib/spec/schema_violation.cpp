@@ -164,8 +164,9 @@ class Walk {
 
   void array(const Json& schema, const Json& value, const std::string& pointer) {
     if (!schema.contains("items")) return;
+    const Json& items = schema["items"];  // one for all, or one for each
     for (std::size_t i = 0; i < value.size(); ++i)
-      this->value(schema["items"], value[i], pointer + "/" + std::to_string(i));
+      this->value(items.is_array() ? items[i] : items, value[i], pointer + "/" + std::to_string(i));
   }
 
   /// Where a key is not known, the one that it was meant to be is missing: that is not said as well.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,15 @@ namespace coordreq {
 [[nodiscard]] CoordinationSpec read_coordination(const Scope& scope, const JsonDocument::Node& root,
                                                  const std::vector<AgentSpec>& agents,
                                                  const Rational& period);
-[[nodiscard]] NetworkSpec read_network(const JsonDocument::Node& root, const std::vector<AgentSpec>& agents,
+[[nodiscard]] NetworkSpec read_network(const Scope& scope, const JsonDocument::Node& root,
+                                       const std::vector<AgentSpec>& agents,
                                        const CoordinationSpec& coordination);
+[[nodiscard]] RiskSpec read_risk(const Scope& scope, const JsonDocument::Node& root, const Rational& period);
 [[nodiscard]] std::vector<RequirementSpec> read_requirements(const Scope& scope,
                                                              const JsonDocument::Node& root,
                                                              const std::vector<AgentSpec>& agents,
                                                              const CoordinationSpec& coordination,
+                                                             const std::optional<RiskSpec>& risk,
                                                              const Rational& period);
 
 /// time / period, exactly, for a time >= 0; what is not a whole number of steps is rounded.

@@ -42,7 +42,8 @@ class Verifier {
         team_(team),
         grid_(make_grid(spec)),
         inputs_(make_input_space(spec)),
-        ground_{.spec = &spec, .grid = &grid_, .inputs = &inputs_, .claims = &claims} {
+        ground_{
+            .spec = &spec, .grid = &grid_, .inputs = &inputs_, .claims = &claims, .is_full = options.full} {
     for (const Answer& answer : all_answers()) {
       if (answer.check == nullptr) continue;
       if (std::unique_ptr<AnswerCheck> check = answer.check(ground_)) checks_.push_back(std::move(check));

@@ -81,6 +81,21 @@ def step_image(axes, steps, most, extent):
     return axes.imshow(steps.T, cmap=cmap, norm=norm, **_image(extent))
 
 
+def power_image(axes, powers, cmap, norm, extent):
+    """Cells [x, y] of powers of ten, a masked array."""
+    return axes.imshow(powers.T, cmap=cmap, norm=norm, **_image(extent))
+
+
+def add_power_bar(figure, axes, powers, cmap, norm, label):
+    """A colour bar with a tick at each of these powers of ten."""
+    bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, cmap), ax=axes, fraction=0.06, pad=0.02, extend="min")
+    bar.ax.yaxis.set_major_locator(FixedLocator(powers))
+    bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda k, _: f"$10^{{{round(k)}}}$" if k < 0 else "1"))
+    bar.ax.minorticks_off()
+    bar.set_label(plain(label))
+    return bar
+
+
 def step_lines(axes, steps, most, cut):
     """Lines where the ticks of the colour bar are, between cells; None for a single state, or without a line."""
     ticks = [k for k in whole_steps(most) if steps.min() < k <= steps.max()]

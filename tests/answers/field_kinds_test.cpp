@@ -21,7 +21,7 @@ ProblemSpec everything() {
 "agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
 "dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x + u - v"}}, "safe": "x <= 2", "goal": "x == 0",
 "coordination": {"partitions": "all", "horizon": 2, "convention": true, "connection_delay": 1},
-"network": {"delay": 1}, "requirements": [{"name": "r", "where": "x == 0", "invariant": true}],
+"network": {"loss": 0.1}, "risk": {"horizon": 2}, "requirements": [{"name": "r", "where": "x == 0", "invariant": true}],
 "output": {"controller": true, "actions": true, "layers": true, "abstraction": true}})",
                    "test");
 }
@@ -36,11 +36,13 @@ bool is_over_cells(const Field& field, const ProblemSpec& spec) {
 TEST(FieldKind, IsThatOfTheElements) {
   const ProblemSpec spec = everything();
   const std::vector<ElementType> steps = {ElementType::int16, ElementType::int32};
-  const std::map<FieldKind, std::vector<ElementType>> types = {{FieldKind::set, {ElementType::uint8}},
-                                                               {FieldKind::steps, steps},
-                                                               {FieldKind::choice, steps},
-                                                               {FieldKind::share, {ElementType::float32}},
-                                                               {FieldKind::actions, {ElementType::uint8}}};
+  const std::map<FieldKind, std::vector<ElementType>> types = {
+      {FieldKind::set, {ElementType::uint8}},
+      {FieldKind::steps, steps},
+      {FieldKind::choice, steps},
+      {FieldKind::share, {ElementType::float32}},
+      {FieldKind::probability, {ElementType::float32}},
+      {FieldKind::actions, {ElementType::uint8}}};
   std::set<FieldKind> found;
   for (const Field& field : result_fields(spec)) {
     ASSERT_EQ(is_over_cells(field, spec), field.kind != FieldKind::none) << field.path;

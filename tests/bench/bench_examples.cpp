@@ -10,10 +10,17 @@
 #include <vector>
 
 #include "analysis/analyze.hpp"
+#include "answers/answers.hpp"
+#include "answers/invariance/answer.hpp"
 #include "answers/invariance/safe_set.hpp"
+#include "answers/layers/independent_actions.hpp"
+#include "answers/plan.hpp"
+#include "answers/risk/risk.hpp"
 #include "base/timer.hpp"
 #include "engine/row_engine.hpp"
+#include "engine/row_operations.hpp"
 #include "reach/build_abstraction.hpp"
+#include "reach/make_model.hpp"
 #include "spec/read_spec.hpp"
 
 namespace coordreq {
@@ -112,6 +119,79 @@ void naive_sweep(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(sweep.run(team));
 }
 BENCHMARK(naive_sweep)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Question: what does a step of the risk in one mode cost, as a multiple of a sweep of the layers? Both ask
+/// for the minimum over all of IND_C at every cell of K, of 8 bits and of 32, without looking at what has
+/// changed; the step finds the expectation of two modes before.
+template <class Level>
+void sweep(benchmark::State& state, const std::string& name) {
+  ProblemSpec spec = config(name);
+  ThreadTeam team(2);
+  const Model model = make_model(spec);
+  Answers answers(model);
+  std::vector<Stage> stages = answer_stages(spec);
+  std::erase_if(stages, [](const Stage& stage) { return stage.name.starts_with("layers"); });
+  run_stages(stages, answers, {.team = team});
+  const RowEngine& engine = *answers.ground.engine;
+  const CellSet& invariant = answers.get<Invariance>().invariant;
+  const std::vector<InputClass> classes = single_classes(engine.abstraction().inputs);
+  const ActionGrouping grouping(engine, classes, team);
+  const Projections projections(answers.get<Controller>(), grouping, *answers.ground.hull, team);
+  IndependentActions<Level> actions(projections, *answers.ground.hull, invariant, team.size());
+  auto levels = engine.make_levels<Level>(invariant, team);
+  const ExpectedRisk expected({{0, Rational(9, 10), Rational(9, 10)}, {1, Rational(1, 10), Rational(1, 10)}});
+  const std::vector<RiskRows> risks = first_risks(invariant, 2, nullptr);
+  const auto n = static_cast<std::size_t>(engine.row_length());
+  for (auto _ : state) {
+    team.for_each(engine.rows(), 64, [&](ThreadTeam::Range range, int worker) {
+      PostReader<Level> posts(engine, levels);
+      std::vector<Level> next(posts.lanes());
+      RowPlace place(engine.grid(), range.begin);
+      for (; place.row < range.end; place.advance(engine.grid())) {
+        if (place.row % engine.unit_rows() == 0) posts.enter();
+        if (any_set(invariant.row(place.row))) actions.find_minimum(place, posts, next.data(), worker);
+      }
+    });
+    if constexpr (sizeof(Level) == sizeof(std::uint32_t)) {
+      team.for_each(engine.rows(), 64, [&](ThreadTeam::Range range, int) {
+        for (std::int64_t row = range.begin; row < range.end; ++row) {
+          const std::vector<const std::uint32_t*> rows = {risks[0].row(row), risks[1].row(row)};
+          expected.find(rows, n, levels.row(row));
+          levels.close(row);
+        }
+      });
+    }
+  }
+}
+void layers_sweep(benchmark::State& state, const std::string& name) {
+  sweep<std::uint8_t>(state, name);
+}
+void risk_step(benchmark::State& state, const std::string& name) {
+  sweep<std::uint32_t>(state, name);
+}
+BENCHMARK_CAPTURE(layers_sweep, intersection, "intersection")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(risk_step, intersection, "intersection")->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Question: what do 250 steps of the risk in two modes cost, with the rest of the analysis?
+void risk_of(benchmark::State& state, const std::string& name) {
+  ProblemSpec spec = config(name);
+  const std::string text =
+      spec.text.substr(0, spec.text.rfind('}')) +
+      R"(, "network": {"loss": 0.1}, "risk": {"horizon": 250, "coordinated": "safest"}})";
+  spec = read_spec(text, name);
+  ThreadTeam team(2);
+  const std::filesystem::path output =
+      std::filesystem::temp_directory_path() / ("coordreq_bench_risk_" + name + ".h5");
+  for (auto _ : state) {
+    const Json summary = analyze(spec, {.output = output.string()}, team);
+    state.counters["risk_seconds"] = summary["seconds"]["risk"].get<double>();
+  }
+  std::filesystem::remove(output);
+}
+BENCHMARK_CAPTURE(risk_of, intersection_coarse, "intersection_coarse")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(risk_of, intersection, "intersection")->Unit(benchmark::kMillisecond)->UseRealTime();
 
 /// Question: what does a whole analysis cost, results file written?
 void whole(benchmark::State& state, const std::string& name) {

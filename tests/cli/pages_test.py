@@ -25,6 +25,7 @@ SESSIONS = {
     "queries.md": (2, ["circle.json"]),
     "requirements.md": (1, []),
     "results.md": (1, ["circle.json"]),
+    "risk.md": (3, []),
     "rules.md": (1, []),
     "simulation.md": (1, ["circle.json"]),
     "sweeps.md": (2, ["circle.json"]),
@@ -51,6 +52,9 @@ class Cases(PageCase):
 
     def test_sessions_of_grids(self):
         self.assert_sessions("grids.md")
+
+    def test_sessions_of_risk(self):
+        self.assert_sessions("risk.md")
 
     def test_sessions_of_networks(self):
         self.assert_sessions("networks.md")

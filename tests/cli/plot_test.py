@@ -355,6 +355,29 @@ class Cases(PlotCase):
         self.assertEqual(figure.axes[0].images[1].norm.vmax, 108.5)
         self.assertIn("up to 20000 steps (10000 s)", titles(figure)[1])
 
+    # risk
+
+    def test_risk_is_by_powers_of_ten(self):
+        self.analyzed(example("crossing.json", network={"loss": 0.01}, risk={"horizon": 10}))
+        data, figure = self.plotted("risk", "--slice", "v1=1,v2=1", "--mode", "down", "--mode", "up")
+        stored, invariant = self.stored("risk")[:, :, 2, 2, :], self.stored("invariant")[:, 2, 2, :]
+        self.assertEqual([panel.mode for panel in data.panels], ["down", "up"])
+        for panel, risk in zip(data.panels, stored[::-1]):
+            self.assert_arrays_equal(panel.powers.mask, (invariant == 0) | (risk == 0))
+            shown = ~panel.powers.mask
+            np.testing.assert_allclose(10 ** panel.powers.data[shown], risk[shown], rtol=1e-6)
+        self.assertEqual(titles(figure), ["crossing, risk within 10 steps (10 s)\nv1 = 1 m/s, v2 = 1 m/s",
+                                          "mode down", "mode up"])  # fmt: skip
+        # Levels at powers of ten, up to 1.
+        boundaries = figure.axes[0].images[1].norm.boundaries
+        self.assert_arrays_equal(np.diff(boundaries), 1)
+        self.assertEqual(boundaries[-1], 0)
+        self.assertEqual(legend(figure), ["not safe", "safe, not invariant"])
+
+    def test_risk_names_what_is_missing(self):
+        self.analyzed(SPEC)
+        self.assert_plot_fails(3, "no /risk in the file: analyse with a \"risk\" (out.h5)", "risk", "out.h5", "-o", "a.png")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -197,7 +197,7 @@ struct Levels {
 
 template <class Level>
 class BoxReaderTest : public testing::Test {};
-using ReadTypes = testing::Types<std::uint8_t, std::uint16_t, std::uint32_t>;
+using ReadTypes = testing::Types<std::uint8_t, std::uint16_t, std::uint32_t, std::uint64_t>;
 TYPED_TEST_SUITE(BoxReaderTest, ReadTypes);
 
 template <class Level>

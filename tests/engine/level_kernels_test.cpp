@@ -50,7 +50,7 @@ class LevelKernelsTest : public testing::Test {
   }
 };
 
-using LevelTypes = testing::Types<std::uint8_t, std::uint16_t, std::uint32_t>;
+using LevelTypes = testing::Types<std::uint8_t, std::uint16_t, std::uint32_t, std::uint64_t>;
 TYPED_TEST_SUITE(LevelKernelsTest, LevelTypes);
 
 TYPED_TEST(LevelKernelsTest, MinimumOfManyRows) {

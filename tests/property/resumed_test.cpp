@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
 #include "answers/network/network_problem.hpp"
+#include "answers/risk/risk.hpp"
 #include "spec/read_spec.hpp"
 #include "support/fast_engine.hpp"
 #include "support/random_problem.hpp"
@@ -163,6 +165,47 @@ TEST(Resumed, SetsOfANetworkAreTheSameFromAnyStep) {
       RC_ASSERT(!seen.empty());
       for (std::vector<CellSet>& sets : seen)
         RC_ASSERT(find_network_safety(problem, {.resumed = &sets}, team).safe == end);
+    }
+  }));
+}
+
+TEST(Resumed, RisksAreTheSameFromAnyStep) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("V of all modes, and the rate", [&] {
+    std::string text = draw_problem(RandomTime::any);
+    text.erase(text.rfind('}'));
+    const ProblemSpec spec =
+        read_spec(text + R"(, "network": {"loss": [0.125, 0.25], "after_loss": 0.5}})", "random");
+    const FastAnalysis fast(spec, team);
+    const ExpectedRisks expected(*spec.network);
+    const NetworkProblem network = network_problem(spec, fast.controller, fast.hull);
+    const RiskProblem problem{.controller = &fast.controller,
+                              .hull = &fast.hull,
+                              .partitions = network.partitions,
+                              .partition_of = {network.modes[0].partition, network.modes[1].partition},
+                              .expected = &expected,
+                              .horizon = 6};
+    std::vector<RiskState> seen;
+    const RiskWatch record{.step = [&](const WaveStep& step, std::int64_t steps) {
+      if (step.state.empty()) return;
+      RiskState& state =
+          seen.emplace_back(RiskState{steps, first_risks(fast.invariance.invariant, 2, nullptr)});
+      for (std::size_t mode = 0; mode < 2; ++mode) {
+        for (std::int64_t r = 0; r < step.state[mode].rows; ++r)
+          std::memcpy(state.risks[mode].row(r), step.state[mode].row(r),
+                      static_cast<std::size_t>(step.state[mode].row_bytes()));
+      }
+    }};
+    const Risk end = find_risk(problem, record, team);
+    for (RiskState& state : seen) {
+      const Risk again = find_risk(problem, {.resumed = &state}, team);
+      RC_ASSERT(again.rate == end.rate);
+      for (std::size_t mode = 0; mode < 2; ++mode) {
+        for (std::int64_t r = 0; r < end.risks[mode].rows(); ++r) {
+          const std::uint32_t* const row = end.risks[mode].row(r);
+          RC_ASSERT(std::equal(row, row + end.risks[mode].row_length(), again.risks[mode].row(r)));
+        }
+      }
     }
   }));
 }

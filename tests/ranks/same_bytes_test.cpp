@@ -114,7 +114,13 @@ Json draw_questions() {
   }
   const int window = draw(1, 4);
   Json network;
-  if (draw(0, 1) == 0) {
+  if (draw(0, 2) == 0) {
+    network["loss"] = {0.125, 0.25};
+    if (draw(0, 1) == 0) network["after_loss"] = 0.5;
+    spec["risk"]["horizon"] = draw(1, 6);
+    const bool is_given = spec["controller"].value("synthesis", "") == "given";
+    if (!is_given && draw(0, 1) == 0) spec["risk"]["coordinated"] = "safest";
+  } else if (draw(0, 1) == 0) {
     network["delay"] = draw(0, 3);
   } else {
     network["weakly_hard"] = {{"misses", draw(0, window)}, {"window", window}};

@@ -163,6 +163,7 @@ TEST(SpecError, NamesOfDatasetsAreReservedWhereTheyAreWritten) {
   const std::vector<std::pair<std::string, std::string>> additions = {
       {"arrival", R"({"goal": "x2 <= 0"})"},
       {"mode", R"({"network": {"delay": 2}})"},
+      {"risk", R"({"network": {"loss": 0.1}, "risk": {"horizon": 2}})"},
       {"pair", R"({"coordination": {"horizon": 2}})"},
       {"agent", R"({"coordination": {"convention": true}})"},
       {"counterexample", R"({"requirements": [{"name": "r", "where": "x2 <= 0", "invariant": true}]})"},
@@ -317,14 +318,15 @@ TEST(SpecError, NetworksAreOfOneKind) {
   const std::string modes =
       R"("modes": [{"name": "up", "partition": "a+b"}, {"name": "down", "partition": "a|b"}])";
   expect_errors({
-      {"/network", "{}", "missing key: one of 'modes', 'delay', 'burst' or 'weakly_hard' (/network)"},
+      {"/network", "{}", "missing key: one of 'modes', 'delay', 'burst', 'weakly_hard' or 'loss' (/network)"},
       {"/network", R"({"delay": 1, "burst": {"length": 1, "gap": 1}})",
        "'delay' and 'burst' exclude each other (/network)"},
       {"/network", "{" + modes + "}", "'modes' needs 'transitions' (/network)"},
       {"/network", "{" + modes + R"(, "transitions": [["up", "dwon"]]})",
        "'dwon' is not a mode, did you mean 'down'? (/network/transitions/0/1)"},
       {"/network", "{" + modes + R"(, "transitions": [["up"]]})",
-       "expected a list of two mode names, found a list of 1 (/network/transitions/0)"},
+       "expected a list of two mode names, perhaps with a probability, found a list of 1 "
+       "(/network/transitions/0)"},
       {"/network", "{" + modes + R"(, "transitions": [["up", "up"], ["up", "up"]]})",
        "the transition from 'up' to 'up' is listed twice (/network/transitions/1)"},
       {"/network", R"({"modes": [{"name": "m", "partition": "a"}], "transitions": [["m", "m"]]})",
@@ -349,7 +351,7 @@ TEST(SpecError, RequirementsAskForOneThing) {
   expect_errors({
       {"/requirements", R"([{"name": "r", "where": "true"}])",
        "missing key: one of 'min_delay', 'min_delay_time', 'invariant', 'max_arrival', 'max_arrival_time', "
-       "'min_approach_delay' or 'min_approach_delay_time' (/requirements/0)"},
+       "'min_approach_delay', 'min_approach_delay_time' or 'max_risk' (/requirements/0)"},
       {"/requirements", R"([{"name": "r", "where": "true", "min_delay": 1, "invariant": true}])",
        "'min_delay' and 'invariant' exclude each other (/requirements/0)"},
       {"/requirements", R"([{"name": "r", "where": "true", "invariant": false}])",

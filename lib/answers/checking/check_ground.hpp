@@ -28,6 +28,7 @@ struct CheckGround {
   const Posts* posts = nullptr;
   const Tubes* tubes = nullptr;  ///< null: only the samples count
   PostsAre posts_are = PostsAre::those_of_the_result;
+  bool is_full = false;  ///< what takes many looks at all cells is asked for too
 
   /// A claim of less safety is left open.
   [[nodiscard]] bool sound_only() const { return posts_are == PostsAre::perhaps_others; }

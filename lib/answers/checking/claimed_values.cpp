@@ -22,6 +22,10 @@ std::uint64_t count_members(const std::vector<std::uint8_t>& set) {
 ClaimedValues::ClaimedValues(const Claims& claims, const RequirementSpec& asked)
     : safe_(claims.members("/safe")), invariant_(claims.members("/invariant")) {
   if (asked.kind == RequirementKind::invariant) return;
+  if (asked.kind == RequirementKind::max_risk) {
+    risks_ = &claims.at("/risk").reals.front();
+    return;
+  }
   values_ =
       &claims.values("/" + traits(asked.kind).value, static_cast<std::size_t>(asked.partition.value_or(0)));
 }

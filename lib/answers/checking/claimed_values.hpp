@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ class ClaimedValues {
 
   [[nodiscard]] std::int32_t operator()(std::size_t cell) const {
     if (values_ != nullptr) return (*values_)[cell];
+    if (risks_ != nullptr) return std::bit_cast<std::int32_t>((*risks_)[cell]);
     if (safe_[cell] == 0) return kOutsideSafe;
     return invariant_[cell] == 0 ? kOutsideInvariant : kForever;
   }
@@ -31,7 +33,8 @@ class ClaimedValues {
  private:
   const std::vector<std::uint8_t>& safe_;
   const std::vector<std::uint8_t>& invariant_;
-  const std::vector<std::int32_t>* values_ = nullptr;  ///< null: of all agents together
+  const std::vector<std::int32_t>* values_ = nullptr;  ///< null: of all agents together, or a risk
+  const std::vector<float>* risks_ = nullptr;          ///< in the first mode
 };
 
 /// How bits of a cell differ from those expected.

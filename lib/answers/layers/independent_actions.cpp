@@ -253,5 +253,6 @@ void IndependentActions<Level>::find_worst(std::int64_t row, const RowGroups& gr
 template class IndependentActions<std::uint8_t>;
 template class IndependentActions<std::uint16_t>;
 template class IndependentActions<std::uint32_t>;
+template class IndependentActions<std::uint64_t>;
 
 }  // namespace coordreq

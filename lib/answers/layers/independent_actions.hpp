@@ -81,5 +81,6 @@ class IndependentActions final : public RowOperator<Level> {
 extern template class IndependentActions<std::uint8_t>;
 extern template class IndependentActions<std::uint16_t>;
 extern template class IndependentActions<std::uint32_t>;
+extern template class IndependentActions<std::uint64_t>;
 
 }  // namespace coordreq

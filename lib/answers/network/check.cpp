@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "answers/checking/claimed_values.hpp"
-#include "model/input_class.hpp"
+#include "answers/checking/independent_choices.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -46,17 +46,13 @@ class NetworkChecker : public CellChecker {
         claimed_(ground.claims->at(kNetworkSafe).members),
         inputs_(static_cast<std::size_t>(ground.inputs->count())),
         choices_(network.partitions.size()) {
-    for (const auto& partition : network.partitions) {
-      auto& classes = classes_.emplace_back();
-      for (const auto& agents : partition)
-        classes.emplace_back(class_of(*ground.spec, *ground.inputs, agents)).tabulate();
-    }
+    for (const auto& partition : network.partitions) independent_.emplace_back(ground, partition);
   }
 
   void check(CheckedCell& cell) override {
     cell_ = &cell;
     if (cell.is_invariant() && !network_.spec.resynthesise) {
-      for (std::size_t p = 0; p < choices_.size(); ++p) choices_[p] = independent(cell.admitted(), p);
+      for (std::size_t p = 0; p < choices_.size(); ++p) choices_[p] = independent_[p].of(cell.admitted());
     }
     for (std::size_t mode = 0; mode < network_.spec.modes.size(); ++mode) {
       const bool claimed = claimed_[mode][cell.at()] != 0;
@@ -84,7 +80,7 @@ class NetworkChecker : public CellChecker {
 
   [[nodiscard]] bool can_take_care(std::size_t mode) {
     const std::vector<std::uint8_t> good = allowed_into(network_.target[mode]);
-    const std::vector<std::int64_t> mixed = independent(good, network_.partition_of[mode]);
+    const std::vector<std::int64_t> mixed = independent_[network_.partition_of[mode]].of(good);
     return !mixed.empty() && std::all_of(mixed.begin(), mixed.end(), [&good](std::int64_t u) {
       return good[static_cast<std::size_t>(u)] != 0;
     });
@@ -95,24 +91,6 @@ class NetworkChecker : public CellChecker {
     for (std::size_t u = 0; u < inputs_; ++u) {
       const auto input = static_cast<std::int64_t>(u);
       result[u] = cell_->is_allowed(input) && is_inside(input, set) ? 1 : 0;
-    }
-    return result;
-  }
-
-  /// The joint inputs of which each class's part is that of some of `joint`.
-  [[nodiscard]] std::vector<std::int64_t> independent(const std::vector<std::uint8_t>& joint,
-                                                      std::size_t partition) const {
-    std::vector<std::uint8_t> is_choice(inputs_, 1);
-    for (const InputClass& own : classes_[partition]) {
-      std::vector<std::uint8_t> projection(static_cast<std::size_t>(own.actions()), 0);
-      for (std::size_t u = 0; u < inputs_; ++u)
-        projection[static_cast<std::size_t>(own.action(static_cast<std::int64_t>(u)))] |= joint[u];
-      for (std::size_t u = 0; u < inputs_; ++u)
-        is_choice[u] &= projection[static_cast<std::size_t>(own.action(static_cast<std::int64_t>(u)))];
-    }
-    std::vector<std::int64_t> result;
-    for (std::size_t u = 0; u < inputs_; ++u) {
-      if (is_choice[u] != 0) result.push_back(static_cast<std::int64_t>(u));
     }
     return result;
   }
@@ -140,7 +118,7 @@ class NetworkChecker : public CellChecker {
   Tally& tally_;
   const std::vector<Members>& claimed_;  ///< [mode][cell]
   std::size_t inputs_;
-  std::vector<std::vector<InputClass>> classes_;    ///< [partition]
+  std::vector<IndependentChoices> independent_;     ///< [partition]
   std::vector<std::vector<std::int64_t>> choices_;  ///< [partition] IND_C of this cell
   CheckedCell* cell_ = nullptr;                     ///< at work
 };

@@ -6,6 +6,14 @@
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
+namespace {
+
+std::string probability_text(const ProbabilityRange& range) {
+  if (range.low == range.high) return to_text(range.low);
+  return fmt::format("{} to {}", to_text(range.low), to_text(range.high));
+}
+
+}  // namespace
 
 std::string network_meaning(const NetworkSpec& network) {
   switch (network.kind) {
@@ -17,6 +25,9 @@ std::string network_meaning(const NetworkSpec& network) {
     case NetworkKind::weakly_hard:
       return fmt::format("at most {} of any {} lost", grouped(network.misses),
                          count_of(network.window, "step"));
+    case NetworkKind::loss:
+      return fmt::format("a step is lost with probability {}, {} after a lost one",
+                         probability_text(network.loss), probability_text(network.after_loss));
     case NetworkKind::automaton:
       break;
   }

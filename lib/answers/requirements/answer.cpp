@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <nlohmann/json.hpp>
 
 #include "answers/goal/fields.hpp"
@@ -15,9 +16,9 @@ namespace coordreq {
 namespace {
 
 const char* end_word(EscapeEnd end) {
-  constexpr std::array<const char*, 8> kWords{"outside_safe_set",  "left_domain", "unsafe_between_samples",
+  constexpr std::array<const char*, 9> kWords{"outside_safe_set",  "left_domain", "unsafe_between_samples",
                                               "no_allowed_action", "arrived",     "never_arrives",
-                                              "time_lost",         "not_allowed"};
+                                              "time_lost",         "not_allowed", "too_risky"};
   return kWords[static_cast<std::size_t>(end)];
 }
 
@@ -26,8 +27,15 @@ const char* phase_word(EscapePhase phase) {
   return kWords[static_cast<std::size_t>(phase)];
 }
 
+/// A risk, as the bits of one.
+void put_risk(Json& json, const std::string& key, double risk) {
+  json[key] = risk;
+  json[key + "_status"] = "number";
+}
+
 /// Of INT32_MAX the word differs: silence without bound, or a goal that is never reached.
 void put_value(Json& json, const std::string& key, RequirementKind kind, std::int32_t value) {
+  if (traits(kind).is_probability) return put_risk(json, key, double{std::bit_cast<float>(value)});
   const bool is_never = kind == RequirementKind::max_arrival && value == DelayLayers::kUnbounded;
   json[key] = delay_json(value);
   json[key + "_status"] = is_never ? "goal_cannot_be_forced" : delay_word(value);
@@ -70,8 +78,12 @@ Json step_json(const ResultPath& path, std::size_t step, RequirementKind kind, c
 }
 
 Json counterexample_json(const ResultRequirement& result, RequirementKind kind, const ProblemSpec& spec) {
-  if (result.path) return story_json(*result.path, kind, spec);
   Json json;
+  if (result.path) {
+    json = story_json(*result.path, kind, spec);
+    if (traits(kind).is_probability) put_risk(json["end_sample"], traits(kind).value, result.risk);
+    return json;
+  }
   json["state"] = Json();
   json["steps"] = Json::array();
   json["end"] = "outside_domain";
@@ -116,10 +128,20 @@ Json requirement_json(const ResultRequirement& result, const RequirementSpec& as
       asked.partition ? Json(spec.coordination.partitions[static_cast<std::size_t>(*asked.partition)].name)
                       : Json();
   json["min_delay"] = Json();
-  if (asked.kind != RequirementKind::invariant) json[traits(asked.kind).key] = asked.steps;
+  const bool is_risk = traits(asked.kind).is_probability;
+  if (is_risk) {
+    json[traits(asked.kind).key] = nearest_double(asked.risk);
+    json["per"] = asked.per.empty() ? Json() : Json(asked.per);
+  } else if (asked.kind != RequirementKind::invariant) {
+    json[traits(asked.kind).key] = asked.steps;
+  }
   json["cells"] = result.cells;
   json["failing"] = result.failing;
-  put_value(json, traits(asked.kind).worst(), asked.kind, result.least_delay);
+  if (is_risk) {
+    put_risk(json, traits(asked.kind).worst(), result.risk);
+  } else {
+    put_value(json, traits(asked.kind).worst(), asked.kind, result.least_delay);
+  }
   json["reaches_outside"] = side_json(result.reached_side, spec);
   json["counterexample"] = result.holds ? Json() : counterexample_json(result, asked.kind, spec);
   return json;
@@ -159,7 +181,11 @@ void tell_requirements(const ProblemSpec& spec, const FieldSource& source, Json&
     const RequirementKind kind = spec.requirements[r].kind;
     Json& json = info["requirements"].emplace_back(
         Json{{"name", own.name}, {"holds", own.holds}, {"cells", own.cells}, {"failing", own.failing}});
-    put_value(json, traits(kind).worst(), kind, own.least_delay);
+    if (traits(kind).is_probability) {
+      put_risk(json, traits(kind).worst(), own.risk);
+    } else {
+      put_value(json, traits(kind).worst(), kind, own.least_delay);
+    }
     json["counterexample_steps"] = own.path ? Json(own.path->steps()) : Json();
   }
 }

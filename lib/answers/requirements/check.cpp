@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <mutex>
 #include <tuple>
 
@@ -21,7 +22,8 @@ using Rank = std::tuple<std::int64_t, std::int32_t, std::int64_t>;  // of the va
 std::int64_t rank_by_definition(RequirementKind kind, std::int32_t value) {
   if (value == kNoWayToGoal) return -1;
   if (value < 0) return INT64_MIN / 2 + value;  // a claim can be any number
-  return kind == RequirementKind::max_arrival ? -std::int64_t{value} : std::int64_t{value};
+  const bool is_limit = kind == RequirementKind::max_arrival || kind == RequirementKind::max_risk;
+  return is_limit ? -std::int64_t{value} : std::int64_t{value};
 }
 
 /// What can be said of the cells of a region: of those that surely meet it, and of those that may be counted.
@@ -54,7 +56,11 @@ class RequirementChecker {
         value_of_(*ground.claims, asked_),
         collision_time_(ground.claims->values("/collision_time")),
         region_(*ground.spec, asked_.where, *ground.grid, ground.claims->same_version, team),
-        tally_("requirement " + asked_.name) {}
+        tally_("requirement " + asked_.name) {
+    if (asked_.kind != RequirementKind::max_risk) return;
+    const Rational rate = exact(ground.claims->number("/risk", "rate"));
+    most_risk_ = asked_.risk - rate * static_cast<long>(asked_.steps);
+  }
 
   Finding run(ThreadTeam& team) {
     const Bounds bounds = find_bounds(team);
@@ -76,8 +82,14 @@ class RequirementChecker {
   }
 
   [[nodiscard]] bool fails(std::int32_t value) const {
+    if (asked_.kind == RequirementKind::max_risk) return is_too_risky(value);
     return value < 0 ||
            (asked_.kind == RequirementKind::max_arrival ? value > asked_.steps : value < asked_.steps);
+  }
+  /// The risk with these bits, and what the steps add.
+  [[nodiscard]] bool is_too_risky(std::int32_t bits) const {
+    const auto risk = double{std::bit_cast<float>(bits)};
+    return !(risk >= 0 && risk <= 1) || exact(risk) > most_risk_;  // a claim can be anything
   }
 
   [[nodiscard]] Bounds find_bounds(ThreadTeam& team) const {
@@ -165,6 +177,7 @@ class RequirementChecker {
   ClaimedValues value_of_;
   const std::vector<std::int32_t>& collision_time_;
   RegionJudge region_;
+  Rational most_risk_;  ///< of `max_risk`
   Tally tally_;
   std::int64_t number_ = -1000;  // before the steps of the counterexample
 };

@@ -190,6 +190,10 @@ void PathChecker::check_end() {
     bool any = false;
     for (std::int64_t u = 0; safe && u < ground_.inputs->count() && !any; ++u) any = cell_.is_allowed(u);
     if (!stays || !safe || any) wrong(path_->samples(), "in the last cell something is allowed");
+  } else if (path_->end == EscapeEnd::too_risky || asked_.kind == RequirementKind::max_risk) {
+    const bool is_alone = path_->samples() == 1 && path_->steps() == 0;
+    if (!is_alone || path_->end != EscapeEnd::too_risky || asked_.kind != RequirementKind::max_risk)
+      wrong(path_->samples(), "a risk is that of one cell");
   } else if (path_->end >= EscapeEnd::arrived && path_->end != EscapeEnd::not_allowed) {
     check_goal_end();
   } else if (stays) {

@@ -71,6 +71,7 @@ std::vector<FieldFlag> end_flags(const ProblemSpec& spec) {
                                    {4, "no_allowed_action"}};
   if (spec.goal) result.insert(result.end(), {{5, "arrived"}, {6, "never_arrives"}, {7, "time_lost"}});
   if (allow_joins_agents(spec)) result.push_back({8, "not_allowed"});
+  if (spec.risk) result.push_back({9, "too_risky"});
   return result;
 }
 
@@ -107,6 +108,8 @@ void add_verdicts(Fields& fields, const ProblemSpec& spec) {
   add("failing", ElementType::uint64, "cells of the region that fail", 0, kLargestValue);
   add("least_delay", ElementType::int32, "least delay of the cells of the region", least_delay(spec),
       kLargestValue, delay_flags(spec));
+  if (spec.risk)
+    fields.push_back(table(counterexample_path("risk"), {axis}, "greatest risk of the cells of the region"));
   add("reached_side", ElementType::int32, "side of the domain beyond which the region may reach", 0, sides,
       side_flags(spec));
   const std::vector<FieldFlag> ends = end_flags(spec);
@@ -193,8 +196,13 @@ void fill_requirement_fields(const Answers& answers, ThreadTeam& /*team*/, Field
   add_of_each<std::uint64_t>(values, requirements, "cells", ElementType::uint64, [](R r) { return r.cells; });
   add_of_each<std::uint64_t>(values, requirements, "failing", ElementType::uint64,
                              [](R r) { return r.failing; });
+  // Of risks there are no delays: 0.
   add_of_each<std::int32_t>(values, requirements, "least_delay", ElementType::int32,
-                            [](R r) { return r.least_delay; });
+                            [](R r) { return r.is_risk ? 0 : r.least_delay; });
+  if (answers.ground.spec.risk) {
+    add_of_each<double>(values, requirements, "risk", ElementType::float64,
+                        [](R r) { return r.is_risk ? probability_of(r.least_delay) : 0.0; });
+  }
   add_of_each<std::int32_t>(values, requirements, "reached_side", ElementType::int32,
                             [](R r) { return side_number(r.reached_side); });
   add_of_each<std::uint8_t>(values, requirements, "end", ElementType::uint8,
@@ -202,7 +210,10 @@ void fill_requirement_fields(const Answers& answers, ThreadTeam& /*team*/, Field
   add_of_each<std::int32_t>(values, requirements, "left_side", ElementType::int32,
                             [](R r) { return side_number(r.path ? r.path->left_side : std::nullopt); });
   for (std::size_t r = 0; r < requirements.size(); ++r) {
-    if (requirements[r].path) add_path_values(*requirements[r].path, r, values);
+    if (!requirements[r].path) continue;
+    ResultPath path = *requirements[r].path;
+    if (requirements[r].is_risk) path.delay.assign(path.samples(), 0);
+    add_path_values(path, r, values);
   }
 }
 

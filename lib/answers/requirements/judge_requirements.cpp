@@ -10,6 +10,8 @@
 #include "answers/layers/answer.hpp"
 #include "answers/requirements/escape_result.hpp"
 #include "answers/requirements/requirement.hpp"
+#include "answers/requirements/risk_limit.hpp"
+#include "answers/risk/answer.hpp"
 #include "base/error.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -43,6 +45,9 @@ class Judge {
     if (const std::optional<DomainSide> side = side_reached(requirement.where, grid_)) {
       result.reached_side = {.state = side->dimension, .above = side->above};
     }
+    result.is_risk = requirement.kind == RequirementKind::max_risk;
+    if (result.is_risk)
+      result.risk = compared_risk(requirement, verdict.worst_value, answers_.get<RiskAnswer>().risk.rate);
     result.holds = verdict.failing == 0 && !result.reached_side;
     if (verdict.worst) result.path = path_from(*verdict.worst, requirement);
     return result;
@@ -57,6 +62,11 @@ class Judge {
                            .steps = requirement.steps};
     const Goal* const goal = answers_.find<Goal>();
     if (goal != nullptr) result.nearness = &goal->nearness;
+    if (requirement.kind == RequirementKind::max_risk) {
+      const Risk& risk = answers_.get<RiskAnswer>().risk;
+      result.risks = &risk.risks.front();
+      result.steps = greatest_risk_bits(requirement, risk.rate);
+    }
     if (!requirement.partition) return result;
     const auto p = static_cast<std::size_t>(*requirement.partition);
     result.layers = requirement.kind == RequirementKind::min_approach_delay
@@ -66,6 +76,12 @@ class Judge {
   }
 
   [[nodiscard]] ResultPath path_from(std::int64_t cell, const RequirementSpec& requirement) const {
+    if (requirement.kind == RequirementKind::max_risk) {
+      EscapePath alone;
+      alone.cells = {cell};
+      alone.end = EscapeEnd::too_risky;
+      return result_of(alone, ground_, asked_, number_stride_);
+    }
     EscapeSets sets{.ground = &ground_,
                     .invariance = &answers_.get<Invariance>(),
                     .kind = requirement.kind,

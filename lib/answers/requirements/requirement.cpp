@@ -5,6 +5,7 @@
 
 #include "answers/goal/arrival.hpp"
 #include "answers/goal/fields.hpp"
+#include "answers/risk/risk_levels.hpp"
 #include "engine/row_operations.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/requirement_kind.hpp"
@@ -59,6 +60,8 @@ std::int32_t delay_of(std::int64_t cell, std::int64_t collision_time, const Dela
 }
 
 std::int32_t CellRequirement::value_of(std::int64_t cell) const {
+  if (kind == RequirementKind::max_risk)
+    return risk_bits(risks->row(cell / risks->row_length())[cell % risks->row_length()]);
   const std::int64_t time = collision_time->at(cell);
   const bool is_of_goal = kind == RequirementKind::max_arrival || kind == RequirementKind::min_approach_delay;
   if (time != LevelMap::kTop || !is_of_goal) return delay_of(cell, time, layers);

@@ -6,6 +6,7 @@
 
 #include "answers/layers/delay_layers.hpp"
 #include "answers/requirements/region.hpp"
+#include "answers/risk/risk.hpp"
 #include "base/thread_team.hpp"
 #include "spec/spec_types.hpp"
 
@@ -19,9 +20,12 @@ struct CellRequirement {
   /// together tolerate any delay.
   const DelayLayers* layers = nullptr;
   const LevelMap* nearness = nullptr;  ///< if arrivals are asked for
+  const RiskRows* risks = nullptr;     ///< if risks are asked for: in the mode in which the network begins
+  /// Of `max_risk` the limit, as values are.
   std::int64_t steps = 0;
 
-  /// What cells are judged by: a delay, an approach delay or an arrival, as the results file has them.
+  /// What cells are judged by: a delay, an approach delay or an arrival, as the results file has them; or the
+  /// bits of a risk.
   [[nodiscard]] std::int32_t value_of(std::int64_t cell) const;
 };
 

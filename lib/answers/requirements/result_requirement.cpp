@@ -1,5 +1,8 @@
 #include "answers/requirements/result_requirement.hpp"
 
+#include <bit>
+
+#include "answers/requirements/risk_limit.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -34,6 +37,16 @@ ResultPath read_path(const FieldSource& source, std::size_t requirement) {
   return result;
 }
 
+/// What the file says of the greatest risk of a region.
+void take_risk(const RequirementSpec& asked, double risk, const FieldSource& source,
+               ResultRequirement& requirement) {
+  const auto number = static_cast<float>(risk);
+  if (!(number >= 0) || number > 1) source.fail("no probability", counterexample_path("risk"));
+  requirement.is_risk = true;
+  requirement.least_delay = std::bit_cast<std::int32_t>(number);
+  requirement.risk = compared_risk(asked, requirement.least_delay, source.number("/risk", "rate"));
+}
+
 }  // namespace
 
 std::string counterexample_path(const std::string& name) {
@@ -50,6 +63,8 @@ std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec, 
   const auto holds = of_each("holds"), cells = of_each("cells"), failing = of_each("failing");
   const auto delays = of_each("least_delay"), reached = of_each("reached_side");
   const auto ends = of_each("end"), left = of_each("left_side");
+  const std::vector<double> risks =
+      spec.risk ? source.numbers(counterexample_path("risk")) : std::vector<double>();
   std::vector<ResultRequirement> result;
   for (std::size_t r = 0; r < spec.requirements.size(); ++r) {
     ResultRequirement& requirement =
@@ -64,8 +79,12 @@ std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec, 
       source.fail("a side without a counterexample", counterexample_path("left_side"));
     if (has_path != (ends[r] != 0))
       source.fail("an end without a counterexample, or the other way round", counterexample_path("end"));
+    if (spec.requirements[r].kind == RequirementKind::max_risk)
+      take_risk(spec.requirements[r], risks[r], source, requirement);
     if (!has_path) continue;
     requirement.path = read_path(source, r);
+    if (requirement.is_risk)
+      requirement.path->delay.assign(requirement.path->samples(), requirement.least_delay);
     requirement.path->end = static_cast<EscapeEnd>(ends[r] - 1);
     requirement.path->left_side = side_of_number(left[r]);
   }

@@ -33,6 +33,7 @@ enum class EscapeEnd : std::uint8_t {
   never_arrives,           ///< a cell comes again, or all has left safely: the goal cannot be forced
   time_lost,               ///< the last cell is not nearer to the goal than the one before
   not_allowed,             ///< the last action takes of each class what it may do, and `allow` forbids it
+  too_risky,               ///< there is but one cell, of too great a risk
 };
 
 /// One end of one state.
@@ -69,6 +70,11 @@ struct ResultRequirement {
   /// Over the region, coded as in `/delay` with INT32_MAX: unbounded; likewise the greatest arrival or the
   /// least approach delay.
   std::int32_t least_delay = 0;
+  /// Of `max_risk` instead: `least_delay` is the greatest risk, as the bits of a float32, which order as the
+  /// numbers do, and so are the delays of the path; this is what is compared, with what steps add at the
+  /// rate.
+  double risk = 0;
+  bool is_risk = false;
   std::optional<ResultSide> reached_side;  ///< beyond which the region may reach
   std::optional<ResultPath> path;          ///< from the worst cell, if one fails
 

@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "answers/risk/fields.hpp"
+#include "app/analysis_text.hpp"
+#include "app/answers/all.hpp"
+#include "app/render.hpp"
+#include "app/report_html.hpp"
+#include "app/text.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Modes that a table shows.
+constexpr std::size_t kMostModes = 12;
+
+/// Thresholds of `within` that a table shows, and where they are: 0, 1e-12, 1e-11, ..., 1e-1.
+struct Threshold {
+  const char* text;
+  std::size_t place;
+};
+constexpr Threshold kShown[] = {{"0", 0}, {"1e-9", 4}, {"1e-6", 7}, {"1e-4", 9}, {"1e-2", 11}};
+
+std::string number_or_dash(const Json& number) {
+  return number.is_null() ? "-" : probability_text(number);
+}
+
+/// The rate as one of the unit of time, where there is a period with one.
+std::string rate_text(double rate, const ProblemSpec& spec) {
+  if (rate == 0) return "nothing";
+  const std::string& unit = spec.dynamics.unit;
+  if (unit.empty()) return fmt::format("{} a step", probability_text(rate));
+  return fmt::format("{} a step, {} per {}", probability_text(rate),
+                     probability_text(rate / nearest_double(spec.dynamics.period)), unit);
+}
+
+const char* coordinated_text(const ProblemSpec& spec) {
+  return spec.risk->is_safest ? "connected agents choose what is safest"
+                              : "connected agents choose anything that the controller allows";
+}
+
+}  // namespace
+
+std::string risk_of_analysis(const Json& summary, const ProblemSpec& spec) {
+  if (!spec.risk || !tells_partitions_in_full(summary)) return "";
+  const Json& own = summary["risk"];
+  const Json& modes = own["modes"];
+  std::vector<std::string> heads = {"  mode", "worst", "mean"};
+  for (const Threshold& threshold : kShown) heads.push_back(std::string("at most ") + threshold.text);
+  std::vector<Table::Align> columns(heads.size(), Table::Align::right);
+  columns.front() = Table::Align::left;
+  Table table(columns);
+  table.add(heads);
+  for (std::size_t mode = 0; mode < std::min(kMostModes, modes.size()); ++mode) {
+    std::vector<std::string> row = {"  " + text_of(modes[mode]["name"]), number_or_dash(modes[mode]["worst"]),
+                                    number_or_dash(modes[mode]["mean"])};
+    for (const Threshold& threshold : kShown) row.push_back(grouped(modes[mode]["within"][threshold.place]));
+    table.add(row);
+  }
+  const std::string more = modes.size() <= kMostModes
+                               ? ""
+                               : fmt::format("  ... and {} more modes\n", grouped(modes.size() - kMostModes));
+  return fmt::format(
+      "\nrisk within {}: {}\n{}{}  Later it grows by at most {}.\n",
+      duration(own["horizon"].get<std::int64_t>(), nearest_double(spec.dynamics.period), spec.dynamics.unit),
+      coordinated_text(spec), table.text(), more, rate_text(own["rate"].get<double>(), spec));
+}
+
+std::string risk_of_file(const Json& info) {
+  if (!info.contains("risk")) return "";
+  return fmt::format("\nrisk within {}; later it grows by at most {} a step\n",
+                     count_of(number_of(info["risk"]["horizon"]), "step"),
+                     probability_text(info["risk"]["rate"]));
+}
+
+std::string report_risk(const ResultsReader& results) {
+  const ProblemSpec& spec = results.spec();
+  if (!spec.risk || results.attributes().invariant_cells == 0) return "";
+  return fmt::format(
+      "<section aria-labelledby=\"risk-title\">\n<h2 id=\"risk-title\">How likely it is to fail</h2>\n"
+      "<p>The pictures show, as powers of ten, the greatest probability to leave the states that can be kept "
+      "safe within {}, where {} and the network loses steps by chance. Later it grows by at most {}. What "
+      "the agents do is the worst case, and so are disturbances.</p>\n</section>\n",
+      html_line(duration(spec.risk->horizon, nearest_double(spec.dynamics.period), spec.dynamics.unit)),
+      coordinated_text(spec), html_line(rate_text(results.number(paths::kRisk, "rate"), spec)));
+}
+
+}  // namespace coordreq

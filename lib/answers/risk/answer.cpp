@@ -1,0 +1,177 @@
+#include "answers/risk/answer.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "answers/invariance/answer.hpp"
+#include "answers/kept_levels.hpp"
+#include "answers/layers/projection_bytes.hpp"
+#include "answers/network/network_problem.hpp"
+#include "answers/risk/fields.hpp"
+#include "answers/risk/risk_levels.hpp"
+#include "answers/work_json.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Risks that cells can have: outside K certainty.
+bool are_possible(const RiskRows& risks, const CellSet& invariant, const RowShare* share) {
+  bool possible = true;
+  for (const RowShare::Range run : held_rows(share, risks.rows())) {
+    for (std::int64_t row = run.begin; row < run.end; ++row) {
+      for (std::int64_t x = 0; x < risks.row_length(); ++x) {
+        const std::uint32_t level = risks.row(row)[x];
+        const bool is_invariant = invariant.test(row * risks.row_length() + x);
+        possible =
+            possible && (is_invariant ? level >= kCertain<std::uint32_t> : level == kCertain<std::uint32_t>);
+      }
+    }
+  }
+  return possible;
+}
+
+/// The state after so many steps; the rate is told when there are no more.
+void load_state(Archive& archive, const Ground& ground, const CellSet& invariant, RiskState& state,
+                double& rate) {
+  archive.number(state.steps);
+  archive.number(rate);
+  archive.expect(state.steps >= 0 && state.steps <= ground.spec.risk->horizon, "there are too many steps");
+  archive.expect(rate >= 0 && rate <= 1, "a rate is no probability");
+  for (RiskRows& risks : state.risks) {
+    serialise_rows(archive, ground.shared_rows(), rows_of(risks));
+    archive.expect(are_possible(risks, invariant, ground.shared_rows()),
+                   "a cell has a risk that it cannot have");
+  }
+}
+
+void save_state(Archive& archive, const RowShare* share, std::int64_t steps, double rate,
+                std::span<const NumberRows> state) {
+  archive.number(steps);
+  archive.number(rate);
+  for (const NumberRows& risks : state) serialise_rows(archive, share, risks);
+}
+
+RiskProblem risk_problem(const Answers& answers, const ExpectedRisks& expected) {
+  const Ground& ground = answers.ground;
+  NetworkProblem network = network_problem(ground.spec, answers.get<Controller>(), *ground.hull);
+  RiskProblem problem{.controller = network.controller,
+                      .hull = network.hull,
+                      .partitions = std::move(network.partitions),
+                      .partition_of = {},
+                      .expected = &expected,
+                      .horizon = ground.spec.risk->horizon,
+                      .is_safest = ground.spec.risk->is_safest};
+  for (const NetworkMode& mode : network.modes) problem.partition_of.push_back(mode.partition);
+  return problem;
+}
+
+void find_risks(Answers& answers, const StageWork& work) {
+  const Ground& ground = answers.ground;
+  const RowShare* const share = ground.shared_rows();
+  const CellSet& invariant = answers.get<Invariance>().invariant;
+  RiskAnswer& answer = answers.add(RiskAnswer{});
+  Risk& result = answer.risk;
+  RiskState state;
+  double rate = 0;
+  const auto load = [&](Archive& archive) {
+    state.risks = first_risks(invariant, ground.spec.network->modes.size(), share);
+    load_state(archive, ground, invariant, state, rate);
+  };
+  const StageStore::Kept kept = work.store == nullptr ? StageStore::Kept::nothing : work.store->take(load);
+  if (kept == StageStore::Kept::finished) {
+    result.risks = std::move(state.risks);
+    result.rate = rate;
+  } else {
+    std::int64_t steps = 0;
+    const SaveState save = [&steps, share](Archive& archive, std::span<const NumberRows> rows) {
+      save_state(archive, share, steps, 0, rows);
+    };
+    const auto step = step_of(work, *ground.engine, save);
+    const RiskWatch watch{.step =
+                              [&](const WaveStep& own, std::int64_t done) {
+                                steps = done;
+                                step(own);
+                              },
+                          .resumed = kept == StageStore::Kept::unfinished ? &state : nullptr};
+    const ExpectedRisks expected(*ground.spec.network);
+    result = find_risk(risk_problem(answers, expected), watch, work.team);
+  }
+  for (const RiskRows& risks : result.risks)
+    answer.figures.push_back(risk_figures(risks, invariant, share, work.team));
+  if (work.store == nullptr) return;
+  work.store->finish([&answers](Archive& archive) {
+    const Risk& risk = answers.get<RiskAnswer>().risk;
+    std::vector<NumberRows> rows;
+    for (const RiskRows& own : risk.risks) rows.push_back(rows_of(own));
+    save_state(archive, answers.ground.shared_rows(), answers.ground.spec.risk->horizon, risk.rate, rows);
+  });
+}
+
+template <class Number>
+Json number_or_null(const std::optional<Number>& number) {
+  return number ? Json(double{*number}) : Json();
+}
+
+Json risk_json(const ProblemSpec& spec, const RiskAnswer& answer) {
+  Json json{{"horizon", spec.risk->horizon}, {"rate", answer.risk.rate}, {"modes", Json::array()}};
+  for (std::size_t mode = 0; mode < answer.figures.size(); ++mode) {
+    const RiskFigures& figures = answer.figures[mode];
+    json["modes"].push_back({{"name", spec.network->modes[mode].name},
+                             {"worst", number_or_null(figures.worst)},
+                             {"mean", number_or_null(figures.mean)},
+                             {"within", figures.within}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::vector<Stage> risk_stages(const ProblemSpec& spec) {
+  if (!spec.risk) return {};
+  return {{"risk", find_risks}};
+}
+
+void summarise_risk(const Answers& answers, Json& summary, Json& work) {
+  const auto* const risk = answers.find<RiskAnswer>();
+  if (risk == nullptr) return;
+  summary["risk"] = risk_json(answers.ground.spec, *risk);
+  work["risk"] = work_json(risk->risk.counts);
+}
+
+void examine_risk(const ProblemSpec& spec, const FieldSource& source) {
+  if (!spec.risk) return;
+  const double rate = source.number(paths::kRisk, "rate");
+  if (!(rate >= 0 && rate <= 1)) source.fail("the rate is no probability", paths::kRisk);
+}
+
+void tell_risk(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+  if (!spec.risk) return;
+  info["risk"] = {{"horizon", source.attribute(paths::kRisk, "horizon")},
+                  {"rate", source.number(paths::kRisk, "rate")}};
+}
+
+/// V of all modes, the levels of each E_q (for the rate of one in 64 bits), and the projections of all
+/// partitions.
+MemoryNeed risk_memory(const EngineSizes& sizes, int threads) {
+  const ProblemSpec& spec = sizes.model().spec();
+  if (!spec.risk) return {};
+  const auto modes = static_cast<double>(spec.network->modes.size());
+  const auto expected = static_cast<double>(ExpectedRisks(*spec.network).different.size());
+  constexpr double kFloat = sizeof(std::uint32_t), kDouble = sizeof(std::uint64_t);
+  MemoryNeed need{.kept = modes * kFloat * sizes.lanes(), .array = modes * kFloat * sizes.cells()};
+  need.work = std::max(expected * kFloat * sizes.levels() + sizes.readers(threads, kFloat),
+                       kDouble * sizes.levels() + sizes.readers(threads, kDouble));
+  need.work += (modes + expected) * sizes.rows();  // which rows have changed
+  for (const PartitionSpec* partition : network_partitions(*spec.network)) {
+    const bool is_one = spec.risk->is_safest && partition->classes.size() == 1;
+    const std::vector<InputClass> classes = is_one ? single_classes(sizes.model().inputs())
+                                                   : input_classes(spec, sizes.model().inputs(), *partition);
+    need.work += sizes.groups(classes);
+    if (!is_one) need.work += projection_bytes(sizes, classes);
+  }
+  return need;
+}
+
+}  // namespace coordreq

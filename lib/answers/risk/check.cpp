@@ -1,0 +1,327 @@
+#include "answers/risk/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "answers/checking/independent_choices.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr char kRisk[] = "/risk";
+
+/// A mode that may follow, and its probability.
+struct Successor {
+  std::size_t mode;
+  double least;
+  double more;  ///< beyond that, at the most
+};
+
+/// What follows a mode.
+struct Outgoing {
+  std::vector<Successor> successors;
+  double rest = 1;  ///< of 1, when all have their least
+};
+
+std::vector<Outgoing> outgoing_of(const NetworkSpec& network) {
+  std::vector<Outgoing> result(network.modes.size());
+  std::vector<Rational> rest(network.modes.size(), 1);
+  for (std::size_t t = 0; t < network.transitions.size(); ++t) {
+    const auto from = static_cast<std::size_t>(network.transitions[t].first);
+    const auto to = static_cast<std::size_t>(network.transitions[t].second);
+    const ProbabilityRange& range = network.probabilities[t];
+    rest[from] -= range.low;
+    result[from].successors.push_back(
+        {to, nearest_double(range.low), nearest_double(range.high - range.low)});
+  }
+  for (std::size_t mode = 0; mode < result.size(); ++mode) result[mode].rest = nearest_double(rest[mode]);
+  return result;
+}
+
+/// The greatest expectation over what follows a mode.
+double expected(const Outgoing& outgoing, const std::function<double(std::size_t mode)>& risk) {
+  double sum = 0;
+  std::vector<std::pair<double, double>> more;  // risk, what its mode may have
+  for (const Successor& next : outgoing.successors) {
+    const double own = risk(next.mode);
+    sum += next.least * own;
+    more.emplace_back(own, next.more);
+  }
+  if (outgoing.rest == 0) return sum;
+  std::sort(more.begin(), more.end(), std::greater<>());
+  double rest = outgoing.rest;
+  for (const auto& [own, most] : more) {
+    const double given = std::min(most, rest);
+    sum += given * own;
+    rest -= given;
+  }
+  return sum;
+}
+
+/// A claim can be anything; what is no probability is told of where it stands.
+double as_probability(double claimed) {
+  return claimed >= 0 && claimed <= 1 ? claimed : 1;
+}
+
+/// Of all cells what follows a mode, as numbers that order the other way round: the place among those that
+/// occur.
+struct Ranked {
+  std::vector<double> risks;  ///< descending
+  std::vector<std::int32_t> rank;
+};
+
+template <class Number>
+Ranked rank_expected(const Outgoing& outgoing, const std::vector<std::vector<Number>>& risks) {
+  std::vector<double> all(risks.front().size());
+  for (std::size_t x = 0; x < all.size(); ++x)
+    all[x] = expected(outgoing, [&](std::size_t mode) { return as_probability(risks[mode][x]); });
+  Ranked result{.risks = all, .rank = {}};
+  std::sort(result.risks.begin(), result.risks.end(), std::greater<>());
+  result.risks.erase(std::unique(result.risks.begin(), result.risks.end()), result.risks.end());
+  for (const double own : all) {
+    const auto place = std::lower_bound(result.risks.begin(), result.risks.end(), own, std::greater<>());
+    result.rank.push_back(static_cast<std::int32_t>(place - result.risks.begin()));
+  }
+  return result;
+}
+
+template <class Number>
+std::vector<Ranked> rank_all(const std::vector<Outgoing>& outgoing,
+                             const std::vector<std::vector<Number>>& risks) {
+  std::vector<Ranked> result;
+  for (const Outgoing& own : outgoing) result.push_back(rank_expected(own, risks));
+  return result;
+}
+
+/// One more step at single cells. One object a thread.
+class RiskStep {
+ public:
+  explicit RiskStep(const CheckGround& ground) : ground_(ground) {
+    for (const NetworkModeSpec& mode : ground.spec->network->modes) {
+      is_least_.push_back(ground.spec->risk->is_safest && mode.partition.classes.size() == 1);
+      const auto known = std::find(partitions_.begin(), partitions_.end(), mode.partition.classes);
+      partition_of_.push_back(static_cast<std::size_t>(known - partitions_.begin()));
+      if (known != partitions_.end()) continue;
+      partitions_.push_back(mode.partition.classes);
+      independent_.emplace_back(ground, mode.partition.classes);
+    }
+    choices_.resize(partitions_.size());
+  }
+
+  /// Takes a cell of K.
+  void go_to(CheckedCell& cell) {
+    cell_ = &cell;
+    for (std::size_t p = 0; p < choices_.size(); ++p) choices_[p] = independent_[p].of(cell.admitted());
+  }
+  /// T of a mode there.
+  [[nodiscard]] double risk(std::size_t mode, const Ranked& after) {
+    const std::vector<std::int64_t>& choices = choices_[partition_of_[mode]];
+    if (choices.empty()) return 1;
+    double chosen = is_least_[mode] ? 1 : 0;
+    for (const std::int64_t u : choices) {
+      const double own = worst(u, after);
+      chosen = is_least_[mode] ? std::min(chosen, own) : std::max(chosen, own);
+    }
+    return chosen;
+  }
+
+ private:
+  [[nodiscard]] double worst(std::int64_t u, const Ranked& after) {
+    constexpr std::int32_t kBlocked = -1;
+    if (cell_->is_forbidden(u)) return 1;
+    const std::int32_t rank = cell_->least(u, after.rank, kBlocked);
+    if (rank == kBlocked) return 1;
+    return rank == kForever ? 0 : std::min(1.0, after.risks[static_cast<std::size_t>(rank)]);
+  }
+
+  const CheckGround& ground_;
+  std::vector<bool> is_least_;  ///< [mode]
+  std::vector<std::vector<std::vector<std::int32_t>>> partitions_;
+  std::vector<std::size_t> partition_of_;  ///< [mode]
+  std::vector<IndependentChoices> independent_;
+  CheckedCell* cell_ = nullptr;
+  std::vector<std::vector<std::int64_t>> choices_;  ///< [partition]
+};
+
+/// What all threads read.
+struct RiskClaims {
+  explicit RiskClaims(const CheckGround& ground)
+      : spec(*ground.spec),
+        risks(ground.claims->at(kRisk).reals),
+        rate(ground.claims->number(kRisk, "rate")),
+        outgoing(outgoing_of(*spec.network)),
+        after(rank_all(outgoing, risks)) {
+    std::size_t most = 0;
+    for (const Outgoing& own : outgoing) most = std::max(most, own.successors.size());
+    // An operation is off by half of this at the most; each successor has four.
+    rounding = (4.0 * static_cast<double>(most) + 8) * std::numeric_limits<double>::epsilon();
+  }
+
+  const ProblemSpec& spec;
+  const std::vector<std::vector<float>>& risks;  ///< [mode][cell]
+  double rate;
+  std::vector<Outgoing> outgoing;
+  std::vector<Ranked> after;  ///< [mode]
+  double rounding = 0;        ///< of one step, as a part of it
+};
+
+/// Names what is wrong.
+class RiskTally : public Tally {
+ public:
+  RiskTally(const CheckGround& ground, const std::string& check) : Tally(check), ground_(ground) {}
+
+  void complain(const CheckedCell& cell, std::size_t mode, const std::string& what) {
+    const auto modes = static_cast<std::int64_t>(ground_.spec->network->modes.size());
+    add_wrong(cell.number() * modes + static_cast<std::int64_t>(mode), [&] {
+      return fmt::format("{}, mode {}: {}", cell.place(), ground_.spec->network->modes[mode].name, what);
+    });
+  }
+  /// Where posts are perhaps others, so are risks.
+  void doubt(const CheckedCell& cell, std::size_t mode, const std::string& what) {
+    if (ground_.sound_only()) {
+      add_unproven();
+    } else {
+      complain(cell, mode, what);
+    }
+  }
+
+ private:
+  const CheckGround& ground_;
+};
+
+class RiskChecker : public CellChecker {
+ public:
+  RiskChecker(const CheckGround& ground, const RiskClaims& claims, RiskTally& tally)
+      : claims_(claims), tally_(tally), step_(ground) {}
+
+  void check(CheckedCell& cell) override {
+    if (cell.is_invariant()) step_.go_to(cell);
+    for (std::size_t mode = 0; mode < claims_.risks.size(); ++mode) {
+      const double claimed = double{claims_.risks[mode][cell.at()]};
+      tally_.add_checked(1);
+      if (!(claimed >= 0 && claimed <= 1)) {
+        tally_.complain(cell, mode, "a risk that is no probability");
+      } else if (!cell.is_invariant()) {
+        if (claimed != 1) tally_.complain(cell, mode, fmt::format("risk {:.3g} outside K", claimed));
+      } else {
+        compare(cell, mode, claimed);
+      }
+    }
+  }
+
+ private:
+  void compare(CheckedCell& cell, std::size_t mode, double claimed) {
+    const double next = step_.risk(mode, claims_.after[mode]);
+    if (next * (1 - claims_.rounding) <= claimed + claims_.rate) return;
+    tally_.doubt(
+        cell, mode,
+        fmt::format("risk {:.6g}, but one more step gives {:.6g}, which is more than the rate beyond",
+                    claimed, next));
+  }
+
+  const RiskClaims& claims_;
+  RiskTally& tally_;
+  RiskStep step_;
+};
+
+class RiskCheck : public AnswerCheck {
+ public:
+  explicit RiskCheck(const CheckGround& ground)
+      : AnswerCheck(CheckSection::modes),
+        ground_(ground),
+        claims_(ground),
+        tally_(ground, "risk"),
+        full_tally_(ground, "risk within the horizon") {}
+
+  std::unique_ptr<CellChecker> cell_checker() override {
+    return std::make_unique<RiskChecker>(ground_, claims_, tally_);
+  }
+
+  /// The N passes.
+  void check_all(ThreadTeam& team) override {
+    if (!ground_.is_full) return;
+    std::vector<std::vector<double>> risks = first_risks();
+    for (std::int64_t n = 0; n < claims_.spec.risk->horizon; ++n) {
+      std::vector<std::vector<double>> next = risks;
+      const std::vector<Ranked> after = rank_all(claims_.outgoing, risks);
+      for_each_cell(team, [&](CheckedCell& cell, RiskStep& step) {
+        if (!cell.is_invariant()) return;
+        step.go_to(cell);
+        for (std::size_t mode = 0; mode < next.size(); ++mode)
+          next[mode][cell.at()] = step.risk(mode, after[mode]);
+      });
+      if (next == risks) break;
+      risks = std::move(next);
+    }
+    for_each_cell(team, [&](CheckedCell& cell, RiskStep&) { compare(cell, risks); });
+  }
+
+  [[nodiscard]] std::vector<Finding> findings() const override {
+    std::vector<Finding> result = {tally_.finding()};
+    if (ground_.is_full) result.push_back(full_tally_.finding());
+    return result;
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::vector<double>> first_risks() const {
+    std::vector<double> first;
+    const std::vector<std::uint8_t>& safe = ground_.claims->members("/safe");
+    const std::vector<std::uint8_t>& invariant = ground_.claims->members("/invariant");
+    for (std::size_t x = 0; x < invariant.size(); ++x)
+      first.push_back(safe[x] != 0 && invariant[x] != 0 ? 0 : 1);
+    return std::vector<std::vector<double>>(claims_.risks.size(), first);
+  }
+
+  template <class Body>
+  void for_each_cell(ThreadTeam& team, const Body& body) {
+    team.for_each(ground_.grid->cells(), 512, [&](ThreadTeam::Range range, int) {
+      CheckedCell cell(ground_);
+      RiskStep step(ground_);
+      for (std::int64_t x = range.begin; x < range.end; ++x) {
+        cell.go_to(x);
+        body(cell, step);
+      }
+    });
+  }
+
+  void compare(const CheckedCell& cell, const std::vector<std::vector<double>>& risks) {
+    const double steps = static_cast<double>(claims_.spec.risk->horizon);
+    const double rounding = std::min(0.5, steps * claims_.rounding);
+    constexpr double kPart = 1e-3, kLeast = 1e-30;  // what the analysis may round up by
+    for (std::size_t mode = 0; mode < risks.size(); ++mode) {
+      full_tally_.add_checked(1);
+      const auto claimed = double{claims_.risks[mode][cell.at()]};
+      const double own = risks[mode][cell.at()];
+      const bool is_low = claimed < own * (1 - rounding);
+      if (!is_low && claimed <= own * (1 + rounding) * (1 + kPart) + kLeast) continue;
+      full_tally_.doubt(cell, mode, fmt::format("risk {:.6g}, expected {:.6g}", claimed, own));
+    }
+  }
+
+  const CheckGround& ground_;
+  RiskClaims claims_;
+  RiskTally tally_;
+  RiskTally full_tally_;
+};
+
+}  // namespace
+
+std::unique_ptr<AnswerCheck> check_risk(const CheckGround& ground) {
+  if (!ground.spec->risk) return nullptr;
+  return std::make_unique<RiskCheck>(ground);
+}
+
+double risk_check_memory(const ProblemSpec& spec) {
+  if (!spec.risk) return 0;
+  // What follows in each mode: its rank, and as many risks at the most; while one is ranked two lists more.
+  // Of all passes the risks before and after, too.
+  const auto modes = static_cast<double>(spec.network->modes.size());
+  return modes * (sizeof(std::int32_t) + 2 * sizeof(double)) + 2 * sizeof(double);
+}
+
+}  // namespace coordreq

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "answers/answers.hpp"
+#include "answers/field.hpp"
+#include "base/thread_team.hpp"
+#include "spec/spec_types.hpp"
+
+namespace coordreq {
+namespace paths {
+
+inline constexpr char kRisk[] = "/risk";
+
+}  // namespace paths
+
+/// The probability to leave K from each cell, in each mode of the network.
+[[nodiscard]] Fields risk_fields(const ProblemSpec& spec);
+
+/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+void fill_risk_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
+
+}  // namespace coordreq

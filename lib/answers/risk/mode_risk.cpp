@@ -1,0 +1,71 @@
+#include "answers/risk/mode_risk.hpp"
+
+#include "answers/invariance/joint_actions.hpp"
+#include "answers/layers/independent_actions.hpp"
+
+namespace coordreq {
+namespace {
+
+template <class Level>
+class WorstRisk final : public ModeRisk<Level> {
+ public:
+  WorstRisk(const Projections& projections, const RowHull& hull, const CellSet& invariant, int workers)
+      : actions_(projections, hull, invariant, workers) {}
+  void find(const RowPlace& place, PostReader<Level>& posts, Level* next, int worker) override {
+    actions_.find_minimum(place, posts, next, worker);
+  }
+
+ private:
+  IndependentActions<Level> actions_;
+};
+
+/// Of all u that are allowed, instead of those of C(x): what these do not have in common leads out of K, and
+/// no risk is greater than that one's; in K there is always an u of C(x).
+template <class Level>
+class LeastRisk final : public ModeRisk<Level> {
+ public:
+  LeastRisk(const ActionGrouping& grouping, const RowHull& hull, int workers)
+      : actions_(grouping, hull, true, workers) {}
+  void find(const RowPlace& place, PostReader<Level>& posts, Level* next, int worker) override {
+    // Of levels that rise all are asked for, whatever they were.
+    static_cast<void>(actions_.next_levels(place, posts, next, next, worker));
+  }
+
+ private:
+  SomeAction<Level> actions_;
+};
+
+}  // namespace
+
+ModeChoices::ModeChoices(const Controller& controller, const RowHull& hull,
+                         const std::vector<std::vector<InputClass>>& partitions, bool is_safest,
+                         ThreadTeam& team)
+    : controller_(controller), hull_(hull) {
+  for (const std::vector<InputClass>& classes : partitions) {
+    Partition& own = partitions_.emplace_back();
+    own.is_safest = is_safest && classes.size() == 1;
+    own.grouping = &groupings_.emplace_back(
+        *controller.engine, own.is_safest ? single_classes(controller.engine->abstraction().inputs) : classes,
+        team);
+    if (!own.is_safest) own.projections = &projections_.emplace_back(controller, *own.grouping, hull, team);
+  }
+}
+
+template <class Level>
+std::vector<std::unique_ptr<ModeRisk<Level>>> ModeChoices::operators(int workers) const {
+  std::vector<std::unique_ptr<ModeRisk<Level>>> result;
+  for (const Partition& own : partitions_) {
+    if (own.is_safest) {
+      result.push_back(std::make_unique<LeastRisk<Level>>(*own.grouping, hull_, workers));
+    } else {
+      result.push_back(
+          std::make_unique<WorstRisk<Level>>(*own.projections, hull_, *controller_.invariant, workers));
+    }
+  }
+  return result;
+}
+
+template std::vector<std::unique_ptr<ModeRisk<std::uint32_t>>> ModeChoices::operators(int) const;
+template std::vector<std::unique_ptr<ModeRisk<std::uint64_t>>> ModeChoices::operators(int) const;
+
+}  // namespace coordreq

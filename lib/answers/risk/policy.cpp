@@ -1,0 +1,64 @@
+#include "answers/risk/policy.hpp"
+
+#include <algorithm>
+
+#include "answers/one_cell/cell_members.hpp"
+
+namespace coordreq {
+namespace {
+
+class SafestPolicy : public CellPolicy {
+ public:
+  explicit SafestPolicy(const PolicyGround& ground)
+      : posts_(*ground.posts),
+        after_(ground.values(paths::kRiskAfter)),
+        most_(ground.values(paths::kRiskMost)) {}
+
+  bool holds(std::int64_t /*cell*/) override { return true; }
+  const Numbers& together(std::int64_t cell, const Numbers& admissible) override {
+    posts_.move_to(cell);
+    risks_.clear();
+    for (const std::int64_t u : admissible) risks_.push_back(worst(u));
+    chosen_.clear();
+    if (risks_.empty()) return chosen_;
+    const std::int32_t most = std::max(most_(cell), *std::ranges::min_element(risks_));
+    for (std::size_t i = 0; i < admissible.size(); ++i) {
+      if (risks_[i] <= most) chosen_.push_back(admissible[i]);
+    }
+    return chosen_;
+  }
+
+ private:
+  /// The greatest risk in f(x,u), as bits. Of agents who choose no post of C(x) is blocked.
+  [[nodiscard]] std::int32_t worst(std::int64_t u) {
+    std::vector<IndexRange> box;
+    for (std::size_t i = 0; i < posts_.grid().size(); ++i) {
+      const ResolvedRange range = posts_.resolved(i, u);
+      if (range.all_left()) return 0;
+      box.push_back(range.inside);
+    }
+    std::int32_t worst = 0;
+    for_each_cell(posts_.grid(), box, [&](std::int64_t y) {
+      worst = std::max(worst, after_(y));
+      return true;
+    });
+    return worst;
+  }
+
+  CellPosts& posts_;
+  CellValue after_, most_;
+  std::vector<std::int32_t> risks_;  ///< [position in C(x)]
+  Numbers chosen_;
+};
+
+}  // namespace
+
+AnswerPolicy safest_policy(const std::string& delay) {
+  return {.words = "safest actions",
+          .delay = delay,
+          .make = [](const PolicyGround& ground) -> std::unique_ptr<CellPolicy> {
+            return std::make_unique<SafestPolicy>(ground);
+          }};
+}
+
+}  // namespace coordreq

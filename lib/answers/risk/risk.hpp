@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "answers/invariance/controller.hpp"
+#include "answers/risk/expected_risk.hpp"
+#include "base/thread_team.hpp"
+#include "engine/cell_set.hpp"
+#include "engine/level_rows.hpp"
+#include "engine/row_hull.hpp"
+#include "engine/wave_watch.hpp"
+#include "model/input_class.hpp"
+
+namespace coordreq {
+
+struct RiskProblem {
+  const Controller* controller = nullptr;  ///< of K
+  const RowHull* hull = nullptr;
+  std::vector<std::vector<InputClass>> partitions;  ///< all different; the classes of each
+  std::vector<std::size_t> partition_of;            ///< [mode] index into these
+  const ExpectedRisks* expected = nullptr;
+  std::int64_t horizon = 0;  ///< N
+  bool is_safest = false;
+};
+
+/// Levels of 32 bits without margins, see risk_levels.hpp: V of one mode, kCertain outside K.
+using RiskRows = LevelRows<std::uint32_t>;
+
+/// How far the work has come.
+struct RiskState {
+  std::int64_t steps = 0;       ///< n
+  std::vector<RiskRows> risks;  ///< [mode] V_n; of the rows that this process owns
+};
+
+struct Risk {
+  std::vector<RiskRows> risks;  ///< [mode] V_N; of the rows that this process owns
+  double rate = 0;
+  WaveCounts counts;
+};
+
+/// Looks on while risks grow, and says where to take up work that was broken off.
+struct RiskWatch {
+  /// As WaveWatch::step, after each step of a mode; the state is V of all modes after a whole step, of which
+  /// `steps` is the number.
+  std::function<void(const WaveStep& step, std::int64_t steps)> step;
+  /// A state that `step` has been shown, in the rows held; taken away. Null: begin with V_0.
+  RiskState* resumed = nullptr;
+};
+
+/// V_0 in all rows held: 0 in K, else 1.
+[[nodiscard]] std::vector<RiskRows> first_risks(const CellSet& invariant, std::size_t modes,
+                                                const RowShare* share);
+
+/// How likely the agents are to leave K within N steps: for x in K
+/// V_{n+1}(x,q) = OPT over u of max over y in f(x,u) of E_q V_n(y,.), see ModeChoices and ExpectedRisk. A
+/// post that is blocked, or no u, counts as 1, what has left for good through a safe side as 0. That is value
+/// iteration for reachability in n steps; losses are drawn after the worst y is known, for they do not depend
+/// on the motion.
+///
+/// Rounded up once a step, so that no V is below the exact one. Synchronous, for V_n is that of n steps; it
+/// ends before N only where a step has changed nothing at all, and then no later one would.
+///
+/// `rate` is the least number with T(V_N) <= V_N + rate in all cells of K and modes, T being one more step in
+/// double, rounded up: since T is monotone and T(v + c) <= T(v) + c, V_{N+n} <= V_N + n rate.
+///
+/// Memory: 4 bytes a cell for each mode and each different E_q (for the rate 8 for one at a time instead of
+/// those of the E_q), and the projections of C for all partitions.
+[[nodiscard]] Risk find_risk(const RiskProblem& problem, const RiskWatch& watch, ThreadTeam& team);
+
+}  // namespace coordreq

@@ -1,0 +1,104 @@
+#include "answers/risk/risk_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "answers/risk/risk_levels.hpp"
+#include "engine/row_operations.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr std::array<double, RiskFigures::kThresholds> kWithin = {0,    1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7,
+                                                                  1e-6, 1e-5,  1e-4,  1e-3,  1e-2, 1e-1};
+
+/// The sum is kept in digits of so many bits, each with room for the sum of as many cells as there are, so
+/// that it does not depend on the order.
+constexpr int kDigits = 4;
+constexpr int kDigitBits = 24;
+
+using Digits = std::array<std::int64_t, kDigits>;  ///< the most significant first
+
+struct Part {
+  std::int64_t cells = 0;
+  std::array<std::int64_t, RiskFigures::kThresholds> within = {};
+  Digits sum = {};
+};
+
+/// Calls `body(risk, part)` for the cells of K.
+template <class Body>
+void for_each_risk(const RiskRows& risks, const CellSet& invariant, const RowShare* share, ThreadTeam& team,
+                   std::vector<Part>& parts, const Body& body) {
+  for_each_own_row(team, share, risks.rows(), 256, [&](ThreadTeam::Range range, int worker) {
+    Part& part = parts[static_cast<std::size_t>(worker)];
+    for (std::int64_t row = range.begin; row < range.end; ++row) {
+      const std::uint32_t* const own = risks.row(row);
+      for_each_bit(invariant.row(row), [&](std::int64_t x) { body(risk_of(own[x]), part); });
+    }
+  });
+}
+
+std::int64_t greatest_of_all(const RowShare* share, std::int64_t own) {
+  return share == nullptr ? own : share->ranks().greatest(own);
+}
+
+/// The greatest level below which no cell of K is, of all processes.
+float worst_risk(const RiskRows& risks, const CellSet& invariant, const RowShare* share) {
+  std::uint32_t lowest = RiskRows::kTop;
+  const RowShare::Range own = own_rows(share, risks.rows());
+  for (std::int64_t row = own.begin; row < own.end; ++row) {
+    const std::uint32_t* const levels = risks.row(row);
+    for_each_bit(invariant.row(row), [&](std::int64_t x) { lowest = std::min(lowest, levels[x]); });
+  }
+  const std::int64_t all = greatest_of_all(share, std::int64_t{RiskRows::kTop} - lowest);
+  return risk_of(static_cast<std::uint32_t>(std::int64_t{RiskRows::kTop} - all));
+}
+
+/// Adds risk / unit, of which what is beyond the last digit is left out. REQUIRES: it is below 2^kDigitBits.
+void add(double risk, double unit, Digits& sum) {
+  double rest = risk / unit;
+  for (std::int64_t& digit : sum) {
+    const double whole = std::floor(rest);
+    digit += static_cast<std::int64_t>(whole);
+    rest = std::ldexp(rest - whole, kDigitBits);
+  }
+}
+
+}  // namespace
+
+RiskFigures risk_figures(const RiskRows& risks, const CellSet& invariant, const RowShare* share,
+                         ThreadTeam& team) {
+  const float worst = worst_risk(risks, invariant, share);
+  // A power of two, so that nothing but what is left out is lost; the worst risk fills the first digit.
+  const double unit = worst == 0 ? 1 : std::ldexp(1, std::ilogb(worst) - kDigitBits + 1);
+  std::vector<Part> parts(static_cast<std::size_t>(team.size()));
+  for_each_risk(risks, invariant, share, team, parts, [&](float risk, Part& part) {
+    ++part.cells;
+    const auto first = std::lower_bound(kWithin.begin(), kWithin.end(), double{risk});
+    if (first != kWithin.end()) ++part.within[static_cast<std::size_t>(first - kWithin.begin())];
+    add(risk, unit, part.sum);
+  });
+  Part all;
+  for (const Part& part : parts) {
+    all.cells += part.cells;
+    for (std::size_t i = 0; i < kWithin.size(); ++i) all.within[i] += part.within[i];
+    for (std::size_t i = 0; i < kDigits; ++i) all.sum[i] += part.sum[i];
+  }
+  RiskFigures figures;
+  for (std::size_t i = 0; i < kWithin.size(); ++i) {
+    const std::int64_t own = sum_of_all(share, all.within[i]);
+    figures.within[i] = own + (i == 0 ? 0 : figures.within[i - 1]);
+  }
+  const std::int64_t cells = sum_of_all(share, all.cells);
+  double sum = 0;
+  for (std::size_t i = kDigits; i-- > 0;)
+    sum = std::ldexp(sum, -kDigitBits) + static_cast<double>(sum_of_all(share, all.sum[i]));
+  if (cells == 0) return figures;
+  figures.worst = worst;
+  figures.mean = sum * unit / static_cast<double>(cells);
+  return figures;
+}
+
+}  // namespace coordreq

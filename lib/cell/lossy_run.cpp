@@ -1,0 +1,81 @@
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "answers/risk/policy.hpp"
+#include "cell/closed_loop.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+
+using Kind = Location::Kind;
+
+std::vector<std::shared_ptr<ActionChooser>> ClosedLoop::choosers_of_modes() {
+  std::vector<std::shared_ptr<ActionChooser>> result;
+  std::map<std::string, std::shared_ptr<ActionChooser>> known;
+  if (problem_.network == nullptr) return result;
+  for (std::size_t mode = 0; mode < problem_.network->modes().size(); ++mode) {
+    const LossyNetwork::Mode& own = problem_.network->modes()[mode];
+    const bool is_safest = own.is_connected && !problem_.mode_values.empty();
+    LoopProblem of_mode = problem_;
+    of_mode.partition = own.partition;
+    of_mode.policies.resize(1);
+    if (is_safest) {
+      of_mode.policies.front() = safest_policy(problem_.policies.front().delay);
+      for (const auto& [path, cells] : problem_.mode_values[mode]) of_mode.values[path] = cells;
+    }
+    std::shared_ptr<ActionChooser>& chooser =
+        known[own.partition->canonical + (is_safest ? " " + std::to_string(mode) : "")];
+    if (!chooser) chooser = std::make_shared<ActionChooser>(of_mode, options_.policy, dynamics_);
+    result.push_back(chooser);
+  }
+  return result;
+}
+
+RunTrace ClosedLoop::run_lossy(std::vector<Rational> measured, std::uint64_t run) {
+  RandomStream actions(options_.seed, run, RandomStream::Purpose::actions);
+  RandomStream disturbances(options_.seed, run, RandomStream::Purpose::disturbances);
+  RandomStream losses(options_.seed, run, RandomStream::Purpose::losses);
+  const std::vector<LossyNetwork::Mode>& modes = problem_.network->modes();
+  State state = first_state(std::move(measured), draw_nature(disturbances));
+  std::size_t mode = 0;
+  RunTrace trace;
+  const auto add_sample = [&] {
+    trace.samples.push_back(sample(state));
+    trace.samples.back().countdown = modes[mode].is_connected ? 0 : 1;
+    const bool is_there = !to_aim_.empty() && trace.samples.back().arrival == 0;
+    if (is_there && !trace.arrived) trace.arrived = static_cast<std::int64_t>(trace.samples.size()) - 1;
+  };
+  const auto end = [&trace](Outcome outcome) {
+    trace.outcome = outcome;
+    return trace;
+  };
+  add_sample();
+  for (std::int64_t k = 0; k < options_.steps; ++k) {
+    if (options_.until_goal && trace.arrived) return end(Outcome::reached_goal);
+    const std::int64_t cell = state.place.cell;
+    const Nature nature = draw_nature(disturbances);
+    next_.begin(state.exact, nature.disturbance, nature.error, cell);
+    ActionChooser& chooser = *mode_choosers_[mode];
+    const std::int32_t countdown = trace.samples.back().countdown;
+    const std::optional<std::int64_t> u =
+        chooser.choose(cell, state.measured, {.policy = 0, .countdown = countdown}, next_, actions);
+    if (!u) return end(Outcome::no_action);
+    if (chooser.forbids(cell, *u)) return end(Outcome::not_allowed);
+    std::vector<double> disturbance;
+    for (const Rational& value : nature.disturbance) disturbance.push_back(nearest_double(value));
+    trace.steps.push_back({*u, countdown == 0, std::move(disturbance)});
+    const bool known = advance(state, *u, nature);
+    mode = problem_.network->draw(mode, losses);
+    add_sample();
+    if (state.place.kind == Kind::left_safely) {
+      const bool ends_in_goal = options_.until_goal && trace.arrived;
+      return end(ends_in_goal ? Outcome::reached_goal : Outcome::left_safely);
+    }
+    if (!known || trace.samples.back().delay < 0) return end(Outcome::left_invariant);
+  }
+  return end(options_.until_goal && trace.arrived ? Outcome::reached_goal : Outcome::completed);
+}
+
+}  // namespace coordreq
