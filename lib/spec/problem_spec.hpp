@@ -38,7 +38,8 @@ struct RequirementSpec {
   std::int64_t steps = 0;
 
   [[nodiscard]] bool is_of_partition() const {
-    return kind == RequirementKind::min_delay || kind == RequirementKind::min_approach_delay;
+    return kind == RequirementKind::min_delay || kind == RequirementKind::min_approach_delay ||
+           kind == RequirementKind::min_blind_delay;
   }
 };
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "spec/partition_names.hpp"
 #include "spec/problem_spec.hpp"
@@ -53,6 +55,16 @@ std::string read_kind(const Scope& scope, const Node& object, const Rational& pe
   return key;
 }
 
+/// Only then is the delay another one.
+void check_limited_sight(const Node& asked, const std::string& key, std::size_t states,
+                         const std::vector<AgentSpec>& agents) {
+  const auto is_limited = [&](const AgentSpec& agent) { return agent.sees && agent.sees->size() < states; };
+  if (std::any_of(agents.begin(), agents.end(), is_limited)) return;
+  throw SpecError(
+      fmt::format("'{}' is for a spec in which some agent does not see all states, by 'sees'", key),
+      asked.pointer());
+}
+
 /// An analysis that stops before the steps asked for could not tell whether the requirement holds.
 void check_decidable(const Node& asked, const RequirementSpec& requirement,
                      const CoordinationSpec& coordination) {
@@ -74,9 +86,12 @@ RequirementSpec read_requirement(const Scope& scope, const Node& root, const Nod
   requirement.where = scope.expression(object["where"], ExpectedType::condition, Over::states);
   const std::string key = read_kind(scope, object, period, requirement);
   const RequirementTraits& kind = traits(requirement.kind);
-  if (!kind.needs.empty() && !root.has(kind.needs))
+  if (kind.needs == "sees") {
+    check_limited_sight(object[key], key, root.elements("states").size(), agents);
+  } else if (!kind.needs.empty() && !root.has(kind.needs)) {
     throw SpecError(fmt::format("'{}' is for a spec with the key '{}'", key, kind.needs),
                     object[key].pointer());
+  }
   if (!requirement.is_of_partition() && object.has("partition")) {
     throw SpecError(fmt::format("'{}' is about all partitions, found 'partition' too", key),
                     object["partition"].pointer());

@@ -34,6 +34,13 @@ const std::vector<RequirementTraits>& requirement_kinds() {
        .is_upper_limit = false,
        .claim = "approach delay of {partition} at least {steps}",
        .failing = "has an approach delay of {steps}"},
+      {.kind = RequirementKind::min_blind_delay,
+       .key = "min_blind_delay",
+       .needs = "sees",
+       .value = "blind_delay",
+       .is_upper_limit = false,
+       .claim = "blind delay of {partition} at least {steps}",
+       .failing = "has a blind delay of {steps}"},
   };
   return kinds;
 }

@@ -7,6 +7,7 @@
 #include "answers/requirements/answer.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/sight.hpp"
 
 namespace coordreq {
 namespace {
@@ -71,6 +72,7 @@ std::vector<FieldFlag> end_flags(const ProblemSpec& spec) {
                                    {4, "no_allowed_action"}};
   if (spec.goal) result.insert(result.end(), {{5, "arrived"}, {6, "never_arrives"}, {7, "time_lost"}});
   if (allow_joins_agents(spec)) result.push_back({8, "not_allowed"});
+  if (has_limited_sight(spec)) result.push_back({9, "no_common_action"});
   return result;
 }
 

@@ -33,6 +33,7 @@ enum class EscapeEnd : std::uint8_t {
   never_arrives,           ///< a cell comes again, or all has left safely: the goal cannot be forced
   time_lost,               ///< the last cell is not nearer to the goal than the one before
   not_allowed,             ///< the last action takes of each class what it may do, and `allow` forbids it
+  no_common_action,        ///< in the last cell, in K, some class has no action for all that it may see
 };
 
 /// One end of one state.
