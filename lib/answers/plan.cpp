@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "answers/blind/answer.hpp"
+#include "answers/blind/check.hpp"
 #include "answers/blind/fields.hpp"
 #include "answers/coalition/answer.hpp"
 #include "answers/coalition/check.hpp"
@@ -95,7 +96,9 @@ const std::vector<Answer>& all_answers() {
        .fill = fill_blind_fields,
        .summarise = summarise_blind,
        .tell = tell_blind,
-       .advise = advise_on_blind},
+       .advise = advise_on_blind,
+       .check = check_blind,
+       .check_memory = blind_check_memory},
       {.checks = requirements_checks,
        .stages = requirements_stages,
        .memory = requirements_memory,
