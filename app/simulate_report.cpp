@@ -25,6 +25,7 @@ std::string heading(const Json& simulation, const ProblemSpec& spec) {
       fmt::format("{}, partition {}: {} of {}, policy {}", text_of(simulation["name"]),
                   text_of(simulation["partition"]), count_of(number_of(simulation["runs"]), "run"),
                   duration(simulation["steps"], simulation), text_of(simulation["policy"]));
+  if (simulation.contains("blind")) text += ", blind";
   if (is_disturbed(spec)) text += ", disturbance " + text_of(simulation["disturbance"]);
   return text + fmt::format(", seed {}\n", simulation["seed"].get<std::uint64_t>());
 }
@@ -132,6 +133,7 @@ Json simulation_json(const Simulation& simulation, const ResultsReader& results,
   json["partition"] = simulation.partition;
   json["connection_delay"] = spec.coordination.connection_delay;
   json["policy"] = policy_name(options.policy);
+  if (options.blind) json["blind"] = true;
   json["disturbance"] = disturbance_name(options.disturbance);
   json["seed"] = options.seed;
   json["runs"] = options.runs;

@@ -4,7 +4,9 @@
 
 #include "answers/blind/answer.hpp"
 #include "answers/blind/check.hpp"
+#include "answers/blind/explain.hpp"
 #include "answers/blind/fields.hpp"
+#include "answers/blind/policy.hpp"
 #include "answers/coalition/answer.hpp"
 #include "answers/coalition/check.hpp"
 #include "answers/coalition/fields.hpp"
@@ -97,6 +99,8 @@ const std::vector<Answer>& all_answers() {
        .summarise = summarise_blind,
        .tell = tell_blind,
        .advise = advise_on_blind,
+       .policies = blind_policies,
+       .explain = explain_blind,
        .check = check_blind,
        .check_memory = blind_check_memory},
       {.checks = requirements_checks,

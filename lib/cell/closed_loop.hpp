@@ -85,6 +85,9 @@ struct RunTrace {
 /// a run that begins with it is there within the steps that its start has. (On the way to a goal, contract,
 /// section 5: approach delay, P and IND_P, within arrival(start) steps.)
 ///
+/// A policy whose countdown follows from what was agreed, not from the cell that is next, begins with a
+/// coordinated step. (Of agents who see only themselves, contract, section 8.)
+///
 /// Holds the scratch memory of a run: one object a thread.
 class ClosedLoop {
  public:

@@ -26,6 +26,7 @@ struct SimulationOptions {
   NamedValues constant_disturbance;  ///< those not named are in the middle of their ranges
   std::uint64_t seed = 1;
   bool until_goal = false;            ///< runs end where they reach the goal
+  bool blind = false;                 ///< silent agents go by what they see themselves
   std::optional<std::string> output;  ///< path of the file of runs
   /// Told which stage begins: "checking", "running", "writing"; there are temporary files in all but
   /// "running". May be empty.
