@@ -81,6 +81,7 @@ std::string end_text(const Json& story) {
   if (end == "never_arrives") return "the state is one that came before: the goal need never be reached";
   if (end == "time_lost") return "the state is not nearer to the goal";
   if (end == "not_allowed") return "together they do what 'allow' forbids";
+  if (end == "no_common_action") return "some class has no action for all that it may see";
   return "no action is allowed any more";
 }
 

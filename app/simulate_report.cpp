@@ -34,6 +34,7 @@ std::string heading(const Json& simulation, const ProblemSpec& spec) {
   std::string text = fmt::format("{}, {}: {} of {}, policy {}", text_of(simulation["name"]),
                                  connection_text(simulation), count_of(number_of(simulation["runs"]), "run"),
                                  duration(simulation["steps"], simulation), text_of(simulation["policy"]));
+  if (simulation.contains("blind")) text += ", blind";
   if (is_disturbed(spec)) text += ", disturbance " + text_of(simulation["disturbance"]);
   return text + fmt::format(", seed {}\n", simulation["seed"].get<std::uint64_t>());
 }
@@ -159,6 +160,7 @@ Json simulation_json(const Simulation& simulation, const ResultsReader& results,
   }
   json["connection_delay"] = spec.coordination.connection_delay;
   json["policy"] = policy_name(options.policy);
+  if (options.blind) json["blind"] = true;
   json["disturbance"] = disturbance_name(options.disturbance);
   json["seed"] = options.seed;
   json["runs"] = options.runs;

@@ -118,6 +118,8 @@ Run declare_simulate(Options& options) {
                    simulation.until_goal = OneOf<bool>{{{"goal", true}}}(text, option);
                  });
   options.flag(simulation.is_lossy, "--lossy", "Lose steps as the numbers of the network say");
+  options.flag(simulation.blind, "--blind",
+               "Agents that are silent go by what each class sees itself, with its silent table");
   options.option(simulation.partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
   options.option(simulation.output, "-o,--output", "FILE", "File for the runs (default: none)", file_name);
   declare_progress(options, own->progress);

@@ -37,6 +37,7 @@ void leave_only(std::size_t partition, ProblemSpec& spec) {
   spec.network.reset();
   spec.risk.reset();
   spec.goal.reset();
+  for (AgentSpec& agent : spec.agents) agent.sees.reset();
   spec.requirements.clear();
   spec.output = {};
 }

@@ -81,10 +81,12 @@ struct FieldAttribute {
   bool is_found = false;
 };
 
-/// Where the coordinates of an axis come from: it has none but its length; the numbers 0, 1, ...; names; or
-/// grid points, which are asked for one by one, since there may be very many.
+/// Where the coordinates of an axis come from: it has none but its length; the numbers 0, 1, ... (or from
+/// another one on); names; or grid points, which are asked for one by one, since there may be very many.
 struct NoCoordinates {};
-struct Numbers {};
+struct Numbers {
+  std::int32_t first = 0;
+};
 struct GridPoints {
   std::function<double(std::uint64_t)> at;
 };

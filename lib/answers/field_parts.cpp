@@ -51,12 +51,12 @@ Field name_scale(std::string path, FieldSection section, std::vector<std::string
 }
 
 Field number_scale(std::string path, FieldSection section, std::uint64_t least, std::uint64_t most,
-                   const std::string& long_name) {
+                   const std::string& long_name, std::int32_t first) {
   return {.path = std::move(path),
           .section = section,
           .types = {ElementType::int32},
           .axes = {},
-          .scale = FieldScale{.coordinates = Numbers{}, .least = least, .most = most},
+          .scale = FieldScale{.coordinates = Numbers{first}, .least = least, .most = most},
           .attributes = described(long_name)};
 }
 

@@ -24,9 +24,9 @@ namespace coordreq {
 /// An axis that names things. @param long_name of what it names
 [[nodiscard]] Field name_scale(std::string path, FieldSection section, std::vector<std::string> names,
                                const std::string& long_name);
-/// The numbers 0, 1, ..., of which the spec tells least and most.
+/// The numbers first, first + 1, ...; the spec tells the least and the greatest length.
 [[nodiscard]] Field number_scale(std::string path, FieldSection section, std::uint64_t least,
-                                 std::uint64_t most, const std::string& long_name);
+                                 std::uint64_t most, const std::string& long_name, std::int32_t first = 0);
 /// An axis without coordinates.
 [[nodiscard]] Field bare_scale(std::string path, FieldSection section, std::uint64_t least,
                                std::uint64_t most);

@@ -2,6 +2,11 @@
 
 #include <utility>
 
+#include "answers/blind/answer.hpp"
+#include "answers/blind/check.hpp"
+#include "answers/blind/explain.hpp"
+#include "answers/blind/fields.hpp"
+#include "answers/blind/policy.hpp"
 #include "answers/coalition/answer.hpp"
 #include "answers/coalition/check.hpp"
 #include "answers/coalition/fields.hpp"
@@ -99,6 +104,17 @@ const std::vector<Answer>& all_answers() {
        .policies = convention_policies,
        .explain = explain_convention,
        .check = check_convention},
+      {.stages = blind_stages,
+       .memory = blind_memory,
+       .fields = blind_fields,
+       .fill = fill_blind_fields,
+       .summarise = summarise_blind,
+       .tell = tell_blind,
+       .advise = advise_on_blind,
+       .policies = blind_policies,
+       .explain = explain_blind,
+       .check = check_blind,
+       .check_memory = blind_check_memory},
       {.checks = requirements_checks,
        .stages = requirements_stages,
        .memory = requirements_memory,

@@ -9,7 +9,7 @@ namespace coordreq {
 /// uses. It never changes a result.
 struct Warning {
   std::string kind;   ///< "grid", "unused", "motion", "blocked", "empty", "no_silence",
-                      ///< "goal" or "memory"
+                      ///< "goal", "memory" or "sight"
   std::string place;  ///< JSON pointer
   std::string text;   ///< one line
 };

@@ -54,10 +54,15 @@ ActionChooser::ActionChooser(const LoopProblem& problem, Policy policy, PointDyn
       no_error_(problem.spec->states.size()),
       slots_(problem.spec->slot_count()),
       doubles_(problem.spec->slot_count()) {
-  const PolicyGround ground{
-      .spec = problem.spec, .posts = &posts_, .values = [this](const std::string& path) -> CellValue {
-        return [values = problem_.values.at(path)](std::int64_t cell) { return values[at(cell)]; };
-      }};
+  const PolicyGround ground{.spec = problem.spec,
+                            .partition = problem.partition,
+                            .tables = problem.tables,
+                            .posts = &posts_,
+                            .values = [this](const std::string& path) -> CellValue {
+                              return [values = problem_.values.at(path)](std::int64_t cell) {
+                                return values[at(cell)];
+                              };
+                            }};
   for (const AnswerPolicy& own : problem.policies) cell_policies_.push_back(own.make(ground));
   for (InputClass& own : classes_) {
     own.tabulate();
@@ -106,6 +111,7 @@ std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<c
   } else {
     choices_ = own.alone(cell, turn.countdown, together, classes_);
     for (std::size_t c = 0; c < classes_.size(); ++c) {
+      if (choices_[c].empty()) return std::nullopt;
       for (std::int64_t& a : choices_[c]) a = class_parts_[c][at(a)];
     }
   }

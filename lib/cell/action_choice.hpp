@@ -36,6 +36,7 @@ struct LoopProblem {
   std::vector<AnswerPolicy> policies;
   /// [path][cell] steps, as the results file has them, of the delays and aims of the policies.
   std::map<std::string, std::span<const std::int32_t>> values;
+  const ByteTables* tables = nullptr;    ///< those that the policies ask for; null: none
   const CellSet* safe_beyond = nullptr;  ///< TubeSets::beyond
   const PackedPairs* listed = nullptr;   ///< what `controller.file` lists; null: it has none
   std::int64_t connection_delay = 0;     ///< D, steps
@@ -86,6 +87,12 @@ class ActionChooser {
   /// @returns nothing if no action is admissible
   [[nodiscard]] std::optional<std::int64_t> choose(std::int64_t cell, std::span<const Rational> measured,
                                                    Turn turn, NextStates& next, RandomStream& random);
+
+  /// See CellPolicy::countdown_after().
+  [[nodiscard]] std::optional<std::int32_t> countdown_after(std::size_t policy, std::int64_t cell,
+                                                            std::int64_t u) {
+    return cell_policies_[policy]->countdown_after(cell, u);
+  }
 
   /// Whether `allow` forbids a joint input that was chosen at a cell.
   [[nodiscard]] bool forbids(std::int64_t cell, std::int64_t u) { return inputs_.forbids(cell, u); }

@@ -166,10 +166,22 @@ CellController::Part& CellController::part(const AnswerPolicy& policy, std::size
   own.classes = policy.is_by_agent
                     ? agent_classes(spec, results_.inputs())
                     : input_classes(spec, results_.inputs(), spec.coordination.partitions[partition]);
-  own.policy = policy.make({.spec = &spec, .posts = &posts_, .values = [this, partition](const auto& path) {
-                              return values(path, partition);
-                            }});
+  own.policy =
+      policy.make({.spec = &spec,
+                   .partition = &spec.coordination.partitions[partition],
+                   .tables = this,
+                   .posts = &posts_,
+                   .values = [this, partition](const auto& path) { return values(path, partition); }});
   return own;
+}
+
+std::int64_t CellController::length(const std::string& scale) const {
+  return static_cast<std::int64_t>(results_.length(scale));
+}
+
+std::vector<std::uint8_t> CellController::bytes(const std::string& path,
+                                                const std::vector<std::int64_t>& place) const {
+  return results_.bytes(results_.field(path), place);
 }
 
 CellValue CellController::values(const std::string& path, std::size_t partition) {

@@ -35,13 +35,13 @@ using ActionSets = std::vector<std::vector<bool>>;
 /// K from the file and posts and tubes from the embedded spec.
 ///
 /// Not thread-safe.
-class CellController {
+class CellController : private ByteTables {
  public:
   /// REQUIRES: `results` and `team` outlive this object.
   CellController(const ResultsReader& results, ThreadTeam& team);
   CellController(const CellController&) = delete;
   CellController& operator=(const CellController&) = delete;
-  ~CellController() = default;
+  ~CellController() override = default;
 
   /// Makes ready for all cells, not just a few: reads K and computes the abstraction, if they will be needed.
   void prepare_all();
@@ -56,6 +56,8 @@ class CellController {
   /// steps of silence left: none outside K, and where the policy does not hold.
   [[nodiscard]] ActionSets actions(const AnswerPolicy& policy, std::size_t partition, std::int64_t cell,
                                    std::int32_t countdown);
+  /// The values of a field of integers, of a partition where it is over these.
+  [[nodiscard]] CellValue values(const std::string& path, std::size_t partition);
   /// The projections of C(x) on the classes.
   [[nodiscard]] ActionSets actions(std::size_t partition, std::int64_t cell) {
     return actions(policies_.front(), partition, cell, 0);
@@ -68,9 +70,11 @@ class CellController {
     std::unique_ptr<CellPolicy> policy;
   };
 
+  [[nodiscard]] std::int64_t length(const std::string& scale) const override;
+  [[nodiscard]] std::vector<std::uint8_t> bytes(const std::string& path,
+                                                const std::vector<std::int64_t>& place) const override;
   [[nodiscard]] AdmissibleInputs::Sets sets(ThreadTeam& team);
   [[nodiscard]] Part& part(const AnswerPolicy& policy, std::size_t partition);
-  [[nodiscard]] CellValue values(const std::string& path, std::size_t partition);
   [[nodiscard]] bool is_listed(std::int64_t cell, std::int64_t u);
 
   const ResultsReader& results_;

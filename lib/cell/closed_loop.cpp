@@ -101,11 +101,15 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
       return trace;
     }
     trace.steps.push_back({*u, coordinated, nearest_doubles(nature.disturbance)});
+    const std::optional<std::int32_t> agreed =
+        coordinated ? chooser_.countdown_after(policy, state.place.cell, *u) : std::nullopt;
     const bool known = advance(state, *u, nature);
     RunTrace::Sample& reached = add_sample();
     if (countdown != RunTrace::kForever) {
       if (coordinated) policy = policy_at(state, trace);
-      countdown = coordinated ? begin_countdown(policy, state, trace) : countdown - 1;
+      countdown = !coordinated ? countdown - 1
+                  : agreed     ? reset_countdown(*agreed)
+                               : begin_countdown(policy, state, trace);
     }
     reached.countdown = countdown;
     if (state.place.kind == Kind::left_safely) {
@@ -137,6 +141,7 @@ std::size_t ClosedLoop::policy_at(const State& state, const RunTrace& trace) {
 std::int32_t ClosedLoop::begin_countdown(std::size_t policy, const State& state,
                                          const RunTrace& trace) const {
   if (policy == 0) return reset_countdown(trace.samples.back().delay);
+  if (problem_.policies[policy].is_on_request) return 0;  // nobody has agreed on anything yet
   const std::span<const std::int32_t> delay = problem_.values.at(problem_.policies[policy].delay);
   return reset_countdown(delay[static_cast<std::size_t>(state.place.cell)]);
 }

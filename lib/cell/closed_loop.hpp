@@ -88,6 +88,8 @@ struct RunTrace {
 ///
 /// On a network that loses steps (LoopProblem::network) agents act by the mode of each step: from C if all
 /// are connected, else from IND_C of those that are. A run that leaves K is no contradiction then.
+/// A policy whose countdown follows from what was agreed, not from the cell that is next, begins with a
+/// coordinated step. (Of agents who see only themselves, contract, section 8.)
 ///
 /// Holds the scratch memory of a run: one object a thread.
 class ClosedLoop {

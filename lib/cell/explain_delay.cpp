@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "answers/layers/fields.hpp"
 #include "answers/plan.hpp"
@@ -50,14 +51,23 @@ class Explainer {
 
  private:
   void add_others(std::int64_t cell, bool is_bounded, DelayExplanation& found) {
-    const ExplainGround ground{.spec = &results_.spec(),
-                               .delay = found.delay,
-                               .is_bounded = is_bounded,
-                               .actions = [&](const AnswerPolicy& policy) {
-                                 return controller_.actions(policy, partition_, cell, found.delay);
-                               }};
+    const ExplainGround ground{
+        .spec = &results_.spec(),
+        .partition = &results_.spec().coordination.partitions[partition_],
+        .posts = &posts_,
+        .cell = cell,
+        .delay = found.delay,
+        .is_bounded = is_bounded,
+        .values = [&](const std::string& path) { return controller_.values(path, partition_); },
+        .projections = [&](std::int64_t other) { return controller_.actions(partition_, other); },
+        .actions =
+            [&](const AnswerPolicy& policy) {
+              return controller_.actions(policy, partition_, cell, found.delay);
+            }};
     for (const Answer& answer : all_answers()) {
-      if (answer.explain != nullptr) found.others.push_back(answer.explain(ground));
+      if (answer.explain == nullptr) continue;
+      if (Explained added = answer.explain(ground); !added.key.empty())
+        found.others.push_back(std::move(added));
     }
   }
 

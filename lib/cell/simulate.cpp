@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "answers/blind/fields.hpp"
 #include "answers/invariance/fields.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/forbidden_choices.hpp"
@@ -24,6 +25,7 @@
 #include "results/write_results.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/read_spec.hpp"
+#include "spec/sight.hpp"
 
 namespace coordreq {
 namespace {
@@ -122,9 +124,30 @@ CellSet safe_cells(const UniformGrid& grid, std::span<const std::int32_t> delay)
   return safe;
 }
 
-std::vector<AnswerPolicy> loop_policies(const ProblemSpec& spec) {
+/// Who goes by what it sees itself knows nothing of what others would like, or of a goal.
+void check_blind(const ProblemSpec& spec, const SimulationOptions& options) {
+  if (!options.blind) return;
+  if (!has_limited_sight(spec))
+    throw UsageError("all agents see all states, expected some that do not: 'sees' in the spec", "--blind");
+  if (options.policy == Policy::prefer)
+    throw UsageError("'prefer' reads what agents do not see, expected random or adversarial with --blind",
+                     "--policy");
+  if (options.until_goal)
+    throw UsageError("agents that see only themselves do not go for the goal, expected --blind or --until",
+                     "--until");
+  if (options.is_lossy)
+    throw UsageError(
+        "agents that see only themselves know that a step is lost, not the mode; expected --blind or --lossy",
+        "--lossy");
+}
+
+/// That of the delays, with those that are asked for, or else all that are not to be.
+std::vector<AnswerPolicy> loop_policies(const ProblemSpec& spec, bool blind) {
   std::vector<AnswerPolicy> policies = answer_policies(spec);
-  std::erase_if(policies, [](const AnswerPolicy& policy) { return policy.delay.empty(); });
+  const std::string first = policies.front().delay;
+  std::erase_if(policies, [&](const AnswerPolicy& policy) {
+    return policy.delay.empty() || (policy.delay != first && policy.is_on_request != blind);
+  });
   return policies;
 }
 
@@ -132,11 +155,59 @@ std::vector<AnswerPolicy> loop_policies(const ProblemSpec& spec) {
 std::vector<std::string> loop_paths(const std::vector<AnswerPolicy>& policies) {
   std::vector<std::string> paths;
   for (const AnswerPolicy& policy : policies) {
-    paths.push_back(policy.delay);
+    paths.push_back(policy.is_on_request ? policy.trigger : policy.delay);
     if (!policy.aim.path.empty()) paths.push_back(policy.aim.path);
   }
   return paths;
 }
+
+/// Tables that are small beside arrays over cells, for many threads.
+class LoadedTables : public ByteTables {
+ public:
+  /// Those of one partition.
+  LoadedTables(const ResultsReader& results, const PartitionSpec& partition) {
+    const ProblemSpec& spec = results.spec();
+    for (std::size_t c = 0; c < partition.classes.size(); ++c) {
+      if (!has_silent_table(spec, partition, c)) continue;
+      const std::string path = paths::silent(spec, partition, c);
+      const Field& field = results.field(path);
+      Table& own = tables_[path];
+      own.bytes = results.bytes(field);
+      for (const std::string& axis : field.axes)
+        own.shape.push_back(lengths_[axis] = static_cast<std::int64_t>(results.length(axis)));
+    }
+  }
+
+  [[nodiscard]] std::int64_t length(const std::string& scale) const override { return lengths_.at(scale); }
+  [[nodiscard]] std::vector<std::uint8_t> bytes(const std::string& path,
+                                                const std::vector<std::int64_t>& place) const override {
+    const Table& own = tables_.at(path);
+    std::int64_t row = 0;
+    for (std::size_t i = 0; i < place.size(); ++i) row = row * own.shape[i] + place[i];
+    const auto first = own.bytes.begin() + static_cast<std::ptrdiff_t>(row * own.shape.back());
+    return {first, first + static_cast<std::ptrdiff_t>(own.shape.back())};
+  }
+
+  /// Bytes of them.
+  [[nodiscard]] static double size(const ResultsReader& results) {
+    double bytes = 0;
+    for (const PartitionSpec& partition : results.spec().coordination.partitions) {
+      for (std::size_t c = 0; c < partition.classes.size(); ++c) {
+        if (has_silent_table(results.spec(), partition, c))
+          bytes += results.elements(results.field(paths::silent(results.spec(), partition, c)));
+      }
+    }
+    return bytes;
+  }
+
+ private:
+  struct Table {
+    std::vector<std::uint8_t> bytes;
+    std::vector<std::int64_t> shape;
+  };
+  std::map<std::string, Table> tables_;
+  std::map<std::string, std::int64_t> lengths_;
+};
 
 std::vector<std::int32_t> read_cells(const ResultsReader& results, const std::string& path,
                                      std::size_t partition) {
@@ -169,7 +240,7 @@ MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOpt
   const auto states = static_cast<double>(spec.states.size());
   const auto disturbances = static_cast<double>(spec.disturbances.size());
   constexpr double kCopies = 2;  // of an array while it is read
-  const auto arrays = static_cast<double>(loop_paths(loop_policies(spec)).size());
+  const auto arrays = static_cast<double>(loop_paths(loop_policies(spec, options.blind)).size());
   double of_cell = (arrays + kCopies) * sizeof(std::int32_t);
   if (spec.controller.file) of_cell += static_cast<double>(PackedPairs::bytes_for(results.inputs().count()));
   if (options.is_lossy) of_cell += bytes_of_risk_values(spec);
@@ -177,7 +248,8 @@ MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOpt
   const double step = sizeof(RunTrace::Step) + (disturbances > 0 ? 16 + 8 * disturbances : 0);
   const double samples = static_cast<double>(options.runs) * (static_cast<double>(options.steps) + 1);
   constexpr double kBytesOfInput = 64;  // what a thread knows of each at a cell
-  return {.once = results.reading_bytes() + of_cell * cells + abstraction_bytes(results) +
+  const double tables = options.blind ? LoadedTables::size(results) : 0;
+  return {.once = results.reading_bytes() + tables + of_cell * cells + abstraction_bytes(results) +
                   2 * samples * (sample + step),
           .of_thread = kBytesOfPostThread + kBytesOfInput * static_cast<double>(results.inputs().count())};
 }
@@ -185,6 +257,7 @@ MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOpt
 Simulation simulate(const ResultsReader& results, const SimulationOptions& options, ThreadTeam& team) {
   const ProblemSpec& spec = results.spec();
   const std::size_t partition = partition_of_loop(spec, options);
+  check_blind(spec, options);
   check_prefer(spec, options.policy);
   if (options.until_goal && !spec.goal) throw UsageError("the spec has no goal", "--until");
   RunOptions runs{.loop = {.steps = options.steps,
@@ -201,7 +274,7 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   enter("checking");
   if (options.output) check_writable(*options.output);
   enter("running");
-  const std::vector<AnswerPolicy> policies = loop_policies(spec);
+  const std::vector<AnswerPolicy> policies = loop_policies(spec, options.blind);
   const std::vector<std::string> paths = loop_paths(policies);
   std::map<std::string, std::vector<std::int32_t>> values;
   const std::vector<std::int32_t>& delay = values[paths.front()] =
@@ -227,11 +300,14 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
     listed = {.inputs = results.inputs().count(),
               .bytes = results.bits(paths::kListed, all_cells(results.grid()))};
   }
+  std::optional<LoadedTables> tables;
+  if (options.blind) tables.emplace(results, spec.coordination.partitions[partition]);
   LoopProblem problem{.spec = &spec,
                       .abstraction = &abstraction,
                       .partition = &spec.coordination.partitions[partition],
                       .policies = policies,
                       .values = {},
+                      .tables = tables ? &*tables : nullptr,
                       .safe_beyond = beyond ? &*beyond : nullptr,
                       .listed = listed ? &*listed : nullptr,
                       .connection_delay = spec.coordination.connection_delay};

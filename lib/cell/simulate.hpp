@@ -27,6 +27,7 @@ struct SimulationOptions {
   std::uint64_t seed = 1;
   bool until_goal = false;            ///< runs end where they reach the goal
   bool is_lossy = false;              ///< steps are lost as the numbers of the network say
+  bool blind = false;                 ///< silent agents go by what they see themselves
   std::optional<std::string> output;  ///< path of the file of runs
   /// Told which stage begins: "checking", "running", "writing"; there are temporary files in all but
   /// "running". May be empty.

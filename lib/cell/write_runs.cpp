@@ -229,11 +229,12 @@ class RunFields {
 void write_runs(const std::string& path, const ResultsReader& results, const SimulationOptions& options,
                 const Simulation& simulation, ThreadTeam& team) {
   const ProblemSpec& spec = results.spec();
-  const std::vector<FieldAttribute> own = {{"partition", simulation.partition},
-                                           {"connection_delay", spec.coordination.connection_delay},
-                                           {"policy", policy_name(options.policy)},
-                                           {"disturbance_policy", disturbance_name(options.disturbance)},
-                                           {"seed", options.seed}};
+  std::vector<FieldAttribute> own = {{"partition", simulation.partition},
+                                     {"connection_delay", spec.coordination.connection_delay},
+                                     {"policy", policy_name(options.policy)},
+                                     {"disturbance_policy", disturbance_name(options.disturbance)},
+                                     {"seed", options.seed}};
+  if (options.blind) own.push_back({"blind", std::int64_t{1}});
   const RunFields runs(results, options, simulation);
   write_fields(path, {.words = "the runs", .filetype = "coordreq-runs", .version = {1, 0}},
                header_attributes(spec) + own, spec, runs.fields, runs.values, team);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "answers/blind/fields.hpp"
 #include "answers/field_parts.hpp"
 #include "base/error.hpp"
 #include "cell/cell_controller.hpp"
@@ -16,6 +17,7 @@
 #include "export/c_header_text.hpp"
 #include "reach/update_table.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/sight.hpp"
 
 namespace coordreq {
 namespace {
@@ -68,15 +70,19 @@ class HeaderWriter {
         fmt::arg("classes", class_list()), fmt::arg("states", state_list()),
         fmt::arg("sha", results_.attributes().spec_sha256),
         fmt::arg("guarantee", plain_word(results_.attributes().guarantee)));
+    const bool has_tables = has_limited_sight(results_.spec(), spec_);
     put(c_header::kNumbers, fmt::arg("dimensions", results_.grid().size()),
         fmt::arg("cells", results_.grid().cells()), fmt::arg("class_count", partition_.classes.size()));
-    write_runs();
-    write_sets();
     write_inputs();
     write_dimensions();
+    put(c_header::kCells);
+    if (results_.spec().dynamics.is_kept(results_.grid().size() - 1)) write_memory();
+    if (has_tables) put(c_header::kSilentOnly);
+    write_runs();
+    write_sets();
     put(c_header::kFunctions);
     for (std::size_t k = 1; k < runs_.policies.size(); ++k) write_functions(runs_.policies[k]);
-    if (results_.spec().dynamics.is_kept(results_.grid().size() - 1)) write_memory();
+    if (has_tables) write_silent();
     sink_(c_header::kClosing);
   }
 
@@ -192,12 +198,11 @@ class HeaderWriter {
     }
     integers("uint32_t", "set_first", first);
     integers("uint32_t", "set_width", width);
-    integers("uint32_t", "set_actions", partition_.actions);
     integers("uint8_t", "set_bits", bytes);
   }
 
   void write_inputs() const {
-    sink_("\n/* Inputs of the classes, and their values. */\n");
+    sink_("\n/* Inputs of the classes, and their values; joint actions. */\n");
     std::vector<std::size_t> class_first{0}, value_first, value_count;
     std::vector<double> values;
     for (const auto& agents : spec_.classes) {
@@ -210,6 +215,7 @@ class HeaderWriter {
       }
       class_first.push_back(value_first.size());
     }
+    integers("uint32_t", "set_actions", partition_.actions);
     integers("uint32_t", "class_first", class_first);
     integers("uint32_t", "value_first", value_first);
     integers("uint32_t", "value_count", value_count);
@@ -243,6 +249,53 @@ class HeaderWriter {
     integers("uint8_t", "safe_below", safe_below);
     integers("uint8_t", "safe_above", safe_above);
     array("double", "bound", bounds, [](double value) { return fmt::format("{:a}", value); });
+  }
+
+  /// Of class c row k - 1 of its silent table, for fibre f: bits[first[c] + (min(k, rows[c]) - 1) * ...].
+  void write_silent() const {
+    const ProblemSpec& spec = results_.spec();
+    std::vector<std::uint8_t> bits;
+    std::vector<std::size_t> first, rows, strides;
+    for (std::size_t c = 0; c < spec_.classes.size(); ++c) {
+      first.push_back(bits.size());
+      std::vector<std::size_t> stride(spec.states.size(), 0);
+      rows.push_back(0);
+      if (has_silent_table(spec, spec_, c)) {
+        std::size_t size = static_cast<std::size_t>((partition_.actions[c] + 7) / 8);
+        const std::vector<std::size_t> seen = seen_states(spec, spec_.classes[c]);
+        for (std::size_t k = seen.size(); k-- > 0;) {
+          stride[seen[k]] = size;
+          size *= static_cast<std::size_t>(results_.grid()[seen[k]].count);
+        }
+        const auto table = results_.bytes(results_.field(paths::silent(spec, spec_, c)));
+        rows.back() = different_rows(table, size);
+        bits.insert(bits.end(), table.begin(),
+                    table.begin() + static_cast<std::ptrdiff_t>(rows.back() * size));
+        stride.push_back(size);
+      } else {
+        stride.push_back(0);
+      }
+      strides.insert(strides.end(), stride.begin(), stride.end());
+    }
+    sink_(
+        "\n#endif\n"
+        "\n/* Silent tables, of classes that do not see all states: the byte of action a with k steps left "
+        "is\n"
+        "   bits[first[c] + (k - 1) * stride[c][states] + sum of index[i] * stride[c][i] + a / 8]; the last\n"
+        "   row serves all greater k. */\n");
+    integers("uint32_t", "silent_first", first);
+    integers("uint32_t", "silent_rows", rows);
+    integers("uint32_t", "silent_stride", strides);
+    integers("uint8_t", "silent_bits", bits);
+    put(c_header::kSilent);
+  }
+
+  /// Rows but those at the end that are like the one before.
+  static std::size_t different_rows(const std::vector<std::uint8_t>& table, std::size_t size) {
+    std::size_t rows = table.size() / size;
+    const auto row = [&](std::size_t k) { return table.begin() + static_cast<std::ptrdiff_t>(k * size); };
+    while (rows > 1 && std::equal(row(rows - 1), row(rows), row(rows - 2))) --rows;
+    return rows;
   }
 
   /// A table for each state that a memory keeps, over what its next value depends on.

@@ -37,7 +37,7 @@ class RunFinder {
         sets_(results.partitions()[partition].classes.size()) {
     controller_.prepare_all();
     for (const AnswerPolicy& policy : controller_.policies()) {
-      if (!policy.trigger.empty()) runs_.policies.push_back(policy);
+      if (!policy.trigger.empty() && !policy.is_on_request) runs_.policies.push_back(policy);
     }
   }
 

@@ -36,7 +36,7 @@ inline constexpr char kNumbers[] = R"c(
 #define $M_CONNECTION_MUST_STAND (-3)  /* too late to connect */
 )c";
 
-inline constexpr char kFunctions[] = R"c(
+inline constexpr char kCells[] = R"c(
 /* The last of the `count` ascending bounds that is not above x; 0 if all are. */
 static inline uint32_t $P_last_not_above(const double *bound, uint32_t count, double x) {{
   uint32_t low = 0, high = count;
@@ -83,6 +83,21 @@ static inline int32_t $P_cell(const double state[$M_STATES]) {{
   return left ? $M_LEFT_SAFELY : cell;
 }}
 
+/* Number of joint actions of class c; 0 if there is no such class. */
+static inline uint32_t $P_action_count(uint32_t c) {{
+  return c < $M_CLASSES ? $P_set_actions[c] : 0;
+}}
+
+/* The value of the j-th input of class c in its joint action a < $P_action_count(c): row-major, the last
+   input fastest. */
+static inline double $P_input(uint32_t c, uint32_t a, uint32_t j) {{
+  uint32_t i = $P_class_first[c + 1] - 1;
+  for (; i > $P_class_first[c] + j; --i) a /= $P_value_count[i];
+  return $P_value[$P_value_first[i] + a % $P_value_count[i]];
+}}
+)c";
+
+inline constexpr char kFunctions[] = R"c(
 /* The entry of a cell, 0 <= cell < $M_CELLS. */
 static inline uint32_t $P_entry_of(int32_t cell) {{
   uint32_t low = 0, high = $M_RUNS;
@@ -105,11 +120,6 @@ static inline int32_t $P_countdown(int32_t cell) {{
   return $P_entry_countdown[$P_entry_of(cell)];
 }}
 
-/* Number of joint actions of class c; 0 if there is no such class. */
-static inline uint32_t $P_action_count(uint32_t c) {{
-  return c < $M_CLASSES ? $P_set_actions[c] : 0;
-}}
-
 /* Whether class c may take its joint action a. In $M_LEFT_SAFELY every action is; in $M_OUTSIDE, and in any
    other number that is no cell, none is. */
 static inline int $P_allowed(int32_t cell, uint32_t c, uint32_t a) {{
@@ -119,14 +129,6 @@ static inline int $P_allowed(int32_t cell, uint32_t c, uint32_t a) {{
   if (cell < 0 || cell >= $M_CELLS) return 0;
   set = $P_entry_set[$P_entry_of(cell) * $M_CLASSES + c];
   return $P_set_bits[$P_set_first[c] + set * $P_set_width[c] + a / 8] >> (a % 8) & 1;
-}}
-
-/* The value of the j-th input of class c in its joint action a < $P_action_count(c): row-major, the last
-   input fastest. */
-static inline double $P_input(uint32_t c, uint32_t a, uint32_t j) {{
-  uint32_t i = $P_class_first[c + 1] - 1;
-  for (; i > $P_class_first[c] + j; --i) a /= $P_value_count[i];
-  return $P_value[$P_value_first[i] + a % $P_value_count[i]];
 }}
 )c";
 
@@ -174,6 +176,46 @@ static inline double $P_kept(int32_t kept, uint32_t k) {{
   uint32_t j = $M_KEPT - 1;
   for (; j > k; --j) kept /= (int32_t)$P_points[$M_STATES - $M_KEPT + j];
   return kept % (int32_t)$P_points[$M_STATES - $M_KEPT + k];
+}}
+)c";
+
+/// Before all that an agent does not need who has nothing but silent tables.
+inline constexpr char kSilentOnly[] = R"c(
+/* With $M_SILENT_ONLY defined before this file is included there is nothing in it but $P_silent, and what that
+   takes: all that a class needs that sees only some states, once it has been told how many steps it may go on. */
+#ifndef $M_SILENT_ONLY
+)c";
+
+inline constexpr char kSilent[] = R"c(
+/* Whether class c may take its joint action a without a word, with so many steps of silence left ($M_NEVER: it
+   is for ever), by the states that it sees itself: of the others nothing is read. Beyond a side where all is
+   safe for ever every action is; with no step left, and outside the domain, none is. Of a class that sees all
+   states this is $P_allowed, which is not there with $M_SILENT_ONLY. */
+static inline int $P_silent(uint32_t c, const double state[$M_STATES], int32_t steps, uint32_t a) {{
+  uint32_t i, place;
+  int left = 0;
+  if (c >= $M_CLASSES || a >= $P_set_actions[c] || steps <= 0) return 0;
+  if ($P_silent_rows[c] == 0) {{
+#ifndef $M_SILENT_ONLY
+    return $P_allowed($P_cell(state), c, a);
+#else
+    return 0;
+#endif
+  }}
+  place = $P_silent_first[c] + a / 8;
+  place += ((uint32_t)steps < $P_silent_rows[c] ? (uint32_t)steps - 1 : $P_silent_rows[c] - 1) *
+           $P_silent_stride[c * ($M_STATES + 1) + $M_STATES];
+  for (i = 0; i < $M_STATES; ++i) {{
+    const uint32_t stride = $P_silent_stride[c * ($M_STATES + 1) + i];
+    const int32_t index = stride == 0 ? 0 : $P_index(i, state[i]);
+    if (index == $M_OUTSIDE) return 0;
+    if (index == $M_LEFT_SAFELY) {{
+      left = 1;
+    }} else {{
+      place += (uint32_t)index * stride;
+    }}
+  }}
+  return left ? 1 : $P_silent_bits[place] >> (a % 8) & 1;
 }}
 )c";
 

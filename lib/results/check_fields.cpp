@@ -100,10 +100,11 @@ class FieldChecker {
       if (file_.texts(field.path) != *names) fail("the names are not those of the spec", field);
     } else if (const auto* points = std::get_if<GridPoints>(&scale.coordinates)) {
       check_points(field, *points, length);
-    } else if (std::holds_alternative<Numbers>(scale.coordinates)) {
+    } else if (const auto* counted = std::get_if<Numbers>(&scale.coordinates)) {
       const std::vector<std::int64_t> numbers = file_.integers(field.path);
       for (std::size_t k = 0; k < numbers.size(); ++k) {
-        if (numbers[k] != static_cast<std::int64_t>(k)) fail("not the numbers 0, 1, ...", field);
+        if (numbers[k] == counted->first + static_cast<std::int64_t>(k)) continue;
+        fail(fmt::format("not the numbers {}, {}, ...", counted->first, counted->first + 1), field);
       }
     }
   }

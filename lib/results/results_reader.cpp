@@ -247,6 +247,24 @@ std::vector<std::uint8_t> ResultsReader::bits(const Field& field, const CellBloc
   return elements<std::uint8_t>(field.path, ElementType::uint8, part.offset, part.count);
 }
 
+std::vector<std::uint8_t> ResultsReader::bytes(const Field& field,
+                                               const std::vector<std::int64_t>& place) const {
+  std::vector<std::uint64_t> offset(place.begin(), place.end()), count(place.size(), 1);
+  offset.push_back(0);
+  count.push_back(this->field(field.axes.back()).scale->least);
+  return elements<std::uint8_t>(field.path, ElementType::uint8, offset, count);
+}
+
+std::vector<std::uint8_t> ResultsReader::bytes(const Field& field) const {
+  const std::vector<std::uint64_t> shape = reading(path_, [&] { return file_->shape(field.path); });
+  return elements<std::uint8_t>(field.path, ElementType::uint8, std::vector<std::uint64_t>(shape.size(), 0),
+                                shape);
+}
+
+std::uint64_t ResultsReader::length(const std::string& scale) const {
+  return reading(path_, [&] { return file_->shape(scale).front(); });
+}
+
 bool ResultsReader::has_abstraction() const {
   return !parts_->tables.empty();
 }

@@ -86,6 +86,13 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] std::vector<float> reals(const Field& field, Leading leading, const CellBlock& block) const;
   /// Of a field of m actions: bytes [cells of the block, ceil(m / 8)], action a is bit a % 8 of byte a / 8.
   [[nodiscard]] std::vector<std::uint8_t> bits(const Field& field, const CellBlock& block) const;
+  /// The bytes along the last axis of a field of them, at a place along all others.
+  [[nodiscard]] std::vector<std::uint8_t> bytes(const Field& field,
+                                                const std::vector<std::int64_t>& place) const;
+  /// All bytes of such a field, row-major.
+  [[nodiscard]] std::vector<std::uint8_t> bytes(const Field& field) const;
+  /// The length of an axis. REQUIRES: the file has it.
+  [[nodiscard]] std::uint64_t length(const std::string& scale) const;
   /// The same by path. REQUIRES: the file has it.
   [[nodiscard]] std::vector<std::int32_t> values(const std::string& path, Leading leading,
                                                  const CellBlock& block) const {

@@ -64,11 +64,10 @@ class AttributeWriter {
   ElementType type_;
 };
 
-/// 0, 1, ...
-ResultArray numbers() {
-  return {ElementType::int32, [](std::uint64_t begin, std::uint64_t count, void* out) {
+ResultArray numbers(Numbers scale) {
+  return {ElementType::int32, [scale](std::uint64_t begin, std::uint64_t count, void* out) {
             auto* const first = static_cast<std::int32_t*>(out);
-            std::iota(first, first + count, static_cast<std::int32_t>(begin));
+            std::iota(first, first + count, scale.first + static_cast<std::int32_t>(begin));
           }};
 }
 
@@ -149,7 +148,8 @@ class FieldsWriter {
     if (const auto* names = std::get_if<std::vector<std::string>>(&scale.coordinates))
       return file_.add_coordinates(path, *names);
     const auto* const grid = std::get_if<GridPoints>(&scale.coordinates);
-    return file_.add_coordinates(path, length, grid != nullptr ? points(*grid) : numbers());
+    return file_.add_coordinates(
+        path, length, grid != nullptr ? points(*grid) : numbers(std::get<Numbers>(scale.coordinates)));
   }
 
   void write_array(const Field& field, const ProblemSpec& spec) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "base/error.hpp"
@@ -47,6 +48,13 @@ constexpr Dataset kDatasets[] = {{"collision_time"},
                                  {"pair", "coordination", "horizon_time"},
                                  {"agent", "coordination", "convention"},
                                  {"convention_freedom", "coordination", "convention"},
+                                 {"blind_countdown", "agents", "sees"},
+                                 {"blind_delay", "agents", "sees"},
+                                 {"blind_fixed_point_index", "agents", "sees"},
+                                 {"blind_layer", "agents", "sees"},
+                                 {"blind_layer_size", "agents", "sees"},
+                                 {"silent", "agents", "sees"},
+                                 {"silent_layer", "agents", "sees"},
                                  {"counterexample", "requirements"},
                                  {"controller", "output", "controller"},
                                  {"actions", "output", "actions"},
@@ -59,6 +67,10 @@ bool asks_for(const Node& root, const Dataset& dataset) {
   if (object.empty()) return true;
   if (!root.has(object)) return false;
   if (key.empty()) return true;
+  if (object == "agents") {
+    const std::vector<Node> agents = root.elements(object);
+    return std::any_of(agents.begin(), agents.end(), [&](const Node& agent) { return agent.has(key); });
+  }
   if (!root[object].has(key)) return false;
   const Node value = root[object][key];
   return value.is_number() || value.is_text() || (!value.is_null() && root[object].flag(key));

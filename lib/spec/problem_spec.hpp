@@ -41,7 +41,8 @@ struct RequirementSpec {
   std::string per;    ///< likewise, "s", "min" or "h"; empty: within the horizon
 
   [[nodiscard]] bool is_of_partition() const {
-    return kind == RequirementKind::min_delay || kind == RequirementKind::min_approach_delay;
+    return kind == RequirementKind::min_delay || kind == RequirementKind::min_approach_delay ||
+           kind == RequirementKind::min_blind_delay;
   }
 };
 

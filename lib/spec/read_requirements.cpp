@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -41,9 +42,13 @@ std::optional<std::int32_t> read_partition(const Node& object, const std::vector
 
 /// Seconds of a unit of time, as udunits_spelling() has it.
 std::optional<Rational> seconds_of(const std::string& unit) {
-  static const std::map<std::string, Rational> kUnits = {
-      {"ns", Rational(1, 1'000'000'000)}, {"us", Rational(1, 1'000'000)}, {"ms", Rational(1, 1000)}, {"s", 1},
-      {"min", 60}, {"h", 3600}, {"d", 86400}};
+  static const std::map<std::string, Rational> kUnits = {{"ns", Rational(1, 1'000'000'000)},
+                                                         {"us", Rational(1, 1'000'000)},
+                                                         {"ms", Rational(1, 1000)},
+                                                         {"s", 1},
+                                                         {"min", 60},
+                                                         {"h", 3600},
+                                                         {"d", 86400}};
   const auto found = kUnits.find(unit);
   return found == kUnits.end() ? std::nullopt : std::optional(found->second);
 }
@@ -95,6 +100,16 @@ std::string read_kind(const Scope& scope, const Node& object, const Rational& pe
   return key;
 }
 
+/// Only then is the delay another one.
+void check_limited_sight(const Node& asked, const std::string& key, std::size_t states,
+                         const std::vector<AgentSpec>& agents) {
+  const auto is_limited = [&](const AgentSpec& agent) { return agent.sees && agent.sees->size() < states; };
+  if (std::any_of(agents.begin(), agents.end(), is_limited)) return;
+  throw SpecError(
+      fmt::format("'{}' is for a spec in which some agent does not see all states, by 'sees'", key),
+      asked.pointer());
+}
+
 /// An analysis that stops before the steps asked for could not tell whether the requirement holds.
 void check_decidable(const Node& asked, const RequirementSpec& requirement,
                      const CoordinationSpec& coordination) {
@@ -116,9 +131,12 @@ RequirementSpec read_requirement(const Scope& scope, const Node& root, const Nod
   requirement.where = scope.expression(object["where"], ExpectedType::condition, Over::states);
   const std::string key = read_kind(scope, object, period, requirement);
   const RequirementTraits& kind = traits(requirement.kind);
-  if (!kind.needs.empty() && !root.has(kind.needs))
+  if (kind.needs == "sees") {
+    check_limited_sight(object[key], key, root.elements("states").size(), agents);
+  } else if (!kind.needs.empty() && !root.has(kind.needs)) {
     throw SpecError(fmt::format("'{}' is for a spec with the key '{}'", key, kind.needs),
                     object[key].pointer());
+  }
   if (kind.is_probability) read_risk_limit(scope, root, object, risk, period, requirement);
   if (!requirement.is_of_partition() && object.has("partition")) {
     throw SpecError(fmt::format("'{}' is about all partitions, found 'partition' too", key),
@@ -141,10 +159,9 @@ std::vector<RequirementSpec> read_requirements(const Scope& scope, const Node& r
   for (const Node& object : root.elements("requirements")) {
     errors.attempt([&] { check_new_name(object["name"], names, "requirement"); });
     names.push_back(object["name"].text());
-    errors.attempt(
-        [&] {
-          requirements.push_back(read_requirement(scope, root, object, agents, coordination, risk, period));
-        });
+    errors.attempt([&] {
+      requirements.push_back(read_requirement(scope, root, object, agents, coordination, risk, period));
+    });
   }
   errors.raise();
   return requirements;

@@ -12,6 +12,7 @@
 #include "spec/json_document.hpp"
 #include "spec/schema_violation.hpp"
 #include "spec/scope.hpp"
+#include "spec/sight.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/wording.hpp"
@@ -72,6 +73,7 @@ void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
   errors.attempt([&] { spec.controller = read_controller(scope, root); });
   const bool is_coordinated = has_agents && has_period && errors.attempt([&] {
     spec.coordination = read_coordination(scope, root, spec.agents, period);
+    check_sight(spec);
   });
   if (is_coordinated) {
     errors.attempt([&] {

@@ -21,6 +21,25 @@ std::vector<std::string> names_of(const std::vector<Spec>& specs) {
   return names;
 }
 
+std::vector<std::string> state_names(const Node& root) {
+  std::vector<std::string> names;
+  for (const Node& state : root.elements("states")) names.push_back(state["name"].text());
+  return names;
+}
+
+/// Indices of the states that an agent reads by itself, ascending.
+std::vector<std::int32_t> read_sees(const Node& agent, const std::vector<std::string>& states) {
+  std::vector<std::int32_t> seen;
+  for (const Node& name : agent.elements("sees")) {
+    const std::int32_t state = index_of_name(name, states, "a state");
+    if (std::ranges::count(seen, state) > 0)
+      throw SpecError("the state " + quote_text(name.text()) + " is listed twice", name.pointer());
+    seen.push_back(state);
+  }
+  std::ranges::sort(seen);
+  return seen;
+}
+
 constexpr std::int32_t kNobody = -1;
 
 /// Gives an input to agent `agent`. REQUIRES: `owners` holds the agent that owns each input, or kNobody.
@@ -146,6 +165,7 @@ std::vector<AgentSpec> read_agents(const Scope& scope, const Node& root,
     if (object.has("prefer")) {
       agent.prefer = scope.expression(object["prefer"], ExpectedType::number, Over::states_and_inputs);
     }
+    if (object.has("sees")) agent.sees = read_sees(object, state_names(root));
     agents.push_back(std::move(agent));
   }
   const auto orphan = std::find(owners.begin(), owners.end(), kNobody);
@@ -170,8 +190,7 @@ DynamicsSpec read_dynamics(const Scope& scope, const Node& root, const Rational&
   ErrorList errors;
   errors.attempt([&] { dynamics.unit = read_unit(object); });
   const Node equations = object["equations"];
-  std::vector<std::string> names;
-  for (const Node& state : root.elements("states")) names.push_back(state["name"].text());
+  const std::vector<std::string> names = state_names(root);
   bool are_known = errors.attempt([&] { check_state_names(equations, "an equation", names); });
   if (object.has("updates")) {
     are_known = errors.attempt([&] { check_updates(object["updates"], equations, dynamics.time, names); }) &&

@@ -42,6 +42,13 @@ const std::vector<RequirementTraits>& requirement_kinds() {
        .claim = "risk at most {risk}",
        .failing = "has a risk of {risk}",
        .is_probability = true},
+      {.kind = RequirementKind::min_blind_delay,
+       .key = "min_blind_delay",
+       .needs = "sees",
+       .value = "blind_delay",
+       .is_upper_limit = false,
+       .claim = "blind delay of {partition} at least {steps}",
+       .failing = "has a blind delay of {steps}"},
   };
   return kinds;
 }

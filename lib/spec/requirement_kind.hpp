@@ -10,8 +10,9 @@ namespace coordreq {
 /// What is true of all requirements of a kind.
 struct RequirementTraits {
   RequirementKind kind;
-  std::string key;      ///< of the spec that stands for it
-  std::string needs;    ///< a key at the top of the spec without which it cannot be; empty: none
+  std::string key;  ///< of the spec that stands for it
+  /// A key at the top of the spec without which it cannot be, or "sees" of agents; empty: none.
+  std::string needs;
   std::string value;    ///< what states are judged by: "delay", "arrival"
   bool is_upper_limit;  ///< at most so many steps; else at least
   // In words; {steps} stands for the steps, {partition} for the name of the partition, {risk} for a risk.

@@ -33,7 +33,14 @@ enum class Cells : std::uint8_t { closed, half_open };
 enum class Membership : std::uint8_t { inner, center };
 enum class Synthesis : std::uint8_t { maximal, given };
 enum class NetworkKind : std::uint8_t { automaton, delay, burst, weakly_hard, loss };
-enum class RequirementKind : std::uint8_t { min_delay, invariant, max_arrival, min_approach_delay, max_risk };
+enum class RequirementKind : std::uint8_t {
+  min_delay,
+  invariant,
+  max_arrival,
+  min_approach_delay,
+  max_risk,
+  min_blind_delay
+};
 
 /// The key of the spec that stands for it, "automaton" for `modes`.
 [[nodiscard]] std::string network_kind_name(NetworkKind kind);

@@ -46,6 +46,9 @@ struct AgentSpec {
   std::string name;
   std::vector<std::int32_t> inputs;  ///< indices into ProblemSpec::inputs, ascending; not empty
   std::optional<Program> prefer;     ///< over states and inputs
+  /// States that it reads by itself at every sample, ascending; none: all. Of those that memories keep see
+  /// seen_states().
+  std::optional<std::vector<std::int32_t>> sees;
 };
 
 /// How a discrete state jumps at a sample.

@@ -31,15 +31,18 @@ double elements_of_cell(const ResultsReader& results, const Field& field) {
 }
 
 double bytes_of_claims(const ResultsReader& results) {
-  double bytes = 0, copied = 0;
+  constexpr double kBytesOfTable = 2 * sizeof(std::int64_t) + 1;  // widened, and worked out once more
+  double bytes = 0, copied = 0, tables = 0;
   for (const Field& field : results.fields()) {
     const double elements = elements_of_cell(results, field);
+    if (elements == 0 && !field.scale && !field.types.empty())
+      tables += results.elements(field) * kBytesOfTable;
     if (elements == 0) continue;
     const bool is_list = field.path.starts_with("/layers/");
     bytes += elements * (is_list ? sizeof(std::uint64_t) : bytes_in_claims(field));
     copied = std::max(copied, 2 * bytes_in_claims(field));
   }
-  return (bytes + copied) * static_cast<double>(results.grid().cells());
+  return tables + (bytes + copied) * static_cast<double>(results.grid().cells());
 }
 
 /// Entries of all tables that are written out for every choice of what they depend on.

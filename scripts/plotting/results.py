@@ -112,6 +112,10 @@ class Results(StoredFile):
         # What is no state with cells around its points is a discrete one or an input.
         return Axis(name, "" if unit == "1" else unit, points, step, self.spec.is_discrete(name))
 
+    def axes_of(self, name):
+        """The names of the axes of a dataset, in their order."""
+        return [scales[0].name[1:] for scales in self._object(name).dims]
+
     def partition(self, name):
         """Its number; without a name that of the only one."""
         if name is None:

@@ -44,6 +44,7 @@ TEST(DatasetNames, AreThoseOfTheDatasetsThatAreWritten) {
         R"({"requirements": [{"name": "r", "where": "x <= 1 and 0 <= y <= 1", "invariant": true}]})",
         R"({"output": {"controller": true, "layers": false}})", R"({"output": {"actions": true}})",
         R"({"output": {"layers": true}})", R"({"output": {"abstraction": true}})",
+        R"({"agents": [{"name": "a", "inputs": ["u"], "sees": ["x"]}, {"name": "b", "inputs": ["v"]}]})",
         R"({"controller": {"file": "other.h5"}})"}) {
     nlohmann::json spec = plain_spec();
     spec.update(nlohmann::json::parse(addition));
@@ -52,7 +53,7 @@ TEST(DatasetNames, AreThoseOfTheDatasetsThatAreWritten) {
     EXPECT_EQ(reserved, written(read_spec(text, "test"))) << addition;
     all.insert(reserved.begin(), reserved.end());
   }
-  EXPECT_EQ(all.size(), 29U);
+  EXPECT_EQ(all.size(), 36U);
 }
 
 }  // namespace

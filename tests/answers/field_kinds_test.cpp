@@ -18,7 +18,7 @@ ProblemSpec everything() {
   return read_spec(R"({"coordreq": 1, "name": "all",
 "states": [{"name": "x", "lower": 0, "upper": 3, "step": 1, "discrete": true, "outside": "saturate"}],
 "inputs": [{"name": "u", "values": [0, 1]}, {"name": "v", "values": [0, 1]}],
-"agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
+"agents": [{"name": "a", "inputs": ["u"], "sees": []}, {"name": "b", "inputs": ["v"]}],
 "dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x + u - v"}}, "safe": "x <= 2", "goal": "x == 0",
 "coordination": {"partitions": "all", "horizon": 2, "convention": true, "connection_delay": 1},
 "network": {"loss": 0.1}, "risk": {"horizon": 2}, "requirements": [{"name": "r", "where": "x == 0", "invariant": true}],
@@ -85,6 +85,7 @@ TEST(AnswerPolicies, AreThoseOfTheSpec) {
   ProblemSpec spec = everything();
   spec.goal.reset();
   spec.coordination.convention = false;
+  spec.agents[0].sees.reset();
   const std::vector<AnswerPolicy> policies = answer_policies(spec);
   ASSERT_EQ(policies.size(), 1U);
   EXPECT_EQ(policies.front().delay, "/delay");

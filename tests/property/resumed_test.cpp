@@ -8,11 +8,15 @@
 #include <cstring>
 #include <vector>
 
+#include "answers/blind/answer.hpp"
+#include "answers/blind/blind_layers.hpp"
 #include "answers/network/network_problem.hpp"
 #include "answers/risk/risk.hpp"
 #include "spec/read_spec.hpp"
+#include "spec/sight.hpp"
 #include "support/fast_engine.hpp"
 #include "support/random_problem.hpp"
+#include "support/random_sight.hpp"
 
 namespace coordreq {
 namespace {
@@ -107,6 +111,40 @@ TEST(Resumed, LayersAreTheSameFromAnyStep) {
             .layers_of;
       }));
     }
+  }));
+}
+
+TEST(Resumed, BlindLayersAreTheSameFromAnyStep) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("the layers of agents that see only themselves", [&] {
+    const ProblemSpec spec = read_spec(with_sight(draw_problem()), "random");
+    const FastAnalysis fast(spec, team);
+    bool goes_on = false;
+    for (std::size_t p = 0; p < fast.layers.size(); ++p) {
+      const PartitionSpec& partition = spec.coordination.partitions[p];
+      if (partition.classes.size() == 1) continue;
+      const ActionGrouping grouping(fast.engine, input_classes(spec, fast.abstraction.inputs, partition),
+                                    team);
+      const Projections projections(fast.controller, grouping, fast.hull, team, {}, true);
+      ClassFibres fibres;
+      for (const auto& agents : partition.classes)
+        fibres.emplace_back(std::in_place, fast.engine.grid(), seen_states(spec, agents));
+      const SilentSources sources{projections, fast.invariance.invariant, fibres};
+      const BlindProblem problem{sources, fast.hull, fast.layers[p], spec.coordination.max_delay};
+      const auto find = [&](const WaveWatch& watch) {
+        WaveCounts counts;
+        return find_blind_levels(problem, watch, team, counts);
+      };
+      std::vector<Seen> seen;
+      const std::vector<std::int64_t> end = levels_of(find(recorder(fast.engine, seen, 1)));
+      RC_ASSERT(end == levels_of(fast.answers->get<Blind>().partitions[p].layers.layers_of));
+      for (Seen& one : seen) {
+        const WaveWatch watch{.resumed = &one.levels};
+        RC_ASSERT(levels_of(find(watch)) == end);
+      }
+      goes_on = goes_on || !seen.empty();
+    }
+    RC_CLASSIFY(goes_on, "a wave after B_1");
   }));
 }
 

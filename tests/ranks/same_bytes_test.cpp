@@ -13,6 +13,7 @@
 #include "support/random_like_agents.hpp"
 #include "support/random_problem.hpp"
 #include "support/random_requirements.hpp"
+#include "support/random_sight.hpp"
 #include "support/thread_ranks.hpp"
 
 namespace coordreq {
@@ -95,6 +96,7 @@ Json draw_problem_of_any_kind() {
   const RandomTime time = draw(0, 3) == 0 ? RandomTime::between_samples : RandomTime::any;
   const RandomAgents agents = draw(0, 3) == 0 ? RandomAgents::many : RandomAgents::few;
   Json spec = Json::parse(draw_problem(time, RandomEdges::any, agents));
+  if (draw(0, 2) == 0) spec = Json::parse(with_sight(spec.dump()));
   for (const char* part : {"controller", "actions", "layers", "abstraction"})
     spec["output"][part] = draw(0, 1) == 0;
   return spec;
@@ -145,6 +147,15 @@ TEST(ManyRanks, WriteTheBytesOfOneProcess) {
   const Folder folder;
   EXPECT_TRUE(rc::check("results of 1, 2, 3, 5 and 8 ranks",
                         [&] { check_same(folder, read_spec(draw_problem_of_any_kind().dump(), "random")); }));
+}
+
+TEST(ManyRanks, SumWhatTheyCountInFibresThatTheyShare) {
+  const Folder folder;
+  EXPECT_TRUE(rc::check("agents that see only themselves", [&] {
+    const bool is_alike = draw(0, 3) == 0;
+    const std::string text = with_sight(is_alike ? draw_like_agents() : draw_problem());
+    check_same(folder, read_spec(text, "random"));
+  }));
 }
 
 TEST(ManyRanks, ExchangeAgentsThatAreAlike) {

@@ -23,7 +23,7 @@ inline constexpr std::string_view kMaximalSpec = R"jsonc({
               { "name": "u3", "lower": 0, "upper": 1, "count": 3 } ],
   "disturbances": [ { "name": "w1", "lower": -0.01, "upper": 0.01, "unit": "N" } ],
   "agents": [ { "name": "horizontal", "inputs": ["u3", "u1"], "prefer": "(x1 - 0.5)^2 + u2" },
-              { "name": "vertical", "inputs": ["u2"] } ],
+              { "name": "vertical", "inputs": ["u2"], "sees": ["heading", "x2"] } ],
   "dynamics": { "time": "continuous", "period": 0.01, "unit": "s",
                 "equations": { "x1": "u1", "x2": "u2", "x3": "w1", "heading": "x1*u3" } },
   "safe": "r2 <= R^2",

@@ -91,6 +91,8 @@ TEST(MaximalSpec, AgentsAndDynamics) {
   EXPECT_EQ(spec.agents[0].prefer->variables(), (Slots{0, 5}));
   EXPECT_EQ(spec.agents[1].inputs, (Members{1}));
   EXPECT_FALSE(spec.agents[1].prefer.has_value());
+  EXPECT_FALSE(spec.agents[0].sees.has_value());
+  EXPECT_EQ(spec.agents[1].sees, (std::vector<std::int32_t>{1, 3}));
   EXPECT_EQ(spec.dynamics.time, Time::continuous);
   EXPECT_EQ(spec.dynamics.period, Rational(1, 100));
   EXPECT_EQ(spec.dynamics.unit, "s");

@@ -242,6 +242,10 @@ TEST(SpecError, AgentsShareOutTheInputs) {
       {"/agents/0/inputs", R"(["u1", "u2"])",
        "the input 'u2' belongs to the agent 'a' already (/agents/1/inputs/0)"},
       {"/agents/1", "-", "the input 'u2' belongs to no agent (/agents)"},
+      {"/agents/0/sees", R"(["x3"])", "'x3' is not a state, did you mean 'x1'? (/agents/0/sees/0)"},
+      {"/agents/0/sees", R"(["u1"])", "'u1' is not a state, did you mean 'x1'? (/agents/0/sees/0)"},
+      {"/agents/0/sees", R"(["x1", "x1"])", "the state 'x1' is listed twice (/agents/0/sees/1)"},
+      {"/agents/0/sees", R"("x1")", "expected a list of state names, found 'x1' (/agents/0/sees)"},
   });
 }
 
@@ -351,7 +355,8 @@ TEST(SpecError, RequirementsAskForOneThing) {
   expect_errors({
       {"/requirements", R"([{"name": "r", "where": "true"}])",
        "missing key: one of 'min_delay', 'min_delay_time', 'invariant', 'max_arrival', 'max_arrival_time', "
-       "'min_approach_delay', 'min_approach_delay_time' or 'max_risk' (/requirements/0)"},
+       "'min_approach_delay', 'min_approach_delay_time', 'max_risk', 'min_blind_delay' or "
+       "'min_blind_delay_time' (/requirements/0)"},
       {"/requirements", R"([{"name": "r", "where": "true", "min_delay": 1, "invariant": true}])",
        "'min_delay' and 'invariant' exclude each other (/requirements/0)"},
       {"/requirements", R"([{"name": "r", "where": "true", "invariant": false}])",

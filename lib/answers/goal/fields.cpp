@@ -129,7 +129,7 @@ void fill_approach(const Answers& answers, const Goal& goal, FieldValues& values
   values.entries[paths::kApproachDelay].array = stacked_array(cell_count(spec), std::move(delays));
   values.entries[paths::kApproachTrigger].array = stacked_array(cell_count(spec), std::move(triggers));
   if (connection_delay == 0) values.entries[paths::kApproachTrigger].equals = paths::kApproachDelay;
-  fill_sizes(goal.approach, "/approach_", values);
+  fill_sizes(pointers_to(goal.approach), "/approach_", values);
 }
 
 /// P of one class of actions, with C in G.

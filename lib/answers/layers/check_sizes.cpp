@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "answers/layers/stored_partition.hpp"
 #include "spec/partition_names.hpp"
@@ -72,22 +73,28 @@ void check_lists(const PartitionClaims& claims, const StoredLayers& stored, cons
 void check_sizes(const PartitionClaims& claims, const Layers& layers, Comparison& comparison) {
   comparison.expect("F", claims.fixed_point_index, layers.fixed_point_index);
   for (std::size_t k = 0; k < claims.layer_sizes.size(); ++k) {
-    comparison.expect(fmt::format("|Z_{}|", k), claims.layer_sizes[k],
+    comparison.expect(fmt::format("|{}_{}|", claims.meant.letter, k), claims.layer_sizes[k],
                       layers.sizes[std::min(k, layers.sizes.size() - 1)]);
   }
 }
 
 }  // namespace
 
-PartitionClaims::PartitionClaims(const ProblemSpec& spec, const Claims& claims, std::size_t p)
-    : partition(spec.coordination.partitions[p]),
-      delay(claims.values("/delay", p)),
-      trigger(claims.values("/trigger", p)),
-      fixed_point_index(claims.at("/fixed_point_index").integers[p]) {
-  const std::vector<std::int64_t>& sizes = claims.at("/layer_size").integers;
-  const auto layers = static_cast<std::ptrdiff_t>(sizes.size() / spec.coordination.partitions.size());
-  const auto row = sizes.begin() + static_cast<std::ptrdiff_t>(p) * layers;
-  layer_sizes.assign(row, row + layers);
+LayersMeant blind_layers_meant() {
+  return {"/blind_countdown", "/blind_delay", "/blind_", "blind layers", 'B'};
+}
+
+PartitionClaims::PartitionClaims(const ProblemSpec& spec, const Claims& claims, std::size_t p,
+                                 LayersMeant layers)
+    : meant(std::move(layers)),
+      partition(spec.coordination.partitions[p]),
+      delay(claims.values(meant.delay, p)),
+      trigger(claims.values(meant.trigger, p)),
+      fixed_point_index(claims.at(meant.prefix + "fixed_point_index").integers[p]) {
+  const std::vector<std::int64_t>& sizes = claims.at(meant.prefix + "layer_size").integers;
+  const auto length = static_cast<std::ptrdiff_t>(sizes.size() / spec.coordination.partitions.size());
+  const auto row = sizes.begin() + static_cast<std::ptrdiff_t>(p) * length;
+  layer_sizes.assign(row, row + length);
   for (const auto& agents : partition.classes) {
     const auto* const own = claims.bits("/actions/" + partition.name + "/" + class_name(spec.agents, agents));
     if (own != nullptr) actions.push_back(own);
@@ -96,7 +103,7 @@ PartitionClaims::PartitionClaims(const ProblemSpec& spec, const Claims& claims, 
 
 Finding compare_layers(const ProblemSpec& spec, const Claims& claims, const PartitionClaims& own,
                        std::size_t& longest) {
-  Comparison comparison("layers " + own.partition.name);
+  Comparison comparison(own.meant.words + " " + own.partition.name);
   const std::optional<Layers> layers = layers_of(spec, own);
   if (!layers) {
     comparison.expect<std::string_view>(
@@ -106,7 +113,7 @@ Finding compare_layers(const ProblemSpec& spec, const Claims& claims, const Part
   }
   longest = std::max(longest, layers->sizes.size());
   check_sizes(own, *layers, comparison);
-  if (spec.output.layers)
+  if (spec.output.layers && own.meant.prefix == "/")
     check_lists(own, read_layer_lists(spec, own.partition, claims), *layers, comparison);
   return comparison.finding();
 }

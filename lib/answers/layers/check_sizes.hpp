@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "answers/checking/claims.hpp"
@@ -9,10 +10,20 @@
 
 namespace coordreq {
 
+/// Which layers of a partition are meant: where the file has them, and what they are called.
+struct LayersMeant {
+  std::string delay = "/delay", trigger = "/trigger", prefix = "/";
+  std::string words = "layers";
+  char letter = 'Z';
+};
+/// Those of agents who see only themselves, with countdowns for delays.
+[[nodiscard]] LayersMeant blind_layers_meant();
+
 /// What a file says about one partition. REQUIRES: the claims outlive it.
 struct PartitionClaims {
-  PartitionClaims(const ProblemSpec& spec, const Claims& claims, std::size_t p);
+  PartitionClaims(const ProblemSpec& spec, const Claims& claims, std::size_t p, LayersMeant layers = {});
 
+  LayersMeant meant;
   const PartitionSpec& partition;
   const std::vector<std::int32_t>& delay;
   const std::vector<std::int32_t>& trigger;

@@ -179,15 +179,22 @@ ElementType delay_type(const std::vector<DelayLayers>& partitions) {
   return level_type(greatest);
 }
 
-void fill_sizes(const std::vector<DelayLayers>& partitions, const std::string& prefix, FieldValues& values) {
+std::vector<const DelayLayers*> pointers_to(const std::vector<DelayLayers>& partitions) {
+  std::vector<const DelayLayers*> pointers;
+  for (const DelayLayers& layers : partitions) pointers.push_back(&layers);
+  return pointers;
+}
+
+void fill_sizes(const std::vector<const DelayLayers*>& partitions, const std::string& prefix,
+                FieldValues& values) {
   std::size_t count = 1;
-  for (const DelayLayers& layers : partitions) count = std::max(count, layers.sizes.size());
+  for (const DelayLayers* layers : partitions) count = std::max(count, layers->sizes.size());
   std::vector<std::uint64_t> sizes;
   std::vector<std::int32_t> fixed_points;
-  for (const DelayLayers& layers : partitions) {
+  for (const DelayLayers* layers : partitions) {
     for (std::size_t k = 0; k < count; ++k)
-      sizes.push_back(static_cast<std::uint64_t>(layers.sizes[std::min(k, layers.sizes.size() - 1)]));
-    fixed_points.push_back(layers.fixed_point_index);
+      sizes.push_back(static_cast<std::uint64_t>(layers->sizes[std::min(k, layers->sizes.size() - 1)]));
+    fixed_points.push_back(layers->fixed_point_index);
   }
   values.lengths[prefix + "layer"] = count;
   values.entries[prefix + "layer_size"].array = owned_array(ElementType::uint64, std::move(sizes));
@@ -216,7 +223,7 @@ Fields layer_fields(const ProblemSpec& spec) {
 void fill_layer_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const std::vector<DelayLayers>& partitions = answers.get<PartitionLayers>().partitions;
   fill_steps(answers, partitions, values);
-  fill_sizes(partitions, "/", values);
+  fill_sizes(pointers_to(partitions), "/", values);
   const ProblemSpec& spec = answers.ground.spec;
   const auto cells = std::make_shared<LatestCells>();
   const auto grouping = std::make_shared<LatestGrouping>();

@@ -33,7 +33,9 @@ void fill_layer_fields(const Answers& answers, ThreadTeam& team, FieldValues& va
 /// @param losses the most layers that can differ from the one before them
 void add_sizes(Fields& fields, const std::string& prefix, char layer, std::uint64_t losses,
                const ProblemSpec& spec);
-void fill_sizes(const std::vector<DelayLayers>& partitions, const std::string& prefix, FieldValues& values);
+void fill_sizes(const std::vector<const DelayLayers*>& partitions, const std::string& prefix,
+                FieldValues& values);
+[[nodiscard]] std::vector<const DelayLayers*> pointers_to(const std::vector<DelayLayers>& partitions);
 /// Type of the delays of all partitions, which share an array.
 [[nodiscard]] ElementType delay_type(const std::vector<DelayLayers>& partitions);
 /// `length` elements of the field of delays, or of triggers, of one partition.

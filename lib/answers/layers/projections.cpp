@@ -41,9 +41,10 @@ template <class Level>
 class Projections::Builder {
  public:
   Builder(const Controller& controller, const ActionGrouping& grouping, const ForbiddenChoices& choices,
-          const RowHull& hull, const LevelRows<Level>& levels)
+          const RowHull& hull, const LevelRows<Level>& levels, bool keeps_masks)
       : controller_(controller),
         levels_(levels),
+        keeps_masks_(keeps_masks),
         grouping_(grouping),
         choices_(choices),
         boxes_(grouping),
@@ -75,14 +76,17 @@ class Projections::Builder {
       for (std::size_t c = 0; c < masks_.size(); ++c)
         is_full ? fill_masks(c, invariant) : find_masks(place, c);
     }
-    packed_.clear();
     if (is_product) {
+      packed_.clear();
       independent_.pack(boxes_, groups_, masks_, invariant, controller_.engine->grid(), packed_);
-    } else {
-      for (const std::vector<Word>& own : masks_) packed_.insert(packed_.end(), own.begin(), own.end());
+      found.packed = packed_;
     }
-    found.is_product = is_product;
-    found.packed = packed_;
+    if (!is_product || (keeps_masks_ && !is_full)) {
+      joined_masks_.clear();
+      for (const std::vector<Word>& own : masks_)
+        joined_masks_.insert(joined_masks_.end(), own.begin(), own.end());
+      found.masks = joined_masks_;
+    }
     if (choices_.find(place, groups_, masks_, work_, forbidden_)) found.forbidden = forbidden_;
     return found;
   }
@@ -169,6 +173,7 @@ class Projections::Builder {
 
   const Controller& controller_;
   const LevelRows<Level>& levels_;
+  bool keeps_masks_;
   const ActionGrouping& grouping_;
   const ForbiddenChoices& choices_;
   ForbiddenChoices::Workspace work_;
@@ -187,12 +192,13 @@ class Projections::Builder {
   std::vector<std::vector<Word>> masks_;
   std::vector<std::uint8_t> known_;
   std::vector<Word> packed_;
+  std::vector<Word> joined_masks_;
   std::vector<Word> reachable_;
   std::vector<Word> left_;
 };
 
 Projections::Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
-                         ThreadTeam& team, const EqualWork& equal)
+                         ThreadTeam& team, const EqualWork& equal, bool keeps_masks)
     : grouping_(&grouping), words_(controller.engine->row_words()), equal_(equal) {
   equal_.numbers = &classes_;
   const RowEngine& engine = *controller.engine;
@@ -202,7 +208,8 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<Builder<Level>> builders;
-    for (int w = 0; w < team.size(); ++w) builders.emplace_back(controller, grouping, choices, hull, levels);
+    for (int w = 0; w < team.size(); ++w)
+      builders.emplace_back(controller, grouping, choices, hull, levels, keeps_masks);
     for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
       Builder<Level>& builder = builders[static_cast<std::size_t>(worker)];
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
@@ -214,6 +221,7 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
         found = builder.project(place);
         Store& store = stores_[static_cast<std::size_t>(worker)];
         found.packed = store.keep(found.packed);
+        found.masks = store.keep(found.masks);
         found.forbidden = store.keep(found.forbidden);
       }
     });
@@ -254,7 +262,7 @@ bool Projections::has_cells(const CellSet& invariant, std::int64_t row) const {
 }
 
 ConstRow Projections::mask(std::int64_t row, const RowGroups& groups, std::size_t c, std::uint32_t g) const {
-  return {of(row).packed.data() + (group_offset(groups, c) + g) * words_, words_};
+  return {of(row).masks.data() + (group_offset(groups, c) + g) * words_, words_};
 }
 
 }  // namespace coordreq

@@ -22,8 +22,9 @@ class Projections {
   /// @param equal where C is the same, but for the order of agents, nothing is held, and nothing may be
   /// asked,
   ///   of rows that are not the first. Its `numbers` are not looked at
+  /// @param keeps_masks whether mask() can be asked of rows in the form of a product, too
   Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
-              ThreadTeam& team, const EqualWork& equal = {});
+              ThreadTeam& team, const EqualWork& equal = {}, bool keeps_masks = false);
   Projections(Projections&&) = default;  // what it has found points into what it keeps
   Projections& operator=(Projections&&) = default;
   Projections(const Projections&) = delete;
@@ -38,14 +39,15 @@ class Projections {
   };
   [[nodiscard]] Form form(std::int64_t row) const {
     const std::uint32_t number = number_[static_cast<std::size_t>(row)];
-    if (number == kNothing || found_[number - 1].packed.empty()) return Form::full;
-    return found_[number - 1].is_product ? Form::product : Form::masks;
+    if (number == kNothing) return Form::full;
+    if (!found_[number - 1].packed.empty()) return Form::product;
+    return found_[number - 1].masks.empty() ? Form::full : Form::masks;
   }
   /// [row] not 0 where every action is in C(x) for all x of K in the row, and K has any there: then IND_C is
   /// the same for all partitions.
   [[nodiscard]] const std::vector<std::uint8_t>& full_rows() const { return is_full_; }
   /// {x in the row : group g of class c is in the projection of C(x)}; groups as ActionGrouping::group
-  /// numbers them. REQUIRES: form(row) is `masks`.
+  /// numbers them. REQUIRES: form(row) is `masks`, or masks are kept and the row is none of full_rows().
   [[nodiscard]] ConstRow mask(std::int64_t row, const RowGroups& groups, std::size_t c,
                               std::uint32_t g) const;
   /// For IndependentPosts::unpack(). Boxes are those of a row that is the same, seen from itself: they lie
@@ -82,9 +84,9 @@ class Projections {
   /// What was found for one row, and holds for those that are the same.
   struct Found {
     std::int64_t row = 0;
-    bool is_product = false;
     bool is_full = false;
-    std::span<const Word> packed = {};     ///< masks: groups of class 0, then of class 1, ...
+    std::span<const Word> packed = {};     ///< of a product, see Projections::packed()
+    std::span<const Word> masks = {};      ///< groups of class 0, then of class 1, ...
     std::span<const Word> forbidden = {};  ///< see Projections::forbidden()
   };
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,22 @@ namespace coordreq {
 /// The value that a field has at a cell, INT32_MAX where it has no end.
 using CellValue = std::function<std::int32_t(std::int64_t cell)>;
 
+/// Fields of bytes that are over less than cells, as an answer keeps tables in them.
+class ByteTables {
+ public:
+  virtual ~ByteTables() = default;
+  /// The length of an axis.
+  [[nodiscard]] virtual std::int64_t length(const std::string& scale) const = 0;
+  /// The bytes along the last axis of a field, at a place along all others.
+  [[nodiscard]] virtual std::vector<std::uint8_t> bytes(const std::string& path,
+                                                        const std::vector<std::int64_t>& place) const = 0;
+};
+
 /// What policies stand on: a results file, or arrays in memory.
 struct PolicyGround {
   const ProblemSpec* spec = nullptr;
+  const PartitionSpec* partition = nullptr;  ///< the one at hand
+  const ByteTables* tables = nullptr;
   CellPosts* posts = nullptr;
   /// The values of a field of integers, by path; of the partition at hand where it is over these. In a loop:
   /// of AnswerPolicy::delay and its aim.
@@ -45,6 +59,12 @@ class CellPolicy {
   [[nodiscard]] virtual std::vector<Numbers> alone(std::int64_t cell, std::int32_t countdown,
                                                    const Numbers& together,
                                                    const std::vector<InputClass>& classes);
+  /// The countdown that begins with a joint input on which agents agree at a cell, before it is known where
+  /// that leads; nothing: it is the delay of the cell that is next.
+  [[nodiscard]] virtual std::optional<std::int32_t> countdown_after(std::int64_t /*cell*/,
+                                                                    std::int64_t /*u*/) {
+    return std::nullopt;
+  }
 };
 
 /// Which class may do what at a cell and a countdown, as an answer declares it: for the loop of `simulate`,
@@ -66,6 +86,9 @@ struct AnswerPolicy {
     std::string words;  ///< what the steps are
   };
   Aim aim = {};
+  /// Runs follow it only if they are asked to, by an option of its name, and then wherever they are.
+  /// `trigger` is then the countdown that it knows, and what classes may do goes by it.
+  bool is_on_request = false;
   bool is_by_agent = false;  ///< it is of agents, each by itself, whatever the partition is
   std::unique_ptr<CellPolicy> (*make)(const PolicyGround& ground) = nullptr;
   /// Where the actions of a class are stored on request, by its number; null: nowhere.

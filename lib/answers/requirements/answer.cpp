@@ -16,9 +16,10 @@ namespace coordreq {
 namespace {
 
 const char* end_word(EscapeEnd end) {
-  constexpr std::array<const char*, 9> kWords{"outside_safe_set",  "left_domain", "unsafe_between_samples",
-                                              "no_allowed_action", "arrived",     "never_arrives",
-                                              "time_lost",         "not_allowed", "too_risky"};
+  constexpr std::array<const char*, 10> kWords{"outside_safe_set",  "left_domain", "unsafe_between_samples",
+                                               "no_allowed_action", "arrived",     "never_arrives",
+                                               "time_lost",         "not_allowed", "too_risky",
+                                               "no_common_action"};
   return kWords[static_cast<std::size_t>(end)];
 }
 

@@ -137,8 +137,12 @@ void PathChecker::check_approaching(std::size_t step, std::int64_t u) {
 void PathChecker::check_independent(std::size_t step, std::int64_t u) {
   if (!partition_) return wrong(step, "begins in the invariance set");
   if (!is_choice(u, cell_.admitted())) differs(step, "the joint input is not an independent choice");
-  const std::vector<std::int32_t>& delays = ground_.claims->values("/delay", *partition_);
-  const auto delay_of = [&](std::size_t sample) { return delays[path_->cell[sample]]; };
+  // Of agents who see only themselves the first cell is known; then a countdown tells.
+  const bool is_blind = asked_.kind == RequirementKind::min_blind_delay;
+  const auto delay_of = [&](std::size_t sample) {
+    const char* const path = !is_blind ? "/delay" : sample == 0 ? "/blind_delay" : "/blind_countdown";
+    return ground_.claims->values(path, *partition_)[path_->cell[sample]];
+  };
   const std::int32_t delay = delay_of(step);
   const bool goes_on = step + 1 < path_->samples();
   const std::int32_t next = goes_on ? std::max(delay_of(step + 1), kOutsideInvariant) : kOutsideInvariant;
@@ -169,6 +173,7 @@ void PathChecker::check_last_step(std::int64_t u) {
     return differs(step, cell_.is_forbidden(u) ? "the last joint input is forbidden, but the end is another"
                                                : "the last joint input is not forbidden");
   if (path_->end == EscapeEnd::not_allowed) return;
+  if (path_->end == EscapeEnd::no_common_action) return;  // which the end tells
   if (path_->end >= EscapeEnd::arrived) return;  // all has left through a `goal` side, or a `safe` one
   if (path_->end == EscapeEnd::unsafe_between_samples) {
     if (is_blocked(u) || cell_.is_way_safe(u)) differs(step, "the way to the next sample is safe");
@@ -194,6 +199,9 @@ void PathChecker::check_end() {
     const bool is_alone = path_->samples() == 1 && path_->steps() == 0;
     if (!is_alone || path_->end != EscapeEnd::too_risky || asked_.kind != RequirementKind::max_risk)
       wrong(path_->samples(), "a risk is that of one cell");
+  } else if (path_->end == EscapeEnd::no_common_action) {
+    if (!stays || path_->steps() == 0 || !ends_in_sight(static_cast<std::size_t>(last)))
+      wrong(path_->samples(), "in the last cell all classes may have an action");
   } else if (path_->end >= EscapeEnd::arrived && path_->end != EscapeEnd::not_allowed) {
     check_goal_end();
   } else if (stays) {
@@ -201,6 +209,13 @@ void PathChecker::check_end() {
   }
   if (path_->left_side.has_value() != (path_->end == EscapeEnd::left_domain))
     wrong(path_->samples(), "a side that belongs to another end");
+}
+
+/// Seen by all it would go on, and nobody sees it.
+bool PathChecker::ends_in_sight(std::size_t cell) const {
+  return asked_.kind == RequirementKind::min_blind_delay &&
+         ground_.claims->values("/blind_countdown", *partition_)[cell] == 0 &&
+         ground_.claims->values("/delay", *partition_)[cell] >= 1;
 }
 
 void PathChecker::check_goal_end() {

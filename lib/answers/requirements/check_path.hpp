@@ -37,6 +37,7 @@ class PathChecker {
   void check_next(std::size_t step, std::int64_t u);
   void check_last_step(std::int64_t u);
   void check_end();
+  [[nodiscard]] bool ends_in_sight(std::size_t cell) const;
   void check_goal_end();
 
   [[nodiscard]] std::optional<std::int64_t> input_of(std::size_t step) const;

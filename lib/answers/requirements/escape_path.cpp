@@ -218,12 +218,19 @@ class EscapeFinder {
 
   bool take_independent() {
     const std::int64_t cell = path_.cells.back();
-    const std::int64_t layers = level_of(*sets_.layers_of, cell);
+    const bool is_blind = sets_.blind_countdown_of != nullptr;
+    const bool is_known = path_.cells.size() == 1;
+    const LevelMap& next = is_blind ? *sets_.blind_countdown_of : *sets_.layers_of;
+    const std::int64_t layers = level_of(is_blind && is_known ? *sets_.blind_delay_of : next, cell);
+    if (is_blind && !is_known && layers == 1 && level_of(*sets_.layers_of, cell) > 1) {
+      path_.end = EscapeEnd::no_common_action;
+      return false;
+    }
     const std::vector<bool> choices = independent(inputs_.of(cell));
     const auto is_choice = [&](std::int64_t u) { return choices[static_cast<std::size_t>(u)]; };
     // From the last layer that holds the cell the way out of K is a single step.
     const bool is_last = layers == 1;
-    const LevelMap& levels = is_last ? collision_time_ : *sets_.layers_of;
+    const LevelMap& levels = is_last ? collision_time_ : next;
     return take(find(levels, is_last ? kLeast : layers - 1, is_choice), levels, EscapePhase::independent);
   }
 

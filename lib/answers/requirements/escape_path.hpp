@@ -37,6 +37,9 @@ struct EscapeSets {
   RequirementKind kind = RequirementKind::min_delay;
   const Goal* goal = nullptr;
   const LevelMap* approach_of = nullptr;
+  /// Of `min_blind_delay`, of the partition: blind delays, and B; else null.
+  const LevelMap* blind_delay_of = nullptr;
+  const LevelMap* blind_countdown_of = nullptr;
   /// [dimension]: what one index adds to a cell's number, by which ties are broken.
   std::vector<std::int64_t> number_stride;
 };
@@ -54,6 +57,10 @@ struct EscapeSets {
 /// - `min_approach_delay`, from x in W of approach delay k: k steps by u in IND_P, each to a y whose approach
 ///   delay is one less, then one to a y that is not nearer; from the goal on as from x in K above, from x in
 ///   K outside W as for `max_arrival`.
+/// - `min_blind_delay`, from x in K of blind delay k: as from x in K above, but to a countdown of k - 1,
+/// which
+///   each step takes down by one; where it is 0 a class has no action for all that it may see, which is the
+///   end (or out of K, if that is what follows there).
 /// REQUIRES: the delay of x is bounded, and known.
 /// Cost: a look at every joint input in every step, and at every cell of each different post.
 /// Of several processes together: each step is found by the one that owns the cell.

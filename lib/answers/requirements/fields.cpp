@@ -7,6 +7,7 @@
 #include "answers/requirements/answer.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/sight.hpp"
 
 namespace coordreq {
 namespace {
@@ -72,6 +73,7 @@ std::vector<FieldFlag> end_flags(const ProblemSpec& spec) {
   if (spec.goal) result.insert(result.end(), {{5, "arrived"}, {6, "never_arrives"}, {7, "time_lost"}});
   if (allow_joins_agents(spec)) result.push_back({8, "not_allowed"});
   if (spec.risk) result.push_back({9, "too_risky"});
+  if (has_limited_sight(spec)) result.push_back({10, "no_common_action"});
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "answers/blind/fields.hpp"
 #include "answers/goal/answer.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/answer.hpp"
@@ -69,8 +70,9 @@ class Judge {
     }
     if (!requirement.partition) return result;
     const auto p = static_cast<std::size_t>(*requirement.partition);
-    result.layers = requirement.kind == RequirementKind::min_approach_delay
-                        ? &goal->approach[p]
+    result.layers = requirement.kind == RequirementKind::min_approach_delay ? &goal->approach[p]
+                    : requirement.kind == RequirementKind::min_blind_delay
+                        ? &blind_delays(answers_, p)
                         : &answers_.get<PartitionLayers>().partitions[p];
     return result;
   }
@@ -95,6 +97,10 @@ class Judge {
           input_classes(ground_.spec, ground_.abstraction->inputs, ground_.spec.coordination.partitions[p]);
       sets.layers_of = &answers_.get<PartitionLayers>().partitions[p].layers_of;
       sets.approach_of = &asked_.layers->layers_of;
+      if (requirement.kind == RequirementKind::min_blind_delay) {
+        sets.blind_delay_of = &asked_.layers->layers_of;
+        sets.blind_countdown_of = &blind_layers(answers_, p).layers_of;
+      }
     }
     return result_of(find_escape(sets, cell), ground_, asked_, number_stride_);
   }

@@ -34,6 +34,7 @@ enum class EscapeEnd : std::uint8_t {
   time_lost,               ///< the last cell is not nearer to the goal than the one before
   not_allowed,             ///< the last action takes of each class what it may do, and `allow` forbids it
   too_risky,               ///< there is but one cell, of too great a risk
+  no_common_action,        ///< in the last cell, in K, some class has no action for all that it may see
 };
 
 /// One end of one state.

@@ -1,0 +1,263 @@
+#include "answers/blind/answer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "answers/blind/blind_layers.hpp"
+#include "answers/blind/fields.hpp"
+#include "answers/invariance/answer.hpp"
+#include "answers/kept_levels.hpp"
+#include "answers/layers/answer.hpp"
+#include "answers/layers/projection_bytes.hpp"
+#include "answers/work_json.hpp"
+#include "base/index.hpp"
+#include "spec/problem_spec.hpp"
+#include "spec/sight.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+namespace {
+
+ClassFibres fibres_of(const ProblemSpec& spec, const UniformGrid& grid, const PartitionSpec& partition) {
+  ClassFibres fibres;
+  for (const std::vector<std::int32_t>& agents : partition.classes) {
+    const std::vector<std::size_t> seen = seen_states(spec, agents);
+    fibres.push_back(seen.size() == spec.states.size() ? std::nullopt
+                                                       : std::optional<Fibres>(std::in_place, grid, seen));
+  }
+  return fibres;
+}
+
+/// What the classes of a partition can do and see, and the layers of those that see everything.
+struct BlindSight {
+  BlindSight(const Answers& answers, std::size_t p, const StageWork& work)
+      : grouping(*answers.ground.engine,
+                 input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
+                               answers.ground.spec.coordination.partitions[p]),
+                 work.team),
+        projections(answers.get<Controller>(), grouping, *answers.ground.hull, work.team,
+                    {.tiles = answers.ground.equal_work()}, true),
+        fibres(fibres_of(answers.ground.spec, answers.ground.engine->grid(),
+                         answers.ground.spec.coordination.partitions[p])),
+        sources{projections, answers.get<Invariance>().invariant, fibres},
+        problem{sources, *answers.ground.hull, answers.get<PartitionLayers>().partitions[p],
+                answers.ground.spec.coordination.max_delay, answers.ground.tiles.has_value()} {}
+  BlindSight(const BlindSight&) = delete;
+  BlindSight& operator=(const BlindSight&) = delete;
+  ~BlindSight() = default;
+
+  ActionGrouping grouping;
+  Projections projections;
+  ClassFibres fibres;
+  SilentSources sources;
+  BlindProblem problem;
+};
+
+LevelBounds bounds_of(const Answers& answers, std::int64_t more) {
+  const std::optional<std::int64_t>& most = answers.ground.spec.coordination.max_delay;
+  const std::int64_t steps = answers.ground.engine->grid().points();
+  return {&answers.get<Invariance>().invariant, (most ? std::min(*most, steps) : steps) + more};
+}
+
+void find_blind_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
+  const Ground& ground = answers.ground;
+  if (answers.find<Blind>() == nullptr)
+    answers.add(Blind{std::vector<BlindPartition>(ground.spec.coordination.partitions.size())});
+  DelayLayers& own = answers.get<Blind>().partitions[p].layers;
+  find_or_take_levels(work, *ground.engine, bounds_of(answers, 0), own.layers_of,
+                      [&](const WaveWatch& watch) {
+                        work.enter_part("projections");
+                        const BlindSight partition(answers, p, work);
+                        work.enter_part("");
+                        return find_blind_levels(partition.problem, watch, work.team, own.counts);
+                      });
+  follow_from_levels(ground.spec.coordination.max_delay, work.team, own);
+}
+
+/// Makes the tables as large as they are, for those that are loaded.
+void size_tables(const Answers& answers, std::size_t p, std::vector<SilentTable>& tables) {
+  const ProblemSpec& spec = answers.ground.spec;
+  const PartitionSpec& partition = spec.coordination.partitions[p];
+  const ClassFibres fibres = fibres_of(spec, answers.ground.engine->grid(), partition);
+  const std::vector<InputClass> classes = input_classes(spec, answers.ground.abstraction->inputs, partition);
+  tables.assign(fibres.size(), {});
+  for (std::size_t c = 0; c < tables.size(); ++c) {
+    if (!fibres[c]) continue;
+    tables[c].actions = classes[c].actions();
+    tables[c].met.resize(at(fibres[c]->count()));
+    tables[c].lacked.resize(tables[c].met.size() * at(tables[c].actions));
+  }
+}
+
+void serialise_tables(Archive& archive, std::int64_t steps, std::vector<SilentTable>& tables) {
+  const auto are_depths = [steps](const std::vector<std::uint8_t>& depths) {
+    return std::ranges::all_of(depths, [steps](std::uint8_t depth) { return depth <= steps; });
+  };
+  for (SilentTable& table : tables) {
+    archive.list(table.met);
+    archive.list(table.lacked);
+    archive.expect(are_depths(table.met) && are_depths(table.lacked),
+                   "a silent table has more steps than there are");
+  }
+}
+
+/// The value that stands for a level of K, as DelayLayers has it.
+template <class Level>
+std::int64_t steps_of_level(Level level, std::int64_t top) {
+  return level == LevelRows<Level>::kTop ? top : std::int64_t{level} - 1;
+}
+
+/// Cells of K where both delays are the same. Together.
+std::int64_t count_equal(const Ground& ground, const CellSet& invariant, const DelayLayers& one,
+                         const DelayLayers& other) {
+  std::int64_t equal = 0;
+  one.layers_of.visit([&](const auto& first) {
+    other.layers_of.visit([&](const auto& second) {
+      const RowShare::Range own = own_rows(ground.shared_rows(), first.rows());
+      for (std::int64_t r = own.begin; r < own.end; ++r) {
+        const auto* const a = first.row(r);
+        const auto* const b = second.row(r);
+        for_each_bit(invariant.row(r), [&](std::int64_t x) {
+          if (steps_of_level(a[x], one.top_delay()) == steps_of_level(b[x], other.top_delay())) ++equal;
+        });
+      }
+    });
+  });
+  return sum_of_all(ground.shared_rows(), equal);
+}
+
+/// The levels and tables that follow from those of B.
+void find_blind_delays_of(std::size_t p, Answers& answers, const StageWork& work) {
+  const Ground& ground = answers.ground;
+  BlindPartition& own = answers.get<Blind>().partitions[p];
+  const auto serialise_all = [&answers, &own](Archive& archive) {
+    serialise(archive, *answers.ground.engine, bounds_of(answers, 1), own.delays.layers_of);
+    serialise_tables(archive, std::min(own.table_steps(), SilentTable::kMostSteps), own.tables);
+  };
+  size_tables(answers, p, own.tables);
+  const bool is_kept = work.store != nullptr && work.store->take(serialise_all) == StageStore::Kept::finished;
+  if (!is_kept) {
+    work.enter_part("projections");
+    const BlindSight partition(answers, p, work);
+    work.enter_part("");
+    own.delays.layers_of = find_blind_delays(partition.problem, own.layers.layers_of, work.team);
+    const std::int64_t deepest = own.layers.truncated ? own.layers.top_delay() : own.table_steps();
+    own.tables = find_silent_tables(partition.sources, own.layers.layers_of, deepest, work.team);
+  }
+  own.delays.sizes = own.layers.sizes;
+  own.delays.fixed_point_index = own.layers.fixed_point_index;
+  own.delays.truncated = own.layers.truncated;
+  const LevelMap::Histogram found = own.delays.layers_of.histogram(work.team);
+  own.greatest = std::max<std::int64_t>(0, std::ssize(found.finite) - 2);
+  if (own.layers.truncated) own.greatest = std::max<std::int64_t>(own.greatest, own.layers.top_delay());
+  own.as_much = count_equal(ground, answers.get<Invariance>().invariant, own.delays,
+                            answers.get<PartitionLayers>().partitions[p]);
+  if (work.store != nullptr) work.store->finish(serialise_all);
+}
+
+Json blind_json(const DelayLayers& layers, std::int64_t as_much) {
+  return {{"F", layers.truncated ? Json() : Json(layers.fixed_point_index)},
+          {"layers", layers.sizes},
+          {"fixed_point", layers.truncated ? Json() : Json(layers.sizes.back())},
+          {"truncated", layers.truncated},
+          {"as_much", as_much}};
+}
+
+}  // namespace
+
+std::int64_t BlindPartition::table_steps() const {
+  const std::int64_t known = layers.truncated ? layers.top_delay() : layers.fixed_point_index;
+  return std::clamp<std::int64_t>(known, 1, SilentTable::kMostSteps);
+}
+
+std::vector<Stage> blind_stages(const ProblemSpec& spec) {
+  if (!has_limited_sight(spec)) return {};
+  std::vector<Stage> stages;
+  for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {
+    const PartitionSpec& partition = spec.coordination.partitions[p];
+    if (partition.classes.size() == 1) continue;
+    stages.push_back({"blind layers " + partition.name, [p](Answers& answers, const StageWork& work) {
+                        find_blind_layers_of(p, answers, work);
+                      }});
+    stages.push_back({"blind delays " + partition.name, [p](Answers& answers, const StageWork& work) {
+                        find_blind_delays_of(p, answers, work);
+                      }});
+  }
+  return stages;
+}
+
+void summarise_blind(const Answers& answers, Json& summary, Json& work) {
+  const ProblemSpec& spec = answers.ground.spec;
+  if (!has_limited_sight(spec)) return;
+  for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {
+    const DelayLayers& layers = blind_layers(answers, p);
+    Json& own = summary["partitions"][p]["blind"];
+    const bool is_one_class = spec.coordination.partitions[p].classes.size() == 1;
+    own =
+        blind_json(layers, is_one_class ? layers.sizes.front() : answers.get<Blind>().partitions[p].as_much);
+    if (!is_one_class)
+      work["blind layers " + spec.coordination.partitions[p].name] = work_json(layers.counts);
+  }
+}
+
+void tell_blind(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+  if (!has_limited_sight(spec)) return;
+  const std::vector<std::int64_t> sizes = source.integers("/blind_layer_size");
+  const std::vector<std::int64_t> fixed_points = source.integers("/blind_fixed_point_index");
+  const auto layers = static_cast<std::ptrdiff_t>(sizes.size() / fixed_points.size());
+  for (std::size_t p = 0; p < fixed_points.size(); ++p) {
+    if (fixed_points[p] >= layers)
+      source.fail(fmt::format("found {}, expected a layer or -1", fixed_points[p]),
+                  "/blind_fixed_point_index");
+    const bool truncated = fixed_points[p] < 0;
+    const auto first = sizes.begin() + static_cast<std::ptrdiff_t>(p) * layers;
+    const auto last = first + (truncated ? layers : static_cast<std::ptrdiff_t>(fixed_points[p]) + 1);
+    info["partitions"][p]["blind"] = {{"F", truncated ? Json() : Json(fixed_points[p])},
+                                      {"layers", std::vector<std::int64_t>(first, last)},
+                                      {"truncated", truncated}};
+  }
+}
+
+Warnings advise_on_blind(const Answers& answers) {
+  const ProblemSpec& spec = answers.ground.spec;
+  if (!has_limited_sight(spec)) return {};
+  std::vector<std::string> others;
+  if (spec.goal) others.emplace_back("goal");
+  if (spec.coordination.horizon) others.emplace_back("coordination/horizon");
+  if (spec.coordination.convention) others.emplace_back("coordination/convention");
+  if (spec.network) others.emplace_back("network");
+  if (others.empty()) return {};
+  return {{"sight", "/agents",
+           fmt::format("what {} says is true of agents who see all states, whatever they have under 'sees'",
+                       quote_list(others, "and"))}};
+}
+
+/// Levels of B and of the delays, and a byte for each action of each fibre.
+MemoryNeed blind_memory(const EngineSizes& sizes, int threads) {
+  const ProblemSpec& spec = sizes.model().spec();
+  if (!has_limited_sight(spec)) return {};
+  const auto partitions = static_cast<double>(spec.coordination.partitions.size());
+  MemoryNeed need{.array = partitions * sizes.cells() * sizeof(std::int16_t)};
+  for (const PartitionSpec& partition : spec.coordination.partitions) {
+    if (partition.classes.size() == 1) continue;
+    const std::vector<InputClass> classes = input_classes(spec, sizes.model().inputs(), partition);
+    double masks = 0, tables = 0;
+    for (std::size_t c = 0; c < classes.size(); ++c) {
+      masks += sizes.set() * static_cast<double>(classes[c].actions());
+      double fibres = 1;
+      for (const std::size_t i : seen_states(spec, partition.classes[c]))
+        fibres *= static_cast<double>(spec.states[i].grid.count);
+      if (fibres < sizes.cells()) tables += fibres * static_cast<double>(classes[c].actions() + 1);
+    }
+    need.kept += 2 * sizes.levels() + tables;
+    need.work =
+        std::max(need.work, sizes.groups(classes) + projection_bytes(sizes, classes) + masks + tables);
+  }
+  need.work += sizes.wave(threads) + sizes.recent_levels() + sizes.set();
+  return need;
+}
+
+}  // namespace coordreq

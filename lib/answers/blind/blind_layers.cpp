@@ -1,0 +1,105 @@
+#include "answers/blind/blind_layers.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <memory>
+#include <utility>
+
+#include "answers/layers/independent_actions.hpp"
+#include "base/index.hpp"
+#include "engine/find_levels.hpp"
+#include "engine/level_messages.hpp"
+
+namespace coordreq {
+namespace {
+
+const RowEngine& engine_of(const BlindProblem& problem) {
+  return problem.sources.projections.grouping().engine();
+}
+
+/// The levels of Z, but 1 in K where a cell is not in B_1. @param common B_1; null: Z_1
+LevelMap first_levels(const BlindProblem& problem, const CellSet* common) {
+  const RowEngine& engine = engine_of(problem);
+  return problem.layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& layers) {
+    auto levels = engine.make_levels<Level>(engine.posts(), problem.shared);
+    std::vector<Level> cells(at(levels.row_length()) + kLevelBlock / sizeof(Level));
+    const RowShare::Range own = own_rows(engine.share(), levels.rows());
+    for (std::int64_t r = own.begin; r < own.end; ++r) {
+      std::copy_n(layers.row(r), layers.row_length(), cells.begin());
+      if (common != nullptr) {
+        for_each_bit(problem.sources.invariant.row(r), [&](std::int64_t x) {
+          const Word word = common->row(r)[at(x / CellSet::kWordBits)];
+          if ((word >> (x % CellSet::kWordBits) & 1U) == 0) cells[at(x)] = 1;
+        });
+      }
+      levels.put(r, cells.data());
+    }
+    if (engine.share() != nullptr) {
+      LevelMessages<Level>(levels).exchange(
+          [](std::int64_t) { return true; },
+          [&levels](std::int64_t row, const Level* others) { levels.put(row, others); });
+    }
+    return LevelMap(std::move(levels));
+  });
+}
+
+LevelMap run(const BlindProblem& problem, LevelMap& start, const WaveWatch& watch, ThreadTeam& team,
+             WaveCounts& counts) {
+  const SilentSources& sources = problem.sources;
+  const auto make = [&]<class Level>(Level) -> std::unique_ptr<RowOperator<Level>> {
+    return std::make_unique<IndependentActions<Level>>(sources.projections, problem.hull, sources.invariant,
+                                                       team.size());
+  };
+  const LevelProblem levels{.equal = sources.projections.equal_work(),
+                            .limit = problem.max_delay.value_or(-1),
+                            .make8 = [&] { return make(std::uint8_t{}); },
+                            .make16 = [&] { return make(std::uint16_t{}); },
+                            .make32 = [&] { return make(std::uint32_t{}); }};
+  WaveWatch own = watch;
+  own.resumed = &start;
+  return find_levels(engine_of(problem), problem.hull, levels, own, team, counts);
+}
+
+}  // namespace
+
+LevelMap find_blind_levels(const BlindProblem& problem, const WaveWatch& watch, ThreadTeam& team,
+                           WaveCounts& counts) {
+  if (watch.resumed != nullptr) return run(problem, *watch.resumed, watch, team, counts);
+  // With no step at all nobody asks for B_1.
+  if (problem.max_delay == 0) return first_levels(problem, nullptr);
+  const LevelMap& layers = problem.layers.layers_of;
+  const std::optional<CellSet> common =
+      find_common_cells(problem.sources, layers, find_silent_tables(problem.sources, layers, 1, team), team);
+  LevelMap start = first_levels(problem, common ? &*common : nullptr);
+  return common ? run(problem, start, watch, team, counts) : std::move(start);
+}
+
+LevelMap find_blind_delays(const BlindProblem& problem, const LevelMap& levels, ThreadTeam& team) {
+  const RowEngine& engine = engine_of(problem);
+  const CellSet& invariant = problem.sources.invariant;
+  return levels.visit([&]<class Level>(const LevelRows<Level>& layers) {
+    constexpr Level kTop = LevelRows<Level>::kTop;
+    auto delays = engine.make_levels<Level>(engine.posts());
+    IndependentActions<Level> actions(problem.sources.projections, problem.hull, invariant, team.size());
+    std::deque<PostReader<Level>> readers;
+    for (int w = 0; w < team.size(); ++w) readers.emplace_back(engine, layers);
+    const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
+    for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
+      PostReader<Level>& posts = readers[at(worker)];
+      std::vector<Level> least(posts.lanes(), 0), cells(posts.lanes(), 0);
+      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
+        if (place.row == range.begin || place.row % engine.unit_rows() == 0) posts.enter();
+        if (!any_set(invariant.row(place.row))) continue;
+        actions.find_minimum(place, posts, least.data(), worker);
+        std::ranges::fill(cells, Level{0});
+        for_each_bit(invariant.row(place.row), [&](std::int64_t x) {
+          cells[at(x)] = least[at(x)] == kTop ? kTop : static_cast<Level>(least[at(x)] + 1);
+        });
+        delays.put(place.row, cells.data());
+      }
+    });
+    return LevelMap(std::move(delays));
+  });
+}
+
+}  // namespace coordreq

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "answers/blind/silent_table.hpp"
+#include "answers/layers/delay_layers.hpp"
+#include "engine/row_hull.hpp"
+
+namespace coordreq {
+
+/// What the layers B of a partition of several classes are made of (contract, section 8).
+struct BlindProblem {
+  const SilentSources& sources;
+  const RowHull& hull;
+  const DelayLayers& layers;  ///< Z
+  std::optional<std::int64_t> max_delay;
+  bool shared = false;  ///< whether equal rows are held once
+};
+
+/// B_0 = K, B_1 (find_common_cells()), and from there on the operator of Z. Together.
+///
+/// B_k is a part of Z_k, and where a cell is not in B_1 its level is 1 for ever, so that the ordinary wave
+/// finds them from the levels of Z, lowered to 1 there. Where B_1 = Z_1 nothing is left to do.
+[[nodiscard]] LevelMap find_blind_levels(const BlindProblem& problem, const WaveWatch& watch,
+                                         ThreadTeam& team, WaveCounts& counts);
+
+/// blind_delay + 1 of the cells of K, in own rows: one more than the number of sets B_0, B_1, ... that hold
+/// all posts under IND_C; kTop if all do, 0 outside K.
+/// @param levels of B
+[[nodiscard]] LevelMap find_blind_delays(const BlindProblem& problem, const LevelMap& levels,
+                                         ThreadTeam& team);
+
+}  // namespace coordreq

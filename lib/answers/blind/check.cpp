@@ -1,0 +1,338 @@
+#include "answers/blind/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "answers/checking/cell_place.hpp"
+#include "answers/checking/claimed_values.hpp"
+#include "answers/layers/check_sizes.hpp"
+#include "base/index.hpp"
+#include "model/input_class.hpp"
+#include "spec/partition_names.hpp"
+#include "spec/problem_spec.hpp"
+#include "spec/sight.hpp"
+
+namespace coordreq {
+namespace {
+
+/// A class of a partition: what it sees, what the file says that it may do, and what it may at each cell.
+struct BlindClass {
+  BlindClass(const CheckGround& ground, const PartitionSpec& partition, std::size_t c)
+      : name(class_name(ground.spec->agents, partition.classes[c])),
+        own(class_of(*ground.spec, *ground.inputs, partition.classes[c])),
+        seen(seen_states(*ground.spec, partition.classes[c])),
+        grid(*ground.grid) {
+    own.tabulate();
+    for (const std::size_t i : seen) fibres *= grid[i].count;
+    if (seen.size() < grid.size())
+      table = &ground.claims->at("/silent/" + partition.name + "/" + name).integers;
+    admitted.assign(at(grid.cells() * own.bytes()), 0);
+  }
+
+  [[nodiscard]] std::int64_t fibre(std::int64_t cell) const {
+    std::int64_t number = 0;
+    for (const std::size_t i : seen) number = number * grid[i].count + grid.index(cell, i);
+    return number;
+  }
+  [[nodiscard]] bool has(std::int64_t cell, std::int64_t a) const {
+    return (admitted[at(cell * own.bytes() + a / 8)] >> (a % 8) & 1U) != 0;
+  }
+  /// Where the row of k steps begins in the bytes of the table.
+  [[nodiscard]] std::size_t place(std::int64_t k, std::int64_t fibre) const {
+    return at(((k - 1) * fibres + fibre) * own.bytes());
+  }
+  [[nodiscard]] std::int64_t rows() const { return std::ssize(*table) / (fibres * own.bytes()); }
+  /// "first: p1 = 1, v1 = 0, 3 steps left".
+  [[nodiscard]] std::string words(std::int64_t k, std::int64_t fibre) const {
+    std::string text;
+    for (std::size_t n = seen.size(); n-- > 0;) {
+      const GridDimension& dimension = grid[seen[n]];
+      const double value = nearest_double(dimension.point(fibre % dimension.count));
+      text = fmt::format("{} = {}, {}", dimension.name, value, text);
+      fibre /= dimension.count;
+    }
+    return fmt::format("{}: {}{} steps left", name, text, k);
+  }
+
+  std::string name;
+  InputClass own;
+  std::vector<std::size_t> seen;
+  const UniformGrid& grid;
+  std::int64_t fibres = 1;
+  const std::vector<std::int64_t>* table = nullptr;  ///< of the file; null: it sees all states
+  std::vector<std::uint8_t> admitted;                ///< [cell * bytes] A_c, of the cells that were looked at
+};
+
+/// What all threads share about one partition.
+struct BlindPartitionCheck {
+  BlindPartitionCheck(const CheckGround& ground, std::size_t p)
+      : claims(*ground.spec, *ground.claims, p, blind_layers_meant()),
+        delays(ground.claims->values("/blind_delay", p)),
+        of_sight(ground.claims->values("/delay", p)),
+        delay("blind delay " + claims.partition.name),
+        countdown("blind countdown " + claims.partition.name),
+        first("first blind layer " + claims.partition.name),
+        tables("silent tables " + claims.partition.name) {
+    if (claims.fixed_point_index < 0) most = ground.spec->coordination.max_delay;
+    if (claims.partition.classes.size() == 1) return;
+    for (std::size_t c = 0; c < claims.partition.classes.size(); ++c)
+      classes.emplace_back(ground, claims.partition, c);
+  }
+
+  /// The greatest k with x in B_k, as claimed: kForever where the file tells no end of it.
+  [[nodiscard]] std::int32_t depth(std::int64_t cell) const {
+    const std::int32_t steps = claims.delay[at(cell)];
+    return most && *most > 0 && steps == *most ? kForever : steps;
+  }
+
+  PartitionClaims claims;  ///< with countdowns for delays
+  const std::vector<std::int32_t>& delays;
+  const std::vector<std::int32_t>& of_sight;
+  std::optional<std::int64_t> most;  ///< max_delay, if that has cut B
+  Tally delay, countdown, first, tables;
+  std::deque<BlindClass> classes;  ///< none if it is one
+  std::atomic<std::int64_t> looked_at{0};
+};
+
+class BlindChecker : public CellChecker {
+ public:
+  BlindChecker(const CheckGround& ground, std::deque<BlindPartitionCheck>& partitions)
+      : ground_(ground), partitions_(partitions) {}
+
+  void check(CheckedCell& cell) override {
+    for (BlindPartitionCheck& own : partitions_) {
+      keep_actions(cell, own);
+      const std::int32_t outside = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
+      const std::int32_t expected = cell.is_invariant() ? delay_by_definition(cell, own) : outside;
+      compare(own.delay, cell, own.delays[cell.at()], expected);
+      // In B_1 it is the same whether the cell is known; who is in B_1 is looked at later.
+      const std::int32_t claimed = own.claims.delay[cell.at()];
+      const bool is_out = claimed == 0 && expected >= 0 && !own.classes.empty();
+      compare(own.countdown, cell, claimed, is_out ? 0 : expected);
+      if (cell.is_invariant()) check_rows(cell, own);
+    }
+  }
+
+ private:
+  static void keep_actions(const CheckedCell& cell, BlindPartitionCheck& own) {
+    ++own.looked_at;
+    const std::vector<std::uint8_t>& admitted = cell.admitted();
+    for (BlindClass& one : own.classes) {
+      for (std::size_t u = 0; u < admitted.size(); ++u) {
+        if (admitted[u] == 0) continue;
+        const std::int64_t a = one.own.action(static_cast<std::int64_t>(u));
+        std::uint8_t& byte = one.admitted[at(cell.number() * one.own.bytes() + a / 8)];
+        byte = static_cast<std::uint8_t>(byte | 1U << (a % 8));
+      }
+    }
+  }
+
+  [[nodiscard]] std::int32_t delay_by_definition(CheckedCell& cell, const BlindPartitionCheck& own) const {
+    if (own.classes.empty()) return own.of_sight[cell.at()];
+    bool any = false;
+    std::int32_t worst = kForever;
+    for (std::int64_t u = 0; u < ground_.inputs->count() && worst > kOutsideInvariant; ++u) {
+      const bool is_chosen = std::ranges::all_of(
+          own.classes, [&](const BlindClass& one) { return one.has(cell.number(), one.own.action(u)); });
+      if (!is_chosen) continue;
+      any = true;
+      const std::int32_t least =
+          cell.is_forbidden(u) ? kOutsideInvariant : cell.least(u, own.claims.delay, kOutsideInvariant);
+      worst = std::min(worst, std::max(least, kOutsideInvariant));
+    }
+    const std::int32_t delay = any ? one_more(worst) : 0;
+    return own.most ? std::min(delay, static_cast<std::int32_t>(*own.most)) : delay;
+  }
+
+  void compare(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected) const {
+    tally.add_checked(1);
+    if (claimed == expected) return;
+    if (ground_.sound_only() && expected >= 0 && claimed >= 0) return tally.add_unproven();
+    tally.add_wrong(cell.number(), [&] {
+      return fmt::format("{}: {}, expected {}", cell.place(), step_words(claimed), step_words(expected));
+    });
+  }
+
+  /// Rows may hold nothing that is not admissible in a cell in which the system may be.
+  void check_rows(const CheckedCell& cell, BlindPartitionCheck& own) const {
+    const std::int32_t depth = own.depth(cell.number());
+    for (const BlindClass& one : own.classes) {
+      if (one.table == nullptr || depth < 1) continue;
+      const std::int64_t fibre = one.fibre(cell.number());
+      for (std::int64_t k = 1; k <= std::min<std::int64_t>(depth, one.rows()); ++k) {
+        own.tables.add_checked(1);
+        if (!has_more(one, one.place(k, fibre), cell.number())) continue;
+        if (ground_.sound_only()) {
+          own.tables.add_unproven();
+          continue;
+        }
+        own.tables.add_wrong(cell.number(), [&] {
+          return fmt::format("{}: an action that is not admissible at {}", one.words(k, fibre), cell.place());
+        });
+      }
+    }
+  }
+
+  static bool has_more(const BlindClass& one, std::size_t place, std::int64_t cell) {
+    for (std::int64_t b = 0; b < one.own.bytes(); ++b) {
+      const auto row = static_cast<unsigned>((*one.table)[place + at(b)]);
+      if ((row & ~unsigned{one.admitted[at(cell * one.own.bytes() + b)]}) != 0) return true;
+    }
+    return false;
+  }
+
+  const CheckGround& ground_;
+  std::deque<BlindPartitionCheck>& partitions_;
+};
+
+class BlindCheck : public AnswerCheck {
+ public:
+  explicit BlindCheck(const CheckGround& ground) : AnswerCheck(CheckSection::steps), ground_(ground) {
+    for (std::size_t p = 0; p < ground.spec->coordination.partitions.size(); ++p)
+      partitions_.emplace_back(ground, p);
+  }
+
+  std::vector<Finding> compare_sizes(Comparison& sizes) override {
+    std::vector<Finding> findings;
+    std::size_t longest = 1;
+    for (const BlindPartitionCheck& own : partitions_)
+      findings.push_back(compare_layers(*ground_.spec, *ground_.claims, own.claims, longest));
+    sizes.expect("length of /blind_layer", partitions_.front().claims.layer_sizes.size(), longest);
+    return findings;
+  }
+  std::unique_ptr<CellChecker> cell_checker() override {
+    return std::make_unique<BlindChecker>(ground_, partitions_);
+  }
+  void check_all(ThreadTeam& /*team*/) override {
+    for (BlindPartitionCheck& own : partitions_) {
+      if (own.classes.empty() || own.looked_at < ground_.grid->cells()) continue;
+      if (own.most != 0) check_first(own);
+      for (const BlindClass& one : own.classes) {
+        if (one.table != nullptr) check_table(own, one);
+      }
+    }
+  }
+  [[nodiscard]] std::vector<Finding> findings() const override {
+    std::vector<Finding> result;
+    for (const BlindPartitionCheck& own : partitions_) {
+      result.push_back(own.delay.finding());
+      result.push_back(own.countdown.finding());
+      if (own.classes.empty()) continue;
+      result.push_back(own.first.finding());
+      result.push_back(own.tables.finding());
+    }
+    return result;
+  }
+
+ private:
+  void note(Tally& tally, std::int64_t number, const std::string& text) const {
+    if (ground_.sound_only()) return tally.add_unproven();
+    tally.add_wrong(number, [&] { return text; });
+  }
+
+  /// B_1 by its definition, from Z_1 as claimed.
+  void check_first(BlindPartitionCheck& own) const {
+    const std::int64_t cells = ground_.grid->cells();
+    std::vector<std::uint8_t> left(at(cells), 0);
+    for (std::int64_t x = 0; x < cells; ++x) left[at(x)] = own.of_sight[at(x)] >= 1 ? 1 : 0;
+    for (const BlindClass& one : own.classes) leave_common(one, left);
+    own.first.add_checked(cells);
+    for (std::int64_t x = 0; x < cells; ++x) {
+      if ((left[at(x)] != 0) == (own.claims.delay[at(x)] >= 1)) continue;
+      const char* const expected = left[at(x)] != 0 ? "" : "not ";
+      note(own.first, x, fmt::format("{}: expected {}in B_1", place_of(*ground_.grid, x), expected));
+    }
+  }
+
+  static void leave_common(const BlindClass& one, std::vector<std::uint8_t>& left) {
+    const std::int64_t actions = one.own.actions();
+    std::vector<std::int64_t> counts(at(one.fibres * actions), 0);
+    for (std::int64_t x = 0; x < std::ssize(left); ++x) {
+      for (std::int64_t a = 0; left[at(x)] != 0 && a < actions; ++a)
+        counts[at(one.fibre(x) * actions + a)] += one.has(x, a) ? 1 : 0;
+    }
+    for (std::int64_t x = 0; x < std::ssize(left); ++x) {
+      if (left[at(x)] == 0) continue;
+      const auto own = counts.begin() + static_cast<std::ptrdiff_t>(one.fibre(x) * actions);
+      const auto most = std::max_element(own, own + static_cast<std::ptrdiff_t>(actions)) - own;
+      if (!one.has(x, most)) left[at(x)] = 0;
+    }
+  }
+
+  /// What cells of one depth have in common, by fibre; and whether there are any.
+  struct CommonActions {
+    std::vector<std::uint8_t> bytes;   ///< as in the table
+    std::vector<std::uint8_t> is_met;  ///< [(k - 1) * fibres + fibre]
+  };
+
+  /// Each row is what all cells of B_k in the fibre have in common: those of this depth, and all deeper ones.
+  void check_table(BlindPartitionCheck& own, const BlindClass& one) const {
+    const std::int64_t rows = one.rows(), bytes = one.own.bytes();
+    CommonActions common{std::vector<std::uint8_t>(one.table->size(), 0xFF),
+                         std::vector<std::uint8_t>(at(rows * one.fibres), 0)};
+    for (std::int64_t x = 0; x < ground_.grid->cells(); ++x) {
+      const std::int64_t k = std::min<std::int64_t>(own.depth(x), rows);
+      if (k < 1) continue;
+      const std::int64_t fibre = one.fibre(x);
+      common.is_met[at((k - 1) * one.fibres + fibre)] = 1;
+      for (std::int64_t b = 0; b < bytes; ++b)
+        common.bytes[one.place(k, fibre) + at(b)] &= one.admitted[at(x * bytes + b)];
+    }
+    for (std::int64_t k = rows; k >= 1; --k) {
+      for (std::int64_t fibre = 0; fibre < one.fibres; ++fibre) {
+        own.tables.add_checked(1);
+        if (is_row(one, k, fibre, common)) continue;
+        note(own.tables, ground_.grid->cells() + k * one.fibres + fibre,
+             one.words(k, fibre) + ": other actions than all of its cells have");
+      }
+    }
+  }
+
+  /// Takes in the row of one step more, which is done.
+  static bool is_row(const BlindClass& one, std::int64_t k, std::int64_t fibre, CommonActions& common) {
+    const std::size_t place = one.place(k, fibre), step = at(one.fibres * one.own.bytes());
+    std::uint8_t& is_met = common.is_met[at((k - 1) * one.fibres + fibre)];
+    const bool has_deeper = k < one.rows() && common.is_met[at(k * one.fibres + fibre)] != 0;
+    if (has_deeper) is_met = 1;
+    bool is_same = true;
+    for (std::size_t b = place; b < place + at(one.own.bytes()); ++b) {
+      if (has_deeper) common.bytes[b] &= common.bytes[b + step];
+      is_same = is_same && (*one.table)[b] == (is_met != 0 ? common.bytes[b] : 0);
+    }
+    return is_same;
+  }
+
+  const CheckGround& ground_;
+  std::deque<BlindPartitionCheck> partitions_;
+};
+
+}  // namespace
+
+std::unique_ptr<AnswerCheck> check_blind(const CheckGround& ground) {
+  if (!has_limited_sight(*ground.spec)) return nullptr;
+  return std::make_unique<BlindCheck>(ground);
+}
+
+double blind_check_memory(const ProblemSpec& spec) {
+  if (!has_limited_sight(spec)) return 0;
+  double bytes = 1;
+  for (const PartitionSpec& partition : spec.coordination.partitions) {
+    for (const auto& agents : partition.classes) {
+      double actions = 1;
+      for (const std::int32_t agent : agents) {
+        for (const std::int32_t input : spec.agents[at(agent)].inputs)
+          actions *= static_cast<double>(spec.inputs[at(input)].values.size());
+      }
+      bytes += actions / 8 + 1;
+    }
+  }
+  return bytes;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "answers/blind/silent_table.hpp"
+#include "engine/row_operations.hpp"
+
+namespace coordreq {
+
+/// A_c(x), of the cells of one row after another: for each action the cells that have it. One object a
+/// thread.
+class ClassRows {
+ public:
+  explicit ClassRows(const SilentSources& sources) : sources_(sources) {}
+
+  /// REQUIRES: the row is an own one, and K has cells in it.
+  void enter(const RowPlace& place) {
+    row_ = place.row;
+    is_full_ = sources_.projections.full_rows()[static_cast<std::size_t>(row_)] != 0;
+    if (!is_full_) sources_.projections.grouping().group(place, groups_);
+  }
+  /// All cells of K in the row have all actions.
+  [[nodiscard]] bool is_full() const { return is_full_; }
+  /// {x in K in the row : a in A_c(x)}
+  [[nodiscard]] ConstRow cells(std::size_t c, std::uint32_t a) const {
+    if (is_full_) return sources_.invariant.row(row_);
+    return sources_.projections.mask(row_, groups_, c, groups_.classes[c]->group_of[a]);
+  }
+
+ private:
+  SilentSources sources_;
+  std::int64_t row_ = 0;
+  bool is_full_ = false;
+  RowGroups groups_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <atomic>
+#include <deque>
+#include <span>
+
+#include "answers/blind/class_rows.hpp"
+#include "answers/blind/silent_table.hpp"
+#include "base/index.hpp"
+#include "engine/row_engine.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Counts of all actions in so many fibres are held at once.
+constexpr std::int64_t kMostCounts = std::int64_t{1} << 22;
+
+constexpr std::int32_t kWhole = -1;  ///< of a fibre: some action is in Q^1, or no cell of B_1 is in it
+
+/// Takes the cells of one class after the other out of a set.
+class CellRemoval {
+ public:
+  CellRemoval(const SilentSources& sources, const std::vector<SilentTable>& tables, ThreadTeam& team,
+              CellSet& left)
+      : sources_(sources), tables_(tables), team_(team), left_(left) {
+    for (int w = 0; w < team.size(); ++w) workers_.push_back({.rows = ClassRows(sources)});
+  }
+
+  /// The fibres of which a class tells nothing apart keep all cells.
+  void remove(std::size_t c, const std::vector<std::int64_t>& torn) {
+    const SilentTable& table = tables_[c];
+    const auto at_once = std::max<std::int64_t>(1, kMostCounts / table.actions);
+    for (std::int64_t begin = 0; begin < std::ssize(torn); begin += at_once) {
+      const std::int64_t end = std::min(std::ssize(torn), begin + at_once);
+      places_.assign(table.met.size(), kWhole);
+      for (std::int64_t i = begin; i < end; ++i)
+        places_[at(torn[at(i)])] = static_cast<std::int32_t>(i - begin);
+      const std::vector<std::int64_t> counts = count_actions(c, end - begin);
+      remove_others(c, most_counted(counts, table.actions));
+    }
+  }
+
+ private:
+  struct Worker {
+    ClassRows rows;
+    std::vector<Word> cells = {};  ///< of the row, those left in fibres of the batch
+    std::vector<Word> have = {};   ///< those of them with an action
+  };
+
+  /// Calls `visit(place of the row, worker)` for rows that have cells in the batch.
+  template <class Visit>
+  void for_each_row_of_batch(std::size_t c, const Visit& visit) {
+    const RowEngine& engine = sources_.projections.grouping().engine();
+    const Fibres& fibres = *sources_.fibres[c];
+    for_each_own_row(team_, engine.share(), engine.rows(), 64, [&](ThreadTeam::Range range, int number) {
+      Worker& worker = workers_[at(number)];
+      for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
+        worker.cells.assign(engine.row_words(), 0);
+        const std::int64_t base = fibres.base(place);
+        for_each_bit(left_.row(place.row), [&](std::int64_t x) {
+          if (places_[at(base + fibres.of_lane(x))] != kWhole)
+            worker.cells[at(x / CellSet::kWordBits)] |= Word{1} << (x % CellSet::kWordBits);
+        });
+        if (!any_set(worker.cells)) continue;
+        worker.rows.enter(place);
+        visit(place, worker);
+      }
+    });
+  }
+
+  /// Calls `visit(place of the fibre in the batch, action, lane)` for what cells of the row have.
+  template <class Visit>
+  void for_each_action(std::size_t c, const RowPlace& place, Worker& worker, const Visit& visit) {
+    const Fibres& fibres = *sources_.fibres[c];
+    const std::int64_t base = fibres.base(place);
+    for (std::int64_t a = 0; a < tables_[c].actions; ++a) {
+      const ConstRow all = worker.rows.cells(c, static_cast<std::uint32_t>(a));
+      worker.have.resize(all.size());
+      for (std::size_t w = 0; w < all.size(); ++w) worker.have[w] = all[w] & worker.cells[w];
+      for_each_bit(worker.have, [&](std::int64_t x) { visit(places_[at(base + fibres.of_lane(x))], a, x); });
+    }
+  }
+
+  /// [place * actions + a] cells of the fibre that have the action, of all processes.
+  std::vector<std::int64_t> count_actions(std::size_t c, std::int64_t fibres) {
+    const std::int64_t actions = tables_[c].actions;
+    std::vector<std::int64_t> counts(at(fibres * actions), 0);
+    for_each_row_of_batch(c, [&](const RowPlace& place, Worker& worker) {
+      for_each_action(c, place, worker, [&](std::int32_t fibre, std::int64_t a, std::int64_t /*lane*/) {
+        std::atomic_ref<std::int64_t>(counts[at(fibre * actions + a)])
+            .fetch_add(1, std::memory_order_relaxed);
+      });
+    });
+    const RowShare* const share = left_share();
+    if (share != nullptr) share->ranks().add(counts);
+    return counts;
+  }
+
+  /// [place] the action of most cells, of equals the lowest.
+  static std::vector<std::int64_t> most_counted(const std::vector<std::int64_t>& counts,
+                                                std::int64_t actions) {
+    std::vector<std::int64_t> most;
+    for (auto own = counts.begin(); own != counts.end(); own += static_cast<std::ptrdiff_t>(actions))
+      most.push_back(std::max_element(own, own + static_cast<std::ptrdiff_t>(actions)) - own);
+    return most;
+  }
+
+  void remove_others(std::size_t c, const std::vector<std::int64_t>& taken) {
+    for_each_row_of_batch(c, [&](const RowPlace& place, Worker& worker) {
+      std::vector<Word> lost = worker.cells;
+      for_each_action(c, place, worker, [&](std::int32_t fibre, std::int64_t a, std::int64_t lane) {
+        if (a == taken[at(fibre)])
+          lost[at(lane / CellSet::kWordBits)] &= ~(Word{1} << (lane % CellSet::kWordBits));
+      });
+      const MutableRow left = left_.row(place.row);
+      for (std::size_t w = 0; w < lost.size(); ++w) left[w] &= ~lost[w];
+    });
+  }
+
+  [[nodiscard]] const RowShare* left_share() const {
+    return sources_.projections.grouping().engine().share();
+  }
+
+  const SilentSources& sources_;
+  const std::vector<SilentTable>& tables_;
+  ThreadTeam& team_;
+  CellSet& left_;
+  std::vector<Worker> workers_;
+  std::vector<std::int32_t> places_;  ///< [fibre] in the batch, or kWhole
+};
+
+/// Z_1, in own rows.
+CellSet second_layer(const LevelMap& layers, const CellSet& invariant) {
+  CellSet result(invariant.rows(), invariant.row_length());
+  layers.visit([&](const auto& levels) {
+    const RowShare::Range own = own_rows(levels.share(), levels.rows());
+    for (std::int64_t r = own.begin; r < own.end; ++r) {
+      const auto* const row = levels.row(r);
+      for_each_bit(invariant.row(r), [&](std::int64_t x) {
+        if (row[x] > 1) result.row(r)[at(x / CellSet::kWordBits)] |= Word{1} << (x % CellSet::kWordBits);
+      });
+    }
+  });
+  return result;
+}
+
+}  // namespace
+
+std::optional<CellSet> find_common_cells(const SilentSources& sources, const LevelMap& layers,
+                                         const std::vector<SilentTable>& tables, ThreadTeam& team) {
+  std::optional<CellSet> left;
+  for (std::size_t c = 0; c < tables.size(); ++c) {
+    // What classes before this one have taken out can only mend a fibre, which its counts then say.
+    std::vector<std::int64_t> torn;
+    for (std::int64_t fibre = 0; fibre < tables[c].fibres(); ++fibre) {
+      if (tables[c].is_torn(fibre)) torn.push_back(fibre);
+    }
+    if (torn.empty()) continue;
+    if (!left) left = second_layer(layers, sources.invariant);
+    CellRemoval(sources, tables, team, *left).remove(c, torn);
+  }
+  return left;
+}
+
+}  // namespace coordreq

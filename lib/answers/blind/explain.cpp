@@ -1,0 +1,243 @@
+#include "answers/blind/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "answers/blind/fields.hpp"
+#include "answers/field_parts.hpp"
+#include "answers/layers/fields.hpp"
+#include "answers/one_cell/cell_members.hpp"
+#include "base/grouped.hpp"
+#include "base/index.hpp"
+#include "model/odometer.hpp"
+#include "spec/partition_names.hpp"
+#include "spec/problem_spec.hpp"
+#include "spec/sight.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr std::int32_t kUnbounded = std::numeric_limits<std::int32_t>::max();
+/// Of one fibre no more are compared.
+constexpr std::int64_t kMostCells = 4096;
+
+using Sets = std::vector<std::vector<bool>>;  ///< [class][action]
+
+/// Two cells that a class cannot tell apart.
+struct Confusion {
+  std::size_t class_number = 0;
+  std::int64_t cell = 0, other = 0;
+  std::vector<bool> actions, others_actions;
+  std::int64_t common = 0;  ///< actions of both
+};
+
+std::int64_t count_common(const std::vector<bool>& one, const std::vector<bool>& other) {
+  std::int64_t common = 0;
+  for (std::size_t a = 0; a < one.size(); ++a) common += one[a] && other[a] ? 1 : 0;
+  return common;
+}
+
+class SightFinder {
+ public:
+  explicit SightFinder(const ExplainGround& ground)
+      : ground_(ground),
+        grid_(ground.posts->grid()),
+        delay_(ground.values(paths::kDelay)),
+        countdown_(ground.values(paths::kBlindCountdown)),
+        classes_(input_classes(*ground.spec, ground.posts->inputs(), *ground.partition)) {}
+
+  /// A cell of Z_1 that is not in B_1, at the end of so many silent steps. There always is one, if the delay
+  /// is longer.
+  [[nodiscard]] std::optional<std::int64_t> end_of_silence(std::int32_t steps) {
+    std::int64_t cell = ground_.cell;
+    for (std::int32_t left = steps; left > 0; --left) {
+      const std::optional<std::int64_t> next = next_with(cell, left - 1);
+      if (!next) return std::nullopt;
+      cell = *next;
+    }
+    return cell;
+  }
+
+  /// The two cells whose actions have least in common, the first of equals.
+  [[nodiscard]] std::optional<Confusion> find(std::int64_t cell) const {
+    const Sets own = ground_.projections(cell);
+    std::optional<Confusion> least;
+    for (std::size_t c = 0; c < classes_.size(); ++c) {
+      if (!has_silent_table(*ground_.spec, *ground_.partition, c)) continue;
+      for (const std::int64_t other : fibre(c, cell)) {
+        if (other == cell || delay_(other) < 1) continue;
+        const std::vector<bool> actions = ground_.projections(other)[c];
+        const std::int64_t common = count_common(own[c], actions);
+        if (common == std::count(actions.begin(), actions.end(), true)) continue;  // whatever serves there
+        if (least && common >= least->common) continue;
+        least = {c, cell, other, own[c], actions, common};
+        if (common == 0) return least;
+      }
+    }
+    return least;
+  }
+
+ private:
+  /// A cell that can follow under IND_C with this countdown, the first that is found.
+  std::optional<std::int64_t> next_with(std::int64_t cell, std::int32_t countdown) {
+    const Sets sets = ground_.projections(cell);
+    std::optional<std::int64_t> found;
+    ground_.posts->move_to(cell);
+    for (std::int64_t u = 0; u < ground_.posts->inputs().count() && !found; ++u) {
+      bool is_chosen = true;
+      for (std::size_t c = 0; c < classes_.size() && is_chosen; ++c)
+        is_chosen = sets[c][at(classes_[c].action(u))];
+      if (!is_chosen) continue;
+      std::vector<IndexRange> box;
+      bool has_gone = false;
+      for (std::size_t i = 0; i < grid_.size(); ++i) {
+        const ResolvedRange range = ground_.posts->resolved(i, u);
+        has_gone = has_gone || range.blocked || range.all_left();
+        box.push_back(range.inside);
+      }
+      if (has_gone) continue;
+      for_each_cell(grid_, box, [&](std::int64_t next) {
+        if (countdown_(next) == countdown) found = next;
+        return !found;
+      });
+    }
+    return found;
+  }
+
+  /// Cells of the fibre of a class, ascending, not too many.
+  [[nodiscard]] std::vector<std::int64_t> fibre(std::size_t c, std::int64_t cell) const {
+    const std::vector<std::size_t> seen = seen_states(*ground_.spec, ground_.partition->classes[c]);
+    std::vector<std::size_t> unseen;
+    std::vector<std::int64_t> counts;
+    std::int64_t first = cell;
+    for (std::size_t i = 0; i < grid_.size(); ++i) {
+      if (contains(seen, i)) continue;
+      unseen.push_back(i);
+      counts.push_back(grid_[i].count);
+      first -= grid_.index(cell, i) * grid_.stride(i);
+    }
+    std::vector<std::int64_t> cells;
+    Odometer index(counts);
+    do {
+      std::int64_t other = first;
+      for (std::size_t k = 0; k < unseen.size(); ++k) other += index[k] * grid_.stride(unseen[k]);
+      cells.push_back(other);
+    } while (index.advance() && std::ssize(cells) < kMostCells);
+    return cells;
+  }
+
+  const ExplainGround& ground_;
+  const UniformGrid& grid_;
+  CellValue delay_, countdown_;
+  std::vector<InputClass> classes_;
+};
+
+Json steps_json(std::int32_t steps) {
+  return steps == kUnbounded || steps < 0 ? Json() : Json(steps);
+}
+
+Json centre_json(const UniformGrid& grid, std::int64_t cell) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    json[grid[i].name] = nearest_double(grid[i].point(grid.index(cell, i)));
+  return json;
+}
+
+std::string centre_words(const UniformGrid& grid, std::int64_t cell) {
+  std::string text;
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", grid[i].name,
+                        nearest_double(grid[i].point(grid.index(cell, i))));
+  return text;
+}
+
+/// "u1 = -1, -0.5", or of several inputs "(u1, u2) = (-1, 0), ...".
+std::string action_words(const ExplainGround& ground, std::size_t c, const std::vector<bool>& actions) {
+  constexpr std::size_t kMostWords = 5;
+  const ProblemSpec& spec = *ground.spec;
+  const std::vector<std::int32_t> inputs = inputs_of(spec, ground.partition->classes[c]);
+  std::vector<std::string> names, values;
+  std::vector<std::int64_t> counts;
+  for (const std::int32_t i : inputs) {
+    names.push_back(spec.inputs[at(i)].name);
+    counts.push_back(std::ssize(spec.inputs[at(i)].values));
+  }
+  for (std::size_t a = 0; a < actions.size(); ++a) {
+    if (!actions[a]) continue;
+    if (values.size() == kMostWords) {
+      values.emplace_back("...");
+      break;
+    }
+    const Odometer index(counts, static_cast<std::int64_t>(a));
+    std::vector<double> tuple;
+    for (std::size_t k = 0; k < inputs.size(); ++k)
+      tuple.push_back(nearest_double(spec.inputs[at(inputs[k])].values[at(index[k])]));
+    values.push_back(inputs.size() == 1 ? fmt::format("{}", tuple.front())
+                                        : fmt::format("({})", fmt::join(tuple, ", ")));
+  }
+  const std::string name = names.size() == 1 ? names.front() : fmt::format("({})", fmt::join(names, ", "));
+  return fmt::format("{} = {}", name, fmt::join(values, ", "));
+}
+
+Json actions_json(const std::vector<bool>& actions) {
+  Json numbers = Json::array();
+  for (std::size_t a = 0; a < actions.size(); ++a) {
+    if (actions[a]) numbers.push_back(a);
+  }
+  return numbers;
+}
+
+std::string steps_words(std::int32_t steps) {
+  return steps == kUnbounded ? "for ever" : count_of(steps, "step");
+}
+
+void add_confusion(const ExplainGround& ground, const Confusion& found, Explained& result) {
+  const std::string name = class_name(ground.spec->agents, ground.partition->classes[found.class_number]);
+  const UniformGrid& grid = ground.posts->grid();
+  (*result.found)["class"] = name;
+  (*result.found)["cells"] = {
+      {{"state", centre_json(grid, found.cell)}, {"actions", actions_json(found.actions)}},
+      {{"state", centre_json(grid, found.other)}, {"actions", actions_json(found.others_actions)}}};
+  result.sentences.push_back(fmt::format(
+      "It may end at {}, where {} has {}; but it cannot tell that from {}, where it has {}.",
+      centre_words(grid, found.cell), name, action_words(ground, found.class_number, found.actions),
+      centre_words(grid, found.other), action_words(ground, found.class_number, found.others_actions)));
+}
+
+}  // namespace
+
+Explained explain_blind(const ExplainGround& ground) {
+  if (!has_limited_sight(*ground.spec)) return {};
+  const std::int32_t blind = ground.values(paths::kBlindDelay)(ground.cell);
+  const bool is_less = blind >= 0 && blind < ground.delay;
+  const bool is_counted = is_less && ground.delay != kUnbounded;
+  Explained result{.key = "sight", .found = std::make_shared<Json>(Json::object())};
+  *result.found = {{"blind_delay", steps_json(blind)},
+                   {"steps_less", is_counted                            ? Json(ground.delay - blind)
+                                  : blind == ground.delay && blind >= 0 ? Json(0)
+                                                                        : Json()},
+                   {"class", Json()},
+                   {"cells", Json::array()}};
+  if (blind < 0) return result;
+  if (!is_less) {
+    result.sentences = {"Agents that see only what they read themselves can be silent for as long."};
+    return result;
+  }
+  result.sentences = {
+      is_counted ? fmt::format("Without sight of the others it is {} less: {}.",
+                               count_of(ground.delay - blind, "step"), steps_words(blind))
+                 : fmt::format("Without sight of the others silence ends after {}.", steps_words(blind))};
+  SightFinder finder(ground);
+  const std::optional<std::int64_t> end = finder.end_of_silence(blind);
+  const std::optional<Confusion> found = end ? finder.find(*end) : std::nullopt;
+  if (found) add_confusion(ground, *found, result);
+  return result;
+}
+
+}  // namespace coordreq

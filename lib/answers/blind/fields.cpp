@@ -1,0 +1,168 @@
+#include "answers/blind/fields.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "answers/blind/answer.hpp"
+#include "answers/field_arrays.hpp"
+#include "answers/field_parts.hpp"
+#include "answers/invariance/answer.hpp"
+#include "answers/layers/answer.hpp"
+#include "answers/layers/fields.hpp"
+#include "base/index.hpp"
+#include "spec/partition_names.hpp"
+#include "spec/problem_spec.hpp"
+#include "spec/sight.hpp"
+
+namespace coordreq {
+namespace {
+
+Field blind_steps(const std::string& name, const ProblemSpec& spec, std::string long_name, FieldShown shown) {
+  return steps_field(name, spec, DelayLayers::kOutsideSafe,
+                     described(std::move(long_name)) +
+                         std::vector<FieldAttribute>{flags({{DelayLayers::kOutsideSafe, "not_safe"},
+                                                            {DelayLayers::kOutsideInvariant, "not_invariant"},
+                                                            {kLargestValue, "unbounded"}})},
+                     std::move(shown), "/blind_fixed_point_index");
+}
+
+void add_table(Fields& fields, const ProblemSpec& spec, const PartitionSpec& partition, std::size_t c) {
+  const std::string path = paths::silent(spec, partition, c);
+  const std::vector<std::int32_t> inputs = inputs_of(spec, partition.classes[c]);
+  const auto actions = static_cast<std::uint64_t>(joint_actions(spec, inputs));
+  constexpr FieldSection kSection = FieldSection::actions;
+  fields.push_back(bare_scale(path + ":byte", kSection, (actions + 7) / 8, (actions + 7) / 8));
+  std::vector<std::string> axes{paths::kSilentLayer};
+  for (const std::size_t i : seen_states(spec, partition.classes[c]))
+    axes.push_back("/" + spec.states[i].name);
+  axes.push_back(path + ":byte");
+  std::string names;
+  for (const std::int32_t i : inputs) names += (names.empty() ? "" : " ") + spec.inputs[at(i)].name;
+  fields.push_back(
+      {.path = path,
+       .section = kSection,
+       .types = {ElementType::uint8},
+       .axes = std::move(axes),
+       .most = UINT8_MAX,
+       .attributes =
+           described("joint actions that the class may take in silence, by what it sees, one bit each") +
+           std::vector<FieldAttribute>{
+               {"inputs", names}, {"actions", actions}, {"bitorder", std::string("little")}}});
+}
+
+/// Bytes [layer, fibre, byte] of a table; layers beyond the last one repeat it.
+ResultArray table_array(const SilentTable& table, std::int64_t layers) {
+  const std::int64_t bytes = (table.actions + 7) / 8;
+  return {ElementType::uint8, [&table, layers, bytes](std::uint64_t begin, std::uint64_t count, void* out) {
+            auto* const place = static_cast<std::uint8_t*>(out);
+            for (std::uint64_t i = 0; i < count; ++i) {
+              const auto number = static_cast<std::int64_t>(begin + i);
+              const std::int64_t fibre = number / bytes % table.fibres();
+              const std::int64_t k = std::min(number / bytes / table.fibres() + 1, layers);
+              const std::int64_t first = number % bytes * 8;
+              unsigned bits = 0;
+              for (std::int64_t a = first; a < std::min(first + 8, table.actions); ++a)
+                bits |= (table.allows(fibre, a, k) ? 1U : 0U) << (a - first);
+              place[i] = static_cast<std::uint8_t>(bits);
+            }
+          }};
+}
+
+void fill_tables(const Answers& answers, FieldValues& values) {
+  const ProblemSpec& spec = answers.ground.spec;
+  const Blind* const blind = answers.find<Blind>();
+  if (blind == nullptr) return;
+  std::int64_t longest = 0;
+  for (std::size_t p = 0; p < blind->partitions.size(); ++p) {
+    const PartitionSpec& partition = spec.coordination.partitions[p];
+    const BlindPartition& own = blind->partitions[p];
+    for (std::size_t c = 0; c < own.tables.size(); ++c) {
+      if (!has_silent_table(spec, partition, c)) continue;
+      longest = std::max(longest, own.table_steps());
+      values.entries[paths::silent(spec, partition, c)].array = table_array(own.tables[c], own.table_steps());
+    }
+  }
+  if (longest > 0) values.lengths[paths::kSilentLayer] = static_cast<std::uint64_t>(longest);
+}
+
+}  // namespace
+
+std::string paths::silent(const ProblemSpec& spec, const PartitionSpec& partition, std::size_t class_number) {
+  return "/silent/" + partition.name + "/" + class_name(spec.agents, partition.classes[class_number]);
+}
+
+bool has_silent_table(const ProblemSpec& spec, const PartitionSpec& partition, std::size_t class_number) {
+  return partition.classes.size() > 1 &&
+         seen_states(spec, partition.classes[class_number]).size() < spec.states.size();
+}
+
+Fields blind_fields(const ProblemSpec& spec) {
+  if (!has_limited_sight(spec)) return {};
+  Fields fields;
+  fields.push_back(
+      blind_steps("blind_delay", spec,
+                  "largest number of steps without coordination that is safe if agents see only what they "
+                  "read themselves",
+                  {.column = "blind_delay",
+                   .compared = "blind delay",
+                   .asked = {.words = "blind delay"},
+                   .map = {.kind = "blind_delay", .title = "Silence of agents that see only themselves"}}));
+  fields.push_back(blind_steps("blind_countdown", spec,
+                               "steps of silence that are left where agents no longer know the cell",
+                               {.column = "blind_countdown", .asked = {.words = "blind countdown"}}));
+  add_sizes(fields, "/blind_", 'B', cell_count(spec), spec);
+  const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
+  const bool has_tables = std::ranges::any_of(
+      partitions, [&](const PartitionSpec& partition) { return has_limited_sight(spec, partition); });
+  if (has_tables)
+    fields.push_back(number_scale(paths::kSilentLayer, FieldSection::axes, 1, SilentTable::kMostSteps,
+                                  "steps of silence that are left", 1));
+  for (const PartitionSpec& partition : partitions) {
+    for (std::size_t c = 0; c < partition.classes.size(); ++c) {
+      if (has_silent_table(spec, partition, c)) add_table(fields, spec, partition, c);
+    }
+  }
+  return fields;
+}
+
+void fill_blind_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
+  const ProblemSpec& spec = answers.ground.spec;
+  if (!has_limited_sight(spec)) return;
+  const LevelMap& times = answers.get<Invariance>().collision_time;
+  const CellOrder& order = *answers.ground.order;
+  const std::size_t count = spec.coordination.partitions.size();
+  std::vector<const DelayLayers*> all;
+  std::int64_t longest_delay = 0, longest_countdown = 0;
+  for (std::size_t p = 0; p < count; ++p) {
+    const DelayLayers& layers = *all.emplace_back(&blind_layers(answers, p));
+    const std::int64_t last = std::ssize(layers.sizes) - 1;
+    longest_countdown = std::max(longest_countdown, layers.truncated ? last : last - 1);
+    longest_delay = std::max(longest_delay, &blind_delays(answers, p) == &layers
+                                                ? longest_countdown
+                                                : answers.get<Blind>().partitions[p].greatest);
+  }
+  std::vector<ResultArray> delays, countdowns;
+  for (std::size_t p = 0; p < count; ++p) {
+    delays.push_back(delay_array(blind_delays(answers, p), times, order, level_type(longest_delay)));
+    countdowns.push_back(delay_array(*all[p], times, order, level_type(longest_countdown)));
+  }
+  values.entries[paths::kBlindDelay].array = stacked_array(cell_count(spec), std::move(delays));
+  values.entries[paths::kBlindCountdown].array = stacked_array(cell_count(spec), std::move(countdowns));
+  fill_sizes(all, "/blind_", values);
+  fill_tables(answers, values);
+}
+
+const DelayLayers& blind_layers(const Answers& answers, std::size_t p) {
+  const bool is_one_class = answers.ground.spec.coordination.partitions[p].classes.size() == 1;
+  return is_one_class ? answers.get<PartitionLayers>().partitions[p]
+                      : answers.get<Blind>().partitions[p].layers;
+}
+
+const DelayLayers& blind_delays(const Answers& answers, std::size_t p) {
+  const bool is_one_class = answers.ground.spec.coordination.partitions[p].classes.size() == 1;
+  return is_one_class ? answers.get<PartitionLayers>().partitions[p]
+                      : answers.get<Blind>().partitions[p].delays;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "answers/answers.hpp"
+#include "answers/field.hpp"
+#include "answers/layers/delay_layers.hpp"
+#include "base/thread_team.hpp"
+#include "spec/spec_types.hpp"
+
+namespace coordreq {
+namespace paths {
+
+inline constexpr char kBlindDelay[] = "/blind_delay";
+inline constexpr char kBlindCountdown[] = "/blind_countdown";
+inline constexpr char kSilentLayer[] = "/silent_layer";
+/// Where the table of a class is, if it has one: has_silent_table().
+[[nodiscard]] std::string silent(const ProblemSpec& spec, const PartitionSpec& partition,
+                                 std::size_t class_number);
+
+}  // namespace paths
+
+/// The class is one of several, and does not see all states.
+[[nodiscard]] bool has_silent_table(const ProblemSpec& spec, const PartitionSpec& partition,
+                                    std::size_t class_number);
+
+/// Blind delays and countdowns, sizes of blind layers, F_b, and the silent tables. None if all agents see
+/// everything.
+[[nodiscard]] Fields blind_fields(const ProblemSpec& spec);
+
+/// What was found for them. The arrays refer to the answers, which must outlive the writing.
+void fill_blind_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
+
+/// B of a partition: that of Z where it has one class. REQUIRES: they have been found.
+[[nodiscard]] const DelayLayers& blind_layers(const Answers& answers, std::size_t p);
+/// The same with blind delays.
+[[nodiscard]] const DelayLayers& blind_delays(const Answers& answers, std::size_t p);
+
+}  // namespace coordreq

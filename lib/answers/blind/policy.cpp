@@ -1,0 +1,97 @@
+#include "answers/blind/policy.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "answers/blind/fields.hpp"
+#include "answers/one_cell/cell_members.hpp"
+#include "base/index.hpp"
+#include "spec/problem_spec.hpp"
+#include "spec/sight.hpp"
+
+namespace coordreq {
+namespace {
+
+class BlindPolicy : public CellPolicy {
+ public:
+  explicit BlindPolicy(const PolicyGround& ground)
+      : posts_(*ground.posts), tables_(ground.tables), countdown_(ground.values(paths::kBlindCountdown)) {
+    const ProblemSpec& spec = *ground.spec;
+    for (std::size_t c = 0; c < ground.partition->classes.size(); ++c) {
+      const bool has_table = has_silent_table(spec, *ground.partition, c);
+      own_.push_back({.table = has_table ? paths::silent(spec, *ground.partition, c) : "",
+                      .seen = seen_states(spec, ground.partition->classes[c])});
+    }
+  }
+
+  bool holds(std::int64_t /*cell*/) override { return true; }
+  const Numbers& together(std::int64_t /*cell*/, const Numbers& admissible) override { return admissible; }
+
+  /// With no step left there is nothing that a class may do by itself.
+  std::vector<Numbers> alone(std::int64_t cell, std::int32_t countdown, const Numbers& together,
+                             const std::vector<InputClass>& classes) override {
+    std::vector<Numbers> actions(classes.size());
+    for (std::size_t c = 0; c < classes.size() && countdown > 0; ++c)
+      actions[c] = own_[c].table.empty() ? classes[c].project(together) : row(own_[c], cell, countdown);
+    return actions;
+  }
+
+  std::optional<std::int32_t> countdown_after(std::int64_t cell, std::int64_t u) override {
+    std::int32_t least = std::numeric_limits<std::int32_t>::max();
+    std::vector<IndexRange> box;
+    posts_.move_to(cell);
+    for (std::size_t i = 0; i < posts_.grid().size(); ++i) {
+      const ResolvedRange range = posts_.resolved(i, u);
+      if (range.all_left()) return least;  // T alone
+      box.push_back(range.inside);
+    }
+    for_each_cell(posts_.grid(), box, [&](std::int64_t next) {
+      least = std::min(least, countdown_(next));
+      return true;
+    });
+    return std::max(least, 0);
+  }
+
+ private:
+  struct Class {
+    std::string table;  ///< its path; empty: the class sees everything
+    std::vector<std::size_t> seen;
+  };
+
+  /// Rows beyond the last one are like it.
+  [[nodiscard]] Numbers row(const Class& own, std::int64_t cell, std::int32_t countdown) const {
+    const std::int64_t rows = tables_->length(paths::kSilentLayer);
+    std::vector<std::int64_t> place{std::min<std::int64_t>(countdown, rows) - 1};
+    for (const std::size_t i : own.seen) place.push_back(posts_.grid().index(cell, i));
+    const std::vector<std::uint8_t> bytes = tables_->bytes(own.table, place);
+    Numbers actions;
+    for (std::size_t a = 0; a < 8 * bytes.size(); ++a) {
+      if ((bytes[a / 8] >> (a % 8) & 1U) != 0) actions.push_back(static_cast<std::int64_t>(a));
+    }
+    return actions;
+  }
+
+  CellPosts& posts_;
+  const ByteTables* tables_;
+  CellValue countdown_;
+  std::vector<Class> own_;
+};
+
+}  // namespace
+
+std::vector<AnswerPolicy> blind_policies(const ProblemSpec& spec) {
+  if (!has_limited_sight(spec)) return {};
+  return {{.name = "blind",
+           .words = "blind",
+           .gain = "see only themselves",
+           .delay = paths::kBlindDelay,
+           .trigger = paths::kBlindCountdown,
+           .is_on_request = true,
+           .make = [](const PolicyGround& ground) -> std::unique_ptr<CellPolicy> {
+             return std::make_unique<BlindPolicy>(ground);
+           }}};
+}
+
+}  // namespace coordreq

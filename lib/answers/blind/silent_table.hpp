@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "answers/blind/fibres.hpp"
+#include "answers/layers/projections.hpp"
+#include "base/thread_team.hpp"
+#include "engine/cell_set.hpp"
+#include "engine/level_map.hpp"
+
+namespace coordreq {
+
+/// Q_c^k for all k, of a class c that does not see everything (contract, section 8): the actions that are in
+/// A_c(x) for all x of B_k in a fibre.
+///
+/// Of each action it is kept how deep the deepest cell of the fibre is that lacks it. *Deep* is the greatest
+/// k with x in B_k; B_k shrinks, so that is all there is to say: an action is in Q^k if no cell of B_k lacks
+/// it. One byte each, whatever k is.
+struct SilentTable {
+  /// Steps that are told apart. For more that many is right, too, for Q only grows.
+  static constexpr std::int64_t kMostSteps = 64;
+
+  std::int64_t actions = 0;
+  std::vector<std::uint8_t> lacked;  ///< [fibre * actions + action] depth of that cell, 0: none of B_1
+  std::vector<std::uint8_t> met;     ///< [fibre] depth of its deepest cell
+
+  [[nodiscard]] std::int64_t fibres() const { return static_cast<std::int64_t>(met.size()); }
+  /// Whether the action is in Q^k. No action is where no cell of B_k is in the fibre.
+  /// REQUIRES: 1 <= k, at most the depth that the table was made for.
+  [[nodiscard]] bool allows(std::int64_t fibre, std::int64_t action, std::int64_t k) const {
+    return met[static_cast<std::size_t>(fibre)] >= k &&
+           lacked[static_cast<std::size_t>(fibre * actions + action)] < k;
+  }
+  /// A cell of B_1 is in the fibre, and no action is in A_c(x) for all of them: Q^1 is empty.
+  [[nodiscard]] bool is_torn(std::int64_t fibre) const;
+};
+
+/// [class] none for one that sees everything.
+using ClassFibres = std::vector<std::optional<Fibres>>;
+
+/// What tables are made of.
+struct SilentSources {
+  const Projections& projections;  ///< which keep masks
+  const CellSet& invariant;        ///< K
+  const ClassFibres& fibres;
+};
+
+/// Tables of all classes but those that see everything. Together.
+/// @param levels of K, Z_1, Z_2, ... or of B: as DelayLayers::layers_of
+/// @param deepest depths above it count as this one, as those of cells that are never lost do
+[[nodiscard]] std::vector<SilentTable> find_silent_tables(const SilentSources& sources,
+                                                          const LevelMap& levels, std::int64_t deepest,
+                                                          ThreadTeam& team);
+
+/// B_1: Z_1 without the cells that lack the action which a class would take in their fibre; one class after
+/// the other. Together.
+/// @param layers of Z
+/// @param tables of these layers, for one step at the most
+/// @returns B_1 in own rows; nothing if it is Z_1
+[[nodiscard]] std::optional<CellSet> find_common_cells(const SilentSources& sources, const LevelMap& layers,
+                                                       const std::vector<SilentTable>& tables,
+                                                       ThreadTeam& team);
+
+}  // namespace coordreq
