@@ -133,6 +133,13 @@ std::string sets_text(const Json& summary) {
                                                    count_of(number_of(summary["iterations"]), "sweep")));
   for (const AddFacts add : analysis_facts()) add(summary, facts);
   facts.emplace_back("guarantee", guarantee_text(text_of(summary["guarantee"])));
+  const Json& tightness = summary["tightness"];
+  if (!tightness.is_null() && number_of(tightness["p99"]) > 1) {
+    facts.emplace_back(
+        "tightness",
+        fmt::format("{:.1f} % of sampled posts are more than a cell wider than solutions need, at most {}",
+                    100 * tightness["share"].get<double>(), cells(tightness["most"])));
+  }
   return facts_text(facts);
 }
 
@@ -167,7 +174,7 @@ std::string closing_text(const Json& summary) {
 std::string summary_text(const Json& summary, const ProblemSpec& spec) {
   std::string text = sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec);
   for (const AnalysisSection section : analysis_sections()) text += section(summary, spec);
-  std::vector<std::string> told = {"controller", "seconds", "work", "warnings"};
+  std::vector<std::string> told = {"controller", "seconds", "work", "tightness", "warnings"};
   told.insert(told.end(), told_members().begin(), told_members().end());
   return text + others_text(summary, told) + requirements_text(summary["requirements"], spec) +
          closing_text(summary);

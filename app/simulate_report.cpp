@@ -44,7 +44,7 @@ std::string outcome_text(const std::string& outcome) {
       {"completed", "stayed in the invariance set"}, {"left_safely", "left through a safe side"},
       {"left_invariant", "left the invariance set"}, {"no_action", "found no admissible action"},
       {"reached_goal", "reached the goal"},          {"late", "did not reach the goal in time"},
-      {"not_allowed", "did what 'allow' forbids"}};
+      {"not_allowed", "did what 'allow' forbids"},   {"not_followed", "could not be followed"}};
   return kTexts.at(outcome);
 }
 
@@ -83,6 +83,20 @@ std::string violation_text(const Json& simulation) {
                      grouped((*first)["steps"]), values_text((*first)["end"]), report_request());
 }
 
+/// Of the first run that could not be followed to its end.
+std::string not_followed_text(const Json& simulation) {
+  for (const Json& trace : simulation["traces"]) {
+    if (trace["outcome"] != "not_followed") continue;
+    const std::string unit = text_of(simulation["period_unit"]);
+    return fmt::format(
+        "\nRun {} cannot be followed beyond {:.6g}{}, from {} on: it changes too fast, or an equation is not "
+        "defined.\nThat says nothing of the analysis.\n",
+        number_of(trace["run"]), trace["followed_until"].get<double>(), unit.empty() ? "" : " " + unit,
+        values_text(trace["end"]));
+  }
+  return {};
+}
+
 Json state_json(const std::vector<double>& state, const ProblemSpec& spec) {
   Json json;
   for (std::size_t i = 0; i < state.size(); ++i) json[spec.states[i].name] = state[i];
@@ -99,6 +113,10 @@ Json trace_json(const RunTrace& trace, std::size_t run, const ProblemSpec& spec)
             {"start", state_json(trace.samples.front().state, spec)},
             {"end", state_json(trace.samples.back().state, spec)}};
   if (spec.goal) json["arrived"] = trace.arrived ? Json(*trace.arrived) : Json();
+  if (trace.outcome == Outcome::not_followed) {
+    const double steps = static_cast<double>(trace.steps.size()) + trace.followed;
+    json["followed_until"] = steps * nearest_double(spec.dynamics.period);
+  }
   return json;
 }
 
@@ -140,7 +158,8 @@ std::string simulation_text(const Json& simulation, const ProblemSpec& spec) {
     facts.emplace_back("start", values_text(traces.front()["start"]));
     facts.emplace_back("end", values_text(traces.front()["end"]));
   }
-  std::string text = heading(simulation, spec) + facts_text(facts) + violation_text(simulation);
+  std::string text = heading(simulation, spec) + facts_text(facts) + violation_text(simulation) +
+                     not_followed_text(simulation);
   if (!simulation["output"].is_null()) text += fmt::format("\nruns in {}\n", line_of(simulation["output"]));
   return text;
 }

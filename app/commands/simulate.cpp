@@ -86,7 +86,7 @@ ExitCode run(const SimulateOptions& own) {
   const ResultsReader results(own.results, own.max_memory);
   const Simulation simulation = simulate_with_care(results, options, own);
   print_simulation(own, simulation, results, options);
-  return simulation.violation() ? ExitCode::requirement_failed : ExitCode::success;
+  return simulation.failure() ? ExitCode::requirement_failed : ExitCode::success;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "analysis/checkpoint.hpp"
 #include "analysis/estimate_memory.hpp"
 #include "analysis/stage_reporter.hpp"
+#include "analysis/tightness.hpp"
 #include "answers/field_table.hpp"
 #include "answers/plan.hpp"
 #include "base/error.hpp"
@@ -151,6 +152,8 @@ Json analyze(const Model& model, const AnalysisOptions& options, ThreadTeam& tea
   Json work = Json::object();
   Json summary = summarise(answers, work);
   meter.tell(work);
+  const std::optional<Tightness> tightness = find_tightness(answers.ground);
+  summary["tightness"] = tightness_json(tightness);
   if (!options.output.empty()) write(options.output, answers, reporter, team);
   if (checkpoint) checkpoint->remove();
   summary["output"] = options.output.empty() ? Json() : Json(options.output);
@@ -160,7 +163,11 @@ Json analyze(const Model& model, const AnalysisOptions& options, ThreadTeam& tea
   summary["work"] = std::move(work);
   const auto peak = static_cast<std::int64_t>(peak_memory_bytes());
   summary["peak_memory_bytes"] = ranks == nullptr ? peak : ranks->greatest(peak);
-  summary["warnings"] = warnings_json(is_first ? advise(answers, team) : Warnings());
+  Warnings warnings = is_first ? advise(answers, team) : Warnings();
+  if (is_first) {
+    for (Warning& more : advise_on_tightness(model.spec(), tightness)) warnings.push_back(std::move(more));
+  }
+  summary["warnings"] = warnings_json(warnings);
   return summary;
 }
 

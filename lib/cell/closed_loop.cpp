@@ -100,6 +100,11 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
       trace.outcome = Outcome::not_allowed;
       return trace;
     }
+    if (!next_.is_known(*u) && !next_.has_left(*u)) {
+      trace.outcome = Outcome::not_followed;
+      trace.followed = next_.followed(*u);
+      return trace;
+    }
     trace.steps.push_back({*u, coordinated, nearest_doubles(nature.disturbance)});
     const std::optional<std::int32_t> agreed =
         coordinated ? chooser_.countdown_after(policy, state.place.cell, *u) : std::nullopt;

@@ -30,11 +30,12 @@ struct LoopOptions {
 enum class Outcome : std::uint8_t {
   completed,       ///< all steps, in K all the time
   left_safely,     ///< ended early beyond a `safe` side of the domain
-  left_invariant,  ///< ended early because the measured cell is not in K, or the state is not finite
+  left_invariant,  ///< ended early because the measured cell is not in K
   no_action,       ///< ended early in K where no action is admissible
   reached_goal,    ///< ended in the goal, as was asked
   late,            ///< more steps than promised, and not in the goal
   not_allowed,     ///< ended early in K where silent agents together do what `allow` forbids
+  not_followed,    ///< ended early because the next state could not be worked out
 };
 /// Those that contradict the analysis.
 [[nodiscard]] constexpr bool is_violation(Outcome outcome) {
@@ -66,6 +67,7 @@ struct RunTrace {
   std::vector<Step> steps;      ///< one fewer
   Outcome outcome = Outcome::completed;
   std::optional<std::int64_t> arrived;  ///< the sample at which the aim is reached first
+  double followed = 0.0;                ///< not_followed: the share of a further step that could be
 
   [[nodiscard]] std::int64_t coordinated_steps() const;
   /// The most steps in a row without coordination.

@@ -52,6 +52,8 @@ const NextStates::Value& NextStates::state(std::size_t i, std::int64_t u) {
     const Location location = locate(axes_[i], std::span(&measured, 1));
     result.kind = location.kind;
     result.index = location.index.front();
+  } else {
+    result.followed = dynamics_->followed(i);
   }
   return result;
 }
@@ -66,6 +68,22 @@ bool NextStates::is_known(std::int64_t u) {
     if (!state(i, u).known) return false;
   }
   return true;
+}
+
+bool NextStates::has_left(std::int64_t u) {
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const Value& value = state(i, u);
+    if (value.known && value.kind == Location::Kind::beyond) return true;
+  }
+  return false;
+}
+
+double NextStates::followed(std::int64_t u) {
+  double least = 1.0;
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    if (!state(i, u).known) least = std::min(least, state(i, u).followed);
+  }
+  return least;
 }
 
 NextStates::Place NextStates::place(std::int64_t u) {

@@ -17,8 +17,9 @@ namespace coordreq {
 class NextStates {
  public:
   struct Value {
-    bool known = false;  ///< false: undefined or not finite; the rest then means nothing
-    Rational value;      ///< at the sample, after its resets
+    bool known = false;  ///< false: undefined, not finite, or not to be followed; the rest then means nothing
+    double followed = 1.0;  ///< but for this: the share of the period up to which it could be
+    Rational value;         ///< at the sample, after its resets
     double approximate = 0;
     Location::Kind kind = Location::Kind::beyond;  ///< where it is measured in its dimension
     std::int64_t index = -1;
@@ -42,6 +43,10 @@ class NextStates {
   [[nodiscard]] Place place(std::int64_t u);
   /// All states are known under `u`.
   [[nodiscard]] bool is_known(std::int64_t u);
+  /// One that is known is beyond an unsafe side under `u`, whatever becomes of the others.
+  [[nodiscard]] bool has_left(std::int64_t u);
+  /// The share of the period up to which all of them could be followed.
+  [[nodiscard]] double followed(std::int64_t u);
 
  private:
   [[nodiscard]] std::optional<Rational> next(std::size_t i, std::int64_t u);

@@ -358,9 +358,10 @@ double Simulation::smallest_margin() const {
   return smallest;
 }
 
-std::optional<std::size_t> Simulation::violation() const {
+std::optional<std::size_t> Simulation::failure() const {
   const bool is_lossy = partition.empty();
   const auto found = std::find_if(traces.begin(), traces.end(), [is_lossy](const RunTrace& trace) {
+    if (trace.outcome == Outcome::not_followed) return true;
     return is_lossy ? trace.outcome == Outcome::no_action : is_violation(trace.outcome);
   });
   if (found == traces.end()) return std::nullopt;
@@ -369,13 +370,13 @@ std::optional<std::size_t> Simulation::violation() const {
 
 std::string outcome_name(Outcome outcome) {
   constexpr const char* kNames[] = {"completed",    "left_safely", "left_invariant", "no_action",
-                                    "reached_goal", "late",        "not_allowed"};
+                                    "reached_goal", "late",        "not_allowed",    "not_followed"};
   return kNames[static_cast<std::size_t>(outcome)];
 }
 
 std::vector<Outcome> outcomes(const ProblemSpec& spec) {
   std::vector<Outcome> result = {Outcome::completed, Outcome::left_safely, Outcome::left_invariant,
-                                 Outcome::no_action};
+                                 Outcome::no_action, Outcome::not_followed};
   if (spec.goal) result.insert(result.end(), {Outcome::reached_goal, Outcome::late});
   if (allow_joins_agents(spec)) result.push_back(Outcome::not_allowed);
   return result;

@@ -48,11 +48,12 @@ struct Simulation {
   [[nodiscard]] std::int64_t coordinated_steps() const;
   [[nodiscard]] std::int64_t longest_silence() const;
   [[nodiscard]] double smallest_margin() const;
-  /// The first run that contradicts the analysis. Where losses are drawn K may be left.
-  [[nodiscard]] std::optional<std::size_t> violation() const;
+  /// The first run that contradicts the analysis, or could not be followed to its end. Where losses are drawn
+  /// K may be left.
+  [[nodiscard]] std::optional<std::size_t> failure() const;
 };
 
-/// "completed", "left_safely", "left_invariant", "no_action", "reached_goal", "late".
+/// "completed", "left_safely", "left_invariant", "no_action", "reached_goal", "late", "not_followed".
 [[nodiscard]] std::string outcome_name(Outcome outcome);
 /// All that runs of a spec can come to.
 [[nodiscard]] std::vector<Outcome> outcomes(const ProblemSpec& spec);

@@ -97,6 +97,12 @@ Interval VectorField::clipped(std::size_t i, const Interval& a) const {
   return result;
 }
 
+bool VectorField::meets_limit(std::size_t i, const Interval& a) const {
+  if (system_->stops.empty()) return false;
+  const FlowSystem::Limit& limit = system_->stops[i];
+  return (limit.below && a.lower <= limit.lower.upper) || (limit.above && a.upper >= limit.upper.lower);
+}
+
 bool VectorField::is_on_seam(std::span<const Interval> box) const {
   for (std::size_t i = 0; i < system_->seams.size(); ++i) {
     for (const Interval& seam : system_->seams[i]) {

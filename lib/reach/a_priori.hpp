@@ -46,6 +46,9 @@ class VectorField {
   /// The part of `a` that state i can take.
   [[nodiscard]] Interval clipped(std::size_t i, const Interval& a) const;
 
+  /// Whether a limit of state i is in `a`.
+  [[nodiscard]] bool meets_limit(std::size_t i, const Interval& a) const;
+
   /// Whether the equations jump in state i where it goes round.
   [[nodiscard]] bool has_seams(std::size_t i) const {
     return !system_->seams.empty() && !system_->seams[i].empty();

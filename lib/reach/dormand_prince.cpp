@@ -48,6 +48,13 @@ DormandPrince::Values DormandPrince::error() const {
   return step_ * slopes_.lazyProduct(error_weights());
 }
 
+double DormandPrince::stiffness() const {
+  const Values apart = end_ - start_ - step_ * increment(kStages - 2);
+  const double distance = apart.norm();
+  return distance > 0.0 ? step_ * (slopes_.col(kStages - 1) - slopes_.col(kStages - 2)).norm() / distance
+                        : 0.0;
+}
+
 void DormandPrince::interpolate(double share, Values& x) const {
   const double rest = 1.0 - share;
   const Values whole = end_ - start_;

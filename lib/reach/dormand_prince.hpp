@@ -31,6 +31,10 @@ class DormandPrince {
   [[nodiscard]] const Values& end() const { return end_; }
   /// Its estimated error.
   [[nodiscard]] Values error() const;
+  /// About the step times the magnitude of the fastest rate of change of a difference of solutions, from the
+  /// two stages at the end of the step (section IV.2 of volume II): where that is above 3 stability bounds
+  /// the step, and not the error.
+  [[nodiscard]] double stiffness() const;
   /// The state after `share` of the step, 0 <= share <= 1.
   void interpolate(double share, Values& x) const;
 

@@ -180,7 +180,7 @@ void build_enclosure_tables(const SystemSpec& spec, const AffineDynamics& dynami
                             const std::vector<std::size_t>& states, ThreadTeam& team,
                             std::optional<std::int64_t> own, Ranks* ranks) {
   const Dependencies& dependencies = dynamics.dependencies(states.front());
-  const StateEnclosure enclosure(spec, dependencies, states.front());
+  const StateEnclosure enclosure(spec, dependencies, states);
   BoxChoices choices;
   std::vector<EnclosureTable> tables;
   for (const std::size_t state : states) {

@@ -11,7 +11,7 @@ constexpr std::uint32_t kParts = 1U << 20U;
 constexpr std::size_t kMostTries = 20000;
 /// After some tries, steps that would be so many times as many as are allowed in all are not worth more.
 constexpr std::size_t kHopeTries = 24;
-constexpr std::size_t kHope = 8;
+constexpr std::size_t kHope = 3;
 /// Decay by more powers of e than this within a period is called stiff.
 constexpr double kStiff = 1000.0;
 /// Longer steps are tried again after so many that went well.
@@ -96,10 +96,11 @@ bool ValidatedFlow::Solver::run_steps(std::size_t most_steps, bool patient) {
     const auto failure = try_step(period_ * Interval{share, share}, parts > kSmallWithoutRemainder);
     if (!failure) {
       left -= parts;
-      finish_step(left == 0);
       if (++successes % kPatience == 0) parts *= 2;
       const bool hopeless = !patient && tries_ > kHopeTries && left / parts > kHope * most_steps;
       gave_up_ = left > 0 && (tries_ >= most_steps || hopeless);
+      if (!hopeless) finish_step(left == 0);
+      gave_up_ = gave_up_ || (left > 0 && is_too_wide());
       if (gave_up_) {
         fail(FlowFailure{false, fastest()});
         return false;

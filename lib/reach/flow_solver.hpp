@@ -36,6 +36,8 @@ class ValidatedFlow::Solver {
   Solver(FlowSystem system, const Interval& period);
 
   const FlowEnclosure& flow(std::span<const Interval> slots);
+  const FlowEnclosure& flow_of_part(std::span<const Interval> slots);
+  [[nodiscard]] bool keeps_apart(std::span<const Interval> box);
 
   [[nodiscard]] const FlowSystem& system() const { return system_; }
   [[nodiscard]] const Interval& period() const { return period_; }
@@ -60,12 +62,14 @@ class ValidatedFlow::Solver {
 
   // More work for a tighter result (refine_flow.cpp).
   void enclose(std::span<const Interval> slots, int halvings);
+  [[nodiscard]] bool is_too_wide() const;
   [[nodiscard]] double allowed_excess(std::size_t i) const;
   [[nodiscard]] bool is_tight() const;
   [[nodiscard]] bool is_smooth() const;
   void enclose_halves(std::span<const Interval> slots, int halvings);
   [[nodiscard]] std::size_t most_uncertain() const;
   bool bound_by_faces(std::span<const Interval> slots, bool found);
+  void note_reached();
 
   // Solutions that are followed (follow_extremes.cpp).
   void set_start(FollowedSolution& solution) const;
@@ -123,6 +127,7 @@ class ValidatedFlow::Solver {
   double fastest_growth_ = 0.0;
   std::size_t stiffest_ = 0;
   bool gave_up_ = false;
+  bool is_part_ = false;       ///< the box is divided further where that pays
   bool all_free_ = true;       ///< no state may run into a limit in this step
   bool ever_stopped_ = false;  ///< in an earlier one it might
   FlowEnclosure result_;

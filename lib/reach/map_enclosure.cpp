@@ -22,11 +22,15 @@ MapEnclosure::MapEnclosure(const Program& equation, std::span<const std::uint32_
     : natural_(equation),
       derivative_(equation),
       directions_(mentioned_among(equation, box_slots)),
-      gradient_(directions_.size()) {}
+      gradient_(directions_.size()),
+      spread_(directions_.size()) {}
 
 Interval MapEnclosure::enclose(std::span<const Interval> slots) {
   const Interval natural = natural_.number(slots);
-  if (!natural.total || natural.is_point() || directions_.empty()) return natural;
+  reached_.reset();
+  std::fill(spread_.begin(), spread_.end(), 0.0);
+  if (natural.is_point() || directions_.empty()) reached_ = natural;
+  if (!natural.total || reached_) return natural;
   const Interval lower = bounds(slots, false, natural);
   const Interval upper = bounds(slots, true, natural);
   return {lower.lower, upper.upper, true};
@@ -45,7 +49,24 @@ Interval MapEnclosure::bounds(std::span<const Interval> slots, bool upper, const
   }
   tighten(natural_.number(box_));
   tighten(mean_value_form());
+  note_spread();
   return result;
+}
+
+/// By the mean value form over `box_`.
+void MapEnclosure::note_spread() {
+  if (jump_ > 0.0) std::fill(spread_.begin(), spread_.end(), 0.0);
+  for (std::size_t j = 0; j < directions_.size() && jump_ == 0.0; ++j) {
+    const Interval& range = box_[directions_[j]];
+    if (!range.is_point())
+      spread_[j] += (gradient_[j].upper - gradient_[j].lower) * (range.upper - range.lower);
+  }
+}
+
+std::size_t MapEnclosure::loosest() const {
+  const auto most = std::max_element(spread_.begin(), spread_.end());
+  if (most == spread_.end() || *most == 0.0) return spread_.size();
+  return static_cast<std::size_t>(most - spread_.begin());
 }
 
 /// f over `box_`, its gradient and jump left in the members.
@@ -91,7 +112,9 @@ Interval MapEnclosure::mean_value_form() {
     const double middle = midpoint(box_[slot]);
     middle_[slot] = {middle, middle};
   }
-  Interval sum = natural_.number(middle_) + Interval{-2.0 * jump_, 2.0 * jump_};
+  const Interval value = natural_.number(middle_);
+  reached_ = reached_ ? hull(*reached_, value) : value;
+  Interval sum = value + Interval{-2.0 * jump_, 2.0 * jump_};
   for (std::size_t j = 0; j < directions_.size(); ++j) {
     const Interval& range = box_[directions_[j]];
     if (!range.is_point()) sum = sum + gradient_[j] * (range - middle_[directions_[j]]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,11 +29,20 @@ class MapEnclosure {
   /// @param slots a value for every variable of the equation at its slot
   [[nodiscard]] Interval enclose(std::span<const Interval> slots);
 
+  /// Hull of enclosures of single values in the last range; nothing if none was worked out.
+  [[nodiscard]] const std::optional<Interval>& reached() const { return reached_; }
+  /// Slots of the variables that may be boxes and that the equation mentions.
+  [[nodiscard]] const std::vector<std::uint32_t>& directions() const { return directions_; }
+  /// Index of the direction that keeps the last range from being known better, by what its derivative may be;
+  /// as many as there are if that is not known.
+  [[nodiscard]] std::size_t loosest() const;
+
  private:
   Interval bounds(std::span<const Interval> slots, bool upper, const Interval& natural);
   const Interval& evaluate_with_gradient();
   [[nodiscard]] bool move_to_extreme(bool upper);
   [[nodiscard]] Interval mean_value_form();
+  void note_spread();
 
   Evaluator<Interval> natural_;
   Evaluator<Dual> derivative_;
@@ -41,6 +51,8 @@ class MapEnclosure {
   std::vector<Interval> middle_;
   std::vector<Dual> dual_;
   std::vector<Interval> gradient_;
+  std::vector<double> spread_;  ///< what each direction adds to the range, as far as it is not known
+  std::optional<Interval> reached_;
   double jump_ = 0.0;
   Interval value_;
 };

@@ -72,17 +72,36 @@ PeriodicFlow::Wound PeriodicFlow::wind_system(const FlowSystem& system, Represen
 }
 
 const FlowEnclosure& PeriodicFlow::flow(std::span<const Interval> slots) {
-  const FlowEnclosure& plain = plain_.flow(slots);
+  return flow(slots, false);
+}
+
+const FlowEnclosure& PeriodicFlow::flow_of_part(std::span<const Interval> slots) {
+  return flow(slots, true);
+}
+
+bool PeriodicFlow::keeps_apart(std::span<const Interval> box) {
+  const bool inside = std::all_of(windings_.begin(), windings_.end(), [&](const Winding& winding) {
+    const Interval& range = box[winding.state];
+    return range.lower >= upper_double(winding.ring.lower) && range.upper < lower_double(winding.ring.upper);
+  });
+  return inside && plain_.keeps_apart(box);
+}
+
+const FlowEnclosure& PeriodicFlow::flow(std::span<const Interval> slots, bool part) {
+  const auto enclose = [part](ValidatedFlow& flow, std::span<const Interval> boxes) -> const FlowEnclosure& {
+    return part ? flow.flow_of_part(boxes) : flow.flow(boxes);
+  };
+  const FlowEnclosure& plain = enclose(plain_, slots);
   if (windings_.empty() || stays(plain)) return plain;
   std::copy(slots.begin(), slots.end(), slots_.begin());
   for (Winding& winding : windings_) {
     const bool by_plain = !winding.as_number && plain.status == FlowEnclosure::Status::ok;
     allow_for(by_plain ? turns_of(winding, plain) + 1 : kMostTurns, winding);
   }
-  const FlowEnclosure& followed = followed_->flow.flow(slots_);
+  const FlowEnclosure& followed = enclose(followed_->flow, slots_);
   if (!find_excess(followed)) return followed;
   for (Winding& winding : windings_) allow_for(kVeryManyTurns, winding);
-  const FlowEnclosure& anywhere = anywhere_->flow.flow(slots_);
+  const FlowEnclosure& anywhere = enclose(anywhere_->flow, slots_);
   const std::optional<std::size_t> excess = find_excess(anywhere);
   if (!excess) return anywhere;
   failure_ = {.status = FlowEnclosure::Status::blows_up, .culprit = *excess};

@@ -34,6 +34,10 @@ std::optional<Rational> PointDynamics::next(std::size_t i, const std::vector<Rat
   return value;
 }
 
+double PointDynamics::followed(std::size_t i) const {
+  return flows_[i] ? flows_[i]->followed() : 0.0;
+}
+
 std::optional<Rational> PointDynamics::exact_next(std::size_t i, const std::vector<Rational>& slots) {
   if (const UpdateSpec* const update = spec_->dynamics.update(i)) {
     std::vector<RationalInterval> points;

@@ -37,6 +37,9 @@ class PointDynamics {
   /// @param slots values of what it depends on, at their slots
   /// @returns nothing if it is undefined or not finite. @throws LimitError beyond kMostBits
   [[nodiscard]] std::optional<Rational> next(std::size_t i, const std::vector<Rational>& slots);
+  /// The share of the period up to which state `i` could be followed when next() last found nothing; in
+  /// discrete time 0.
+  [[nodiscard]] double followed(std::size_t i) const;
 
  private:
   [[nodiscard]] std::optional<Rational> exact_next(std::size_t i, const std::vector<Rational>& slots);

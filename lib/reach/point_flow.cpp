@@ -11,11 +11,14 @@ namespace {
 
 using outward::kInfinity;
 
-constexpr double kPointTolerance = 1e-12;
 /// Shares of the period: sub-steps are no shorter, after kMostEvaluations of them no shorter than the second.
 constexpr double kSmallestStep = 0x1p-36;
 constexpr double kSlidingStep = 0x1p-10;
 constexpr int kMostEvaluations = 200'000;
+/// A sub-step is bounded by stability where DormandPrince::stiffness() is above this; after so many of them
+/// the period is stiff.
+constexpr double kStable = 2.0;
+constexpr int kStiffSteps = 1000;
 /// An interpolant is looked at in so many places.
 constexpr int kLooks = 8;
 /// Of a sub-step.
@@ -31,8 +34,9 @@ double growth(double error, double largest) {
 
 }  // namespace
 
-PointFlow::PointFlow(const SystemSpec& spec, std::span<const std::int32_t> moving)
+PointFlow::PointFlow(const SystemSpec& spec, std::span<const std::int32_t> moving, double tolerance)
     : period_(nearest_double(spec.dynamics.period)),
+      tolerance_(tolerance),
       pair_(moving.size()),
       x_(static_cast<Eigen::Index>(moving.size())),
       point_(x_.size()),
@@ -118,7 +122,7 @@ double PointFlow::relative_error() const {
   double worst = 0.0;
   for (Eigen::Index i = 0; i < error.size(); ++i) {
     const double scale = std::max(std::fabs(x_(i)), scale_[static_cast<std::size_t>(i)]);
-    const double ratio = std::fabs(error(i)) / (kPointTolerance * scale);
+    const double ratio = std::fabs(error(i)) / (tolerance_ * scale);
     if (!std::isfinite(pair_.end()(i)) || !std::isfinite(ratio)) return kInfinity;
     worst = std::max(worst, ratio);
   }
@@ -128,7 +132,7 @@ double PointFlow::relative_error() const {
 /// Whether by this share of the sub-step a limit or a seam was passed, a switch should have changed sides, or
 /// a state should have left its limit.
 bool PointFlow::is_event(double share) {
-  pair_.interpolate(share, point_);
+  interpolate(share, point_);
   put(point_);
   for (std::size_t i = 0; i < ranges_.size(); ++i) {
     const double value = point_(static_cast<Eigen::Index>(i));
@@ -162,6 +166,7 @@ double PointFlow::share_until_event(double h) {
 
 /// Tries a sub-step of length h, and sets the length to try next. @returns false if there is no next state
 bool PointFlow::advance(double& left, double& h) {
+  if (is_stiff_) return advance_stiffly(left, h);
   const double smallest = period_ * (++steps_ < kMostEvaluations ? kSmallestStep : kSlidingStep);
   h = std::min(h, left);
   pair_.step([this](const Values& x, Values& result) { derivative(x, result); }, x_, h);
@@ -172,6 +177,7 @@ bool PointFlow::advance(double& left, double& h) {
   }
   if (!std::isfinite(error)) return false;
   const double share = share_until_event(h);
+  if (share == 1.0 && pair_.stiffness() > kStable) ++stiff_steps_;
   if (share * h < kDwell * period_) ++short_events_;
   left -= share * h;
   if (share < 1.0) {
@@ -184,17 +190,54 @@ bool PointFlow::advance(double& left, double& h) {
   return true;
 }
 
+void PointFlow::interpolate(double share, Values& x) const {
+  if (is_stiff_) {
+    stiff_->interpolate(share, x);
+  } else {
+    pair_.interpolate(share, x);
+  }
+}
+
+void PointFlow::begin_stiffly() {
+  if (!stiff_) {
+    const auto field = [this](const Values& x, Values& result) { derivative(x, result); };
+    stiff_.emplace(field, scale_, tolerance_);
+  }
+  is_stiff_ = true;
+  stiff_->begin(x_);
+}
+
+/// As advance(), by the solver for stiff systems; an event makes it begin anew.
+bool PointFlow::advance_stiffly(double& left, double& h) {
+  if (++steps_ > kMostEvaluations) return false;
+  h = stiff_->step(left);
+  if (h <= 0.0) return false;
+  const double share = share_until_event(h);
+  if (share * h < kDwell * period_) ++short_events_;
+  left -= share * h;
+  interpolate(share, x_);
+  if (!x_.allFinite()) return false;
+  if (!has_events_) return true;
+  settle();
+  if (share < 1.0) stiff_->begin(x_);
+  return true;
+}
+
 std::optional<std::vector<double>> PointFlow::after_period(std::span<const double> slots) {
   slots_.assign(slots.begin(), slots.end());
   for (std::size_t i = 0; i < slots_of_states_.size(); ++i) {
     x_(static_cast<Eigen::Index>(i)) = slots[slots_of_states_[i]];
   }
   std::fill(turned_.begin(), turned_.end(), 0.0);
-  steps_ = short_events_ = 0;
+  steps_ = stiff_steps_ = short_events_ = 0;
+  is_stiff_ = false;
   settle();
   double left = period_;
   for (double h = period_; left > 0.0;) {
-    if (!advance(left, h)) return std::nullopt;
+    const bool found = advance(left, h);
+    followed_ = 1.0 - left / period_;
+    if (!found && is_stiff_) return std::nullopt;
+    if (!is_stiff_ && (!found || stiff_steps_ > kStiffSteps)) begin_stiffly();
   }
   std::vector<double> end(turned_);
   for (std::size_t i = 0; i < end.size(); ++i) end[i] += x_(static_cast<Eigen::Index>(i));

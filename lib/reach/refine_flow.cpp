@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "reach/flow_solver.hpp"
 
@@ -22,6 +24,10 @@ constexpr double kTightStep = 0.1;
 constexpr double kHardly = 0.1;
 /// A box of initial states is halved so often at most.
 constexpr int kMostSplits = 2;
+/// A part of a box that leads to more steps of the grid on its way is not followed further.
+constexpr double kWidestPart = 100.0;
+/// What belongs to the neighbourhood of a box, seen from its ends.
+constexpr double kNeighbourhood = 1e-14;
 
 template <class Combine>
 void combine(FlowEnclosure& a, const FlowEnclosure& b, Combine both) {
@@ -40,21 +46,68 @@ const FlowEnclosure& ValidatedFlow::Solver::flow(std::span<const Interval> slots
     allowed_excess_[i] =
         start > 0.0 || system_.steps.empty() ? kTight * start : kTightStep * system_.steps[i];
   }
+  result_.reached.clear();
   enclose(slots, kMostSplits);
   return result_;
+}
+
+const FlowEnclosure& ValidatedFlow::Solver::flow_of_part(std::span<const Interval> slots) {
+  for (std::size_t i = 0; i < n_; ++i) {
+    const double start = slots[system_.state_slots[i]].width();
+    allowed_excess_[i] = system_.steps.empty() ? kTight * start : kTightStep * system_.steps[i];
+  }
+  result_.reached.clear();
+  is_part_ = true;
+  enclose(slots, 0);
+  is_part_ = false;
+  return result_;
+}
+
+/// Of a part: smaller ones are worth more than to go on.
+bool ValidatedFlow::Solver::is_too_wide() const {
+  if (!is_part_ || system_.steps.empty()) return false;
+  for (std::size_t i = 0; i < n_; ++i) {
+    if (now_[i].width() > kWidestPart * system_.steps[i]) return true;
+  }
+  return false;
+}
+
+/// Takes down where solutions got to that have been followed from the start.
+void ValidatedFlow::Solver::note_reached() {
+  if (attained_.empty() || restarted_) return;
+  if (result_.reached.empty()) result_.reached = attained_;
+  for (std::size_t i = 0; i < n_; ++i) result_.reached[i] = hull(result_.reached[i], attained_[i]);
+}
+
+bool ValidatedFlow::Solver::keeps_apart(std::span<const Interval> box) {
+  for (std::size_t i = 0; i < n_; ++i) {
+    const double more = kNeighbourhood * box[i].magnitude() + std::numeric_limits<double>::min();
+    box_[i] = {box[i].lower - more, box[i].upper + more};
+    if (!box_[i].is_finite() || field_.has_seams(i)) return false;
+    if (field_.meets_limit(i, box_[i])) return false;
+  }
+  if (field_.evaluate(box_, derivative_)) return false;
+  jacobian_.evaluate(box_);
+  const IntervalMatrix& slopes = jacobian_.state();
+  return std::all_of(slopes.data(), slopes.data() + slopes.size(),
+                     [](const Interval& a) { return a.is_finite(); }) &&
+         (jacobian_.jump().array() == 0.0).all();
 }
 
 /// Puts an enclosure into `result_`.
 void ValidatedFlow::Solver::enclose(std::span<const Interval> slots, int halvings) {
   begin(slots);
   const bool found = run_steps(kFewSteps, false);
-  if (found && is_tight()) return;
+  if (found) note_reached();
+  result_.loosest = most_uncertain();
+  if (found ? is_tight() : is_too_wide()) return;
   const bool divisible = found && is_smooth() && !restarted_;
   if (divisible) {
     if (halvings > 0) enclose_halves(slots, halvings - 1);
-  } else if (!bound_by_faces(slots, found) && gave_up_ && fastest_decay_ * period_.upper < kTooStiff) {
+  } else if (!bound_by_faces(slots, found) && gave_up_ && !is_part_ &&
+             fastest_decay_ * period_.upper < kTooStiff) {
     begin(slots);
-    run_steps(kMostSteps, true);
+    if (run_steps(kMostSteps, true)) note_reached();
   }
   if (planar_.applies() && result_.status == FlowEnclosure::Status::ok && !divisible)
     planar_.narrow(slots, period_, result_);
@@ -104,7 +157,9 @@ void ValidatedFlow::Solver::enclose_halves(std::span<const Interval> slots, int 
     combine(both, result_, [](const Interval& a, const Interval& b) { return hull(a, b); });
   }
   const bool found = both.status == FlowEnclosure::Status::ok && result_.status == both.status;
+  std::vector<Interval> reached = std::move(result_.reached);
   result_ = whole;
+  result_.reached = std::move(reached);
   if (!found) return;
   combine(result_, both, [](const Interval& a, const Interval& b) { return intersect(a, b).value_or(a); });
 }
@@ -136,6 +191,7 @@ bool ValidatedFlow::Solver::bound_by_faces(std::span<const Interval> slots, bool
     combine(result_, by_faces_,
             [](const Interval& a, const Interval& b) { return intersect(a, b).value_or(a); });
   } else {
+    by_faces_.loosest = result_.loosest;
     result_ = by_faces_;
   }
   return true;

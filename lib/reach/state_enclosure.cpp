@@ -1,6 +1,7 @@
 #include "reach/state_enclosure.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "base/index.hpp"
@@ -43,11 +44,13 @@ std::optional<Ring> ring_of(const StateSpec& state) {
 
 }  // namespace
 
-StateEnclosure::StateEnclosure(const SystemSpec& spec, const Dependencies& dependencies, std::size_t state)
+StateEnclosure::StateEnclosure(const SystemSpec& spec, const Dependencies& dependencies,
+                               const std::vector<std::size_t>& states, bool terms)
     : spec_(&spec),
       dependencies_(dependencies),
-      state_(state),
-      shifts_(is_shift(spec, dependencies, state)),
+      state_(states.front()),
+      shifts_(is_shift(spec, dependencies, state_)),
+      terms_(terms),
       slots_(spec.slot_count()) {
   for (const std::int32_t l : dependencies.disturbances) {
     const DisturbanceSpec& w = spec.disturbances[at(l)];
@@ -56,24 +59,34 @@ StateEnclosure::StateEnclosure(const SystemSpec& spec, const Dependencies& depen
   if (spec.dynamics.time == Time::discrete) {
     prepare_map();
   } else {
-    prepare_flow();
+    prepare_flow(states);
   }
 }
 
 void StateEnclosure::prepare_map() {
   std::vector<std::uint32_t> boxes;
-  for (const std::int32_t j : dependencies_.moving) boxes.push_back(spec_->state_slot(at(j)));
-  for (const std::int32_t l : dependencies_.disturbances) boxes.push_back(spec_->disturbance_slot(at(l)));
-  map_.emplace(spec_->dynamics.equations[state_], boxes);
+  std::vector<double> steps(spec_->slot_count());
+  for (const std::int32_t j : dependencies_.moving) {
+    boxes.push_back(spec_->state_slot(at(j)));
+    steps[boxes.back()] = nearest_double(spec_->states[at(j)].grid.step);
+  }
+  for (const std::int32_t l : dependencies_.disturbances) {
+    const DisturbanceSpec& w = spec_->disturbances[at(l)];
+    boxes.push_back(spec_->disturbance_slot(at(l)));
+    steps[boxes.back()] = std::max(nearest_double(w.upper - w.lower), std::numeric_limits<double>::min());
+  }
   // The grid points of a discrete state need not be doubles, so no middle serves for all.
   if (spec_->states[state_].discrete) shifts_ = false;
   if (shifts_) {
     origin_ = midpoint(range_of(spec_->states[state_]));
     slots_[spec_->state_slot(state_)] = Interval(origin_);
   }
+  EndCells target = cells_of(state_);
+  target.state = 0;
+  map_.emplace(spec_->dynamics.equations[state_], boxes, steps, target, spec_->abstraction.effort);
 }
 
-void StateEnclosure::prepare_flow() {
+void StateEnclosure::prepare_flow(const std::vector<std::size_t>& states) {
   FlowSystem system;
   std::vector<std::optional<Ring>> rings;
   system.slot_count = spec_->slot_count();
@@ -87,8 +100,34 @@ void StateEnclosure::prepare_flow() {
   for (const std::int32_t l : dependencies_.disturbances) {
     system.disturbance_slots.push_back(spec_->disturbance_slot(at(l)));
   }
-  flow_.emplace(std::move(system), rings, lower_double(spec_->dynamics.period),
-                upper_double(spec_->dynamics.period));
+  std::vector<EndCells> targets;
+  for (const std::size_t state : served(states)) targets.push_back(cells_of(state));
+  PeriodicFlow flow(system, rings, lower_double(spec_->dynamics.period),
+                    upper_double(spec_->dynamics.period));
+  flow_.emplace(std::move(flow), system, std::move(targets), spec_->abstraction.effort);
+}
+
+/// Whose cells count when a box is divided: all states that one flow serves, whichever are asked for, so that
+/// each has the same post alone as with the others.
+std::vector<std::size_t> StateEnclosure::served(const std::vector<std::size_t>& states) const {
+  if (shifts_ || terms_) return states;
+  std::vector<std::size_t> result;
+  for (const std::int32_t j : dependencies_.moving) {
+    if (find_dependencies(*spec_, at(j)) == dependencies_) result.push_back(at(j));
+  }
+  return result;
+}
+
+/// What the value of a state is good for, by its place among those that move.
+EndCells StateEnclosure::cells_of(std::size_t state) const {
+  const StateSpec& own = spec_->states[state];
+  const auto place =
+      std::find(dependencies_.moving.begin(), dependencies_.moving.end(), static_cast<std::int32_t>(state));
+  return {.state = static_cast<std::size_t>(place - dependencies_.moving.begin()),
+          .first = nearest_double(own.grid.first),
+          .step = nearest_double(own.grid.step),
+          .reach = nearest_double(own.measurement_error),
+          .placed = !shifts_ && !terms_};
 }
 
 void StateEnclosure::enclose() {

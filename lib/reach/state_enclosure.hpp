@@ -7,8 +7,8 @@
 
 #include "numeric/interval.hpp"
 #include "reach/affine_dynamics.hpp"
-#include "reach/map_enclosure.hpp"
-#include "reach/periodic_flow.hpp"
+#include "reach/split_flow.hpp"
+#include "reach/split_map.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
@@ -31,8 +31,11 @@ class StateEnclosure {
     Interval drift;  ///< in continuous time: the difference to the present one, see FlowEnclosure::drift
   };
 
+  /// @param states whose enclosures are asked for: one that shifts() is alone, in discrete time any is
+  /// @param terms whether something is added to the results before cells are counted
   /// REQUIRES: `spec` outlives this object.
-  StateEnclosure(const SystemSpec& spec, const Dependencies& dependencies, std::size_t state);
+  StateEnclosure(const SystemSpec& spec, const Dependencies& dependencies,
+                 const std::vector<std::size_t>& states, bool terms = false);
 
   /// x_i(tau) - x_i(0) does not depend on x_i: result() then gives the difference and needs no box of x_i.
   [[nodiscard]] bool shifts() const { return shifts_; }
@@ -42,8 +45,7 @@ class StateEnclosure {
 
   /// Finds out what result() tells.
   void enclose();
-  /// @param state the one of the constructor; in continuous time any moving one that it depends on, if this
-  ///   does not shift
+  /// @param state one of those of the constructor
   [[nodiscard]] Result result(std::size_t state) const;
 
   /// What made the equation at fault undefined in the last enclose(), or nothing known. REQUIRES: something
@@ -52,7 +54,9 @@ class StateEnclosure {
 
  private:
   void prepare_map();
-  void prepare_flow();
+  void prepare_flow(const std::vector<std::size_t>& states);
+  [[nodiscard]] std::vector<std::size_t> served(const std::vector<std::size_t>& states) const;
+  [[nodiscard]] EndCells cells_of(std::size_t state) const;
   [[nodiscard]] Result result_of_map() const;
   [[nodiscard]] Result result_of_flow(std::size_t state) const;
 
@@ -60,10 +64,11 @@ class StateEnclosure {
   Dependencies dependencies_;
   std::size_t state_;
   bool shifts_ = false;
+  bool terms_ = false;
   double origin_ = 0;  ///< the present value put in where the map shifts
   std::vector<Interval> slots_;
-  std::optional<MapEnclosure> map_;
-  std::optional<PeriodicFlow> flow_;
+  std::optional<SplitMap> map_;
+  std::optional<SplitFlow> flow_;
   Interval map_value_;                    ///< by the last enclose()
   const FlowEnclosure* found_ = nullptr;  ///< likewise, within flow_
 };

@@ -121,7 +121,7 @@ class SumTables {
       : spec_(spec),
         part_(part),
         abstraction_(abstraction),
-        enclosure_(spec, shapes[states.front()], states.front()) {
+        enclosure_(spec, shapes[states.front()], states, true) {
     for (const std::size_t state : states) {
       tables_.emplace_back(spec, shapes[state], part, abstraction, state);
     }

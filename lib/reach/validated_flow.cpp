@@ -25,4 +25,12 @@ const FlowEnclosure& ValidatedFlow::flow(std::span<const Interval> slots) {
   return solver_->flow(slots);
 }
 
+const FlowEnclosure& ValidatedFlow::flow_of_part(std::span<const Interval> slots) {
+  return solver_->flow_of_part(slots);
+}
+
+bool ValidatedFlow::keeps_apart(std::span<const Interval> box) {
+  return solver_->keeps_apart(box);
+}
+
 }  // namespace coordreq

@@ -26,6 +26,11 @@ struct FlowEnclosure {
   /// rounding of the initial box alone widens `tube`.
   std::vector<Interval> drift;
   std::vector<Interval> undefined_at;  ///< if undefined: the slots over which the right-hand side is so
+  /// Hull of where solutions that were followed are at tau, so that `end` cannot be smaller than that; empty:
+  /// none were.
+  std::vector<Interval> reached;
+  /// Index of the state of whose initial box the least is known what it leads to; any other number: unknown.
+  std::size_t loosest = 0;
 };
 
 /// Guaranteed enclosures of the states that a differential equation reaches after tau, for every initial
@@ -59,6 +64,12 @@ class ValidatedFlow {
   /// @param slots bounded boxes of all states, disturbances, inputs and parameters at their slots
   /// @returns a reference that is valid until the next call
   [[nodiscard]] const FlowEnclosure& flow(std::span<const Interval> slots);
+  /// The same of a box that is divided further where that pays: with less work.
+  [[nodiscard]] const FlowEnclosure& flow_of_part(std::span<const Interval> slots);
+
+  /// Whether no two solutions can meet within `box`, one interval a state: f is defined and has a Lipschitz
+  /// constant on it and a little beyond, and nothing stops there. For the slots of the last flow().
+  [[nodiscard]] bool keeps_apart(std::span<const Interval> box);
 
  private:
   class Solver;

@@ -222,6 +222,7 @@ AbstractionSpec read_abstraction(const Node& root) {
   if (object.text_or("cells", "closed") == "half_open") abstraction.cells = Cells::half_open;
   if (object.text_or("safe", "inner") == "center") abstraction.safe = Membership::center;
   abstraction.between_samples = object.flag("between_samples");
+  if (object.has("effort")) abstraction.effort = object["effort"].integer();
   if (abstraction.between_samples && read_time(root) == Time::discrete) {
     throw SpecError("discrete time has nothing between samples, expected false, found true",
                     object["between_samples"].pointer());

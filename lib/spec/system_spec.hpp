@@ -92,6 +92,7 @@ struct AbstractionSpec {
   Cells cells = Cells::closed;
   Membership safe = Membership::inner;
   bool between_samples = false;
+  std::int64_t effort = 200;  ///< so many parts of a cell are enclosed at most, for one post
 };
 
 /// The part of a spec that posts follow from.

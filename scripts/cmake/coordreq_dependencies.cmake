@@ -28,8 +28,8 @@ if(COORDREQ_STATIC_HDF5)
       IMPORTED_LOCATION ${HDF5_HL_ARCHIVE} INTERFACE_LINK_LIBRARIES PkgConfig::HDF5)
   endif()
 endif()
-# Ball arithmetic of the verifier; neither has a pkg-config file.
-foreach(library flint flint-arb)
+# Ball arithmetic of the verifier, and the solver of stiff plants in simulations; none has a pkg-config file.
+foreach(library flint flint-arb sundials_cvode)
   string(REPLACE - _ name ${library})
   find_library(${name}_LIBRARY ${library} REQUIRED)
   add_library(coordreq::${name} UNKNOWN IMPORTED GLOBAL)

@@ -90,6 +90,18 @@ TEST(ClosedLoop, LeavingKEndsTheRunWithItsTrace) {
   EXPECT_EQ(trace.steps.size(), 3U);
 }
 
+TEST(ClosedLoop, WhatCannotBeFollowedSaysNothingOfTheAnalysis) {
+  // x(t) = 1/(1/3 - t) has no value at a third of the period.
+  std::string spec = line_spec(4, "x^2", "\"unsafe\"", R"({"name": "a", "inputs": ["u", "v"]})",
+                               R"(, "controller": {"synthesis": "given"})");
+  spec.replace(spec.find("discrete"), 8, "continuous");
+  const RunTrace trace = LoopFixture(spec, {5, 5, 5, 5}).run({3}, {.steps = 9});
+  EXPECT_EQ(trace.outcome, Outcome::not_followed);
+  EXPECT_FALSE(is_violation(trace.outcome));
+  EXPECT_TRUE(trace.steps.empty());
+  EXPECT_NEAR(trace.followed, 1.0 / 3, 1e-3);
+}
+
 TEST(ClosedLoop, WithoutAnAdmissibleActionTheRunEnds) {
   const LoopFixture loop(line_spec(6, "x + 1"), {5, 5, 5, -1, -1, -1});
   const RunTrace trace = loop.run({0}, {.steps = 9});

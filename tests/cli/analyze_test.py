@@ -113,6 +113,7 @@ $""",
                 "partitions",
                 "coalition",
                 "requirements",
+                "tightness",
                 "output",
                 "threads",
                 "seconds",
@@ -127,7 +128,7 @@ $""",
         )
         self.assertEqual((summary["name"], summary["output"]), ("small", "out.h5"))
         self.assertEqual((summary["period"], summary["period_unit"]), (0.5, "s"))
-        self.assertEqual((summary["requirements"], summary["threads"]), ([], 1))
+        self.assertEqual((summary["requirements"], summary["tightness"], summary["threads"]), ([], None, 1))
         self.assertEqual(
             list(summary["seconds"]), ["abstraction", "safe set", "invariance", "layers a|b", "writing"]
         )

@@ -99,7 +99,8 @@ $""",
             + ["longest_silence", "longest_silence_time", "smallest_margin", "output", "traces"],
         )
         self.assertEqual(
-            document["outcomes"], {"completed": 1, "left_safely": 0, "left_invariant": 0, "no_action": 0}
+            document["outcomes"],
+            {"completed": 1, "left_safely": 0, "left_invariant": 0, "no_action": 0, "not_followed": 0},
         )
         self.assertEqual((document["seed"], document["steps_done"], document["output"]), (9, 3, None))
         (trace,) = document["traces"]
@@ -314,6 +315,31 @@ $""",
                     )
                     self.assertEqual(document["outcomes"]["left_invariant"], 0)
                     self.assertGreater(document["steps_done"], 0)
+
+    def stiff(self, equations, **inputs):
+        """A spec whose second state decays at once."""
+        state = {"lower": -2, "upper": 2, "step": 0.5, "outside": "saturate"}
+        spec = spec_with(
+            states=[dict(state, name="x"), dict(state, name="y")],
+            inputs=[{"name": name, "values": values} for name, values in inputs.items()],
+            agents=[{"name": name, "inputs": [name]} for name in inputs],
+            dynamics={"time": "continuous", "period": 1, "equations": equations},
+            safe="true",
+        )
+        self.results(spec)
+
+    def test_stiff_plants_are_followed(self):
+        for rate in (1e3, 1e6, 1e9):
+            with self.subTest(rate=rate):
+                self.stiff({"x": "u", "y": f"-{rate:.0f}*y + v"}, u=[-1, 0, 1], v=[0, 1])
+                document = json.loads(self.simulate("r.h5", "--from", "x=0,y=1", "--steps", "3", "--json"))
+                self.assertEqual(document["outcomes"]["completed"], 1)
+                self.assertLess(abs(document["traces"][0]["end"]["y"]), 1.01 / rate)
+        self.stiff({"x": "-7*x*u - x/3", "y": "0"}, u=[1, 1e6], v=[0, 1])
+        document = json.loads(
+            self.simulate("r.h5", "--start", "random", "--runs", "5", "--steps", "6", "--json")
+        )
+        self.assertEqual(document["outcomes"]["completed"], 5)
 
     def assert_refused(self, message, *arguments, code=2):
         self.assert_fails(code, message, "simulate", "r.h5", *arguments)

@@ -59,6 +59,21 @@ TEST(PointFlow, ASeamThatNobodySeesCostsNothing) {
   EXPECT_NEAR(after_period(flow_spec(kRing, "1e6 + p", "2"), 0.5, 1.0)[0], 0.5 + 5e5 + 0.5 + 0.25, 1e-6);
 }
 
+TEST(PointFlow, WhatDecaysFastIsFollowedInFewSteps) {
+  for (const std::string rate : {"1e3", "1e6", "1e9"}) {
+    // h is next to sin(p), behind it by cos(p)/rate; p = 2t.
+    const std::vector<double> end = after_period(flow_spec(kOpen, "-" + rate + "*(h - sin(p))", "2"), 7.0);
+    EXPECT_NEAR(end[1], 1.0, 1e-12);
+    EXPECT_NEAR(end[0], std::sin(1.0) - 2 * std::cos(1.0) / std::stod(rate), 5e-6) << rate;
+  }
+}
+
+TEST(PointFlow, WhatOscillatesFastIsNotStiff) {
+  const std::vector<double> end = after_period(flow_spec(kOpen, "500*p", "-500*h"), 1.0);
+  EXPECT_NEAR(end[0], std::cos(250.0), 1e-8);
+  EXPECT_NEAR(end[1], -std::sin(250.0), 1e-8);
+}
+
 TEST(PointFlow, KinksAreCrossed) {
   // h = 2t - 1/2 passes 0 at 1/4.
   EXPECT_NEAR(after_period(flow_spec(kOpen, "2", "abs(h)"), -0.5)[1], 0.125, 1e-14);

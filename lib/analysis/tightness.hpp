@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "analysis/advice.hpp"
+#include "answers/ground.hpp"
+#include "base/json.hpp"
+
+namespace coordreq {
+
+/// How many cells more posts have in a dimension than solutions need that start at corners, middles of faces
+/// and the centre of their cell, under disturbances that stay where they are: at their lower ends, in the
+/// middle, at their upper ends. Solutions are followed without a guarantee; a post that is as tight as can be
+/// may have a cell more, as they are few.
+struct Tightness {
+  /// A post that was looked at.
+  struct Post {
+    std::size_t state = 0;
+    std::vector<std::int64_t> cell;  ///< index of each state of the spec
+    std::int64_t input = 0;          ///< number of the joint input
+    std::int64_t excess = 0;         ///< cells
+  };
+  std::vector<Post> posts;
+
+  [[nodiscard]] double mean() const;
+  /// The excess that 99 of 100 posts do not exceed.
+  [[nodiscard]] std::int64_t p99() const;
+  [[nodiscard]] std::int64_t most() const;
+  /// The share of posts that have more than a cell too many.
+  [[nodiscard]] double share() const;
+};
+
+/// Of a sample of at most some hundred posts, the same every time and for any number of processes. Together.
+/// @returns nothing if every post is an exact hull. REQUIRES: the ground is laid.
+[[nodiscard]] std::optional<Tightness> find_tightness(const Ground& ground);
+
+/// `posts`, `mean`, `p99`, `most`, `share`; null if there is none.
+[[nodiscard]] Json tightness_json(const std::optional<Tightness>& tightness);
+
+/// If posts are wider than solutions need: what would help, with what it brings the widest of the sample to.
+[[nodiscard]] Warnings advise_on_tightness(const ProblemSpec& spec,
+                                           const std::optional<Tightness>& tightness);
+
+}  // namespace coordreq

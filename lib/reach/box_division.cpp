@@ -1,0 +1,168 @@
+#include "reach/box_division.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "expression/dual.hpp"
+
+namespace coordreq {
+namespace {
+
+/// What lies beyond all that is known to be reached by less than this part of a step is close to it, in
+/// whichever cells.
+constexpr double kCloseSteps = 0.05;
+/// Where one half after another has no enclosure, the smallest is as good as a point after so many.
+constexpr int kDeepestFailure = 40;
+/// Twice as many parts have to leave less than this share of what was missing.
+constexpr double kWorthwhile = 0.95;
+
+bool is_upper_side(std::size_t side) {
+  return side % 2 == 1;
+}
+
+}  // namespace
+
+double EndCells::more_cells(const Interval& a, const Interval& b) const {
+  const Interval both = hull(a, b);
+  if (!placed) return (both.width() - b.width()) / step;
+  const auto last = [&](double x) { return std::floor((x + reach - first) / step + 0.5); };
+  const auto begin = [&](double x) { return std::ceil((x - reach - first) / step - 0.5); };
+  return last(both.upper) - last(b.upper) + (begin(b.lower) - begin(both.lower));
+}
+
+BoxDivision::BoxDivision(std::vector<EndCells> targets, std::vector<double> steps, std::int64_t effort)
+    : targets_(std::move(targets)),
+      steps_(std::move(steps)),
+      effort_(effort),
+      given_up_(2 * targets_.size()) {}
+
+bool BoxDivision::is_loose(const FlowEnclosure& whole, double limit) const {
+  if (whole.status != FlowEnclosure::Status::ok) return true;
+  return std::any_of(targets_.begin(), targets_.end(), [&](const EndCells& target) {
+    const Interval& end = whole.end[target.state];
+    if (!whole.reached.empty()) return target.more_cells(end, whole.reached[target.state]) > limit;
+    return end.width() / target.step > limit;
+  });
+}
+
+void BoxDivision::begin(std::vector<Interval> reached) {
+  parts_.clear();
+  reached_ = std::move(reached);
+  work_ = 0;
+  next_check_ = 0;
+  missed_ = outward::kInfinity;
+  std::fill(given_up_.begin(), given_up_.end(), false);
+}
+
+void BoxDivision::add(std::vector<Interval> box, const FlowEnclosure& found, int depth) {
+  ++work_;
+  parts_.push_back({std::move(box), found, depth});
+  if (found.reached.empty()) return;
+  if (reached_.empty()) reached_ = found.reached;
+  for (std::size_t i = 0; i < reached_.size(); ++i) reached_[i] = hull(reached_[i], found.reached[i]);
+}
+
+bool BoxDivision::refine(const Enclose& enclose) {
+  for (;;) {
+    const std::size_t failed = deepest_failure();
+    const bool enough = work_ + 2 > effort_;
+    if (failed < parts_.size()) {
+      if (enough || parts_[failed].depth >= kDeepestFailure || !halve(failed, enclose)) return false;
+      continue;
+    }
+    if (enough || !still_pays()) return true;
+    const std::size_t side = farthest();
+    if (side == given_up_.size()) return true;
+    if (!halve(owner(side), enclose)) given_up_[side] = true;
+  }
+}
+
+/// Whether a number of parts twice as large as the last time has made a difference.
+bool BoxDivision::still_pays() {
+  if (next_check_ == 0) next_check_ = 2 * parts_.size();
+  if (parts_.size() < next_check_) return true;
+  double now = 0.0;
+  for (std::size_t side = 0; side < given_up_.size(); ++side) now += missing(side);
+  const bool pays = now <= kWorthwhile * missed_;
+  missed_ = now;
+  next_check_ = 2 * parts_.size();
+  return pays;
+}
+
+/// @returns false if it is too small to be halved
+bool BoxDivision::halve(std::size_t part, const Enclose& enclose) {
+  const std::size_t i = direction(parts_[part]);
+  const double middle = midpoint(parts_[part].box[i]);
+  std::vector<Interval> lower = parts_[part].box;
+  std::vector<Interval> upper = lower;
+  if (middle <= lower[i].lower || middle >= lower[i].upper) return false;
+  lower[i].upper = middle;
+  upper[i].lower = middle;
+  const int depth = parts_[part].depth + 1;
+  std::swap(parts_[part], parts_.back());
+  parts_.pop_back();
+  add(lower, enclose(lower), depth);
+  add(upper, enclose(upper), depth);
+  return true;
+}
+
+std::size_t BoxDivision::direction(const Part& part) const {
+  const std::size_t known = part.found.loosest;
+  if (part.found.status == FlowEnclosure::Status::ok && known < part.box.size() &&
+      !part.box[known].is_point())
+    return known;
+  std::size_t result = 0;
+  for (std::size_t i = 1; i < part.box.size(); ++i) {
+    if (part.box[i].width() / steps_[i] > part.box[result].width() / steps_[result]) result = i;
+  }
+  return result;
+}
+
+/// One after another, so that it is soon seen whether the smallest parts have enclosures.
+std::size_t BoxDivision::deepest_failure() const {
+  std::size_t result = parts_.size();
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    if (parts_[p].found.status == FlowEnclosure::Status::ok) continue;
+    if (result == parts_.size() || parts_[p].depth > parts_[result].depth) result = p;
+  }
+  return result;
+}
+
+/// The part that decides over an end.
+std::size_t BoxDivision::owner(std::size_t side) const {
+  const std::size_t i = targets_[side / 2].state;
+  const auto nearer = [&](const Part& a, const Part& b) {
+    return outward_end(a.found.end[i], is_upper_side(side)) <
+           outward_end(b.found.end[i], is_upper_side(side));
+  };
+  return static_cast<std::size_t>(std::max_element(parts_.begin(), parts_.end(), nearer) - parts_.begin());
+}
+
+/// How far an end lies beyond what was reached, in steps; 0 if that makes no difference worth its price.
+double BoxDivision::missing(std::size_t side) const {
+  const EndCells& target = targets_[side / 2];
+  const Interval& end = parts_[owner(side)].found.end[target.state];
+  if (reached_.empty()) return end.width() / target.step;
+  const Interval& reached = reached_[target.state];
+  const double gap =
+      (outward_end(end, is_upper_side(side)) - outward_end(reached, is_upper_side(side))) / target.step;
+  if (gap <= kCloseSteps) return 0.0;
+  const Interval farthest(is_upper_side(side) ? end.upper : end.lower);
+  return !target.placed || target.more_cells(farthest, reached) > 0.0 ? gap : 0.0;
+}
+
+/// The side that misses most; as many as there are sides if none misses anything.
+std::size_t BoxDivision::farthest() const {
+  std::size_t result = given_up_.size();
+  double most = 0.0;
+  for (std::size_t side = 0; side < given_up_.size(); ++side) {
+    const double gap = given_up_[side] ? 0.0 : missing(side);
+    if (gap <= most) continue;
+    most = gap;
+    result = side;
+  }
+  return result;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "reach/validated_flow.hpp"
+
+namespace coordreq {
+
+/// What an enclosure of one state's next value is good for: the cells that it meets.
+struct EndCells {
+  std::size_t state = 0;  ///< index into the ends of an enclosure
+  double first = 0.0;     ///< the middle of a cell
+  double step = 1.0;      ///< > 0
+  double reach = 0.0;     ///< by which the value is widened before cells are counted
+  bool placed = true;     ///< false: the cells are not known, as something is added to the value
+
+  /// How many cells more than `b` its hull with `a` meets; of what is not placed, by how many steps it is
+  /// longer.
+  [[nodiscard]] double more_cells(const Interval& a, const Interval& b) const;
+};
+
+/// Divides a box into parts where the enclosure of what it leads to meets more cells than need be. In each
+/// round the part that decides over the end that lies farthest from all that is known to be reached is
+/// halved; parts without an enclosure come first. What ends it is the number of parts that were enclosed, so
+/// that the result is the same on every machine.
+///
+/// Scratch memory for one thread.
+class BoxDivision {
+ public:
+  /// The enclosure of what a part of the box leads to: `status`, `end`, `reached` and `loosest` count.
+  using Enclose = std::function<const FlowEnclosure&(std::span<const Interval> box)>;
+  struct Part {
+    std::vector<Interval> box;
+    FlowEnclosure found;
+    int depth = 0;  ///< how often it was halved
+  };
+
+  /// @param targets what the result has to be tight for
+  /// @param steps of the grid, one a dimension of the box: where nothing else tells the widest one is halved
+  /// @param effort so many parts are enclosed at most
+  BoxDivision(std::vector<EndCells> targets, std::vector<double> steps, std::int64_t effort);
+
+  [[nodiscard]] std::int64_t effort() const { return effort_; }
+
+  /// Whether the whole meets more cells than `limit` beyond those that are known to be reached, or is none.
+  [[nodiscard]] bool is_loose(const FlowEnclosure& whole, double limit) const;
+
+  /// No parts yet. @param reached from parts of the box that are not looked at again; empty: nothing is known
+  void begin(std::vector<Interval> reached);
+  /// A part with its enclosure.
+  void add(std::vector<Interval> box, const FlowEnclosure& found, int depth = 0);
+  /// Halves parts for as long as it pays. @returns whether all of them have enclosures
+  bool refine(const Enclose& enclose);
+
+  [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+  /// The hull of what all of them have reached.
+  [[nodiscard]] const std::vector<Interval>& reached() const { return reached_; }
+
+ private:
+  bool halve(std::size_t part, const Enclose& enclose);
+  [[nodiscard]] std::size_t direction(const Part& part) const;
+  [[nodiscard]] std::size_t deepest_failure() const;
+  [[nodiscard]] double missing(std::size_t side) const;
+  [[nodiscard]] std::size_t farthest() const;
+  [[nodiscard]] std::size_t owner(std::size_t side) const;
+  [[nodiscard]] bool still_pays();
+
+  std::vector<EndCells> targets_;
+  std::vector<double> steps_;
+  std::int64_t effort_;
+
+  std::vector<Part> parts_;
+  std::vector<Interval> reached_;
+  std::int64_t work_ = 0;       ///< parts that have been enclosed
+  std::vector<bool> given_up_;  ///< lower and upper end of every target
+  std::size_t next_check_ = 0;  ///< number of parts at which it is asked whether it still pays
+  double missed_ = 0.0;         ///< at the last check
+};
+
+}  // namespace coordreq

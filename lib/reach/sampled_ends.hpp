@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "model/dependencies.hpp"
+#include "numeric/interval.hpp"
+#include "reach/point_flow.hpp"
+#include "spec/system_spec.hpp"
+
+namespace coordreq {
+
+/// Where solutions get to from a box of states, followed from its corners, the middles of its faces and its
+/// centre, under constant disturbances at their lower ends, in the middle and at their upper ends: what an
+/// enclosure cannot be smaller than. In double arithmetic, with no guarantee.
+///
+/// Scratch memory for one thread.
+class SampledEnds {
+ public:
+  /// REQUIRES: `spec` outlives this object.
+  explicit SampledEnds(const SystemSpec& spec);
+
+  /// Hull of the next values of a state, before the rules of the sample; nothing if it has an update, or if
+  /// some are not known.
+  /// @param slots boxes of all states, and inputs; what is not a point of them is sampled
+  [[nodiscard]] std::optional<Interval> next(std::size_t state, std::span<const Interval> slots);
+
+ private:
+  [[nodiscard]] bool add(std::size_t state, std::optional<Interval>& all);
+  PointFlow& flow_of(std::size_t state);
+
+  const SystemSpec* spec_;
+  std::vector<Dependencies> dependencies_;
+  std::vector<std::unique_ptr<PointFlow>> flows_;  ///< one a state, made when needed
+  std::vector<double> slots_;
+};
+
+}  // namespace coordreq

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "reach/box_division.hpp"
+#include "reach/periodic_flow.hpp"
+
+namespace coordreq {
+
+/// PeriodicFlow of a box that is divided where its enclosure meets more cells than the solutions that were
+/// followed (BoxDivision): the parts are enclosed each by itself, and the result is the hull of them all.
+///
+/// Where no two solutions can meet (PeriodicFlow::keeps_apart()) only the faces of the box are divided: the
+/// flow for each signal of the disturbances is then a homeomorphism, which maps the boundary of the box to
+/// the boundary of what is reached (invariance of domain), and each coordinate is extreme there. A solution
+/// from inside cannot get out of the hull of what the faces lead to, so that it does not escape either.
+///
+/// Over-approximates always. Not thread-safe: use a copy a thread.
+class SplitFlow {
+ public:
+  /// @param targets what the result has to be tight for; `state` is an index into the system's
+  /// @param effort so many parts of one box are enclosed at most; 0: none is divided
+  SplitFlow(PeriodicFlow flow, const FlowSystem& system, std::vector<EndCells> targets, std::int64_t effort);
+
+  /// REQUIRES: as PeriodicFlow::flow(). @returns a reference that is valid until the next call
+  [[nodiscard]] const FlowEnclosure& flow(std::span<const Interval> slots);
+
+ private:
+  [[nodiscard]] const FlowEnclosure& flow_of_part(std::span<const Interval> box);
+  [[nodiscard]] bool can_use_faces();
+  bool divide_faces();
+  bool divide_all();
+  [[nodiscard]] bool faces_are_enough();
+  void take_over(bool by_faces);
+
+  PeriodicFlow flow_;
+  std::vector<std::uint32_t> state_slots_;
+  BoxDivision division_;
+  std::vector<Interval> slots_;
+  std::vector<Interval> box_;  ///< the whole one, of the states
+  FlowEnclosure result_;
+};
+
+}  // namespace coordreq
