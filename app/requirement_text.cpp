@@ -125,7 +125,8 @@ std::string claim_text(const Json& own, const ProblemSpec& spec) {
   const RequirementTraits& kind = traits_of(own);
   if (kind.is_probability) {
     const std::string per = own["per"].is_null() ? "" : " per " + text_of(own["per"]);
-    return fmt::format(fmt::runtime(kind.claim), fmt::arg("risk", fmt::format("{:g}{}", own[kind.key].get<double>(), per)));
+    return fmt::format(fmt::runtime(kind.claim),
+                       fmt::arg("risk", fmt::format("{:g}{}", own[kind.key].get<double>(), per)));
   }
   const std::string steps = own.contains(kind.key) ? steps_text(number_of(own[kind.key]), spec) : "";
   return fmt::format(fmt::runtime(kind.claim), fmt::arg("steps", steps),

@@ -84,8 +84,7 @@ void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
     });
     errors.attempt([&] {
       if (!is_risk_known) return;
-      spec.requirements =
-          read_requirements(scope, root, spec.agents, spec.coordination, spec.risk, period);
+      spec.requirements = read_requirements(scope, root, spec.agents, spec.coordination, spec.risk, period);
     });
   }
   errors.raise();

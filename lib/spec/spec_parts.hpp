@@ -36,12 +36,9 @@ namespace coordreq {
                                        const std::vector<AgentSpec>& agents,
                                        const CoordinationSpec& coordination);
 [[nodiscard]] RiskSpec read_risk(const Scope& scope, const JsonDocument::Node& root, const Rational& period);
-[[nodiscard]] std::vector<RequirementSpec> read_requirements(const Scope& scope,
-                                                             const JsonDocument::Node& root,
-                                                             const std::vector<AgentSpec>& agents,
-                                                             const CoordinationSpec& coordination,
-                                                             const std::optional<RiskSpec>& risk,
-                                                             const Rational& period);
+[[nodiscard]] std::vector<RequirementSpec> read_requirements(
+    const Scope& scope, const JsonDocument::Node& root, const std::vector<AgentSpec>& agents,
+    const CoordinationSpec& coordination, const std::optional<RiskSpec>& risk, const Rational& period);
 
 /// time / period, exactly, for a time >= 0; what is not a whole number of steps is rounded.
 enum class StepRounding : std::uint8_t { up, down };

@@ -229,6 +229,7 @@ Warnings advise_on_blind(const Answers& answers) {
   if (spec.coordination.horizon) others.emplace_back("coordination/horizon");
   if (spec.coordination.convention) others.emplace_back("coordination/convention");
   if (spec.network) others.emplace_back("network");
+  if (spec.risk) others.emplace_back("risk");
   if (others.empty()) return {};
   return {{"sight", "/agents",
            fmt::format("what {} says is true of agents who see all states, whatever they have under 'sees'",
