@@ -312,7 +312,7 @@ TEST(Requirements, ThatWereWrittenVerify) {
   EXPECT_TRUE(rc::check("files with requirements hold", [&] {
     const RandomTime kind = *rc::gen::arbitrary<bool>() ? RandomTime::between_samples : RandomTime::any;
     const std::string text = with_requirements(draw_problem(kind));
-    const Verification result = verify_file(analysed_file(text, team), {.budget_seconds = 2}, team);
+    const Verification result = verify_file(analysed_file(text, team), {.budget_seconds = 0.1}, team);
     RC_LOG(complaints(result));
     RC_ASSERT(result.holds());
   }));

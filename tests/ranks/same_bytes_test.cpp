@@ -120,7 +120,7 @@ Json draw_questions() {
     network["loss"] = {0.125, 0.25};
     if (draw(0, 1) == 0) network["after_loss"] = 0.5;
     spec["risk"]["horizon"] = draw(1, 6);
-    const bool is_given = spec["controller"].value("synthesis", "") == "given";
+    const bool is_given = spec.value("/controller/synthesis"_json_pointer, "") == "given";
     if (!is_given && draw(0, 1) == 0) spec["risk"]["coordinated"] = "safest";
   } else if (draw(0, 1) == 0) {
     network["delay"] = draw(0, 3);
