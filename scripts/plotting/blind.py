@@ -104,6 +104,7 @@ def _table(results, partition, arguments):
 def draw(blind, size=None):
     results, cut = blind.cut.results, blind.cut
     figure = style.new_figure(size, (13.6, 4.3))
+    figure.get_layout_engine().set(w_pad=0.12)  # the bar of the delays stands beside the label of the table
     grid = figure.subplots(1, 3)
     most = max([int(panel.steps.max()) for panel in blind.panels if panel.steps.count()], default=0)
     for axes, panel in zip(grid, blind.panels):
