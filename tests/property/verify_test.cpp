@@ -7,6 +7,7 @@
 #include "support/analysed_file.hpp"
 #include "support/draw.hpp"
 #include "support/random_problem.hpp"
+#include "support/random_sight.hpp"
 
 namespace coordreq {
 namespace {
@@ -19,7 +20,8 @@ T& draw_one_of(std::vector<T>& values) {
 TEST(Verify, ResultsOfRandomSystemsHold) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("what analyze writes holds", [&] {
-    const std::string text = draw_problem();
+    std::string text = draw_problem();
+    if (draw(0, 2) == 0) text = with_sight(text);
     const ClaimedFile file = analysed_file(draw(0, 1) == 0 ? text : storing_everything(text), team);
     const Verification result = verify_file(file, {.budget_seconds = 0.1}, team);
     RC_LOG(complaints(result));
