@@ -1,6 +1,7 @@
 #include "app/report_error.hpp"
 
 #include <fmt/format.h>
+#include <gmp.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -23,6 +24,19 @@ const char* no_memory() {
              ? "more memory is needed than the limit allows, and than was estimated (--max-memory)"
              : "the system gave no more memory; make the grids coarser, or find the need with \"coordreq "
                "validate\"";
+}
+
+/// GMP by itself ends the program where there is no memory, with a line of its own.
+void* allocate(std::size_t bytes) {
+  void* const block = std::malloc(bytes);
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+
+void* reallocate(void* old, std::size_t /*old_bytes*/, std::size_t bytes) {
+  void* const block = std::realloc(old, bytes);
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
 }
 
 void print(std::string_view what) {
@@ -124,6 +138,7 @@ void report_what_terminates() {
     if (std::current_exception()) std::_Exit(report_current_exception());
     std::abort();
   });
+  mp_set_memory_functions(allocate, reallocate, nullptr);
 }
 
 int report_current_exception() noexcept {

@@ -13,7 +13,8 @@ constexpr int kInternalError = 70;
 [[nodiscard]] int report_current_exception() noexcept;
 
 /// From now on an exception that nothing can catch is reported so as well, and ends the program: one that is
-/// thrown while another is under way, as where memory runs out and clearing up takes more of it.
+/// thrown while another is under way, as where memory runs out and clearing up takes more of it. GMP says by
+/// an exception that it is given no memory.
 void report_what_terminates();
 
 /// What to do about a bug of this program: "please report it ...", with the address for it if the build was
