@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/analysis_text.hpp"
+#include "app/answers/all.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -39,24 +40,28 @@ std::string requirements_met(const Json& summary) {
   return fmt::format("{} of {}", met, all.size());
 }
 
-constexpr const char* kFigures[] = {"cells",  "safe", "invariant", "requirements met",    "seconds",
-                                    "memory", "F",    "unbounded", "longest finite delay"};
+/// Those of every run; those that some have stand before the last.
+constexpr const char* kFigures[] = {"cells",   "safe",   "invariant", "requirements met",
+                                    "seconds", "memory", "F",         "unbounded"};
+constexpr const char* kLastFigure = "longest finite delay";
 
-std::vector<std::string> figures(const Json& summary) {
+std::vector<std::string> figures(const Json& summary, const RunFigures& more, const ProblemSpec& spec) {
   const auto count = [&summary](const char* key) { return grouped(summary[key].get<std::int64_t>()); };
-  return {count("cells"),
-          count("safe"),
-          count("invariant"),
-          requirements_met(summary),
-          fmt::format("{:.2f}", seconds_of(summary)),
-          byte_size(summary["peak_memory_bytes"].get<std::uint64_t>()),
-          of_partitions(summary, fixed_point_text),
-          of_partitions(summary, unbounded_text),
-          of_partitions(summary, [&](const Json& own) { return longest(own, summary); })};
+  std::vector<std::string> result = {count("cells"),
+                                     count("safe"),
+                                     count("invariant"),
+                                     requirements_met(summary),
+                                     fmt::format("{:.2f}", seconds_of(summary)),
+                                     byte_size(summary["peak_memory_bytes"].get<std::uint64_t>()),
+                                     of_partitions(summary, fixed_point_text),
+                                     of_partitions(summary, unbounded_text)};
+  for (const RunFigure& figure : more) result.push_back(figure.is_of(spec) ? figure.text(summary) : "-");
+  result.push_back(of_partitions(summary, [&](const Json& own) { return longest(own, summary); }));
+  return result;
 }
 
 /// Figures as wide as those of an analysis can be, or will hardly ever be.
-std::vector<std::string> wide_figures(const ProblemSpec& spec) {
+std::vector<std::string> wide_figures(const ProblemSpec& spec, const RunFigures& more) {
   std::int64_t count = 1;
   for (const StateSpec& state : spec.states) count *= state.grid.count;
   const std::string cells = grouped(count);
@@ -65,15 +70,29 @@ std::vector<std::string> wide_figures(const ProblemSpec& spec) {
     return joined(std::vector<std::string>(spec.coordination.partitions.size(), figure));
   };
   const std::string most_met = std::to_string(spec.requirements.size());
-  return {cells,
-          cells,
-          cells,
-          most_met + " of " + most_met,
-          "12345.67",
-          "1023 MiB",
-          of_all(may_stop ? "not reached" : "1234"),
-          of_all(may_stop && cells.size() < 7 ? "unknown" : cells),
-          ""};
+  std::vector<std::string> result = {cells,
+                                     cells,
+                                     cells,
+                                     most_met + " of " + most_met,
+                                     "12345.67",
+                                     "1023 MiB",
+                                     of_all(may_stop ? "not reached" : "1234"),
+                                     of_all(may_stop && cells.size() < 7 ? "unknown" : cells)};
+  for (const RunFigure& figure : more) result.emplace_back(figure.widest);
+  result.emplace_back();
+  return result;
+}
+
+/// Those that the spec of some run has.
+RunFigures figures_of_some(const std::vector<PlannedRun>& runs) {
+  RunFigures result;
+  std::copy_if(run_figures().begin(), run_figures().end(), std::back_inserter(result),
+               [&runs](const RunFigure& figure) {
+                 return std::any_of(runs.begin(), runs.end(), [&figure](const PlannedRun& run) {
+                   return run.spec && figure.is_of(*run.spec);
+                 });
+               });
+  return result;
 }
 
 /// What tells one run from the others.
@@ -84,18 +103,20 @@ std::vector<std::string> labels(const PlannedRun& run, bool has_path) {
   return result;
 }
 
-std::vector<std::string> column_names(const AnalyzeOptions& asked, bool has_path) {
+std::vector<std::string> column_names(const AnalyzeOptions& asked, bool has_path, const RunFigures& more) {
   std::vector<std::string> names;
   if (has_path) names.emplace_back("spec");
   for (const Sweep& sweep : asked.sweeps) names.push_back(printable(sweep.path));
   names.insert(names.end(), std::begin(kFigures), std::end(kFigures));
+  for (const RunFigure& figure : more) names.emplace_back(figure.name);
+  names.emplace_back(kLastFigure);
   return names;
 }
 
 /// Labels and the last column to the left, figures to the right.
-std::vector<Table::Align> alignment(std::size_t columns) {
+std::vector<Table::Align> alignment(std::size_t labels, std::size_t columns) {
   std::vector<Table::Align> result(columns, Table::Align::right);
-  std::fill_n(result.begin(), columns - std::size(kFigures), Table::Align::left);
+  std::fill_n(result.begin(), labels, Table::Align::left);
   result.back() = Table::Align::left;
   return result;
 }
@@ -126,12 +147,14 @@ int worst_exit_code(const std::vector<FinishedRun>& runs) {
 }
 
 BatchTable::BatchTable(const std::vector<PlannedRun>& runs, const AnalyzeOptions& asked)
-    : has_path_(asked.specs.size() > 1), table_(alignment(column_names(asked, has_path_).size())) {
-  table_.add(column_names(asked, has_path_));
+    : has_path_(asked.specs.size() > 1), more_(figures_of_some(runs)), table_({}) {
+  const std::vector<std::string> names = column_names(asked, has_path_, more_);
+  table_ = Table(alignment((has_path_ ? 1 : 0) + asked.sweeps.size(), names.size()));
+  table_.add(names);
   for (const PlannedRun& run : runs) {
     std::vector<std::string> row = labels(run, has_path_);
     if (run.spec) {
-      const std::vector<std::string> wide = wide_figures(*run.spec);
+      const std::vector<std::string> wide = wide_figures(*run.spec, more_);
       row.insert(row.end(), wide.begin(), wide.end());
     } else {
       row.emplace_back();  // for the error, which has no column
@@ -143,7 +166,7 @@ BatchTable::BatchTable(const std::vector<PlannedRun>& runs, const AnalyzeOptions
 std::string BatchTable::row(const FinishedRun& run) const {
   std::vector<std::string> row = labels(*run.plan, has_path_);
   if (run.summary) {
-    const std::vector<std::string> own = figures(*run.summary);
+    const std::vector<std::string> own = figures(*run.summary, more_, *run.plan->spec);
     row.insert(row.end(), own.begin(), own.end());
   } else {
     row.push_back("error: " + run.failure->what);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/answers/all.hpp"
 #include "app/batch_plan.hpp"
 #include "app/json_text.hpp"
 #include "app/text.hpp"
@@ -36,6 +37,7 @@ class BatchTable {
 
  private:
   bool has_path_;
+  RunFigures more_;  ///< columns that only some specs have
   Table table_;
 };
 

@@ -34,6 +34,12 @@ const std::vector<ReportSection>& report_sections() {
   return all;
 }
 
+const RunFigures& run_figures() {
+  static const RunFigures all = {{"mean risk", "1.23e-10", has_risk, mean_risk},
+                                 {"worst risk", "1.23e-10", has_risk, worst_risk}};
+  return all;
+}
+
 const std::vector<std::string>& told_members() {
   static const std::vector<std::string> all = {"goal",         "coalition", "network", "convention",
                                                "requirements", "modes",     "risk"};

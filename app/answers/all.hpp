@@ -26,6 +26,16 @@ using InfoSection = std::string (*)(const Json& info);
 using ReportSection = std::string (*)(const ResultsReader& results);
 [[nodiscard]] const std::vector<ReportSection>& report_sections();
 
+/// A column of the table of many runs that only some specs have.
+struct RunFigure {
+  const char* name;
+  const char* widest;  ///< as wide as its texts will be
+  bool (*is_of)(const ProblemSpec& spec);
+  std::string (*text)(const Json& summary);  ///< of a run whose spec has it
+};
+using RunFigures = std::vector<RunFigure>;
+[[nodiscard]] const RunFigures& run_figures();
+
 /// Members of both documents that these tell of.
 [[nodiscard]] const std::vector<std::string>& told_members();
 
@@ -45,6 +55,10 @@ void add_goal_of_file(const Json& info, Facts& facts);
 [[nodiscard]] std::string risk_of_analysis(const Json& summary, const ProblemSpec& spec);
 [[nodiscard]] std::string risk_of_file(const Json& info);
 [[nodiscard]] std::string report_risk(const ResultsReader& results);
+/// In the mode in which the network begins: the mean over the invariance set, and the greatest.
+[[nodiscard]] std::string mean_risk(const Json& summary);
+[[nodiscard]] std::string worst_risk(const Json& summary);
+[[nodiscard]] bool has_risk(const ProblemSpec& spec);
 [[nodiscard]] std::string convention_of_analysis(const Json& summary, const ProblemSpec& spec);
 [[nodiscard]] std::string requirements_of_file(const Json& info);
 

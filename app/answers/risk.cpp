@@ -70,6 +70,18 @@ std::string risk_of_analysis(const Json& summary, const ProblemSpec& spec) {
       coordinated_text(spec), table.text(), more, rate_text(own["rate"].get<double>(), spec));
 }
 
+bool has_risk(const ProblemSpec& spec) {
+  return spec.risk.has_value();
+}
+
+std::string mean_risk(const Json& summary) {
+  return number_or_dash(summary["risk"]["modes"].front()["mean"]);
+}
+
+std::string worst_risk(const Json& summary) {
+  return number_or_dash(summary["risk"]["modes"].front()["worst"]);
+}
+
 std::string risk_of_file(const Json& info) {
   if (!info.contains("risk")) return "";
   return fmt::format("\nrisk within {}; later it grows by at most {} a step\n",

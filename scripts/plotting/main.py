@@ -8,7 +8,8 @@ import sys
 from .errors import PlotError, StreamError, UsageError, quoted
 
 _PROGRAM = "coordreq-plot"
-_FIGURES = ("actions", "layers", "unsafe3d", "run", "requirements", "coalition", "goal", "risk", "blind")
+_FIGURES = ("actions", "layers", "unsafe3d", "run", "requirements", "coalition", "goal", "risk", "sweep", "blind")
+_WRITERS = {"run": "simulate -o", "sweep": "analyze --sweep --json"}
 _EPILOG = "Exit codes: 0 done, 2 wrong usage, 3 invalid file, 5 input or output failed, 130 interrupted."
 
 
@@ -67,8 +68,7 @@ def _parser(modules, program):
             formatter_class=argparse.RawDescriptionHelpFormatter,
             allow_abbrev=False,
         )
-        kind = "simulate -o" if name == "run" else "analyze"
-        command.add_argument("file", metavar="FILE", help=f"a file that coordreq {kind} wrote")
+        command.add_argument("file", metavar="FILE", help=f"a file that coordreq {_WRITERS.get(name, 'analyze')} wrote")
         command.add_argument(
             "-o", "--output", required=True, metavar="PICTURE", help="file to write: .png, .svg or .pdf"
         )

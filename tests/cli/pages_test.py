@@ -128,8 +128,8 @@ class Cases(PageCase):
                 result = subprocess.run(
                     line, shell=True, cwd=self.folder, env=environment, capture_output=True, text=True
                 )
-                # The one with a JUnit report is about a requirement that fails.
-                self.assertEqual(result.returncode, 1 if "--junit" in line else 0, result.stderr)
+                # Those with a JUnit report or a sweep are about requirements that fail.
+                self.assertEqual(result.returncode, 1 if "--junit" in line or "--sweep" in line else 0, result.stderr)
                 self.assertNotIn("error", result.stderr)
                 for name in re.findall(r" (?:-o|--junit) (\S+)", line):
                     self.assertGreater((self.folder / name).stat().st_size, 0)

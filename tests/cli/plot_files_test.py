@@ -122,7 +122,7 @@ class Cases(PlotCase):
             ((*layers, "--partition", "a"), "no partition 'a', expected 'a|b' (--partition)"),
             (
                 ("maps", "out.h5", "-o", "a.png"),
-                "unknown figure 'maps', expected 'actions', 'layers', 'unsafe3d', 'run', 'requirements', 'coalition', 'goal', 'risk' or 'blind'",
+                "unknown figure 'maps', expected 'actions', 'layers', 'unsafe3d', 'run', 'requirements', 'coalition', 'goal', 'risk', 'sweep' or 'blind'",
             ),
         ):
             self.assert_plot_fails(2, message, *words)
@@ -175,6 +175,11 @@ class Cases(PlotCase):
 
     # the page
 
+    def swept(self, path, *words):
+        result = self.run_program("analyze", *words)
+        self.assertEqual(result.returncode, 1)  # not every requirement holds
+        self.write(path, result.stdout.decode())
+
     def test_the_pictures_of_the_pages_are_those_of_their_commands(self):
         text = (ROOT / "docs/export.md").read_text().split("\n## Pictures\n")[1].split("\n## ")[0]
         text += "".join((ROOT / "docs" / page).read_text() for page in ("goals-and-memory.md", "blind.md", "risk.md"))
@@ -188,7 +193,9 @@ class Cases(PlotCase):
         self.assertEqual(sorted(shown), sorted(pictures))
         for command in lines:
             if command[0] == "coordreq":
-                if command[2] != "configs/intersection.json":  # takes seconds
+                if ">" in command:
+                    self.swept(command[-1], str(ROOT / command[2]), *command[3 : command.index(">")])
+                elif command[2] != "configs/intersection.json":  # takes seconds
                     self.analyze(str(ROOT / command[2]), *command[3:])
                 continue
             self.assertLess((ROOT / "docs/pictures" / command[-1]).stat().st_size, 200_000)

@@ -1,6 +1,7 @@
 """What figures of scripts/plot show is what the results file holds."""
 
 import itertools
+import json
 import unittest
 
 import numpy as np
@@ -377,6 +378,32 @@ class Cases(PlotCase):
     def test_risk_names_what_is_missing(self):
         self.analyzed(SPEC)
         self.assert_plot_fails(3, "no /risk in the file: analyse with a \"risk\" (out.h5)", "risk", "out.h5", "-o", "a.png")
+
+    # sweep
+
+    def test_sweep_shows_the_risk_by_the_value_in_order(self):
+        self.write("spec.json", example("crossing.json", network={"loss": 0.01}, risk={"horizon": 10}))
+        result = self.run_program("analyze", "spec.json", "--sweep", "network.loss=0.1,1/1000,0.01", "--json")
+        self.write("losses.json", result.stdout.decode())
+        data, figure = self.plotted("sweep", file="losses.json")
+        self.assert_arrays_equal(data.values, [0.001, 0.01, 0.1])
+        runs = {run["values"]["network.loss"]: run["summary"] for run in json.loads(result.stdout)["runs"]}
+        for place, value in enumerate(["1/1000", 0.01, 0.1]):
+            mode = runs[value]["risk"]["modes"][0]
+            self.assertEqual((data.mean[place], data.worst[place]), (mode["mean"], mode["worst"]))
+            within = [mode["within"][i] / runs[value]["invariant"] for i in (4, 7, 9, 11)]
+            np.testing.assert_allclose(data.shares[place], within)
+        self.assertEqual(titles(figure), ["crossing, risk within 10 steps"])
+
+    def test_sweep_names_what_is_wrong(self):
+        self.write("spec.json", SPEC)
+        for words, message in (
+            (("--sweep", "dynamics.period=1,2"), 'no run has a risk: sweep a spec with a "risk"'),
+            (("--sweep", "dynamics.period=1", "--sweep", "name=a"), "expected one swept value, found 2"),
+            ((), "expected what 'coordreq analyze --sweep ... --json' prints"),
+        ):
+            self.write("losses.json", self.run_program("analyze", "spec.json", *words, "--json").stdout.decode())
+            self.assert_plot_fails(3, message + " (losses.json)", "sweep", "losses.json", "-o", "a.png")
 
 
 if __name__ == "__main__":

@@ -19,12 +19,15 @@
 #include "reach/build_abstraction.hpp"
 #include "reach/make_model.hpp"
 #include "spec/read_spec.hpp"
+#include "spec/sight.hpp"
 #include "support/analysed_file.hpp"
 #include "support/draw.hpp"
 #include "support/members.hpp"
+#include "support/plain_blind.hpp"
 #include "support/plain_engine.hpp"
 #include "support/plain_goal.hpp"
 #include "support/random_requirements.hpp"
+#include "support/random_sight.hpp"
 
 namespace coordreq {
 namespace {
@@ -38,6 +41,9 @@ struct Both {
         safe(safe_set(spec, abstraction, team)),
         beyond(safe_beyond_limits(spec, abstraction, safe, team)),
         plain(analyze_plainly(spec, abstraction, members(safe), members(beyond.value_or(safe)))) {
+    if (has_limited_sight(spec)) {
+      blind = silence_plainly(spec, abstraction, members(safe), members(beyond.value_or(safe)), plain);
+    }
     if (!spec.goal) return;
     const CellSet satisfying =
         cells_that_satisfy(*spec.goal, spec, abstraction.grid, abstraction.inputs, team);
@@ -52,12 +58,14 @@ struct Both {
     return answers.get<RequirementVerdicts>().requirements;
   }
 
-  /// What a requirement judges a cell by, as in `/delay` of the partition that it means, `/arrival` or
-  /// `/approach_delay`.
+  /// What a requirement judges a cell by, as in `/delay` of the partition that it means, `/blind_delay`,
+  /// `/arrival` or `/approach_delay`.
   [[nodiscard]] std::int32_t delay(const RequirementSpec& requirement, std::size_t x) const {
     if (requirement.kind == RequirementKind::max_arrival) return goal->arrival[x];
     if (requirement.kind == RequirementKind::min_approach_delay)
       return goal->partitions[at(*requirement.partition)].delay[x];
+    if (requirement.kind == RequirementKind::min_blind_delay)
+      return blind->partitions[at(*requirement.partition)].delay[x];
     if (requirement.partition) return plain.partitions[at(*requirement.partition)].delay[x];
     return !safe.test(static_cast<std::int64_t>(x)) ? -2 : plain.invariant[x] ? INT32_MAX : -1;
   }
@@ -68,6 +76,7 @@ struct Both {
   CellSet safe;
   std::optional<CellSet> beyond;
   PlainAnalysis plain;
+  std::optional<PlainBlind> blind;
   std::optional<PlainGoal> goal;
 };
 
@@ -251,8 +260,8 @@ void expect_plain_verdict(const Both& both, std::size_t r) {
   RC_CLASSIFY(found.path->steps() > 2, "a way out of more than two steps");
   RC_ASSERT(region.natural[found.path->cell.front()]);
   RC_ASSERT(both.delay(asked, found.path->cell.front()) == found.least_delay);
-  // Ways that miss a goal are looked at by `verify`.
-  if (is_limit || asked.kind == RequirementKind::min_approach_delay) return;
+  // Ways that miss a goal, and those of agents who do not see all, are looked at by `verify`.
+  if (asked.kind != RequirementKind::min_delay && asked.kind != RequirementKind::invariant) return;
   expect_real_path(both, asked, *found.path);
 }
 
@@ -283,10 +292,23 @@ TEST(Requirements, BetweenTheSamplesAreJudgedAsThePlainEngineDoes) {
   }));
 }
 
+TEST(Requirements, OfLimitedSightAreJudgedAsThePlainEngineDoes) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("verdicts on blind silence", [&] {
+    const std::string text = with_requirements(with_sight(draw_team()));
+    const Both both(text, team);
+    for (std::size_t r = 0; r < both.spec.requirements.size(); ++r) {
+      RC_CLASSIFY(both.spec.requirements[r].kind == RequirementKind::min_blind_delay, "blind");
+      expect_plain_verdict(both, r);
+    }
+  }));
+}
+
 TEST(Requirements, HoldAtTheirExactBoundAndNoFurther) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("the worst value is the bound", [&] {
-    ProblemSpec spec = read_spec(with_requirements(draw_problem()), "random");
+    const std::string system = draw(0, 1) == 0 ? with_sight(draw_problem()) : draw_problem();
+    ProblemSpec spec = read_spec(with_requirements(system), "random");
     const std::vector<ResultRequirement> found = Both::judged(spec, team);
     for (const std::int64_t further : {0, 1}) {
       for (std::size_t r = 0; r < found.size(); ++r) {
@@ -311,7 +333,8 @@ TEST(Requirements, ThatWereWrittenVerify) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("files with requirements hold", [&] {
     const RandomTime kind = *rc::gen::arbitrary<bool>() ? RandomTime::between_samples : RandomTime::any;
-    const std::string text = with_requirements(draw_problem(kind));
+    const std::string system = draw_problem(kind);
+    const std::string text = with_requirements(draw(0, 2) == 0 ? with_sight(system) : system);
     const Verification result = verify_file(analysed_file(text, team), {.budget_seconds = 0.1}, team);
     RC_LOG(complaints(result));
     RC_ASSERT(result.holds());

@@ -47,10 +47,9 @@ struct Outcome {
   Json summary;
 };
 
-/// What does not depend on how the work was done. Warnings tell what was tried in two seconds.
+/// What does not depend on how the work was done.
 Json answer_of(Json summary) {
-  for (const char* key : {"output", "threads", "seconds", "work", "peak_memory_bytes", "warnings"})
-    summary.erase(key);
+  for (const char* key : {"output", "threads", "seconds", "work", "peak_memory_bytes"}) summary.erase(key);
   return summary;
 }
 
@@ -135,7 +134,9 @@ Json draw_questions() {
 void check_same(const Folder& folder, const ProblemSpec& spec) {
   const Outcome one = alone(folder, spec);
   const int threads = draw(1, 2);
-  for (const int count : kCounts) {
+  // Two of the counts: many problems say more than many counts.
+  const int first = draw(0, 3);
+  for (const int count : {kCounts[first], kCounts[draw(first + 1, 4)]}) {
     const Outcome many = together(folder, spec, count, threads);
     RC_ASSERT(many.summary.dump() == one.summary.dump());  // RapidCheck takes JSON for a text
     RC_ASSERT(many.file == one.file);

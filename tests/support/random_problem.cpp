@@ -39,18 +39,21 @@ class ProblemWriter {
 "agents": [{}],
 "dynamics": {{"time": "{}", "period": {}, "equations": {{{}}}}},
 "safe": "{}",
-"abstraction": {{"cells": "{}", "safe": "{}", "between_samples": {}}},
+"abstraction": {{"cells": "{}", "safe": "{}", "between_samples": {}, "effort": {}}},
 "controller": {{"synthesis": "{}", "allow": "{}"}},
 "coordination": {{{}}}}})",
         join(state_text_), join(input_text_),
         disturbed ? R"({"name": "w", "lower": -0.25, "upper": 0.5})" : "", agents(),
         continuous_time_ ? "continuous" : "discrete", pick<std::string>({"1", "0.5"}), equations(disturbed),
-        safe_condition(), cells, safe, between_samples, draw(0, 3) == 0 ? "given" : "maximal",
+        safe_condition(), cells, safe, between_samples, effort(), draw(0, 3) == 0 ? "given" : "maximal",
         allow_condition(), coordination());
     return text;
   }
 
  private:
+  /// Dividing cells is most of the work where it is done, and nothing that comes after a post depends on it.
+  static int effort() { return draw(0, 7) == 0 ? 200 : 0; }
+
   static std::string join(const std::vector<std::string>& parts) {
     return fmt::format("{}", fmt::join(parts, ", "));
   }

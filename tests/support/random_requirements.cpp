@@ -8,6 +8,7 @@
 
 #include "answers/requirements/region.hpp"
 #include "spec/read_spec.hpp"
+#include "spec/sight.hpp"
 #include "support/draw.hpp"
 
 namespace coordreq {
@@ -87,6 +88,7 @@ std::string with_requirements(std::string text) {
   const ProblemSpec spec = read_spec(text, "random");
   const auto most = static_cast<int>(std::min<std::int64_t>(spec.coordination.max_delay.value_or(4), 4));
   const bool has_goal = draw(0, 1) == 0;
+  const bool is_blind = has_limited_sight(spec);
   std::vector<std::string> requirements;
   for (int r = 0; r < 2; ++r) {
     const auto of_partition = [&](const std::string& kind) {
@@ -95,9 +97,10 @@ std::string with_requirements(std::string text) {
     };
     const std::vector<std::string> of_goal = {fmt::format(R"("max_arrival": {})", draw(0, 4)),
                                               of_partition("min_approach_delay")};
-    const std::string asked = has_goal && draw(0, 1) == 0 ? pick(of_goal)
-                              : draw(0, 3) == 0           ? R"("invariant": true)"
-                                                          : of_partition("min_delay");
+    const std::string asked = has_goal && draw(0, 1) == 0  ? pick(of_goal)
+                              : draw(0, 3) == 0            ? R"("invariant": true)"
+                              : is_blind && draw(0, 2) > 0 ? of_partition("min_blind_delay")
+                                                           : of_partition("min_delay");
     requirements.push_back(
         fmt::format(R"({{"name": "r{}", "where": "{}", {}}})", r, region_on_grid(spec), asked));
   }

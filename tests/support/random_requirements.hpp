@@ -10,8 +10,8 @@ namespace coordreq {
 /// and all together; drawn inside a RapidCheck property.
 [[nodiscard]] std::string draw_team();
 
-/// The spec with two random requirements, of any kind, whose regions meet its grid; half of the time with a
-/// goal.
+/// The spec with two random requirements, of any kind but `max_risk`, whose regions meet its grid; half of
+/// the time with a goal. Agents of limited sight are asked for `min_blind_delay`, too.
 [[nodiscard]] std::string with_requirements(std::string text);
 
 }  // namespace coordreq
