@@ -70,6 +70,8 @@ TEST(TimeLeft, OfSweepsThatDoNotShrinkNothingIsKnown) {
   left.update(in_sweep(1, 50, 0), 5);
   left.update(in_sweep(2, 25, 50), 8);
   EXPECT_FALSE(left.seconds());
+  left.update(in_sweep(2, 24, 50), 9);  // 48 after 50: by so little nothing can be told of what follows
+  EXPECT_FALSE(left.seconds());
 }
 
 TEST(TimeLeft, WorkOfWhichNothingIsKnownHasNoShare) {

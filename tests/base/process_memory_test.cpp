@@ -87,6 +87,11 @@ TEST(ThreadsWithin, ThrowsWithTheNeedIfOneIsTooMany) {
   }
 }
 
+TEST(CheckMemoryNeed, TheLimitItselfIsEnough) {
+  EXPECT_NO_THROW(check_memory_need("it needs", kMebi, kMebi, ""));
+  EXPECT_THROW(check_memory_need("it needs", 1.01 * kMebi, kMebi, ""), LimitError);
+}
+
 TEST(BytesInWords, HasATenthAndAUnit) {
   EXPECT_EQ(bytes_in_words(512), "512.0 B");
   EXPECT_EQ(bytes_in_words(1536), "1.5 KiB");

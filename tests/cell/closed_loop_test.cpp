@@ -198,6 +198,23 @@ TEST(ClosedLoop, TheStartIsMeasuredAndTheTrueStateIsOff) {
   EXPECT_NE(trace.samples.front().state.front(), 0.0);
 }
 
+TEST(ClosedLoop, AStartThatIsMeasuredAtAStopIsNotBeyondIt) {
+  const std::string spec = R"({"coordreq": 1, "name": "stop",
+"states": [{"name": "x", "lower": 0, "upper": 4, "step": 1, "measurement_error": 0.25, "outside": "stop"}],
+"inputs": [{"name": "u", "values": [0]}], "agents": [{"name": "a", "inputs": ["u"]}],
+"dynamics": {"time": "continuous", "period": 1, "equations": {"x": "u"}}, "safe": "true"})";
+  const LoopFixture loop(spec, std::vector<std::int32_t>(5, 9));
+  int inside = 0;
+  for (std::uint64_t run = 0; run < 20; ++run) {
+    const double bottom = loop.run({Rational(0)}, {.steps = 0}, run).samples.front().state.front();
+    const double top = loop.run({Rational(4)}, {.steps = 0}, run).samples.front().state.front();
+    EXPECT_GE(bottom, 0);
+    EXPECT_LE(top, 4);
+    inside += bottom > 0 && top < 4 ? 1 : 0;
+  }
+  EXPECT_GT(inside, 0);
+}
+
 TEST(ClosedLoop, SeedsAndRunsMakeADifference) {
   const auto w = [](std::uint64_t seed, std::uint64_t run) {
     return drift({.steps = 1, .seed = seed}, run).steps.front().disturbance.front();

@@ -134,6 +134,16 @@ TEST(RowSlices, ShiftAcrossTheRowsIsAFixedRangeInEach) {
   }
 }
 
+TEST(RowSlices, AShiftThatLeavesFromEveryCellIsGone) {
+  for (const std::int32_t offset : {-10, 10}) {
+    const RowSlices cut = shift_slices(Outside::safe, 10, 1, [&](std::int32_t) {
+      return IndexRange{offset, offset};
+    });
+    ASSERT_EQ(cut.slices.size(), 1U);
+    EXPECT_EQ(cut.slices[0][0].kind, Kind::gone) << offset;
+  }
+}
+
 TEST(RowSlices, OffTheRingFarIndicesStayApart) {
   constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
   const RowSlices cut = slices(Outside::unsafe, 10, 2, [](std::int32_t c, std::int32_t u) {

@@ -29,10 +29,11 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(NumberCase{"1 + 2 * 3", 7}, NumberCase{"(1 + 2) * 3", 9}, NumberCase{"x - y - z", -6},
                     NumberCase{"x - (y - z)", 4}, NumberCase{"x / y / z", Rational(2, 15)},
                     NumberCase{"x / y * z", Rational(10, 3)}, NumberCase{"-x^2", -4}, NumberCase{"(-x)^2", 4},
-                    NumberCase{"2^3^2", 512}, NumberCase{"(2^3)^2", 64}, NumberCase{"2^-1", Rational(1, 2)},
-                    NumberCase{"2^+1", 2}, NumberCase{"2^-x^2", Rational(1, 16)}, NumberCase{"2 * -x", -4},
-                    NumberCase{"-x * y", -6}, NumberCase{"- - x", 2}, NumberCase{"+x", 2},
-                    NumberCase{"x - -y", 5}, NumberCase{"x*y^2", 18}, NumberCase{"-x + y", 1}));
+                    NumberCase{"2^3^2", 512}, NumberCase{"2^2*3", 12}, NumberCase{"(2^3)^2", 64},
+                    NumberCase{"2^-1", Rational(1, 2)}, NumberCase{"2^+1", 2},
+                    NumberCase{"2^-x^2", Rational(1, 16)}, NumberCase{"2 * -x", -4}, NumberCase{"-x * y", -6},
+                    NumberCase{"- - x", 2}, NumberCase{"+x", 2}, NumberCase{"x - -y", 5},
+                    NumberCase{"x*y^2", 18}, NumberCase{"-x + y", 1}));
 
 INSTANTIATE_TEST_SUITE_P(Literals, Numbers,
                          testing::Values(NumberCase{"0.1", Rational(1, 10)}, NumberCase{".5", Rational(1, 2)},

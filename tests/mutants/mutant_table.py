@@ -85,7 +85,7 @@ def is_there(root, test):
     script = tests / f"{suite}_test.py"
     if script.is_file():
         return f"def test_{name}(" in script.read_text(encoding="utf-8")
-    written = re.compile(rf"^TEST(_F|_P)?\({suite.split('/')[-1]}, {name.split('/')[0]}\)", re.MULTILINE)
+    written = re.compile(rf"^(TYPED_)?TEST(_F|_P)?\({suite.split('/')[-1]}, {name.split('/')[0]}\)", re.MULTILINE)
     sources = tests.rglob("*_test.cpp")
     return bool(suite) and any(written.search(path.read_text(encoding="utf-8")) for path in sources)
 

@@ -152,6 +152,10 @@ TEST(RationalInterval, SizeIsLimited) {
   EXPECT_TRUE(a.bounded);
   EXPECT_LE(bit_size(a.lower), kMostRationalBits);
   EXPECT_LE(a.lower, a.upper);
+  RationalInterval upward{.lower = 0, .upper = Rational(1, 3)};  // only one end grows
+  for (int i = 0; i < 100; ++i)
+    upward = upward * upward + RationalInterval{.lower = 0, .upper = Rational(1, 7)};
+  EXPECT_LE(bit_size(upward.upper), kMostRationalBits);
   const RationalInterval power = pow(point(Rational(3, 2)), point(5000));
   EXPECT_FALSE(power.bounded);
   const RationalInterval small = pow(point(Rational(1001, 1000)), point(5000));

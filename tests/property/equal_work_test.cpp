@@ -117,6 +117,21 @@ ProblemSpec two_in_a_plane(const std::string& edges) {
                    "plane");
 }
 
+/// Rows of which only `allow` says something else: with y above 2 nothing turns back at the lower end.
+TEST(EqualWork, IsNotEqualWhereAllowSaysSomethingElse) {
+  ThreadTeam team(1);
+  const ProblemSpec spec = read_spec(R"({"coordreq": 1, "name": "lanes",
+"states": [{"name": "y", "lower": 0, "upper": 7, "step": 1}, {"name": "x", "lower": 0, "upper": 7, "step": 1}],
+"inputs": [{"name": "u", "values": [-1, 1]}], "agents": [{"name": "one", "inputs": ["u"]}],
+"dynamics": {"time": "discrete", "period": 1, "equations": {"y": "y", "x": "x + u"}},
+"controller": {"allow": "u < 0 or y <= 2"}, "safe": "true",
+"abstraction": {"safe": "center", "cells": "half_open"}})",
+                                     "lanes");
+  const FastAnalysis fast(spec, team);
+  EXPECT_EQ(fast.invariance.invariant.count(), 3 * 8);
+  EXPECT_TRUE(expect_same_work(fast, team).rows);
+}
+
 TEST(EqualWork, GivesTheSameLevelsWhereOnlyDifferencesMatter) {
   ThreadTeam team(2);
   for (const std::string edges :

@@ -16,6 +16,16 @@ TEST(CutRows, SharesAreEqualWhereWeightsAre) {
   EXPECT_EQ(cut_rows(RowNumbers{5, 1, 1, 1, 1, 1}, 1, 6, 2), (RowNumbers{0, 1, 6}));
 }
 
+/// Half of the rows weigh 4.5: 6 is nearer to it than 2.
+TEST(CutRows, EndWhereTheSumIsNearest) {
+  EXPECT_EQ(cut_rows(RowNumbers{2, 4, 3}, 1, 3, 2), (RowNumbers{0, 2, 3}));
+  EXPECT_EQ(cut_rows(RowNumbers{3, 4, 2}, 1, 3, 2), (RowNumbers{0, 1, 3}));
+}
+
+TEST(CutRows, TheLastBlockMayBeShort) {
+  EXPECT_EQ(cut_rows(RowNumbers{0, 1}, 2, 3, 3), (RowNumbers{0, 2, 3, 3}));
+}
+
 TEST(CutRows, WithoutWeightBlocksCount) {
   EXPECT_EQ(cut_rows(RowNumbers{0, 0, 0, 0}, 2, 7, 4), (RowNumbers{0, 2, 4, 6, 7}));
 }

@@ -46,6 +46,13 @@ TEST(BuildAbstraction, ReflectedHalfOpenCellAttainsItsUpperEnd) {
   EXPECT_EQ(a.raw(0, 4, 0), (IndexRange{6, 7}));
 }
 
+/// Half a turn back: [2.5, 3.5] goes to [-1.75, -1.25], around -2 and -1.
+TEST(BuildAbstraction, ARingMayBeTurnedBack) {
+  const Abstraction a = built_alone(
+      one_state(R"("lower": 0, "upper": 8, "count": 8, "outside": "periodic")", "-x/2", "closed"));
+  EXPECT_EQ(a.resolved(0, 3, 0).inside, (IndexRange{6, 7}));
+}
+
 TEST(BuildAbstraction, DiscreteStatesMoveFromPointToPoint) {
   const Abstraction a =
       built_alone(one_state(kUnitGrid + R"(, "discrete": true)", "if(u == 1, -x, x^2 - x)", "closed"));

@@ -158,6 +158,23 @@ TEST(SumTable, MeasurementErrorsByHand) {
   ASSERT_TRUE(scaled.tables[0].is_sum() && !scaled.tables[0].shift);
   // 0.5 * [4.25, 5.75] + [-0.5, 0.5], widened: [1.375, 3.625].
   EXPECT_EQ(scaled.raw(0, 50, 0), (IndexRange{1, 4}));
+  const std::string coarse =
+      R"({"name": "x", "lower": 0, "upper": 9, "step": 1, "measurement_error": 0.4}, {"name": "y", "lower": 0, "upper": 9, "step": 1})";
+  const Abstraction doubled =
+      build(problem(coarse, "discrete", "\"x\": \"2*x + " + one + "\", \"y\": \"y\""));
+  ASSERT_TRUE(doubled.tables[0].is_sum() && !doubled.tables[0].shift);
+  // 2 * [1.1, 2.9] + [-0.5, 0.5], widened: [1.3, 6.7]; without the error before it would be [2.1, 5.9].
+  EXPECT_EQ(doubled.raw(0, 20, 0), (IndexRange{1, 7}));
+}
+
+/// y + z + 1/2 of cells around 0: [-1/2, 3/2], both ends on a face.
+TEST(SumTable, ClosedCellsMeetWhatTheyTouch) {
+  const std::string states =
+      R"({"name": "x", "lower": 0, "upper": 9, "step": 1}, {"name": "y", "lower": 0, "upper": 3, "step": 1}, {"name": "z", "lower": 0, "upper": 3, "step": 1})";
+  const Abstraction a =
+      build(problem(states, "discrete", R"json("x": "y*cos(u) + z*cos(u) + 0.5", "y": "y", "z": "z")json"));
+  ASSERT_TRUE(a.tables[0].is_sum());
+  EXPECT_EQ(a.raw(0, 0, 5), (IndexRange{-1, 2}));  // u = 0
 }
 
 /// Two terms of 1/2 + 2^-33 a side: rounded inward, each would be 2^-32 short, and the sum would not reach

@@ -51,6 +51,7 @@ TEST(Holds, AskInARingForTheArc) {
   EXPECT_TRUE(holds(ring, {-2, 1}, {8, 10}));
   EXPECT_TRUE(holds(ring, {3, 11}, {8, 10}));
   EXPECT_FALSE(holds(ring, {0, 2}, {8, 10}));
+  EXPECT_FALSE(holds(ring, {8, 9}, {8, 10}));
   EXPECT_TRUE(holds(line(9, Outside::unsafe, Outside::unsafe), {1, 4}, {2, 4}));
   EXPECT_FALSE(holds(line(9, Outside::unsafe, Outside::unsafe), {3, 4}, {2, 4}));
 }
@@ -64,6 +65,7 @@ TEST(AfterLeaving, EverySideDoesWhatItsRuleSays) {
   EXPECT_EQ(left({-1, 2}, Outside::safe, Outside::unsafe).inside, (IndexRange{0, 2}));
   EXPECT_TRUE(left({-3, -1}, Outside::safe, Outside::unsafe).all_left());
   EXPECT_TRUE(left({5, 8}, Outside::unsafe, Outside::safe).all_left());
+  EXPECT_TRUE(left({5, 8}, Outside::unsafe, Outside::goal).all_left());
   EXPECT_EQ(left({-3, -1}, Outside::saturate, Outside::unsafe).inside, (IndexRange{0, 0}));
   EXPECT_EQ(left({6, 8}, Outside::unsafe, Outside::saturate).inside, (IndexRange{4, 4}));
   EXPECT_EQ(left({3, 8}, Outside::unsafe, Outside::stop).inside, (IndexRange{3, 4}));

@@ -43,6 +43,25 @@ TEST(SampledMap, ADisturbanceAddsWhatItCanAddUp) {
   EXPECT_EQ(p.upper, Rational(3) / 8);
 }
 
+/// w pushes p down by w/4 at once and up by what it adds to v: a steady w adds up to nothing, one that
+/// changes sides half-way does not.
+TEST(SampledMap, ADisturbanceMayChangeSidesOnTheWay) {
+  const SystemSpec spec =
+      chain(R"("p": "v - w/4", "v": "w", "a": "0")", R"({"name": "w", "lower": -1, "upper": 3})");
+  const SampledMap p = solved(spec, 0);
+  EXPECT_EQ(p.lower, -Rational(1) / 8);
+  EXPECT_EQ(p.upper, Rational(1) / 8);
+}
+
+TEST(SampledMap, OfAMapTakesTheDisturbanceFromItsWorseEnd) {
+  SystemSpec spec =
+      chain(R"("p": "v - 2*w", "v": "v", "a": "0")", R"({"name": "w", "lower": -1, "upper": 3})");
+  spec.dynamics.time = Time::discrete;
+  const SampledMap p = solved(spec, 0);
+  EXPECT_EQ(p.lower, -6);
+  EXPECT_EQ(p.upper, 2);
+}
+
 TEST(SampledMap, AMatrixThatIsNotNilpotentIsNotSolved) {
   const SystemSpec spec = chain(R"("p": "v", "v": "-p", "a": "0")");
   EXPECT_FALSE(sampled_map(spec, influences_on(spec, 0), 0, std::vector<Rational>(spec.slot_count())));

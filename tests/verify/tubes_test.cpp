@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "answers/checking/cell_tubes.hpp"
 #include "reach/build_abstraction.hpp"
 #include "spec/read_spec.hpp"
 #include "verify/check_tube.hpp"
@@ -136,6 +137,20 @@ TEST(CheckTubes, AStopHasEnclosuresOfTheVerifiersOwn) {
   EXPECT_TRUE(stopped.tubes.borrowed.empty());
   EXPECT_FALSE(stopped.tubes.exact);
   for (const Finding& finding : stopped.tubes.findings) EXPECT_EQ(finding.wrong, 0) << finding.check;
+}
+
+TEST(CheckTubes, ALimitIsPassedBehindTheLastCell) {
+  const GridDimension dimension{.name = "p",
+                                .first = 0,
+                                .step = 1,
+                                .count = 10,
+                                .below = Outside::saturate,
+                                .above = Outside::saturate,
+                                .lower = 0,
+                                .upper = 9};
+  EXPECT_FALSE(passes_saturation(dimension, {0, 9}));
+  EXPECT_TRUE(passes_saturation(dimension, {0, 10}));
+  EXPECT_TRUE(passes_saturation(dimension, {-1, 9}));
 }
 
 TEST(CheckTubes, WhatIsSafeBeyondALimitIsChecked) {
