@@ -113,6 +113,8 @@ std::vector<std::string> sentences_of(const Json& found, const ProblemSpec& spec
   std::vector<std::string> text;
   const std::string status = text_of(found["delay_status"]);
   if (status == "not_safe") return {"The cell is not safe."};
+  if (found.value("over", false))
+    return {"The goal is reached here, and with it the task ends: nothing that follows matters."};
   if (!found["way_out"].is_null()) text = story_sentences(as_requirement(found), spec);
   if (status == "not_invariant") return text;
   if (status == "unbounded")
@@ -133,6 +135,7 @@ std::string delay_text(const Json& found, const ProblemSpec& spec) {
   const std::string status = text_of(found["delay_status"]);
   if (status == "not_safe") return "none: the cell is not safe";
   if (status == "not_invariant") return "none: on this grid no coordination keeps the system safe from here";
+  if (found.value("over", false)) return "unbounded: the task is over here";
   if (status == "unbounded") return "unbounded: safe without coordination for ever";
   return (status == "at_least" ? "at least " : "") + steps_text(number_of(found["delay"]), spec);
 }
@@ -162,6 +165,7 @@ Json explanation_json(const DelayExplanation& found, const std::vector<Rational>
   json["center"] = centre_json(grid, cell);
   json["partition"] = results.partitions()[partition].name;
   add_delay(json, found.delay, found.is_lower_bound);
+  if (spec.ends_at_goal) json["over"] = found.is_over;
   json["way_out"] = found.path ? story_json(*found.path, RequirementKind::min_delay, spec) : Json();
   const bool is_in_k = found.delay >= 0;
   json["freedom"] = is_in_k ? freedom_json(found, results.partitions()[partition]) : Json();

@@ -109,7 +109,9 @@ std::string verdict_cell(const Json& result) {
   const std::string what = sampled ? fmt::format("{} of {} cells of {}", grouped(result["cells_checked"]),
                                                  grouped(result["cells"]), name)
                                    : name;
-  return what + (result["verdict"] == "holds" ? " holds" : " holds, apart from what is not confirmed");
+  const bool is_one = !sampled || result["cells_checked"] == 1;
+  return what + (is_one ? " holds" : " hold") +
+         (result["verdict"] == "holds" ? "" : ", apart from what is not confirmed");
 }
 
 Json verification_json(const Verification& result, const std::string& path, double seconds, int threads) {

@@ -9,11 +9,20 @@
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
+namespace {
+
+std::string task_end_text(const Json& goal) {
+  if (!goal.contains("then")) return "";
+  return goal["cells"] == 1 ? ", which ends the task" : ", which end the task";
+}
+
+}  // namespace
 
 void add_goal_of_analysis(const Json& summary, Facts& facts) {
   if (!summary.contains("goal")) return;
   const Json& goal = summary["goal"];
   std::string text = cells(goal["cells"]);
+  text += task_end_text(goal);
   text += goal["longest_arrival"].is_null()
               ? "; it cannot be forced from anywhere"
               : fmt::format("; forced from {}, within {}", cells(goal["winning"]),
@@ -24,7 +33,7 @@ void add_goal_of_analysis(const Json& summary, Facts& facts) {
 void add_goal_of_file(const Json& info, Facts& facts) {
   if (!info.contains("goal")) return;
   const Json& goal = info["goal"];
-  facts.emplace_back("goal", grouped(goal["cells"]));
+  facts.emplace_back("goal", grouped(goal["cells"]) + task_end_text(goal));
   facts.emplace_back("goal can be forced", grouped(goal["winning"]));
   if (!goal["longest_arrival"].is_null())
     facts.emplace_back("longest way to it", duration(goal["longest_arrival"], info));
@@ -38,8 +47,9 @@ std::string report_goal(const ResultsReader& results) {
   const std::int64_t longest = results.attribute("/arrival", "longest_arrival");
   std::string text = fmt::format(
       "<section aria-labelledby=\"goal-title\">\n<h2 id=\"goal-title\">How soon is the goal "
-      "reached?</h2>\n<p>The goal is <code>{}</code>: {} that can be kept safe. ",
-      html_line(results.spec().goal->text), states_text(goal));
+      "reached?</h2>\n<p>The goal is <code>{}</code>: {} {}. ",
+      html_line(results.spec().goal->text), states_text(goal),
+      results.spec().ends_at_goal ? "in which the task is over" : "that can be kept safe");
   if (longest < 0) return text + "It cannot be forced from any of them.</p>\n</section>\n";
   text += fmt::format(
       "Agents that coordinate can force it from {} of the states that can be kept safe, within {}.</p>\n",

@@ -14,6 +14,7 @@
 #include "export/scots_controller.hpp"
 #include "export/vti_image.hpp"
 #include "results/results_reader.hpp"
+#include "spec/problem_spec.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -25,6 +26,7 @@ struct ExportOptions : CommonOptions {
   std::string results;
   std::optional<Format> format;
   std::optional<std::string> output, partition;
+  std::optional<ControllerKind> controller;
   std::vector<std::string> slices, projections;
 };
 
@@ -91,6 +93,8 @@ TableSelection selection_of(const ExportOptions& own, const ResultsReader& resul
 }
 
 Exporter exporter(const ExportOptions& own, const ResultsReader& results) {
+  if (own.controller && own.format != Format::scs)
+    throw UsageError("only scs is of one controller", "--controller");
   if (own.format == Format::csv) {
     const TableSelection selection = selection_of(own, results);
     return {
@@ -113,8 +117,12 @@ Exporter exporter(const ExportOptions& own, const ResultsReader& results) {
   if (own.format == Format::scs) {
     if (own.partition)
       throw UsageError("scs holds the controller, which no partition changes", "--partition");
-    return {scots_demand(results),
-            [&results](const TextSink& sink, ThreadTeam& team) { export_scots(results, team, sink); }};
+    const ControllerKind kind = own.controller.value_or(ControllerKind::safety);
+    if (kind == ControllerKind::progress && !results.spec().goal)
+      throw UsageError("the spec has no goal, expected safety, found progress", "--controller");
+    return {scots_demand(results), [&results, kind](const TextSink& sink, ThreadTeam& team) {
+              export_scots(results, kind, team, sink);
+            }};
   }
   const std::size_t partition = one_partition(own, results);
   return {c_header_demand(results), [&results, partition](const TextSink& sink, ThreadTeam& team) {
@@ -153,6 +161,10 @@ Run declare_export(Options& options) {
                  "File to write (default: standard output; vtk: a name that ends in .vti)", file_name);
   options.option(own->partition, "--partition", "NAME", "The partition to export (csv, vtk: default all)",
                  as_typed);
+  options.option(
+      own->controller, "--controller", "safety|progress",
+      "scs: the controller that keeps the system in K (default), or that which comes nearer to the goal",
+      OneOf<ControllerKind>{{{"safety", ControllerKind::safety}, {"progress", ControllerKind::progress}}});
   options.repeatable(own->slices, "--slice", "STATE=VALUE",
                      "csv, vtk: only the cells where a state has this value; may be repeated", as_typed);
   options.repeatable(own->projections, "--project", "STATE:KIND",

@@ -61,7 +61,9 @@ std::string info_text(const Json& info) {
   std::string text =
       head_text(info) + "\n" + axes_text(info) + "\n" + described_partitions(info["partitions"]);
   for (const InfoSection section : info_sections()) text += section(info);
-  text += others_text(info, told_members());
+  std::vector<std::string> told = told_members();
+  told.emplace_back("spec");
+  text += others_text(info, told);
   text += "\ndatasets\n";
   for (const Json& dataset : info["datasets"]) text += "  " + line_of(dataset) + "\n";
   return text;

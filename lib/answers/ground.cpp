@@ -46,9 +46,10 @@ std::optional<RowMirror> mirror_of(const UniformGrid& grid, const std::vector<Ag
   return RowMirror(grid, blocks);
 }
 
-/// What S is, in two ways of asking, in rows held.
+/// What S is, in two ways of asking, and what of it counts as T, in rows held.
 std::vector<const CellSet*> safe_sets(const Ground& ground) {
   std::vector<const CellSet*> sets{&ground.safe};
+  if (ground.over) sets.push_back(&*ground.over);
   if (ground.beyond) sets.push_back(&*ground.beyond);
   return sets;
 }
@@ -108,6 +109,19 @@ void share_rows(Ground& ground, bool is_cut, const std::vector<AgentPart>& agent
   ground.engine->take_tube_sets();
 }
 
+/// Adds G, of a goal that ends the task, in some rows where S is known.
+void add_over(const std::vector<RowShare::Range>& runs, ThreadTeam& team, Ground& ground) {
+  const Abstraction& abstraction = *ground.abstraction;
+  CellSet& over = *ground.over;
+  add_cells_that_satisfy(*ground.spec.goal, ground.spec, abstraction.grid, abstraction.inputs, runs, team,
+                         over);
+  for (const RowShare::Range run : runs) {
+    for (std::int64_t r = run.begin; r < run.end; ++r) {
+      for (std::size_t w = 0; w < over.row(r).size(); ++w) over.row(r)[w] &= ground.safe.row(r)[w];
+    }
+  }
+}
+
 /// Takes the agents as alike if that makes no difference in S, for any process, nor for what tiles are.
 /// Together. @returns whether it has
 bool take_like_agents(Ground& ground, const std::vector<AgentPart>& agents) {
@@ -155,12 +169,14 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
   const auto clear_safe = [&] {
     ground.safe = CellSet(rows, row_length);
     if (limits) ground.beyond = CellSet(rows, row_length);
+    if (ground.spec.ends_at_goal) ground.over = CellSet(rows, row_length);
   };
   clear_safe();
   const auto find_safe = [&](const std::vector<RowShare::Range>& runs) {
     add_cells_that_satisfy(ground.spec.safe, ground.spec, abstraction.grid, abstraction.inputs, runs, team,
                            ground.safe);
     if (limits) add_safe_beyond(*limits, ground.spec, abstraction, ground.safe, runs, team, *ground.beyond);
+    if (ground.over) add_over(runs, team, ground);
   };
   if (ground.ranks == nullptr) find_safe({{0, rows}});
   // How it is cut may depend on the engine, which only has to know that it is.
@@ -186,6 +202,10 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
     ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
   }
   ground.safe_cells = ground.count(ground.safe);
+  if (ground.tiles && ground.over)
+    ground.tiles_with_over =
+        ground.tiles->refined(ground.tiles->tables(), number_rows(*ground.over, ground.shared_rows()));
+  ground.over_cells = ground.over ? ground.count(*ground.over) : 0;
   ground.order.emplace(abstraction.grid);
 }
 

@@ -48,11 +48,16 @@ struct Ground {
   std::optional<RowShare> share;
   CellSet safe;                 ///< S, in the rows held
   std::int64_t safe_cells = 0;  ///< |S|
+  /// G of a goal that ends the task, a part of S: cells that count as T (contract, section 5). Nothing where
+  /// no goal does.
+  std::optional<CellSet> over;
+  std::int64_t over_cells = 0;  ///< |G|, 0 if there is none
   PairRules pairs;
   std::optional<CellSet> beyond;  ///< TubeSets::beyond
   std::optional<RowEngine> engine;
   std::optional<RowHull> hull;
-  std::optional<Tiles> tiles;          ///< where equal work is looked for, if there seems to be much of it
+  std::optional<Tiles> tiles;      ///< where equal work is looked for, if there seems to be much of it
+  Tiles::Numbers tiles_with_over;  ///< [tile] equal numbers where the same cells count as T, too; if any do
   std::vector<AgentPart> like_agents;  ///< that can change places, in S too; two or more, or none
   std::optional<CellOrder> order;
 
@@ -60,10 +65,16 @@ struct Ground {
   [[nodiscard]] TubeSets tubes() const;
   /// Which rows are whose, or null.
   [[nodiscard]] const RowShare* shared_rows() const { return share ? &*share : nullptr; }
+  /// The cells that count as T, or null.
+  [[nodiscard]] const CellSet* over_or_null() const { return over ? &*over : nullptr; }
   /// Cells of a set in the rows of all processes. Together.
   [[nodiscard]] std::int64_t count(const CellSet& set) const;
   /// The tiles or null.
   [[nodiscard]] const Tiles* equal_work() const { return tiles ? &*tiles : nullptr; }
+  /// Work that is equal where S is, and G of a goal that ends the task; or none.
+  [[nodiscard]] EqualWork equal(const RowMirror* mirror = nullptr) const {
+    return {equal_work(), tiles && over ? &tiles_with_over : nullptr, mirror};
+  }
   /// Where answers are the same but for the order of like agents, if the inputs of each class are chosen
   /// together. Nothing if there is no such place.
   [[nodiscard]] std::optional<RowMirror> mirror(const std::vector<InputClass>& classes) const;

@@ -23,6 +23,10 @@ MemoryNeed ground_memory(const EngineSizes& sizes, int threads) {
   const ProblemSpec& spec = model.spec();
   MemoryNeed need{.kept = sizes.set() + sizes.hull(),
                   .work = sizes.set() + sizes.condition_of_held(spec.safe)};
+  if (spec.ends_at_goal) {
+    need.kept += sizes.set();
+    need.work = std::max(need.work, sizes.set() + sizes.condition_of_held(*spec.goal));
+  }
   double slices = sizes.set() + sizes.hull();
   for (std::size_t t = 0; t < model.grid().size(); ++t) {
     slices += sizes.slices(t);

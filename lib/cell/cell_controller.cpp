@@ -16,12 +16,6 @@
 namespace coordreq {
 namespace {
 
-std::vector<bool> unpacked(const std::vector<std::uint8_t>& bytes, std::int64_t count) {
-  std::vector<bool> bits(at(count));
-  for (std::size_t a = 0; a < bits.size(); ++a) bits[a] = (bytes[a / 8] >> (a % 8) & 1U) != 0;
-  return bits;
-}
-
 CellPolicy::Numbers numbers_of(const std::vector<bool>& members) {
   CellPolicy::Numbers numbers;
   for (std::size_t u = 0; u < members.size(); ++u) {
@@ -64,6 +58,12 @@ double abstraction_bytes(const ResultsReader& results) {
   double bytes = 0;
   for (const TableShape& shape : shapes) bytes += shape.bytes;
   return results.spec().abstraction.between_samples ? 2 * bytes : bytes;
+}
+
+std::vector<bool> unpacked(const std::vector<std::uint8_t>& bytes, std::int64_t count) {
+  std::vector<bool> bits(at(count));
+  for (std::size_t a = 0; a < bits.size(); ++a) bits[a] = (bytes[a / 8] >> (a % 8) & 1U) != 0;
+  return bits;
 }
 
 double controller_bytes(const ResultsReader& results, bool for_all_cells) {
@@ -134,6 +134,15 @@ const std::vector<bool>& CellController::joint_inputs(std::int64_t cell) {
   }
   cell_ = cell;
   return joint_inputs_;
+}
+
+std::vector<bool> CellController::joint_inputs(const AnswerPolicy& policy, std::int64_t cell) {
+  Part& own = part(policy, 0);
+  const CellPolicy::Numbers admissible = numbers_of(joint_inputs(cell));
+  if (admissible.empty() || !own.policy->holds(cell)) return joint_inputs(cell);
+  std::vector<bool> result(joint_inputs(cell).size(), false);
+  for (const std::int64_t u : own.policy->together(cell, admissible)) result[at(u)] = true;
+  return result;
 }
 
 ActionSets CellController::actions(const AnswerPolicy& policy, std::size_t partition, std::int64_t cell,

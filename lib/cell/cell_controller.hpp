@@ -22,6 +22,9 @@ namespace coordreq {
 /// Whether each class may take each of its actions: [class][action].
 using ActionSets = std::vector<std::vector<bool>>;
 
+/// Bits of a file, the lowest of a byte first, as so many truth values.
+[[nodiscard]] std::vector<bool> unpacked(const std::vector<std::uint8_t>& bytes, std::int64_t count);
+
 /// Bytes of the finite abstraction of a file, as it is read or worked out whole.
 [[nodiscard]] double abstraction_bytes(const ResultsReader& results);
 /// What a CellController takes: at most, or where a cell and its like are asked for, with what the posts of
@@ -50,6 +53,9 @@ class CellController : private ByteTables {
   [[nodiscard]] const std::vector<AnswerPolicy>& policies() const { return policies_; }
   /// Whether each joint input is in C(x); none is outside K. @throws ResultsError if it cannot be computed
   [[nodiscard]] const std::vector<bool>& joint_inputs(std::int64_t cell);
+  /// The joint inputs that agents who coordinate choose from by a policy: those of C(x) where it does not
+  /// hold.
+  [[nodiscard]] std::vector<bool> joint_inputs(const AnswerPolicy& policy, std::int64_t cell);
   /// Whether `allow` forbids a joint input at a cell.
   [[nodiscard]] bool forbids(std::int64_t cell, std::int64_t u) { return admissible_.forbids(cell, u); }
   /// What the policy leaves each class of a partition, or each agent if it is one of these, with so many

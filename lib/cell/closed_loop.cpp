@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "answers/goal/fields.hpp"
 #include "model/sample_reset.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -55,7 +56,9 @@ ClosedLoop::ClosedLoop(const LoopProblem& problem, const LoopOptions& options)
       next_(*problem.spec, *problem.abstraction, dynamics_),
       margin_(problem.spec->safe),
       slots_(problem.spec->slot_count()),
-      delay_(problem.delay()) {
+      delay_(problem.delay()),
+      ends_in_goal_(options.until_goal || problem.spec->ends_at_goal) {
+  if (problem.spec->ends_at_goal) to_aim_ = problem_.values.at(paths::kArrival);
   for (const AnswerPolicy& policy : problem_.policies) {
     if (!policy.aim.path.empty()) to_aim_ = problem_.values.at(policy.aim.path);
   }
@@ -80,7 +83,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
   trace.samples.back().countdown = countdown;
   const std::int32_t promised = has_aim(policy) ? trace.samples.front().arrival : RunTrace::kForever;
   for (std::int64_t k = 0; k < options_.steps; ++k) {
-    if (options_.until_goal && trace.arrived) {
+    if (ends_in_goal_ && trace.arrived) {
       trace.outcome = Outcome::reached_goal;
       return trace;
     }
@@ -118,8 +121,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
     }
     reached.countdown = countdown;
     if (state.place.kind == Kind::left_safely) {
-      const bool ends_in_goal = options_.until_goal && trace.arrived;
-      trace.outcome = ends_in_goal ? Outcome::reached_goal : Outcome::left_safely;
+      trace.outcome = ends_in_goal_ && trace.arrived ? Outcome::reached_goal : Outcome::left_safely;
       return trace;
     }
     if (!known || reached.delay < 0) {
@@ -131,7 +133,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
       return trace;
     }
   }
-  if (options_.until_goal && trace.arrived) trace.outcome = Outcome::reached_goal;
+  if (ends_in_goal_ && trace.arrived) trace.outcome = Outcome::reached_goal;
   return trace;
 }
 

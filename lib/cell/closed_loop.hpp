@@ -24,7 +24,7 @@ struct LoopOptions {
   Disturbance disturbance = Disturbance::random;
   std::vector<Rational> constant_disturbance;  ///< one a disturbance; used if constant
   std::uint64_t seed = 1;
-  bool until_goal = false;  ///< a run ends where it reaches the goal
+  bool until_goal = false;  ///< a run ends where it reaches the goal, as it does if the spec says so
 };
 
 enum class Outcome : std::uint8_t {
@@ -32,7 +32,7 @@ enum class Outcome : std::uint8_t {
   left_safely,     ///< ended early beyond a `safe` side of the domain
   left_invariant,  ///< ended early because the measured cell is not in K
   no_action,       ///< ended early in K where no action is admissible
-  reached_goal,    ///< ended in the goal, as was asked
+  reached_goal,    ///< ended in the goal, as was asked or as the spec says
   late,            ///< more steps than promised, and not in the goal
   not_allowed,     ///< ended early in K where silent agents together do what `allow` forbids
   not_followed,    ///< ended early because the next state could not be worked out
@@ -93,6 +93,8 @@ struct RunTrace {
 /// A policy whose countdown follows from what was agreed, not from the cell that is next, begins with a
 /// coordinated step. (Of agents who see only themselves, contract, section 8.)
 ///
+/// A run that reaches a goal which ends the task ends there, whatever agents go by.
+///
 /// Holds the scratch memory of a run: one object a thread.
 class ClosedLoop {
  public:
@@ -134,7 +136,8 @@ class ClosedLoop {
   Margin margin_;
   std::vector<Rational> slots_;
   std::span<const std::int32_t> delay_;
-  std::span<const std::int32_t> to_aim_;                       ///< [cells] steps; empty: no policy has an aim
+  std::span<const std::int32_t> to_aim_;                       ///< [cells] steps; empty: there is no aim
+  bool ends_in_goal_;                                          ///< runs do
   std::vector<std::shared_ptr<ActionChooser>> mode_choosers_;  ///< [mode] of a network that loses steps
 };
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "answers/goal/fields.hpp"
 #include "answers/layers/fields.hpp"
 #include "answers/plan.hpp"
 #include "answers/requirements/escape_result.hpp"
@@ -37,7 +38,8 @@ class Explainer {
     found.is_lower_bound = layers.truncated && found.delay >= 0 && found.delay == layers.top_delay();
     const bool is_bounded = found.delay != kNever && !found.is_lower_bound;
     if (is_bounded) found.path = way_out(cell);
-    add_others(cell, is_bounded, found);
+    found.is_over = is_over(cell);
+    if (!found.is_over) add_others(cell, is_bounded, found);
     if (found.delay < 0) return found;
     found.actions = controller_.actions(partition_, cell);
     const std::vector<bool>& together = controller_.joint_inputs(cell);
@@ -73,6 +75,11 @@ class Explainer {
 
   [[nodiscard]] std::int32_t delay_at(std::int64_t cell) const {
     return delay_of(cell, sets_.invariance().collision_time.at(cell), &sets_.layers());
+  }
+
+  /// A goal that ends the task is reached there.
+  [[nodiscard]] bool is_over(std::int64_t cell) {
+    return results_.spec().ends_at_goal && controller_.values(paths::kArrival, partition_)(cell) == 0;
   }
 
   [[nodiscard]] ResultPath way_out(std::int64_t cell) const {
@@ -147,6 +154,7 @@ class Explainer {
         while (k <= most && delay_at(cell + k * step * grid.stride(i)) <= found.delay) ++k;
         if (k > most || k >= nearest) continue;
         const std::int64_t other = cell + k * step * grid.stride(i);
+        if (is_over(other)) continue;  // there nobody chooses anything
         const std::int64_t alone = choices(controller_.actions(partition_, other));
         if (alone >= found.alone) continue;
         nearest = k;

@@ -53,7 +53,7 @@ RunTrace ClosedLoop::run_lossy(std::vector<Rational> measured, std::uint64_t run
   };
   add_sample();
   for (std::int64_t k = 0; k < options_.steps; ++k) {
-    if (options_.until_goal && trace.arrived) return end(Outcome::reached_goal);
+    if (ends_in_goal_ && trace.arrived) return end(Outcome::reached_goal);
     const std::int64_t cell = state.place.cell;
     const Nature nature = draw_nature(disturbances);
     next_.begin(state.exact, nature.disturbance, nature.error, cell);
@@ -70,12 +70,11 @@ RunTrace ClosedLoop::run_lossy(std::vector<Rational> measured, std::uint64_t run
     mode = problem_.network->draw(mode, losses);
     add_sample();
     if (state.place.kind == Kind::left_safely) {
-      const bool ends_in_goal = options_.until_goal && trace.arrived;
-      return end(ends_in_goal ? Outcome::reached_goal : Outcome::left_safely);
+      return end(ends_in_goal_ && trace.arrived ? Outcome::reached_goal : Outcome::left_safely);
     }
     if (!known || trace.samples.back().delay < 0) return end(Outcome::left_invariant);
   }
-  return end(options_.until_goal && trace.arrived ? Outcome::reached_goal : Outcome::completed);
+  return end(ends_in_goal_ && trace.arrived ? Outcome::reached_goal : Outcome::completed);
 }
 
 }  // namespace coordreq

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "answers/blind/fields.hpp"
+#include "answers/goal/fields.hpp"
 #include "answers/invariance/fields.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/forbidden_choices.hpp"
@@ -152,12 +153,15 @@ std::vector<AnswerPolicy> loop_policies(const ProblemSpec& spec, bool blind) {
 }
 
 /// Of the fields that a loop looks at.
-std::vector<std::string> loop_paths(const std::vector<AnswerPolicy>& policies) {
+std::vector<std::string> loop_paths(const ProblemSpec& spec, const std::vector<AnswerPolicy>& policies) {
   std::vector<std::string> paths;
   for (const AnswerPolicy& policy : policies) {
     paths.push_back(policy.is_on_request ? policy.trigger : policy.delay);
     if (!policy.aim.path.empty()) paths.push_back(policy.aim.path);
   }
+  // Runs end in such a goal, whatever agents go by.
+  const std::string arrival = coordreq::paths::kArrival;
+  if (spec.ends_at_goal && std::ranges::find(paths, arrival) == paths.end()) paths.push_back(arrival);
   return paths;
 }
 
@@ -240,7 +244,7 @@ MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOpt
   const auto states = static_cast<double>(spec.states.size());
   const auto disturbances = static_cast<double>(spec.disturbances.size());
   constexpr double kCopies = 2;  // of an array while it is read
-  const auto arrays = static_cast<double>(loop_paths(loop_policies(spec, options.blind)).size());
+  const auto arrays = static_cast<double>(loop_paths(spec, loop_policies(spec, options.blind)).size());
   double of_cell = (arrays + kCopies) * sizeof(std::int32_t);
   if (spec.controller.file) of_cell += static_cast<double>(PackedPairs::bytes_for(results.inputs().count()));
   if (options.is_lossy) of_cell += bytes_of_risk_values(spec);
@@ -275,7 +279,7 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   if (options.output) check_writable(*options.output);
   enter("running");
   const std::vector<AnswerPolicy> policies = loop_policies(spec, options.blind);
-  const std::vector<std::string> paths = loop_paths(policies);
+  const std::vector<std::string> paths = loop_paths(spec, policies);
   std::map<std::string, std::vector<std::int32_t>> values;
   const std::vector<std::int32_t>& delay = values[paths.front()] =
       read_cells(results, paths.front(), partition);

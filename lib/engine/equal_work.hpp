@@ -13,6 +13,11 @@ struct EqualWork {
   /// Rows of which an operator says the same where levels are the same in all images; null: there are none.
   /// REQUIRES: all rows of a tile of many are first, or none is.
   const RowMirror* mirror = nullptr;
+
+  /// With numbers, those of the tables if there are none yet.
+  [[nodiscard]] EqualWork by_tables() const {
+    return {tiles, tiles != nullptr && numbers == nullptr ? &tiles->tables() : numbers, mirror};
+  }
 };
 
 }  // namespace coordreq

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/different_rows.hpp"
+#include "engine/sparing_operator.hpp"
 
 namespace coordreq {
 namespace {
@@ -153,6 +154,13 @@ class LevelFinder {
 
   template <class Level>
   std::unique_ptr<RowOperator<Level>> make_operator() const {
+    if (problem_.spared == nullptr) return make_whole_operator<Level>();
+    return std::make_unique<SparingOperator<Level>>(make_whole_operator<Level>(), *problem_.spared,
+                                                    team_.size());
+  }
+
+  template <class Level>
+  std::unique_ptr<RowOperator<Level>> make_whole_operator() const {
     if constexpr (sizeof(Level) == 1) return problem_.make8();
     if constexpr (sizeof(Level) == 2) return problem_.make16();
     if constexpr (sizeof(Level) == 4) return problem_.make32();

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "answers/goal/fields.hpp"
 #include "cell/cell_controller.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -65,9 +66,14 @@ class RunFinder {
   void add_part(std::int64_t begin, std::int64_t end) {
     const Steps delays = read(&AnswerPolicy::delay, begin, end),
                 triggers = read(&AnswerPolicy::trigger, begin, end);
+    std::vector<std::int32_t> arrivals;
+    if (results_.spec().ends_at_goal)
+      arrivals = results_.stretch(
+          begin, end, [this](const CellBlock& block) { return results_.values(paths::kArrival, block); });
     for (std::int64_t cell = begin; cell < end; ++cell) {
       const auto place = static_cast<std::size_t>(cell - begin);
       ActionRuns::Entry entry;
+      entry.is_over = !arrivals.empty() && arrivals[place] == 0;
       for (std::size_t k = 0; k < runs_.policies.size(); ++k) {
         entry.countdowns.push_back(triggers[k][place]);
         add_sets(controller_.actions(runs_.policies[k], partition_, cell, delays[k][place]), entry);

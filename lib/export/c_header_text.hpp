@@ -132,6 +132,17 @@ static inline int $P_allowed(int32_t cell, uint32_t c, uint32_t a) {{
 }}
 )c";
 
+/// Of a goal that ends the task.
+inline constexpr char kOver[] = R"c(
+/* Whether the task is over: in a cell of the goal, and in $M_LEFT_SAFELY. There nothing that follows matters, and
+   what other functions say of actions is of no use. */
+static inline int $P_is_over(int32_t cell) {{
+  if (cell == $M_LEFT_SAFELY) return 1;
+  if (cell < 0 || cell >= $M_CELLS) return 0;
+  return $P_entry_over[$P_entry_of(cell)];
+}}
+)c";
+
 /// Of a policy that does not hold everywhere.
 inline constexpr char kPolicy[] = R"c(
 /* {purpose} */

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "answers/goal/fields.hpp"
 #include "answers/invariance/fields.hpp"
 #include "base/error.hpp"
 #include "cell/cell_controller.hpp"
@@ -63,6 +67,41 @@ std::string grid_text(std::string_view head, const std::vector<Axis>& axes) {
          vector_text(scots::kLasts, axes, &Axis::last);
 }
 
+/// The joint inputs of the cells that have any, by one controller or the other.
+class Listed {
+ public:
+  Listed(const ResultsReader& results, ControllerKind kind, ThreadTeam& team)
+      : results_(results), controller_(results, team) {
+    controller_.prepare_all();
+    const CellBlock all = all_cells(results.grid());
+    members_ = results.members(paths::kInvariant, all);
+    if (kind == ControllerKind::safety) return;
+    const auto& policies = controller_.policies();
+    policy_ = &*std::find_if(policies.begin(), policies.end(),
+                             [](const AnswerPolicy& policy) { return policy.aim.path == paths::kArrival; });
+    const std::vector<std::int32_t> arrival =
+        results.values(results.field(paths::kArrival), std::nullopt, all);
+    for (std::size_t x = 0; x < members_.size(); ++x)
+      members_[x] = arrival[x] >= 0 && arrival[x] != std::numeric_limits<std::int32_t>::max() ? 1 : 0;
+  }
+
+  [[nodiscard]] bool contains(std::int64_t cell) const {
+    return members_[static_cast<std::size_t>(cell)] != 0;
+  }
+  [[nodiscard]] std::vector<bool> joint_inputs(std::int64_t cell) {
+    if (policy_ == nullptr) return controller_.joint_inputs(cell);
+    if (!results_.has(paths::kProgress)) return controller_.joint_inputs(*policy_, cell);
+    return unpacked(results_.bits(paths::kProgress, one_cell(results_.grid(), cell)),
+                    results_.inputs().count());
+  }
+
+ private:
+  const ResultsReader& results_;
+  CellController controller_;
+  const AnswerPolicy* policy_ = nullptr;  ///< none: all of C
+  std::vector<std::uint8_t> members_;
+};
+
 }  // namespace
 
 MemoryDemand scots_demand(const ResultsReader& results) {
@@ -71,7 +110,7 @@ MemoryDemand scots_demand(const ResultsReader& results) {
   return demand;
 }
 
-void export_scots(const ResultsReader& results, ThreadTeam& team, const TextSink& sink) {
+void export_scots(const ResultsReader& results, ControllerKind kind, ThreadTeam& team, const TextSink& sink) {
   std::vector<Axis> states, inputs;
   for (const GridDimension& dimension : results.grid().dimensions())
     states.push_back(axis_of_state(dimension));
@@ -83,8 +122,7 @@ void export_scots(const ResultsReader& results, ThreadTeam& team, const TextSink
   sink(grid_text(scots::kStates, states) + grid_text(scots::kInputs, inputs));
   sink(fmt::format("{}\n{}\n{}\n{}{} {}\n", scots::kDomain, scots::kColumns, scots::kMatrix, scots::kBegin,
                    results.grid().cells(), results.inputs().count()));
-  CellController controller(results, team);
-  controller.prepare_all();
+  Listed listed(results, kind, team);
   const ReversedNumbers state_numbers = scots::numbers(states);
   const ReversedNumbers input_numbers = scots::numbers(inputs);
   // Both ascend as SCOTS counts.
@@ -92,12 +130,11 @@ void export_scots(const ResultsReader& results, ThreadTeam& team, const TextSink
   for (std::int64_t number = 0; number < results.inputs().count(); ++number) {
     input_positions.push_back(static_cast<std::size_t>(input_numbers.position_of(number)));
   }
-  const std::vector<std::uint8_t> invariant = results.members(paths::kInvariant, all_cells(results.grid()));
   std::string line;
   for (std::int64_t number = 0; number < results.grid().cells(); ++number) {
     const std::int64_t cell = state_numbers.position_of(number);
-    if (invariant[static_cast<std::size_t>(cell)] == 0) continue;
-    const std::vector<bool>& admissible = controller.joint_inputs(cell);
+    if (!listed.contains(cell)) continue;
+    const std::vector<bool> admissible = listed.joint_inputs(cell);
     line = std::to_string(number) + " ";
     for (std::size_t j = 0; j < input_positions.size(); ++j) {
       if (admissible[input_positions[j]]) line += std::to_string(j) + " ";

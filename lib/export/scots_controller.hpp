@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "base/process_memory.hpp"
 #include "base/thread_team.hpp"
 #include "export/text_sink.hpp"
@@ -7,11 +9,18 @@
 
 namespace coordreq {
 
-/// The controller C as a static controller of SCOTS v0.2: the grids of states and joint inputs, and for each
-/// cell of K its number and those of its admissible joint inputs. Numbers count with dimension 0 fastest.
+/// Which controller an export is of.
+enum class ControllerKind : std::uint8_t {
+  safety,    ///< C: that of K
+  progress,  ///< P: that of the goal, in the cells from which it can be forced
+};
+
+/// The controller as a static controller of SCOTS v0.2: the grids of states and joint inputs, and for each
+/// cell that has any its number and those of its joint inputs. Numbers count with dimension 0 fastest.
 /// @throws ResultsError if SCOTS cannot have the grids: points that are no multiples of the step, or listed
 ///   input values that are not evenly spaced and ascending
-void export_scots(const ResultsReader& results, ThreadTeam& team, const TextSink& sink);
+/// REQUIRES: for `progress` the spec has a goal
+void export_scots(const ResultsReader& results, ControllerKind kind, ThreadTeam& team, const TextSink& sink);
 /// What that takes.
 [[nodiscard]] MemoryDemand scots_demand(const ResultsReader& results);
 

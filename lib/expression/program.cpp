@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "expression/other_names.hpp"
 #include "expression/place.hpp"
 #include "expression/syntax.hpp"
 #include "expression/tape_builder.hpp"
@@ -108,7 +109,10 @@ class Linker {
     if (const auto* const definition = std::get_if<std::shared_ptr<const Program>>(&binding)) {
       return {tape_.merge(**definition), (*definition)->is_condition(), offset};
     }
-    place_.fail(fmt::format("{} is not defined{}", quoted(name), std::get<NotDefined>(binding).hint), offset);
+    // What stands for a number everywhere else is rather meant than a name that is spelt alike.
+    const std::string meant = meant_constant(name);
+    const std::string& hint = meant.empty() ? std::get<NotDefined>(binding).hint : meant;
+    place_.fail(fmt::format("{} is not defined{}", quoted(name), hint), offset);
   }
 
   void require_number(const Value& value) const {

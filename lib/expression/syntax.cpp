@@ -7,6 +7,7 @@
 #include <string>
 
 #include "expression/functions.hpp"
+#include "expression/other_names.hpp"
 #include "expression/token.hpp"
 
 namespace coordreq {
@@ -247,6 +248,9 @@ class Parser {
           fmt::format("{} looks at the past, expected it in a formula of 'memory' only", quoted(word.text)),
           word.offset);
     }
+    const std::string meant = meant_function(word.text);
+    if (!meant.empty())
+      place_.fail(fmt::format("{} is not a function{}", quoted(word.text), meant), word.offset);
     std::string known = fmt::format("{}, {}", spelling(Operator::if_else), spelling(Operator::modulo));
     for (const NumberFunction& function : number_functions()) {
       if (!function.call.empty()) known += fmt::format(", {}", function.call);

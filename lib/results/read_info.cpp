@@ -6,6 +6,7 @@
 #include "model/outside_word.hpp"
 #include "results/results_reader.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/set_value.hpp"
 #include "spec/unit_text.hpp"
 
 namespace coordreq {
@@ -64,6 +65,7 @@ Json read_info(const std::string& path, std::optional<std::uint64_t> max_memory)
     if (answer.tell != nullptr) answer.tell(results.spec(), results, info);
   }
   info["datasets"] = results.datasets();
+  info["spec"] = Json::parse(without_comments(results.spec().text));
   return info;
 }
 

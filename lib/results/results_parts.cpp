@@ -10,6 +10,7 @@
 #include "results/results_file.hpp"
 #include "results/sha256.hpp"
 #include "spec/read_spec.hpp"
+#include "spec/set_value.hpp"
 
 namespace coordreq {
 namespace {
@@ -65,6 +66,15 @@ class PartsReader {
     } catch (const Error& error) {
       fail(std::string("the spec is not valid: ") + error.what(), "/spec");
     }
+    check_spec_json();
+  }
+
+  /// Files of earlier versions do not have it.
+  void check_spec_json() const {
+    if (!file_.exists("/spec_json")) return;
+    file_.expect_array("/spec_json", {}, {});
+    if (file_.texts("/spec_json").front() != without_comments(parts_.spec.text))
+      fail("expected the spec without its comments, found another text", "/spec_json");
   }
 
   /// What the analysis has counted.

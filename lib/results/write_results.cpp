@@ -16,6 +16,7 @@
 #include "results/version.hpp"
 #include "results/whole_file.hpp"
 #include "spec/problem_spec.hpp"
+#include "spec/set_value.hpp"
 
 namespace coordreq {
 namespace {
@@ -131,6 +132,8 @@ class FieldsWriter {
       AttributeWriter(root, ElementType::int32).write(attribute.name, attribute.value);
     const hdf5::Handle text = file_.add_text("/spec", spec.text);
     hdf5::set_attribute(text, "long_name", std::string("problem spec as analysed"));
+    const hdf5::Handle json = file_.add_text("/spec_json", without_comments(spec.text));
+    hdf5::set_attribute(json, "long_name", std::string("the same as JSON, without comments"));
   }
 
   void write_scale(const Field& field) {

@@ -61,6 +61,7 @@ struct ProblemSpec : SystemSpec {
   std::vector<MemorySpec> memory;  ///< in the order of the spec
   Program safe;                    ///< a condition over states
   std::optional<Program> goal;     ///< likewise
+  bool ends_at_goal = false;       ///< the goal's cells count as T: `"then": "over"`
   ControllerSpec controller;
   CoordinationSpec coordination;
   std::optional<NetworkSpec> network;

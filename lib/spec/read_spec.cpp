@@ -54,6 +54,13 @@ bool contains_word(std::string text, std::string_view word) {
   return false;
 }
 
+/// A condition alone, or with what comes after arrival.
+void read_goal(const Scope& scope, const Node& goal, ProblemSpec& spec) {
+  const bool has_then = goal.is_object();
+  spec.goal = scope.expression(has_then ? goal["where"] : goal, ExpectedType::condition, Over::states);
+  spec.ends_at_goal = has_then && goal["then"].text() == "over";
+}
+
 /// All parts but the first few; a part that rests on another one is only read if that one is right.
 void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
   ErrorList errors;
@@ -67,7 +74,7 @@ void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
   errors.attempt([&] { spec.dynamics = read_dynamics(scope, root, period, spec.states); });
   errors.attempt([&] { spec.safe = scope.expression(root["safe"], ExpectedType::condition, Over::states); });
   errors.attempt([&] {
-    if (root.has("goal")) spec.goal = scope.expression(root["goal"], ExpectedType::condition, Over::states);
+    if (root.has("goal")) read_goal(scope, root["goal"], spec);
   });
   errors.attempt([&] { spec.abstraction = read_abstraction(root); });
   errors.attempt([&] { spec.controller = read_controller(scope, root); });

@@ -196,6 +196,10 @@ void refine(OrderedJson& state, std::int64_t factor) {
 
 }  // namespace
 
+std::string without_comments(const std::string& text) {
+  return parsed(text).dump(2) + "\n";
+}
+
 std::string with_refinement(const std::string& text, const std::string& source, std::int64_t factor) {
   static_cast<void>(JsonDocument::parse(text, source));
   OrderedJson spec = parsed(text);

@@ -24,6 +24,10 @@ struct SpecSetting {
 [[nodiscard]] std::string with_setting(const std::string& text, const std::string& source,
                                        const SpecSetting& setting);
 
+/// The text of a spec without its comments, its numbers as with_setting() has them.
+/// REQUIRES: JsonDocument::parse() has accepted it.
+[[nodiscard]] std::string without_comments(const std::string& text);
+
 /// The text of a spec with a finer grid: every step of a state that is not discrete is divided by `factor`,
 /// so that all grid points stay and others lie between them. REQUIRES: 1 <= factor < 2^31
 /// @param source as for with_setting(). @throws SpecError likewise

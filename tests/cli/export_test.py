@@ -262,6 +262,30 @@ class Cases(Case):
             text.append(self.export("scs"))
         self.assertEqual(text[0], text[1])
 
+    def test_scs_of_the_progress_controller(self):
+        texts = []
+        for controller in (True, False):
+            self.analyzed(spec_with(goal="x + y <= 2", output={"controller": controller}))
+            texts.append(self.export("scs", "--controller", "progress"))
+            if not controller:
+                continue
+            with h5py.File(self.folder / "out.h5") as file:
+                arrival, bits = file["arrival"][...], file["controller:goal"][...]
+                inputs = self.export("scs").split("#MATRIX:DATA\n#BEGIN:")[1].split()[1]
+        self.assertEqual(texts[0], texts[1])
+        self.assertNotEqual(texts[0], self.export("scs"))
+        self.assertEqual(texts[0].split("#MATRIX")[0], self.export("scs").split("#MATRIX")[0])
+        lines = texts[0].split(f" {inputs}\n")[1].splitlines()[:-1]
+        winning = (arrival >= 0) & (arrival < np.iinfo(arrival.dtype).max)
+        self.assertEqual([int(line.split()[0]) for line in lines], list(np.flatnonzero(winning.T)))
+        shape = [len(one["values"]) for one in SPEC["inputs"]]
+        for line in lines:
+            number, *found = map(int, line.split())
+            cell = bits[number % arrival.shape[0], number // arrival.shape[0]]
+            allowed = np.unpackbits(cell, bitorder="little")[: int(inputs)].reshape(shape)
+            self.assertEqual(found, list(np.flatnonzero(allowed.T)))
+        self.assertEqual(self.export("scs", "--controller", "safety"), self.export("scs"))
+
     def test_grids_that_scots_does_not_know(self):
         self.analyzed(spec_with(states=[dict(SPEC["states"][0], origin=0.5), SPEC["states"][1]]))
         self.assert_fails(
@@ -442,6 +466,11 @@ int main(void) {
             (
                 ("--format", "scs", "--partition", "a|b"),
                 "scs holds the controller, which no partition changes (--partition)",
+            ),
+            (("--format", "csv", "--controller", "safety"), "only scs is of one controller (--controller)"),
+            (
+                ("--format", "scs", "--controller", "progress"),
+                "the spec has no goal, expected safety, found progress (--controller)",
             ),
         ):
             self.assert_fails(2, message, "export", "out.h5", *arguments)

@@ -18,7 +18,7 @@ GRIDS = (DOCS / "grids.md").read_text()
 SESSIONS = {
     "coalitions.md": (2, []),
     "commands.md": (1, []),
-    "goals-and-memory.md": (1, []),
+    "goals-and-memory.md": (2, []),
     "grids.md": (1, []),
     "networks.md": (1, []),
     "outputs.md": (5, []),

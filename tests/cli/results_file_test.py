@@ -4,7 +4,7 @@ import json
 import subprocess
 import unittest
 
-from program import CONFIGS, SPEC, Case, spec_with
+from program import CONFIGS, SPEC, Case, spec_with, without_comments
 
 CIRCLE = str(CONFIGS / "circle.json")
 
@@ -65,6 +65,7 @@ datasets
                 "coalition",
                 "requirements",
                 "datasets",
+                "spec",
             ],
         )
         self.assertEqual((info["cells"], info["safe"], info["invariant"]), (40401, 20081, 20077))
@@ -93,6 +94,9 @@ datasets
             "/u2",
         ):
             self.assertIn(dataset, info["datasets"])
+        # The configuration has comments, as has the text in the file.
+        self.assertIn("//", (CONFIGS / "circle.json").read_text())
+        self.assertEqual(info["spec"], json.loads(without_comments((CONFIGS / "circle.json").read_text())))
 
     def test_info_of_a_truncated_result(self):
         self.write("spec.json", spec_with(coordination={"max_delay": 1, "connection_delay": 2}))

@@ -60,6 +60,18 @@ KINDS = {
     "truncated": finite(
         goal="x >= 4 and y <= 1", coordination={"partitions": LINKS, "max_delay": 1, "horizon": 1, "convention": True}
     ),
+    "over": finite(
+        goal={"where": "x >= 4 and y <= 1", "then": "over"},
+        states=[
+            {"name": "x", "lower": 0, "upper": 5, "step": 1, "outside": "saturate"},
+            {"name": "y", "lower": 0, "upper": 5, "step": 1, "outside": "unsafe"},
+        ],
+        agents=[{"name": "a", "inputs": ["u"], "sees": ["x"]}, {"name": "b", "inputs": ["v"]}],
+        coordination={"partitions": LINKS, "connection_delay": 1, "horizon": 2, "convention": True},
+        network={"loss": 0.25, "down": "alone"},
+        risk={"horizon": 3},
+        requirements=[{"name": "arrives", "where": "1.5 < x < 3.5 and 0.5 < y < 1.5", "max_arrival": 1}],
+    ),
     "given": finite(
         controller={"synthesis": "given", "allow": "(x + y <= 8 or u <= 0) and (x < y - 1 or u <= 0) and (y < x - 1 or v <= 0)"}
     ),
@@ -219,6 +231,9 @@ class Cases(Case):
 
     def test_every_change_of_a_file_with_a_goal_is_found(self):
         self.check_kind("goal")
+
+    def test_every_change_of_a_file_with_a_goal_that_ends_the_task_is_found(self):
+        self.check_kind("over")
 
     def test_every_change_of_a_file_with_a_network_is_found(self):
         self.check_kind("network")

@@ -109,7 +109,7 @@ class Cases(Case):
         self.assertEqual(result.returncode, 0)
         summary = json.loads(result.stdout)
         self.assertEqual((summary["cells"], summary["cells_checked"]), (40401, 100))
-        self.assertIn(b"100 of 40,401 cells of results.h5 holds", self.verify("results.h5", "--sample", "100").stdout)
+        self.assertIn(b"100 of 40,401 cells of results.h5 hold", self.verify("results.h5", "--sample", "100").stdout)
         for wrong in ("0", "-1", "1.5", "many"):
             self.assert_fails(2, f"expected a whole number from 1, found '{wrong}' (--sample)", "verify", "results.h5",
                               "--sample", wrong)  # fmt: skip

@@ -56,6 +56,15 @@ INSTANTIATE_TEST_SUITE_P(
         ErrorCase{"*x", "expected a number, a name or '(', found '*' (/safe, column 1)"},
         ErrorCase{"x + not y", "expected a number, a name or '(', found 'not' (/safe, column 5)"},
         ErrorCase{"x < !y", "expected a number, a name or '(', found '!' (/safe, column 5)"},
+        ErrorCase{"1 + ln(x)", "'ln' is not a function, did you mean 'log'? (/safe, column 5)"},
+        ErrorCase{"fabs(x)", "'fabs' is not a function, did you mean 'abs'? (/safe, column 1)"},
+        ErrorCase{"arctan(x)", "'arctan' is not a function, did you mean 'atan'? (/safe, column 1)"},
+        ErrorCase{"sgn(x)", "'sgn' is not a function, did you mean 'sign'? (/safe, column 1)"},
+        ErrorCase{"power(x, 2)", "'power' is not a function, did you mean 'pow'? (/safe, column 1)"},
+        ErrorCase{"Sin(x)", "'Sin' is not a function, did you mean 'sin'? (/safe, column 1)"},
+        ErrorCase{"log10(x)", "'log10' is not a function, did you mean 'log(x)/log(10)'? (/safe, column 1)"},
+        ErrorCase{"2*Pi", "'Pi' is not defined, did you mean 'pi'? (/safe, column 3)"},
+        ErrorCase{"e^x", "'e' is not defined, did you mean 'exp(1)'? (/safe, column 1)"},
         ErrorCase{
             "foo(2)",
             "'foo' is not a function, expected one of if, mod, pow, atan2, min, max, sin, cos, tan, asin, "

@@ -11,6 +11,7 @@
 #include "support/agreement.hpp"
 #include "support/plain_blind.hpp"
 #include "support/plain_posts.hpp"
+#include "support/random_goal.hpp"
 #include "support/random_problem.hpp"
 #include "support/random_sight.hpp"
 #include "support/random_sums.hpp"
@@ -78,7 +79,7 @@ void expect_agreement(const ProblemSpec& spec, const FastAnalysis& fast, const P
 std::string draw_blind_problem() {
   const RandomTime time = *rc::gen::inRange(0, 4) == 0 ? RandomTime::between_samples : RandomTime::any;
   const RandomAgents agents = *rc::gen::element(RandomAgents::few, RandomAgents::many);
-  return with_sight(draw_problem(time, RandomEdges::any, agents));
+  return with_sight(perhaps_with_end(draw_problem(time, RandomEdges::any, agents)));
 }
 
 TEST(BlindSilence, RowsAndSinglePairsGiveTheSameBits) {
@@ -175,6 +176,7 @@ class SilentRuns {
   bool step(const May& may) {
     std::set<std::int64_t> next;
     for (const std::int64_t x : cells_) {
+      if (plain_.over[index_of(x)]) continue;
       bool some = false;
       for (std::int64_t u = 0; u < fast_.abstraction.inputs.count(); ++u) {
         bool is_chosen = true;
@@ -224,7 +226,7 @@ class SilentRuns {
 TEST(BlindSilence, KeepsItsPromiseWhateverAgentsChoose) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("all silent runs are safe and end in K", [&] {
-    const ProblemSpec spec = read_spec(with_sight(draw_problem()), "random");
+    const ProblemSpec spec = read_spec(with_sight(perhaps_with_end(draw_problem())), "random");
     RC_PRE(spec.coordination.partitions.front().classes.size() > 1U);
     const FastAnalysis fast(spec, team);
     SilentRuns runs(spec, fast, 0);

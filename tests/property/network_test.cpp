@@ -7,11 +7,11 @@
 #include <algorithm>
 
 #include "answers/network/network_problem.hpp"
+#include "answers/network/network_safety.hpp"
 #include "spec/read_spec.hpp"
+#include "support/agreement.hpp"
 #include "support/draw.hpp"
-#include "support/fast_engine.hpp"
-#include "support/members.hpp"
-#include "support/plain_engine.hpp"
+#include "support/random_goal.hpp"
 #include "support/random_problem.hpp"
 
 namespace coordreq {
@@ -85,6 +85,24 @@ bool is_subset(const Set& a, const Set& b) {
 std::string draw_network(const std::string& problem, bool resynthesise) {
   if (draw(0, 1) == 0) return draw_losses(resynthesise);
   return draw_automaton(partition_names(read_spec(problem, "random")), resynthesise);
+}
+
+TEST(Network, AgreesWhereAGoalEndsTheTask) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("row engine equals plain engine, and the goal is in every mode", [&] {
+    const std::string text = perhaps_with_end(draw_problem());
+    const ProblemSpec spec =
+        read_spec(with_network(text, draw_network(text, *rc::gen::arbitrary<bool>())), "random");
+    const FastAnalysis fast(spec, team);
+    const PlainAnalysis plain = plainly(spec, fast);
+    std::vector<Set> safe;
+    for (const CellSet& set : fast.answers->get<NetworkSafety>().safe) {
+      safe.push_back(members(set));
+      RC_ASSERT(is_subset(plain.over, safe.back()));
+    }
+    RC_ASSERT(safe == plain.network);
+    RC_CLASSIFY(size(plain.over) > 0 && size(safe.front()) < size(plain.invariant), "some cells of K");
+  }));
 }
 
 TEST(Network, RowsAndSinglePairsGiveTheSameSets) {

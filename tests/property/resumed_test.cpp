@@ -218,6 +218,7 @@ TEST(Resumed, RisksAreTheSameFromAnyStep) {
     const ExpectedRisks expected(*spec.network);
     const NetworkProblem network = network_problem(spec, fast.controller, fast.hull);
     const RiskProblem problem{.controller = &fast.controller,
+                              .invariant = network.invariant,
                               .hull = &fast.hull,
                               .partitions = network.partitions,
                               .partition_of = {network.modes[0].partition, network.modes[1].partition},

@@ -16,6 +16,7 @@
 #include "support/agreement.hpp"
 #include "support/draw.hpp"
 #include "support/plain_risk.hpp"
+#include "support/random_goal.hpp"
 #include "support/random_problem.hpp"
 
 namespace coordreq {
@@ -72,7 +73,8 @@ Json draw_numbers(const ProblemSpec& spec) {
 
 /// A random problem with a network of numbers, and a risk. @param horizon less than 1: random
 ProblemSpec draw_risky(int horizon, bool any) {
-  Json spec = Json::parse(draw_problem(draw(0, 3) == 0 ? RandomTime::between_samples : RandomTime::any));
+  Json spec = Json::parse(
+      perhaps_with_end(draw_problem(draw(0, 3) == 0 ? RandomTime::between_samples : RandomTime::any)));
   spec["network"] = draw_numbers(read_spec(spec.dump(), "random"));
   spec["risk"]["horizon"] = horizon < 1 ? draw(1, 5) : horizon;
   const bool is_given = spec["controller"].value("synthesis", "maximal") == "given";
@@ -113,13 +115,14 @@ TEST(Risk, IsCloselyAboveTheExactOne) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("rows in floats against single pairs in fractions", [&] {
     const ProblemSpec spec = draw_risky(0, false);
+    RC_LOG() << spec.text;
     const FastAnalysis fast(spec, team);
     const std::vector<bool> safe = members(fast.safe), beyond = members(fast.beyond.value_or(fast.safe));
-    const PlainAnalysis plain = analyze_plainly(spec, fast.abstraction, safe, beyond);
-    const PlainRisk plainly(spec, fast.abstraction, safe, beyond, plain);
-    PlainRisks expected = plainly.first();
+    const PlainAnalysis plain = plainly(spec, fast);
+    const PlainRisk risks(spec, fast.abstraction, safe, beyond, plain);
+    PlainRisks expected = risks.first();
     for (std::int64_t n = 0; n < spec.risk->horizon; ++n)
-      expected = plainly.next(expected, spec.risk->is_safest);
+      expected = risks.next(expected, spec.risk->is_safest);
     const Risk& risk = fast.answers->get<RiskAnswer>().risk;
     bool is_telling = false;
     for (std::size_t mode = 0; mode < expected.size(); ++mode) {
@@ -130,7 +133,7 @@ TEST(Risk, IsCloselyAboveTheExactOne) {
     }
     RC_CLASSIFY(is_telling && !spec.risk->is_safest, "between 0 and 1, any");
     RC_CLASSIFY(is_telling && spec.risk->is_safest, "between 0 and 1, safest");
-    expect_rate(plainly, risk, safe.size(), spec.risk->is_safest);
+    expect_rate(risks, risk, safe.size(), spec.risk->is_safest);
   }));
 }
 

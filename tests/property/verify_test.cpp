@@ -6,6 +6,7 @@
 #include "spec/problem_spec.hpp"
 #include "support/analysed_file.hpp"
 #include "support/draw.hpp"
+#include "support/random_goal.hpp"
 #include "support/random_problem.hpp"
 #include "support/random_sight.hpp"
 
@@ -20,7 +21,7 @@ T& draw_one_of(std::vector<T>& values) {
 TEST(Verify, ResultsOfRandomSystemsHold) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("what analyze writes holds", [&] {
-    std::string text = draw_problem();
+    std::string text = draw(0, 1) == 0 ? draw_problem() : perhaps_with_end(draw_problem());
     if (draw(0, 2) == 0) text = with_sight(text);
     const ClaimedFile file = analysed_file(draw(0, 1) == 0 ? text : storing_everything(text), team);
     const Verification result = verify_file(file, {.budget_seconds = 0.1}, team);

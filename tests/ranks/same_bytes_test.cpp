@@ -10,6 +10,7 @@
 
 #include "analysis/analyze.hpp"
 #include "spec/read_spec.hpp"
+#include "support/random_goal.hpp"
 #include "support/random_like_agents.hpp"
 #include "support/random_problem.hpp"
 #include "support/random_requirements.hpp"
@@ -95,6 +96,7 @@ Json draw_problem_of_any_kind() {
   const RandomTime time = draw(0, 3) == 0 ? RandomTime::between_samples : RandomTime::any;
   const RandomAgents agents = draw(0, 3) == 0 ? RandomAgents::many : RandomAgents::few;
   Json spec = Json::parse(draw_problem(time, RandomEdges::any, agents));
+  if (draw(0, 2) == 0) spec = Json::parse(perhaps_with_end(spec.dump()));
   if (draw(0, 2) == 0) spec = Json::parse(with_sight(spec.dump()));
   for (const char* part : {"controller", "actions", "layers", "abstraction"})
     spec["output"][part] = draw(0, 1) == 0;
@@ -109,9 +111,10 @@ Json draw_questions() {
   const std::string first = spec["states"][0]["name"];
   if (draw(0, 1) == 0) {
     const std::string goal = first + (draw(0, 1) == 0 ? " <= " : " >= ") + std::to_string(draw(0, 5)) + ".5";
-    spec["goal"] = goal;
+    const bool is_end = draw(0, 1) == 0;
+    spec["goal"] = is_end ? Json{{"where", goal}, {"then", "over"}} : Json(goal);
     spec["requirements"].push_back({{"name", "soon"}, {"where", "true"}, {"max_arrival", draw(0, 3)}});
-    return spec;
+    if (!is_end || draw(0, 1) == 0) return spec;
   }
   const int window = draw(1, 4);
   Json network;
@@ -162,7 +165,7 @@ TEST(ManyRanks, SumWhatTheyCountInFibresThatTheyShare) {
 TEST(ManyRanks, ExchangeAgentsThatAreAlike) {
   const Folder folder;
   EXPECT_TRUE(rc::check("agents that are alike", [&] {
-    Json spec = Json::parse(draw_like_agents());
+    Json spec = Json::parse(draw(0, 2) > 0 ? draw_like_agents() : perhaps_with_end(draw_like_agents()));
     // With all partitions few agents can change places in each of them.
     if (draw(0, 2) > 0) spec["coordination"].erase("partitions");
     // Then rows run along the last state, which is often none of an agent.

@@ -143,6 +143,7 @@ TEST_F(ReadInfo, DatasetsAreListedButNotBareDimensions) {
                                                                     "/partition",
                                                                     "/safe",
                                                                     "/spec",
+                                                                    "/spec_json",
                                                                     "/trigger",
                                                                     "/u1",
                                                                     "/u2",

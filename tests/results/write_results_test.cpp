@@ -274,7 +274,7 @@ TEST_F(WrittenSample, EveryAxisOfEveryDatasetHasADimensionScale) {
     }
   });
   EXPECT_EQ(scales, 6 + 2 + 4 + 6);  // states and inputs, partition and layer, lists, bytes
-  EXPECT_EQ(datasets, 1 + 7 + 4 + 6 + 6);
+  EXPECT_EQ(datasets, 2 + 7 + 4 + 6 + 6);
 }
 
 TEST_F(WrittenSample, NoObjectIsDated) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "answers/invariance/action_bits.hpp"
+#include "answers/invariance/safe_set.hpp"
 #include "support/fast_engine.hpp"
 #include "support/members.hpp"
 #include "support/plain_engine.hpp"
@@ -29,8 +30,16 @@ inline std::vector<std::vector<bool>> unpacked(const FastAnalysis& fast, const A
 
 inline PlainAnalysis plainly(const ProblemSpec& spec, const FastAnalysis& fast,
                              const PackedPairs* listed = nullptr) {
-  return analyze_plainly(spec, fast.abstraction, members(fast.safe), members(fast.beyond.value_or(fast.safe)),
-                         listed);
+  const std::vector<bool> safe = members(fast.safe);
+  std::vector<bool> over;
+  if (spec.ends_at_goal) {
+    ThreadTeam team(1);
+    over =
+        members(cells_that_satisfy(*spec.goal, spec, fast.abstraction.grid, fast.abstraction.inputs, team));
+    for (std::size_t x = 0; x < over.size(); ++x) over[x] = over[x] && safe[x];
+  }
+  return analyze_plainly(spec, fast.abstraction, safe, members(fast.beyond.value_or(fast.safe)), listed,
+                         over);
 }
 
 inline void expect_agreement(const FastAnalysis& fast, const PlainAnalysis& plain, ThreadTeam& team) {

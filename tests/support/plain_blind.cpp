@@ -46,6 +46,7 @@ class BlindFinder {
  private:
   /// IND_C(x) is not empty, and all of it is permitted and leads into the set.
   bool leads_into(std::int64_t x, const Set& target) const {
+    if (plain_.over[index_of(x)]) return true;
     bool some = false;
     for (std::int64_t u = 0; u < inputs_; ++u) {
       bool is_chosen = true;
@@ -65,19 +66,24 @@ class BlindFinder {
     return result;
   }
 
+  /// Where the task is over nobody has to choose.
+  bool counts_in_fibre(std::int64_t x, const Set& layer) const {
+    return layer[index_of(x)] && !plain_.over[index_of(x)];
+  }
+
   /// B_1 from Z_1.
   void take_common_cells(Set& left) const {
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       const auto actions = index_of(classes_[c].actions());
       std::vector<std::vector<std::int64_t>> counts(sights_[c].fibres, std::vector<std::int64_t>(actions, 0));
       for (std::int64_t x = 0; x < cells_; ++x) {
-        for (std::size_t a = 0; left[index_of(x)] && a < actions; ++a)
+        for (std::size_t a = 0; counts_in_fibre(x, left) && a < actions; ++a)
           counts[sights_[c].fibre(x)][a] += own_.projection[c][index_of(x)][a] ? 1 : 0;
       }
       for (std::int64_t x = 0; x < cells_; ++x) {
         const std::vector<std::int64_t>& own = counts[sights_[c].fibre(x)];
         const auto most = static_cast<std::size_t>(std::max_element(own.begin(), own.end()) - own.begin());
-        if (!own_.projection[c][index_of(x)][most]) left[index_of(x)] = false;
+        if (counts_in_fibre(x, left) && !own_.projection[c][index_of(x)][most]) left[index_of(x)] = false;
       }
     }
   }
@@ -137,7 +143,7 @@ class BlindFinder {
   void intersect(std::size_t c, const Set& layer, std::vector<Set>& rows) const {
     Set is_met(rows.size(), false);
     for (std::int64_t x = 0; x < cells_; ++x) {
-      if (!layer[index_of(x)]) continue;
+      if (!counts_in_fibre(x, layer)) continue;
       const std::size_t fibre = sights_[c].fibre(x);
       for (std::size_t a = 0; a < rows[fibre].size(); ++a) {
         const bool has = own_.projection[c][index_of(x)][a];

@@ -22,14 +22,16 @@ using Set = std::vector<bool>;
 class PlainEngine {
  public:
   PlainEngine(const ProblemSpec& spec, const Abstraction& abstraction, const Set& safe,
-              const Set& safe_beyond, const PackedPairs* listed)
+              const Set& safe_beyond, const PackedPairs* listed, const Set& over)
       : spec_(spec),
         a_(abstraction),
         safe_(safe),
         posts_{abstraction, safe, safe_beyond},
         listed_(listed),
         cells_(abstraction.grid.cells()),
-        inputs_(abstraction.inputs.count()) {}
+        inputs_(abstraction.inputs.count()) {
+    result_.over = over.empty() ? Set(at(cells_), false) : over;
+  }
 
   PlainAnalysis run() {
     find_allowed();
@@ -94,7 +96,7 @@ class PlainEngine {
       ++result_.iterations;
       const Set before = result_.invariant;
       for (std::int64_t x = 0; x < cells_; ++x) {
-        if (!before[at(x)] || keeps(x, before)) continue;
+        if (!before[at(x)] || result_.over[at(x)] || keeps(x, before)) continue;
         result_.invariant[at(x)] = false;
         result_.collision_time[at(x)] = static_cast<std::int32_t>(result_.iterations);
         changed = true;
@@ -183,7 +185,8 @@ class PlainEngine {
         }
         for (std::int64_t x = 0; x < cells_; ++x) {
           const PartitionSpec& partition = network.modes[q].partition;
-          if (before[q][at(x)] && !stays_in_mode(x, partition, network.resynthesise, target))
+          if (before[q][at(x)] && !result_.over[at(x)] &&
+              !stays_in_mode(x, partition, network.resynthesise, target))
             sets[q][at(x)] = false;
         }
       }
@@ -224,7 +227,7 @@ class PlainEngine {
       if (stop) break;
       Set next = layer;
       for (std::int64_t x = 0; x < cells_; ++x) {
-        if (!layer[at(x)]) continue;
+        if (!layer[at(x)] || result_.over[at(x)]) continue;
         bool some = false;
         bool every = true;
         for (std::int64_t u = 0; u < inputs_ && every; ++u) {
@@ -305,8 +308,8 @@ struct Choices {
 
 PlainAnalysis analyze_plainly(const ProblemSpec& spec, const Abstraction& abstraction,
                               const std::vector<bool>& safe, const std::vector<bool>& safe_beyond,
-                              const PackedPairs* listed) {
-  return PlainEngine(spec, abstraction, safe, safe_beyond, listed).run();
+                              const PackedPairs* listed, const std::vector<bool>& over) {
+  return PlainEngine(spec, abstraction, safe, safe_beyond, listed, over).run();
 }
 
 SafeBounds bound_safe_plainly(const ProblemSpec& spec, const UniformGrid& grid) {

@@ -38,13 +38,17 @@ struct BlindSight {
                  input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
                                answers.ground.spec.coordination.partitions[p]),
                  work.team),
-        projections(answers.get<Controller>(), grouping, *answers.ground.hull, work.team,
-                    {.tiles = answers.ground.equal_work()}, true),
+        projections(answers.get<GoingOn>().controller, grouping, *answers.ground.hull, work.team,
+                    answers.ground.equal(), true),
         fibres(fibres_of(answers.ground.spec, answers.ground.engine->grid(),
                          answers.ground.spec.coordination.partitions[p])),
-        sources{projections, answers.get<Invariance>().invariant, fibres},
-        problem{sources, *answers.ground.hull, answers.get<PartitionLayers>().partitions[p],
-                answers.ground.spec.coordination.max_delay, answers.ground.tiles.has_value()} {}
+        sources{projections, *answers.get<GoingOn>().controller.invariant, fibres},
+        problem{sources,
+                *answers.ground.hull,
+                answers.get<PartitionLayers>().partitions[p],
+                answers.ground.spec.coordination.max_delay,
+                answers.ground.tiles.has_value(),
+                answers.ground.over_or_null()} {}
   BlindSight(const BlindSight&) = delete;
   BlindSight& operator=(const BlindSight&) = delete;
   ~BlindSight() = default;

@@ -50,7 +50,8 @@ LevelMap run(const BlindProblem& problem, LevelMap& start, const WaveWatch& watc
     return std::make_unique<IndependentActions<Level>>(sources.projections, problem.hull, sources.invariant,
                                                        team.size());
   };
-  const LevelProblem levels{.equal = sources.projections.equal_work(),
+  const LevelProblem levels{.spared = problem.over,
+                            .equal = sources.projections.equal_work(),
                             .limit = problem.max_delay.value_or(-1),
                             .make8 = [&] { return make(std::uint8_t{}); },
                             .make16 = [&] { return make(std::uint16_t{}); },
@@ -89,9 +90,11 @@ LevelMap find_blind_delays(const BlindProblem& problem, const LevelMap& levels, 
       std::vector<Level> least(posts.lanes(), 0), cells(posts.lanes(), 0);
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {
         if (place.row == range.begin || place.row % engine.unit_rows() == 0) posts.enter();
-        if (!any_set(invariant.row(place.row))) continue;
+        const ConstRow over = problem.over == nullptr ? ConstRow() : problem.over->row(place.row);
+        if (!any_set(invariant.row(place.row)) && !any_set(over)) continue;
         actions.find_minimum(place, posts, least.data(), worker);
         std::ranges::fill(cells, Level{0});
+        for_each_bit(over, [&](std::int64_t x) { cells[at(x)] = kTop; });
         for_each_bit(invariant.row(place.row), [&](std::int64_t x) {
           cells[at(x)] = least[at(x)] == kTop ? kTop : static_cast<Level>(least[at(x)] + 1);
         });

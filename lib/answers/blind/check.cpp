@@ -113,9 +113,9 @@ class BlindChecker : public CellChecker {
       compare(own.delay, cell, own.delays[cell.at()], expected);
       // In B_1 it is the same whether the cell is known; who is in B_1 is looked at later.
       const std::int32_t claimed = own.claims.delay[cell.at()];
-      const bool is_out = claimed == 0 && expected >= 0 && !own.classes.empty();
+      const bool is_out = claimed == 0 && expected >= 0 && !own.classes.empty() && !cell.is_over();
       compare(own.countdown, cell, claimed, is_out ? 0 : expected);
-      if (cell.is_invariant()) check_rows(cell, own);
+      if (cell.is_invariant() && !cell.is_over()) check_rows(cell, own);
     }
   }
 
@@ -135,9 +135,10 @@ class BlindChecker : public CellChecker {
 
   [[nodiscard]] std::int32_t delay_by_definition(CheckedCell& cell, const BlindPartitionCheck& own) const {
     if (own.classes.empty()) return own.of_sight[cell.at()];
-    bool any = false;
+    bool any = cell.is_over();
     std::int32_t worst = kForever;
-    for (std::int64_t u = 0; u < ground_.inputs->count() && worst > kOutsideInvariant; ++u) {
+    const std::int64_t inputs = cell.is_over() ? 0 : ground_.inputs->count();
+    for (std::int64_t u = 0; u < inputs && worst > kOutsideInvariant; ++u) {
       const bool is_chosen = std::ranges::all_of(
           own.classes, [&](const BlindClass& one) { return one.has(cell.number(), one.own.action(u)); });
       if (!is_chosen) continue;
@@ -236,15 +237,20 @@ class BlindCheck : public AnswerCheck {
     tally.add_wrong(number, [&] { return text; });
   }
 
+  /// As claimed: of a goal that ends the task, which is in every B_k and asks nothing of its fibres.
+  [[nodiscard]] bool is_over(std::int64_t cell) const {
+    return ground_.spec->ends_at_goal && ground_.claims->values("/arrival")[at(cell)] == 0;
+  }
+
   /// B_1 by its definition, from Z_1 as claimed.
   void check_first(BlindPartitionCheck& own) const {
     const std::int64_t cells = ground_.grid->cells();
     std::vector<std::uint8_t> left(at(cells), 0);
-    for (std::int64_t x = 0; x < cells; ++x) left[at(x)] = own.of_sight[at(x)] >= 1 ? 1 : 0;
+    for (std::int64_t x = 0; x < cells; ++x) left[at(x)] = own.of_sight[at(x)] >= 1 && !is_over(x) ? 1 : 0;
     for (const BlindClass& one : own.classes) leave_common(one, left);
     own.first.add_checked(cells);
     for (std::int64_t x = 0; x < cells; ++x) {
-      if ((left[at(x)] != 0) == (own.claims.delay[at(x)] >= 1)) continue;
+      if (is_over(x) || (left[at(x)] != 0) == (own.claims.delay[at(x)] >= 1)) continue;
       const char* const expected = left[at(x)] != 0 ? "" : "not ";
       note(own.first, x, fmt::format("{}: expected {}in B_1", place_of(*ground_.grid, x), expected));
     }
@@ -278,7 +284,7 @@ class BlindCheck : public AnswerCheck {
                          std::vector<std::uint8_t>(at(rows * one.fibres), 0)};
     for (std::int64_t x = 0; x < ground_.grid->cells(); ++x) {
       const std::int64_t k = std::min<std::int64_t>(own.depth(x), rows);
-      if (k < 1) continue;
+      if (k < 1 || is_over(x)) continue;
       const std::int64_t fibre = one.fibre(x);
       common.is_met[at((k - 1) * one.fibres + fibre)] = 1;
       for (std::int64_t b = 0; b < bytes; ++b)

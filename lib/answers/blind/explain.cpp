@@ -11,6 +11,7 @@
 
 #include "answers/blind/fields.hpp"
 #include "answers/field_parts.hpp"
+#include "answers/goal/fields.hpp"
 #include "answers/layers/fields.hpp"
 #include "answers/one_cell/cell_members.hpp"
 #include "base/grouped.hpp"
@@ -71,7 +72,7 @@ class SightFinder {
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!has_silent_table(*ground_.spec, *ground_.partition, c)) continue;
       for (const std::int64_t other : fibre(c, cell)) {
-        if (other == cell || delay_(other) < 1) continue;
+        if (other == cell || delay_(other) < 1 || is_over(other)) continue;
         const std::vector<bool> actions = ground_.projections(other)[c];
         const std::int64_t common = count_common(own[c], actions);
         if (common == std::count(actions.begin(), actions.end(), true)) continue;  // whatever serves there
@@ -84,6 +85,11 @@ class SightFinder {
   }
 
  private:
+  /// A goal that ends the task is reached there: nobody chooses anything.
+  [[nodiscard]] bool is_over(std::int64_t cell) const {
+    return ground_.spec->ends_at_goal && ground_.values(paths::kArrival)(cell) == 0;
+  }
+
   /// A cell that can follow under IND_C with this countdown, the first that is found.
   std::optional<std::int64_t> next_with(std::int64_t cell, std::int32_t countdown) {
     const Sets sets = ground_.projections(cell);

@@ -44,7 +44,7 @@ using ClassFibres = std::vector<std::optional<Fibres>>;
 /// What tables are made of.
 struct SilentSources {
   const Projections& projections;  ///< which keep masks
-  const CellSet& invariant;        ///< K
+  const CellSet& invariant;        ///< K, without a goal that ends the task
   const ClassFibres& fibres;
 };
 

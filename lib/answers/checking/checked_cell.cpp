@@ -12,6 +12,7 @@ CheckedCell::CheckedCell(const CheckGround& ground)
       safe_(ground.claims->members("/safe")),
       invariant_(ground.claims->members("/invariant")),
       delay_(ground.claims->values("/delay")),
+      arrival_(ground.spec->ends_at_goal ? &ground.claims->values("/arrival") : nullptr),
       posts_(*ground.posts),
       allowed_(*ground.spec, *ground.grid, *ground.inputs, ground.claims->listed),
       admitted_(static_cast<std::size_t>(ground.inputs->count())) {

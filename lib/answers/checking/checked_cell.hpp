@@ -28,6 +28,9 @@ class CheckedCell {
   /// As claimed; what is not safe is not invariant.
   [[nodiscard]] bool is_invariant() const { return is_safe() && invariant_[at()] != 0; }
 
+  /// As claimed: of a goal that ends the task. The cell counts as T, and nothing is asked of what follows.
+  [[nodiscard]] bool is_over() const { return arrival_ != nullptr && (*arrival_)[at()] == 0; }
+
   /// C(x): [joint input] 1 or 0; none outside K.
   [[nodiscard]] const std::vector<std::uint8_t>& admitted() const { return admitted_; }
   /// Every allowed joint input keeps the cell in K. REQUIRES: is_invariant().
@@ -63,7 +66,8 @@ class CheckedCell {
   const CheckGround& ground_;
   const std::vector<std::uint8_t>& safe_;
   const std::vector<std::uint8_t>& invariant_;
-  const std::vector<std::int32_t>& delay_;  ///< of the first partition
+  const std::vector<std::int32_t>& delay_;    ///< of the first partition
+  const std::vector<std::int32_t>* arrival_;  ///< where a goal ends the task, else null
   PostMinima posts_;
   std::optional<CellTubes> tubes_;  ///< if the ways between the samples count
   AllowedPairs allowed_;

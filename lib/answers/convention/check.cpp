@@ -26,6 +26,7 @@ class ConventionChecker : public CellChecker {
   void check(CheckedCell& cell) override {
     const bool is_on_the_way = progress_ && progress_->is_on_the_way(cell.at());
     admitted_ = is_on_the_way ? progress_->of(cell) : cell.admitted();
+    if (cell.is_over()) std::ranges::fill(admitted_, std::uint8_t{0});  // nobody chooses anything
     find(admitted_);
     check_freedom(cell);
     if (actions_.front() != nullptr) check_actions(cell);

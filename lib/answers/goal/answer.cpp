@@ -1,5 +1,7 @@
 #include "answers/goal/answer.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -11,22 +13,11 @@
 #include "answers/layers/answer.hpp"
 #include "answers/layers/projection_bytes.hpp"
 #include "answers/work_json.hpp"
+#include "base/grouped.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
-
-/// The cells of a set that are in another one, or are not, in the rows held.
-CellSet part_of(const CellSet& set, const CellSet& other, bool is_in, const RowShare* share) {
-  CellSet result(set.rows(), set.row_length());
-  for (const RowShare::Range run : held_rows(share, set.rows())) {
-    for (std::int64_t r = run.begin; r < run.end; ++r) {
-      for (std::size_t w = 0; w < result.row(r).size(); ++w)
-        result.row(r)[w] = set.row(r)[w] & (is_in ? other.row(r)[w] : ~other.row(r)[w]);
-    }
-  }
-  return result;
-}
 
 void find_arrival(Answers& answers, const StageWork& work) {
   const Ground& ground = answers.ground;
@@ -34,9 +25,12 @@ void find_arrival(Answers& answers, const StageWork& work) {
   Goal& goal = answers.add(Goal{});
   goal.engine = std::make_unique<ProgressEngine>(ground);
   const RowShare* const share = ground.shared_rows();
-  goal.cells = part_of(cells_that_satisfy(*ground.spec.goal, ground.spec, ground.abstraction->grid,
-                                          ground.abstraction->inputs, work.team, share),
-                       *controller.invariant, true, share);
+  const CellSet safe =
+      ground.over ? *ground.over
+                  : part_of(cells_that_satisfy(*ground.spec.goal, ground.spec, ground.abstraction->grid,
+                                               ground.abstraction->inputs, work.team, share),
+                            ground.safe, true, share);
+  goal.cells = part_of(safe, *controller.invariant, true, share);
   const RowEngine& engine = goal.engine->engine();
   const LevelBounds bounds{controller.invariant, INT64_MAX};
   find_or_take_levels(work, engine, bounds, goal.nearness, [&](const WaveWatch& watch) {
@@ -46,7 +40,7 @@ void find_arrival(Answers& answers, const StageWork& work) {
   goal.winning = winning_cells(goal.nearness, work.team);
   goal.longest = longest_arrival(goal.nearness, work.team);
   goal.away = part_of(goal.winning, goal.cells, false, share);
-  goal.sizes = {ground.count(goal.cells), ground.count(goal.winning)};
+  goal.sizes = {ground.count(goal.cells), ground.count(goal.winning), ground.count(safe)};
   goal.progress = Controller{&engine, &goal.away, &goal.nearness, controller.synthesis, true};
   goal.approach.resize(ground.spec.coordination.partitions.size());
 }
@@ -99,6 +93,7 @@ void summarise_goal(const Answers& answers, Json& summary, Json& work) {
   summary["goal"] = {{"cells", goal->sizes.cells},
                      {"winning", goal->sizes.winning},
                      {"longest_arrival", goal->longest ? Json(*goal->longest) : Json()}};
+  if (answers.ground.spec.ends_at_goal) summary["goal"]["then"] = "over";
   work["arrival"] = work_json(goal->counts);
   for (std::size_t p = 0; p < goal->approach.size(); ++p) {
     summary["partitions"][p]["approach"] = approach_json(goal->approach[p]);
@@ -115,9 +110,11 @@ std::unique_ptr<const ControllerParts> controller_parts(const Answers& answers, 
     result->parts.push_back({everywhere, &*answers.ground.hull});
     return result;
   }
-  result->rest = is_in_goal_only
-                     ? goal->cells
-                     : part_of(*everywhere.invariant, goal->away, false, answers.ground.shared_rows());
+  // Where the task is over nobody needs a convention.
+  const CellSet& going_on = *answers.get<GoingOn>().controller.invariant;
+  result->rest =
+      is_in_goal_only ? goal->cells : part_of(going_on, goal->away, false, answers.ground.shared_rows());
+  everywhere.whole = everywhere.invariant;
   everywhere.invariant = &result->rest;
   result->parts.push_back({everywhere, &*answers.ground.hull});
   result->parts.push_back({goal->progress, &goal->engine->hull()});
@@ -130,14 +127,22 @@ void tell_goal(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   info["goal"] = {{"cells", source.attribute("/arrival", "goal_cells")},
                   {"winning", source.attribute("/arrival", "winning_cells")},
                   {"longest_arrival", longest < 0 ? Json() : Json(longest)}};
+  if (spec.ends_at_goal) info["goal"]["then"] = "over";
 }
 
 Warnings advise_on_goal(const Answers& answers) {
   const Goal* const goal = answers.find<Goal>();
   if (goal == nullptr || answers.ground.safe_cells == 0) return {};
-  if (goal->sizes.winning == 0)
-    return {
-        {"goal", "/goal", "no cell of the invariance set is in the goal on this grid: it cannot be forced"}};
+  if (goal->sizes.winning == 0) {
+    const std::string hint =
+        goal->sizes.safe == 0
+            ? ""
+            : fmt::format("; of the safe set {}: if the task ends there, say \"then\": \"over\"",
+                          goal->sizes.safe == 1 ? "one is" : grouped(goal->sizes.safe) + " are");
+    return {{"goal", "/goal",
+             fmt::format("no cell of the {} set is in the goal on this grid: it cannot be forced{}",
+                         answers.ground.over ? "safe" : "invariance", hint)}};
+  }
   if (goal->sizes.winning > goal->sizes.cells) return {};
   const bool is_closed = answers.ground.spec.abstraction.cells == Cells::closed;
   return {{"goal", "/goal",

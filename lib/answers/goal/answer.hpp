@@ -27,6 +27,7 @@ struct Goal {
   struct Sizes {
     std::int64_t cells = 0;    ///< |G|
     std::int64_t winning = 0;  ///< |W|
+    std::int64_t safe = 0;     ///< cells of S that are in the goal, whether they can be kept safe or not
   };
   Sizes sizes;
   LevelMap nearness;                    ///< of all cells, see find_nearness()

@@ -85,7 +85,8 @@ class GoalChecker : public CellChecker {
 
   void check(CheckedCell& cell) override {
     const std::int32_t arrival = claims_.arrival[cell.at()];
-    if (cell.is_invariant()) check_goal(cell, arrival == 0);
+    // A goal that ends the task makes its cells part of K, so that all of S are asked.
+    if (ground_.spec->ends_at_goal ? cell.is_safe() : cell.is_invariant()) check_goal(cell, arrival == 0);
     check_arrival(cell, arrival);
     find_progress(cell, arrival);
     if (controller_ != nullptr)
@@ -187,6 +188,7 @@ class GoalChecker : public CellChecker {
     std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
     if (cell.is_invariant()) {
       expected = arrival == kForever ? kNoWayToGoal
+                 : cell.is_over()    ? kForever
                  : arrival == 0      ? claims_.safety[p][cell.at()]
                                      : approach_by_definition(cell, p);
       const std::optional<std::int64_t> most = ground_.spec->coordination.max_delay;

@@ -22,10 +22,6 @@ const FieldFlag kNotSafe{DelayLayers::kOutsideSafe, "not_safe"};
 const FieldFlag kNotInvariant{DelayLayers::kOutsideInvariant, "not_invariant"};
 const FieldFlag kNotWinning{kOutsideWinning, "goal_cannot_be_forced"};
 
-std::string progress_path() {
-  return "/controller:goal";
-}
-
 std::string progress_path(const ProblemSpec& spec, const PartitionSpec& partition, std::size_t c) {
   return "/actions:goal/" + partition.name + "/" + class_name(spec.agents, partition.classes[c]);
 }
@@ -157,7 +153,7 @@ Fields goal_fields(const ProblemSpec& spec) {
   // They can stand still while the layers of safety lose a cell each, and lose one each after that.
   add_sizes(fields, "/approach_", 'A', 2 * cell_count(spec), spec);
   if (spec.output.controller) {
-    add_bits(fields, progress_path(), FieldSection::controller, spec, all_inputs(spec),
+    add_bits(fields, paths::kProgress, FieldSection::controller, spec, all_inputs(spec),
              "joint inputs that come nearer to the goal, one bit each; in the goal those of the controller");
   }
   for (const PartitionSpec& partition : spec.coordination.partitions) {
@@ -189,7 +185,7 @@ void fill_goal_fields(const Answers& answers, ThreadTeam& team, FieldValues& val
   const std::shared_ptr<const ControllerParts> parts = controller_parts(answers, true);
   const InputSpace& inputs = answers.ground.abstraction->inputs;
   if (spec.output.controller)
-    values.entries[progress_path()].array = progress_bits(parts, {whole_class(inputs)}, 0, team);
+    values.entries[paths::kProgress].array = progress_bits(parts, {whole_class(inputs)}, 0, team);
   for (const PartitionSpec& partition : spec.coordination.partitions) {
     for (std::size_t c = 0; spec.output.actions && c < partition.classes.size(); ++c)
       values.entries[progress_path(spec, partition, c)].array =

@@ -13,6 +13,8 @@ namespace paths {
 inline constexpr char kArrival[] = "/arrival";
 inline constexpr char kApproachDelay[] = "/approach_delay";
 inline constexpr char kApproachTrigger[] = "/approach_trigger";
+/// The progress controller, on request.
+inline constexpr char kProgress[] = "/controller:goal";
 
 }  // namespace paths
 

@@ -32,6 +32,8 @@ class GoalPolicy : public CellPolicy {
 
 std::vector<AnswerPolicy> goal_policies(const ProblemSpec& spec) {
   if (!spec.goal) return {};
+  const std::string where_of_no_use =
+      spec.ends_at_goal ? "cannot be forced" : "cannot be forced, or is reached";
   return {{.name = "approach",
            .words = "approach",
            .gain = "loses no time",
@@ -40,8 +42,8 @@ std::vector<AnswerPolicy> goal_policies(const ProblemSpec& spec) {
            .aim = {.path = paths::kArrival, .words = "steps within which the goal can be forced"},
            .make = make_goal_policy,
            .header = {.where = "on the way to the goal",
-                      .purpose = "Towards the goal. Where it cannot be forced, or is reached, the two below "
-                                 "are of no use: go on with the two\n   above.",
+                      .purpose = "Towards the goal. Where it " + where_of_no_use +
+                                 ", the two below are of no use: go on with the two\n   above.",
                       .countdown = "Steps until the agents must start to connect, so as to lose no time, or "
                                    "one of the numbers above.",
                       .allowed = "Whether class c comes nearer to the goal by its joint action a, with some "

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "answers/invariance/safe_set.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/work_json.hpp"
 #include "spec/problem_spec.hpp"
@@ -19,12 +20,18 @@ void find_invariance_set(Answers& answers, const StageWork& work) {
   const std::optional<RowMirror> mirror = ground.mirror(single_classes(ground.abstraction->inputs));
   find_or_take_levels(work, *ground.engine, bounds, result.collision_time, [&](const WaveWatch& watch) {
     Invariance found = find_invariance(*ground.engine, *ground.hull, ground.safe, synthesis, watch, work.team,
-                                       {.tiles = ground.equal_work(), .mirror = mirror ? &*mirror : nullptr});
+                                       ground.equal(mirror ? &*mirror : nullptr), ground.over_or_null());
     result.counts = found.counts;
     return std::move(found.collision_time);
   });
   follow_from_collision_times(result, work.team);
-  answers.add(Controller{&*ground.engine, &result.invariant, &result.collision_time, synthesis});
+  const Controller& controller =
+      answers.add(Controller{&*ground.engine, &result.invariant, &result.collision_time, synthesis});
+  GoingOn& going_on = answers.add(GoingOn{{}, controller});
+  if (!ground.over) return;
+  going_on.cells = part_of(result.invariant, *ground.over, false, ground.shared_rows());
+  going_on.controller.invariant = &going_on.cells;
+  going_on.controller.whole = &result.invariant;
 }
 
 }  // namespace
@@ -53,7 +60,8 @@ void tell_invariance(const ProblemSpec& /*spec*/, const FieldSource& source, Jso
 
 MemoryNeed invariance_memory(const EngineSizes& sizes, int threads) {
   const InputSpace& inputs = sizes.model().inputs();
-  MemoryNeed need{.kept = sizes.levels() + sizes.set(),
+  const double sets = sizes.model().spec().ends_at_goal ? 2 : 1;  // K, and K \ G
+  MemoryNeed need{.kept = sizes.levels() + sets * sizes.set(),
                   .work = sizes.groups(single_classes(inputs)) + sizes.wave(threads),
                   .array = sizes.cells() * sizeof(std::int16_t)};
   if (!sizes.model().spec().output.controller) return need;

@@ -13,7 +13,14 @@
 
 namespace coordreq {
 
-/// Adds Invariance, with the Controller of its K: "invariance".
+/// The cells of K in which the task goes on, and C there: all, but for a goal that ends it. Agents choose
+/// nothing in that, so that whatever asks what they may choose asks it of these cells.
+struct GoingOn {
+  CellSet cells;  ///< K \ G; not used, and empty, where no goal ends the task
+  Controller controller;
+};
+
+/// Adds Invariance, with the Controller of its K, and GoingOn: "invariance".
 [[nodiscard]] std::vector<Stage> invariance_stages(const ProblemSpec& spec);
 /// What a result of this spec guarantees: "samples", "samples-center" or "continuous" (contract, "What is
 /// guaranteed"). Centres say nothing of the way between the samples, so that they never make it "continuous".

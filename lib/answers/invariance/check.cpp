@@ -36,6 +36,9 @@ class SetChecker : public CellChecker {
       check_outside(cell);
     } else if (!cell.is_invariant()) {
       check_escape(cell);
+    } else if (cell.is_over()) {  // that it is, the check of the goal tells
+      tallies_.invariant.add_checked(1);
+      check_collision_time(cell, kForever);
     } else {
       check_stay(cell);
     }

@@ -9,13 +9,14 @@
 namespace coordreq {
 Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
                            Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
-                           const EqualWork& equal) {
+                           const EqualWork& equal, const CellSet* over) {
   // The finest classes give the fewest joint groups to try.
   const ActionGrouping grouping(engine, single_classes(engine.abstraction().inputs), team);
   const int workers = team.size();
   const LevelProblem problem{
       .start = &safe,
-      .equal = {equal.tiles, equal.tiles == nullptr ? nullptr : &equal.tiles->tables(), equal.mirror},
+      .spared = over,
+      .equal = equal.by_tables(),
       .make8 = [&] { return make_joint_actions<std::uint8_t>(grouping, hull, synthesis, false, workers); },
       .make16 = [&] { return make_joint_actions<std::uint16_t>(grouping, hull, synthesis, false, workers); },
       .make32 = [&] { return make_joint_actions<std::uint32_t>(grouping, hull, synthesis, false, workers); }};

@@ -23,10 +23,12 @@ struct Invariance {
 
 /// K: for `maximal` the greatest K with K = {x in K n S : some allowed u has empty != f(x,u) subset of K};
 /// for `given` the limit of SPRE_S^i(X), C(x) being all that `allow` permits (paper, Eq. (10) and Lemma 1).
-/// @param equal its `numbers` are not looked at
+/// With a goal that ends the task the greatest, or the limit, of sets that have all of G beside these cells.
+/// @param equal its `numbers` are those of the tables if there are none
+/// @param over G, a part of S; null: no goal ends the task
 [[nodiscard]] Invariance find_invariance(const RowEngine& engine, const RowHull& hull, const CellSet& safe,
                                          Synthesis synthesis, const WaveWatch& watch, ThreadTeam& team,
-                                         const EqualWork& equal = {});
+                                         const EqualWork& equal = {}, const CellSet* over = nullptr);
 
 /// Fills in all that follows from the collision times.
 void follow_from_collision_times(Invariance& invariance, ThreadTeam& team);

@@ -121,6 +121,17 @@ CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, Thread
   return cells_that_satisfy(spec.safe, spec, abstraction.grid, abstraction.inputs, team);
 }
 
+CellSet part_of(const CellSet& set, const CellSet& other, bool is_in, const RowShare* share) {
+  CellSet result(set.rows(), set.row_length());
+  for (const RowShare::Range run : held_rows(share, set.rows())) {
+    for (std::int64_t r = run.begin; r < run.end; ++r) {
+      for (std::size_t w = 0; w < result.row(r).size(); ++w)
+        result.row(r)[w] = set.row(r)[w] & (is_in ? other.row(r)[w] : ~other.row(r)[w]);
+    }
+  }
+  return result;
+}
+
 PairRules pair_rules(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team,
                      const PackedPairs* listed, const RowShare* share) {
   const UniformGrid& grid = abstraction.grid;

@@ -28,6 +28,8 @@ void add_cells_that_satisfy(const Program& condition, const ProblemSpec& spec, c
 [[nodiscard]] CellSet cells_that_satisfy(const Program& condition, const ProblemSpec& spec,
                                          const UniformGrid& grid, const InputSpace& inputs, ThreadTeam& team,
                                          const RowShare* share = nullptr);
+/// The cells of a set that are in another one, or are not. @param share then in the rows held
+[[nodiscard]] CellSet part_of(const CellSet& set, const CellSet& other, bool is_in, const RowShare* share);
 /// S, contract "Safe set".
 [[nodiscard]] CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team);
 

@@ -37,31 +37,35 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
     work.enter_part("");
     std::vector<const LevelMap*> coarser;
     for (const std::size_t q : next_coarser(coordination.partitions, p)) coarser.push_back(&all[q].layers_of);
-    DelayLayers found = find_delay_layers(*ground.engine, *ground.hull, invariant, actions.projections,
-                                          coarser, coordination.max_delay, watch, work.team);
+    DelayLayers found =
+        find_delay_layers(*ground.engine, *ground.hull, invariant, actions.projections, coarser,
+                          coordination.max_delay, watch, work.team, ground.over_or_null());
     all[p].counts = found.counts;
     return std::move(found.layers_of);
   });
   follow_from_levels(coordination.max_delay, work.team, all[p]);
 }
 
-/// |Z_0 \ Z_D|, where a layer that is not known counts as empty.
-std::int64_t cells_bound_to_connect(const DelayLayers& layers, std::int64_t connection_delay) {
+/// |Z_0 \ Z_D|, where a layer that is not known counts as empty, but for a goal that ends the task.
+std::int64_t cells_bound_to_connect(const Ground& ground, const DelayLayers& layers) {
+  const std::int64_t connection_delay = ground.spec.coordination.connection_delay;
   const auto known = static_cast<std::int64_t>(layers.sizes.size());
-  if (connection_delay >= known && layers.truncated) return layers.sizes.front();
+  if (connection_delay >= known && layers.truncated) return layers.sizes.front() - ground.over_cells;
   return layers.sizes.front() - layers.sizes[static_cast<std::size_t>(std::min(connection_delay, known - 1))];
 }
 
-/// Largest finite delay times period; null if some cell is unbounded or K is empty.
-Json longest_delay(const ProblemSpec& spec, const DelayLayers& layers) {
-  const std::int64_t fixed_point = layers.truncated ? 0 : layers.sizes.back();
-  if (fixed_point != 0 || layers.sizes.front() == 0) return {};
+/// Largest finite delay times period, of the cells in which the task goes on; null if one is unbounded or
+/// there are none.
+Json longest_delay(const Ground& ground, const DelayLayers& layers) {
+  const std::int64_t fixed_point = layers.truncated ? ground.over_cells : layers.sizes.back();
+  if (fixed_point != ground.over_cells || layers.sizes.front() == ground.over_cells) return {};
   // Z_k shrinks strictly, so the last layer that is not empty holds the largest delay.
   const std::size_t steps = layers.sizes.size() - (layers.truncated ? 1 : 2);
-  return nearest_double(spec.dynamics.period * Rational(static_cast<unsigned long>(steps)));
+  return nearest_double(ground.spec.dynamics.period * Rational(static_cast<unsigned long>(steps)));
 }
 
-Json partition_json(const ProblemSpec& spec, const PartitionSpec& partition, const DelayLayers& layers) {
+Json partition_json(const Ground& ground, const PartitionSpec& partition, const DelayLayers& layers) {
+  const ProblemSpec& spec = ground.spec;
   Json json;
   json["name"] = partition.name;
   json["classes"] = Json::array();
@@ -70,8 +74,8 @@ Json partition_json(const ProblemSpec& spec, const PartitionSpec& partition, con
   json["fixed_point"] = layers.truncated ? Json() : Json(layers.sizes.back());
   json["layers"] = layers.sizes;
   json["truncated"] = layers.truncated;
-  json["never_without_connection"] = cells_bound_to_connect(layers, spec.coordination.connection_delay);
-  json["max_delay_time"] = longest_delay(spec, layers);
+  json["never_without_connection"] = cells_bound_to_connect(ground, layers);
+  json["max_delay_time"] = longest_delay(ground, layers);
   return json;
 }
 
@@ -84,8 +88,8 @@ PartitionActions::PartitionActions(const Answers& answers, std::size_t p, Thread
                team),
       mirror(answers.ground.mirror(input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
                                                  answers.ground.spec.coordination.partitions[p]))),
-      projections(answers.get<Controller>(), grouping, *answers.ground.hull, team,
-                  {.tiles = answers.ground.equal_work(), .mirror = mirror ? &*mirror : nullptr}) {}
+      projections(answers.get<GoingOn>().controller, grouping, *answers.ground.hull, team,
+                  answers.ground.equal(mirror ? &*mirror : nullptr)) {}
 
 std::vector<Stage> layers_stages(const ProblemSpec& spec) {
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
@@ -110,7 +114,7 @@ void summarise_layers(const Answers& answers, Json& summary, Json& work) {
   for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {
     const PartitionSpec& partition = spec.coordination.partitions[p];
     const DelayLayers& layers = answers.get<PartitionLayers>().partitions[p];
-    summary["partitions"].push_back(partition_json(spec, partition, layers));
+    summary["partitions"].push_back(partition_json(answers.ground, partition, layers));
     work["layers " + partition.name] = work_json(layers.counts);
   }
 }

@@ -95,9 +95,10 @@ class PartitionChecker {
   }
 
   [[nodiscard]] std::int32_t delay_by_definition(CheckedCell& cell) const {
-    bool any = false;
+    bool any = cell.is_over();
     std::int32_t worst = kForever;
-    for (std::int64_t u = 0; u < ground_.inputs->count() && worst > kOutsideInvariant; ++u) {
+    const std::int64_t inputs = cell.is_over() ? 0 : ground_.inputs->count();
+    for (std::int64_t u = 0; u < inputs && worst > kOutsideInvariant; ++u) {
       if (!is_choice(u)) continue;
       any = true;
       const std::int32_t least =

@@ -26,11 +26,12 @@ std::vector<std::int64_t> layer_sizes(const LevelMap::Histogram& cells) {
 
 DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, const CellSet& invariant,
                               const Projections& projections, const std::vector<const LevelMap*>& coarser,
-                              std::optional<std::int64_t> max_delay, const WaveWatch& watch,
-                              ThreadTeam& team) {
+                              std::optional<std::int64_t> max_delay, const WaveWatch& watch, ThreadTeam& team,
+                              const CellSet* over) {
   const int workers = team.size();
   const LevelProblem problem{
       .start = &invariant,
+      .spared = over,
       .bounds = coarser,
       .settled = &projections.full_rows(),
       .equal = projections.equal_work(),

@@ -46,12 +46,14 @@ struct DelayLayers {
 /// partitions take the same minimum M(level)(x) over all actions, and a minimum of the bounds L' goes through
 /// M to each of them, M(min L') = min M(L') = min L'. Without bounds M is of the levels of K alone, and none
 /// of its cells is lost by any action.
+/// @param projections of C where the task goes on
+/// @param over G of a goal that ends it, which is in every layer; null: there is none
 /// @param coarser layers_of for some partitions that this one refines, with the same `max_delay`
 [[nodiscard]] DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull,
                                             const CellSet& invariant, const Projections& projections,
                                             const std::vector<const LevelMap*>& coarser,
                                             std::optional<std::int64_t> max_delay, const WaveWatch& watch,
-                                            ThreadTeam& team);
+                                            ThreadTeam& team, const CellSet* over = nullptr);
 
 /// The same for the partition in which all agents are together, at no cost: IND_C = C, and C keeps every cell
 /// of K in K, so Z_k = K for every k.

@@ -83,8 +83,8 @@ const PairProjection::Plane& PairProjection::plane(std::uint32_t group) {
   for (std::int64_t inner = 0; inner < unit_rows_; ++inner) {
     row.assign(words_, ~Word{0});
     for_each_row(engine_.grid(), 0, boxes_.ranges(leader_, group), counter_, [&](std::int64_t first) {
-      const ConstRow invariant = controller_.invariant->row(first + inner);
-      for (std::size_t w = 0; w < words_; ++w) row[w] &= invariant[w];
+      const ConstRow target = controller_.target().row(first + inner);
+      for (std::size_t w = 0; w < words_; ++w) row[w] &= target[w];
     });
     continue_row(row, plane.rows.data() + static_cast<std::size_t>(inner) * plane_words_);
   }
@@ -96,7 +96,7 @@ const std::vector<Word>& PairProjection::continued(std::int64_t row) {
   if (kept.row == row) return kept.bits;
   kept.row = row;
   kept.bits.assign(plane_words_, 0);
-  continue_row(controller_.invariant->row(row), kept.bits.data());
+  continue_row(controller_.target().row(row), kept.bits.data());
   return kept.bits;
 }
 

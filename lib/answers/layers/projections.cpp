@@ -202,7 +202,7 @@ Projections::Projections(const Controller& controller, const ActionGrouping& gro
     : grouping_(&grouping), words_(controller.engine->row_words()), equal_(equal) {
   equal_.numbers = &classes_;
   const RowEngine& engine = *controller.engine;
-  number_rows_of(*controller.invariant, engine.share());
+  number_rows_of(*controller.invariant, equal.by_tables(), engine.share());
   stores_.resize(static_cast<std::size_t>(team.size()));
   const ForbiddenChoices choices(grouping, team);
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
@@ -242,11 +242,11 @@ std::span<const Word> Projections::Store::keep(std::span<const Word> list) {
 }
 
 /// Every row of K is found by itself, or with the first of those that are the same.
-void Projections::number_rows_of(const CellSet& invariant, const RowShare* share) {
+void Projections::number_rows_of(const CellSet& invariant, const EqualWork& equal, const RowShare* share) {
   const RowShare::Range run = own_rows(share, invariant.rows());
   number_ = ZeroedArray<std::uint32_t>(static_cast<std::size_t>(invariant.rows()));
   const Tiles* const tiles = equal_.tiles;
-  if (tiles != nullptr) classes_ = tiles->refined(tiles->tables(), number_rows(invariant, share));
+  if (tiles != nullptr) classes_ = tiles->refined(*equal.numbers, number_rows(invariant, share));
   const auto has = [&](std::int64_t row) { return has_cells(invariant, row); };
   for_each_with_first(tiles, classes_, run, has, [&](std::int64_t row, std::int64_t first) {
     if (first == row) found_.push_back({.row = row});

@@ -21,7 +21,8 @@ class Projections {
  public:
   /// @param equal where C is the same, but for the order of agents, nothing is held, and nothing may be
   /// asked,
-  ///   of rows that are not the first. Its `numbers` are not looked at
+  ///   of rows that are not the first. Its `numbers` are those of the tables if there are none; they have to
+  ///   tell K apart where the controller is a part of C
   /// @param keeps_masks whether mask() can be asked of rows in the form of a product, too
   Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
               ThreadTeam& team, const EqualWork& equal = {}, bool keeps_masks = false);
@@ -93,7 +94,7 @@ class Projections {
   [[nodiscard]] const Found& of(std::int64_t row) const {
     return found_[number_[static_cast<std::size_t>(row)] - 1];
   }
-  void number_rows_of(const CellSet& invariant, const RowShare* share);
+  void number_rows_of(const CellSet& invariant, const EqualWork& equal, const RowShare* share);
   [[nodiscard]] bool has_cells(const CellSet& invariant, std::int64_t row) const;
 
   const ActionGrouping* grouping_;

@@ -39,7 +39,7 @@ void find_safe_sets(Answers& answers, const StageWork& work) {
     };
     const NetworkWatch watch{.step = step_of(work, *ground.engine, save),
                              .resumed = kept == StageStore::Kept::unfinished ? &sets : nullptr};
-    const NetworkProblem problem = network_problem(ground.spec, answers.get<Controller>(), *ground.hull);
+    const NetworkProblem problem = network_problem(answers);
     result = find_network_safety(problem, watch, work.team);
   }
   if (work.store == nullptr) return;

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "answers/layers/answer.hpp"
+#include "answers/invariance/answer.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -23,6 +23,7 @@ std::vector<const PartitionSpec*> network_partitions(const NetworkSpec& network)
 NetworkProblem network_problem(const ProblemSpec& spec, const Controller& controller, const RowHull& hull) {
   const NetworkSpec& network = *spec.network;
   NetworkProblem problem{.controller = &controller,
+                         .invariant = controller.invariant,
                          .hull = &hull,
                          .partitions = {},
                          .modes = std::vector<NetworkMode>(network.modes.size()),
@@ -36,6 +37,14 @@ NetworkProblem network_problem(const ProblemSpec& spec, const Controller& contro
     problem.modes[mode].partition = number.at(network.modes[mode].partition.canonical);
   for (const auto& [from, to] : network.transitions)
     problem.modes[static_cast<std::size_t>(from)].successors.push_back(static_cast<std::size_t>(to));
+  return problem;
+}
+
+NetworkProblem network_problem(const Answers& answers) {
+  const Ground& ground = answers.ground;
+  NetworkProblem problem = network_problem(ground.spec, answers.get<GoingOn>().controller, *ground.hull);
+  problem.invariant = &answers.get<Invariance>().invariant;
+  problem.over = ground.over_or_null();
   return problem;
 }
 

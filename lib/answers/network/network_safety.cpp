@@ -82,7 +82,8 @@ class Iteration {
         watch_(watch),
         team_(team),
         operators_(problem, team),
-        targets_(engine_, *problem.hull, problem.modes, *problem.controller->invariant) {
+        over_(problem.over),
+        targets_(engine_, *problem.hull, problem.modes, *problem.invariant) {
     for (int w = 0; w < team.size(); ++w) workers_.emplace_back(engine_, targets_.levels());
     if (watch.resumed != nullptr) resume(*watch.resumed);
   }
@@ -189,12 +190,15 @@ class Iteration {
     const auto n = static_cast<std::size_t>(engine_.row_length());
     const ConstRow present = targets_.set(mode).row(row);
     kernels.spread(present.data(), worker.old.data(), n);
+    const ConstRow over = over_ == nullptr ? ConstRow() : over_->row(row);
+    for_each_bit(over, [&worker](std::int64_t x) { worker.old[static_cast<std::size_t>(x)] = 0; });
     // Beyond the row there are no cells.
     std::fill(worker.old.begin() + static_cast<std::ptrdiff_t>(n), worker.old.end(), Level{0});
     RowOperator<Level>& op = operators_[modes_[mode].partition];
     const RowPlace place(engine_.grid(), row);
     if (!op.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w)) return;
     kernels.top_bits(worker.next.data(), worker.cells.data(), n);
+    for (std::size_t k = 0; k < over.size(); ++k) worker.cells[k] |= over[k];
     for (std::size_t k = 0; k < worker.cells.size(); ++k) worker.cells[k] &= present[k];
     if (std::equal(present.begin(), present.end(), worker.cells.begin())) return;
     worker.losses.rows.push_back(row);
@@ -224,6 +228,7 @@ class Iteration {
   WaveStep step_;
   ThreadTeam& team_;
   Operators operators_;
+  const CellSet* over_;  ///< cells that nothing is asked about; null: none
   ModeTargets targets_;
   std::deque<Worker> workers_;
   WaveCounts counts_;

@@ -21,7 +21,9 @@ struct NetworkMode {
 };
 
 struct NetworkProblem {
-  const Controller* controller = nullptr;  ///< of K
+  const Controller* controller = nullptr;  ///< of K, without a goal that ends the task
+  const CellSet* invariant = nullptr;      ///< K
+  const CellSet* over = nullptr;           ///< that goal, which is in every W(q); null: there is none
   const RowHull* hull = nullptr;
   std::vector<std::vector<InputClass>> partitions;  ///< all different; the classes of each
   std::vector<NetworkMode> modes;
@@ -57,6 +59,8 @@ struct NetworkWatch {
 ///   until nothing changes. Sound, as the last W is a fixed point; perhaps not the largest, as the operator
 ///   is not monotone. Without a controller file it has all cells of the W above: at those C_q = C = IND_C
 ///   in every iteration, since T(q) lies between that of the W above and K.
+///
+/// A goal that ends the task is in every W(q), and nothing is asked of its cells.
 ///
 /// Memory: a set of cells for each mode (`resynthesise`: up to two), a byte a cell, and the projections of C
 /// for all partitions (`resynthesise`: none).

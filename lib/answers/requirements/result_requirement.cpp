@@ -81,6 +81,8 @@ std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec, 
       source.fail("an end without a counterexample, or the other way round", counterexample_path("end"));
     if (spec.requirements[r].kind == RequirementKind::max_risk)
       take_risk(spec.requirements[r], risks[r], source, requirement);
+    if (spec.risk && !requirement.is_risk && risks[r] != 0)
+      source.fail("a risk where none is asked for", counterexample_path("risk"));
     if (!has_path) continue;
     requirement.path = read_path(source, r);
     if (requirement.is_risk)

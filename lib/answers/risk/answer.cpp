@@ -55,8 +55,9 @@ void save_state(Archive& archive, const RowShare* share, std::int64_t steps, dou
 
 RiskProblem risk_problem(const Answers& answers, const ExpectedRisks& expected) {
   const Ground& ground = answers.ground;
-  NetworkProblem network = network_problem(ground.spec, answers.get<Controller>(), *ground.hull);
+  NetworkProblem network = network_problem(answers);
   RiskProblem problem{.controller = network.controller,
+                      .invariant = network.invariant,
                       .hull = network.hull,
                       .partitions = std::move(network.partitions),
                       .partition_of = {},

@@ -40,15 +40,16 @@ class Iteration {
   Iteration(const RiskProblem& problem, const RiskWatch& watch, ThreadTeam& team)
       : problem_(problem),
         engine_(*problem.controller->engine),
-        invariant_(*problem.controller->invariant),
+        going_on_(*problem.controller->invariant),
+        ends_early_(problem.controller->invariant != problem.invariant),
         watch_(watch),
         team_(team),
         choices_(*problem.controller, *problem.hull, problem.partitions, problem.is_safest, team) {
     if (watch.resumed != nullptr) state_ = std::exchange(*watch.resumed, {});
-    if (state_.risks.empty()) state_.risks = first_risks(invariant_, modes(), engine_.share());
+    if (state_.risks.empty()) state_.risks = first_risks(*problem.invariant, modes(), engine_.share());
     const RowShare::Range own = own_rows(engine_.share(), engine_.rows());
     for (std::int64_t row = own.begin; row < own.end; ++row) {
-      if (any_set(invariant_.row(row))) alive_.push_back(row);
+      if (any_set(going_on_.row(row))) alive_.push_back(row);
     }
   }
 
@@ -158,15 +159,20 @@ class Iteration {
     if (mode + 1 < modes() && watch_.step) watch_.step(step_, state_.steps);
   }
 
-  /// worker.risks = one more step of a row, kCertain outside K.
+  /// worker.risks = one more step of a row, kCertain outside K, none where the task is over.
   template <class Level>
   void find(std::int64_t row, ModeRisk<Level>& choices, Worker<Level>& worker, int w) const {
     const auto n = static_cast<std::size_t>(engine_.row_length());
     choices.find(RowPlace(engine_.grid(), row), worker.posts, worker.next.data(), w);
     const LevelKernels<Level>& kernels = worker.posts.kernels();
-    kernels.spread(invariant_.row(row).data(), worker.lanes.data(), n);
+    kernels.spread(going_on_.row(row).data(), worker.lanes.data(), n);
     std::fill(worker.risks.begin(), worker.risks.end(), kCertain<Level>);
     kernels.raise_where(worker.next.data(), worker.lanes.data(), worker.risks.data(), n);
+    if (!ends_early_) return;
+    for_each_bit(problem_.invariant->row(row), [&](std::int64_t x) {
+      if (worker.lanes[static_cast<std::size_t>(x)] == 0)
+        worker.risks[static_cast<std::size_t>(x)] = LevelRows<Level>::kTop;
+    });
   }
 
   /// How far one more step of a mode goes beyond V.
@@ -180,7 +186,7 @@ class Iteration {
           Worker<std::uint64_t>& worker = workers[static_cast<std::size_t>(w)];
           find(row, choices, worker, w);
           const std::uint32_t* const own = state_.risks[mode].row(row);
-          for_each_bit(invariant_.row(row), [&](std::int64_t x) {
+          for_each_bit(going_on_.row(row), [&](std::int64_t x) {
             const double more =
                 outward::add_up(risk_of(worker.risks[static_cast<std::size_t>(x)]), -double{risk_of(own[x])});
             worker.rate = std::max(worker.rate, more);
@@ -200,7 +206,8 @@ class Iteration {
 
   const RiskProblem& problem_;
   const RowEngine& engine_;
-  const CellSet& invariant_;
+  const CellSet& going_on_;  ///< the cells that something is asked of
+  bool ends_early_;          ///< they are not all of K
   const RiskWatch& watch_;
   ThreadTeam& team_;
   ModeChoices choices_;

@@ -16,7 +16,8 @@
 namespace coordreq {
 
 struct RiskProblem {
-  const Controller* controller = nullptr;  ///< of K
+  const Controller* controller = nullptr;  ///< of K, without a goal that ends the task, where risk is 0
+  const CellSet* invariant = nullptr;      ///< K
   const RowHull* hull = nullptr;
   std::vector<std::vector<InputClass>> partitions;  ///< all different; the classes of each
   std::vector<std::size_t> partition_of;            ///< [mode] index into these

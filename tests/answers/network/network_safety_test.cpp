@@ -32,6 +32,7 @@ class NetworkOfThreeCells : public testing::Test {
   [[nodiscard]] std::vector<Cells> safe(std::vector<NetworkMode> modes, bool resynthesise) {
     const NetworkProblem problem{
         .controller = &fast_.controller,
+        .invariant = &fast_.invariance.invariant,
         .hull = &fast_.hull,
         .partitions = {{whole_class(fast_.abstraction.inputs)}, single_classes(fast_.abstraction.inputs)},
         .modes = std::move(modes),
