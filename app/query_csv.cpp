@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "answers/invariance/fields.hpp"
+#include "app/csv_text.hpp"
 #include "app/query_report.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -11,10 +12,6 @@ namespace {
 
 /// Columns after the state that all files have: inside, cell, safe, invariant, collision_time.
 constexpr std::size_t kOfAllFiles = 5;
-
-std::string csv_steps(std::int32_t steps) {
-  return steps == ResultsReader::kNever ? "inf" : std::to_string(steps);
-}
 
 /// Of a probability all digits: one that is rounded could be less than it.
 std::string csv_number(const Field& field, std::int32_t value) {
@@ -49,22 +46,6 @@ std::string csv_section(const Field& field, const std::vector<std::int32_t>& val
     if (values[i] != 0) names += (names.empty() ? "" : " ") + results.leading_names(field)[i];
   }
   return names;
-}
-
-/// A column that is no state; states may have its name.
-std::string answer_column(const std::string& name, const ResultsReader& results) {
-  const auto& states = results.grid().dimensions();
-  const bool is_taken =
-      std::ranges::any_of(states, [&](const GridDimension& state) { return state.name == name; });
-  return (is_taken ? "answer:" : "") + name;
-}
-
-/// A field as it stands in CSV (RFC 4180).
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return field + "\"";
 }
 
 std::string csv_partition_header(const StoredPartition& partition, const QueryForm& form) {

@@ -20,6 +20,7 @@ Run declare_info(Options& options);
 Run declare_query(Options& options);
 Run declare_explain(Options& options);
 Run declare_simulate(Options& options);
+Run declare_judge(Options& options);
 Run declare_verify(Options& options);
 Run declare_compare(Options& options);
 Run declare_export(Options& options);
@@ -66,6 +67,10 @@ inline const CommandInfo kCommands[] = {
      declare_simulate,
      {"coordreq simulate circle.h5 --from x1=0.1,x2=0 --steps 200",
       "coordreq simulate circle.h5 --start random --runs 100 --steps 200 -o runs.h5"}},
+    {"judge",
+     "Judge a log of states and inputs: is the model true to it, are agents reckless, or silent for too long",
+     declare_judge,
+     {"coordreq judge circle.h5 < log.csv", "coordreq judge circle.h5 --csv < log.csv > judged.csv"}},
     {"verify",
      "Check a results file by an independent method",
      declare_verify,

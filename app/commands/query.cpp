@@ -1,20 +1,23 @@
-#include <fmt/format.h>
-
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
 #include "app/commands/all.hpp"
+#include "app/ignored_columns.hpp"
+#include "app/least_report.hpp"
 #include "app/option_values.hpp"
+#include "app/print_answer.hpp"
 #include "app/query_report.hpp"
 #include "app/standard_streams.hpp"
+#include "cell/least_steps.hpp"
+#include "cell/simulate.hpp"
 #include "cell/state_query.hpp"
 #include "cell/state_reader.hpp"
 #include "cell/state_text.hpp"
 #include "results/results_reader.hpp"
 #include "spec/problem_spec.hpp"
-#include "spec/wording.hpp"
 
 namespace coordreq {
 namespace {
@@ -25,48 +28,59 @@ struct QueryOptions : CommonOptions {
   std::string results;
   std::optional<std::string> at;  ///< none: states come from standard input
   bool extra = false;             ///< what names no state is passed through
+  bool least = false;             ///< standard input has pairs of a fleet
+  std::optional<std::int32_t> at_least;
+  std::string partition;
 };
 
-/// Once; that a log holds more is no defect, but a slip in a name would be.
-class IgnoredExtra {
- public:
-  explicit IgnoredExtra(const QueryOptions& own) : is_told_(own.quiet || own.extra) {}
-
-  void tell(const StateReader& states) {
-    if (is_told_ || states.extra_names().empty()) return;
-    is_told_ = true;
-    std::string names;
-    for (const std::string& name : states.extra_names())
-      names += (names.empty() ? "" : ", ") + quote_text(name);
-    write_diagnostics(fmt::format(
-        "coordreq: warning: no state is called {}: ignored; --extra passes it through (standard input)\n",
-        names));
-  }
-
- private:
-  bool is_told_;
-};
+/// What pairs of a fleet are asked for.
+constexpr const char* kSilence = "/silence";
 
 /// Line by line, so that a program at the other end of two pipes gets each answer before it asks on.
 void answer_standard_input(const QueryOptions& own, const ResultsReader& results, StateQuery& query) {
   const QueryForm form(results);
   StateReader states(std::cin, state_names(results.spec()), "standard input");
   const bool json = own.json || states.format() == StateReader::Format::json_lines;
-  IgnoredExtra ignored(own);
-  ignored.tell(states);
+  IgnoredColumns ignored(own.quiet || own.extra, "no state");
+  constexpr const char* kHint = "; --extra passes it through";
+  ignored.tell(states.extra_names(), kHint);
   if (!json)
     write_output(answer_csv_header(form, own.extra ? states.extra_names() : std::vector<std::string>()));
   while (std::optional<std::vector<Rational>> state = states.next()) {
-    ignored.tell(states);
+    ignored.tell(states.extra_names(), kHint);
     const StateAnswer answer = query.at(std::move(*state));
     write_output(json ? answer_json_line(answer, form, own.extra ? &states.extra() : nullptr)
                       : answer_csv_line(answer, form, own.extra ? states.extra() : Extras()));
   }
 }
 
+void check_least(const QueryOptions& own) {
+  if (own.least && own.at) throw UsageError("expected --at or --least, found both", "--least");
+  if (own.least && own.extra) throw UsageError("one answer for all pairs, expected no --extra", "--extra");
+  if (!own.least && own.at_least) throw UsageError("expected --least with it", "--at-least");
+  if (!own.least && !own.partition.empty())
+    throw UsageError("all partitions are told, expected it with --least only", "--partition");
+}
+
+ExitCode answer_least(const QueryOptions& own, const ResultsReader& results) {
+  if (!results.has(kSilence))
+    throw UsageError("the results have no silence, expected those of a spec with the key 'silence'",
+                     "--least");
+  const Field& field = results.field(kSilence);
+  const std::size_t partition = find_partition(results.spec(), own.partition);
+  IgnoredColumns ignored(own.quiet, "no state");
+  const LeastSteps found =
+      least_steps(results, field, partition, std::cin, "standard input", own.at_least,
+                  [&ignored](const std::vector<std::string>& names) { ignored.tell(names, ""); });
+  print_answer(own, least_json(found, field, partition, own.at_least, results), least_text);
+  return found.below.value_or(0) > 0 ? ExitCode::requirement_failed : ExitCode::success;
+}
+
 ExitCode run(const QueryOptions& own) {
+  check_least(own);
   own.keep_to_memory();
   const ResultsReader results(own.results, own.max_memory);
+  if (own.least) return answer_least(own, results);
   ThreadTeam team(own.threads_for("answering needs", controller_demand(results, !own.at)));
   StateQuery query(results, team);
   if (!own.at) {
@@ -88,6 +102,13 @@ Run declare_query(Options& options) {
                  as_typed);
   options.flag(own->extra, "--extra",
                "Pass columns (JSON lines: keys) that name no state of standard input through to the answers");
+  options.flag(own->least, "--least",
+               "The least silence of the pairs of a fleet on standard input; a column pair is a label");
+  options.option(own->at_least, "--at-least", "N",
+                 "With --least: count pairs below N steps; exit code 1 if any is",
+                 WholeNumber<std::int32_t>{0, INT32_MAX - 1});
+  options.option(own->partition, "--partition", "NAME", "With --least: partition (default: the only one)",
+                 as_typed);
   declare_common(options, *own);
   return [own] { return run(*own); };
 }

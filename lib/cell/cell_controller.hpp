@@ -64,6 +64,8 @@ class CellController : private ByteTables {
                                    std::int32_t countdown);
   /// The values of a field of integers, of a partition where it is over these.
   [[nodiscard]] CellValue values(const std::string& path, std::size_t partition);
+  /// Where it looks up posts; whoever asks for a cell moves there first.
+  [[nodiscard]] CellPosts& posts() { return posts_; }
   /// The projections of C(x) on the classes.
   [[nodiscard]] ActionSets actions(std::size_t partition, std::int64_t cell) {
     return actions(policies_.front(), partition, cell, 0);

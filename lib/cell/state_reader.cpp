@@ -104,11 +104,13 @@ std::vector<Rational> StateReader::csv_state() {
     throw UsageError(fmt::format("expected {} values, found {}", columns_.size(), fields.size()), place());
   }
   std::vector<Rational> state(names_.size());
+  is_given_.assign(names_.size(), false);
   extra_.clear();
   for (std::size_t c = 0; c < fields.size(); ++c) {
     if (columns_[c] == names_.size()) {
       extra_.push_back({extra_names_[extra_.size()], fields[c]});
     } else {
+      is_given_[columns_[c]] = true;
       state[columns_[c]] = parse_value(fields[c], place() + ", " + names_[columns_[c]]);
     }
   }
@@ -128,7 +130,9 @@ std::vector<Rational> StateReader::json_state() {
       extra_.push_back({key, document.value().at(key).dump(), true});
     }
     std::vector<Rational> state;
+    is_given_.clear();
     for (const std::string& name : names_) {
+      is_given_.push_back(root.has(name));
       if (!root.has(name) && state.size() >= needed_) {
         state.emplace_back(0);
         continue;

@@ -40,10 +40,13 @@ class StateReader {
   [[nodiscard]] const std::vector<std::string>& extra_names() const { return extra_names_; }
   /// Of the last state, in their order.
   [[nodiscard]] const std::vector<Extra>& extra() const { return extra_; }
+  /// Whether the last state was given a value, by the order of the names; else it is 0.
+  [[nodiscard]] bool is_given(std::size_t state) const { return is_given_[state]; }
+  /// The line of the last state, for messages: "standard input, line 3".
+  [[nodiscard]] std::string place() const;
 
  private:
   [[nodiscard]] bool read_line();
-  [[nodiscard]] std::string place() const;
   void read_header();
   [[nodiscard]] std::vector<Rational> csv_state();
   [[nodiscard]] std::vector<Rational> json_state();
@@ -58,6 +61,7 @@ class StateReader {
   std::vector<std::size_t> columns_;  ///< state of each CSV column; as many as there are states: extra
   std::vector<std::string> extra_names_;
   std::vector<Extra> extra_;
+  std::vector<bool> is_given_;
   std::string line_;
   std::int64_t line_number_ = 0;
   bool pending_ = false;  ///< `line_` has not been used yet

@@ -10,8 +10,8 @@ import unittest
 from program import CONFIGS, PROGRAM, ROOT, SPEC, Case
 
 COMMANDS = (
-    *("init", "analyze", "validate", "info", "query", "explain", "simulate", "verify", "compare", "export", "report"),
-    *("schema", "completion", "help"),
+    *("init", "analyze", "validate", "info", "query", "explain", "simulate", "judge", "verify", "compare", "export"),
+    *("report", "schema", "completion", "help"),
 )
 LISTED = ", ".join(COMMANDS)
 
@@ -171,6 +171,7 @@ class Cases(Case):
         for copy in ("before.h5", "after.h5"):
             shutil.copy(self.folder / "circle.h5", self.folder / copy)
         self.write("states.csv", "x1,x2\n0.1,0\n")
+        self.write("log.csv", "x1,x2,u1,u2\n0.1,0,0,0\n0.1,0,,\n")
         (self.folder / ".config/fish/completions").mkdir(parents=True)
         path = f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}"
         environment = dict(os.environ, PATH=path, HOME=str(self.folder))

@@ -20,6 +20,7 @@ SESSIONS = {
     "commands.md": (1, []),
     "goals-and-memory.md": (2, []),
     "grids.md": (1, []),
+    "logs.md": (1, ["crossing.json"]),
     "networks.md": (1, []),
     "outputs.md": (5, []),
     "queries.md": (2, ["circle.json"]),
@@ -52,6 +53,9 @@ class Cases(PageCase):
 
     def test_sessions_of_grids(self):
         self.assert_sessions("grids.md")
+
+    def test_sessions_of_logs(self):
+        self.assert_sessions("logs.md")
 
     def test_sessions_of_risk(self):
         self.assert_sessions("risk.md")

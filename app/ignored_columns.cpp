@@ -1,0 +1,19 @@
+#include "app/ignored_columns.hpp"
+
+#include <fmt/format.h>
+
+#include "app/standard_streams.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+
+void IgnoredColumns::tell(const std::vector<std::string>& names, const std::string& hint) {
+  if (is_told_ || names.empty()) return;
+  is_told_ = true;
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + quote_text(name);
+  write_diagnostics(
+      fmt::format("coordreq: warning: {} is called {}: ignored{} (standard input)\n", what_, list, hint));
+}
+
+}  // namespace coordreq

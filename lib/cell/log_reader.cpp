@@ -1,0 +1,88 @@
+#include "cell/log_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/json.hpp"
+#include "spec/system_spec.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr const char* kTime = "t";
+constexpr const char* kConnected = "connected";
+
+/// What stands there, nothing if that is nothing.
+std::string text_in(const StateReader::Extra& own) {
+  if (!own.is_json) return std::string(trimmed(own.value));
+  const Json value = Json::parse(own.value);
+  if (value.is_null()) return {};
+  return value.is_string() ? value.get<std::string>() : own.value;
+}
+
+}  // namespace
+
+LogReader::LogReader(std::istream& stream, const SystemSpec& spec, std::string source)
+    : states_(stream, state_names(spec), std::move(source)) {
+  for (const InputSpec& input : spec.inputs) inputs_.push_back(input.name);
+  check_names();
+}
+
+std::optional<std::size_t> LogReader::input_of(const std::string& name) const {
+  const auto found = std::find(inputs_.begin(), inputs_.end(), name);
+  if (found == inputs_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - inputs_.begin());
+}
+
+/// Of two columns of one name nobody knows which is meant.
+void LogReader::check_names() const {
+  const std::vector<std::string>& names = states_.extra_names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool is_known = input_of(names[i]) || names[i] == kTime || names[i] == kConnected;
+    if (is_known && std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+                        names.begin() + static_cast<std::ptrdiff_t>(i))
+      throw UsageError(fmt::format("'{}' is given twice", names[i]), states_.place());
+  }
+}
+
+std::vector<std::string> LogReader::unknown_names() const {
+  std::vector<std::string> names = states_.extra_names();
+  std::erase_if(names, [this](const std::string& name) {
+    return input_of(name) || name == kTime || name == kConnected;
+  });
+  return names;
+}
+
+std::optional<LogRow> LogReader::next() {
+  std::optional<std::vector<Rational>> state = states_.next();
+  if (!state) return std::nullopt;
+  LogRow row{.place = states_.place(), .state = std::move(*state)};
+  for (std::size_t i = 0; i < row.state.size(); ++i) row.is_given.push_back(states_.is_given(i));
+  row.inputs.resize(inputs_.size());
+  for (const StateReader::Extra& own : states_.extra()) take(own, row);
+  return row;
+}
+
+void LogReader::take(const StateReader::Extra& own, LogRow& row) const {
+  const std::optional<std::size_t> input = input_of(own.name);
+  if (!input && own.name != kTime && own.name != kConnected) return;
+  const std::string text = text_in(own);
+  if (text.empty()) return;
+  const std::string place = row.place + ", " + own.name;
+  if (input) {
+    row.inputs[*input] = parse_value(text, place);
+  } else if (own.name == kTime) {
+    row.time = parse_value(text, place);
+  } else if (text == "0" || text == "1") {
+    row.connected = text == "1";
+  } else {
+    throw UsageError(fmt::format("expected 0 or 1, found {}", quote_text(text)), place);
+  }
+}
+
+}  // namespace coordreq

@@ -1,0 +1,116 @@
+#include "cell/silence_watch.hpp"
+
+#include <algorithm>
+
+#include "base/index.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr std::int32_t kAsUnsafe = -2;  // as outside S: of what is in no cell
+
+std::int32_t one_less(std::int32_t steps) {
+  return steps == ResultsReader::kNever ? steps : std::max(steps - 1, 0);
+}
+
+}  // namespace
+
+SilenceWatch::SilenceWatch(const ResultsReader& results, std::size_t partition, CellController& controller)
+    : controller_(controller),
+      partition_(partition),
+      connection_delay_(results.spec().coordination.connection_delay) {
+  for (const AnswerPolicy& policy : controller.policies()) {
+    if (!policy.trigger.empty() && !policy.is_on_request) policies_.push_back(policy);
+  }
+  for (const AnswerPolicy& policy : policies_) {
+    steps_.push_back(controller.values(policy.delay, partition));
+    const std::string& aim = policy.aim.path;
+    aims_.push_back(aim.empty() ? CellValue() : controller.values(aim, partition));
+  }
+  left_.resize(policies_.size());
+}
+
+std::int32_t SilenceWatch::steps(std::size_t policy, std::int64_t cell) {
+  return steps_[policy](cell);
+}
+
+/// Of the cells that it may be.
+std::int32_t SilenceWatch::most_steps(std::size_t policy, const LogPlace& place) {
+  std::int32_t most = kAsUnsafe;
+  for (const std::int64_t cell : place.cells) most = std::max(most, steps(policy, cell));
+  return most;
+}
+
+SilenceWatch::Steps SilenceWatch::begun(std::size_t policy, const LogPlace& place) {
+  if (has_aim(policy) && has_arrived_) return std::nullopt;
+  const std::int32_t most = most_steps(policy, place);
+  if (most < 0) return std::nullopt;
+  return most >= connection_delay_ ? most : 0;
+}
+
+void SilenceWatch::look_for_aims(const LogPlace& place) {
+  if (place.cells.empty()) return;
+  for (const CellValue& aim : aims_) has_arrived_ = has_arrived_ || (aim && aim(place.cells.front()) == 0);
+}
+
+void SilenceWatch::begin(const LogPlace& place) {
+  has_arrived_ = false;
+  look_for_aims(place);
+  for (std::size_t p = 0; p < left_.size(); ++p) left_[p] = begun(p, place);
+}
+
+std::optional<std::int32_t> SilenceWatch::countdown() const {
+  return *std::max_element(left_.begin(), left_.end());
+}
+
+/// Whether the actions may be what a policy leaves the classes in one of the cells.
+bool SilenceWatch::keeps(std::size_t policy, const LogPlace& place,
+                         const std::vector<std::optional<std::int64_t>>& actions) {
+  return std::any_of(place.cells.begin(), place.cells.end(), [&](std::int64_t cell) {
+    const ActionSets sets = controller_.actions(policies_[policy], partition_, cell, *left_[policy]);
+    for (std::size_t c = 0; c < actions.size(); ++c) {
+      if (actions[c] && (*actions[c] < 0 || !sets[c][at(*actions[c])])) return false;
+    }
+    return true;
+  });
+}
+
+bool SilenceWatch::leave(const LogPlace& place, Contact contact,
+                         const std::vector<std::optional<std::int64_t>>& actions) {
+  if (contact == Contact::yes) return false;
+  for (std::size_t p = 0; p < left_.size(); ++p) {
+    const bool is_on_the_way = has_aim(p) && !has_arrived_;
+    if (left_[p] && is_on_the_way && !keeps(p, place, actions)) left_[p].reset();
+  }
+  return contact == Contact::no && countdown() == 0;
+}
+
+bool SilenceWatch::arrive(const LogPlace& place, Contact contact) {
+  const bool is_over = place.cells.empty() && !place.is_outside();  // all is safe there, and needs no contact
+  if (!countdown() || is_over) {
+    begin(place);
+    return false;
+  }
+  look_for_aims(place);
+  bool is_broken = false;
+  for (std::size_t p = 0; p < left_.size(); ++p) {
+    const Steps fresh = begun(p, place);
+    if (contact == Contact::yes || (contact == Contact::possible && !left_[p])) left_[p] = fresh;
+    if (contact == Contact::yes || !left_[p]) continue;
+    // Beyond the aim the countdown goes on, but what it is worth the delay says.
+    const std::int32_t there = most_steps(has_aim(p) && has_arrived_ ? 0 : p, place);
+    const std::int32_t after = one_less(*left_[p]);
+    if (contact == Contact::possible) {
+      left_[p] = there >= after ? std::max(Steps(after), fresh) : fresh;
+    } else if (there >= after) {
+      left_[p] = after;
+    } else {
+      is_broken = is_broken || *left_[p] > 0;
+      left_[p] = there < 0 ? Steps() : there;
+    }
+  }
+  return is_broken;
+}
+
+}  // namespace coordreq
