@@ -174,7 +174,24 @@ StoryTable story_table(const Json& own, const ProblemSpec& spec) {
   return table;
 }
 
-std::vector<std::string> story_sentences(const Json& own, const ProblemSpec& spec) {
+namespace {
+
+/// What is proven beside what is seen: enclosures are wider than motion.
+void add_seen(const Json& story, const ProblemSpec& spec, std::vector<std::string>& sentences) {
+  if (story["proven"].is_null()) return;
+  const bool is_in_k = story["steps"].front()["action"] == "independent";
+  const char* const set = is_in_k ? "the invariance set" : "the safe set";
+  const std::string seen =
+      story["seen"].is_null()
+          ? fmt::format("does not leave {} as far as it was followed", set)
+          : fmt::format("leaves {} after {}", set, steps_text(number_of(story["seen"]), spec));
+  const std::string proven = steps_text(number_of(story["proven"]), spec);
+  sentences.push_back(fmt::format("{}; the system itself, followed like that, {}.",
+                                  is_in_k ? "The grid proves " + proven : "On the grid that takes " + proven,
+                                  seen));
+}
+
+std::vector<std::string> way_sentences(const Json& own, const ProblemSpec& spec) {
   const Json& story = own["counterexample"];
   const Json& steps = story["steps"];
   if (steps.empty() && story["end"] == "outside_safe_set") return {"It is not safe to begin with."};
@@ -204,6 +221,14 @@ std::vector<std::string> story_sentences(const Json& own, const ProblemSpec& spe
                                    ? "Whatever all agents then do together"
                                    : "With what the controller then may choose";
   sentences.push_back(fmt::format("{}, after {} {}.", whatever, steps_text(evasive, spec), end_text(story)));
+  return sentences;
+}
+
+}  // namespace
+
+std::vector<std::string> story_sentences(const Json& own, const ProblemSpec& spec) {
+  std::vector<std::string> sentences = way_sentences(own, spec);
+  add_seen(own["counterexample"], spec, sentences);
   return sentences;
 }
 

@@ -29,7 +29,7 @@ ExitCode run(const ExplainOptions& own) {
   if (location.kind != Location::Kind::cell)
     throw UsageError("expected a state in a cell of the grid, found one outside; see query", "--at");
   ThreadTeam team(own.threads_for("explaining needs", explain_demand(results, partition, location.cell)));
-  const DelayExplanation found = explain_delay(results, partition, location.cell, team);
+  const DelayExplanation found = explain_delay(results, partition, location.cell, state, team);
   print_answer(own, explanation_json(found, state, location.cell, partition, results),
                [&](const Json& json) { return explanation_text(json, results.spec()); });
   return ExitCode::success;

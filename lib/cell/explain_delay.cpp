@@ -32,12 +32,12 @@ class Explainer {
     for (InputClass& own : classes_) own.tabulate();
   }
 
-  DelayExplanation run(std::int64_t cell) {
+  DelayExplanation run(std::int64_t cell, const std::vector<Rational>& state) {
     DelayExplanation found{.delay = delay_at(cell)};
     const DelayLayers& layers = sets_.layers();
     found.is_lower_bound = layers.truncated && found.delay >= 0 && found.delay == layers.top_delay();
     const bool is_bounded = found.delay != kNever && !found.is_lower_bound;
-    if (is_bounded) found.path = way_out(cell);
+    if (is_bounded) found.path = way_out(cell, state);
     found.is_over = is_over(cell);
     if (!found.is_over) add_others(cell, is_bounded, found);
     if (found.delay < 0) return found;
@@ -82,7 +82,7 @@ class Explainer {
     return results_.spec().ends_at_goal && controller_.values(paths::kArrival, partition_)(cell) == 0;
   }
 
-  [[nodiscard]] ResultPath way_out(std::int64_t cell) const {
+  [[nodiscard]] ResultPath way_out(std::int64_t cell, const std::vector<Rational>& state) const {
     const std::vector<std::int64_t> strides = sets_.number_stride();
     const EscapeSets sets{.ground = &sets_.ground(),
                           .invariance = &sets_.invariance(),
@@ -92,7 +92,10 @@ class Explainer {
     const CellRequirement asked{.collision_time = &sets_.invariance().collision_time,
                                 .kind = RequirementKind::min_delay,
                                 .layers = &sets_.layers()};
-    return result_of(find_escape(sets, cell), sets_.ground(), asked, strides);
+    ResultPath path = result_of(find_escape(sets, cell, state), sets_.ground(), asked, strides);
+    if (path.steps() > 0 && !results_.spec().abstraction.between_samples)
+      path.seen = follow_escape(sets, cell, state);
+    return path;
   }
 
   [[nodiscard]] static std::int64_t choices(const std::vector<std::vector<bool>>& actions) {
@@ -186,8 +189,8 @@ MemoryDemand explain_demand(const ResultsReader& results, std::size_t partition,
 }
 
 DelayExplanation explain_delay(const ResultsReader& results, std::size_t partition, std::int64_t cell,
-                               ThreadTeam& team) {
-  return Explainer(results, partition, team).run(cell);
+                               const std::vector<Rational>& state, ThreadTeam& team) {
+  return Explainer(results, partition, team).run(cell, state);
 }
 
 }  // namespace coordreq

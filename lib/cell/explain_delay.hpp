@@ -50,10 +50,11 @@ struct DelayExplanation {
 /// What it takes to explain the delay of a cell, and to tell of it.
 [[nodiscard]] MemoryDemand explain_demand(const ResultsReader& results, std::size_t partition,
                                           std::int64_t cell);
-/// @param cell its number in the spec's grid
+/// @param cell its number in the spec's grid @param state in it
 /// @throws as FileSets and CellController
 /// Cost: that of reading the arrays of the partition and of the abstraction, and of the way out.
 [[nodiscard]] DelayExplanation explain_delay(const ResultsReader& results, std::size_t partition,
-                                             std::int64_t cell, ThreadTeam& team);
+                                             std::int64_t cell, const std::vector<Rational>& state,
+                                             ThreadTeam& team);
 
 }  // namespace coordreq

@@ -28,6 +28,7 @@ STORY = """requirement 1.5 s of silence, fast: delay of first|second at least 3 
 
   Each agent does what is reasonable to it alone, and after 3 steps (1.5 s) it is too late.
   Whatever all agents then do together, after 4 steps (2 s) the state is no longer safe.
+  The grid proves 2 steps (1 s); the system itself, followed like that, leaves the invariance set after 5 steps (2.5 s).
 """
 
 
@@ -280,6 +281,8 @@ datasets
                 "end": "outside_domain",
                 "end_sample": None,
                 "left_side": {"state": "x", "side": "below"},
+                "proven": None,
+                "seen": None,
             },
         )
         text = self.run_spec(asking(asked)).stdout.decode()

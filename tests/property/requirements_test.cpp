@@ -16,6 +16,7 @@
 #include "base/index.hpp"
 #include "model/odometer.hpp"
 #include "model/pieces.hpp"
+#include "property/real_way.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/make_model.hpp"
 #include "spec/read_spec.hpp"
@@ -225,6 +226,16 @@ void expect_real_path(const Both& both, const RequirementSpec& asked, const Resu
     const std::int32_t time = both.plain.collision_time[path.cell[independent]];
     RC_ASSERT(evasive + (stuck ? 1 : 0) == static_cast<std::size_t>(time));
   }
+  const std::int32_t soonest = delay < 0 ? both.plain.collision_time[start] : delay + 1;
+  RC_ASSERT((path.seen != 0) == (path.steps() > 0 && both.abstraction.tubes.empty()));
+  RC_ASSERT(path.seen <= 0 || path.seen >= soonest);
+  RC_CLASSIFY(path.seen > soonest, "more is seen than is proven");
+  const auto value = [&](std::size_t step, std::int64_t y) {
+    const bool is_last = both.delay(asked, path.cell[step]) <= 0;
+    return is_last ? both.plain.collision_time[at(y)] : both.delay(asked, at(y));
+  };
+  expect_followed(
+      both.spec, both.abstraction, path, [&](std::size_t step) { return input_of(both, path, step); }, value);
   if (path.end == EscapeEnd::outside_safe_set)
     RC_ASSERT(!both.safe.test(static_cast<std::int64_t>(path.cell.back())));
 }
@@ -256,7 +267,6 @@ void expect_plain_verdict(const Both& both, std::size_t r) {
   RC_ASSERT(found.path.has_value() == (found.failing > 0));
   RC_CLASSIFY(found.holds, "holds");
   if (!found.path) return;
-  RC_CLASSIFY(found.path->steps() > 0, "a way out");
   RC_CLASSIFY(found.path->steps() > 2, "a way out of more than two steps");
   RC_ASSERT(region.natural[found.path->cell.front()]);
   RC_ASSERT(both.delay(asked, found.path->cell.front()) == found.least_delay);

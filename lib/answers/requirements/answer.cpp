@@ -90,6 +90,7 @@ Json counterexample_json(const ResultRequirement& result, RequirementKind kind, 
   json["end"] = "outside_domain";
   json["end_sample"] = Json();
   json["left_side"] = side_json(result.reached_side, spec);
+  json["proven"] = json["seen"] = Json();
   return json;
 }
 
@@ -104,6 +105,10 @@ Json story_json(const ResultPath& path, RequirementKind kind, const ProblemSpec&
   const bool stays = path.samples() > path.steps();
   json["end_sample"] = stays ? sample_json(path, path.steps(), kind, spec) : Json();
   json["left_side"] = side_json(path.left_side, spec);
+  const bool is_followed = path.seen != ResultPath::kNotFollowed;
+  const bool is_in_k = path.collision_time.front() == DelayLayers::kUnbounded;
+  json["proven"] = is_followed ? Json(is_in_k ? path.delay.front() : path.collision_time.front()) : Json();
+  json["seen"] = path.seen > 0 ? Json(path.seen) : Json();
   return json;
 }
 

@@ -1,25 +1,26 @@
 #include "answers/requirements/escape_path.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "answers/goal/arrival.hpp"
 #include "answers/one_cell/admissible_inputs.hpp"
 #include "answers/one_cell/progress_inputs.hpp"
+#include "answers/requirements/escape_news.hpp"
+#include "answers/requirements/escape_step.hpp"
+#include "answers/requirements/real_run.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
 
-constexpr std::int64_t kNeverLost = INT64_MAX;
-/// Instead of a level to look for: the least there is.
-constexpr std::int64_t kLeast = -1;
+using Start = std::optional<std::vector<Rational>>;
+
+constexpr std::int64_t kLeast = EscapeSteps::kLeast;
 
 std::int64_t level_of(const LevelMap& levels, std::int64_t cell) {
-  const std::int64_t level = levels.at(cell);
-  return level == LevelMap::kTop ? kNeverLost : level;
+  return EscapeSteps::level_of(levels, cell);
 }
 
 class EscapeFinder {
@@ -35,57 +36,91 @@ class EscapeFinder {
         safe_(grid_, [this](std::int64_t cell) { return tubes_.inside->test(cell); }),
         beyond_(grid_, [this](std::int64_t cell) { return tubes_.beyond->test(cell); }),
         inputs_(ground_.spec, posts_, members()),
-        progress_(ground_.spec, posts_, [this](std::int64_t y) { return arrival(y); }) {}
+        progress_(ground_.spec, posts_, [this](std::int64_t y) { return arrival(y); }),
+        real_(ground_.spec, *ground_.abstraction),
+        steps_(sets, posts_, inputs_, real_) {}
 
-  EscapePath run(std::int64_t cell) {
+  EscapePath run(std::int64_t cell, const Start& start) {
     path_.cells.push_back(cell);
-    while (step_of_owner()) {
+    begin_at(cell, start);
+    bool goes_on = true;
+    while (goes_on) {
+      const std::size_t steps = path_.joint_inputs.size();
+      goes_on = step_of_owner();
+      if (!real_.is_followed() || path_.joint_inputs.size() == steps) continue;
+      real_.advance(path_.joint_inputs.back(), reached_.place);
+      if (path_.cells.back() != reached_.place.cell) real_.stop();
+      if (real_.is_followed()) ++path_.followed;
     }
     return std::move(path_);
+  }
+
+  std::int32_t follow(std::int64_t cell, const Start& start) {
+    begin_at(cell, start);
+    std::optional<EscapePhase> first;
+    const std::int64_t most = std::clamp<std::int64_t>(1'000'000 / posts_.inputs().count(), 20, 1000);
+    for (std::int32_t steps = 1; steps <= most; ++steps) {
+      path_ = {};
+      path_.cells.push_back(cell);
+      way_ = Way::unknown;
+      static_cast<void>(step_of_owner());
+      if (path_.joint_inputs.empty() || !reached_.place.is_known) break;
+      if (!first) first = path_.phases.front();
+      const bool is_kept = *first == EscapePhase::independent ? reached_.is_invariant : reached_.is_safe;
+      if (!is_kept || path_.end == EscapeEnd::not_allowed) return steps;
+      if (reached_.place.kind != Location::Kind::cell) break;
+      real_.advance(path_.joint_inputs.back(), reached_.place);
+      cell = reached_.place.cell;
+    }
+    return ResultPath::kNotLeft;
   }
 
  private:
   /// How the path goes on from where it is; before the first step nothing of it is known.
   enum class Way : std::uint8_t { unknown, together, approaching, independent, evasive };
 
+  void begin_at(std::int64_t cell, const Start& start) {
+    if (start) {
+      real_.start(*start);
+    } else {
+      real_.start(cell);
+    }
+  }
+
+  /// A step of the way, and that of the system itself.
+  bool step_and_follow() {
+    const std::int64_t cell = path_.cells.back();
+    const std::size_t steps = path_.joint_inputs.size();
+    const bool goes_on = step();
+    reached_ = {};
+    if (!real_.is_followed() || path_.joint_inputs.size() == steps) return goes_on;
+    reached_.place = real_.after(cell, path_.joint_inputs.back());
+    const bool is_cell = reached_.place.kind == Location::Kind::cell;
+    const bool has_left = reached_.place.kind == Location::Kind::left_safely;
+    reached_.is_safe = is_cell ? level_of(collision_time_, reached_.place.cell) > 0 : has_left;
+    reached_.is_invariant = is_cell ? sets_.invariance->invariant.test(reached_.place.cell) : has_left;
+    return goes_on;
+  }
+
   /// The step from the last cell, which the process that owns the cell finds for all. @returns whether to go
   /// on
   bool step_of_owner() {
     const RowShare* const share = ground_.shared_rows();
-    if (share == nullptr) return step();
+    if (share == nullptr) return step_and_follow();
     Ranks& ranks = share->ranks();
     const int owner = share->owner(path_.cells.back() / grid_.row_length());
-    Bytes message;
-    if (owner == ranks.rank()) {
-      const std::size_t cells = path_.cells.size(), inputs = path_.joint_inputs.size();
-      const bool goes_on = step();
-      std::vector<std::int64_t> news = {
-          goes_on ? 1 : 0,
-          static_cast<std::int64_t>(way_),
-          static_cast<std::int64_t>(path_.end),
-          path_.joint_inputs.size() > inputs ? path_.joint_inputs.back() : -1,
-          path_.joint_inputs.size() > inputs ? static_cast<std::int64_t>(path_.phases.back()) : -1,
-          path_.cells.size() > cells ? path_.cells.back() : -1};
-      for (const DomainSide& side : path_.sides)
-        news.insert(news.end(), {static_cast<std::int64_t>(side.dimension), side.above ? 1 : 0});
-      put_numbers<std::int64_t>(message, news);
-      for (int other = 0; other < ranks.count(); ++other) {
-        if (other != owner) ranks.send(other, message);
-      }
-      return goes_on;
+    if (owner != ranks.rank()) {
+      const EscapeNews news = read_escape_message(ranks.receive(owner), path_);
+      way_ = static_cast<Way>(news.way);
+      reached_ = news.reached;
+      return news.goes_on;
     }
-    message = ranks.receive(owner);
-    MessageReader reader(message);
-    const bool goes_on = reader.number() != 0;
-    way_ = static_cast<Way>(reader.number());
-    path_.end = static_cast<EscapeEnd>(reader.number());
-    const std::int64_t input = reader.number(), phase = reader.number(), cell = reader.number();
-    if (input >= 0) path_.joint_inputs.push_back(input);
-    if (input >= 0) path_.phases.push_back(static_cast<EscapePhase>(phase));
-    if (cell >= 0) path_.cells.push_back(cell);
-    while (!reader.is_at_end()) {
-      const auto dimension = static_cast<std::size_t>(reader.number());
-      path_.sides.push_back({dimension, reader.number() != 0});
+    const std::size_t cells = path_.cells.size(), inputs = path_.joint_inputs.size();
+    const bool goes_on = step_and_follow();
+    const EscapeNews news{.goes_on = goes_on, .way = static_cast<std::int64_t>(way_), .reached = reached_};
+    const Bytes message = escape_message(news, path_, inputs, cells);
+    for (int other = 0; other < ranks.count(); ++other) {
+      if (other != owner) ranks.send(other, message);
     }
     return goes_on;
   }
@@ -111,20 +146,12 @@ class EscapeFinder {
     return level_of(collision_time_, cell) > 0 && take_evasive();
   }
 
-  /// A joint input, where it leads to, and the level of the worst cell there.
-  struct Choice {
-    std::int64_t joint_input = 0;
-    std::int64_t level = kNeverLost;
-    CellPost post;
-    bool is_forbidden = false;
-  };
-
   AdmissibleInputs::Sets members() {
     AdmissibleInputs::Sets sets{.invariant = &invariant_, .safe = &safe_, .safe_beyond = {}, .listed = {}};
     if (tubes_.beyond != nullptr) sets.safe_beyond = [this] { return &beyond_; };
     if (ground_.listed) {
       sets.listed = [this](std::int64_t cell, std::int64_t u) {
-        return ground_.listed->pairs.test(number(cell), u);
+        return ground_.listed->pairs.test(steps_.number(cell), u);
       };
     }
     return sets;
@@ -166,7 +193,7 @@ class EscapeFinder {
     path_.phases.push_back(EscapePhase::together);
     const CellPost post = posts_.post(u, tubes_);
     const std::int64_t next =
-        lowest_cell(post, [&, worst = worst](std::int64_t y) { return arrival(y) == worst; });
+        steps_.next_cell(cell, post, u, [&, worst = worst](std::int64_t y) { return arrival(y) == worst; });
     path_.end = worst == INT32_MAX ? EscapeEnd::never_arrives : EscapeEnd::arrived;
     if (next < 0) return false;  // all has left
     const bool comes_again = std::find(path_.cells.begin(), path_.cells.end(), next) != path_.cells.end();
@@ -198,7 +225,7 @@ class EscapeFinder {
         return false;
       }
       path_.end = EscapeEnd::time_lost;
-      const std::int64_t next = lowest_cell(post, [&](std::int64_t y) {
+      const std::int64_t next = steps_.next_cell(cell, post, u, [&](std::int64_t y) {
         const std::int32_t own = arrival(y);
         return own < 0 || own >= arrival(cell);
       });
@@ -241,42 +268,14 @@ class EscapeFinder {
     return take(find(collision_time_, target, is_allowed), collision_time_, EscapePhase::evasive);
   }
 
-  /// The lowest joint input of the candidates whose worst successor has the level that is looked for.
   template <class IsCandidate>
-  std::optional<Choice> find(const LevelMap& levels, std::int64_t target, const IsCandidate& is_candidate) {
-    std::map<std::vector<IndexRange>, std::int64_t> known;
-    std::optional<Choice> best;
-    posts_.move_to(path_.cells.back());
-    for (std::int64_t u = 0; u < posts_.inputs().count(); ++u) {
-      if (!is_candidate(u)) continue;
-      Choice choice{.joint_input = u, .post = posts_.post(u, tubes_)};
-      choice.is_forbidden = inputs_.forbids(path_.cells.back(), u);
-      choice.level = choice.is_forbidden ? 0 : worst_level(choice.post, levels, known);
-      if (target == kLeast ? !best || choice.level < best->level : choice.level == target) {
-        best = std::move(choice);
-      }
-      if (best && (target != kLeast || best->level == 0)) break;
-    }
-    return best;
-  }
-
-  /// 0 for a post that is blocked. @param known of boxes that were asked for before
-  std::int64_t worst_level(const CellPost& post, const LevelMap& levels,
-                           std::map<std::vector<IndexRange>, std::int64_t>& known) const {
-    if (post.blocked != CellPost::Blocked::no) return 0;
-    if (post.all_left) return kNeverLost;
-    const auto [place, is_new] = known.try_emplace(post.box, kNeverLost);
-    if (is_new) {
-      for_each_cell(grid_, post.box, [&worst = place->second, &levels](std::int64_t next) {
-        worst = std::min(worst, level_of(levels, next));
-        return worst > 0;
-      });
-    }
-    return place->second;
+  std::optional<EscapeChoice> find(const LevelMap& levels, std::int64_t target,
+                                   const IsCandidate& is_candidate) {
+    return steps_.find(path_.cells.back(), levels, target, is_candidate);
   }
 
   /// Goes the step. @returns false if the path ends with it
-  bool take(const std::optional<Choice>& choice, const LevelMap& levels, EscapePhase phase) {
+  bool take(const std::optional<EscapeChoice>& choice, const LevelMap& levels, EscapePhase phase) {
     if (!choice) {
       path_.end = EscapeEnd::no_allowed_action;
       return false;
@@ -288,28 +287,9 @@ class EscapeFinder {
       return false;
     }
     path_.cells.push_back(
-        lowest_cell(choice->post, [&](std::int64_t y) { return level_of(levels, y) == choice->level; }));
+        steps_.next_cell(path_.cells.back(), choice->post, choice->joint_input,
+                         [&](std::int64_t y) { return level_of(levels, y) == choice->level; }));
     return true;
-  }
-
-  /// The lowest-numbered cell of a post that is wanted; negative: there is none.
-  template <class IsWanted>
-  [[nodiscard]] std::int64_t lowest_cell(const CellPost& post, const IsWanted& is_wanted) const {
-    std::int64_t lowest = -1;
-    if (post.all_left) return lowest;
-    for_each_cell(grid_, post.box, [&](std::int64_t next) {
-      if (is_wanted(next) && (lowest < 0 || number(next) < number(lowest))) lowest = next;
-      return true;
-    });
-    return lowest;
-  }
-
-  [[nodiscard]] std::int64_t number(std::int64_t cell) const {
-    std::int64_t sum = 0;
-    for (std::size_t i = 0; i < sets_.number_stride.size(); ++i) {
-      sum += grid_.index(cell, i) * sets_.number_stride[i];
-    }
-    return sum;
   }
 
   const EscapeSets& sets_;
@@ -323,12 +303,19 @@ class EscapeFinder {
   ProgressInputs progress_;
   EscapePath path_;
   Way way_ = Way::unknown;
+  RealRun real_;
+  EscapeSteps steps_;
+  Reached reached_;
 };
 
 }  // namespace
 
-EscapePath find_escape(const EscapeSets& sets, std::int64_t cell) {
-  return EscapeFinder(sets).run(cell);
+EscapePath find_escape(const EscapeSets& sets, std::int64_t cell, const Start& start) {
+  return EscapeFinder(sets).run(cell, start);
+}
+
+std::int32_t follow_escape(const EscapeSets& sets, std::int64_t cell, const Start& start) {
+  return EscapeFinder(sets).follow(cell, start);
 }
 
 }  // namespace coordreq

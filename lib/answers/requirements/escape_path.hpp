@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "answers/goal/answer.hpp"
@@ -9,6 +10,7 @@
 #include "answers/one_cell/cell_posts.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "model/input_class.hpp"
+#include "numeric/rational.hpp"
 
 namespace coordreq {
 
@@ -22,6 +24,7 @@ struct EscapePath {
   std::vector<EscapePhase> phases;         ///< one a step
   EscapeEnd end = EscapeEnd::outside_safe_set;
   std::vector<DomainSide> sides;  ///< through which the last action leads, if `left_domain`
+  std::int64_t followed = 0;      ///< steps from the start that the system itself can follow, see RealRun
 };
 
 /// What escapes are made of.
@@ -44,7 +47,10 @@ struct EscapeSets {
   std::vector<std::int64_t> number_stride;
 };
 
-/// A shortest way out of S as the abstraction has it.
+/// A shortest way out of S as the abstraction has it. Ways are many, and most are made of what its boxes add:
+/// a car that brakes may stay in its cell of speed. So the system itself is followed from the start
+/// (RealRun), and of equals the joint inputs and cells come first with which it can be, for as long as there
+/// are any; then the lowest-numbered.
 ///
 /// - From x in K with delay k, k + 1 steps lead out of K, and fewer cannot: each takes the lowest-numbered u
 ///   in IND_C(x) that may lead to delay k - 1, and there the lowest-numbered such cell. With k = 0 it is the
@@ -64,6 +70,17 @@ struct EscapeSets {
 /// REQUIRES: the delay of x is bounded, and known.
 /// Cost: a look at every joint input in every step, and at every cell of each different post.
 /// Of several processes together: each step is found by the one that owns the cell.
-[[nodiscard]] EscapePath find_escape(const EscapeSets& sets, std::int64_t cell);
+/// @param start the state that is followed; none: the centre of the cell
+[[nodiscard]] EscapePath find_escape(const EscapeSets& sets, std::int64_t cell,
+                                     const std::optional<std::vector<Rational>>& start = std::nullopt);
+
+/// Follows the system itself from a cell; at each step all do what they do first on the shortest way out from
+/// where it is (find_escape()), so that nothing about it is an enclosure. Of requirements about safety that
+/// all agents see alike: `min_delay`, `invariant`. Cost: as find_escape() for each step.
+/// @returns after how many steps it has left K, or S where it begins outside K; ResultPath::kNotLeft if it
+/// does
+///   not within 1,000 steps (fewer where joint inputs are many), or where no such way leads on
+[[nodiscard]] std::int32_t follow_escape(const EscapeSets& sets, std::int64_t cell,
+                                         const std::optional<std::vector<Rational>>& start = std::nullopt);
 
 }  // namespace coordreq

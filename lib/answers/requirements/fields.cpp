@@ -118,6 +118,8 @@ void add_verdicts(Fields& fields, const ProblemSpec& spec) {
   add("end", ElementType::uint8, "how the counterexample ends", 0, ends.back().value, ends);
   add("left_side", ElementType::int32, "unsafe side of the domain through which the last action leads", 0,
       sides, side_flags(spec));
+  add("seen", ElementType::int32, "steps after which the system itself leaves", ResultPath::kNotLeft,
+      kLargestValue, {{ResultPath::kNotLeft, "not_left"}, {ResultPath::kNotFollowed, "not_followed"}});
 }
 
 void add_path(Fields& fields, const ProblemSpec& spec, std::size_t requirement) {
@@ -211,6 +213,8 @@ void fill_requirement_fields(const Answers& answers, ThreadTeam& /*team*/, Field
                             [](R r) { return r.path ? static_cast<int>(r.path->end) + 1 : 0; });
   add_of_each<std::int32_t>(values, requirements, "left_side", ElementType::int32,
                             [](R r) { return side_number(r.path ? r.path->left_side : std::nullopt); });
+  add_of_each<std::int32_t>(values, requirements, "seen", ElementType::int32,
+                            [](R r) { return r.path ? r.path->seen : ResultPath::kNotFollowed; });
   for (std::size_t r = 0; r < requirements.size(); ++r) {
     if (!requirements[r].path) continue;
     ResultPath path = *requirements[r].path;

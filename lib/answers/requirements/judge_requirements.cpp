@@ -102,7 +102,15 @@ class Judge {
         sets.blind_countdown_of = &blind_layers(answers_, p).layers_of;
       }
     }
-    return result_of(find_escape(sets, cell), ground_, asked_, number_stride_);
+    ResultPath path = result_of(find_escape(sets, cell), ground_, asked_, number_stride_);
+    if (is_followed(requirement.kind, path)) path.seen = follow_escape(sets, cell);
+    return path;
+  }
+
+  /// Of safety that all agents see alike; at the samples, for between them nobody looks at it.
+  [[nodiscard]] bool is_followed(RequirementKind kind, const ResultPath& path) const {
+    const bool is_alike = kind == RequirementKind::min_delay || kind == RequirementKind::invariant;
+    return is_alike && path.steps() > 0 && !ground_.spec.abstraction.between_samples;
   }
 
   const Answers& answers_;

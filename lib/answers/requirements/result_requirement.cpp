@@ -62,7 +62,7 @@ std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec, 
   const auto of_each = [&source](const char* name) { return source.integers(counterexample_path(name)); };
   const auto holds = of_each("holds"), cells = of_each("cells"), failing = of_each("failing");
   const auto delays = of_each("least_delay"), reached = of_each("reached_side");
-  const auto ends = of_each("end"), left = of_each("left_side");
+  const auto ends = of_each("end"), left = of_each("left_side"), seen = of_each("seen");
   const std::vector<double> risks =
       spec.risk ? source.numbers(counterexample_path("risk")) : std::vector<double>();
   std::vector<ResultRequirement> result;
@@ -89,6 +89,7 @@ std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec, 
       requirement.path->delay.assign(requirement.path->samples(), requirement.least_delay);
     requirement.path->end = static_cast<EscapeEnd>(ends[r] - 1);
     requirement.path->left_side = side_of_number(left[r]);
+    requirement.path->seen = static_cast<std::int32_t>(seen[r]);
   }
   return result;
 }

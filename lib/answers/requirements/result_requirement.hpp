@@ -58,6 +58,10 @@ struct ResultPath {
   EscapeEnd end = EscapeEnd::outside_safe_set;
   std::optional<ResultSide> left_side;  ///< if `left_domain`; the first one
 
+  static constexpr std::int32_t kNotFollowed = 0, kNotLeft = -1;
+  /// After how many steps the system itself leaves, see follow_escape().
+  std::int32_t seen = kNotFollowed;
+
   [[nodiscard]] std::size_t samples() const { return cell.size(); }
   [[nodiscard]] std::size_t steps() const { return phase.size(); }
   [[nodiscard]] bool operator==(const ResultPath&) const = default;

@@ -1,0 +1,92 @@
+#include "answers/requirements/escape_step.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace coordreq {
+
+std::int64_t EscapeSteps::level_of(const LevelMap& levels, std::int64_t cell) {
+  const std::int64_t level = levels.at(cell);
+  return level == LevelMap::kTop ? INT64_MAX : level;
+}
+
+std::optional<EscapeChoice> EscapeSteps::find(std::int64_t cell, const LevelMap& levels, std::int64_t target,
+                                              const IsWanted& is_candidate) {
+  Known known;
+  std::optional<EscapeChoice> best;
+  bool is_followed = false;
+  posts_.move_to(cell);
+  for (std::int64_t u = 0; u < posts_.inputs().count(); ++u) {
+    if (!is_candidate(u)) continue;
+    EscapeChoice choice{.joint_input = u, .post = posts_.post(u, tubes_)};
+    choice.is_forbidden = inputs_.forbids(cell, u);
+    choice.level = choice.is_forbidden ? 0 : worst_level(choice.post, levels, known);
+    const bool is_better =
+        target == kLeast ? !best || choice.level < best->level : !best && choice.level == target;
+    const bool is_equal = best && choice.level == best->level;
+    if (is_better || (is_equal && !is_followed && follows(cell, choice, levels))) {
+      is_followed = !is_better || follows(cell, choice, levels);
+      best = std::move(choice);
+    }
+    const bool is_least = best && (target != kLeast || best->level == 0);
+    if (is_least && (is_followed || !real_.is_followed())) break;
+  }
+  return best;
+}
+
+/// 0 for a post that is blocked. @param known of boxes that were asked for before
+std::int64_t EscapeSteps::worst_level(const CellPost& post, const LevelMap& levels, Known& known) const {
+  if (post.blocked != CellPost::Blocked::no) return 0;
+  if (post.all_left) return INT64_MAX;
+  const auto [place, is_new] = known.try_emplace(post.box, INT64_MAX);
+  if (is_new) {
+    for_each_cell(posts_.grid(), post.box, [&worst = place->second, &levels](std::int64_t next) {
+      worst = std::min(worst, level_of(levels, next));
+      return worst > 0;
+    });
+  }
+  return place->second;
+}
+
+bool EscapeSteps::follows(std::int64_t cell, const EscapeChoice& choice, const LevelMap& levels) {
+  if (choice.is_forbidden || choice.post.blocked != CellPost::Blocked::no) return false;
+  const std::int64_t next = real_cell(cell, choice.post, choice.joint_input);
+  return next >= 0 && level_of(levels, next) == choice.level;
+}
+
+/// The cell of a post in which the system itself is after the step; negative: it is in none, or lost from
+/// sight. (Where it is followed by floating point it may miss a face by a rounding.)
+std::int64_t EscapeSteps::real_cell(std::int64_t cell, const CellPost& post, std::int64_t u) {
+  if (!real_.is_followed() || post.all_left) return -1;
+  const RealRun::Place place = real_.after(cell, u);
+  if (!place.is_known || place.kind != Location::Kind::cell) return -1;
+  const UniformGrid& grid = posts_.grid();
+  for (std::size_t d = 0; d < grid.size(); ++d) {
+    const std::int64_t k = grid.index(place.cell, d);
+    const IndexRange& range = post.box[d];
+    if ((k < range.first || k > range.last) && k + grid[d].count > range.last) return -1;
+  }
+  return place.cell;
+}
+
+std::int64_t EscapeSteps::next_cell(std::int64_t cell, const CellPost& post, std::int64_t u,
+                                    const IsWanted& is_wanted) {
+  const std::int64_t real = real_cell(cell, post, u);
+  if (real >= 0 && is_wanted(real)) return real;
+  std::int64_t lowest = -1;
+  if (post.all_left) return lowest;
+  for_each_cell(posts_.grid(), post.box, [&](std::int64_t next) {
+    if (is_wanted(next) && (lowest < 0 || number(next) < number(lowest))) lowest = next;
+    return true;
+  });
+  return lowest;
+}
+
+std::int64_t EscapeSteps::number(std::int64_t cell) const {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < sets_.number_stride.size(); ++i)
+    sum += posts_.grid().index(cell, i) * sets_.number_stride[i];
+  return sum;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,95 @@
+#include "answers/requirements/real_run.hpp"
+
+#include <utility>
+
+#include "base/index.hpp"
+#include "model/sample_reset.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Numbers of exact states grow from step to step; this many bits are more than any story has a use for.
+Rational shortened(const Rational& value) {
+  constexpr std::size_t kBits = 4096;
+  const bool is_long =
+      mpz_sizeinbase(value.get_num_mpz_t(), 2) > kBits || mpz_sizeinbase(value.get_den_mpz_t(), 2) > kBits;
+  return is_long ? exact(nearest_double(value)) : value;
+}
+
+}  // namespace
+
+RealRun::RealRun(const SystemSpec& spec, const Abstraction& abstraction)
+    : spec_(spec),
+      abstraction_(abstraction),
+      dynamics_(spec),
+      slots_(spec.slot_count()),
+      known_(spec.states.size()) {
+  for (std::size_t l = 0; l < spec.disturbances.size(); ++l) {
+    const DisturbanceSpec& w = spec.disturbances[l];
+    slots_[spec.disturbance_slot(l)] = (w.lower + w.upper) / 2;
+  }
+}
+
+const GridDimension& RealRun::dimension(std::size_t state) const {
+  return abstraction_.grid[abstraction_.grid.dimension_of(state)];
+}
+
+void RealRun::start(std::vector<Rational> state) {
+  for (std::size_t i = 0; i < state.size(); ++i) slots_[spec_.state_slot(i)] = state[i];
+  for (auto& of_state : known_) of_state.clear();
+  state_ = std::move(state);
+}
+
+void RealRun::start(std::int64_t cell) {
+  const UniformGrid& grid = abstraction_.grid;
+  std::vector<Rational> state(grid.size());
+  for (std::size_t d = 0; d < grid.size(); ++d) state[grid.state(d)] = grid[d].point(grid.index(cell, d));
+  start(std::move(state));
+}
+
+/// Of a state that no memory keeps.
+std::optional<Rational> RealRun::next(std::size_t state, std::int64_t u) {
+  const InputSpace& inputs = abstraction_.inputs;
+  std::int64_t key = 0;
+  for (const std::int32_t j : dynamics_.dependencies(state).inputs)
+    key += inputs.index(u, at(j)) * inputs.stride(at(j));
+  const auto [place, is_new] = known_[state].try_emplace(key);
+  if (!is_new) return place->second;
+  for (const std::int32_t j : dynamics_.dependencies(state).inputs)
+    slots_[spec_.input_slot(at(j))] = inputs[at(j)].values[at(inputs.index(u, at(j)))];
+  if (const std::optional<Rational> value = dynamics_.next(state, slots_))
+    place->second = shortened(reset_at_sample(dimension(state), *value));
+  return place->second;
+}
+
+RealRun::Place RealRun::after(std::int64_t cell, std::int64_t u) {
+  const UniformGrid& grid = abstraction_.grid;
+  std::vector<Rational> found(grid.size());
+  for (std::size_t d = 0; d < grid.size(); ++d) {
+    const std::size_t state = grid.state(d);
+    if (spec_.dynamics.is_kept(state)) {
+      found[d] = grid[d].point(abstraction_.raw(d, cell, u).first);
+      continue;
+    }
+    const std::optional<Rational> value = next(state, u);
+    if (!value) return {};
+    found[d] = *value;
+  }
+  const Location location = locate(grid, found);
+  return {.is_known = true, .kind = location.kind, .cell = location.cell};
+}
+
+void RealRun::advance(std::int64_t u, const Place& place) {
+  if (!place.is_known || place.kind != Location::Kind::cell) return stop();
+  std::vector<Rational> reached(spec_.states.size());
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const std::size_t d = abstraction_.grid.dimension_of(i);
+    reached[i] = spec_.dynamics.is_kept(i)
+                     ? abstraction_.grid[d].point(abstraction_.grid.index(place.cell, d))
+                     : next(i, u).value();
+  }
+  start(std::move(reached));
+}
+
+}  // namespace coordreq
