@@ -23,10 +23,15 @@ SilenceWatch::SilenceWatch(const ResultsReader& results, std::size_t partition, 
   for (const AnswerPolicy& policy : controller.policies()) {
     if (!policy.trigger.empty() && !policy.is_on_request) policies_.push_back(policy);
   }
+  // Read again where they are asked for again: a log may be longer than what can be kept.
+  const auto values = [&results](const std::string& path, ResultsReader::Leading leading) -> CellValue {
+    return [&results, &field = results.field(path), leading](std::int64_t cell) {
+      return results.values(field, leading, one_cell(results.grid(), cell)).front();
+    };
+  };
   for (const AnswerPolicy& policy : policies_) {
-    steps_.push_back(controller.values(policy.delay, partition));
-    const std::string& aim = policy.aim.path;
-    aims_.push_back(aim.empty() ? CellValue() : controller.values(aim, partition));
+    steps_.push_back(values(policy.delay, partition));
+    aims_.push_back(policy.aim.path.empty() ? CellValue() : values(policy.aim.path, std::nullopt));
   }
   left_.resize(policies_.size());
 }
