@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "answers/requirements/result_requirement.hpp"
@@ -15,8 +16,38 @@
 #include "reach/point_dynamics.hpp"
 #include "spec/problem_spec.hpp"
 
-// The system itself beside a counterexample, one step after the other.
+// Counterexamples step by step, and the system itself beside them.
 namespace coordreq {
+
+/// f(x, u) as a list of cells; nothing if it is empty.
+inline std::optional<std::vector<std::int64_t>> post_cells(const Abstraction& a, std::int64_t x,
+                                                           std::int64_t u) {
+  std::vector<std::int64_t> cells = {0};
+  for (std::size_t i = 0; i < a.grid.size(); ++i) {
+    const ResolvedRange range = a.resolved(i, x, u);
+    if (range.blocked) return std::nullopt;
+    std::vector<std::int64_t> longer;
+    for (const std::int64_t cell : cells) {
+      for (std::int64_t k = range.inside.first; k <= range.inside.last; ++k)
+        longer.push_back(cell + k % a.grid[i].count * a.grid.stride(i));
+    }
+    cells = std::move(longer);
+  }
+  return cells;
+}
+
+/// The joint input of a step.
+inline std::int64_t input_of(const Abstraction& a, const ResultPath& path, std::size_t step) {
+  std::int64_t u = 0;
+  for (std::size_t i = 0; i < a.inputs.size(); ++i) {
+    const double value = path.input[step * a.inputs.size() + i];
+    const auto found = std::find_if(a.inputs[i].values.begin(), a.inputs[i].values.end(),
+                                    [&](const Rational& q) { return nearest_double(q) == value; });
+    RC_ASSERT(found != a.inputs[i].values.end());
+    u += (found - a.inputs[i].values.begin()) * a.inputs.stride(i);
+  }
+  return u;
+}
 
 /// Where it is after a step, with every disturbance in the middle of its range; nothing: in no cell.
 inline std::optional<std::int64_t> real_step(const ProblemSpec& spec, const Abstraction& a,
@@ -35,9 +66,8 @@ inline std::optional<std::int64_t> real_step(const ProblemSpec& spec, const Abst
 }
 
 /// While a story is what the system itself does it goes on so, if that is as bad as it gets.
-/// @param input of a step @param value of a cell after a step: how bad it is
+/// @param value of a cell after a step: how bad it is
 inline void expect_followed(const ProblemSpec& spec, const Abstraction& a, const ResultPath& path,
-                            const std::function<std::int64_t(std::size_t step)>& input,
                             const std::function<std::int32_t(std::size_t step, std::int64_t cell)>& value) {
   PointDynamics dynamics(spec);
   std::vector<Rational> state;
@@ -45,7 +75,7 @@ inline void expect_followed(const ProblemSpec& spec, const Abstraction& a, const
   for (std::size_t i = 0; i < a.grid.size(); ++i) state.push_back(a.grid[i].point(a.grid.index(first, i)));
   std::size_t followed = 0;
   for (; followed + 1 < path.samples(); ++followed) {
-    const std::optional<std::int64_t> real = real_step(spec, a, dynamics, state, input(followed));
+    const std::optional<std::int64_t> real = real_step(spec, a, dynamics, state, input_of(a, path, followed));
     const auto next = static_cast<std::int64_t>(path.cell[followed + 1]);
     if (!real || value(followed, *real) != value(followed, next)) break;
     RC_ASSERT(*real == next);

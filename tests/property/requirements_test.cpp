@@ -146,23 +146,6 @@ struct PlainRegion {
   std::vector<RationalInterval> box_;
 };
 
-/// f(x, u) as a list of cells; nothing if it is empty.
-std::optional<std::vector<std::int64_t>> post(const Both& both, std::int64_t x, std::int64_t u) {
-  const Abstraction& a = both.abstraction;
-  std::vector<std::int64_t> cells = {0};
-  for (std::size_t i = 0; i < a.grid.size(); ++i) {
-    const ResolvedRange range = a.resolved(i, x, u);
-    if (range.blocked) return std::nullopt;
-    std::vector<std::int64_t> longer;
-    for (const std::int64_t cell : cells) {
-      for (std::int64_t k = range.inside.first; k <= range.inside.last; ++k)
-        longer.push_back(cell + k % a.grid[i].count * a.grid.stride(i));
-    }
-    cells = std::move(longer);
-  }
-  return cells;
-}
-
 bool is_independent_choice(const Both& both, std::size_t p, std::int64_t x, std::int64_t u) {
   const auto& inputs = both.abstraction.inputs;
   const PartitionSpec& partition = both.spec.coordination.partitions[p];
@@ -179,24 +162,11 @@ bool is_independent_choice(const Both& both, std::size_t p, std::int64_t x, std:
   return true;
 }
 
-std::int64_t input_of(const Both& both, const ResultPath& path, std::size_t step) {
-  const auto& inputs = both.abstraction.inputs;
-  std::int64_t u = 0;
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const double value = path.input[step * inputs.size() + i];
-    const auto found = std::find_if(inputs[i].values.begin(), inputs[i].values.end(),
-                                    [&](const Rational& q) { return nearest_double(q) == value; });
-    RC_ASSERT(found != inputs[i].values.end());
-    u += (found - inputs[i].values.begin()) * inputs.stride(i);
-  }
-  return u;
-}
-
 void expect_real_path(const Both& both, const RequirementSpec& asked, const ResultPath& path) {
   std::size_t independent = 0;
   for (std::size_t s = 0; s < path.steps(); ++s) {
     const auto x = static_cast<std::int64_t>(path.cell[s]);
-    const std::int64_t u = input_of(both, path, s);
+    const std::int64_t u = input_of(both.abstraction, path, s);
     RC_ASSERT(both.plain.invariant[at(x)] == (path.phase[s] == EscapePhase::independent));
     if (path.phase[s] == EscapePhase::independent) {
       ++independent;
@@ -209,10 +179,10 @@ void expect_real_path(const Both& both, const RequirementSpec& asked, const Resu
       RC_ASSERT(is_forbidden || path.end == EscapeEnd::left_domain ||
                 path.end == EscapeEnd::unsafe_between_samples);
       // Posts that are only blocked by what happens on the way do not end with the domain's edge.
-      RC_ASSERT(is_forbidden || !both.abstraction.tubes.empty() || !post(both, x, u));
+      RC_ASSERT(is_forbidden || !both.abstraction.tubes.empty() || !post_cells(both.abstraction, x, u));
       continue;
     }
-    const auto cells = post(both, x, u);
+    const auto cells = post_cells(both.abstraction, x, u);
     RC_ASSERT(cells.has_value());
     RC_ASSERT(std::count(cells->begin(), cells->end(), static_cast<std::int64_t>(path.cell[s + 1])) > 0);
   }
@@ -234,8 +204,7 @@ void expect_real_path(const Both& both, const RequirementSpec& asked, const Resu
     const bool is_last = both.delay(asked, path.cell[step]) <= 0;
     return is_last ? both.plain.collision_time[at(y)] : both.delay(asked, at(y));
   };
-  expect_followed(
-      both.spec, both.abstraction, path, [&](std::size_t step) { return input_of(both, path, step); }, value);
+  expect_followed(both.spec, both.abstraction, path, value);
   if (path.end == EscapeEnd::outside_safe_set)
     RC_ASSERT(!both.safe.test(static_cast<std::int64_t>(path.cell.back())));
 }
