@@ -83,7 +83,7 @@ std::int64_t element(const Field& field, const Options& options, std::uint64_t i
   // The first requirement fails, with a counterexample; the second one holds.
   if (path == "/counterexample/holds") return static_cast<std::int64_t>(i);
   if (path == "/counterexample/end") return i == 0 ? 1 : 0;
-  if (path == "/counterexample/left_side") return 0;
+  if (path == "/counterexample/left_side" || path == "/counterexample/seen") return 0;
   if (path.ends_with(":byte") || field.types.front() == ElementType::uint8)
     return field.most == 1 ? static_cast<std::int64_t>(i % 2) : action_byte(i);
   return static_cast<std::int64_t>(i % 3);

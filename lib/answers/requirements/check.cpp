@@ -168,6 +168,9 @@ class RequirementChecker {
     if (value != claim_.least_delay) wrong("the counterexample begins with another value than the worst");
     if (Rank(rank_by_definition(asked_.kind, value), collision_time_[first], cell) > bounds.sure_worst)
       wrong("the counterexample does not begin in the worst cell");
+    // When the system itself leaves is an observation, but sooner than is proven it cannot.
+    const std::int32_t soonest = value < 0 ? collision_time_[first] : value + 1;
+    if (path.seen > 0 && path.seen < soonest) wrong("the system itself leaves sooner than is proven");
     PathChecker(ground_, asked_).check(path, tally_);
   }
 

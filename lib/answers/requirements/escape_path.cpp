@@ -96,6 +96,11 @@ class EscapeFinder {
     if (!real_.is_followed() || path_.joint_inputs.size() == steps) return goes_on;
     reached_.place = real_.after(cell, path_.joint_inputs.back());
     const bool is_cell = reached_.place.kind == Location::Kind::cell;
+    posts_.move_to(cell);
+    if (is_cell && !steps_.holds(posts_.post(path_.joint_inputs.back(), tubes_), reached_.place.cell)) {
+      reached_ = {};  // nothing may be known of that cell
+      return goes_on;
+    }
     const bool has_left = reached_.place.kind == Location::Kind::left_safely;
     reached_.is_safe = is_cell ? level_of(collision_time_, reached_.place.cell) > 0 : has_left;
     reached_.is_invariant = is_cell ? sets_.invariance->invariant.test(reached_.place.cell) : has_left;

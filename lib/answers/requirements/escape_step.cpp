@@ -54,19 +54,23 @@ bool EscapeSteps::follows(std::int64_t cell, const EscapeChoice& choice, const L
   return next >= 0 && level_of(levels, next) == choice.level;
 }
 
+bool EscapeSteps::holds(const CellPost& post, std::int64_t cell) const {
+  const UniformGrid& grid = posts_.grid();
+  for (std::size_t d = 0; d < grid.size(); ++d) {
+    const std::int64_t k = grid.index(cell, d);
+    const IndexRange& range = post.box[d];
+    if ((k < range.first || k > range.last) && k + grid[d].count > range.last) return false;
+  }
+  return true;
+}
+
 /// The cell of a post in which the system itself is after the step; negative: it is in none, or lost from
-/// sight. (Where it is followed by floating point it may miss a face by a rounding.)
+/// sight.
 std::int64_t EscapeSteps::real_cell(std::int64_t cell, const CellPost& post, std::int64_t u) {
   if (!real_.is_followed() || post.all_left) return -1;
   const RealRun::Place place = real_.after(cell, u);
-  if (!place.is_known || place.kind != Location::Kind::cell) return -1;
-  const UniformGrid& grid = posts_.grid();
-  for (std::size_t d = 0; d < grid.size(); ++d) {
-    const std::int64_t k = grid.index(place.cell, d);
-    const IndexRange& range = post.box[d];
-    if ((k < range.first || k > range.last) && k + grid[d].count > range.last) return -1;
-  }
-  return place.cell;
+  const bool is_cell = place.is_known && place.kind == Location::Kind::cell;
+  return is_cell && holds(post, place.cell) ? place.cell : -1;
 }
 
 std::int64_t EscapeSteps::next_cell(std::int64_t cell, const CellPost& post, std::int64_t u,

@@ -45,6 +45,9 @@ class EscapeSteps {
   /// negative: there is none.
   [[nodiscard]] std::int64_t next_cell(std::int64_t cell, const CellPost& post, std::int64_t u,
                                        const IsWanted& is_wanted);
+  /// Whether a cell is in a post. (The system itself may miss it by a rounding, where floating point follows
+  /// it.)
+  [[nodiscard]] bool holds(const CellPost& post, std::int64_t cell) const;
   /// The number of a cell in the grid of the spec.
   [[nodiscard]] std::int64_t number(std::int64_t cell) const;
 

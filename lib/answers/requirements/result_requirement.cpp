@@ -77,6 +77,8 @@ std::vector<ResultRequirement> read_requirement_values(const ProblemSpec& spec, 
     const bool has_path = source.has(counterexample_path(r, "sample"));
     if (ends[r] == 0 && left[r] != 0)
       source.fail("a side without a counterexample", counterexample_path("left_side"));
+    if (ends[r] == 0 && seen[r] != ResultPath::kNotFollowed)
+      source.fail("followed without a counterexample", counterexample_path("seen"));
     if (has_path != (ends[r] != 0))
       source.fail("an end without a counterexample, or the other way round", counterexample_path("end"));
     if (spec.requirements[r].kind == RequirementKind::max_risk)
