@@ -138,7 +138,8 @@ class Iteration {
   void step(std::size_t mode, const ExpectedLevels<std::uint32_t>& expected, ModeRisk<std::uint32_t>& choices,
             std::deque<Worker<std::uint32_t>>& workers, std::vector<std::uint8_t>& changed) {
     const std::size_t number = problem_.expected->of_mode[mode];
-    const RowNumbers rows = pending_rows(expected.changed(number));
+    // What is forbidden counts at first, too, where all has left and posts meet no row at all.
+    const RowNumbers rows = state_.steps == 0 ? alive_ : pending_rows(expected.changed(number));
     const auto n = static_cast<std::size_t>(engine_.row_length());
     for_each_in_units(
         engine_, rows, team_,
