@@ -52,7 +52,7 @@ std::string with_silence(const std::string& problem) {
     }
     const auto name = agent["name"].get<std::string>();
     if (are_all || draw(0, 2) > 0) silence["actions"][name] = draw_rule(inputs, states, draw(0, 1) == 0);
-    if (has_then) silence["then"][name] = draw_rule(inputs, states, true);
+    if (has_then) silence["then"][name] = draw_rule(inputs, states, draw(0, 2) > 0);
   }
   if (silence.empty()) {
     const nlohmann::json& first = spec["agents"].front();
