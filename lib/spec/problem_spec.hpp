@@ -34,7 +34,7 @@ struct MemorySpec {
 /// ControllerSpec::allow is.
 struct SilenceSpec {
   std::vector<std::optional<Program>> actions;  ///< [agent]; none: what C leaves to its class
-  std::vector<std::optional<Program>> then;     ///< [agent] all of them have one; or none has, and it is empty
+  std::vector<std::optional<Program>> then;  ///< [agent] all of them have one; or none has, and it is empty
 
   [[nodiscard]] bool has_then() const { return !then.empty(); }
 };

@@ -18,8 +18,8 @@ namespace coordreq {
 [[nodiscard]] std::vector<std::size_t> seen_states(const ProblemSpec& spec,
                                                    const std::vector<std::int32_t>& agents);
 
-/// Adds a state as written that is read by who reads `state`: itself, or, if a memory keeps it, those that its
-/// formula reads, through other memories too. @param read [state]
+/// Adds a state as written that is read by who reads `state`: itself, or, if a memory keeps it, those that
+/// its formula reads, through other memories too. @param read [state]
 void add_states_read(const ProblemSpec& spec, std::size_t state, std::vector<bool>& read);
 /// The name of the memory that keeps a state; empty: none does.
 [[nodiscard]] std::string memory_that_keeps(const ProblemSpec& spec, std::size_t state);
