@@ -46,6 +46,12 @@ void Options::option(const char* names, const char* takes, const char* descripti
   add(names, takes, description, false, std::move(take));
 }
 
+void Options::option_with_or_without(const char* names, const char* takes, const char* description,
+                                     Take take) {
+  add(names, takes, description, false, std::move(take));
+  entries_.back().option->expected(0, 1);
+}
+
 void Options::add(const char* names, const char* takes, const char* description, bool repeatable, Take take) {
   Entry& entry = entries_.emplace_back();
   entry.take = std::move(take);

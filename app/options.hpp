@@ -58,6 +58,8 @@ class Options {
              target = read(text, option);
            });
   }
+  /// May stand alone: then its text is empty.
+  void option_with_or_without(const char* names, const char* takes, const char* description, Take take);
   /// May be given several times.
   template <class Element, class Read>
   void repeatable(std::vector<Element>& target, const char* names, const char* takes, const char* description,

@@ -52,7 +52,8 @@ std::string csv_partition_header(const StoredPartition& partition, const QueryFo
   std::string line;
   for (const AnswerPolicy& policy : form.policies) {
     const std::string prefix = policy.name.empty() ? "" : policy.name + "_";
-    line += fmt::format(",{0}delay:{1},{0}countdown:{1}", prefix, partition.name);
+    line += fmt::format(",{}delay:{}", prefix, partition.name);
+    if (!policy.trigger.empty()) line += fmt::format(",{}countdown:{}", prefix, partition.name);
     for (const std::string& name : partition.classes)
       line += fmt::format(",{}actions:{}:{}", prefix, partition.name, name);
   }
@@ -66,8 +67,9 @@ std::string csv_partition_header(const StoredPartition& partition, const QueryFo
 std::string csv_partition(const StateAnswer& answer, std::size_t p, const QueryForm& form) {
   std::string line;
   for (const AnswerPolicy& policy : form.policies) {
-    line += "," + csv_steps(answer.value(policy.delay, p)) + "," +
-            csv_steps(answer.value(policy.trigger, p)) + csv_actions(answer.actions.at(policy.name)[p]);
+    line += "," + csv_steps(answer.value(policy.delay, p));
+    if (!policy.trigger.empty()) line += "," + csv_steps(answer.value(policy.trigger, p));
+    line += csv_actions(answer.actions.at(policy.name)[p]);
   }
   for (const Field* const field : form.numbers) {
     if (QueryForm::is_of_partitions(*field)) line += "," + csv_number(*field, answer.value(field->path, p));

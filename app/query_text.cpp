@@ -125,6 +125,7 @@ class AnswerText {
     for (const AnswerPolicy& policy : form_.policies) {
       const Json& own = policy.name.empty() ? partition : partition[policy.name];
       for (const auto& [key, path] : {std::pair("delay", policy.delay), {"countdown", policy.trigger}}) {
+        if (path.empty()) continue;
         const Field& field = form_.results.field(path);
         facts.emplace_back("  " + field.shown.asked.words, value_text(field, own, key));
       }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/render.hpp"
@@ -82,7 +83,29 @@ std::string end_text(const Json& story) {
   if (end == "time_lost") return "the state is not nearer to the goal";
   if (end == "not_allowed") return "together they do what 'allow' forbids";
   if (end == "no_common_action") return "some class has no action for all that it may see";
+  if (end == "no_silent_action") return "some agent is told nothing that it could do";
   return "no action is allowed any more";
+}
+
+/// Of agents who do what they are told, until what comes after silence cannot help any more.
+std::vector<std::string> silent_sentences(const Json& own, const ProblemSpec& spec) {
+  const Json& story = own["counterexample"];
+  std::map<std::string, std::int64_t> count;
+  for (const Json& step : story["steps"]) ++count[text_of(step["action"])];
+  const std::int64_t later = count["afterwards"] + count["evasive"];
+  const std::string end = end_text(story);
+  if (later == 0)
+    return {fmt::format("Silent agents do what they are told, and after {} {}.",
+                        steps_text(count["silent"], spec), end)};
+  std::vector<std::string> sentences;
+  if (count["silent"] > 0)
+    sentences.push_back(fmt::format("Silent agents do what they are told, and after {} it is too late.",
+                                    steps_text(count["silent"], spec)));
+  sentences.push_back(fmt::format(
+      "{}, after {} {}.",
+      count["afterwards"] > 0 ? "With what they do from then on" : "Whatever all agents then do together",
+      steps_text(later, spec), end));
+  return sentences;
 }
 
 bool is_all_alone(const Json& own, const ProblemSpec& spec) {
@@ -109,6 +132,7 @@ std::string worst_key(const Json& own) {
 std::string worst_text(const Json& kind, const Json& value, const Json& status, const ProblemSpec& spec) {
   if (status == "not_safe") return "is not safe";
   if (status == "not_invariant") return "cannot be kept safe, even if all agents coordinate";
+  if (status == "not_in_silence_set") return "is not safe with what comes after silence";
   if (status == "goal_cannot_be_forced") return "cannot be made to reach the goal";
   const RequirementTraits& own = requirement_traits(kind.get<std::string>());
   const bool is_risk = own.is_probability;
@@ -202,6 +226,8 @@ std::vector<std::string> way_sentences(const Json& own, const ProblemSpec& spec)
   if (count("together") > 0)
     return {fmt::format("All agents together take the shortest way, and after {} {}.",
                         steps_text(count("together"), spec), end_text(story))};
+  if (requirement_traits(own["kind"].get<std::string>()).kind == RequirementKind::min_silence)
+    return silent_sentences(own, spec);
   const std::int64_t alone = count("independent") + count("approaching");
   const std::int64_t evasive = count("evasive");
   std::vector<std::string> sentences;

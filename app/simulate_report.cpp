@@ -35,26 +35,41 @@ std::string heading(const Json& simulation, const ProblemSpec& spec) {
                                  connection_text(simulation), count_of(number_of(simulation["runs"]), "run"),
                                  duration(simulation["steps"], simulation), text_of(simulation["policy"]));
   if (simulation.contains("blind")) text += ", blind";
+  if (simulation.contains("silent")) {
+    const Json& silent = simulation["silent"];
+    text += ", silent " + (silent.is_null() ? "for ever" : "for " + count_of(number_of(silent), "step"));
+  }
   if (is_disturbed(spec)) text += ", disturbance " + text_of(simulation["disturbance"]);
   return text + fmt::format(", seed {}\n", simulation["seed"].get<std::uint64_t>());
 }
 
 std::string outcome_text(const std::string& outcome) {
   static const std::map<std::string, std::string> kTexts = {
-      {"completed", "stayed in the invariance set"}, {"left_safely", "left through a safe side"},
-      {"left_invariant", "left the invariance set"}, {"no_action", "found no admissible action"},
-      {"reached_goal", "reached the goal"},          {"late", "did not reach the goal in time"},
-      {"not_allowed", "did what 'allow' forbids"},   {"not_followed", "could not be followed"}};
+      {"completed", "stayed in the invariance set"},
+      {"left_safely", "left through a safe side"},
+      {"left_invariant", "left the invariance set"},
+      {"no_action", "found no admissible action"},
+      {"reached_goal", "reached the goal"},
+      {"late", "did not reach the goal in time"},
+      {"not_allowed", "did what 'allow' forbids"},
+      {"not_followed", "could not be followed"},
+      {"left_safe_set", "left the safe set, later than promised"},
+      {"stuck", "could not go on as they are told, later than promised"},
+      {"broke_promise", "broke the promise of silence"}};
   return kTexts.at(outcome);
 }
 
 std::string outcomes_text(const Json& simulation) {
   const Json& traces = simulation["traces"];
-  if (traces.size() == 1) return outcome_text(text_of(traces.front()["outcome"]));
+  // Silent agents may leave K.
+  const auto words = [&](const std::string& outcome) {
+    const bool is_silent = simulation.contains("silent") && outcome == "completed";
+    return is_silent ? "stayed in the safe set" : outcome_text(outcome);
+  };
+  if (traces.size() == 1) return words(text_of(traces.front()["outcome"]));
   std::string text;
   for (const auto& [outcome, count] : simulation["outcomes"].items()) {
-    if (count > 0)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count), outcome_text(outcome));
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count), words(outcome));
   }
   return text;
 }
@@ -74,7 +89,7 @@ std::string violation_text(const Json& simulation) {
   const auto violates = [lossy = is_lossy(simulation)](const Json& trace) {
     if (trace["outcome"] == "no_action") return true;
     return !lossy && (trace["outcome"] == "left_invariant" || trace["outcome"] == "late" ||
-                      trace["outcome"] == "not_allowed");
+                      trace["outcome"] == "not_allowed" || trace["outcome"] == "broke_promise");
   };
   const auto first = std::find_if(traces.begin(), traces.end(), violates);
   if (first == traces.end()) return {};
@@ -180,6 +195,7 @@ Json simulation_json(const Simulation& simulation, const ResultsReader& results,
   json["connection_delay"] = spec.coordination.connection_delay;
   json["policy"] = policy_name(options.policy);
   if (options.blind) json["blind"] = true;
+  if (options.silent) json["silent"] = options.silent_steps ? Json(*options.silent_steps) : Json();
   json["disturbance"] = disturbance_name(options.disturbance);
   json["seed"] = options.seed;
   json["runs"] = options.runs;

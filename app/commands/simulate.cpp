@@ -120,6 +120,15 @@ Run declare_simulate(Options& options) {
   options.flag(simulation.is_lossy, "--lossy", "Lose steps as the numbers of the network say");
   options.flag(simulation.blind, "--blind",
                "Agents that are silent go by what each class sees itself, with its silent table");
+  options.option_with_or_without(
+      "--silent", "N",
+      "Agents do for N steps what the spec tells silent ones, and then what comes after; alone: until S is "
+      "left",
+      [&simulation](const auto& text, const auto& option) {
+        simulation.silent = true;
+        if (!text.empty())
+          simulation.silent_steps = WholeNumber<std::int64_t>{0, INT32_MAX - 1}(text, option);
+      });
   options.option(simulation.partition, "--partition", "NAME", "Partition (default: the only one)", as_typed);
   options.option(simulation.output, "-o,--output", "FILE", "File for the runs (default: none)", file_name);
   declare_progress(options, own->progress);

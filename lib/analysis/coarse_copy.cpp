@@ -36,6 +36,7 @@ void leave_only(std::size_t partition, ProblemSpec& spec) {
   own = CoordinationSpec{.partitions = {own.partitions[partition]}, .max_delay = 1};
   spec.network.reset();
   spec.risk.reset();
+  spec.silence.reset();
   if (!spec.ends_at_goal) spec.goal.reset();  // else K rests on it
   for (AgentSpec& agent : spec.agents) agent.sees.reset();
   spec.requirements.clear();

@@ -36,6 +36,10 @@
 #include "answers/risk/answer.hpp"
 #include "answers/risk/check.hpp"
 #include "answers/risk/fields.hpp"
+#include "answers/silence/answer.hpp"
+#include "answers/silence/check.hpp"
+#include "answers/silence/fields.hpp"
+#include "answers/silence/policy.hpp"
 
 namespace coordreq {
 
@@ -115,6 +119,16 @@ const std::vector<Answer>& all_answers() {
        .explain = explain_blind,
        .check = check_blind,
        .check_memory = blind_check_memory},
+      {.stages = silence_stages,
+       .memory = silence_memory,
+       .fields = silence_fields,
+       .fill = fill_silence_fields,
+       .summarise = summarise_silence,
+       .tell = tell_silence,
+       .advise = advise_on_silence,
+       .policies = silence_policies,
+       .check = check_silence,
+       .check_memory = silence_check_memory},
       {.checks = requirements_checks,
        .stages = requirements_stages,
        .memory = requirements_memory,

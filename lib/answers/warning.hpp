@@ -9,7 +9,7 @@ namespace coordreq {
 /// uses. It never changes a result.
 struct Warning {
   std::string kind;   ///< "grid", "unused", "motion", "blocked", "empty", "no_silence",
-                      ///< "goal", "memory" or "sight"
+                      ///< "goal", "memory", "sight" or "silence"
   std::string place;  ///< JSON pointer
   std::string text;   ///< one line
 };

@@ -30,6 +30,9 @@ std::int64_t smallest(const std::vector<std::int64_t>& candidates, const Approxi
   return best.second;
 }
 
+/// C(x) outside K.
+const std::vector<std::int64_t> kNoInputs;
+
 double known(double score) {
   return std::isnan(score) ? outward::kInfinity : score;
 }
@@ -103,8 +106,11 @@ void ActionChooser::find_nominal() {
 std::optional<std::int64_t> ActionChooser::choose(std::int64_t cell, std::span<const Rational> measured,
                                                   Turn turn, NextStates& next, RandomStream& random) {
   CellPolicy& own = *cell_policies_[turn.policy];
-  const Numbers& together = own.together(cell, inputs_.of(cell));
-  if (together.empty()) return std::nullopt;
+  const AnswerPolicy& policy = problem_.policies[turn.policy];
+  compared_ = policy.is_anywhere ? problem_.values.at(policy.delay) : delay_;
+  const Numbers& admissible = delay_[at(cell)] < 0 ? kNoInputs : inputs_.of(cell);
+  const Numbers& together = own.together(cell, admissible);
+  if (together.empty() && !policy.is_anywhere) return std::nullopt;
   choices_.clear();
   if (turn.countdown == 0) {
     choices_.push_back(together);
@@ -139,7 +145,7 @@ void ActionChooser::for_each_choice(const Visit& visit) const {
 
 std::int64_t ActionChooser::delay_after(NextStates& next, std::int64_t u) const {
   const NextStates::Place place = next.place(u);
-  if (place.kind == Location::Kind::cell) return delay_[at(place.cell)];
+  if (place.kind == Location::Kind::cell) return compared_[at(place.cell)];
   return place.kind == Location::Kind::left_safely ? std::numeric_limits<std::int64_t>::max()
                                                    : DelayLayers::kOutsideSafe;
 }

@@ -83,7 +83,8 @@ class ActionChooser {
     std::int32_t countdown = 0;
   };
   /// @param next begun at the true state with what nature does
-  /// @param measured the state as it was measured; its cell is `cell`, in K
+  /// @param measured the state as it was measured; its cell is `cell`, in K, or in S if the policy is about
+  /// all of it
   /// @returns nothing if no action is admissible
   [[nodiscard]] std::optional<std::int64_t> choose(std::int64_t cell, std::span<const Rational> measured,
                                                    Turn turn, NextStates& next, RandomStream& random);
@@ -122,6 +123,7 @@ class ActionChooser {
 
   LoopProblem problem_;
   Policy policy_;
+  std::span<const std::int32_t> compared_;  ///< [cells] what is worst to an adversary: delays, or silence
   std::span<const std::int32_t> delay_;
   MembersByCell invariant_;
   MembersByCell safe_;

@@ -158,7 +158,9 @@ ActionSets CellController::actions(const AnswerPolicy& policy, std::size_t parti
   if (is_stored) return sets;
   for (const InputClass& one : own.classes) sets.emplace_back(at(one.actions()), false);
   const CellPolicy::Numbers admissible = numbers_of(joint_inputs(cell));
-  if (admissible.empty() || !own.policy->holds(cell)) return sets;
+  const bool is_asked =
+      policy.is_anywhere ? results_.members(paths::kSafe, block).front() != 0 : !admissible.empty();
+  if (!is_asked || !own.policy->holds(cell)) return sets;
   const CellPolicy::Numbers& together = own.policy->together(cell, admissible);
   const auto actions = own.policy->alone(cell, countdown, together, own.classes);
   for (std::size_t c = 0; c < sets.size(); ++c) {

@@ -67,6 +67,7 @@ ClosedLoop::ClosedLoop(const LoopProblem& problem, const LoopOptions& options)
 
 RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
   if (problem_.network != nullptr) return run_lossy(std::move(measured), run);
+  if (options_.silent_steps) return run_silent(std::move(measured), run);
   RandomStream actions(options_.seed, run, RandomStream::Purpose::actions);
   RandomStream disturbances(options_.seed, run, RandomStream::Purpose::disturbances);
   State state = first_state(std::move(measured), draw_nature(disturbances));

@@ -25,6 +25,9 @@ struct LoopOptions {
   std::vector<Rational> constant_disturbance;  ///< one a disturbance; used if constant
   std::uint64_t seed = 1;
   bool until_goal = false;  ///< a run ends where it reaches the goal, as it does if the spec says so
+  /// Agents do what they are told, for so many steps (kForever: until S is left), and then what comes after.
+  /// Then the second policy is that of silence, and the third one, if there is one, that of what comes after.
+  std::optional<std::int64_t> silent_steps;
 };
 
 enum class Outcome : std::uint8_t {
@@ -36,11 +39,15 @@ enum class Outcome : std::uint8_t {
   late,            ///< more steps than promised, and not in the goal
   not_allowed,     ///< ended early in K where silent agents together do what `allow` forbids
   not_followed,    ///< ended early because the next state could not be worked out
+  // Of agents who do what they are told while they are silent:
+  left_safe_set,  ///< ended early outside of S, later than promised
+  stuck,          ///< ended early, later than promised, because they could not go on as they are told
+  broke_promise,  ///< either of these, earlier
 };
 /// Those that contradict the analysis.
 [[nodiscard]] constexpr bool is_violation(Outcome outcome) {
   return outcome == Outcome::left_invariant || outcome == Outcome::no_action || outcome == Outcome::late ||
-         outcome == Outcome::not_allowed;
+         outcome == Outcome::not_allowed || outcome == Outcome::broke_promise;
 }
 
 /// One run. A sample is a state at a sampling instant; sample k is followed by step k, the last by none.
@@ -95,6 +102,10 @@ struct RunTrace {
 ///
 /// A run that reaches a goal which ends the task ends there, whatever agents go by.
 ///
+/// Agents who do what they are told while they are silent (LoopOptions::silent_steps, contract, section 9)
+/// have the promise that S holds at the first silence(start) samples; and at all of them, if no more steps
+/// than that are silent. What happens later is no contradiction.
+///
 /// Holds the scratch memory of a run: one object a thread.
 class ClosedLoop {
  public:
@@ -113,6 +124,7 @@ class ClosedLoop {
   };
 
   [[nodiscard]] RunTrace run_lossy(std::vector<Rational> measured, std::uint64_t run);
+  [[nodiscard]] RunTrace run_silent(std::vector<Rational> measured, std::uint64_t run);
   [[nodiscard]] std::vector<std::shared_ptr<ActionChooser>> choosers_of_modes();
   [[nodiscard]] Nature draw_nature(RandomStream& random) const;
   [[nodiscard]] State first_state(std::vector<Rational> measured, const Nature& nature) const;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "answers/risk/policy.hpp"
+#include "answers/silence/policy.hpp"
 #include "cell/closed_loop.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -24,6 +25,11 @@ std::vector<std::shared_ptr<ActionChooser>> ClosedLoop::choosers_of_modes() {
     if (is_safest) {
       of_mode.policies.front() = safest_policy(problem_.policies.front().delay);
       for (const auto& [path, cells] : problem_.mode_values[mode]) of_mode.values[path] = cells;
+    }
+    if (!own.is_connected && problem_.spec->silence) {
+      const std::string delay = of_mode.policies.front().delay;
+      of_mode.policies = silence_policies(*problem_.spec);
+      of_mode.policies.front().delay = delay;
     }
     std::shared_ptr<ActionChooser>& chooser =
         known[own.partition->canonical + (is_safest ? " " + std::to_string(mode) : "")];
@@ -61,7 +67,8 @@ RunTrace ClosedLoop::run_lossy(std::vector<Rational> measured, std::uint64_t run
     const std::int32_t countdown = trace.samples.back().countdown;
     const std::optional<std::int64_t> u =
         chooser.choose(cell, state.measured, {.policy = 0, .countdown = countdown}, next_, actions);
-    if (!u) return end(Outcome::no_action);
+    const bool is_told = !modes[mode].is_connected && problem_.spec->silence;
+    if (!u) return end(is_told ? Outcome::stuck : Outcome::no_action);
     if (chooser.forbids(cell, *u)) return end(Outcome::not_allowed);
     std::vector<double> disturbance;
     for (const Rational& value : nature.disturbance) disturbance.push_back(nearest_double(value));

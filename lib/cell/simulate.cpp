@@ -12,8 +12,11 @@
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/forbidden_choices.hpp"
 #include "answers/plan.hpp"
+#include "answers/silence/fields.hpp"
+#include "answers/silence/policy.hpp"
 #include "base/error.hpp"
 #include "cell/cell_controller.hpp"
+#include "cell/check_simulation.hpp"
 #include "cell/invariant_cells.hpp"
 #include "cell/lossy_network.hpp"
 #include "cell/risk_values.hpp"
@@ -61,52 +64,6 @@ std::vector<Rational> constant_disturbance(const ProblemSpec& spec, const NamedV
   return result;
 }
 
-/// No state is beyond a `stop` limit, and none is measured farther than the error from it.
-bool is_beyond_limit(const GridDimension& dimension, const Rational& value) {
-  const Rational& error = dimension.measurement_error;
-  return (dimension.below == Outside::stop && value < dimension.first - error) ||
-         (dimension.above == Outside::stop && value > dimension.point(dimension.count - 1) + error);
-}
-
-std::vector<Rational> start_state(const ResultsReader& results, const std::string& text) {
-  std::vector<Rational> state = parse_state(text, state_names(results.spec()), "--from");
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    const GridDimension& dimension = results.grid()[i];
-    if (dimension.periodic()) state[i] = reset_at_sample(dimension, state[i]);
-  }
-  return state;
-}
-
-void check_start(const ResultsReader& results, const std::vector<Rational>& state,
-                 std::span<const std::int32_t> delay) {
-  const Location location = locate(results.grid(), state);
-  std::optional<std::size_t> fault;
-  if (location.kind != Location::Kind::cell) fault = location.dimension;
-  for (std::size_t i = 0; i < state.size() && !fault; ++i) {
-    if (is_beyond_limit(results.grid()[i], state[i])) fault = i;
-  }
-  if (fault) {
-    const bool off_grid = location.kind == Location::Kind::off_grid;
-    throw UsageError(fmt::format("{} = {} is {}", results.grid()[*fault].name, to_text(state[*fault]),
-                                 off_grid ? "not a value of this discrete state" : "outside of the domain"),
-                     "--from");
-  }
-  const std::int32_t steps = delay[static_cast<std::size_t>(location.cell)];
-  if (steps < 0) {
-    throw UsageError(steps == DelayLayers::kOutsideSafe
-                         ? "the start is not in the safe set"
-                         : "the start is not in the invariance set: on this grid not even coordination keeps "
-                           "the system safe from there",
-                     "--from");
-  }
-}
-
-void check_prefer(const ProblemSpec& spec, Policy policy) {
-  const auto has_prefer = [](const AgentSpec& agent) { return agent.prefer.has_value(); };
-  if (policy != Policy::prefer || std::any_of(spec.agents.begin(), spec.agents.end(), has_prefer)) return;
-  throw UsageError("no agent of the spec has a 'prefer'", "--policy");
-}
-
 /// The partition of the delays. Who is connected a network says itself, so that any will do for that.
 std::size_t partition_of_loop(const ProblemSpec& spec, const SimulationOptions& options) {
   if (!options.is_lossy) return find_partition(spec, options.partition);
@@ -125,38 +82,30 @@ CellSet safe_cells(const UniformGrid& grid, std::span<const std::int32_t> delay)
   return safe;
 }
 
-/// Who goes by what it sees itself knows nothing of what others would like, or of a goal.
-void check_blind(const ProblemSpec& spec, const SimulationOptions& options) {
-  if (!options.blind) return;
-  if (!has_limited_sight(spec))
-    throw UsageError("all agents see all states, expected some that do not: 'sees' in the spec", "--blind");
-  if (options.policy == Policy::prefer)
-    throw UsageError("'prefer' reads what agents do not see, expected random or adversarial with --blind",
-                     "--policy");
-  if (options.until_goal)
-    throw UsageError("agents that see only themselves do not go for the goal, expected --blind or --until",
-                     "--until");
-  if (options.is_lossy)
-    throw UsageError(
-        "agents that see only themselves know that a step is lost, not the mode; expected --blind or --lossy",
-        "--lossy");
-}
-
 /// That of the delays, with those that are asked for, or else all that are not to be.
-std::vector<AnswerPolicy> loop_policies(const ProblemSpec& spec, bool blind) {
+std::vector<AnswerPolicy> loop_policies(const ProblemSpec& spec, const SimulationOptions& options) {
+  const std::string asked = options.blind ? "blind" : options.silent ? "silence" : "";
   std::vector<AnswerPolicy> policies = answer_policies(spec);
   const std::string first = policies.front().delay;
+  if (options.silent && spec.silence && spec.silence->has_then()) policies.push_back(afterwards_policy());
   std::erase_if(policies, [&](const AnswerPolicy& policy) {
-    return policy.delay.empty() || (policy.delay != first && policy.is_on_request != blind);
+    if (policy.delay == first) return false;
+    return policy.delay.empty() ||
+           (asked.empty() ? policy.is_on_request : policy.name != asked && policy.name != "afterwards");
   });
   return policies;
+}
+
+std::optional<std::int64_t> silent_steps_of(const SimulationOptions& options) {
+  if (!options.silent) return std::nullopt;
+  return options.silent_steps.value_or(RunTrace::kForever);
 }
 
 /// Of the fields that a loop looks at.
 std::vector<std::string> loop_paths(const ProblemSpec& spec, const std::vector<AnswerPolicy>& policies) {
   std::vector<std::string> paths;
   for (const AnswerPolicy& policy : policies) {
-    paths.push_back(policy.is_on_request ? policy.trigger : policy.delay);
+    paths.push_back(policy.is_on_request ? policy.countdown() : policy.delay);
     if (!policy.aim.path.empty()) paths.push_back(policy.aim.path);
   }
   // Runs end in such a goal, whatever agents go by.
@@ -244,7 +193,7 @@ MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOpt
   const auto states = static_cast<double>(spec.states.size());
   const auto disturbances = static_cast<double>(spec.disturbances.size());
   constexpr double kCopies = 2;  // of an array while it is read
-  const auto arrays = static_cast<double>(loop_paths(spec, loop_policies(spec, options.blind)).size());
+  const auto arrays = static_cast<double>(loop_paths(spec, loop_policies(spec, options)).size());
   double of_cell = (arrays + kCopies) * sizeof(std::int32_t);
   if (spec.controller.file) of_cell += static_cast<double>(PackedPairs::bytes_for(results.inputs().count()));
   if (options.is_lossy) of_cell += bytes_of_risk_values(spec);
@@ -261,15 +210,14 @@ MemoryDemand simulation_demand(const ResultsReader& results, const SimulationOpt
 Simulation simulate(const ResultsReader& results, const SimulationOptions& options, ThreadTeam& team) {
   const ProblemSpec& spec = results.spec();
   const std::size_t partition = partition_of_loop(spec, options);
-  check_blind(spec, options);
-  check_prefer(spec, options.policy);
-  if (options.until_goal && !spec.goal) throw UsageError("the spec has no goal", "--until");
+  check_options(spec, options);
   RunOptions runs{.loop = {.steps = options.steps,
                            .policy = options.policy,
                            .disturbance = options.disturbance,
                            .constant_disturbance = constant_disturbance(spec, options.constant_disturbance),
                            .seed = options.seed,
-                           .until_goal = options.until_goal},
+                           .until_goal = options.until_goal,
+                           .silent_steps = silent_steps_of(options)},
                   .runs = options.runs};
   if (options.start) runs.start = start_state(results, *options.start);
   const auto enter = [&options](const char* stage) {
@@ -278,21 +226,21 @@ Simulation simulate(const ResultsReader& results, const SimulationOptions& optio
   enter("checking");
   if (options.output) check_writable(*options.output);
   enter("running");
-  const std::vector<AnswerPolicy> policies = loop_policies(spec, options.blind);
+  const std::vector<AnswerPolicy> policies = loop_policies(spec, options);
   const std::vector<std::string> paths = loop_paths(spec, policies);
   std::map<std::string, std::vector<std::int32_t>> values;
-  const std::vector<std::int32_t>& delay = values[paths.front()] =
-      read_cells(results, paths.front(), partition);
+  for (const std::string& path : paths) {
+    if (!values.contains(path)) values[path] = read_cells(results, path, partition);
+  }
+  const std::vector<std::int32_t>& delay = values[paths.front()];
+  const std::vector<std::int32_t>& start = values[options.silent ? paths::kSilence : paths.front()];
   if (runs.start) {
-    check_start(results, *runs.start, delay);
-  } else if (InvariantCells(spec, delay).count() == 0) {
+    check_start(results, *runs.start, start, options.silent);
+  } else if (InvariantCells(spec, start).count() == 0) {
     throw UsageError(spec.memory.empty()
                          ? "the invariance set is empty: there is no state to start from"
                          : "the invariance set has no state with nothing remembered to start from",
                      "--start");
-  }
-  for (const std::string& path : paths) {
-    if (!values.contains(path)) values[path] = read_cells(results, path, partition);
   }
   // Tubes are not stored.
   const bool is_stored = results.has_abstraction() && !spec.abstraction.between_samples;
@@ -373,16 +321,19 @@ std::optional<std::size_t> Simulation::failure() const {
 }
 
 std::string outcome_name(Outcome outcome) {
-  constexpr const char* kNames[] = {"completed",    "left_safely", "left_invariant", "no_action",
-                                    "reached_goal", "late",        "not_allowed",    "not_followed"};
+  constexpr const char* kNames[] = {"completed",     "left_safely", "left_invariant", "no_action",
+                                    "reached_goal",  "late",        "not_allowed",    "not_followed",
+                                    "left_safe_set", "stuck",       "broke_promise"};
   return kNames[static_cast<std::size_t>(outcome)];
 }
 
 std::vector<Outcome> outcomes(const ProblemSpec& spec) {
   std::vector<Outcome> result = {Outcome::completed, Outcome::left_safely, Outcome::left_invariant,
                                  Outcome::no_action, Outcome::not_followed};
+  if (spec.silence)
+    result.insert(result.end(), {Outcome::left_safe_set, Outcome::stuck, Outcome::broke_promise});
   if (spec.goal) result.insert(result.end(), {Outcome::reached_goal, Outcome::late});
-  if (allow_joins_agents(spec)) result.push_back(Outcome::not_allowed);
+  if (may_forbid_choices(spec)) result.push_back(Outcome::not_allowed);
   return result;
 }
 

@@ -25,9 +25,13 @@ struct SimulationOptions {
   Disturbance disturbance = Disturbance::random;
   NamedValues constant_disturbance;  ///< those not named are in the middle of their ranges
   std::uint64_t seed = 1;
-  bool until_goal = false;            ///< runs end where they reach the goal
-  bool is_lossy = false;              ///< steps are lost as the numbers of the network say
-  bool blind = false;                 ///< silent agents go by what they see themselves
+  bool until_goal = false;  ///< runs end where they reach the goal
+  bool is_lossy = false;    ///< steps are lost as the numbers of the network say
+  bool blind = false;       ///< silent agents go by what they see themselves
+  /// Silent agents do what the spec tells them, for `silent_steps` steps and then what comes after; none: for
+  /// ever.
+  bool silent = false;
+  std::optional<std::int64_t> silent_steps;
   std::optional<std::string> output;  ///< path of the file of runs
   /// Told which stage begins: "checking", "running", "writing"; there are temporary files in all but
   /// "running". May be empty.

@@ -37,7 +37,9 @@ std::vector<Rational> draw_start(const UniformGrid& grid, const InvariantCells& 
 
 std::vector<RunTrace> simulate_runs(const LoopProblem& problem, const RunOptions& options, ThreadTeam& team) {
   std::optional<InvariantCells> cells;
-  if (!options.start) cells.emplace(*problem.spec, problem.delay());
+  const bool is_silent = options.loop.silent_steps.has_value();
+  if (!options.start)
+    cells.emplace(*problem.spec, is_silent ? problem.values.at(problem.policies[1].delay) : problem.delay());
   std::vector<std::unique_ptr<ClosedLoop>> loops(at(team.size()));
   std::vector<RunTrace> traces(at(options.runs));
   team.for_each(options.runs, 1, [&](ThreadTeam::Range range, int worker) {

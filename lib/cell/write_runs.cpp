@@ -235,6 +235,7 @@ void write_runs(const std::string& path, const ResultsReader& results, const Sim
                                      {"disturbance_policy", disturbance_name(options.disturbance)},
                                      {"seed", options.seed}};
   if (options.blind) own.push_back({"blind", std::int64_t{1}});
+  if (options.silent) own.push_back({"silent", options.silent_steps.value_or(-1)});
   const RunFields runs(results, options, simulation);
   write_fields(path, {.words = "the runs", .filetype = "coordreq-runs", .version = {1, 0}},
                header_attributes(spec) + own, spec, runs.fields, runs.values, team);

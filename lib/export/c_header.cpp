@@ -170,7 +170,7 @@ class HeaderWriter {
   [[nodiscard]] std::string more_codes(const AnswerPolicy& policy) const {
     const std::vector<FieldFlag> known = flags_of(results_.field(runs_.policies.front().trigger));
     std::string text;
-    for (const FieldFlag& flag : flags_of(results_.field(policy.trigger))) {
+    for (const FieldFlag& flag : flags_of(results_.field(policy.countdown()))) {
       const bool is_known = std::any_of(known.begin(), known.end(),
                                         [&flag](const FieldFlag& own) { return own.value == flag.value; });
       if (!is_known) text += fmt::format("#define $M_{} ({})\n", upper_case(flag.word), flag.value);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <utility>
@@ -38,7 +39,8 @@ class RunFinder {
         sets_(results.partitions()[partition].classes.size()) {
     controller_.prepare_all();
     for (const AnswerPolicy& policy : controller_.policies()) {
-      if (!policy.trigger.empty() && !policy.is_on_request) runs_.policies.push_back(policy);
+      const bool is_told = policy.name.empty() || !policy.header.where.empty();
+      if (is_told && !policy.countdown().empty()) runs_.policies.push_back(policy);
     }
   }
 
@@ -53,11 +55,12 @@ class RunFinder {
  private:
   using Steps = std::vector<std::vector<std::int32_t>>;  ///< [policy][cell of the part]
 
-  [[nodiscard]] Steps read(std::string AnswerPolicy::*path, std::int64_t begin, std::int64_t end) const {
+  template <class Path>
+  [[nodiscard]] Steps read(const Path& path, std::int64_t begin, std::int64_t end) const {
     Steps steps;
     for (const AnswerPolicy& policy : runs_.policies) {
       steps.push_back(results_.stretch(begin, end, [&](const CellBlock& block) {
-        return results_.values(policy.*path, partition_, block);
+        return results_.values(std::invoke(path, policy), partition_, block);
       }));
     }
     return steps;
@@ -65,7 +68,7 @@ class RunFinder {
 
   void add_part(std::int64_t begin, std::int64_t end) {
     const Steps delays = read(&AnswerPolicy::delay, begin, end),
-                triggers = read(&AnswerPolicy::trigger, begin, end);
+                triggers = read(&AnswerPolicy::countdown, begin, end);
     std::vector<std::int32_t> arrivals;
     if (results_.spec().ends_at_goal)
       arrivals = results_.stretch(
@@ -76,7 +79,8 @@ class RunFinder {
       entry.is_over = !arrivals.empty() && arrivals[place] == 0;
       for (std::size_t k = 0; k < runs_.policies.size(); ++k) {
         entry.countdowns.push_back(triggers[k][place]);
-        add_sets(controller_.actions(runs_.policies[k], partition_, cell, delays[k][place]), entry);
+        add_sets(controller_.actions(runs_.policies[k], partition_, cell, delays[k][place]),
+                 runs_.policies[k].is_anywhere, entry);
       }
       const std::uint32_t number = entries_.number_of(entry);
       if (!runs_.entry_of.empty() && runs_.entry_of.back() == number) continue;
@@ -85,11 +89,12 @@ class RunFinder {
     }
   }
 
-  void add_sets(const ActionSets& actions, ActionRuns::Entry& entry) {
+  /// @param is_anywhere what is not there is not what another policy says
+  void add_sets(const ActionSets& actions, bool is_anywhere, ActionRuns::Entry& entry) {
     std::vector<std::uint32_t> numbers;
     for (std::size_t c = 0; c < sets_.size(); ++c) {
       const bool has_any = std::find(actions[c].begin(), actions[c].end(), true) != actions[c].end();
-      const bool is_first = entry.sets.empty();
+      const bool is_first = entry.sets.empty() || is_anywhere;
       numbers.push_back(has_any || is_first ? sets_[c].number_of(actions[c]) : entry.sets.front()[c]);
     }
     entry.sets.push_back(std::move(numbers));

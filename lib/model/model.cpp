@@ -63,7 +63,8 @@ bool is_bound_to_the_spec(const ProblemSpec& spec) {
 /// Or in rows along the last dimension alone.
 bool is_read_by_runs(const ProblemSpec& spec) {
   return is_bound_to_the_spec(spec) || spec.controller.allow || spec.network ||
-         spec.coordination.convention || spec.coordination.horizon || !spec.requirements.empty();
+         spec.coordination.convention || spec.coordination.horizon || spec.silence ||
+         !spec.requirements.empty();
 }
 
 /// Rows along several dimensions take no tubes.

@@ -56,6 +56,11 @@ constexpr Dataset kDatasets[] = {{"collision_time"},
                                  {"blind_layer_size", "agents", "sees"},
                                  {"silent", "agents", "sees"},
                                  {"silent_layer", "agents", "sees"},
+                                 {"silence", "silence"},
+                                 {"silence_fixed_point_index", "silence"},
+                                 {"silence_layer", "silence"},
+                                 {"silence_layer_size", "silence"},
+                                 {"silence_set", "silence", "then"},
                                  {"counterexample", "requirements"},
                                  {"controller", "output", "controller"},
                                  {"actions", "output", "actions"},
@@ -74,7 +79,8 @@ bool asks_for(const Node& root, const Dataset& dataset) {
   }
   if (!root[object].has(key)) return false;
   const Node value = root[object][key];
-  return value.is_number() || value.is_text() || (!value.is_null() && root[object].flag(key));
+  return value.is_number() || value.is_text() || value.is_object() ||
+         (!value.is_null() && root[object].flag(key));
 }
 
 }  // namespace

@@ -29,6 +29,16 @@ struct MemorySpec {
       states;  ///< that keep it, among the last ones of ProblemSpec::states; perhaps none
 };
 
+/// What agents do by themselves while they are silent, and what they do for ever if they never connect again:
+/// conditions over inputs of the agent and states that it sees (contract, section 9), asked of grid points as
+/// ControllerSpec::allow is.
+struct SilenceSpec {
+  std::vector<std::optional<Program>> actions;  ///< [agent]; none: what C leaves to its class
+  std::vector<std::optional<Program>> then;  ///< [agent] all of them have one; or none has, and it is empty
+
+  [[nodiscard]] bool has_then() const { return !then.empty(); }
+};
+
 struct RequirementSpec {
   std::string name;
   Program where;  ///< over states
@@ -42,7 +52,7 @@ struct RequirementSpec {
 
   [[nodiscard]] bool is_of_partition() const {
     return kind == RequirementKind::min_delay || kind == RequirementKind::min_approach_delay ||
-           kind == RequirementKind::min_blind_delay;
+           kind == RequirementKind::min_blind_delay || kind == RequirementKind::min_silence;
   }
 };
 
@@ -66,6 +76,7 @@ struct ProblemSpec : SystemSpec {
   CoordinationSpec coordination;
   std::optional<NetworkSpec> network;
   std::optional<RiskSpec> risk;
+  std::optional<SilenceSpec> silence;
   std::vector<RequirementSpec> requirements;
   OutputSpec output;
 };

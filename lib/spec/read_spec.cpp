@@ -13,6 +13,7 @@
 #include "spec/schema_violation.hpp"
 #include "spec/scope.hpp"
 #include "spec/sight.hpp"
+#include "spec/silence.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
 #include "spec/wording.hpp"
@@ -81,6 +82,9 @@ void read_parts(const Scope& scope, const Node& root, ProblemSpec& spec) {
   const bool is_coordinated = has_agents && has_period && errors.attempt([&] {
     spec.coordination = read_coordination(scope, root, spec.agents, period);
     check_sight(spec);
+  });
+  errors.attempt([&] {
+    if (has_agents && root.has("silence")) spec.silence = read_silence(scope, root, spec.agents);
   });
   if (is_coordinated) {
     errors.attempt([&] {
@@ -186,8 +190,12 @@ ProblemSpec read_spec(std::string text, std::string_view source) {
   spec.description = root.text_or("description", "");
   spec.output = read_output(root);
   read_parts(scope, root, spec);
-  if (memory.names().empty()) return spec;
+  if (memory.names().empty()) {
+    check_silence(spec);
+    return spec;
+  }
   memory.add_to(spec);
+  check_silence(spec);
   check_cell_count(spec.states);
   begin_at_first_values(spec);
   return spec;

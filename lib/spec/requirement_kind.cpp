@@ -49,6 +49,13 @@ const std::vector<RequirementTraits>& requirement_kinds() {
        .is_upper_limit = false,
        .claim = "blind delay of {partition} at least {steps}",
        .failing = "has a blind delay of {steps}"},
+      {.kind = RequirementKind::min_silence,
+       .key = "min_silence",
+       .needs = "silence",
+       .value = "silence",
+       .is_upper_limit = false,
+       .claim = "silence of {partition} at least {steps}",
+       .failing = "has a silence of {steps}"},
   };
   return kinds;
 }

@@ -74,6 +74,16 @@ std::vector<std::size_t> seen_states(const ProblemSpec& spec, const std::vector<
   return seen;
 }
 
+void add_states_read(const ProblemSpec& spec, std::size_t state, std::vector<bool>& read) {
+  if (read[state]) return;
+  read[state] = true;
+  if (spec.dynamics.is_kept(state)) add_states_read(spec, memory_of(spec, state), read);
+}
+
+std::string memory_that_keeps(const ProblemSpec& spec, std::size_t state) {
+  return spec.dynamics.is_kept(state) ? memory_of(spec, state).name : "";
+}
+
 bool has_limited_sight(const ProblemSpec& spec, const PartitionSpec& partition) {
   return partition.classes.size() > 1 && std::ranges::any_of(partition.classes, [&](const auto& agents) {
            return seen_states(spec, agents).size() < spec.states.size();

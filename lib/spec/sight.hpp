@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "spec/spec_types.hpp"
@@ -16,6 +17,12 @@ namespace coordreq {
 /// together see every state that its formula reads, through other memories too: they can keep it themselves.
 [[nodiscard]] std::vector<std::size_t> seen_states(const ProblemSpec& spec,
                                                    const std::vector<std::int32_t>& agents);
+
+/// Adds a state as written that is read by who reads `state`: itself, or, if a memory keeps it, those that
+/// its formula reads, through other memories too. @param read [state]
+void add_states_read(const ProblemSpec& spec, std::size_t state, std::vector<bool>& read);
+/// The name of the memory that keeps a state; empty: none does.
+[[nodiscard]] std::string memory_that_keeps(const ProblemSpec& spec, std::size_t state);
 
 /// Some class of the partition, of two or more, does not see all states.
 [[nodiscard]] bool has_limited_sight(const ProblemSpec& spec, const PartitionSpec& partition);

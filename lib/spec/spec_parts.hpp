@@ -36,6 +36,8 @@ namespace coordreq {
                                        const std::vector<AgentSpec>& agents,
                                        const CoordinationSpec& coordination);
 [[nodiscard]] RiskSpec read_risk(const Scope& scope, const JsonDocument::Node& root, const Rational& period);
+[[nodiscard]] SilenceSpec read_silence(const Scope& scope, const JsonDocument::Node& root,
+                                       const std::vector<AgentSpec>& agents);
 [[nodiscard]] std::vector<RequirementSpec> read_requirements(
     const Scope& scope, const JsonDocument::Node& root, const std::vector<AgentSpec>& agents,
     const CoordinationSpec& coordination, const std::optional<RiskSpec>& risk, const Rational& period);

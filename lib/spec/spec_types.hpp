@@ -23,6 +23,7 @@ struct LinkCostSpec;
 struct CoordinationSpec;
 struct NetworkSpec;
 struct RiskSpec;
+struct SilenceSpec;
 struct MemorySpec;
 struct RequirementSpec;
 struct OutputSpec;
@@ -39,7 +40,8 @@ enum class RequirementKind : std::uint8_t {
   max_arrival,
   min_approach_delay,
   max_risk,
-  min_blind_delay
+  min_blind_delay,
+  min_silence
 };
 
 /// The key of the spec that stands for it, "automaton" for `modes`.

@@ -17,7 +17,7 @@ from .values import named_values, whole_numbers
 
 # Kinds of cells that are drawn in one colour, and -1 for those with steps to show.
 NOT_SAFE, NOT_INVARIANT, FREE = range(3)
-_COLORS = (style.NOT_SAFE, style.NOT_INVARIANT, style.FREE)
+COLORS = (style.NOT_SAFE, style.NOT_INVARIANT, style.FREE)
 _TEXTS = ("not safe", "safe, not invariant", "unbounded")
 
 
@@ -58,19 +58,33 @@ def prepare(arguments):
     partition = results.partition(arguments.partition)
     cut = make_cut(results, arguments, directions=2, fewest=1)
     panels = [
-        _panel("silence with sight", cut.read("/delay", partition), results.flags("/delay")),
-        _panel("without", cut.read("/blind_delay", partition), results.flags("/blind_delay")),
+        panel_of("silence with sight", cut.read("/delay", partition), results.flags("/delay")),
+        panel_of("without", cut.read("/blind_delay", partition), results.flags("/blind_delay")),
     ]
     name = results.partitions[partition]
     return Blind(cut, name, panels, _table(results, name, arguments))
 
 
-def _panel(title, values, flags):
+def panel_of(title, values, flags):
     values = values.reshape(len(values), -1).astype(int)
     kinds = np.full(values.shape, -1)
-    for kind, word in enumerate(("not_safe", "not_invariant", "unbounded")):
+    outside = "not_invariant" if "not_invariant" in flags else "not_in_silence_set"
+    for kind, word in enumerate(("not_safe", outside, "unbounded")):
         kinds[values == flags[word]] = kind
     return Panel(title, kinds, np.ma.masked_where(kinds >= 0, values))
+
+
+def draw_panels(figure, grid, panels, cut, label):
+    """Maps of steps beside one another, with a bar for all of them. @returns the kinds of cells that occur"""
+    most = max([int(panel.steps.max()) for panel in panels if panel.steps.count()], default=0)
+    for axes, panel in zip(grid, panels):
+        style.kind_image(axes, panel.kinds, COLORS, style.extent_of(cut))
+        style.step_image(axes, panel.steps, most, style.extent_of(cut))
+        style.label_plane(axes, cut)
+        axes.set_title(panel.title)
+    if any(panel.steps.count() for panel in panels):
+        style.add_step_bar(figure, list(grid[: len(panels)]), most, label, cut.results)
+    return sorted({int(kind) for panel in panels for kind in np.unique(panel.kinds)} - {-1})
 
 
 def _table(results, partition, arguments):
@@ -106,25 +120,17 @@ def draw(blind, size=None):
     figure = style.new_figure(size, (13.6, 4.3))
     figure.get_layout_engine().set(w_pad=0.12)  # the bar of the delays stands beside the label of the table
     grid = figure.subplots(1, 3)
-    most = max([int(panel.steps.max()) for panel in blind.panels if panel.steps.count()], default=0)
-    for axes, panel in zip(grid, blind.panels):
-        style.kind_image(axes, panel.kinds, _COLORS, style.extent_of(cut))
-        style.step_image(axes, panel.steps, most, style.extent_of(cut))
-        style.label_plane(axes, cut)
-        axes.set_title(panel.title)
-    if any(panel.steps.count() for panel in blind.panels):
-        style.add_step_bar(figure, list(grid[:2]), most, "delay", results)
+    found = draw_panels(figure, grid, blind.panels, cut, "delay")
     table = blind.table
     style.kind_image(grid[2], table.allowed, _shades(table.actions), style.extent_of(table.cut))
     style.label_plane(grid[2], table.cut)
     grid[2].set_title(style.plain(table.title))
     style.add_title(figure, f"{results.title}, {blind.partition}", cut.title)
-    found = {int(kind) for panel in blind.panels for kind in np.unique(panel.kinds)}
     counts = [int(count) for count in np.unique(table.allowed)]
     shades = _shades(table.actions)
     style.legend_below(
         figure,
-        [(_COLORS[kind], _TEXTS[kind]) for kind in sorted(found - {-1})]
+        [(COLORS[kind], _TEXTS[kind]) for kind in found]
         + [(shades[count], f"{count} of {table.actions} actions" if count else "cannot be there") for count in counts],
     )
     return figure

@@ -67,7 +67,7 @@ def _lines(results):
     names = results.spec.canonical_partitions()
     verdicts = results.read(_VERDICTS) if _VERDICTS in results else []
     for i, requirement in enumerate(results.spec.requirements()):
-        if any(key.startswith(("max_arrival", "min_approach_delay", "min_blind_delay")) for key in requirement):
+        if any(key.startswith(("max_arrival", "min_approach_delay", "min_blind_delay", "min_silence")) for key in requirement):
             continue
         name = requirement.get("partition")
         if name is not None:

@@ -45,6 +45,8 @@ TEST(DatasetNames, AreThoseOfTheDatasetsThatAreWritten) {
         R"({"output": {"controller": true, "layers": false}})", R"({"output": {"actions": true}})",
         R"({"output": {"layers": true}})", R"({"output": {"abstraction": true}})",
         R"({"agents": [{"name": "a", "inputs": ["u"], "sees": ["x"]}, {"name": "b", "inputs": ["v"]}]})",
+        R"({"silence": {"actions": {"a": "u <= 0"}}})",
+        R"({"silence": {"then": {"a": "u <= 0", "b": "true"}}})",
         R"({"controller": {"file": "other.h5"}})"}) {
     nlohmann::json spec = plain_spec();
     spec.update(nlohmann::json::parse(addition));
@@ -53,7 +55,7 @@ TEST(DatasetNames, AreThoseOfTheDatasetsThatAreWritten) {
     EXPECT_EQ(reserved, written(read_spec(text, "test"))) << addition;
     all.insert(reserved.begin(), reserved.end());
   }
-  EXPECT_EQ(all.size(), 36U);
+  EXPECT_EQ(all.size(), 41U);
 }
 
 }  // namespace

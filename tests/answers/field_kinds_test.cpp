@@ -21,7 +21,7 @@ ProblemSpec everything() {
 "agents": [{"name": "a", "inputs": ["u"], "sees": []}, {"name": "b", "inputs": ["v"]}],
 "dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x + u - v"}}, "safe": "x <= 2", "goal": "x == 0",
 "coordination": {"partitions": "all", "horizon": 2, "convention": true, "connection_delay": 1},
-"network": {"loss": 0.1}, "risk": {"horizon": 2}, "requirements": [{"name": "r", "where": "x == 0", "invariant": true}],
+"network": {"loss": 0.1}, "risk": {"horizon": 2}, "silence": {"then": {"a": "u == 0", "b": "v == 0"}}, "requirements": [{"name": "r", "where": "x == 0", "invariant": true}],
 "output": {"controller": true, "actions": true, "layers": true, "abstraction": true}})",
                    "test");
 }
@@ -71,7 +71,8 @@ TEST(AnswerPolicies, HaveTheFieldsThatTheyName) {
   std::set<std::string> names;
   for (const AnswerPolicy& policy : policies) {
     EXPECT_TRUE(names.insert(policy.name).second) << policy.name;
-    EXPECT_EQ(policy.delay.empty(), policy.trigger.empty()) << policy.name;
+    EXPECT_TRUE(!policy.delay.empty() || policy.trigger.empty()) << policy.name;
+    EXPECT_EQ(policy.countdown().empty(), policy.delay.empty()) << policy.name;
     for (const std::string& path : {policy.delay, policy.trigger}) {
       if (path.empty()) continue;
       EXPECT_EQ(axes_of(path), cell_axes("/partition", spec)) << path;
@@ -86,6 +87,7 @@ TEST(AnswerPolicies, AreThoseOfTheSpec) {
   spec.goal.reset();
   spec.coordination.convention = false;
   spec.agents[0].sees.reset();
+  spec.silence.reset();
   const std::vector<AnswerPolicy> policies = answer_policies(spec);
   ASSERT_EQ(policies.size(), 1U);
   EXPECT_EQ(policies.front().delay, "/delay");

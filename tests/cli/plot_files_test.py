@@ -122,7 +122,7 @@ class Cases(PlotCase):
             ((*layers, "--partition", "a"), "no partition 'a', expected 'a|b' (--partition)"),
             (
                 ("maps", "out.h5", "-o", "a.png"),
-                "unknown figure 'maps', expected 'actions', 'layers', 'unsafe3d', 'run', 'requirements', 'coalition', 'goal', 'risk', 'sweep' or 'blind'",
+                "unknown figure 'maps', expected 'actions', 'layers', 'unsafe3d', 'run', 'requirements', 'coalition', 'goal', 'risk', 'sweep', 'blind' or 'silence'",
             ),
         ):
             self.assert_plot_fails(2, message, *words)
@@ -182,7 +182,7 @@ class Cases(PlotCase):
 
     def test_the_pictures_of_the_pages_are_those_of_their_commands(self):
         text = (ROOT / "docs/export.md").read_text().split("\n## Pictures\n")[1].split("\n## ")[0]
-        text += "".join((ROOT / "docs" / page).read_text() for page in ("goals-and-memory.md", "blind.md", "risk.md"))
+        text += "".join((ROOT / "docs" / page).read_text() for page in ("goals-and-memory.md", "blind.md", "risk.md", "silence.md"))
         shown = re.findall(r"!\[.*\]\(pictures/(.*)\)", text)
         lines = [line.split() for line in re.findall(r"(?m)^(?:coordreq analyze|scripts/plot .*-o) .*", text)]
         commands = [line for line in lines if line[0] == "scripts/plot"]

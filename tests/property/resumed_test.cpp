@@ -12,11 +12,14 @@
 #include "answers/blind/blind_layers.hpp"
 #include "answers/network/network_problem.hpp"
 #include "answers/risk/risk.hpp"
+#include "answers/silence/answer.hpp"
+#include "answers/silence/silent_actions.hpp"
 #include "spec/read_spec.hpp"
 #include "spec/sight.hpp"
 #include "support/fast_engine.hpp"
 #include "support/random_problem.hpp"
 #include "support/random_sight.hpp"
+#include "support/random_silence.hpp"
 
 namespace coordreq {
 namespace {
@@ -145,6 +148,34 @@ TEST(Resumed, BlindLayersAreTheSameFromAnyStep) {
       goes_on = goes_on || !seen.empty();
     }
     RC_CLASSIFY(goes_on, "a wave after B_1");
+  }));
+}
+
+TEST(Resumed, SilenceIsTheSameFromAnyStep) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("the layers of agents that do what they are told", [&] {
+    const ProblemSpec spec = read_spec(with_silence(draw_problem()), "random");
+    const FastAnalysis fast(spec, team);
+    const CellSet& set = silence_set(*fast.answers);
+    bool goes_on = false;
+    for (std::size_t p = 0; p < fast.layers.size(); ++p) {
+      const SilentActions actions(*fast.answers, {spec.silence->actions, "actions"},
+                                  spec.coordination.partitions[p].classes, set, team);
+      const auto find = [&](const WaveWatch& watch) {
+        return find_delay_layers(fast.engine, fast.hull, set, actions.projections, {},
+                                 spec.coordination.max_delay, watch, team)
+            .layers_of;
+      };
+      std::vector<Seen> seen;
+      const std::vector<std::int64_t> end = levels_of(find(recorder(fast.engine, seen, 1)));
+      RC_ASSERT(end == levels_of(silence_of(*fast.answers, p).layers.layers_of));
+      for (Seen& one : seen) {
+        const WaveWatch watch{.resumed = &one.levels};
+        RC_ASSERT(levels_of(find(watch)) == end);
+      }
+      goes_on = goes_on || !seen.empty();
+    }
+    RC_CLASSIFY(goes_on, "a wave");
   }));
 }
 

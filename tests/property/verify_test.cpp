@@ -9,6 +9,7 @@
 #include "support/random_goal.hpp"
 #include "support/random_problem.hpp"
 #include "support/random_sight.hpp"
+#include "support/random_silence.hpp"
 
 namespace coordreq {
 namespace {
@@ -23,6 +24,7 @@ TEST(Verify, ResultsOfRandomSystemsHold) {
   EXPECT_TRUE(rc::check("what analyze writes holds", [&] {
     std::string text = draw(0, 1) == 0 ? draw_problem() : perhaps_with_end(draw_problem());
     if (draw(0, 2) == 0) text = with_sight(text);
+    if (draw(0, 2) == 0) text = with_silence(text);
     const ClaimedFile file = analysed_file(draw(0, 1) == 0 ? text : storing_everything(text), team);
     const Verification result = verify_file(file, {.budget_seconds = 0.1}, team);
     RC_LOG(complaints(result));

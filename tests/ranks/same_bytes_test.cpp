@@ -15,6 +15,7 @@
 #include "support/random_problem.hpp"
 #include "support/random_requirements.hpp"
 #include "support/random_sight.hpp"
+#include "support/random_silence.hpp"
 #include "support/thread_ranks.hpp"
 
 namespace coordreq {
@@ -98,6 +99,7 @@ Json draw_problem_of_any_kind() {
   Json spec = Json::parse(draw_problem(time, RandomEdges::any, agents));
   if (draw(0, 2) == 0) spec = Json::parse(perhaps_with_end(spec.dump()));
   if (draw(0, 2) == 0) spec = Json::parse(with_sight(spec.dump()));
+  if (draw(0, 2) == 0) spec = Json::parse(with_silence(spec.dump()));
   for (const char* part : {"controller", "actions", "layers", "abstraction"})
     spec["output"][part] = draw(0, 1) == 0;
   return spec;
@@ -159,6 +161,20 @@ TEST(ManyRanks, SumWhatTheyCountInFibresThatTheyShare) {
     const bool is_alike = draw(0, 3) == 0;
     const std::string text = with_sight(is_alike ? draw_like_agents() : draw_problem());
     check_same(folder, read_spec(text, "random"));
+  }));
+}
+
+TEST(ManyRanks, CountCellsInWhichSilentAgentsHaveNothingToDo) {
+  const Folder folder;
+  EXPECT_TRUE(rc::check("agents that do what they are told", [&] {
+    const bool is_alike = draw(0, 3) == 0;
+    Json spec = Json::parse(with_silence(is_alike ? draw_like_agents() : draw_problem()));
+    const bool is_one = spec["agents"].size() == 1;
+    if (!is_one && draw(0, 2) == 0) {
+      spec["network"] = {{"loss", 0.125}};
+      spec["risk"] = {{"horizon", 3}};
+    }
+    check_same(folder, read_spec(spec.dump(), "random"));
   }));
 }
 

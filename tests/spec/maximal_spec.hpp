@@ -41,6 +41,7 @@ inline constexpr std::string_view kMaximalSpec = R"jsonc({
     "modes": [ { "name": "up", "partition": "horizontal+vertical" }, { "name": "down", "partition": "alone" } ],
     "transitions": [ ["up", "up"], ["up", "down"], ["down", "up"] ],
     "resynthesise": true },
+  "silence": { "actions": { "vertical": "u2 <= heading" }, "then": { "vertical": "true", "horizontal": "u1 <= x1 and u3 == 0" } },
   "requirements": [ { "name": "near the middle", "where": "r2 <= 0.01", "partition": "alone", "min_delay": 20 },
                     { "name": "in time", "where": "x1 > 0", "partition": "vertical+horizontal",
                       "min_delay_time": 0.205 },

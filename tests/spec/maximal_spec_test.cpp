@@ -118,6 +118,15 @@ TEST(MaximalSpec, AbstractionControllerOutput) {
   EXPECT_TRUE(spec.output.abstraction);
 }
 
+TEST(MaximalSpec, Silence) {
+  const std::optional<SilenceSpec> silence = maximal().silence;
+  ASSERT_TRUE(silence.has_value());
+  EXPECT_FALSE(silence->actions[0].has_value());
+  EXPECT_EQ(silence->actions[1]->variables(), (Slots{3, 5}));
+  EXPECT_EQ(silence->then[0]->variables(), (Slots{0, 4, 6}));
+  EXPECT_EQ(silence->then[1]->text, "true");
+}
+
 TEST(MaximalSpec, Coordination) {
   const CoordinationSpec coordination = maximal().coordination;
   ASSERT_EQ(coordination.partitions.size(), 2U);

@@ -369,8 +369,8 @@ TEST(SpecError, RequirementsAskForOneThing) {
   expect_errors({
       {"/requirements", R"([{"name": "r", "where": "true"}])",
        "missing key: one of 'min_delay', 'min_delay_time', 'invariant', 'max_arrival', 'max_arrival_time', "
-       "'min_approach_delay', 'min_approach_delay_time', 'max_risk', 'min_blind_delay' or "
-       "'min_blind_delay_time' (/requirements/0)"},
+       "'min_approach_delay', 'min_approach_delay_time', 'max_risk', 'min_blind_delay', "
+       "'min_blind_delay_time', 'min_silence' or 'min_silence_time' (/requirements/0)"},
       {"/requirements", R"([{"name": "r", "where": "true", "min_delay": 1, "invariant": true}])",
        "'min_delay' and 'invariant' exclude each other (/requirements/0)"},
       {"/requirements", R"([{"name": "r", "where": "true", "invariant": false}])",

@@ -16,6 +16,7 @@
 #include "base/index.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/sight.hpp"
+#include "spec/silence.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -234,6 +235,7 @@ Warnings advise_on_blind(const Answers& answers) {
   if (spec.coordination.convention) others.emplace_back("coordination/convention");
   if (spec.network) others.emplace_back("network");
   if (spec.risk) others.emplace_back("risk");
+  if (spec.silence && !all_have_rules(*spec.silence)) others.emplace_back("silence");
   if (others.empty()) return {};
   return {{"sight", "/agents",
            fmt::format("what {} says is true of agents who see all states, whatever they have under 'sees'",

@@ -12,11 +12,11 @@
 namespace coordreq {
 namespace {
 
-/// `allow` at all grid points; nothing if it permits everything.
-std::optional<ConditionTable> condition_table(const ProblemSpec& spec, const Abstraction& abstraction,
+/// A condition at all grid points; nothing if it permits everything.
+std::optional<ConditionTable> condition_table(const PairCondition& condition, const ProblemSpec& spec,
+                                              const Abstraction& abstraction,
                                               std::optional<RowShare::Range> leading, ThreadTeam& team) {
-  if (!spec.controller.allow) return std::nullopt;
-  const Program& allow = *spec.controller.allow;
+  const Program& allow = condition.program;
   if (allow.nodes.back().op == Operator::literal_true) return std::nullopt;
   const std::vector<std::uint32_t> slots = allow.variables();
   const bool asks_cells = !slots.empty() && slots.back() >= spec.states.size() + spec.inputs.size();
@@ -35,7 +35,7 @@ std::optional<ConditionTable> condition_table(const ProblemSpec& spec, const Abs
       place += fmt::format("{}{} = {}", place.empty() ? "" : ", ",
                            is_state ? spec.states[i].name : spec.inputs[i].name, to_text(value));
     }
-    throw SpecError(fmt::format("'allow' cannot be decided at {}", place), "/controller/allow");
+    throw SpecError(fmt::format("{} cannot be decided at {}", condition.words, place), condition.pointer);
   };
   return ConditionTable(allow, abstraction.grid, abstraction.inputs, refuse, team, leading);
 }
@@ -132,14 +132,25 @@ CellSet part_of(const CellSet& set, const CellSet& other, bool is_in, const RowS
   return result;
 }
 
+std::optional<PairTable> permitted_pairs(const PairCondition& condition, const ProblemSpec& spec,
+                                         const Abstraction& abstraction, ThreadTeam& team,
+                                         const RowShare* share) {
+  const UniformGrid& grid = abstraction.grid;
+  std::optional<RowShare::Range> leading;
+  if (share != nullptr && grid.across() > 0) leading = leading_indices(grid, own_rows(share, grid.rows()));
+  const auto table = condition_table(condition, spec, abstraction, leading, team);
+  return table ? std::optional<PairTable>(std::in_place, *table) : std::nullopt;
+}
+
 PairRules pair_rules(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team,
                      const PackedPairs* listed, const RowShare* share) {
   const UniformGrid& grid = abstraction.grid;
   const RowShare::Range rows = own_rows(share, grid.rows());
-  std::optional<RowShare::Range> leading;
-  if (share != nullptr && grid.across() > 0) leading = leading_indices(grid, rows);
   PairRules rules;
-  if (const auto allow = condition_table(spec, abstraction, leading, team)) rules.permitted.emplace(*allow);
+  if (spec.controller.allow) {
+    rules.permitted = permitted_pairs({*spec.controller.allow, "'allow'", "/controller/allow"}, spec,
+                                      abstraction, team, share);
+  }
   const PairTable* const permitted = rules.permitted ? &*rules.permitted : nullptr;
   if (listed != nullptr) rules.listed.emplace(grid, abstraction.inputs, *listed, permitted, rows, team);
   return rules;

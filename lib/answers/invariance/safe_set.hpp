@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/thread_team.hpp"
@@ -32,6 +33,22 @@ void add_cells_that_satisfy(const Program& condition, const ProblemSpec& spec, c
 [[nodiscard]] CellSet part_of(const CellSet& set, const CellSet& other, bool is_in, const RowShare* share);
 /// S, contract "Safe set".
 [[nodiscard]] CellSet safe_set(const ProblemSpec& spec, const Abstraction& abstraction, ThreadTeam& team);
+
+/// A condition over pairs of states and joint inputs, what it is called in an error, and where it stands.
+struct PairCondition {
+  const Program& program;
+  std::string words;
+  std::string pointer;
+};
+
+/// What a condition permits at grid points of states and inputs; nothing if that is everything.
+/// @param share then what its own rows need; null: there is one process
+/// @throws SpecError naming the first grid point where it cannot be decided (contract, "Conditions"), unless
+///   a memory may be why: that counts as false
+[[nodiscard]] std::optional<PairTable> permitted_pairs(const PairCondition& condition,
+                                                       const ProblemSpec& spec,
+                                                       const Abstraction& abstraction, ThreadTeam& team,
+                                                       const RowShare* share = nullptr);
 
 /// The pairs that `allow` permits at grid points of states and inputs, and of these those that are listed if
 /// there is a list.

@@ -84,6 +84,10 @@ LayersMeant blind_layers_meant() {
   return {"/blind_countdown", "/blind_delay", "/blind_", "blind layers", 'B'};
 }
 
+LayersMeant silence_layers_meant() {
+  return {"/silence", "/silence", "/silence_", "silence layers", 'L'};
+}
+
 PartitionClaims::PartitionClaims(const ProblemSpec& spec, const Claims& claims, std::size_t p,
                                  LayersMeant layers)
     : meant(std::move(layers)),

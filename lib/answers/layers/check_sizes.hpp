@@ -18,6 +18,8 @@ struct LayersMeant {
 };
 /// Those of agents who see only themselves, with countdowns for delays.
 [[nodiscard]] LayersMeant blind_layers_meant();
+/// Those of agents who do what they are told, with silence for delays.
+[[nodiscard]] LayersMeant silence_layers_meant();
 
 /// What a file says about one partition. REQUIRES: the claims outlive it.
 struct PartitionClaims {

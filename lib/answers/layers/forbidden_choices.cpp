@@ -20,7 +20,11 @@ bool allow_joins_agents(const ProblemSpec& spec) {
          }) > 1;
 }
 
-ForbiddenChoices::ForbiddenChoices(const ActionGrouping& grouping, ThreadTeam& team) {
+bool may_forbid_choices(const ProblemSpec& spec) {
+  return allow_joins_agents(spec) || (spec.silence && spec.controller.allow);
+}
+
+ForbiddenChoices::ForbiddenChoices(const ActionGrouping& grouping, ThreadTeam& team, bool by_rules) {
   const RowEngine& engine = grouping.engine();
   if (engine.permitted() == nullptr) return;
   const ActionSource source = source_of(*engine.permitted(), engine.abstraction().inputs);
@@ -30,7 +34,7 @@ ForbiddenChoices::ForbiddenChoices(const ActionGrouping& grouping, ThreadTeam& t
     classes.push_back(grouping[c]);
     joined += std::ranges::any_of(source.inputs, [&](std::int32_t i) { return grouping[c].contains(i); });
   }
-  if (joined < 2) return;
+  if (joined < 2 && !by_rules) return;
   permitted_ = engine.permitted();
   pairs_.emplace_back(engine, classes, std::vector<ActionSource>{source}, team);
 }

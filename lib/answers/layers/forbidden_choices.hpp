@@ -11,6 +11,9 @@ namespace coordreq {
 /// `allow` names inputs of several agents: only then can it forbid what each of them may do by itself.
 [[nodiscard]] bool allow_joins_agents(const ProblemSpec& spec);
 
+/// Agents who act by themselves may do together what `allow` forbids.
+[[nodiscard]] bool may_forbid_choices(const ProblemSpec& spec);
+
 /// {x : the product of what the classes choose from at x holds a joint input that `allow` forbids}. Such a
 /// joint input counts as blocked (contract, "Layers"): where classes act by themselves, each may take its
 /// part of something permitted, and all together what is not. What a controller file does not list is not
@@ -21,7 +24,8 @@ namespace coordreq {
 class ForbiddenChoices {
  public:
   /// @param grouping of a partition; outlives this object, as its engine does
-  ForbiddenChoices(const ActionGrouping& grouping, ThreadTeam& team);
+  /// @param by_rules classes choose by rules of their own, which may permit what `allow` does not
+  ForbiddenChoices(const ActionGrouping& grouping, ThreadTeam& team, bool by_rules = false);
 
   /// What one thread works with.
   struct Workspace {

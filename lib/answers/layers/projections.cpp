@@ -41,8 +41,9 @@ template <class Level>
 class Projections::Builder {
  public:
   Builder(const Controller& controller, const ActionGrouping& grouping, const ForbiddenChoices& choices,
-          const RowHull& hull, const LevelRows<Level>& levels, bool keeps_masks)
+          const RowHull& hull, const LevelRows<Level>& levels, const SilentRules* rules, bool keeps_masks)
       : controller_(controller),
+        rules_(rules),
         levels_(levels),
         keeps_masks_(keeps_masks),
         grouping_(grouping),
@@ -60,6 +61,7 @@ class Projections::Builder {
 
   /// @returns what was found, valid until the next call
   Found project(const RowPlace& place) {
+    if (rules_ != nullptr) return project_by_rules(place);
     const ConstRow invariant = controller_.invariant->row(place.row);
     const bool is_full = free_.is_free(place);
     Found found{.row = place.row, .is_full = is_full};
@@ -82,9 +84,7 @@ class Projections::Builder {
       found.packed = packed_;
     }
     if (!is_product || (keeps_masks_ && !is_full)) {
-      joined_masks_.clear();
-      for (const std::vector<Word>& own : masks_)
-        joined_masks_.insert(joined_masks_.end(), own.begin(), own.end());
+      join_masks();
       found.masks = joined_masks_;
     }
     if (choices_.find(place, groups_, masks_, work_, forbidden_)) found.forbidden = forbidden_;
@@ -92,6 +92,100 @@ class Projections::Builder {
   }
 
  private:
+  Found project_by_rules(const RowPlace& place) {
+    Found found{.row = place.row};
+    grouping_.group(place, groups_);
+    // All that has left for good says nothing of what the others do.
+    const bool is_product = boxes_.is_product() && boxes_.fill(place, groups_) && !boxes_.has_gone();
+    is_simple_ = false;
+    const ConstRow cells = rules_->cells->row(place.row);
+    find_ruled(place, cells);
+    if (!choices_.find(place, groups_, masks_, work_, forbidden_))
+      std::fill(forbidden_.begin(), forbidden_.end(), 0);
+    for (std::size_t w = 0; w < cells.size(); ++w) forbidden_[w] |= cells[w] & ~members_[w];
+    if (is_product) {
+      mark_blocked();
+      packed_.clear();
+      independent_.pack(boxes_, groups_, masks_, members_, controller_.engine->grid(), packed_);
+      found.packed = packed_;
+    } else if (!rules_->permit_all()) {
+      join_masks();
+      found.masks = joined_masks_;
+    }
+    if (any_set(forbidden_)) found.forbidden = forbidden_;
+    return found;
+  }
+
+  /// Masks of all classes, and in `members_` the cells where each class has an action.
+  void find_ruled(const RowPlace& place, ConstRow cells) {
+    std::vector<Word> all(cells.begin(), cells.end()), any(cells.size());
+    for (std::size_t c = 0; c < masks_.size(); ++c) {
+      const ClassRules& rules = rules_->classes[c];
+      rules.asks_controller ? find_masks(place, c) : fill_masks(c, cells);
+      std::fill(any.begin(), any.end(), 0);
+      for (std::size_t g = 0; g < groups_.classes[c]->size(); ++g) {
+        Word* const mask = masks_[c].data() + g * cells.size();
+        for (std::size_t w = 0; w < cells.size(); ++w) mask[w] &= cells[w];
+        for (const std::size_t t : rules.sources) keep(permitted(place, c, g, t), mask);
+        for (std::size_t w = 0; w < cells.size(); ++w) any[w] |= mask[w];
+      }
+      if (rules_->lacking != nullptr) count_lacking(place, c, any, all);
+      keep(any, all.data());
+    }
+    members_ = std::move(all);
+  }
+
+  static void keep(ConstRow cells, Word* set) {
+    for (std::size_t w = 0; w < cells.size(); ++w) set[w] &= cells[w];
+  }
+
+  /// Of the cells in `all` those not in `any`, where class c has no action.
+  void count_lacking(const RowPlace& place, std::size_t c, ConstRow any, const std::vector<Word>& all) const {
+    std::vector<Word> lacking(all);
+    for (std::size_t w = 0; w < any.size(); ++w) lacking[w] &= ~any[w];
+    const auto count = [&](std::size_t agent, const std::vector<Word>& cells) {
+      for (std::size_t w = 0; w < cells.size(); ++w) {
+        (*rules_->lacking)[agent] += std::popcount(cells[w] & lacking[w]);
+        lacking[w] &= ~cells[w];
+      }
+    };
+    if (!any_set(lacking)) return;
+    const ClassRules& rules = rules_->classes[c];
+    for (std::size_t k = 0; k < rules.sources.size(); ++k) {
+      std::vector<Word> nothing(all.size(), ~Word{0});
+      for (std::size_t g = 0; g < groups_.classes[c]->size(); ++g) {
+        const ConstRow cells = permitted(place, c, g, rules.sources[k]);
+        for (std::size_t w = 0; w < cells.size(); ++w) nothing[w] &= ~cells[w];
+      }
+      count(rules.agents[k], nothing);
+    }
+    count(rules.agent, std::vector<Word>(all.size(), ~Word{0}));
+  }
+
+  [[nodiscard]] ConstRow permitted(const RowPlace& place, std::size_t c, std::size_t g,
+                                   std::size_t source) const {
+    const std::uint32_t action = groups_.classes[c]->representative[g];
+    return rules_->tables[source]->row(grouping_.sources()[source].base(place) +
+                                       grouping_.contribution(c, source, action));
+  }
+
+  /// Adds where a class may do what leads out through an unsafe side, which products of boxes do not tell.
+  void mark_blocked() {
+    for (std::size_t c = 0; c < masks_.size(); ++c) {
+      for (std::uint32_t g = 0; g < groups_.classes[c]->size(); ++g) {
+        if (boxes_.kind(c, g) != RowBoxes::Kind::blocked) continue;
+        const Word* const mask = masks_[c].data() + g * forbidden_.size();
+        for (std::size_t w = 0; w < forbidden_.size(); ++w) forbidden_[w] |= mask[w];
+      }
+    }
+  }
+
+  void join_masks() {
+    joined_masks_.clear();
+    for (const std::vector<Word>& own : masks_)
+      joined_masks_.insert(joined_masks_.end(), own.begin(), own.end());
+  }
+
   void fill_masks(std::size_t c, ConstRow invariant) {
     masks_[c].clear();
     for (std::size_t g = 0; g < groups_.classes[c]->size(); ++g) {
@@ -172,6 +266,7 @@ class Projections::Builder {
   }
 
   const Controller& controller_;
+  const SilentRules* rules_;  ///< or null
   const LevelRows<Level>& levels_;
   bool keeps_masks_;
   const ActionGrouping& grouping_;
@@ -200,16 +295,28 @@ class Projections::Builder {
 Projections::Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
                          ThreadTeam& team, const EqualWork& equal, bool keeps_masks)
     : grouping_(&grouping), words_(controller.engine->row_words()), equal_(equal) {
+  number_rows_of(*controller.invariant, equal.by_tables(), controller.engine->share());
+  find_all(controller, hull, team, nullptr, keeps_masks);
+}
+
+Projections::Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
+                         ThreadTeam& team, const SilentRules& rules)
+    : grouping_(&grouping), words_(controller.engine->row_words()) {
+  number_rows_of(*rules.cells, {}, controller.engine->share());
+  find_all(controller, hull, team, &rules, false);
+}
+
+void Projections::find_all(const Controller& controller, const RowHull& hull, ThreadTeam& team,
+                           const SilentRules* rules, bool keeps_masks) {
   equal_.numbers = &classes_;
   const RowEngine& engine = *controller.engine;
-  number_rows_of(*controller.invariant, equal.by_tables(), engine.share());
   stores_.resize(static_cast<std::size_t>(team.size()));
-  const ForbiddenChoices choices(grouping, team);
+  const ForbiddenChoices choices(*grouping_, team, rules != nullptr);
   const std::int64_t grain = std::min<std::int64_t>(engine.unit_rows(), 64);
   controller.levels->visit([&]<class Level>(const LevelRows<Level>& levels) {
     std::deque<Builder<Level>> builders;
     for (int w = 0; w < team.size(); ++w)
-      builders.emplace_back(controller, grouping, choices, hull, levels, keeps_masks);
+      builders.emplace_back(controller, *grouping_, choices, hull, levels, rules, keeps_masks);
     for_each_own_row(team, engine.share(), engine.rows(), grain, [&](ThreadTeam::Range range, int worker) {
       Builder<Level>& builder = builders[static_cast<std::size_t>(worker)];
       for (RowPlace place(engine.grid(), range.begin); place.row < range.end; place.advance(engine.grid())) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "answers/invariance/controller.hpp"
+#include "answers/layers/class_rules.hpp"
 #include "answers/layers/independent_posts.hpp"
 #include "base/thread_team.hpp"
 #include "base/zeroed_array.hpp"
@@ -26,6 +27,11 @@ class Projections {
   /// @param keeps_masks whether mask() can be asked of rows in the form of a product, too
   Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
               ThreadTeam& team, const EqualWork& equal = {}, bool keeps_masks = false);
+  /// What classes do by rules instead: of the cells in which they are asked for, each class by what it may do
+  /// there. Where some class may do nothing, or all together what is forbidden, see forbidden().
+  /// REQUIRES: the grouping tells actions apart by the rules, too.
+  Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
+              ThreadTeam& team, const SilentRules& rules);
   Projections(Projections&&) = default;  // what it has found points into what it keeps
   Projections& operator=(Projections&&) = default;
   Projections(const Projections&) = delete;
@@ -54,7 +60,8 @@ class Projections {
   /// For IndependentPosts::unpack(). Boxes are those of a row that is the same, seen from itself: they lie
   /// somewhere else by shift(). REQUIRES: form(row) is `product`.
   [[nodiscard]] ConstRow packed(std::int64_t row) const { return of(row).packed; }
-  /// The cells of the row where IND_C holds a joint input that is forbidden; empty if there are none.
+  /// The cells of the row where IND_C holds a joint input that is forbidden; by rules also those where it
+  /// holds none. Empty if there are none.
   [[nodiscard]] ConstRow forbidden(std::int64_t row) const {
     return number_[static_cast<std::size_t>(row)] == kNothing ? ConstRow() : of(row).forbidden;
   }
@@ -72,6 +79,8 @@ class Projections {
   static constexpr std::uint32_t kNothing = 0;
   template <class Level>
   class Builder;
+  void find_all(const Controller& controller, const RowHull& hull, ThreadTeam& team, const SilentRules* rules,
+                bool keeps_masks);
   /// Keeps lists of words one behind the other, which stay where they are: an allocation a row costs more
   /// than what is in it.
   class Store {

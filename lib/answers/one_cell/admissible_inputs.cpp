@@ -8,7 +8,6 @@
 #include "base/index.hpp"
 #include "base/merger.hpp"
 #include "engine/tube_sets.hpp"
-#include "model/condition_table.hpp"
 #include "model/odometer.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -27,17 +26,9 @@ bool is_literal_true(const Program& program) {
 }  // namespace
 
 AdmissibleInputs::AdmissibleInputs(const ProblemSpec& spec, CellPosts& posts, Sets sets)
-    : spec_(&spec),
-      posts_(&posts),
-      sets_(std::move(sets)),
-      fast_point_(spec.slot_count()),
-      point_(spec.slot_count()) {
+    : spec_(&spec), posts_(&posts), sets_(std::move(sets)) {
   if (spec.controller.allow && !is_literal_true(*spec.controller.allow)) {
-    allow_ = std::make_unique<ConditionDecider>(*spec.controller.allow);
-    const std::vector<std::uint32_t> slots = spec.controller.allow->variables();
-    if (!slots.empty() && slots.back() >= spec.states.size() + spec.inputs.size())
-      allow_of_cells_ =
-          std::make_unique<CellTruth>(*spec.controller.allow, allow_axes(posts.grid(), posts.inputs()));
+    allow_ = std::make_unique<PairTruth>(spec, *spec.controller.allow, posts, "'allow'", "/controller/allow");
   }
   find_components();
 }
@@ -80,41 +71,6 @@ void AdmissibleInputs::find_components() {
   }
 }
 
-/// Where a memory is asked of the whole cell.
-bool AdmissibleInputs::is_allowed_at_cell(std::int64_t x, std::int64_t u) {
-  const UniformGrid& grid = posts_->grid();
-  const InputSpace& inputs = posts_->inputs();
-  std::vector<std::int64_t> indices(2 * grid.size() + inputs.size());
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    const std::int64_t index = grid.index(x, i);
-    indices[grid.state(i)] = index;
-    indices[grid.size() + inputs.size() + grid.state(i)] = index;
-  }
-  for (std::size_t i = 0; i < inputs.size(); ++i) indices[grid.size() + i] = inputs.index(u, i);
-  return allow_of_cells_->at(indices) == Truth::yes;
-}
-
-bool AdmissibleInputs::is_allowed(std::int64_t x, std::int64_t u) {
-  if (allow_of_cells_) return is_allowed_at_cell(x, u);
-  const auto set = [this](std::size_t slot, const Rational& value) {
-    point_[slot] = {.lower = value, .upper = value};
-    fast_point_[slot] = enclose(value);
-  };
-  const UniformGrid& grid = posts_->grid();
-  const InputSpace& inputs = posts_->inputs();
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    set(spec_->state_slot(grid.state(i)), grid[i].point(grid.index(x, i)));
-  }
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    set(spec_->input_slot(i), inputs[i].values[at(inputs.index(u, i))]);
-  }
-  const Truth truth =
-      allow_->decide(fast_point_, [this]() -> std::span<const RationalInterval> { return point_; });
-  if (truth == Truth::undecided && !may_not_know(*spec_->controller.allow))
-    throw SpecError("'allow' cannot be decided at a cell", "/controller/allow");
-  return truth == Truth::yes;
-}
-
 bool AdmissibleInputs::allows(std::int64_t x, std::int64_t u) {
   return !forbids(x, u) && (!sets_.listed || sets_.listed(x, u));
 }
@@ -149,7 +105,7 @@ void AdmissibleInputs::find_moves(Component& component, std::int64_t x) {
     for (std::size_t j = 0; j < component.inputs.size(); ++j) {
       part += choice.indices()[j] * posts_->inputs().stride(component.inputs[j]);
     }
-    if (component.has_allow && !is_allowed(x, part)) continue;
+    if (component.has_allow && !allow_->holds(x, part)) continue;
     if (std::optional<Move> next = move(component, part)) groups[std::move(*next)].push_back(part);
   } while (choice.advance());
   component.groups.assign(groups.begin(), groups.end());
@@ -157,7 +113,7 @@ void AdmissibleInputs::find_moves(Component& component, std::int64_t x) {
 
 const std::vector<std::int64_t>& AdmissibleInputs::of(std::int64_t x) {
   admissible_.clear();
-  if (allow_ && !allow_has_inputs_ && !is_allowed(x, 0)) return admissible_;
+  if (allow_ && !allow_has_inputs_ && !allow_->holds(x, 0)) return admissible_;
   if (spec_->controller.synthesis != Synthesis::given) posts_->move_to(x);
   std::vector<std::int64_t> counts;
   for (Component& component : components_) {

@@ -9,8 +9,7 @@
 
 #include "answers/one_cell/cell_members.hpp"
 #include "answers/one_cell/cell_posts.hpp"
-#include "expression/cell_truth.hpp"
-#include "expression/condition.hpp"
+#include "answers/one_cell/pair_truth.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
@@ -42,7 +41,7 @@ class AdmissibleInputs {
   /// Whether `allow` permits u at any cell x of the grid, and `controller.file` lists it.
   [[nodiscard]] bool allows(std::int64_t x, std::int64_t u);
   /// Whether `allow` does not permit it; what the file does not list is not forbidden.
-  [[nodiscard]] bool forbids(std::int64_t x, std::int64_t u) { return allow_ && !is_allowed(x, u); }
+  [[nodiscard]] bool forbids(std::int64_t x, std::int64_t u) { return allow_ && !allow_->holds(x, u); }
 
  private:
   using Box = std::vector<IndexRange>;  ///< of some states
@@ -64,8 +63,6 @@ class AdmissibleInputs {
   void find_components();
   void find_moves(Component& component, std::int64_t x);
   [[nodiscard]] std::optional<Move> move(const Component& component, std::int64_t u) const;
-  [[nodiscard]] bool is_allowed(std::int64_t x, std::int64_t u);
-  [[nodiscard]] bool is_allowed_at_cell(std::int64_t x, std::int64_t u);
   void cover(Box Move::*part, CellMembers& set) const;
   void prepare_sets();
   [[nodiscard]] bool is_safe(const std::vector<std::int64_t>& choice) const;
@@ -79,11 +76,8 @@ class AdmissibleInputs {
   Sets sets_;
   CellMembers* safe_beyond_ = nullptr;  ///< of the cell at work: what tubes that pass a limit must stay in
   std::vector<Component> components_;
-  std::unique_ptr<ConditionDecider> allow_;    ///< none if everything is allowed
-  std::unique_ptr<CellTruth> allow_of_cells_;  ///< where memories are asked of whole cells, instead
+  std::unique_ptr<PairTruth> allow_;  ///< none if everything is allowed
   bool allow_has_inputs_ = false;
-  std::vector<Interval> fast_point_;
-  std::vector<RationalInterval> point_;
   std::vector<std::int64_t> admissible_;
   std::vector<bool> marks_;
 };

@@ -76,7 +76,7 @@ struct AnswerPolicy {
   std::string words = {};  ///< "actions", "approach": before " of CLASS"
   std::string gain = {};   ///< what agents who are silent by it do: "loses no time"; of those with a name
   /// Paths of steps over partitions: for how long the agents can do without coordination, and until they must
-  /// start to connect. Empty: it is no policy of a loop.
+  /// start to connect. Empty: it is no policy of a loop; the second alone: what the first says is all.
   std::string delay = {}, trigger = {};
   /// Steps within which agents who follow it are at its aim, 0 there; a run that has been there follows it no
   /// longer. Beyond a side by which the domain is left for good they are 0 too, unless it is one that is
@@ -89,6 +89,7 @@ struct AnswerPolicy {
   /// Runs follow it only if they are asked to, by an option of its name, and then wherever they are.
   /// `trigger` is then the countdown that it knows, and what classes may do goes by it.
   bool is_on_request = false;
+  bool is_anywhere = false;  ///< it is about all cells of S
   bool is_by_agent = false;  ///< it is of agents, each by itself, whatever the partition is
   std::unique_ptr<CellPolicy> (*make)(const PolicyGround& ground) = nullptr;
   /// Where the actions of a class are stored on request, by its number; null: nowhere.
@@ -99,6 +100,8 @@ struct AnswerPolicy {
     std::string where, purpose, countdown, allowed;
   };
   HeaderComments header = {};
+
+  [[nodiscard]] const std::string& countdown() const { return trigger.empty() ? delay : trigger; }
 };
 
 }  // namespace coordreq

@@ -16,15 +16,17 @@ namespace coordreq {
 namespace {
 
 const char* end_word(EscapeEnd end) {
-  constexpr std::array<const char*, 10> kWords{"outside_safe_set",  "left_domain", "unsafe_between_samples",
-                                               "no_allowed_action", "arrived",     "never_arrives",
-                                               "time_lost",         "not_allowed", "too_risky",
-                                               "no_common_action"};
+  constexpr std::array<const char*, 11> kWords{
+      "outside_safe_set",  "left_domain",     "unsafe_between_samples",
+      "no_allowed_action", "arrived",         "never_arrives",
+      "time_lost",         "not_allowed",     "too_risky",
+      "no_common_action",  "no_silent_action"};
   return kWords[static_cast<std::size_t>(end)];
 }
 
 const char* phase_word(EscapePhase phase) {
-  constexpr std::array<const char*, 4> kWords{"independent", "evasive", "together", "approaching"};
+  constexpr std::array<const char*, 6> kWords{"independent", "evasive", "together",
+                                              "approaching", "silent",  "afterwards"};
   return kWords[static_cast<std::size_t>(phase)];
 }
 
@@ -37,9 +39,12 @@ void put_risk(Json& json, const std::string& key, double risk) {
 /// Of INT32_MAX the word differs: silence without bound, or a goal that is never reached.
 void put_value(Json& json, const std::string& key, RequirementKind kind, std::int32_t value) {
   if (traits(kind).is_probability) return put_risk(json, key, double{std::bit_cast<float>(value)});
+  const bool is_no_end = kind == RequirementKind::min_silence && value == DelayLayers::kOutsideInvariant;
   const bool is_never = kind == RequirementKind::max_arrival && value == DelayLayers::kUnbounded;
   json[key] = delay_json(value);
-  json[key + "_status"] = is_never ? "goal_cannot_be_forced" : delay_word(value);
+  json[key + "_status"] = is_never    ? "goal_cannot_be_forced"
+                          : is_no_end ? "not_in_silence_set"
+                                      : delay_word(value);
 }
 
 Json side_json(const std::optional<ResultSide>& side, const ProblemSpec& spec) {

@@ -22,6 +22,11 @@ PathChecker::PathChecker(const CheckGround& ground, const RequirementSpec& asked
   partition_ = static_cast<std::size_t>(*asked.partition);
   for (const auto& agents : ground.spec->coordination.partitions[*partition_].classes)
     classes_.emplace_back(class_of(*ground.spec, *ground.inputs, agents)).tabulate();
+  if (asked.kind != RequirementKind::min_silence) return;
+  const SilenceSpec& silence = *ground.spec->silence;
+  const auto& partition = ground.spec->coordination.partitions[*partition_].classes;
+  silent_.emplace(ground, silence.actions, "actions", partition);
+  if (silence.has_then()) afterwards_.emplace(ground, silence.then, "then", partition);
 }
 
 void PathChecker::wrong(std::size_t number, const std::string& what) {
@@ -92,6 +97,12 @@ void PathChecker::check_step(std::size_t step) {
       break;
     case EscapePhase::approaching:
       check_approaching(step, *u);
+      break;
+    case EscapePhase::silent:
+      check_silent(step, *u);
+      break;
+    case EscapePhase::afterwards:
+      check_afterwards(step, *u);
   }
   if (step + 1 < path_->samples()) {
     check_next(step, *u);
@@ -102,6 +113,8 @@ void PathChecker::check_step(std::size_t step) {
 
 /// What agents do in the cell at work. Those that have reached the goal go on as if there was none.
 EscapePhase PathChecker::phase_of(std::size_t step) const {
+  if (silent_ && value_of_(cell_.at()) >= 0) return EscapePhase::silent;
+  if (afterwards_) return EscapePhase::afterwards;
   if (invariant_[cell_.at()] == 0) return EscapePhase::evasive;
   if (!progress_) return EscapePhase::independent;
   if (asked_.kind == RequirementKind::max_arrival) return EscapePhase::together;
@@ -159,6 +172,32 @@ void PathChecker::check_evasive(std::size_t step, std::int64_t u) {
     differs(step, "the next cell is not the worst one");
 }
 
+void PathChecker::check_silent(std::size_t step, std::int64_t u) {
+  if (!std::ranges::binary_search(silent_->of(cell_.number(), cell_.admitted()), u))
+    differs(step, "the joint input is not what agents are told");
+  const std::int32_t delay = path_->delay[step];
+  const bool goes_on = step + 1 < path_->samples();
+  const std::int32_t next = goes_on ? std::max(path_->delay[step + 1], kOutsideInvariant) : kOutsideInvariant;
+  if (next != delay - 1) differs(step, fmt::format("leads to silence {}, expected {}", next, delay - 1));
+}
+
+/// Which step leaves S soonest the file does not tell.
+void PathChecker::check_afterwards(std::size_t step, std::int64_t u) {
+  if (!std::ranges::binary_search(afterwards_->of(cell_.number(), cell_.admitted()), u))
+    differs(step, "the joint input is not what comes after silence");
+  if (step + 1 < path_->samples() && path_->delay[step + 1] >= 0)
+    differs(step, "goes back to where what comes after silence is safe");
+}
+
+/// There agents are told nothing that they could do.
+bool PathChecker::ends_without_rule(std::size_t cell) {
+  if (!silent_) return false;
+  const bool is_silent = value_of_(cell) >= 0;
+  if (!is_silent && !afterwards_) return false;
+  RuledChoices& rules = is_silent ? *silent_ : *afterwards_;
+  return rules.of(cell_.number(), cell_.admitted()).empty();
+}
+
 void PathChecker::check_next(std::size_t step, std::int64_t u) {
   if (cell_.is_forbidden(u)) return differs(step, "goes on with a joint input that is forbidden");
   if (is_blocked(u) || !cell_.is_way_safe(u)) return differs(step, "goes on where there is no post");
@@ -173,7 +212,8 @@ void PathChecker::check_last_step(std::int64_t u) {
     return differs(step, cell_.is_forbidden(u) ? "the last joint input is forbidden, but the end is another"
                                                : "the last joint input is not forbidden");
   if (path_->end == EscapeEnd::not_allowed) return;
-  if (path_->end == EscapeEnd::no_common_action) return;  // which the end tells
+  // Which the end tells.
+  if (path_->end == EscapeEnd::no_common_action || path_->end == EscapeEnd::no_silent_action) return;
   if (path_->end >= EscapeEnd::arrived) return;  // all has left through a `goal` side, or a `safe` one
   if (path_->end == EscapeEnd::unsafe_between_samples) {
     if (is_blocked(u) || cell_.is_way_safe(u)) differs(step, "the way to the next sample is safe");
@@ -202,6 +242,9 @@ void PathChecker::check_end() {
   } else if (path_->end == EscapeEnd::no_common_action) {
     if (!stays || path_->steps() == 0 || !ends_in_sight(static_cast<std::size_t>(last)))
       wrong(path_->samples(), "in the last cell all classes may have an action");
+  } else if (path_->end == EscapeEnd::no_silent_action) {
+    if (!stays || !safe || !ends_without_rule(static_cast<std::size_t>(last)))
+      wrong(path_->samples(), "in the last cell agents may have an action");
   } else if (path_->end >= EscapeEnd::arrived && path_->end != EscapeEnd::not_allowed) {
     check_goal_end();
   } else if (stays) {

@@ -8,6 +8,7 @@
 #include "answers/checking/checked_cell.hpp"
 #include "answers/checking/claimed_progress.hpp"
 #include "answers/checking/claimed_values.hpp"
+#include "answers/checking/ruled_choices.hpp"
 #include "answers/checking/tally.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "model/input_class.hpp"
@@ -34,6 +35,9 @@ class PathChecker {
   void check_approaching(std::size_t step, std::int64_t u);
   void check_independent(std::size_t step, std::int64_t u);
   void check_evasive(std::size_t step, std::int64_t u);
+  void check_silent(std::size_t step, std::int64_t u);
+  void check_afterwards(std::size_t step, std::int64_t u);
+  [[nodiscard]] bool ends_without_rule(std::size_t cell);
   void check_next(std::size_t step, std::int64_t u);
   void check_last_step(std::int64_t u);
   void check_end();
@@ -60,7 +64,8 @@ class PathChecker {
   std::optional<std::size_t> partition_;     ///< none for `invariant` and `max_arrival`
   std::optional<ClaimedProgress> progress_;  ///< of requirements about the goal
   std::vector<InputClass> classes_;
-  CheckedCell cell_;  ///< at work
+  std::optional<RuledChoices> silent_, afterwards_;  ///< of `min_silence`; the second one with `then`
+  CheckedCell cell_;                                 ///< at work
   const ResultPath* path_ = nullptr;
   Tally* tally_ = nullptr;
 };

@@ -7,6 +7,7 @@
 #include "answers/goal/arrival.hpp"
 #include "answers/one_cell/admissible_inputs.hpp"
 #include "answers/one_cell/progress_inputs.hpp"
+#include "answers/one_cell/silent_inputs.hpp"
 #include "answers/requirements/escape_news.hpp"
 #include "answers/requirements/escape_step.hpp"
 #include "answers/requirements/real_run.hpp"
@@ -38,7 +39,12 @@ class EscapeFinder {
         inputs_(ground_.spec, posts_, members()),
         progress_(ground_.spec, posts_, [this](std::int64_t y) { return arrival(y); }),
         real_(ground_.spec, *ground_.abstraction),
-        steps_(sets, posts_, inputs_, real_) {}
+        steps_(sets, posts_, inputs_, real_) {
+    if (sets.silence_of == nullptr) return;
+    silent_.emplace(ground_.spec, SilentInputs::Part::actions, sets.partition->classes, posts_);
+    if (sets.lost != nullptr)
+      afterwards_.emplace(ground_.spec, SilentInputs::Part::then, sets.partition->classes, posts_);
+  }
 
   EscapePath run(std::int64_t cell, const Start& start) {
     path_.cells.push_back(cell);
@@ -77,7 +83,7 @@ class EscapeFinder {
 
  private:
   /// How the path goes on from where it is; before the first step nothing of it is known.
-  enum class Way : std::uint8_t { unknown, together, approaching, independent, evasive };
+  enum class Way : std::uint8_t { unknown, together, approaching, silent, independent, evasive };
 
   void begin_at(std::int64_t cell, const Start& start) {
     if (start) {
@@ -138,6 +144,12 @@ class EscapeFinder {
       const bool is_lost =
           has_goal && (sets_.kind == RequirementKind::max_arrival || !sets_.goal->winning.test(cell));
       way_ = is_lost ? Way::together : has_goal ? Way::approaching : Way::independent;
+      if (sets_.silence_of != nullptr) way_ = Way::silent;
+    }
+    if (way_ == Way::silent) {
+      if (level_of(*sets_.silence_of, cell) > 0) return take_silent();
+      if (sets_.lost != nullptr) return level_of(collision_time_, cell) > 0 && take_afterwards();
+      way_ = Way::evasive;
     }
     if (way_ == Way::together) return take_together();
     if (way_ == Way::approaching) {
@@ -266,6 +278,35 @@ class EscapeFinder {
     return take(find(levels, is_last ? kLeast : layers - 1, is_choice), levels, EscapePhase::independent);
   }
 
+  bool take_silent() {
+    const std::int64_t cell = path_.cells.back();
+    const std::int64_t layers = level_of(*sets_.silence_of, cell);
+    const bool is_invariant = sets_.invariance->invariant.test(cell);
+    const auto choices = silent_->joint(cell, is_invariant ? inputs_.of(cell) : SilentInputs::Numbers());
+    const bool is_last = layers == 1;
+    const LevelMap& levels = !is_last                ? *sets_.silence_of
+                             : sets_.lost != nullptr ? *sets_.lost
+                                                     : collision_time_;
+    return take_ruled(choices, is_last ? kLeast : layers - 1, levels, EscapePhase::silent);
+  }
+
+  bool take_afterwards() {
+    const std::int64_t cell = path_.cells.back();
+    return take_ruled(afterwards_->joint(cell, {}), level_of(*sets_.lost, cell) - 1, *sets_.lost,
+                      EscapePhase::afterwards);
+  }
+
+  /// A step of agents who have rules.
+  bool take_ruled(const SilentInputs::Numbers& choices, std::int64_t target, const LevelMap& levels,
+                  EscapePhase phase) {
+    if (choices.empty()) {
+      path_.end = EscapeEnd::no_silent_action;
+      return false;
+    }
+    const auto is_choice = [&](std::int64_t u) { return std::ranges::binary_search(choices, u); };
+    return take(find(levels, target, is_choice), levels, phase);
+  }
+
   bool take_evasive() {
     const std::int64_t cell = path_.cells.back();
     const auto is_allowed = [this, cell](std::int64_t u) { return inputs_.allows(cell, u); };
@@ -306,6 +347,7 @@ class EscapeFinder {
   MembersByCell invariant_, safe_, beyond_;
   AdmissibleInputs inputs_;
   ProgressInputs progress_;
+  std::optional<SilentInputs> silent_, afterwards_;  ///< of `min_silence`; the second one with `then`
   EscapePath path_;
   Way way_ = Way::unknown;
   RealRun real_;

@@ -43,6 +43,11 @@ struct EscapeSets {
   /// Of `min_blind_delay`, of the partition: blind delays, and B; else null.
   const LevelMap* blind_delay_of = nullptr;
   const LevelMap* blind_countdown_of = nullptr;
+  /// Of `min_silence`, of the partition: which it is, L, and when what comes after leaves S if there is that;
+  /// else null.
+  const PartitionSpec* partition = nullptr;
+  const LevelMap* silence_of = nullptr;
+  const LevelMap* lost = nullptr;
   /// [dimension]: what one index adds to a cell's number, by which ties are broken.
   std::vector<std::int64_t> number_stride;
 };
@@ -67,6 +72,10 @@ struct EscapeSets {
 /// which
 ///   each step takes down by one; where it is 0 a class has no action for all that it may see, which is the
 ///   end (or out of K, if that is what follows there).
+/// - `min_silence`, from x in K' of silence k: as from x in K above, but by u in A(x), out of K'; where A(x)
+/// is
+///   empty that is the end. With `then` u is in C'(x) from there on: the lowest-numbered that leaves S
+///   soonest, and there the lowest-numbered such cell.
 /// REQUIRES: the delay of x is bounded, and known.
 /// Cost: a look at every joint input in every step, and at every cell of each different post.
 /// Of several processes together: each step is found by the one that owns the cell.

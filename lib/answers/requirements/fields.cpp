@@ -71,15 +71,18 @@ std::vector<FieldFlag> end_flags(const ProblemSpec& spec) {
                                    {3, "unsafe_between_samples"},
                                    {4, "no_allowed_action"}};
   if (spec.goal) result.insert(result.end(), {{5, "arrived"}, {6, "never_arrives"}, {7, "time_lost"}});
-  if (allow_joins_agents(spec)) result.push_back({8, "not_allowed"});
+  if (may_forbid_choices(spec)) result.push_back({8, "not_allowed"});
   if (spec.risk) result.push_back({9, "too_risky"});
   if (has_limited_sight(spec)) result.push_back({10, "no_common_action"});
+  if (spec.silence) result.push_back({11, "no_silent_action"});
   return result;
 }
 
 std::vector<FieldFlag> phase_flags(const ProblemSpec& spec) {
   std::vector<FieldFlag> result = {{0, "independent"}, {1, "evasive"}};
   if (spec.goal) result.insert(result.end(), {{2, "together"}, {3, "approaching"}});
+  if (spec.silence) result.push_back({4, "silent"});
+  if (spec.silence && spec.silence->has_then()) result.push_back({5, "afterwards"});
   return result;
 }
 

@@ -13,6 +13,7 @@
 #include "answers/requirements/requirement.hpp"
 #include "answers/requirements/risk_limit.hpp"
 #include "answers/risk/answer.hpp"
+#include "answers/silence/answer.hpp"
 #include "base/error.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -71,8 +72,9 @@ class Judge {
     if (!requirement.partition) return result;
     const auto p = static_cast<std::size_t>(*requirement.partition);
     result.layers = requirement.kind == RequirementKind::min_approach_delay ? &goal->approach[p]
-                    : requirement.kind == RequirementKind::min_blind_delay
-                        ? &blind_delays(answers_, p)
+                    : requirement.kind == RequirementKind::min_blind_delay  ? &blind_delays(answers_, p)
+                    : requirement.kind == RequirementKind::min_silence
+                        ? &silence_of(answers_, p).layers
                         : &answers_.get<PartitionLayers>().partitions[p];
     return result;
   }
@@ -97,6 +99,11 @@ class Judge {
           input_classes(ground_.spec, ground_.abstraction->inputs, ground_.spec.coordination.partitions[p]);
       sets.layers_of = &answers_.get<PartitionLayers>().partitions[p].layers_of;
       sets.approach_of = &asked_.layers->layers_of;
+      if (requirement.kind == RequirementKind::min_silence) {
+        sets.partition = &ground_.spec.coordination.partitions[p];
+        sets.silence_of = &asked_.layers->layers_of;
+        if (ground_.spec.silence->has_then()) sets.lost = &answers_.get<Silence>().lost;
+      }
       if (requirement.kind == RequirementKind::min_blind_delay) {
         sets.blind_delay_of = &asked_.layers->layers_of;
         sets.blind_countdown_of = &blind_layers(answers_, p).layers_of;

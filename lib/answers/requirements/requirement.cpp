@@ -63,6 +63,7 @@ std::int32_t CellRequirement::value_of(std::int64_t cell) const {
   if (kind == RequirementKind::max_risk)
     return risk_bits(risks->row(cell / risks->row_length())[cell % risks->row_length()]);
   const std::int64_t time = collision_time->at(cell);
+  if (kind == RequirementKind::min_silence && time != 0) return delay_of(cell, LevelMap::kTop, layers);
   const bool is_of_goal = kind == RequirementKind::max_arrival || kind == RequirementKind::min_approach_delay;
   if (time != LevelMap::kTop || !is_of_goal) return delay_of(cell, time, layers);
   if (kind == RequirementKind::max_arrival) return arrival_at(*nearness, cell);

@@ -21,6 +21,8 @@ enum class EscapePhase : std::uint8_t {
   together,     ///< on the way to the goal: the joint action from which it can be forced soonest
   approaching,  ///< on the way to the goal: each class picks from its projection of P(x), so that u is in
                 ///< IND_P(x)
+  silent,       ///< in K': agents do what they are told, so that u is in A(x)
+  afterwards,   ///< outside K': and what comes after, so that u is in C'(x)
 };
 
 /// How an escape ends.
@@ -35,6 +37,7 @@ enum class EscapeEnd : std::uint8_t {
   not_allowed,             ///< the last action takes of each class what it may do, and `allow` forbids it
   too_risky,               ///< there is but one cell, of too great a risk
   no_common_action,        ///< in the last cell, in K, some class has no action for all that it may see
+  no_silent_action,        ///< in the last cell some agent is told nothing that it could do
 };
 
 /// One end of one state.

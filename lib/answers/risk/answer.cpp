@@ -1,6 +1,7 @@
 #include "answers/risk/answer.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "answers/network/network_problem.hpp"
 #include "answers/risk/fields.hpp"
 #include "answers/risk/risk_levels.hpp"
+#include "answers/silence/silent_actions.hpp"
 #include "answers/work_json.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -53,13 +55,36 @@ void save_state(Archive& archive, const RowShare* share, std::int64_t steps, dou
   for (const NumberRows& risks : state) serialise_rows(archive, share, risks);
 }
 
-RiskProblem risk_problem(const Answers& answers, const ExpectedRisks& expected) {
+/// What agents do who are told it, in modes of more than one class.
+class SilentModes {
+ public:
+  SilentModes(const Answers& answers, ThreadTeam& team) {
+    const ProblemSpec& spec = answers.ground.spec;
+    for (const PartitionSpec* const partition : network_partitions(*spec.network)) {
+      if (spec.silence && partition->classes.size() > 1) {
+        actions_.emplace_back(answers, AgentRules{spec.silence->actions, "actions"}, partition->classes,
+                              answers.get<Invariance>().invariant, team);
+        projections_.push_back(&actions_.back().projections);
+      } else {
+        projections_.push_back(nullptr);
+      }
+    }
+  }
+  [[nodiscard]] const std::vector<const Projections*>& projections() const { return projections_; }
+
+ private:
+  std::deque<SilentActions> actions_;
+  std::vector<const Projections*> projections_;  ///< [partition]
+};
+
+RiskProblem risk_problem(const Answers& answers, const ExpectedRisks& expected, const SilentModes& silent) {
   const Ground& ground = answers.ground;
   NetworkProblem network = network_problem(answers);
   RiskProblem problem{.controller = network.controller,
                       .invariant = network.invariant,
                       .hull = network.hull,
                       .partitions = std::move(network.partitions),
+                      .silent = silent.projections(),
                       .partition_of = {},
                       .expected = &expected,
                       .horizon = ground.spec.risk->horizon,
@@ -97,7 +122,8 @@ void find_risks(Answers& answers, const StageWork& work) {
                               },
                           .resumed = kept == StageStore::Kept::unfinished ? &state : nullptr};
     const ExpectedRisks expected(*ground.spec.network);
-    result = find_risk(risk_problem(answers, expected), watch, work.team);
+    const SilentModes silent(answers, work.team);
+    result = find_risk(risk_problem(answers, expected, silent), watch, work.team);
   }
   for (const RiskRows& risks : result.risks)
     answer.figures.push_back(risk_figures(risks, invariant, share, work.team));
@@ -171,6 +197,7 @@ MemoryNeed risk_memory(const EngineSizes& sizes, int threads) {
                                                    : input_classes(spec, sizes.model().inputs(), *partition);
     need.work += sizes.groups(classes);
     if (!is_one) need.work += projection_bytes(sizes, classes);
+    if (spec.silence && partition->classes.size() > 1) need.work += silent_bytes(sizes, classes);
   }
   return need;
 }

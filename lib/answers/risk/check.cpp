@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <utility>
 
 #include "answers/checking/independent_choices.hpp"
+#include "answers/checking/ruled_choices.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -109,6 +111,9 @@ class RiskStep {
       if (known != partitions_.end()) continue;
       partitions_.push_back(mode.partition.classes);
       independent_.emplace_back(ground, mode.partition.classes);
+      std::optional<RuledChoices>& told = told_.emplace_back();
+      if (ground.spec->silence && mode.partition.classes.size() > 1)
+        told.emplace(ground, ground.spec->silence->actions, "actions", mode.partition.classes);
     }
     choices_.resize(partitions_.size());
   }
@@ -116,7 +121,9 @@ class RiskStep {
   /// Takes a cell of K.
   void go_to(CheckedCell& cell) {
     cell_ = &cell;
-    for (std::size_t p = 0; p < choices_.size(); ++p) choices_[p] = independent_[p].of(cell.admitted());
+    for (std::size_t p = 0; p < choices_.size(); ++p)
+      choices_[p] =
+          told_[p] ? told_[p]->of(cell.number(), cell.admitted()) : independent_[p].of(cell.admitted());
   }
   /// T of a mode there.
   [[nodiscard]] double risk(std::size_t mode, const Ranked& after) {
@@ -144,6 +151,7 @@ class RiskStep {
   std::vector<std::vector<std::vector<std::int32_t>>> partitions_;
   std::vector<std::size_t> partition_of_;  ///< [mode]
   std::vector<IndependentChoices> independent_;
+  std::deque<std::optional<RuledChoices>> told_;  ///< [partition] of agents who are told what to do
   CheckedCell* cell_ = nullptr;
   std::vector<std::vector<std::int64_t>> choices_;  ///< [partition]
 };

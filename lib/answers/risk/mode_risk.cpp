@@ -38,11 +38,14 @@ class LeastRisk final : public ModeRisk<Level> {
 }  // namespace
 
 ModeChoices::ModeChoices(const Controller& controller, const RowHull& hull,
-                         const std::vector<std::vector<InputClass>>& partitions, bool is_safest,
-                         ThreadTeam& team)
+                         const std::vector<std::vector<InputClass>>& partitions,
+                         const std::vector<const Projections*>& silent, bool is_safest, ThreadTeam& team)
     : controller_(controller), hull_(hull) {
-  for (const std::vector<InputClass>& classes : partitions) {
+  for (std::size_t p = 0; p < partitions.size(); ++p) {
+    const std::vector<InputClass>& classes = partitions[p];
     Partition& own = partitions_.emplace_back();
+    own.projections = silent[p];
+    if (own.projections != nullptr) continue;
     own.is_safest = is_safest && classes.size() == 1;
     own.grouping = &groupings_.emplace_back(
         *controller.engine, own.is_safest ? single_classes(controller.engine->abstraction().inputs) : classes,

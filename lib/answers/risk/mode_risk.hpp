@@ -21,17 +21,17 @@ class ModeRisk {
   virtual void find(const RowPlace& place, PostReader<Level>& posts, Level* next, int worker) = 0;
 };
 
-/// What the agents of each partition of a network choose from: u in IND_C(x), the greatest risk counts; or,
-/// where they are one class and agree on what is safest, the least risk of u in C(x).
-///
-/// With what silent agents do by themselves (the key `silence`) u would be in the product of their own sets
-/// instead of IND_C(x): the constructor is where that is to be known.
+/// What the agents of each partition of a network choose from: u in IND_C(x), or in A(x) of those who do what
+/// they are told, the greatest risk counts; or, where they are one class and agree on what is safest, the
+/// least risk of u in C(x).
 class ModeChoices {
  public:
   /// @param partitions the classes of each
-  /// REQUIRES: the controller and the hull outlive this object.
+  /// @param silent [partition] A(x) in K; null: they choose from IND_C(x)
+  /// REQUIRES: the controller, the hull and A(x) outlive this object.
   ModeChoices(const Controller& controller, const RowHull& hull,
-              const std::vector<std::vector<InputClass>>& partitions, bool is_safest, ThreadTeam& team);
+              const std::vector<std::vector<InputClass>>& partitions,
+              const std::vector<const Projections*>& silent, bool is_safest, ThreadTeam& team);
 
   /// One operator a partition. REQUIRES: this object outlives them.
   template <class Level>

@@ -15,11 +15,14 @@
 
 namespace coordreq {
 
+class Projections;
+
 struct RiskProblem {
   const Controller* controller = nullptr;  ///< of K, without a goal that ends the task, where risk is 0
   const CellSet* invariant = nullptr;      ///< K
   const RowHull* hull = nullptr;
   std::vector<std::vector<InputClass>> partitions;  ///< all different; the classes of each
+  std::vector<const Projections*> silent;           ///< [partition] A(x), or null: see ModeChoices
   std::vector<std::size_t> partition_of;            ///< [mode] index into these
   const ExpectedRisks* expected = nullptr;
   std::int64_t horizon = 0;  ///< N

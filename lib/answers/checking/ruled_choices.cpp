@@ -1,0 +1,43 @@
+#include "answers/checking/ruled_choices.hpp"
+
+#include <algorithm>
+
+#include "base/index.hpp"
+#include "spec/problem_spec.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+
+RuledChoices::RuledChoices(const CheckGround& ground, const std::vector<std::optional<Program>>& conditions,
+                           const std::string& key, const std::vector<std::vector<std::int32_t>>& partition)
+    : joint_inputs_(ground.inputs->count()) {
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    if (!conditions[i]) continue;
+    rules_.emplace_back(*ground.spec, *conditions[i], *ground.grid, *ground.inputs, "the condition",
+                        member_pointer("/silence/" + key, ground.spec->agents[i].name));
+  }
+  for (const std::vector<std::int32_t>& agents : partition) {
+    const bool asks =
+        std::ranges::any_of(agents, [&](std::int32_t i) { return !conditions[at(i)].has_value(); });
+    if (asks) asking_.emplace_back(class_of(*ground.spec, *ground.inputs, agents)).tabulate();
+  }
+}
+
+std::vector<std::int64_t> RuledChoices::of(std::int64_t cell, const std::vector<std::uint8_t>& admitted) {
+  for (PermittedPairs& rule : rules_) rule.go_to(cell);
+  std::vector<std::vector<std::uint8_t>> parts;
+  for (const InputClass& own : asking_) {
+    std::vector<std::uint8_t>& part = parts.emplace_back(at(own.actions()), std::uint8_t{0});
+    for (std::int64_t u = 0; u < joint_inputs_; ++u) part[at(own.action(u))] |= admitted[at(u)];
+  }
+  std::vector<std::int64_t> result;
+  for (std::int64_t u = 0; u < joint_inputs_; ++u) {
+    bool is_choice = std::ranges::all_of(rules_, [u](const PermittedPairs& rule) { return rule(u); });
+    for (std::size_t c = 0; c < asking_.size(); ++c)
+      is_choice = is_choice && parts[c][at(asking_[c].action(u))] != 0;
+    if (is_choice) result.push_back(u);
+  }
+  return result;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,202 @@
+#include "answers/silence/answer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <utility>
+
+#include "answers/invariance/answer.hpp"
+#include "answers/kept_levels.hpp"
+#include "answers/layers/projection_bytes.hpp"
+#include "answers/silence/fields.hpp"
+#include "answers/silence/silent_actions.hpp"
+#include "answers/work_json.hpp"
+#include "base/grouped.hpp"
+#include "spec/problem_spec.hpp"
+#include "spec/silence.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+namespace {
+
+std::size_t count_of_answers(const ProblemSpec& spec) {
+  return all_have_rules(*spec.silence) ? 1 : spec.coordination.partitions.size();
+}
+
+Silence& silence_in(Answers& answers) {
+  if (answers.find<Silence>() == nullptr)
+    answers.add(Silence{.partitions = std::vector<SilencePartition>(count_of_answers(answers.ground.spec))});
+  return answers.get<Silence>();
+}
+
+/// K' = lim SPRE_S^i(X) for the product of what `then` leaves to each agent: the operator of the layers, from
+/// S on and without end.
+void find_set(Answers& answers, const StageWork& work) {
+  const Ground& ground = answers.ground;
+  Silence& silence = silence_in(answers);
+  const LevelBounds bounds{&ground.safe, ground.engine->grid().points() + 1};
+  find_or_take_levels(work, *ground.engine, bounds, silence.lost, [&](const WaveWatch& watch) {
+    work.enter_part("projections");
+    const SilentActions actions(answers, {ground.spec.silence->then, "then"}, agents_alone(ground.spec),
+                                ground.safe, work.team);
+    work.enter_part("");
+    DelayLayers found = find_delay_layers(*ground.engine, *ground.hull, ground.safe, actions.projections, {},
+                                          std::nullopt, watch, work.team);
+    silence.counts = found.counts;
+    return std::move(found.layers_of);
+  });
+  silence.set = silence.lost.top_cells(work.team);
+  silence.cells = ground.count(silence.set);
+}
+
+std::vector<std::int64_t> sums(const Ground& ground, const SilentActions& actions) {
+  std::vector<std::int64_t> result;
+  for (const std::atomic<std::int64_t>& own : actions.lacking)
+    result.push_back(sum_of_all(ground.shared_rows(), own));
+  return result;
+}
+
+/// Where all agents have rules they are the same whoever is in a class with whom: then by agents alone.
+void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
+  const Ground& ground = answers.ground;
+  const ProblemSpec& spec = ground.spec;
+  const CoordinationSpec& coordination = spec.coordination;
+  SilencePartition& own = silence_in(answers).partitions[p];
+  const CellSet& set = silence_set(answers);
+  const auto classes =
+      all_have_rules(*spec.silence) ? agents_alone(spec) : coordination.partitions[p].classes;
+  const AgentRules rules{spec.silence->actions, "actions"};
+  const std::int64_t steps = ground.engine->grid().points();
+  const LevelBounds bounds{&set, coordination.max_delay ? std::min(*coordination.max_delay, steps) : steps};
+  find_or_take_levels(work, *ground.engine, bounds, own.layers.layers_of, [&](const WaveWatch& watch) {
+    work.enter_part("projections");
+    const SilentActions actions(answers, rules, classes, set, work.team);
+    work.enter_part("");
+    own.lacking = sums(ground, actions);
+    DelayLayers found = find_delay_layers(*ground.engine, *ground.hull, set, actions.projections, {},
+                                          coordination.max_delay, watch, work.team);
+    own.layers.counts = found.counts;
+    return std::move(found.layers_of);
+  });
+  // Levels that were kept do not tell it.
+  if (own.lacking.empty()) own.lacking = sums(ground, SilentActions(answers, rules, classes, set, work.team));
+  follow_from_levels(coordination.max_delay, work.team, own.layers);
+}
+
+Json silence_json(const DelayLayers& layers) {
+  return {{"F", layers.truncated ? Json() : Json(layers.fixed_point_index)},
+          {"layers", layers.sizes},
+          {"fixed_point", layers.truncated ? Json() : Json(layers.sizes.back())},
+          {"truncated", layers.truncated}};
+}
+
+std::string stage_name(const ProblemSpec& spec, std::size_t p) {
+  return all_have_rules(*spec.silence) ? "silence" : "silence " + spec.coordination.partitions[p].name;
+}
+
+}  // namespace
+
+std::vector<Stage> silence_stages(const ProblemSpec& spec) {
+  if (!spec.silence) return {};
+  std::vector<Stage> stages;
+  if (spec.silence->has_then()) stages.push_back({"silence set", find_set});
+  for (std::size_t p = 0; p < count_of_answers(spec); ++p)
+    stages.push_back({stage_name(spec, p),
+                      [p](Answers& answers, const StageWork& work) { find_silence(p, answers, work); }});
+  return stages;
+}
+
+void summarise_silence(const Answers& answers, Json& summary, Json& work) {
+  const auto* const silence = answers.find<Silence>();
+  if (silence == nullptr) return;
+  const ProblemSpec& spec = answers.ground.spec;
+  if (spec.silence->has_then()) {
+    summary["silence_set"] = silence->cells;
+    work["silence set"] = work_json(silence->counts);
+  }
+  for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {
+    const DelayLayers& layers = silence_of(answers, p).layers;
+    summary["partitions"][p]["silence"] = silence_json(layers);
+    work[stage_name(spec, p)] = work_json(layers.counts);
+  }
+}
+
+void tell_silence(const ProblemSpec& spec, const FieldSource& source, Json& info) {
+  if (!spec.silence) return;
+  if (spec.silence->has_then()) info["silence_set"] = source.counted(paths::kSilenceSet).front();
+  const std::vector<std::int64_t> sizes = source.integers("/silence_layer_size");
+  const std::vector<std::int64_t> fixed_points = source.integers("/silence_fixed_point_index");
+  const auto layers = static_cast<std::ptrdiff_t>(sizes.size() / fixed_points.size());
+  for (std::size_t p = 0; p < fixed_points.size(); ++p) {
+    if (fixed_points[p] >= layers)
+      source.fail(fmt::format("found {}, expected a layer or -1", fixed_points[p]),
+                  "/silence_fixed_point_index");
+    const bool truncated = fixed_points[p] < 0;
+    const auto first = sizes.begin() + static_cast<std::ptrdiff_t>(p) * layers;
+    const auto last = first + (truncated ? layers : static_cast<std::ptrdiff_t>(fixed_points[p]) + 1);
+    info["partitions"][p]["silence"] = {{"F", truncated ? Json() : Json(fixed_points[p])},
+                                        {"layers", std::vector<std::int64_t>(first, last)},
+                                        {"truncated", truncated}};
+  }
+}
+
+Warnings advise_on_silence(const Answers& answers) {
+  const auto* const silence = answers.find<Silence>();
+  if (silence == nullptr) return {};
+  const ProblemSpec& spec = answers.ground.spec;
+  Warnings warnings;
+  for (std::size_t p = 0; p < silence->partitions.size(); ++p) {
+    const std::vector<std::int64_t>& lacking = silence->partitions[p].lacking;
+    const std::int64_t cells = std::accumulate(lacking.begin(), lacking.end(), std::int64_t{0});
+    if (cells == 0) continue;
+    std::vector<std::string> agents;
+    for (std::size_t i = 0; i < lacking.size(); ++i) {
+      if (lacking[i] > 0) agents.push_back(spec.agents[i].name);
+    }
+    const bool is_of_one = silence->partitions.size() < spec.coordination.partitions.size() ||
+                           spec.coordination.partitions.size() == 1;
+    const std::string partition =
+        is_of_one ? ""
+                  : fmt::format(" of the partition {}", quote_text(spec.coordination.partitions[p].name));
+    warnings.push_back(
+        {"silence", "/silence/actions",
+         fmt::format(
+             "in {} cell{} from which silence could be safe nothing is left to {} while it is silent{}: "
+             "the silence is 0 there",
+             grouped(cells), cells == 1 ? "" : "s", quote_list(agents, "or"), partition)});
+  }
+  return warnings;
+}
+
+/// Levels of K' and of L, their set, and the projections.
+MemoryNeed silence_memory(const EngineSizes& sizes, int threads) {
+  const ProblemSpec& spec = sizes.model().spec();
+  if (!spec.silence) return {};
+  const auto partitions = static_cast<double>(spec.coordination.partitions.size());
+  MemoryNeed need{.kept = static_cast<double>(count_of_answers(spec)) * sizes.levels(),
+                  .array = partitions * sizes.cells() * sizeof(std::int16_t)};
+  if (spec.silence->has_then()) need.kept += sizes.levels() + sizes.set();
+  std::vector<std::vector<InputClass>> all = {agent_classes(spec, sizes.model().inputs())};
+  for (const PartitionSpec& partition : spec.coordination.partitions)
+    all.push_back(input_classes(spec, sizes.model().inputs(), partition));
+  for (const std::vector<InputClass>& classes : all) {
+    need.work = std::max(
+        need.work, sizes.groups(classes) + projection_bytes(sizes, classes) + silent_bytes(sizes, classes));
+  }
+  need.work += sizes.wave(threads) + sizes.recent_levels();
+  return need;
+}
+
+const SilencePartition& silence_of(const Answers& answers, std::size_t p) {
+  const std::vector<SilencePartition>& partitions = answers.get<Silence>().partitions;
+  return partitions[std::min(p, partitions.size() - 1)];
+}
+
+const CellSet& silence_set(const Answers& answers) {
+  return answers.ground.spec.silence->has_then() ? answers.get<Silence>().set
+                                                 : answers.get<Invariance>().invariant;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,220 @@
+#include "answers/silence/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "answers/checking/cell_place.hpp"
+#include "answers/checking/claimed_values.hpp"
+#include "answers/checking/ruled_choices.hpp"
+#include "answers/layers/check_sizes.hpp"
+#include "base/index.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Each agent by itself: what `then` leaves to them depends on no class.
+std::vector<std::vector<std::int32_t>> single_agents(const ProblemSpec& spec) {
+  std::vector<std::vector<std::int32_t>> agents;
+  for (std::size_t i = 0; i < spec.agents.size(); ++i) agents.push_back({static_cast<std::int32_t>(i)});
+  return agents;
+}
+
+/// What all threads share about one partition.
+struct PartitionOfSilence {
+  PartitionOfSilence(const CheckGround& ground, std::size_t p)
+      : claims(*ground.spec, *ground.claims, p, silence_layers_meant()),
+        silence("silence " + claims.partition.name) {
+    if (claims.fixed_point_index < 0) most = ground.spec->coordination.max_delay;
+  }
+
+  PartitionClaims claims;
+  std::optional<std::int64_t> most;  ///< max_delay, if that has cut L
+  Tally silence;
+};
+
+/// K' as claimed, and where all agents do what comes after.
+struct SetOfSilence {
+  explicit SetOfSilence(const CheckGround& ground)
+      : has_then(ground.spec->silence->has_then()),
+        members(ground.claims->members(has_then ? "/silence_set" : "/invariant")) {}
+
+  bool has_then;
+  const std::vector<std::uint8_t>& members;
+  Tally tally{"silence set"};
+  std::atomic<std::int64_t> looked_at{0};
+};
+
+/// What keeps a cell in a set whatever agents do then. @param set 0 or 1
+bool stays(CheckedCell& cell, RuledChoices& then, const std::vector<std::uint8_t>& set) {
+  const std::vector<std::int64_t> choices = then.of(cell.number(), cell.admitted());
+  return !choices.empty() && std::ranges::all_of(choices, [&](std::int64_t u) {
+    return !cell.is_forbidden(u) && cell.least(u, set, 0) > 0;
+  });
+}
+
+class SilenceChecker : public CellChecker {
+ public:
+  SilenceChecker(const CheckGround& ground, SetOfSilence& set, std::deque<PartitionOfSilence>& partitions)
+      : ground_(ground), set_(set), partitions_(partitions) {
+    const SilenceSpec& silence = *ground.spec->silence;
+    for (const PartitionOfSilence& own : partitions)
+      actions_.emplace_back(ground, silence.actions, "actions", own.claims.partition.classes);
+    if (silence.has_then()) then_.emplace(ground, silence.then, "then", single_agents(*ground.spec));
+  }
+
+  void check(CheckedCell& cell) override {
+    ++set_.looked_at;
+    const bool is_member = cell.is_safe() && set_.members[cell.at()] != 0;
+    if (then_) check_member(cell, is_member);
+    for (std::size_t p = 0; p < partitions_.size(); ++p) {
+      PartitionOfSilence& own = partitions_[p];
+      std::int32_t expected = cell.is_safe() ? kOutsideInvariant : kOutsideSafe;
+      if (is_member) expected = silence_by_definition(cell, own, actions_[p]);
+      compare(own.silence, cell, own.claims.delay[cell.at()], expected);
+    }
+  }
+
+ private:
+  void check_member(CheckedCell& cell, bool is_member) {
+    set_.tally.add_checked(1);
+    if (set_.members[cell.at()] == 0) return;
+    if (is_member && stays(cell, *then_, set_.members)) return;
+    set_.tally.add_wrong(cell.number(),
+                         [&] { return cell.place() + ": what comes after does not keep it there"; });
+  }
+
+  [[nodiscard]] static std::int32_t silence_by_definition(CheckedCell& cell, const PartitionOfSilence& own,
+                                                          RuledChoices& actions) {
+    std::int32_t worst = kForever;
+    const std::vector<std::int64_t> choices = actions.of(cell.number(), cell.admitted());
+    for (const std::int64_t u : choices) {
+      const std::int32_t least =
+          cell.is_forbidden(u) ? kOutsideInvariant : cell.least(u, own.claims.delay, kOutsideInvariant);
+      worst = std::min(worst, std::max(least, kOutsideInvariant));
+      if (worst == kOutsideInvariant) break;
+    }
+    const std::int32_t silence = choices.empty() ? 0 : one_more(worst);
+    return own.most ? std::min(silence, static_cast<std::int32_t>(*own.most)) : silence;
+  }
+
+  void compare(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected) const {
+    tally.add_checked(1);
+    if (claimed == expected) return;
+    if (ground_.sound_only() && expected >= 0 && claimed >= 0) return tally.add_unproven();
+    tally.add_wrong(cell.number(), [&] {
+      return fmt::format("{}: {}, expected {}", cell.place(), step_words(claimed), step_words(expected));
+    });
+  }
+
+  const CheckGround& ground_;
+  SetOfSilence& set_;
+  std::deque<PartitionOfSilence>& partitions_;
+  std::deque<RuledChoices> actions_;  ///< [partition]
+  std::optional<RuledChoices> then_;
+};
+
+class SilenceCheck : public AnswerCheck {
+ public:
+  explicit SilenceCheck(const CheckGround& ground)
+      : AnswerCheck(CheckSection::steps), ground_(ground), set_(ground) {
+    for (std::size_t p = 0; p < ground.spec->coordination.partitions.size(); ++p)
+      partitions_.emplace_back(ground, p);
+  }
+
+  std::vector<Finding> compare_sizes(Comparison& sizes) override {
+    std::vector<Finding> findings;
+    std::size_t longest = 1;
+    for (const PartitionOfSilence& own : partitions_)
+      findings.push_back(compare_layers(*ground_.spec, *ground_.claims, own.claims, longest));
+    sizes.expect("length of /silence_layer", partitions_.front().claims.layer_sizes.size(), longest);
+    if (set_.has_then) {
+      const std::vector<std::uint64_t>& cells = ground_.claims->at("/silence_set").cells;
+      sizes.expect("cells of /silence_set", cells.empty() ? UINT64_MAX : cells.front(),
+                   count_members(set_.members));
+    }
+    return findings;
+  }
+  std::unique_ptr<CellChecker> cell_checker() override {
+    return std::make_unique<SilenceChecker>(ground_, set_, partitions_);
+  }
+  void check_all(ThreadTeam& team) override {
+    if (set_.has_then && set_.looked_at >= ground_.grid->cells()) check_greatest(team);
+  }
+  [[nodiscard]] std::vector<Finding> findings() const override {
+    std::vector<Finding> result;
+    if (set_.has_then) result.push_back(set_.tally.finding());
+    for (const PartitionOfSilence& own : partitions_) result.push_back(own.silence.finding());
+    return result;
+  }
+
+ private:
+  /// No cell of S beside K' is in the limit: what leads out of the rest is taken away until nothing does.
+  void check_greatest(ThreadTeam& team) {
+    const std::vector<std::uint8_t>& safe = ground_.claims->members("/safe");
+    std::vector<std::uint8_t> left(safe.size());
+    std::vector<std::int64_t> open;
+    for (std::size_t x = 0; x < left.size(); ++x) {
+      left[x] = safe[x] != 0 || set_.members[x] != 0 ? 1 : 0;
+      if (left[x] != 0 && set_.members[x] == 0) open.push_back(static_cast<std::int64_t>(x));
+    }
+    for (std::size_t before = open.size() + 1; open.size() < before;) {
+      before = open.size();
+      for (const std::int64_t x : leaving(open, left, team)) left[at(x)] = 0;
+      std::erase_if(open, [&](std::int64_t x) { return left[at(x)] == 0; });
+    }
+    for (const std::int64_t x : open) {
+      if (ground_.sound_only()) {
+        set_.tally.add_unproven();
+      } else {
+        set_.tally.add_wrong(x, [&] {
+          return place_of(*ground_.grid, x) + ": expected in the set, what comes after keeps it";
+        });
+      }
+    }
+  }
+
+  /// Those of the cells from which what comes after may lead out of a set.
+  [[nodiscard]] std::vector<std::int64_t> leaving(const std::vector<std::int64_t>& cells,
+                                                  const std::vector<std::uint8_t>& set,
+                                                  ThreadTeam& team) const {
+    std::vector<std::int64_t> result;
+    std::mutex mutex;
+    team.for_each(std::ssize(cells), 512, [&](ThreadTeam::Range range, int) {
+      CheckedCell cell(ground_);
+      RuledChoices then(ground_, ground_.spec->silence->then, "then", single_agents(*ground_.spec));
+      std::vector<std::int64_t> found;
+      for (std::int64_t i = range.begin; i < range.end; ++i) {
+        cell.go_to(cells[at(i)]);
+        if (!stays(cell, then, set)) found.push_back(cell.number());
+      }
+      const std::lock_guard lock(mutex);
+      result.insert(result.end(), found.begin(), found.end());
+    });
+    return result;
+  }
+
+  const CheckGround& ground_;
+  SetOfSilence set_;
+  std::deque<PartitionOfSilence> partitions_;
+};
+
+}  // namespace
+
+std::unique_ptr<AnswerCheck> check_silence(const CheckGround& ground) {
+  if (!ground.spec->silence) return nullptr;
+  return std::make_unique<SilenceCheck>(ground);
+}
+
+double silence_check_memory(const ProblemSpec& spec) {
+  if (!spec.silence || !spec.silence->has_then()) return 0;
+  return sizeof(std::uint8_t) + 2 * sizeof(std::int64_t);  // what is left of S, and which of it is open
+}
+
+}  // namespace coordreq

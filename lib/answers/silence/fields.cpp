@@ -1,0 +1,84 @@
+#include "answers/silence/fields.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "answers/field_arrays.hpp"
+#include "answers/field_parts.hpp"
+#include "answers/invariance/answer.hpp"
+#include "answers/layers/fields.hpp"
+#include "answers/silence/answer.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+Field silence_field(const ProblemSpec& spec) {
+  const bool has_then = spec.silence->has_then();
+  const std::string outside = has_then ? "not_in_silence_set" : "not_invariant";
+  return steps_field(
+      "silence", spec, DelayLayers::kOutsideSafe,
+      described("largest number of steps that are safe while agents do what the spec tells silent ones") +
+          std::vector<FieldAttribute>{flags({{DelayLayers::kOutsideSafe, "not_safe"},
+                                             {DelayLayers::kOutsideInvariant, outside},
+                                             {kLargestValue, "unbounded"}})},
+      {.column = "silence",
+       .compared = "silence",
+       .asked = {.words = "silence",
+                 .meanings = {{"not_safe", "none: the cell is not safe"},
+                              {"not_invariant", "none: no coordination keeps the system safe from here"},
+                              {"not_in_silence_set",
+                               "none: what comes after it does not keep the system safe"},
+                              {"unbounded", "unbounded: safe for ever"}}},
+       .map = {.kind = "silence", .title = "Silence of agents that do what they are told"}},
+      "/silence_fixed_point_index");
+}
+
+}  // namespace
+
+Fields silence_fields(const ProblemSpec& spec) {
+  if (!spec.silence) return {};
+  Fields fields = {silence_field(spec)};
+  if (spec.silence->has_then()) {
+    fields.push_back({.path = paths::kSilenceSet,
+                      .kind = FieldKind::set,
+                      .section = FieldSection::sets,
+                      .types = {ElementType::uint8},
+                      .axes = cell_axes(spec),
+                      .most = 1,
+                      .attributes = described("from here what comes after silence is safe for ever") +
+                                    std::vector<FieldAttribute>{counted_cells()} +
+                                    std::vector<FieldAttribute>{flags({{0, "not_safe"}, {1, "safe"}})},
+                      .shown = {.column = "silence_set", .compared = "silence set"}});
+  }
+  add_sizes(fields, "/silence_", 'L', cell_count(spec), spec);
+  return fields;
+}
+
+void fill_silence_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
+  const auto* const silence = answers.find<Silence>();
+  if (silence == nullptr) return;
+  const ProblemSpec& spec = answers.ground.spec;
+  const LevelMap& times = answers.get<Invariance>().collision_time;
+  const CellOrder& order = *answers.ground.order;
+  std::vector<const DelayLayers*> all;
+  std::int64_t longest = 0;
+  for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {
+    const DelayLayers& layers = *all.emplace_back(&silence_of(answers, p).layers);
+    const std::int64_t last = std::ssize(layers.sizes) - 1;
+    longest = std::max(longest, layers.truncated ? last : last - 1);
+  }
+  std::vector<ResultArray> arrays;
+  for (const DelayLayers* const layers : all)
+    arrays.push_back(delay_array(*layers, times, order, level_type(longest)));
+  values.entries[paths::kSilence].array = stacked_array(cell_count(spec), std::move(arrays));
+  fill_sizes(all, "/silence_", values);
+  if (!spec.silence->has_then()) return;
+  values.entries[paths::kSilenceSet] = {
+      .array = invariant_array(silence->lost, order),
+      .attributes = {{"cells", static_cast<std::uint64_t>(silence->cells)}}};
+}
+
+}  // namespace coordreq

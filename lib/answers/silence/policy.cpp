@@ -1,0 +1,57 @@
+#include "answers/silence/policy.hpp"
+
+#include <memory>
+
+#include "answers/one_cell/silent_inputs.hpp"
+#include "answers/silence/fields.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+class SilencePolicy : public CellPolicy {
+ public:
+  SilencePolicy(const PolicyGround& ground, SilentInputs::Part part)
+      : inputs_(*ground.spec, part, ground.partition->classes, *ground.posts) {}
+
+  bool holds(std::int64_t /*cell*/) override { return true; }
+  const Numbers& together(std::int64_t /*cell*/, const Numbers& admissible) override { return admissible; }
+  std::vector<Numbers> alone(std::int64_t cell, std::int32_t /*countdown*/, const Numbers& together,
+                             const std::vector<InputClass>& /*classes*/) override {
+    return inputs_.of(cell, together);
+  }
+
+ private:
+  SilentInputs inputs_;
+};
+
+}  // namespace
+
+std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec) {
+  if (!spec.silence) return {};
+  return {{.name = "silence",
+           .words = "silent",
+           .gain = "as they are told",
+           .delay = paths::kSilence,
+           .is_on_request = true,
+           .is_anywhere = true,
+           .make = [](const PolicyGround& ground) -> std::unique_ptr<CellPolicy> {
+             return std::make_unique<SilencePolicy>(ground, SilentInputs::Part::actions);
+           },
+           .header = {.where = "while agents do what they are told",
+                      .purpose = "Agents who do what they are told while they are silent.",
+                      .countdown = "Steps of that which are safe, or one of the numbers above.",
+                      .allowed = "Whether class c may take its joint action a while it is silent."}}};
+}
+
+AnswerPolicy afterwards_policy() {
+  return {.name = "afterwards",
+          .delay = paths::kSilence,
+          .is_on_request = true,
+          .is_anywhere = true,
+          .make = [](const PolicyGround& ground) -> std::unique_ptr<CellPolicy> {
+            return std::make_unique<SilencePolicy>(ground, SilentInputs::Part::then);
+          }};
+}
+
+}  // namespace coordreq

@@ -1,0 +1,105 @@
+#include "answers/silence/silent_actions.hpp"
+
+#include <algorithm>
+
+#include "answers/invariance/safe_set.hpp"
+#include "base/index.hpp"
+#include "engine/action_sources.hpp"
+#include "spec/problem_spec.hpp"
+#include "spec/wording.hpp"
+
+namespace coordreq {
+namespace {
+
+using Classes = std::vector<std::vector<std::int32_t>>;
+using Tables = std::vector<std::optional<PairTable>>;
+
+Tables tables_of(const Ground& ground, const AgentRules& rules, ThreadTeam& team) {
+  Tables tables(rules.conditions.size());
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    if (!rules.conditions[i]) continue;
+    tables[i] = permitted_pairs({*rules.conditions[i], "the condition",
+                                 member_pointer("/silence/" + rules.key, ground.spec.agents[i].name)},
+                                ground.spec, *ground.abstraction, team, ground.shared_rows());
+  }
+  return tables;
+}
+
+std::vector<InputClass> inputs_of(const Ground& ground, const Classes& classes) {
+  std::vector<InputClass> result;
+  for (const std::vector<std::int32_t>& agents : classes)
+    result.push_back(class_of(ground.spec, ground.abstraction->inputs, agents));
+  return result;
+}
+
+/// Those of the engine, and then the rules in the order of the agents.
+std::vector<ActionSource> sources_of(const Ground& ground, const Tables& tables) {
+  std::vector<ActionSource> sources = action_sources(*ground.engine);
+  for (const std::optional<PairTable>& table : tables) {
+    if (table) sources.push_back(source_of(*table, ground.abstraction->inputs));
+  }
+  return sources;
+}
+
+SilentRules rules_of(const AgentRules& rules, const Classes& classes, const Tables& tables,
+                     std::size_t sources, const CellSet& cells,
+                     std::vector<std::atomic<std::int64_t>>& lacking) {
+  SilentRules result{.cells = &cells,
+                     .classes = {},
+                     .tables = std::vector<const PairTable*>(sources, nullptr),
+                     .lacking = &lacking};
+  std::vector<std::size_t> source_of_agent(tables.size());
+  auto next = static_cast<std::size_t>(
+      std::ranges::count_if(tables, [](const auto& table) { return table.has_value(); }));
+  next = sources - next;
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    if (!tables[i]) continue;
+    source_of_agent[i] = next;
+    result.tables[next++] = &*tables[i];
+  }
+  for (const std::vector<std::int32_t>& agents : classes) {
+    ClassRules& own = result.classes.emplace_back();
+    own.agent = at(agents.front());
+    for (const std::int32_t i : agents) {
+      const bool has_rule = rules.conditions[at(i)].has_value();
+      if (!has_rule && !own.asks_controller) own.agent = at(i);
+      own.asks_controller = own.asks_controller || !has_rule;
+      if (!tables[at(i)]) continue;
+      own.sources.push_back(source_of_agent[at(i)]);
+      own.agents.push_back(at(i));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+SilentActions::SilentActions(const Answers& answers, const AgentRules& rules, const Classes& classes,
+                             const CellSet& cells, ThreadTeam& team)
+    : tables(tables_of(answers.ground, rules, team)),
+      lacking(rules.conditions.size()),
+      grouping(*answers.ground.engine, inputs_of(answers.ground, classes), sources_of(answers.ground, tables),
+               team),
+      projections(answers.get<Controller>(), grouping, *answers.ground.hull, team,
+                  rules_of(rules, classes, tables, grouping.sources().size(), cells, lacking)) {}
+
+double silent_bytes(const EngineSizes& sizes, const std::vector<InputClass>& classes) {
+  const SilenceSpec& silence = *sizes.model().spec().silence;
+  double tables = 0;
+  for (const auto* const rules : {&silence.actions, &silence.then}) {
+    double own = 0;
+    for (const std::optional<Program>& rule : *rules) own += rule ? 2 * sizes.condition(*rule) : 0;
+    tables = std::max(tables, own);
+  }
+  double masks = sizes.set();  // where a class has no action
+  for (const InputClass& own : classes) masks += sizes.set() * static_cast<double>(own.actions());
+  return tables + masks;
+}
+
+std::vector<std::vector<std::int32_t>> agents_alone(const ProblemSpec& spec) {
+  Classes classes;
+  for (std::size_t i = 0; i < spec.agents.size(); ++i) classes.push_back({static_cast<std::int32_t>(i)});
+  return classes;
+}
+
+}  // namespace coordreq

@@ -1,0 +1,103 @@
+#include "cell/check_simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "base/error.hpp"
+#include "cell/state_text.hpp"
+#include "model/locate.hpp"
+#include "model/sample_reset.hpp"
+#include "spec/problem_spec.hpp"
+#include "spec/sight.hpp"
+
+namespace coordreq {
+namespace {
+
+/// No state is beyond a `stop` limit, and none is measured farther than the error from it.
+bool is_beyond_limit(const GridDimension& dimension, const Rational& value) {
+  const Rational& error = dimension.measurement_error;
+  return (dimension.below == Outside::stop && value < dimension.first - error) ||
+         (dimension.above == Outside::stop && value > dimension.point(dimension.count - 1) + error);
+}
+
+void check_prefer(const ProblemSpec& spec, Policy policy) {
+  const auto has_prefer = [](const AgentSpec& agent) { return agent.prefer.has_value(); };
+  if (policy != Policy::prefer || std::any_of(spec.agents.begin(), spec.agents.end(), has_prefer)) return;
+  throw UsageError("no agent of the spec has a 'prefer'", "--policy");
+}
+
+/// Who goes by what it sees itself knows nothing of what others would like, or of a goal.
+void check_blind(const ProblemSpec& spec, const SimulationOptions& options) {
+  if (!options.blind) return;
+  if (!has_limited_sight(spec))
+    throw UsageError("all agents see all states, expected some that do not: 'sees' in the spec", "--blind");
+  if (options.policy == Policy::prefer)
+    throw UsageError("'prefer' reads what agents do not see, expected random or adversarial with --blind",
+                     "--policy");
+  if (options.until_goal)
+    throw UsageError("agents that see only themselves do not go for the goal, expected --blind or --until",
+                     "--until");
+  if (options.is_lossy)
+    throw UsageError(
+        "agents that see only themselves know that a step is lost, not the mode; expected --blind or --lossy",
+        "--lossy");
+}
+
+/// What agents are told says what they do; nothing else does then.
+void check_silent(const ProblemSpec& spec, const SimulationOptions& options) {
+  if (!options.silent) return;
+  if (!spec.silence)
+    throw UsageError("the spec does not say what silent agents do, expected the key 'silence'", "--silent");
+  if (options.until_goal)
+    throw UsageError("silent agents do not go for the goal, expected --silent or --until", "--until");
+  if (options.is_lossy)
+    throw UsageError("the network says when steps are lost, expected --silent or --lossy", "--lossy");
+  if (options.blind) throw UsageError("expected --silent or --blind, found both", "--blind");
+}
+
+}  // namespace
+
+void check_options(const ProblemSpec& spec, const SimulationOptions& options) {
+  check_silent(spec, options);
+  check_blind(spec, options);
+  check_prefer(spec, options.policy);
+  if (options.until_goal && !spec.goal) throw UsageError("the spec has no goal", "--until");
+}
+
+std::vector<Rational> start_state(const ResultsReader& results, const std::string& text) {
+  std::vector<Rational> state = parse_state(text, state_names(results.spec()), "--from");
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const GridDimension& dimension = results.grid()[i];
+    if (dimension.periodic()) state[i] = reset_at_sample(dimension, state[i]);
+  }
+  return state;
+}
+
+void check_start(const ResultsReader& results, const std::vector<Rational>& state,
+                 std::span<const std::int32_t> delays, bool is_silent) {
+  const Location location = locate(results.grid(), state);
+  std::optional<std::size_t> fault;
+  if (location.kind != Location::Kind::cell) fault = location.dimension;
+  for (std::size_t i = 0; i < state.size() && !fault; ++i) {
+    if (is_beyond_limit(results.grid()[i], state[i])) fault = i;
+  }
+  if (fault) {
+    const bool off_grid = location.kind == Location::Kind::off_grid;
+    throw UsageError(fmt::format("{} = {} is {}", results.grid()[*fault].name, to_text(state[*fault]),
+                                 off_grid ? "not a value of this discrete state" : "outside of the domain"),
+                     "--from");
+  }
+  const std::int32_t steps = delays[static_cast<std::size_t>(location.cell)];
+  if (steps < 0) {
+    throw UsageError(
+        steps == DelayLayers::kOutsideSafe ? "the start is not in the safe set"
+        : is_silent ? "the start is not in the silence set: what comes after silence is not safe from there"
+                    : "the start is not in the invariance set: on this grid not even coordination keeps "
+                      "the system safe from there",
+        "--from");
+  }
+}
+
+}  // namespace coordreq

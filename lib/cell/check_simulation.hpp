@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cell/simulate.hpp"
+
+// What is asked of a simulation that the results do not fit.
+namespace coordreq {
+
+/// @throws UsageError naming an option that the spec, or another option, does not go with
+void check_options(const ProblemSpec& spec, const SimulationOptions& options);
+
+/// The state of `--from`, in its period. @throws UsageError
+[[nodiscard]] std::vector<Rational> start_state(const ResultsReader& results, const std::string& text);
+
+/// @param delays of all cells: delays, or silence if `is_silent`; negative where no run can start
+/// @throws UsageError unless a run can start from the state
+void check_start(const ResultsReader& results, const std::vector<Rational>& state,
+                 std::span<const std::int32_t> delays, bool is_silent);
+
+}  // namespace coordreq

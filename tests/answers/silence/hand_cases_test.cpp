@@ -1,0 +1,126 @@
+// Points on a line that agents push: small enough to see what they do who do what they are told.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "answers/silence/answer.hpp"
+#include "spec/read_spec.hpp"
+#include "support/fast_engine.hpp"
+
+namespace coordreq {
+namespace {
+
+using Json = nlohmann::json;
+using Silences = std::vector<std::int32_t>;
+
+constexpr std::int32_t kForGood = DelayLayers::kUnbounded;
+
+/// x and y in 0, ..., 4, of which a moves the one and b the other; both have to stay.
+Json two_points(const Json& silence) {
+  Json spec = Json::parse(R"({"coordreq": 1, "name": "points",
+"states": [{"name": "x", "lower": 0, "upper": 4, "step": 1, "discrete": true},
+           {"name": "y", "lower": 0, "upper": 1, "step": 1, "discrete": true, "outside": "saturate"}],
+"inputs": [{"name": "u", "values": [-1, 0, 1]}, {"name": "v", "values": [0, 1]}],
+"agents": [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}],
+"dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x + u", "y": "y + v"}}, "safe": "true"})");
+  spec["silence"] = silence;
+  return spec;
+}
+
+/// Where y is 0, by x; and for how many cells each agent is why nobody can do anything.
+struct Told {
+  Silences silence;
+  std::vector<std::int64_t> lacking;
+};
+
+Told found(const Json& json) {
+  ThreadTeam team(1);
+  const ProblemSpec spec = read_spec(json.dump(), "case");
+  const FastAnalysis fast(spec, team);
+  const SilencePartition& own = silence_of(*fast.answers, 0);
+  Told result{{}, own.lacking};
+  for (std::int64_t x = 0; x < fast.safe.cells(); x += 2) {
+    const std::int64_t level = own.layers.layers_of.at(x);
+    result.silence.push_back(level == LevelMap::kTop ? own.layers.top_delay()
+                                                     : static_cast<std::int32_t>(level - 1));
+  }
+  return result;
+}
+
+Silences silence_told(const Json& actions) {
+  return found(two_points({{"actions", actions}})).silence;
+}
+
+TEST(SilenceHandCases, EndsWhereAnUnsafeSideIsReached) {
+  EXPECT_EQ(silence_told({{"a", "u == 1"}, {"b", "true"}}), (Silences{4, 3, 2, 1, 0}));
+  EXPECT_EQ(silence_told({{"a", "u >= 0"}, {"b", "true"}}), (Silences{4, 3, 2, 1, 0}));
+  EXPECT_EQ(silence_told({{"a", "true"}, {"b", "true"}}), (Silences{0, 1, 2, 1, 0}));
+  EXPECT_EQ(silence_told({{"a", "u == 0"}, {"b", "true"}}),
+            (Silences{kForGood, kForGood, kForGood, kForGood, kForGood}));
+}
+
+TEST(SilenceHandCases, ConditionsMayReadWhereTheAgentIs) {
+  EXPECT_EQ(silence_told({{"a", "u == if(x >= 2, 1, -1)"}, {"b", "true"}}), (Silences{0, 1, 2, 1, 0}));
+  EXPECT_EQ(silence_told({{"a", "u == if(x >= 2, -1, 1)"}, {"b", "v == 0"}}),
+            (Silences{kForGood, kForGood, kForGood, kForGood, kForGood}));
+}
+
+TEST(SilenceHandCases, WithoutARuleAnAgentStaysWhereTheControllerKeepsIt) {
+  EXPECT_EQ(silence_told({{"b", "true"}}), (Silences{kForGood, kForGood, kForGood, kForGood, kForGood}));
+}
+
+TEST(SilenceHandCases, WhereSomebodyIsToldNothingThereIsNone) {
+  const Told nothing = found(two_points({{"actions", {{"a", "u == 1 and x != 2"}, {"b", "true"}}}}));
+  EXPECT_EQ(nothing.silence, (Silences{2, 1, 0, 1, 0}));
+  EXPECT_EQ(nothing.lacking, (std::vector<std::int64_t>{2, 0}));  // y is 0 or 1
+  const Told second = found(two_points({{"actions", {{"a", "u == 1"}, {"b", "v == 0 and (x + y) != 3"}}}}));
+  EXPECT_EQ(second.lacking, (std::vector<std::int64_t>{0, 2}));
+}
+
+TEST(SilenceHandCases, TheFirstClassThatLacksAnActionIsNamed) {
+  Json spec = two_points({{"actions", {{"a", "x != 2"}, {"b", "x != 2"}}}});
+  EXPECT_EQ(found(spec).lacking, (std::vector<std::int64_t>{2, 0}));
+  // Outside K nothing is left to b, which has no rule; K' is larger than K.
+  spec["controller"] = {{"synthesis", "given"}, {"allow", "x >= 1 or u >= 1"}};
+  spec["silence"] = {{"actions", {{"a", "true"}}},
+                     {"then", {{"a", "u == if(x >= 1, 0, 1)"}, {"b", "v == 0"}}}};
+  EXPECT_EQ(found(spec).lacking, (std::vector<std::int64_t>{0, 10}));
+}
+
+TEST(SilenceHandCases, WhatIsForbiddenIsBlockedAlsoToOneAgentAlone) {
+  Json spec = two_points({{"actions", {{"a", "u == 1"}, {"b", "true"}}}});
+  spec["controller"] = {{"allow", "u <= 0 or x != 1"}};
+  EXPECT_EQ(found(spec).silence, (Silences{1, 0, 2, 1, 0}));
+  spec["controller"] = {{"allow", "x != 1"}};  // of no input at all
+  EXPECT_EQ(found(spec).silence, (Silences{0, -1, 2, 1, 0}));
+}
+
+TEST(SilenceHandCases, WhatComesAfterHasToBeSafeForEver) {
+  const Json actions = {{"a", "u == 1"}, {"b", "true"}};
+  EXPECT_EQ(
+      found(two_points({{"actions", actions}, {"then", {{"a", "u == if(x <= 2, 0, 1)"}, {"b", "v == 1"}}}}))
+          .silence,
+      (Silences{2, 1, 0, -1, -1}));
+  // And to be something.
+  EXPECT_EQ(found(two_points({{"actions", actions}, {"then", {{"a", "u == 0"}, {"b", "v == 1 and x <= 1"}}}}))
+                .silence,
+            (Silences{1, 0, -1, -1, -1}));
+}
+
+TEST(SilenceHandCases, OneAnswerServesAllPartitionsWhereAllHaveRules) {
+  ThreadTeam team(1);
+  Json json = two_points({{"actions", {{"a", "u == 1"}, {"b", "true"}}}});
+  json["coordination"]["partitions"] = "all";
+  const FastAnalysis all(read_spec(json.dump(), "case"), team);
+  EXPECT_EQ(all.answers->get<Silence>().partitions.size(), 1U);
+  json["silence"]["actions"].erase("b");
+  const FastAnalysis each(read_spec(json.dump(), "case"), team);
+  EXPECT_EQ(each.answers->get<Silence>().partitions.size(), 2U);
+}
+
+}  // namespace
+}  // namespace coordreq
