@@ -97,6 +97,13 @@ void silence() {
   limit(RLIMIT_AS, present_bytes() + kMostBytes);
 }
 
+/// Less than a child would be given where nobody else sets a limit.
+bool is_short_of_memory() {
+  rlimit own{};
+  return is_held_to_memory() ||
+         (getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur < present_bytes() + kMostBytes);
+}
+
 /// What the parent has to know: kDone, or the exit code and text of an Error.
 std::string outcome_of(const std::function<void()>& read) {
   try {
@@ -115,7 +122,7 @@ std::string outcome_of(const std::function<void()>& read) {
 [[noreturn]] void tell_of_silence(int signal, const std::string& path) {
   if (signal == SIGKILL) throw std::bad_alloc();  // so the system ends who takes too much
   if (signal != SIGXCPU) {
-    if (is_held_to_memory()) throw std::bad_alloc();  // the library fails in many ways where it is given none
+    if (is_short_of_memory()) throw std::bad_alloc();  // the library fails in many ways where it is given none
     throw ResultsError("damaged results file: the HDF5 library cannot read it", path);
   }
   rlimit own{};

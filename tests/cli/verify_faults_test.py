@@ -58,7 +58,8 @@ class Cases(Case):
         path = self.results(found, "found")
         other = self.results(asked, "asked")
         with h5py.File(path, "r+") as file, h5py.File(other) as source:
-            file["spec"][()] = source["spec"][()]
+            for name in ("spec", "spec_json"):
+                file[name][()] = source[name][()]
             for name in ("spec_sha256", "guarantee"):
                 file.attrs.modify(name, source.attrs[name])
         return path
