@@ -85,10 +85,11 @@ void add_neighbour(const Json& found, const ProblemSpec& spec, std::vector<std::
   const std::string delay = other["delay_status"] == "unbounded"
                                 ? "silence may last for ever"
                                 : "the delay is " + steps_text(number_of(other["delay"]), spec);
-  text.push_back(fmt::format(
-      "At {} {}, with {} joint actions instead of {}: the controller leaves agents every action that can "
-      "still be made up for together, so that more freedom can mean less silence.",
-      values_text(other["state"]), delay, grouped(other["alone"]), grouped(found["freedom"]["alone"])));
+  text.push_back(
+      fmt::format("At {} {}, with {} instead of {}: the controller leaves agents every action that can "
+                  "still be made up for together, so that more freedom can mean less silence.",
+                  values_text(other["state"]), delay, count_of(number_of(other["alone"]), "joint action"),
+                  grouped(found["freedom"]["alone"])));
 }
 
 void add_remedies(const Json& found, const ProblemSpec& spec, std::vector<std::string>& text) {

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
-#include "base/json.hpp"
 #include "cell/state_reader.hpp"
 #include "model/locate.hpp"
 #include "model/outside.hpp"
@@ -20,10 +18,7 @@ constexpr const char* kLabel = "pair";
 
 std::string label_of(const StateReader& reader, std::int64_t row) {
   for (const StateReader::Extra& own : reader.extra()) {
-    if (own.name != kLabel) continue;
-    if (!own.is_json) return std::string(trimmed(own.value));
-    const Json value = Json::parse(own.value);
-    return value.is_string() ? value.get<std::string>() : own.value;
+    if (own.name == kLabel && !own.text().empty()) return own.text();
   }
   return std::to_string(row);
 }

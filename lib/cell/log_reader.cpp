@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/json.hpp"
 #include "spec/system_spec.hpp"
 #include "spec/wording.hpp"
 
@@ -16,14 +14,6 @@ namespace {
 
 constexpr const char* kTime = "t";
 constexpr const char* kConnected = "connected";
-
-/// What stands there, nothing if that is nothing.
-std::string text_in(const StateReader::Extra& own) {
-  if (!own.is_json) return std::string(trimmed(own.value));
-  const Json value = Json::parse(own.value);
-  if (value.is_null()) return {};
-  return value.is_string() ? value.get<std::string>() : own.value;
-}
 
 }  // namespace
 
@@ -71,7 +61,7 @@ std::optional<LogRow> LogReader::next() {
 void LogReader::take(const StateReader::Extra& own, LogRow& row) const {
   const std::optional<std::size_t> input = input_of(own.name);
   if (!input && own.name != kTime && own.name != kConnected) return;
-  const std::string text = text_in(own);
+  const std::string text = own.text();
   if (text.empty()) return;
   const std::string place = row.place + ", " + own.name;
   if (input) {

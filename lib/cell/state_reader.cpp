@@ -36,6 +36,13 @@ std::vector<std::string> csv_fields(std::string_view line, const std::string& wh
 
 }  // namespace
 
+std::string StateReader::Extra::text() const {
+  if (!is_json) return std::string(trimmed(value));
+  const auto json = nlohmann::json::parse(value);
+  if (json.is_null()) return {};
+  return json.is_string() ? json.get<std::string>() : value;
+}
+
 StateReader::StateReader(std::istream& stream, StateNames states, std::string source)
     : stream_(stream), names_(std::move(states.names)), needed_(states.needed), source_(std::move(source)) {
   pending_ = read_line();

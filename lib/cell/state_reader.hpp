@@ -35,6 +35,8 @@ class StateReader {
     std::string name;
     std::string value;     ///< without the quotation marks of CSV
     bool is_json = false;  ///< of JSON lines: JSON text
+    /// What stands there, without blanks around it; empty if that is nothing, or null.
+    [[nodiscard]] std::string text() const;
   };
   /// Names without values: of CSV once it is open, of JSON lines those of the last state.
   [[nodiscard]] const std::vector<std::string>& extra_names() const { return extra_names_; }

@@ -122,7 +122,8 @@ std::string outcome_of(const std::function<void()>& read) {
 [[noreturn]] void tell_of_silence(int signal, const std::string& path) {
   if (signal == SIGKILL) throw std::bad_alloc();  // so the system ends who takes too much
   if (signal != SIGXCPU) {
-    if (is_short_of_memory()) throw std::bad_alloc();  // the library fails in many ways where it is given none
+    if (is_short_of_memory())
+      throw std::bad_alloc();  // the library fails in many ways where it is given none
     throw ResultsError("damaged results file: the HDF5 library cannot read it", path);
   }
   rlimit own{};

@@ -164,11 +164,9 @@ void find_blind_delays_of(std::size_t p, Answers& answers, const StageWork& work
 }
 
 Json blind_json(const DelayLayers& layers, std::int64_t as_much) {
-  return {{"F", layers.truncated ? Json() : Json(layers.fixed_point_index)},
-          {"layers", layers.sizes},
-          {"fixed_point", layers.truncated ? Json() : Json(layers.sizes.back())},
-          {"truncated", layers.truncated},
-          {"as_much", as_much}};
+  Json json = layers_json(layers);
+  json["as_much"] = as_much;
+  return json;
 }
 
 }  // namespace
@@ -209,21 +207,7 @@ void summarise_blind(const Answers& answers, Json& summary, Json& work) {
 }
 
 void tell_blind(const ProblemSpec& spec, const FieldSource& source, Json& info) {
-  if (!has_limited_sight(spec)) return;
-  const std::vector<std::int64_t> sizes = source.integers("/blind_layer_size");
-  const std::vector<std::int64_t> fixed_points = source.integers("/blind_fixed_point_index");
-  const auto layers = static_cast<std::ptrdiff_t>(sizes.size() / fixed_points.size());
-  for (std::size_t p = 0; p < fixed_points.size(); ++p) {
-    if (fixed_points[p] >= layers)
-      source.fail(fmt::format("found {}, expected a layer or -1", fixed_points[p]),
-                  "/blind_fixed_point_index");
-    const bool truncated = fixed_points[p] < 0;
-    const auto first = sizes.begin() + static_cast<std::ptrdiff_t>(p) * layers;
-    const auto last = first + (truncated ? layers : static_cast<std::ptrdiff_t>(fixed_points[p]) + 1);
-    info["partitions"][p]["blind"] = {{"F", truncated ? Json() : Json(fixed_points[p])},
-                                      {"layers", std::vector<std::int64_t>(first, last)},
-                                      {"truncated", truncated}};
-  }
+  if (has_limited_sight(spec)) tell_layers_of(spec, source, "/blind_", "blind", info);
 }
 
 Warnings advise_on_blind(const Answers& answers) {

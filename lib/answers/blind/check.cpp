@@ -155,9 +155,7 @@ class BlindChecker : public CellChecker {
     tally.add_checked(1);
     if (claimed == expected) return;
     if (ground_.sound_only() && expected >= 0 && claimed >= 0) return tally.add_unproven();
-    tally.add_wrong(cell.number(), [&] {
-      return fmt::format("{}: {}, expected {}", cell.place(), step_words(claimed), step_words(expected));
-    });
+    add_wrong_steps(tally, cell, claimed, expected);
   }
 
   /// Rows may hold nothing that is not admissible in a cell in which the system may be.

@@ -1,8 +1,11 @@
 #include "answers/checking/checked_cell.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "answers/checking/cell_place.hpp"
+#include "answers/checking/claimed_values.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -46,6 +49,12 @@ void CheckedCell::find_admitted() {
 
 std::string CheckedCell::place() const {
   return place_of(*ground_.grid, cell_);
+}
+
+void add_wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected) {
+  tally.add_wrong(cell.number(), [&] {
+    return fmt::format("{}: {}, expected {}", cell.place(), step_words(claimed), step_words(expected));
+  });
 }
 
 }  // namespace coordreq

@@ -7,6 +7,7 @@
 
 #include "answers/checking/allowed_pairs.hpp"
 #include "answers/checking/check_ground.hpp"
+#include "answers/checking/tally.hpp"
 
 namespace coordreq {
 
@@ -77,5 +78,8 @@ class CheckedCell {
   std::vector<std::int32_t> memory_;  ///< of posts_
   const void* remembered_ = nullptr;  ///< the values that it is about
 };
+
+/// Steps of a cell, coded as in `/delay`, that are not those of the definition.
+void add_wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed, std::int32_t expected);
 
 }  // namespace coordreq

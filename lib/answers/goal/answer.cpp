@@ -69,13 +69,6 @@ void find_approach(std::size_t p, Answers& answers, const StageWork& work) {
   follow_from_approach(layers, max_delay, work.team, own);
 }
 
-Json approach_json(const DelayLayers& approach) {
-  return {{"F", approach.truncated ? Json() : Json(approach.fixed_point_index)},
-          {"layers", approach.sizes},
-          {"fixed_point", approach.truncated ? Json() : Json(approach.sizes.back())},
-          {"truncated", approach.truncated}};
-}
-
 }  // namespace
 
 std::vector<Stage> goal_stages(const ProblemSpec& spec) {
@@ -96,7 +89,7 @@ void summarise_goal(const Answers& answers, Json& summary, Json& work) {
   if (answers.ground.spec.ends_at_goal) summary["goal"]["then"] = "over";
   work["arrival"] = work_json(goal->counts);
   for (std::size_t p = 0; p < goal->approach.size(); ++p) {
-    summary["partitions"][p]["approach"] = approach_json(goal->approach[p]);
+    summary["partitions"][p]["approach"] = layers_json(goal->approach[p]);
     work["approach " + answers.ground.spec.coordination.partitions[p].name] =
         work_json(goal->approach[p].counts);
   }

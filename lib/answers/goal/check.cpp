@@ -165,7 +165,7 @@ class GoalChecker : public CellChecker {
     if (ground_.sound_only() && expected >= 0 && claimed > expected) {
       tallies_.arrival.add_unproven();
     } else {
-      wrong_steps(tallies_.arrival, cell, claimed, expected);
+      add_wrong_steps(tallies_.arrival, cell, claimed, expected);
     }
   }
 
@@ -200,7 +200,7 @@ class GoalChecker : public CellChecker {
     if (ground_.sound_only() && expected >= 0 && claimed >= 0) {
       tally.add_unproven();
     } else {
-      wrong_steps(tally, cell, claimed, expected);
+      add_wrong_steps(tally, cell, claimed, expected);
     }
   }
 
@@ -228,17 +228,11 @@ class GoalChecker : public CellChecker {
                                   : delay < needed               ? kMustStand
                                                                  : static_cast<std::int32_t>(delay - needed);
     const std::int32_t claimed = claims_.trigger[p][cell.at()];
-    if (claimed != expected) wrong_steps(tally, cell, claimed, expected);
+    if (claimed != expected) add_wrong_steps(tally, cell, claimed, expected);
   }
 
   static void wrong(Tally& tally, const CheckedCell& cell, const char* what) {
     tally.add_wrong(cell.number(), [&] { return fmt::format("{}: {}", cell.place(), what); });
-  }
-  static void wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed,
-                          std::int32_t expected) {
-    tally.add_wrong(cell.number(), [&] {
-      return fmt::format("{}: {}, expected {}", cell.place(), step_words(claimed), step_words(expected));
-    });
   }
 
   const CheckGround& ground_;

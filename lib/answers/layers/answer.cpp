@@ -64,6 +64,12 @@ Json longest_delay(const Ground& ground, const DelayLayers& layers) {
   return nearest_double(ground.spec.dynamics.period * Rational(static_cast<unsigned long>(steps)));
 }
 
+Json stored_json(const StoredPartition& partition) {
+  return {{"F", partition.truncated() ? Json() : Json(partition.fixed_point_index)},
+          {"layers", partition.layer_sizes},
+          {"truncated", partition.truncated()}};
+}
+
 Json partition_json(const Ground& ground, const PartitionSpec& partition, const DelayLayers& layers) {
   const ProblemSpec& spec = ground.spec;
   Json json;
@@ -127,14 +133,27 @@ void examine_layers(const ProblemSpec& spec, const FieldSource& source) {
   }
 }
 
+Json layers_json(const DelayLayers& layers) {
+  return {{"F", layers.truncated ? Json() : Json(layers.fixed_point_index)},
+          {"layers", layers.sizes},
+          {"fixed_point", layers.truncated ? Json() : Json(layers.sizes.back())},
+          {"truncated", layers.truncated}};
+}
+
 void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   info["partitions"] = Json::array();
   for (const StoredPartition& partition : read_partition_values(spec, source)) {
-    info["partitions"].push_back({{"name", partition.name},
-                                  {"F", partition.truncated() ? Json() : Json(partition.fixed_point_index)},
-                                  {"layers", partition.layer_sizes},
-                                  {"truncated", partition.truncated()}});
+    Json own = {{"name", partition.name}};
+    own.update(stored_json(partition));
+    info["partitions"].push_back(std::move(own));
   }
+}
+
+void tell_layers_of(const ProblemSpec& spec, const FieldSource& source, const std::string& prefix,
+                    const char* member, Json& info) {
+  const std::vector<StoredPartition> partitions = read_partition_values(spec, source, prefix);
+  for (std::size_t p = 0; p < partitions.size(); ++p)
+    info["partitions"][p][member] = stored_json(partitions[p]);
 }
 
 /// Only the levels of all partitions are kept; of all else there is that of one at a time.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "answers/answers.hpp"
@@ -38,5 +39,12 @@ void summarise_layers(const Answers& answers, Json& summary, Json& work);
 /// Fails where an F is no layer, or a list of layers has another length.
 void examine_layers(const ProblemSpec& spec, const FieldSource& source);
 void tell_layers(const ProblemSpec& spec, const FieldSource& source, Json& info);
+
+/// What there is to say of layers beside their partition: F, sizes, what never changes, whether they are cut.
+[[nodiscard]] Json layers_json(const DelayLayers& layers);
+/// The same of layers that a file holds, of all partitions. @param prefix of their paths, see add_sizes()
+/// @param member of each partition in `info` @throws ResultsError if an F is no layer
+void tell_layers_of(const ProblemSpec& spec, const FieldSource& source, const std::string& prefix,
+                    const char* member, Json& info);
 
 }  // namespace coordreq

@@ -119,7 +119,7 @@ class PartitionChecker {
     if (ground_.sound_only() && expected >= 0 && claimed >= 0 && (claimed < expected || other_choices)) {
       tallies_.delay.add_unproven();
     } else {
-      wrong_steps(tallies_.delay, cell, claimed, expected);
+      add_wrong_steps(tallies_.delay, cell, claimed, expected);
     }
   }
 
@@ -128,14 +128,7 @@ class PartitionChecker {
     const std::int32_t expected =
         trigger_by_definition(claims_.delay[cell.at()], ground_.spec->coordination.connection_delay);
     const std::int32_t claimed = claims_.trigger[cell.at()];
-    if (claimed != expected) wrong_steps(tallies_.trigger, cell, claimed, expected);
-  }
-
-  static void wrong_steps(Tally& tally, const CheckedCell& cell, std::int32_t claimed,
-                          std::int32_t expected) {
-    tally.add_wrong(cell.number(), [&] {
-      return fmt::format("{}: {}, expected {}", cell.place(), step_words(claimed), step_words(expected));
-    });
+    if (claimed != expected) add_wrong_steps(tallies_.trigger, cell, claimed, expected);
   }
 
   const CheckGround& ground_;

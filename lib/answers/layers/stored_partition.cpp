@@ -9,9 +9,10 @@
 
 namespace coordreq {
 
-std::vector<StoredPartition> read_partition_values(const ProblemSpec& spec, const FieldSource& source) {
-  const std::vector<std::int64_t> sizes = source.integers("/layer_size");
-  const std::vector<std::int64_t> fixed_points = source.integers("/fixed_point_index");
+std::vector<StoredPartition> read_partition_values(const ProblemSpec& spec, const FieldSource& source,
+                                                   const std::string& prefix) {
+  const std::vector<std::int64_t> sizes = source.integers(prefix + "layer_size");
+  const std::vector<std::int64_t> fixed_points = source.integers(prefix + "fixed_point_index");
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
   const std::size_t layers = sizes.size() / partitions.size();
   std::vector<StoredPartition> result;
@@ -24,7 +25,7 @@ std::vector<StoredPartition> read_partition_values(const ProblemSpec& spec, cons
     }
     if (fixed_points[p] >= static_cast<std::int64_t>(layers))
       source.fail("found " + std::to_string(fixed_points[p]) + ", expected a layer or -1",
-                  "/fixed_point_index");
+                  prefix + "fixed_point_index");
     partition.fixed_point_index = static_cast<std::int32_t>(fixed_points[p]);
     const auto row = sizes.begin() + static_cast<std::ptrdiff_t>(p * layers);
     partition.padded_sizes.assign(row, row + static_cast<std::ptrdiff_t>(layers));

@@ -26,9 +26,11 @@ struct StoredLayers {
   std::vector<std::uint64_t> cell;
 };
 
+/// @param prefix of the paths, see add_sizes()
 /// @throws ResultsError if an F is no layer
 [[nodiscard]] std::vector<StoredPartition> read_partition_values(const ProblemSpec& spec,
-                                                                 const FieldSource& source);
+                                                                 const FieldSource& source,
+                                                                 const std::string& prefix = "/");
 /// REQUIRES: they are stored. @throws ResultsError unless `start` ascends from 0 to the number of cells and
 /// `cell` holds cells of the grid
 [[nodiscard]] StoredLayers read_layer_lists(const ProblemSpec& spec, const PartitionSpec& partition,

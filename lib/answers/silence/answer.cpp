@@ -9,6 +9,7 @@
 
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
+#include "answers/layers/answer.hpp"
 #include "answers/layers/projection_bytes.hpp"
 #include "answers/silence/fields.hpp"
 #include "answers/silence/silent_actions.hpp"
@@ -85,13 +86,6 @@ void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
   follow_from_levels(coordination.max_delay, work.team, own.layers);
 }
 
-Json silence_json(const DelayLayers& layers) {
-  return {{"F", layers.truncated ? Json() : Json(layers.fixed_point_index)},
-          {"layers", layers.sizes},
-          {"fixed_point", layers.truncated ? Json() : Json(layers.sizes.back())},
-          {"truncated", layers.truncated}};
-}
-
 std::string stage_name(const ProblemSpec& spec, std::size_t p) {
   return all_have_rules(*spec.silence) ? "silence" : "silence " + spec.coordination.partitions[p].name;
 }
@@ -118,7 +112,7 @@ void summarise_silence(const Answers& answers, Json& summary, Json& work) {
   }
   for (std::size_t p = 0; p < spec.coordination.partitions.size(); ++p) {
     const DelayLayers& layers = silence_of(answers, p).layers;
-    summary["partitions"][p]["silence"] = silence_json(layers);
+    summary["partitions"][p]["silence"] = layers_json(layers);
     work[stage_name(spec, p)] = work_json(layers.counts);
   }
 }
@@ -126,20 +120,7 @@ void summarise_silence(const Answers& answers, Json& summary, Json& work) {
 void tell_silence(const ProblemSpec& spec, const FieldSource& source, Json& info) {
   if (!spec.silence) return;
   if (spec.silence->has_then()) info["silence_set"] = source.counted(paths::kSilenceSet).front();
-  const std::vector<std::int64_t> sizes = source.integers("/silence_layer_size");
-  const std::vector<std::int64_t> fixed_points = source.integers("/silence_fixed_point_index");
-  const auto layers = static_cast<std::ptrdiff_t>(sizes.size() / fixed_points.size());
-  for (std::size_t p = 0; p < fixed_points.size(); ++p) {
-    if (fixed_points[p] >= layers)
-      source.fail(fmt::format("found {}, expected a layer or -1", fixed_points[p]),
-                  "/silence_fixed_point_index");
-    const bool truncated = fixed_points[p] < 0;
-    const auto first = sizes.begin() + static_cast<std::ptrdiff_t>(p) * layers;
-    const auto last = first + (truncated ? layers : static_cast<std::ptrdiff_t>(fixed_points[p]) + 1);
-    info["partitions"][p]["silence"] = {{"F", truncated ? Json() : Json(fixed_points[p])},
-                                        {"layers", std::vector<std::int64_t>(first, last)},
-                                        {"truncated", truncated}};
-  }
+  tell_layers_of(spec, source, "/silence_", "silence", info);
 }
 
 Warnings advise_on_silence(const Answers& answers) {

@@ -1,7 +1,5 @@
 #include "answers/silence/check.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <deque>
@@ -108,9 +106,7 @@ class SilenceChecker : public CellChecker {
     tally.add_checked(1);
     if (claimed == expected) return;
     if (ground_.sound_only() && expected >= 0 && claimed >= 0) return tally.add_unproven();
-    tally.add_wrong(cell.number(), [&] {
-      return fmt::format("{}: {}, expected {}", cell.place(), step_words(claimed), step_words(expected));
-    });
+    add_wrong_steps(tally, cell, claimed, expected);
   }
 
   const CheckGround& ground_;
