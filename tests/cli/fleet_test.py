@@ -10,7 +10,7 @@ from program import SPEC, Case, spec_with
 class Cases(Case):
     def test_lanes_for_two_are_none_for_three(self):
         sizes = []
-        for spec in blocks(DOCS / "fleets.md", "json"):
+        for spec in blocks(DOCS / "how-to/fleets.md", "json"):
             self.write("spec.json", spec)
             sizes.append(self.analyze("spec.json", "-o", "out.h5")["invariant"])
         self.assertEqual(sizes, [1, 0])

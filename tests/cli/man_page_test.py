@@ -60,7 +60,7 @@ class Cases(Case):
         self.assertEqual(name, "coordreq - When must agents that share a safety task communicate?")
 
     def test_exit_codes_are_those_of_the_manual(self):
-        codes = re.findall(r"(?m)^\| ([0-9]+) \|", (ROOT / "docs/commands.md").read_text())
+        codes = re.findall(r"(?m)^\| ([0-9]+) \|", (ROOT / "docs/reference/commands.md").read_text())
         self.assertEqual(re.findall(r"(?m)^([0-9]+) \S", self.sections()["EXIT STATUS"]), codes)
 
 

@@ -13,23 +13,23 @@ import numpy as np
 from pages import DOCS, PAGES, PageCase, blocks
 from program import CONFIGS, PROGRAM, ROOT, without_comments
 
-GRIDS = (DOCS / "grids.md").read_text()
+GRIDS = (DOCS / "how-to/grids.md").read_text()
 # How many sessions each page has, and the examples whose results they start from.
 SESSIONS = {
-    "coalitions.md": (2, []),
-    "commands.md": (1, []),
-    "goals-and-memory.md": (2, []),
-    "grids.md": (1, []),
-    "logs.md": (1, ["crossing.json"]),
-    "networks.md": (1, []),
-    "outputs.md": (5, []),
-    "queries.md": (2, ["circle.json"]),
-    "requirements.md": (1, []),
-    "results.md": (1, ["circle.json"]),
-    "risk.md": (3, []),
-    "rules.md": (1, []),
-    "simulation.md": (1, ["circle.json"]),
-    "sweeps.md": (2, ["circle.json"]),
+    "how-to/coalitions.md": (2, []),
+    "reference/commands.md": (1, []),
+    "how-to/goals-and-memory.md": (2, []),
+    "how-to/grids.md": (1, []),
+    "how-to/logs.md": (1, ["crossing.json"]),
+    "how-to/networks.md": (1, []),
+    "reference/outputs.md": (5, []),
+    "how-to/queries.md": (2, ["circle.json"]),
+    "how-to/requirements.md": (1, []),
+    "reference/results.md": (1, ["circle.json"]),
+    "how-to/risk.md": (3, []),
+    "how-to/rules.md": (1, []),
+    "how-to/simulation.md": (1, ["circle.json"]),
+    "how-to/sweeps.md": (2, ["circle.json"]),
     "tutorial/README.md": (7, []),
 }
 
@@ -46,43 +46,43 @@ class Cases(PageCase):
         return summary["cells"], summary["partitions"][0]["max_delay_time"]
 
     def test_sessions_of_coalitions(self):
-        self.assert_sessions("coalitions.md")
+        self.assert_sessions("how-to/coalitions.md")
 
     def test_sessions_of_commands(self):
-        self.assert_sessions("commands.md")
+        self.assert_sessions("reference/commands.md")
 
     def test_sessions_of_grids(self):
-        self.assert_sessions("grids.md")
+        self.assert_sessions("how-to/grids.md")
 
     def test_sessions_of_logs(self):
-        self.assert_sessions("logs.md")
+        self.assert_sessions("how-to/logs.md")
 
     def test_sessions_of_risk(self):
-        self.assert_sessions("risk.md")
+        self.assert_sessions("how-to/risk.md")
 
     def test_sessions_of_networks(self):
-        self.assert_sessions("networks.md")
+        self.assert_sessions("how-to/networks.md")
 
     def test_sessions_of_outputs(self):
-        self.assert_sessions("outputs.md")
+        self.assert_sessions("reference/outputs.md")
 
     def test_sessions_of_queries(self):
-        self.assert_sessions("queries.md")
+        self.assert_sessions("how-to/queries.md")
 
     def test_sessions_of_requirements(self):
-        self.assert_sessions("requirements.md")
+        self.assert_sessions("how-to/requirements.md")
 
     def test_sessions_of_results(self):
-        self.assert_sessions("results.md")
+        self.assert_sessions("reference/results.md")
 
     def test_sessions_of_rules(self):
-        self.assert_sessions("rules.md")
+        self.assert_sessions("how-to/rules.md")
 
     def test_sessions_of_simulation(self):
-        self.assert_sessions("simulation.md")
+        self.assert_sessions("how-to/simulation.md")
 
     def test_sessions_of_sweeps(self):
-        self.assert_sessions("sweeps.md")
+        self.assert_sessions("how-to/sweeps.md")
 
     def test_sessions_of_the_tutorial(self):
         self.assert_sessions("tutorial/README.md")
@@ -99,17 +99,17 @@ class Cases(PageCase):
         self.assertEqual({page: count for page, count in found.items() if count > 0}, expected)
 
     def test_spec(self):
-        (spec,) = blocks(DOCS / "spec.md", "jsonc")
+        (spec,) = blocks(DOCS / "reference/spec.md", "jsonc")
         result = self.run_program("validate", "-", stdin=spec.encode())
         self.assertEqual((result.returncode, result.stderr), (0, b""))
 
     def test_python_of_results(self):
         self.analyze(str(CONFIGS / "circle.json"))
-        self.assert_programs_print(DOCS / "results.md", "(1, 201, 201) m\n")
+        self.assert_programs_print(DOCS / "reference/results.md", "(1, 201, 201) m\n")
 
     def test_notebook(self):
         self.analyze(str(CONFIGS / "tutorial/corridor_5.json"))
-        self.assert_notebook_prints(DOCS / "analysis.md")
+        self.assert_notebook_prints(DOCS / "how-to/python.md")
         self.assertTrue((self.folder / "silence.png").read_bytes().startswith(b"\x89PNG"))
 
     def test_lines_for_a_shell(self):
@@ -151,15 +151,15 @@ class Cases(PageCase):
 
     def test_python_of_coalitions(self):
         self.analyze(str(CONFIGS / "platoon_coalition.json"))
-        self.assert_programs_print(DOCS / "coalitions.md", "lead+middle|tail\n2880\n")
+        self.assert_programs_print(DOCS / "how-to/coalitions.md", "lead+middle|tail\n2880\n")
 
     def test_python_of_rules(self):
-        self.assert_programs_print(DOCS / "rules.md", "")
+        self.assert_programs_print(DOCS / "how-to/rules.md", "")
         with h5py.File(self.folder / "first_come.h5") as written, h5py.File(CONFIGS / "first_come.h5") as stored:
             self.assertTrue(np.array_equal(written["controller"][...], stored["controller"][...]))
 
     def test_figures_of_the_crossing(self):
-        rows = re.findall(r"(?m)^\| `(configs/crossing[^`]*)` \|[^|]*\| (.*) \|$", (DOCS / "rules.md").read_text())
+        rows = re.findall(r"(?m)^\| `(configs/crossing[^`]*)` \|[^|]*\| (.*) \|$", (DOCS / "how-to/rules.md").read_text())
         self.assertEqual(len(rows), 4)
         for command, figures in rows:
             config, *settings = shlex.split(command)
@@ -172,7 +172,7 @@ class Cases(PageCase):
             self.assertEqual(figures.split(" | "), [f"{summary['invariant']:,}", bears, longest, f"{never:,}"])
 
     def test_figures_of_networks(self):
-        rows = re.findall(r"(?m)^\| `(\{.*\})`.* \| ([0-9,]+) \| ([0-9,]+) \|$", (DOCS / "networks.md").read_text())
+        rows = re.findall(r"(?m)^\| `(\{.*\})`.* \| ([0-9,]+) \| ([0-9,]+) \|$", (DOCS / "how-to/networks.md").read_text())
         self.assertEqual(len(rows), 6)
         spec = json.loads(without_comments((CONFIGS / "intersection_network.json").read_text()))
         for row in rows:

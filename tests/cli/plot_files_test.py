@@ -181,9 +181,9 @@ class Cases(PlotCase):
         self.write(path, result.stdout.decode())
 
     def test_the_pictures_of_the_pages_are_those_of_their_commands(self):
-        text = (ROOT / "docs/export.md").read_text().split("\n## Pictures\n")[1].split("\n## ")[0]
-        text += "".join((ROOT / "docs" / page).read_text() for page in ("goals-and-memory.md", "blind.md", "risk.md", "silence.md"))
-        shown = re.findall(r"!\[.*\]\(pictures/(.*)\)", text)
+        text = (ROOT / "docs/how-to/export.md").read_text().split("\n## Pictures\n")[1].split("\n## ")[0]
+        text += "".join((ROOT / "docs/how-to" / page).read_text() for page in ("goals-and-memory.md", "blind.md", "risk.md", "silence.md"))
+        shown = re.findall(r"!\[.*\]\(\.\./pictures/(.*)\)", text)
         lines = [line.split() for line in re.findall(r"(?m)^(?:coordreq analyze|scripts/plot .*-o) .*", text)]
         commands = [line for line in lines if line[0] == "scripts/plot"]
         self.assertEqual(sorted(command[-1] for command in commands), sorted(shown))

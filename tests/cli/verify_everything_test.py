@@ -12,7 +12,7 @@ import numpy as np
 from program import Case, spec_with
 
 EVERYTHING = {"controller": True, "actions": True, "layers": True, "abstraction": True}
-# Named in docs/verification.md: where a file comes from and free text; what only HDF5's own bookkeeping looks at; and
+# Named in docs/explanation/verification.md: where a file comes from and free text; what only HDF5's own bookkeeping looks at; and
 # what a controller file lists, which is taken as given; and what was seen of a run of the system.
 NOT_LOOKED_AT = {"long_name", "coordreq_version", "git_sha1", "REFERENCE_LIST"}
 GIVEN = {"/controller:file", "/counterexample/seen"}

@@ -184,7 +184,7 @@ Row row_of(const TightnessCase& known) {
 }
 
 std::string page() {
-  std::ifstream file(COORDREQ_ROOT "/docs/guarantees.md");
+  std::ifstream file(COORDREQ_ROOT "/docs/explanation/guarantees.md");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -193,7 +193,7 @@ TEST(Tightness, IsAsThePageSays) {
   ASSERT_FALSE(text.empty());
   for (const TightnessCase& known : kCases) {
     const Row row = row_of(known);
-    EXPECT_NE(text.find(row.text + "\n"), std::string::npos) << "not in docs/guarantees.md:\n" << row.text;
+    EXPECT_NE(text.find(row.text + "\n"), std::string::npos) << "not in docs/explanation/guarantees.md:\n" << row.text;
     EXPECT_LE(row.excess, 1.0) << known.name;
   }
 }
