@@ -145,6 +145,11 @@ class Cases(Case):
         self.assertEqual([one["actions"] for one in answer["convention"]], [[], []])
         self.assertEqual(self.run_program("verify", "r.h5", "--strict").returncode, 0)
 
+    def test_cells_of_the_goal_that_are_not_safe_end_nothing(self):
+        found = self.results({**LANDER, "safe": "h < 4", "goal": {"where": "h == 0 or h == 4", "then": "over"}})
+        self.assertEqual(found["arrival"].tolist()[:4], [0, 1, 1, 2])
+        self.assertEqual(self.summary["partitions"][0]["max_delay_time"], 1)  # every cell but h = 0 is bounded
+
     def test_a_cell_counts_only_where_all_of_it_is_provably_there(self):
         cases = {
             "p <= 1.5": (moving("p <= 1.5", [-1, 1]), [0, 0, 1, 2, 3]),

@@ -207,6 +207,8 @@ TEST_F(CompareResults, AddsUpWhatTheArraysSay) {
     RC_ASSERT(comparison.values.size() == before.partitions().size());
     RC_ASSERT(comparison.sets.at(0).before == static_cast<std::int64_t>(before.attributes().safe_cells));
     RC_ASSERT(comparison.sets.at(1).after == static_cast<std::int64_t>(after.attributes().invariant_cells));
+    for (const SetComparison& set : comparison.sets)
+      RC_ASSERT(set.before - set.left + set.joined == set.after);
     for (const ValueComparison& partition : comparison.values)
       expect_sums(before, after, partition, tolerance);
   }));

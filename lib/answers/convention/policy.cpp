@@ -7,7 +7,6 @@
 
 #include "answers/convention/convention.hpp"
 #include "answers/convention/fields.hpp"
-#include "answers/goal/fields.hpp"
 #include "answers/goal/policy.hpp"
 #include "base/grouped.hpp"
 #include "base/index.hpp"
@@ -20,12 +19,9 @@ class ConventionPolicy : public CellPolicy {
  public:
   explicit ConventionPolicy(const PolicyGround& ground)
       : joint_inputs_(ground.posts->inputs().count()),
-        way_(ground.spec->goal ? make_goal_policy(ground) : nullptr) {
-    if (ground.spec->ends_at_goal) arrival_ = ground.values(paths::kArrival);
-  }
+        way_(ground.spec->goal ? make_goal_policy(ground) : nullptr) {}
 
-  /// Where a goal ends the task nobody needs one.
-  bool holds(std::int64_t cell) override { return !arrival_ || arrival_(cell) != 0; }
+  bool holds(std::int64_t /*cell*/) override { return true; }
 
   const Numbers& together(std::int64_t cell, const Numbers& admissible) override {
     return way_ && way_->holds(cell) ? way_->together(cell, admissible) : admissible;
@@ -48,7 +44,6 @@ class ConventionPolicy : public CellPolicy {
  private:
   std::int64_t joint_inputs_;
   std::unique_ptr<CellPolicy> way_;
-  CellValue arrival_;  ///< where a goal ends the task
 };
 
 }  // namespace
