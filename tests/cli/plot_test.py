@@ -5,7 +5,7 @@ import json
 import unittest
 
 import numpy as np
-from plot_case import PlotCase, example, labels, legend, titles
+from plot_case import PlotCase, drawn, example, labels, legend, titles
 from program import SPEC, spec_with
 
 UNBOUNDED = np.iinfo(np.int16).max
@@ -110,6 +110,26 @@ class Cases(PlotCase):
             self.assert_arrays_equal(kinds.get_array().filled(-1) == 2, delay >= k)
         self.assertEqual(titles(figure)[1:], ["k = 1 step (0.01 s)", "k = 14 steps (0.14 s)", "k = 29 steps (0.29 s)"])
         self.assertEqual(legend(figure), ["not safe", "safe, not invariant", "tolerates k steps (Z_k)"])
+
+    def test_no_title_covers_another(self):
+        self.analyzed(example("intersection_coarse.json"))
+        cut = ("--slice", "v1=1,v2=2", "--snapshots", "1,2,3")
+        for words in ((), ("--size", "12x3.5"), ("--size", "9x4")):
+            _, figure = self.plotted("layers", *cut, *words)
+            drawn(figure)
+            above = figure._suptitle.get_window_extent()
+            for axes in figure.axes[:3]:
+                self.assertFalse(axes.title.get_window_extent().overlaps(above), words)
+            ticks = [axes.xaxis.get_tightbbox() for axes in figure.axes[:3]]
+            self.assertFalse(any(one.overlaps(next_one) for one, next_one in zip(ticks, ticks[1:])), words)
+
+    def test_a_slice_may_have_a_scale_of_its_own(self):
+        self.analyzed(example("intersection_coarse.json"))
+        cut = ("--slice", "v1=1,v2=2", "--snapshots", "3")
+        all_cells, own = (self.plotted("layers", *cut, *words)[0].most for words in ((), ("--own-scale",)))
+        self.assertEqual(all_cells, self.stored("fixed_point_index")[0] - 1)
+        self.assertEqual(own, 2)
+        self.assertGreater(all_cells, own)
 
     def test_slices_of_more_dimensions(self):
         partitions = [{"classes": []}, {"name": "both", "classes": [["first", "second"]]}]
@@ -223,7 +243,7 @@ class Cases(PlotCase):
         self.analyzed(SPEC)
         data, figure = self.plotted("layers")
         bar = figure.axes[1]
-        figure.canvas.draw()
+        drawn(figure)
         steps = bar.get_yticks()
         self.assertEqual([step % 1 for step in steps], [0] * len(steps))
         self.assertTrue((0 <= min(steps)) and (max(steps) <= data.most))
@@ -251,6 +271,17 @@ class Cases(PlotCase):
         panels = ["outside K", "D = 2 steps (0.4 min)", "D = 6 steps (1.2 min)"]
         self.assertEqual(titles(figure), ["aircraft_coarse, first|second", *panels])
         self.assertEqual((*labels(figure.axes[0]), figure.axes[0].get_zlabel()), ("x [km]", "y [km]", "h [rad]"))
+        # No label lies on the ticks of a bar, and at the corner of two axes neither has a number.
+        drawn(figure)
+        bars = [bar.get_tightbbox() for bar in figure.axes[3:]]
+        for axes in figure.axes[:3]:
+            labels_of_axes = [along.label.get_window_extent() for along in (axes.xaxis, axes.yaxis, axes.zaxis)]
+            self.assertFalse(any(label.overlaps(bar) for label in labels_of_axes for bar in bars))
+            self.assertFalse(axes.patch.get_visible())
+            for ticks, ends in ((axes.get_xticks(), axes.get_xlim()), (axes.get_yticks(), axes.get_ylim())):
+                self.assertGreater(len(ticks), 1)
+                self.assertGreater(min(ticks) - ends[0], 0.05 * (ends[1] - ends[0]))
+                self.assertGreater(ends[1] - max(ticks), 0.05 * (ends[1] - ends[0]))
 
     @staticmethod
     def faces(members, viewer):
@@ -342,6 +373,7 @@ class Cases(PlotCase):
         self.assertEqual([image.norm.vmax for image in shown], [960.5, 3.5])
         self.assertEqual(titles(figure)[1:], ["time to the goal\nup to 960 steps (480 s)",
                                               "silence that costs no time\nup to 3 steps (1.5 s)"])  # fmt: skip
+        self.assertNotEqual(*(image.cmap for image in shown))  # two quantities, two maps
         # Lines at ticks of the bar, of many steps only.
         self.assertEqual([len(axes.collections) > 0 for axes in (way, silence)], [True, False])
 
