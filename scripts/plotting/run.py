@@ -118,7 +118,8 @@ def _shade_plane(axes, run, curves):
     asked = set(run.spec.states_of_safe())
     over = [curve for curve in curves if asked and asked <= set(curve.states)]
     if len(over) == 1 and len(curves) == 1:
-        x, y = (np.linspace(*ends, _FINE) for ends in (axes.get_xlim(), axes.get_ylim()))
+        # Also beyond the limits, which equal scales of both axes may widen.
+        x, y = (np.linspace(3 * a - 2 * b, 3 * b - 2 * a, 3 * _FINE) for a, b in (axes.get_xlim(), axes.get_ylim()))
         _shade(axes, run, {over[0].states[0]: x, over[0].states[1]: y[:, None]}, (x, y))
 
 
@@ -142,6 +143,7 @@ def _shade(axes, run, values, places):
         axes.pcolormesh(*places, unsafe, cmap=_GREY, shading="nearest", zorder=0, rasterized=True)
         axes.plot([], [], "s", color=style.NOT_INVARIANT, label="not safe")
     axes.set(xlim=limits[0], ylim=limits[1])
+    axes.grid(alpha=0.3)  # which such an image takes away
 
 
 def _tick_points(axis, spec, states):
