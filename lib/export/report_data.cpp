@@ -84,10 +84,14 @@ Json ways_json(const ResultsReader& results) {
   return ways;
 }
 
-/// Where K is empty: the first cell from which the worst case takes longest to leave S, the best that there is.
+/// Where K is empty: the first cell from which the worst case takes longest to leave S, the best that there
+/// is.
 Json latest_json(const ResultsReader& results, const std::vector<std::int64_t>& best_cells) {
-  if (std::any_of(best_cells.begin(), best_cells.end(), [](std::int64_t cell) { return cell >= 0; })) return {};
-  const auto read = [&results](const CellBlock& block) { return results.values(paths::kCollisionTime, block); };
+  if (std::any_of(best_cells.begin(), best_cells.end(), [](std::int64_t cell) { return cell >= 0; }))
+    return {};
+  const auto read = [&results](const CellBlock& block) {
+    return results.values(paths::kCollisionTime, block);
+  };
   const std::int64_t cell = first_largest(results.grid(), read);
   return cell < 0 ? Json() : Json(index_of(results.grid(), cell));
 }
