@@ -85,6 +85,27 @@ class Cases(PlotCase):
         self.assertEqual(figure.axes[0].get_yscale(), "log")
         self.assertEqual(covered(figure), [])
 
+    def test_conditions_over_boxes_hold_where_some_or_all_points_do(self):
+        from plotting.condition import Conditions
+
+        random = np.random.default_rng(3)
+        low = random.uniform(-2, 2, (2, 300))
+        high = low + random.uniform(0, 1.5, (2, 300))
+        share = random.random((40, 2, 300))
+        points = low + share * (high - low)
+        formulas = {"r2": "x^2 + y^2", "near": "r2 <= R^2", "R": "3/4"}
+        for text in ("x < y", "near or x >= 1", "not near and -1 <= y < 1", "abs(x - y) > 0.5", "min(x, y) * max(x, -y) >= 0.1",
+                     "x / (y + 3) <= 0.2", "sin(2*x) + cos(3*y) > 0.7", "if(x > 0, y, -y) >= 0.3", "sqrt(abs(x)) != y", "x^3 - 2*x >= y"):  # fmt: skip
+            may, must = Conditions({"x": (low[0], high[0]), "y": (low[1], high[1])}, formulas).ask(text)
+            true, same = Conditions({"x": (points[:, 0],) * 2, "y": (points[:, 1],) * 2}, formulas).ask(text)
+            self.assert_arrays_equal(true, same)  # points decide
+            self.assertTrue(may[true.any(axis=0)].all(), text)
+            self.assertTrue(true[:, must].all(), text)
+            self.assertTrue(0 < may.sum() and must.sum() < 300, text)
+        for text in ("past >= 1", "x", "x <", "y ^ x > 1"):
+            with self.assertRaises(ValueError):
+                Conditions({"x": (low[0], high[0]), "y": (low[1], high[1])}, formulas).ask(text)
+
     def test_many_long_requirements_cover_nothing(self):
         required = [{"name": f"{i}: {'as long as it gets ' * i}", "where": "true", "min_delay": i} for i in range(1, 9)]
         self.write("spec.json", spec_with(requirements=required))
