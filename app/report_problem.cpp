@@ -81,37 +81,36 @@ std::string disturbances_table(const ProblemSpec& spec) {
   return html_table("Disturbances", {"disturbance", "anything from"}, rows);
 }
 
-/// A member of the spec's text as a list "name = value" of code; empty if there is none.
-/// @param used the others are left out
-std::string assignments(const Json& spec, const char* key, const std::set<std::string>& used) {
+/// What the safe set and `allow` mention.
+std::set<std::string> names_of_safety(const ProblemSpec& spec) {
+  std::set<std::string> names = names_in(spec.safe.text);
+  if (spec.controller.allow) names.merge(names_in(spec.controller.allow->text));
+  return names;
+}
+
+/// What definitions, memories and constants stand for, as a list of code: those among the names, and those
+/// that these mention in turn. @param said those that are left out, with all behind them
+std::string meanings(const ProblemSpec& spec, const std::set<std::string>& names,
+                     const std::set<std::string>& said) {
+  const Json text = Json::parse(spec.text, nullptr, true, true);
+  const std::set<std::string> used = with_names_behind(text, names);
+  const std::set<std::string> before = with_names_behind(text, said);
   std::string html;
-  if (!spec.contains(key)) return html;
-  for (const auto& [name, value] : spec.at(key).items()) {
-    if (!used.contains(name)) continue;
-    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-    html += fmt::format("{}{}", html.empty() ? "" : ", ", html_code(name + " = " + text));
+  for (const char* const key : {"definitions", "memory", "constants"}) {
+    if (!text.contains(key)) continue;
+    for (const auto& [name, value] : text.at(key).items()) {
+      if (!used.contains(name) || before.contains(name)) continue;
+      const std::string meant = value.is_string() ? value.get<std::string>() : value.dump();
+      html += fmt::format("{}{}", html.empty() ? "" : ", ", html_code(name + " = " + meant));
+    }
   }
   return html;
 }
 
-/// What the safe set and `allow` depend on.
-std::set<std::string> names_of_safety(const ProblemSpec& spec, const Json& text) {
-  std::set<std::string> names = names_in(spec.safe.text);
-  if (spec.controller.allow) names.merge(names_in(spec.controller.allow->text));
-  return with_names_behind(text, std::move(names));
-}
-
 std::string safe_text(const ProblemSpec& spec) {
-  const Json text = Json::parse(spec.text, nullptr, true, true);
-  const std::set<std::string> used = names_of_safety(spec, text);
   std::string html = "<p>A state is safe if " + html_code(spec.safe.text);
-  const char* joint = ", where ";
-  for (const char* const key : {"definitions", "constants"}) {
-    const std::string meant = assignments(text, key, used);
-    if (meant.empty()) continue;
-    html += joint + meant;
-    joint = ", ";
-  }
+  if (const std::string meant = meanings(spec, names_of_safety(spec), {}); !meant.empty())
+    html += ", where " + meant;
   html += ".";
   if (spec.controller.allow)
     html += " The agents may only do what keeps to " + html_code(spec.controller.allow->text) + ".";
@@ -143,6 +142,13 @@ std::string report_task(const ResultsReader& results) {
              "when they are silent, each acts alone.</p>\n",
              agents_words(spec), every) +
          safe_text(spec);
+}
+
+std::string report_names_of_regions(const ProblemSpec& spec) {
+  std::set<std::string> names;
+  for (const RequirementSpec& requirement : spec.requirements) names.merge(names_in(requirement.where.text));
+  const std::string meant = meanings(spec, names, names_of_safety(spec));
+  return meant.empty() ? "" : "<p>Here " + meant + ".</p>\n";
 }
 
 std::string report_details(const ResultsReader& results) {

@@ -74,9 +74,10 @@ std::string steps_table(std::size_t way, const StoryTable& story) {
 }
 
 std::string failure(std::size_t& way, const Json& own, const ProblemSpec& spec) {
-  std::string html = fmt::format("<h3>{}</h3>\n<p>{}.</p>\n", html_line(own["name"].get<std::string>()),
-                                 html_line(capital(failure_line(own, spec))));
-  if (own["counterexample"]["state"].is_null()) return html;
+  // How many fail and the worst state are in the table above.
+  if (own["counterexample"]["state"].is_null()) return "";
+  std::string html = fmt::format("<h3>{}</h3>\n", html_line(own["name"].get<std::string>()));
+  if (!own["reaches_outside"].is_null()) html += "<p>" + html_line(capital(outside_text(own))) + ".</p>\n";
   if (!has_story(own)) return html + "<p>" + visit_button(way++, 0, "Show in the picture", "") + "</p>\n";
   html += "<p>";
   for (const std::string& sentence : story_sentences(own, spec)) html += html_line(sentence) + " ";
@@ -101,7 +102,7 @@ std::string report_requirements(const ResultsReader& results) {
   html += failed == 0 ? "<p>Every requirement is met.</p>\n"
                       : fmt::format("<p>{} of {} requirement{} fail{}.</p>\n", grouped(failed),
                                     grouped(all.size()), all.size() == 1 ? "" : "s", failed == 1 ? "s" : "");
-  html += summary_table(all, spec);
+  html += summary_table(all, spec) + report_names_of_regions(spec);
   std::size_t way = 0;
   for (const Json& own : all) {
     if (!own["holds"].get<bool>()) html += failure(way, own, spec);

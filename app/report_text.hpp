@@ -24,6 +24,9 @@ namespace coordreq {
 /// Where the results come from.
 [[nodiscard]] std::string report_footer(const ResultsReader& results);
 
+/// What the names in regions of requirements stand for, but for those of which report_task() says so.
+[[nodiscard]] std::string report_names_of_regions(const ProblemSpec& spec);
+
 /// Each requirement with its verdict, and what goes wrong where one fails; empty if there are none.
 [[nodiscard]] std::string report_requirements(const ResultsReader& results);
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "answers/invariance/fields.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "export/report_map_list.hpp"
 #include "spec/problem_spec.hpp"
@@ -83,6 +84,18 @@ Json ways_json(const ResultsReader& results) {
   return ways;
 }
 
+/// Where K is empty: the first cell from which the worst case takes longest to leave S, the best that there
+/// is.
+Json latest_json(const ResultsReader& results, const std::vector<std::int64_t>& best_cells) {
+  if (std::any_of(best_cells.begin(), best_cells.end(), [](std::int64_t cell) { return cell >= 0; }))
+    return {};
+  const auto read = [&results](const CellBlock& block) {
+    return results.values(paths::kCollisionTime, block);
+  };
+  const std::int64_t cell = first_largest(results.grid(), read);
+  return cell < 0 ? Json() : Json(index_of(results.grid(), cell));
+}
+
 std::size_t packed_bytes(const Json& sets) {
   std::size_t bytes = 0;
   for (const Json& set : sets) {
@@ -145,6 +158,8 @@ ReportData report_data(const ResultsReader& results, std::vector<std::size_t> pa
     if (data.best_cells.back() >= 0) pins.push_back(index_of(grid, data.best_cells.back()));
     (*maps[m].head)["best"] = data.best_cells.back() < 0 ? Json() : Json(pins.back());
   }
+  const Json latest = latest_json(results, data.best_cells);
+  if (!latest.is_null()) pins.push_back(latest.get<std::vector<std::int64_t>>());
   const Json ways = ways_json(results);
   for (const Json& way : ways) pins.push_back(way["cells"].front().get<std::vector<std::int64_t>>());
   Json json;
@@ -153,6 +168,7 @@ ReportData report_data(const ResultsReader& results, std::vector<std::size_t> pa
   json["connection_delay"] = results.spec().coordination.connection_delay;
   json["states"] = states_json(results);
   json["partitions"] = partitions_json(results);
+  json["latest"] = latest;
   json["ways"] = ways;
   std::int64_t cells = std::max<std::int64_t>(limits.values / static_cast<std::int64_t>(maps.size()), 1);
   for (;; cells = std::min(cells, grid.cells()) / 2) {

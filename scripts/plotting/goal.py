@@ -19,12 +19,14 @@ _TEXTS = ("not safe", "safe, not invariant", "goal cannot be forced", "silent fo
 # Where so few cells take so many times as long as the others, these share the colours.
 _FEW = 0.02
 _FAR = 3
+_LABELS = "silence", "steps to the goal"
 _FEW_LINES = 12  # of more steps than that lines are drawn at some
 
 
 @dataclass(frozen=True)
 class Panel:
     title: str
+    way: bool  # steps of a way, and not of silence
     kinds: np.ndarray  # [x, y]
     steps: np.ndarray  # masked where `kinds` says all
 
@@ -61,13 +63,13 @@ def prepare(arguments):
     partition = results.partition(arguments.partition)
     cut = make_cut(results, arguments, directions=2, fewest=1)
     panels = [
-        _panel("time to the goal", cut.read("/arrival"), results.flags("/arrival")),
-        _panel("silence that costs no time", cut.read("/approach_delay", partition), results.flags("/approach_delay")),
+        _panel("time to the goal", True, cut.read("/arrival"), results.flags("/arrival")),
+        _panel("silence that costs no time", False, cut.read("/approach_delay", partition), results.flags("/approach_delay")),
     ]
     return Goal(cut, results.partitions[partition], panels)
 
 
-def _panel(title, values, flags):
+def _panel(title, way, values, flags):
     values = values.reshape(len(values), -1).astype(int)
     kinds = np.full(values.shape, -1)
     kinds[values == flags["not_safe"]] = NOT_SAFE
@@ -75,17 +77,21 @@ def _panel(title, values, flags):
     kinds[values == flags["goal_cannot_be_forced"]] = NO_WAY
     if "unbounded" in flags:
         kinds[values == flags["unbounded"]] = FREE
-    return Panel(title, kinds, np.ma.masked_where(kinds >= 0, values))
+    return Panel(title, way, kinds, np.ma.masked_where(kinds >= 0, values))
+
+
+def _lines(axes, panel, cut):
+    return style.step_lines(axes, panel.steps, panel.shown, cut, "black" if panel.way else "white")
 
 
 def draw(goal, size=None):
-    """Each panel has colours of its own: the way may take a hundred times as long as silence may last."""
+    """Each panel has colours and a scale of its own: the way may take a hundred times as long as silence may last."""
     results, cut = goal.cut.results, goal.cut
     figure = style.new_figure(size, (0.8 + 4.4 * len(goal.panels), 4.3))
     grid = figure.subplots(1, len(goal.panels), squeeze=False, sharex=True, sharey=True)
     for axes, panel in zip(grid.flat, goal.panels):
         style.kind_image(axes, panel.kinds, _COLORS, style.extent_of(cut))
-        style.step_image(axes, panel.steps, panel.shown, style.extent_of(cut))
+        style.step_image(axes, panel.steps, panel.shown, style.extent_of(cut), panel.way)
         style.label_plane(axes, cut)
         most = results.seconds(panel.most)
         axes.set_title(f"{panel.title}\nup to {most}" if panel.steps.count() else panel.title)
@@ -93,8 +99,8 @@ def draw(goal, size=None):
         axes.label_outer()
     for axes, panel in zip(grid.flat, goal.panels):
         if panel.steps.count():
-            lines = style.step_lines(axes, panel.steps, panel.shown, cut) if panel.shown > _FEW_LINES else None
-            bar = style.add_step_bar(figure, axes, panel.shown, "", results, is_cut=panel.shown < panel.most)
+            lines = _lines(axes, panel, cut) if panel.shown > _FEW_LINES else None
+            bar = style.add_step_bar(figure, axes, panel.shown, _LABELS[panel.way], results, is_cut=panel.shown < panel.most, way=panel.way)
             if lines is not None:
                 bar.add_lines(lines)
     style.add_title(figure, f"{results.title}, {goal.partition}", cut.title)

@@ -1,7 +1,8 @@
 """The delay map: how many steps without coordination each cell tolerates
 
 Over two states, the others cut with --slice. With --snapshots 1,14,29 one panel for each k: cells that do not tolerate k
-steps, coloured by their delay, around the layer Z_k."""
+steps, coloured by their delay, around the layer Z_k. The colours are those of all cells, so that slices compare; with
+--own-scale those of the delays that are shown."""
 
 from dataclasses import dataclass
 
@@ -29,7 +30,7 @@ class Layers:
     cut: Cut
     partition: str
     panels: list[Panel]
-    most: int  # largest finite delay of the partition
+    most: int  # largest finite delay of the partition, or of the slice
     truncated: bool
 
     @property
@@ -40,6 +41,7 @@ class Layers:
 def add_arguments(parser):
     add_cut_arguments(parser, 2)
     parser.add_argument("--partition", metavar="NAME", help="partition (default: the only one)")
+    parser.add_argument("--own-scale", action="store_true", help="colours for the delays of this slice alone")
     parser.add_argument("--snapshots", metavar="K,...", help="layers to show, as 1,14,29")
 
 
@@ -56,7 +58,11 @@ def prepare(arguments):
     flags = results.flags("/delay")
     panels = [_panel(delay.reshape(len(delay), -1), k, flags) for k in snapshots]
     # A delay is below F unless it is unbounded; cut off, it may reach the last layer.
-    return Layers(cut, results.partitions[partition], panels, max(last - (not truncated), 0), truncated)
+    most = max(last - (not truncated), 0)
+    if arguments.own_scale:
+        shown = max((int(panel.delay.max()) for panel in panels if panel.delay.count()), default=0)
+        truncated, most = truncated and shown == most, shown
+    return Layers(cut, results.partitions[partition], panels, most, truncated)
 
 
 def _panel(delay, k, flags):

@@ -2,9 +2,11 @@
 
 A histogram of the delay over the cells of the invariance set for each partition. A requirement is a line at the delay
 that it asks for in its region, through the bar of the cells with just that delay; it is solid if it holds and dashed if
-it fails. Cells that never need to coordinate have a bar of their own on the right."""
+it fails. The cells of its region are counted in bars of its colour. Cells that never need to coordinate have a bar of
+their own on the right. The number of cells is on a logarithmic scale where regions would else be too small to see."""
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,7 +15,20 @@ from .errors import FileError, UsageError, quoted
 from .results import Results
 
 _MOST_PANELS = 6
+_AT_ONCE = 2**21  # cells
+_SMALL = 0.05  # of the highest bar, what could not be seen beside it
+_ALL = "#cfe3f1"
+_COLORS = [style.KINDS[i] for i in (3, 4, 0, 2, 1)]
 _VERDICTS = "/counterexample/holds"
+
+
+@dataclass(frozen=True)
+class Region:
+    """The cells that may meet `where`, as they are in one partition."""
+
+    cells: np.ndarray  # cells[k] have delay k
+    unbounded: int
+    lost: int  # outside K
 
 
 @dataclass(frozen=True)
@@ -21,6 +36,7 @@ class Line:
     name: str
     steps: int  # 0: the region must be in K
     holds: bool  # None: the file does not say
+    region: Region = None  # None: it cannot be told from the spec
 
 
 @dataclass(frozen=True)
@@ -77,15 +93,41 @@ def _lines(results):
                 raise FileError(what, results.path)
         holds = bool(verdicts[i]) if i < len(verdicts) else None
         number = None if name is None else results.partitions.index(name)
-        lines.append((number, Line(requirement["name"], results.spec.required_steps(requirement), holds)))
+        lines.append((number, Line(requirement["name"], results.spec.required_steps(requirement), holds), requirement))
     return lines
+
+
+def _region(results, partition, where):
+    """None for what boxes of states do not decide, such as a memory."""
+    axes, boxes = results.states, results.spec.boxes(results.states)
+    first = axes[0].name
+    shape = [len(axis.points) for axis in axes]
+    rows = max(1, _AT_ONCE * shape[0] // math.prod(shape))
+    unbounded = results.flags("/delay")["unbounded"]
+    cells, lost, free = np.zeros(1, dtype=np.int64), 0, 0
+    for begin in range(0, shape[0], rows):
+        part = slice(begin, begin + rows)
+        here = {**boxes, first: tuple(side[part] for side in boxes[first])}
+        try:
+            may, _ = results.spec.conditions(here).ask(where)
+        except ValueError:
+            return None
+        delay = results.read("/delay", (partition, part))
+        found = delay[np.broadcast_to(may, delay.shape)].astype(np.int64)
+        lost += int((found < 0).sum())
+        free += int((found == unbounded).sum())
+        counts = np.bincount(found[(found >= 0) & (found != unbounded)], minlength=len(cells))
+        counts[: len(cells)] += cells
+        cells = counts
+    return Region(cells, free, lost)
 
 
 def _histogram(results, partition, lines):
     # Layer k holds the cells with delay at least k; past the fixed point sizes repeat.
     sizes = results.read("/layer_size", partition).astype(np.int64)
     last = int(results.read("/fixed_point_index")[partition])
-    mine = [line for number, line in lines if number in (None, partition)]
+    mine = [replace(line, region=_region(results, partition, requirement["where"]))
+            for number, line, requirement in lines if number in (None, partition)]  # fmt: skip
     if last < 0:
         return Histogram(results.partitions[partition], np.append(-np.diff(sizes), sizes[-1]), -1, mine)
     return Histogram(results.partitions[partition], -np.diff(sizes[: last + 1]), int(sizes[last]), mine)
@@ -139,17 +181,47 @@ def _never_width(never):
 def _draw_histogram(axes, results, histogram, never):
     unit = _unit(results)
     steps = np.arange(len(histogram.cells))
-    axes.bar(steps * unit, histogram.cells, width=0.9 * unit, color=style.KINDS[5], zorder=2)
+    axes.bar(steps * unit, histogram.cells, width=0.9 * unit, color=_ALL, zorder=2, label="cells of K")
+    wide = 0.9 * _never_width(never) * unit
     if histogram.unbounded > 0:
-        width = 0.9 * _never_width(never) * unit
-        axes.bar([never * unit], [histogram.unbounded], width=width, color=style.NOT_SAFE, zorder=2)
+        axes.bar([never * unit], [histogram.unbounded], width=wide, color=style.NOT_INVARIANT, zorder=2)
     elif histogram.unbounded < 0:
         place = {"xytext": (0, 2), "textcoords": "offset points", "ha": "center", "fontsize": "small"}
         axes.annotate("at least", (steps[-1] * unit, histogram.cells[-1]), **place)
+    shaded = [line for line in histogram.lines if line.region]
     for i, line in enumerate(histogram.lines):
-        color, dashes = style.KINDS[(3, 4, 0, 2, 1)[i % 5]], "--" if line.holds is False else "-"
-        text = f"{line.name}: {results.seconds(line.steps)}" if line.steps else f"{line.name}: in K"
-        text += {True: ", holds", False: ", FAILS", None: ""}[line.holds]
-        axes.axvline(line.steps * unit, color=color, linestyle=dashes, label=style.plain(text), zorder=3)
+        color, dashes = _COLORS[i % len(_COLORS)], "--" if line.holds is False else "-"
+        axes.axvline(line.steps * unit, color=color, linestyle=dashes, label=style.plain(_text(results, line)), zorder=4)
+        if line.region:
+            _draw_region(axes, line.region, color, unit, never, wide, shaded.index(line), len(shaded))
+    if _are_small(shaded, histogram):
+        axes.set_yscale("log")
+        axes.set_ylim(bottom=0.5)
     axes.margins(y=0.15)
     axes.grid(axis="y", alpha=0.3)
+
+
+def _draw_region(axes, region, color, unit, never, wide, i, count):
+    """Bars beside those of other regions, within the width of the bar of all cells."""
+    for places, cells, width in (
+        (np.arange(len(region.cells)) * unit, region.cells, 0.9 * unit),
+        (np.array([never * unit]), np.array([region.unbounded]), wide),
+    ):
+        at = places - width / 2 + (i + 0.5) * width / count
+        axes.bar(at[cells > 0], cells[cells > 0], width=width / count, color=color, alpha=0.75, zorder=3)
+
+
+def _are_small(lines, histogram):
+    """Whether the bars of the regions would vanish beside those of all cells."""
+    most = [max(line.region.cells.max(), line.region.unbounded) for line in lines]
+    return any(0 < one < _SMALL * max(histogram.cells.max(initial=0), histogram.unbounded) for one in most)
+
+
+def _text(results, line):
+    text = f"{line.name}: {results.seconds(line.steps)}" if line.steps else f"{line.name}: in K"
+    text += {True: ", holds", False: ", FAILS", None: ""}[line.holds]
+    if line.region:
+        count = int(line.region.cells.sum()) + line.region.unbounded + line.region.lost
+        text += f"; {count:,} cell{'' if count == 1 else 's'}"
+        text += f", {line.region.lost:,} outside K" if line.region.lost else ""
+    return text

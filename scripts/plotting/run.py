@@ -1,62 +1,28 @@
-"""A simulation: trajectories, and countdown, delay and margin over time
+"""A simulation: trajectories, countdown, delay, margin and inputs over time
 
 FILE is one that `coordreq simulate -o` wrote. The delay is that of the cell that the system is in: what the agents
 would find if they looked; their countdown never exceeds it. With --plane x1,y1 --plane x2,y2 trajectories are drawn
 over these pairs of states in one plane, else every state over time. What keeps its value until the next sample is drawn
-in steps, the last sample for one period more; lines break at the seam of a periodic state."""
+in steps, the last sample for one period more; lines break at the seam of a periodic state. Dots are samples, where they
+are not too many. Grey is what is not safe: below a margin of 0, and among the states where "safe" asks, of those on the
+axes, for no other than what is drawn (over time for one of them, the others as they are in the run)."""
 
 import math
 import textwrap
-from dataclasses import dataclass
 
 import numpy as np
+from matplotlib.colors import ListedColormap
 
 from . import style
-from .errors import UsageError, quoted
 from .path import Side, lone, path, stairs
-from .results import StoredFile
-from .spec import Spec
-from .values import whole_numbers
+from .run_samples import Curve, prepare, with_unit
 
-_NEVER = np.iinfo(np.int32).max
-_COORDINATED = 1
+__all__ = ["add_arguments", "draw", "prepare"]
 
-
-@dataclass(frozen=True)
-class Curve:
-    label: str
-    points: np.ndarray  # the samples, [n, 2]
-    path: np.ndarray  # the line through them, see there
-    jumps: bool  # straight from sample to sample, nothing lies between them
-    states: tuple  # names of what is along x and y, None: time
-    unit: str  # curves of one unit share axes
-
-
-@dataclass(frozen=True)
-class Steps:
-    """Numbers of steps over time; inf for ever, NaN below 0 (outside K)."""
-
-    time: np.ndarray
-    countdown: np.ndarray
-    delay: np.ndarray  # of the cell that the system is in
-    coordinated: np.ndarray  # times of the steps that are coordinated
-
-
-@dataclass(frozen=True)
-class Run:
-    title: str
-    subtitle: str
-    time_unit: str
-    period: float
-    x_label: str
-    y_label: str
-    flat: bool  # trajectories are in a plane
-    in_scale: bool
-    curves: list[Curve]
-    steps: Steps
-    margin: np.ndarray
-    margin_jumps: bool
-    spec: Spec
+_MARGIN, _COORDINATION = "#6a3d9a", "#b2182b"  # no colours of states or inputs
+_GREY = ListedColormap([style.NOT_INVARIANT])
+_FINE = 400  # points along an axis where it is asked what is not safe
+_MOST_DOTS = 80
 
 
 def add_arguments(parser):
@@ -65,153 +31,119 @@ def add_arguments(parser):
     parser.add_argument("--plane", action="append", default=[], metavar="STATE,STATE", help=text)
 
 
-def prepare(arguments):
-    file = StoredFile(arguments.file, "coordreq-runs")
-    run = _chosen_run(arguments.run, len(file.read("/run")))
-    samples = int(file.read("/samples")[run])
-    time = file.read("/time")[:samples]
-    names = [str(name) for name in file.read("/state_name")]
-    state = file.read("/state", (run, slice(samples)))
-    units = [file.spec.units("states").get(name, "") for name in names]
-    planes = [_parse_plane(text, names) for text in arguments.plane]
-    sides = [Side(state[:, i], file.spec.jumps(name), file.spec.period(name)) for i, name in enumerate(names)]
-    curves = _plane_curves(planes, names, sides) if planes else _time_curves(names, units, time, sides, file.period)
-    x_label, y_label, in_scale = _labels(planes, names, units, file.period_unit)
-    return Run(
-        title=f"{file.title}, {file.attribute('/', 'partition')}",
-        subtitle=_subtitle(file, run),
-        time_unit=file.period_unit,
-        period=file.period,
-        x_label=x_label,
-        y_label=y_label,
-        flat=bool(planes),
-        in_scale=in_scale,
-        curves=curves,
-        steps=_steps(file, run, time),
-        margin=file.read("/margin", (run, slice(samples))),
-        margin_jumps=file.spec.safe_jumps(),
-        spec=file.spec,
-    )
-
-
-def _chosen_run(text, runs):
-    (run,) = whole_numbers(text, "--run") if "," not in text else (-1,)
-    if not 0 <= run < runs:
-        raise UsageError(f"expected the number of one run, 0 to {runs - 1}, found '{text}'", "--run")
-    return run
-
-
-def _parse_plane(text, names):
-    pair = [name.strip() for name in text.split(",")]
-    if len(pair) != 2:
-        raise UsageError(f"expected two states as in x1,y1, found '{text}'", "--plane")
-    for name in pair:
-        if name not in names:
-            raise UsageError(f"'{name}' is no state, expected {quoted(names)}", "--plane")
-    return [names.index(name) for name in pair]
-
-
-def _plane_curves(planes, names, sides):
-    curves = []
-    for pair in planes:
-        x, y = (sides[i] for i in pair)
-        points = np.stack([x.values, y.values], axis=1)
-        states = tuple(names[i] for i in pair)
-        curves.append(Curve(", ".join(states), points, path(x, y), x.is_held and y.is_held, states, ""))
-    return curves
-
-
-def _time_curves(names, units, time, sides, period):
-    curves = []
-    for name, unit, side in zip(names, units, sides):
-        line = stairs(time, side.values, period, side.period) if side.is_held else path(Side(time), side)
-        curves.append(Curve(name, np.stack([time, side.values], axis=1), line, False, (None, name), unit))
-    return curves
-
-
-def _labels(planes, names, units, time_unit):
-    """Of both axes, and whether they have one scale."""
-    if not planes:
-        return _with_unit("time", time_unit), "", False
-    labels = []
-    for side in (0, 1):
-        dimensions = [plane[side] for plane in planes]
-        found = sorted({units[i] for i in dimensions})
-        labels.append(_with_unit(", ".join(names[i] for i in dimensions), "; ".join(filter(None, found))))
-    return *labels, len({units[i] for plane in planes for i in plane}) == 1
-
-
-def _with_unit(name, unit):
-    return f"{name} [{unit}]" if unit else name
-
-
-def _subtitle(file, run):
-    outcomes = str(file.attribute("/outcome", "flag_meanings")).split()
-    outcome = outcomes[int(file.read("/outcome")[run])].replace("_", " ")
-    return f"run {run}, policy {file.attribute('/', 'policy')}, seed {file.attribute('/', 'seed')}: {outcome}"
-
-
-def _steps(file, run, time):
-    part = (run, slice(len(time)))
-    coordinated = file.read("/coordinated", part) == _COORDINATED
-    countdown, delay = (_as_steps(file.read(name, part)) for name in ("/countdown", "/delay"))
-    return Steps(time, countdown, delay, time[coordinated])
-
-
-def _as_steps(values):
-    return np.where(values == _NEVER, math.inf, np.where(values < 0, math.nan, values))
-
-
 def draw(run, size=None):
     units = list(dict.fromkeys(curve.unit for curve in run.curves))
-    figure = style.new_figure(size, (9.5, max(4.6, 1 + 1.4 * len(units))))
-    grid = figure.add_gridspec(2, 2, width_ratios=(1, 1.25), height_ratios=(1.6, 1))
-    left = grid[:, 0].subgridspec(len(units), 1)
+    input_units = list(dict.fromkeys(curve.unit for curve in run.inputs))
+    figure = style.new_figure(size, (9.5, max(4.6 + 1.1 * len(input_units), 1 + 1.4 * len(units))))
+    grid = figure.add_gridspec(1, 2, width_ratios=(1, 1.25))
+    left = grid[0].subgridspec(len(units), 1)
     first = None
     for i, unit in enumerate(units):
         axes = figure.add_subplot(left[i], sharex=first)
         first = first or axes
-        _draw_curves(axes, run, unit)
-        letters = int(10 * figure.get_figheight() / len(units))  # that fit along the axis, about
-        axes.set_ylabel(textwrap.fill(axes.get_ylabel(), letters))
-        style.legend_above(axes, 0.36 * figure.get_figwidth())
-        if i + 1 < len(units):
-            axes.tick_params(labelbottom=False)
-            axes.set_xlabel("")
-    above = figure.add_subplot(grid[0, 1])
+        curves = [(k, curve) for k, curve in enumerate(run.curves) if curve.unit == unit]
+        _draw_curves(axes, run, curves)
+        _finish(axes, figure, len(units), 0.36, i + 1 == len(units))
+    right = grid[1].subgridspec(2 + len(input_units), 1, height_ratios=[1.6, 1] + [1] * len(input_units))
+    above = figure.add_subplot(right[0])
     _draw_steps(above, run)
-    style.legend_above(above, 0.45 * figure.get_figwidth())
-    below = figure.add_subplot(grid[1, 1], sharex=above)
-    _draw_margin(below, run)
-    above.tick_params(labelbottom=False)
+    margin = figure.add_subplot(right[1], sharex=above)
+    _draw_margin(margin, run)
+    _finish(above, figure, 1, 0.45, False)
+    _finish(margin, figure, 1, 0.45, not input_units)
+    for i, unit in enumerate(input_units):
+        axes = figure.add_subplot(right[2 + i], sharex=above)
+        curves = [(len(run.curves) + k, curve) for k, curve in enumerate(run.inputs) if curve.unit == unit]
+        _draw_inputs(axes, run, curves, unit)
+        _finish(axes, figure, 2 + len(input_units), 0.45, i + 1 == len(input_units))
     style.add_title(figure, run.title, run.subtitle)
     return figure
 
 
-def _draw_curves(axes, run, unit):
-    curves = [curve for curve in run.curves if curve.unit == unit]
-    for i, curve in enumerate(run.curves):
-        if curve.unit != unit:
-            continue
-        color = style.KINDS[i % len(style.KINDS)]
-        dashes = ("-", "--", ":")[i // len(style.KINDS) % 3]
+def _finish(axes, figure, rows, width, is_last):
+    letters = int(10 * figure.get_figheight() / rows)  # that fit along the axis, about
+    axes.set_ylabel(textwrap.fill(axes.get_ylabel(), letters))
+    style.legend_above(axes, width * figure.get_figwidth())
+    if not is_last:
+        axes.tick_params(labelbottom=False)
+        axes.set_xlabel("")
+
+
+def _look(i):
+    """A colour and a stroke for each state and each input of the picture."""
+    return style.KINDS[i % len(style.KINDS)], ("-", "--", ":")[i // len(style.KINDS) % 3]
+
+
+def _draw_curves(axes, run, curves):
+    for i, curve in curves:
+        color, dashes = _look(i)
         pale = {"linewidth": 0.6, "marker": ".", "markersize": 5} if curve.jumps else {}
         axes.plot(*curve.path.T, dashes, color=color, label=style.plain(curve.label), **pale)
         axes.scatter(*lone(curve.path).T, s=9, color=color)
+        _draw_samples(axes, curve, color)
         if run.flat:
             axes.plot(*curve.points[:1].T, "o", color=color, fillstyle="none")
             axes.plot(*curve.points[-1:].T, "s", color=color)
     if run.flat:
         axes.plot([], [], "o", color="black", fillstyle="none", label="start")
         axes.plot([], [], "s", color="black", label="end")
-    names = ", ".join(curve.label for curve in curves)
+    names = ", ".join(curve.label for _, curve in curves)
     axes.set_xlabel(style.plain(run.x_label))
-    axes.set_ylabel(style.plain(run.y_label if run.flat else _with_unit(names, unit)))
+    axes.set_ylabel(style.plain(run.y_label if run.flat else with_unit(names, curves[0][1].unit)))
     if run.in_scale:
         axes.set_aspect("equal", adjustable="datalim")
     for side, axis in enumerate((axes.xaxis, axes.yaxis)):
-        _tick_points(axis, run.spec, [(curve.states[side], curve.points[:, side]) for curve in curves])
+        _tick_points(axis, run.spec, [(curve.states[side], curve.points[:, side]) for _, curve in curves])
     axes.grid(alpha=0.3)
+    (_shade_plane if run.flat else _shade_time)(axes, run, [curve for _, curve in curves])
+
+
+def _draw_samples(axes, curve, color):
+    if len(curve.points) <= _MOST_DOTS:
+        axes.scatter(*curve.points.T, s=7, color=color, zorder=2.5)
+
+
+def _draw_inputs(axes, run, curves, unit):
+    for i, curve in curves:
+        color, dashes = _look(i)
+        axes.plot(*curve.path.T, dashes, color=color, linewidth=1, label=style.plain(curve.label))
+        _draw_samples(axes, curve, color)
+    axes.set_ylabel(style.plain(with_unit("input", unit)))
+    axes.set_xlabel(style.plain(with_unit("time", run.time_unit)))
+    axes.grid(alpha=0.3)
+
+
+def _shade_plane(axes, run, curves):
+    """What is not safe, if that depends on nothing but the two states of one curve."""
+    asked = set(run.spec.states_of_safe())
+    over = [curve for curve in curves if asked and asked <= set(curve.states)]
+    if len(over) == 1 and len(curves) == 1:
+        # Also beyond the limits, which equal scales of both axes may widen.
+        x, y = (np.linspace(3 * a - 2 * b, 3 * b - 2 * a, 3 * _FINE) for a, b in (axes.get_xlim(), axes.get_ylim()))
+        _shade(axes, run, {over[0].states[0]: x, over[0].states[1]: y[:, None]}, (x, y))
+
+
+def _shade_time(axes, run, curves):
+    """What is not safe for the one state of the axes on which that depends, at each sample with the others as they are."""
+    asked = run.spec.states_of_safe()
+    over = [curve.states[1] for curve in curves if curve.states[1] in asked]
+    if len(over) == 1 and len(run.steps.time) > 1:
+        y = np.linspace(*axes.get_ylim(), _FINE)
+        _shade(axes, run, {**run.trace, over[0]: y[:, None]}, (run.steps.time, y))
+
+
+def _shade(axes, run, values, places):
+    try:
+        _, safe = run.spec.conditions({name: (at, at) for name, at in values.items()}).ask(run.spec.safe())
+    except ValueError:
+        return  # a formula that points do not decide
+    limits = axes.get_xlim(), axes.get_ylim()
+    unsafe = np.ma.masked_equal(~np.broadcast_to(safe, (len(places[1]), len(places[0]))), False)
+    if unsafe.count():
+        axes.pcolormesh(*places, unsafe, cmap=_GREY, shading="nearest", zorder=0, rasterized=True)
+        axes.plot([], [], "s", color=style.NOT_INVARIANT, label="not safe")
+    axes.set(xlim=limits[0], ylim=limits[1])
+    axes.grid(alpha=0.3)  # which such an image takes away
 
 
 def _tick_points(axis, spec, states):
@@ -228,13 +160,13 @@ def _draw_steps(axes, run):
     highest = int(both[np.isfinite(both)].max(initial=0))
     never = highest + max(1, math.ceil(highest / 8))
     for values, label, options in (
-        (steps.delay, "delay of the cell", {"color": style.KINDS[1], "linewidth": 1}),
-        (steps.countdown, "countdown", {"color": style.KINDS[0]}),
+        (steps.delay, "delay of the cell", {"color": style.NOT_SAFE, "linewidth": 1}),
+        (steps.countdown, "countdown", {"color": "black"}),
     ):
         shown = np.where(np.isinf(values), never, values)
         axes.plot(*stairs(steps.time, shown, run.period).T, label=label, **options)
     zeros = np.zeros_like(steps.coordinated)
-    marks = axes.plot(steps.coordinated, zeros, "|", color="black", label="coordinated step", clip_on=False)
+    marks = axes.plot(steps.coordinated, zeros, "|", color=_COORDINATION, markeredgewidth=1.5, label="coordinated step", clip_on=False)
     marks[0].set_in_layout(False)  # where there are none their place is nowhere
     axes.set_ylabel("steps")
     _step_ticks(axes, highest, never, np.isinf(both).any())
@@ -252,8 +184,13 @@ def _step_ticks(axes, highest, never, has_never):
 def _draw_margin(axes, run):
     time, margin = run.steps.time, run.margin
     line = stairs(time, margin, run.period) if run.margin_jumps else path(Side(time), Side(margin))
-    axes.plot(*line.T, color=style.KINDS[2])
+    axes.plot(*line.T, color=_MARGIN)
+    _draw_samples(axes, Curve("", np.stack([time, margin], axis=1), line, False, (), ""), _MARGIN)
     axes.axhline(0, color="black", linewidth=0.8)
+    lowest = axes.get_ylim()[0]
+    if lowest < 0:
+        axes.axhspan(lowest, 0, color=style.NOT_INVARIANT, linewidth=0, zorder=0)
+        axes.set_ylim(bottom=lowest)
     axes.set_ylabel("margin")
-    axes.set_xlabel(style.plain(_with_unit("time", run.time_unit)))
+    axes.set_xlabel(style.plain(with_unit("time", run.time_unit)))
     axes.grid(alpha=0.3)

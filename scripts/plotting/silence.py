@@ -1,4 +1,4 @@
-"""Silence as the controller leaves it to the agents, and with what they are told to do
+"""Silence as the controller leaves it to the agents, and with a rule for what they do while it lasts
 
 Over two states, the others cut with --slice. FILE needs "silence" in its spec."""
 
@@ -32,7 +32,7 @@ def prepare(arguments):
     cut = make_cut(results, arguments, directions=2, fewest=1)
     panels = [
         panel_of("as the controller leaves it", cut.read("/delay", partition), results.flags("/delay")),
-        panel_of("as they are told", cut.read("/silence", partition), results.flags("/silence")),
+        panel_of("with the rule of silence", cut.read("/silence", partition), results.flags("/silence")),
     ]
     outside = "safe, but nothing keeps it so" if "/silence_set" in results else "safe, not invariant"
     return Silence(cut, results.partitions[partition], panels, ("not safe", outside, "unbounded"))

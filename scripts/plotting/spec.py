@@ -5,6 +5,7 @@ import math
 import re
 from fractions import Fraction
 
+from .condition import Conditions
 from .errors import FileError
 from .values import evaluate
 
@@ -93,16 +94,39 @@ class Spec:
         first, last = (round((Fraction(value) - origin) / step) for value in (least, most))
         return [float(origin + k * step) for k in range(first, last + 1)]
 
+    def conditions(self, boxes):
+        """What is asked of boxes of states: name -> (least, greatest)."""
+        return Conditions(boxes, {**self._constants, **self._keys.get("definitions", {})})
+
+    def boxes(self, axes):
+        """The closed cells, each along a direction of its own, widened by what a measurement may be off."""
+        boxes = {}
+        for i, axis in enumerate(axes):
+            off = float(self._number(self.state(axis.name).get("measurement_error", 0)))
+            low, high = (axis.points, axis.points) if axis.is_points else (axis.edges[:-1], axis.edges[1:])
+            shape = [-1 if j == i else 1 for j in range(len(axes))]
+            boxes[axis.name] = (low - off).reshape(shape), (high + off).reshape(shape)
+        return boxes
+
+    def states_of_safe(self):
+        """The names of the states that "safe" asks, also in definitions."""
+        return [state["name"] for state in self._keys["states"] if state["name"] in self._names_of_safe()]
+
+    def safe(self):
+        return self._keys.get("safe", "true")
+
     def safe_jumps(self):
         """Whether "safe" is asked of a state that jumps, also in definitions and memories."""
-        memory = self._keys.get("memory", {})
-        formulas = {**self._keys.get("definitions", {}), **memory, "safe": self._keys.get("safe", "")}
+        known = {state["name"] for state in self._keys["states"]} | self._keys.get("memory", {}).keys()
+        return any(self.jumps(name) for name in self._names_of_safe() & known)
+
+    def _names_of_safe(self):
+        formulas = {**self._keys.get("definitions", {}), **self._keys.get("memory", {}), "safe": self.safe()}
         names, new = set(), {"safe"}
         while new:
             names |= new
             new = {word for name in new for word in re.findall(r"[A-Za-z_]\w*", str(formulas.get(name, "")))} - names
-        known = {state["name"] for state in self._keys["states"]} | memory.keys()
-        return any(self.jumps(name) for name in names & known)
+        return names
 
     def units(self, kind):
         """Units of all "states", "inputs" or "disturbances" by name, "" for none."""

@@ -30,13 +30,22 @@ def plain(text):
 def new_figure(size, default):
     """@param size (width, height) in inches that the user wants, None: `default`"""
     matplotlib.rcParams.update({"axes.titlesize": "medium", "figure.titlesize": "medium", "legend.fontsize": "small"})
-    return Figure(figsize=size or default, layout="constrained")
+    figure = Figure(figsize=size or default, layout="constrained")
+    # So that a title stands off those of the panels, and the last tick of one panel off the first of the next.
+    figure.get_layout_engine().set(h_pad=0.09, w_pad=0.09)
+    return figure
 
 
-def step_colors(most):
-    """A colormap with a colour for each of the steps 0, ..., most, and its norm."""
+def step_colors(most, way=False):
+    """A colormap with a colour for each of the steps 0, ..., most, and its norm.
+
+    @param way for steps of a way and not of silence: other colours, from near (pale) to far
+    """
     levels = min(most + 1, 256)
-    return matplotlib.colormaps["viridis"].resampled(levels), Normalize(-0.5, most + 0.5)
+    cmap = matplotlib.colormaps["viridis"].resampled(levels)
+    if way:
+        cmap = ListedColormap(matplotlib.colormaps["YlOrRd"](np.linspace(0.12, 1, levels)))
+    return cmap, Normalize(-0.5, most + 0.5)
 
 
 def whole_steps(most):
@@ -44,12 +53,12 @@ def whole_steps(most):
     return [int(k) for k in MaxNLocator(10, integer=True, min_n_ticks=1).tick_values(0, most) if 0 <= k <= most]
 
 
-def add_step_bar(figure, axes, most, label, results, location="right", shrink=1.0, pad=0.02, is_cut=False):
+def add_step_bar(figure, axes, most, label, results, location="right", shrink=1.0, pad=0.02, is_cut=False, way=False):
     """A colour bar for steps, with times on its other side if the file has a unit of time.
 
     @param is_cut whether there are more steps, in the last colour
     """
-    cmap, norm = step_colors(most)
+    cmap, norm = step_colors(most, way)
     place = {"location": location, "shrink": shrink, "fraction": 0.06, "pad": pad}
     place["extend"] = "max" if is_cut else "neither"
     bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, cmap), ax=axes, **place)
@@ -75,9 +84,9 @@ def kind_image(axes, kinds, colors, extent):
     return axes.imshow(shown, cmap=cmap, norm=norm, **_image(extent))
 
 
-def step_image(axes, steps, most, extent):
+def step_image(axes, steps, most, extent, way=False):
     """Cells [x, y] of steps, a masked array."""
-    cmap, norm = step_colors(most)
+    cmap, norm = step_colors(most, way)
     return axes.imshow(steps.T, cmap=cmap, norm=norm, **_image(extent))
 
 
@@ -96,13 +105,13 @@ def add_power_bar(figure, axes, powers, cmap, norm, label):
     return bar
 
 
-def step_lines(axes, steps, most, cut):
+def step_lines(axes, steps, most, cut, color="white"):
     """Lines where the ticks of the colour bar are, between cells; None for a single state, or without a line."""
     ticks = [k for k in whole_steps(most) if steps.min() < k <= steps.max()]
     if len(cut.axes) < 2 or min(steps.shape) < 2 or not ticks:
         return None
     centres = [(axis.edges[:-1] + axis.edges[1:]) / 2 for axis in cut.axes]
-    return axes.contour(*centres, steps.T, levels=[k - 0.5 for k in ticks], colors="white", linewidths=0.6, alpha=0.7)
+    return axes.contour(*centres, steps.T, levels=[k - 0.5 for k in ticks], colors=color, linewidths=0.6, alpha=0.7)
 
 
 def _image(extent):

@@ -20,6 +20,8 @@ from .values import whole_numbers
 
 _VIEW = (24.0, -56.0)
 _LIGHT = (0.93, 0.85, 1.0)  # of faces across each dimension
+_LABEL_PAD = {"x": 9, "y": 9, "z": 4}  # points
+_BAR = {"shrink": 0.6, "pad": 0.1}  # so far from axes whose labels the layout does not see
 _WIDEST = 3  # longest side of the drawn box over the shortest
 
 
@@ -105,10 +107,9 @@ def draw(unsafe, size=None):
         _draw_cells(axes, unsafe, panel, most)
         _label_axes(axes, cut, unsafe.view)
         axes.set_title(style.plain(panel.title))
-    bar = {"location": "left", "shrink": 0.6, "pad": 0.1}
-    style.add_step_bar(figure, places[:1], unsafe.most_collision, "collision within", results, **bar)
+    style.add_step_bar(figure, places[:1], unsafe.most_collision, "collision within", results, location="left", **_BAR)
     if any((panel.members & (panel.steps >= 0)).any() for panel in unsafe.growth):
-        style.add_step_bar(figure, places[1:], unsafe.most_delay, "delay", results, shrink=0.6)
+        style.add_step_bar(figure, places[1:], unsafe.most_delay, "delay", results, **_BAR)
     style.add_title(figure, f"{results.title}, {unsafe.partition}", cut.title)
     entries = [(style.NOT_INVARIANT, "not invariant")] if any(p.members.any() for p in unsafe.growth) else []
     style.legend_below(figure, entries)
@@ -127,6 +128,16 @@ def _draw_cells(axes, unsafe, panel, most):
     axes.add_collection3d(faces)
 
 
+def _ticks(first, last):
+    return [t for t in matplotlib.ticker.MaxNLocator(5).tick_values(first, last) if first <= t <= last]
+
+
+def _inner_ticks(first, last):
+    """Without those at the ends, where the numbers of two axes meet."""
+    ticks, gap = _ticks(first, last), 0.08 * (last - first)
+    return [t for t in ticks if first + gap < t < last - gap] or ticks
+
+
 def _label_axes(axes, cut, view):
     axes.set_proj_type("ortho")
     axes.view_init(*view)
@@ -135,11 +146,13 @@ def _label_axes(axes, cut, view):
         ends = axis.edges[[0, -1]]
         lengths.append(ends[1] - ends[0])
         getattr(axes, f"set_{name}lim")(*ends)
-        getattr(axes, f"set_{name}label")(style.plain(axis.label))
+        getattr(axes, f"set_{name}label")(style.plain(axis.label), labelpad=_LABEL_PAD[name])
         along = getattr(axes, f"{name}axis")
-        along.set_major_locator(matplotlib.ticker.MaxNLocator(5))
+        along.set_major_locator(matplotlib.ticker.FixedLocator(_inner_ticks(*ends) if name != "z" else _ticks(*ends)))
+        along.set_tick_params(pad=0)
         if axis.is_points:
             style.point_ticks(along, axis.points)
     if len({axis.unit for axis in cut.axes}) > 1 or max(lengths) > _WIDEST * min(lengths):
         lengths = (1, 1, 1)
-    axes.set_box_aspect(lengths, zoom=0.95)
+    axes.set_box_aspect(lengths, zoom=0.92)
+    axes.patch.set_visible(False)  # or it covers the label of the panel before

@@ -7,6 +7,7 @@ import sys
 
 import h5py
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from program import CONFIGS, ROOT, Case, without_comments
 
 sys.path.insert(0, str(ROOT / "scripts"))
@@ -71,9 +72,15 @@ def labels(axes):
     return axes.get_xlabel(), axes.get_ylabel()
 
 
+def drawn(figure):
+    """All is where the layout puts it."""
+    FigureCanvasAgg(figure).draw()
+    return figure
+
+
 def covered(figure):
     """The texts of legends that cover axes, titles or other legends of the picture."""
-    figure.canvas.draw()
+    drawn(figure)
     boxes = [axes.get_window_extent() for axes in figure.axes]
     boxes += [axes.title.get_window_extent() for axes in figure.axes if axes.get_title()]
     legends = [axes.get_legend() for axes in figure.axes if axes.get_legend()]

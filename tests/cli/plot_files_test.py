@@ -6,7 +6,7 @@ import json
 import math
 import os
 import pathlib
-import re
+import runpy
 import stat
 import subprocess
 import unittest
@@ -175,38 +175,33 @@ class Cases(PlotCase):
 
     # the page
 
-    def swept(self, path, *words):
-        result = self.run_program("analyze", *words)
-        self.assertEqual(result.returncode, 1)  # not every requirement holds
-        self.write(path, result.stdout.decode())
-
-    def test_the_pictures_of_the_pages_are_those_of_their_commands(self):
-        text = (ROOT / "docs/how-to/export.md").read_text().split("\n## Pictures\n")[1].split("\n## ")[0]
-        text += "".join((ROOT / "docs/how-to" / page).read_text() for page in ("goals-and-memory.md", "blind.md", "risk.md", "silence.md"))
-        shown = re.findall(r"!\[.*\]\(\.\./pictures/(.*)\)", text)
-        lines = [line.split() for line in re.findall(r"(?m)^(?:coordreq analyze|scripts/plot .*-o) .*", text)]
-        commands = [line for line in lines if line[0] == "scripts/plot"]
-        self.assertEqual(sorted(command[-1] for command in commands), sorted(shown))
-        # A browser made that of the report, and the notebook its own.
-        others = {"report_intersection.png", "silence.png"}
-        pictures = {path.name for path in (ROOT / "docs/pictures").iterdir()} - others
-        self.assertEqual(sorted(shown), sorted(pictures))
-        for command in lines:
-            if command[0] == "coordreq":
-                if ">" in command:
-                    self.swept(command[-1], str(ROOT / command[2]), *command[3 : command.index(">")])
-                elif command[2] != "configs/intersection.json":  # takes seconds
-                    self.analyze(str(ROOT / command[2]), *command[3:])
-                continue
-            self.assertLess((ROOT / "docs/pictures" / command[-1]).stat().st_size, 200_000)
-            parse(command[1:])
-            if command[2] == "intersection.h5":
-                continue
-            self.plot(*command[1:])
-            found, expected = (imread(folder / command[-1]) for folder in (self.folder, ROOT / "docs/pictures"))
-            self.assertEqual(found.shape, expected.shape)
+    def test_the_pictures_of_the_pages_are_made_by_one_script(self):
+        made, pictures = self.folder / "pictures", ROOT / "docs/pictures"
+        made.mkdir()
+        command = [ROOT / "scripts/pictures", "--quick", made]
+        result = subprocess.run(command, capture_output=True, text=True, timeout=600)
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+        names = {path.name for path in made.iterdir()}
+        self.assertEqual({path.name for path in pictures.iterdir()} - names, {"intersection_unsafe.png", "intersection_layers.png"})
+        for name in names:
+            self.assertLess((pictures / name).stat().st_size, 250_000)
+            found, expected = (imread(folder / name) for folder in (made, pictures))
+            self.assertEqual(found.shape, expected.shape, name)
             # Fonts and compression may change with the libraries, not what is drawn.
-            self.assertLess(np.abs(found - expected).mean(), 0.01)
+            self.assertLess(np.abs(found - expected).mean(), 0.01, name)
+
+    def test_every_picture_is_on_a_page_with_the_lines_that_make_it(self):
+        script = runpy.run_path(str(ROOT / "scripts/pictures"))
+        pages = script["pages"]()
+        shown = set().union(*map(script["shown"], pages))
+        self.assertEqual(shown, {path.name for path in (ROOT / "docs/pictures").iterdir()})
+        lines = [line.split() for page in pages for line in script["lines_of"](page)]
+        for line in lines:
+            if line[0] == "scripts/plot":
+                parse(line[1:])
+        # The notebook makes one, and a browser that of the report.
+        made = {line[-1] for line in lines if line[0] == "scripts/plot"}
+        self.assertEqual(shown - made, {"silence.png", "report_intersection.png"})
 
     def test_its_files_are_short(self):
         for path in [*pathlib.Path(ROOT / "scripts/plotting").glob("*.py"), ROOT / "scripts/plot"]:

@@ -55,7 +55,7 @@ class Cases(PlotCase):
         self.simulated(example("circle.json"), "--from", "x1=0.1,x2=0", "--steps", "50", "--runs", "2")
         data, figure = self.plotted("run", "--run", "1", file="runs.h5")
         time, state = self.state(1)
-        curves, steps, margin = figure.axes
+        curves, steps, margin, inputs = figure.axes
         self.assertEqual(labels(curves)[1], "x1, x2 [m]")
         for i, name in enumerate(("x1", "x2")):
             self.assertEqual(curves.lines[i].get_label(), name)
@@ -70,7 +70,11 @@ class Cases(PlotCase):
         subtitle = "run 1, policy random, seed 1: completed"
         self.assertEqual(titles(figure), [f"circle, horizontal|vertical\n{subtitle}"])
         self.assertEqual((labels(curves)[0], labels(steps)[1]), ("time [s]", "steps"))
-        self.assertEqual(labels(margin), ("time [s]", "margin"))
+        self.assertEqual((labels(margin), labels(inputs)), (("", "margin"), ("time [s]", "input [m/s]")))
+        used = self.stored("input", "runs.h5")[1, :-1]
+        for line, values, name in zip(inputs.lines, used.T, ("u1", "u2"), strict=True):
+            self.assertEqual(line.get_label(), name)
+            self.assert_held(line, time[:-1], values, 0.01)
         self.assertEqual(covered(figure), [])
         for words, message in (
             (("--run", "2"), "expected the number of one run, 0 to 1, found '2' (--run)"),
@@ -79,6 +83,44 @@ class Cases(PlotCase):
             (("--plane", "x1,x3"), "'x3' is no state, expected 'x1' or 'x2' (--plane)"),
         ):
             self.assert_plot_fails(2, message, "run", "runs.h5", "-o", "a.png", *words)
+
+    def test_each_thing_has_a_colour_of_its_own_and_samples_are_dots(self):
+        self.simulated(example("tutorial/corridor_5.json"), "--from", "p1=5,v1=1,p2=12,v2=0", "--steps", "20")
+        _, figure = self.plotted("run", file="runs.h5")
+        lines = [line for axes in figure.axes for line in axes.lines if line.get_label()[0] != "_"]
+        strokes = [(line.get_color(), line.get_linestyle()) for line in lines]
+        # Four states, delay and countdown, coordination, two inputs; the margin has no label.
+        self.assertEqual((len(strokes), len(set(strokes))), (9, 9))
+        self.assertNotIn(figure.axes[3].lines[0].get_color(), [color for color, _ in strokes])
+        time, state = self.state()
+        dots = [one.get_offsets() for one in figure.axes[0].collections if len(one.get_offsets()) == len(time)]
+        for found, i in zip(dots, (0, 2), strict=True):
+            self.assert_arrays_equal(found, np.stack([time, state[:, i]], axis=1))
+
+    @staticmethod
+    def shaded(axes):
+        """Where the picture is grey: the middles of the quads, and whether each is."""
+        (mesh,) = [one for one in axes.collections if hasattr(one, "get_coordinates")]
+        corners = mesh.get_coordinates()
+        middles = (corners[1:, 1:] + corners[:-1, :-1]) / 2
+        grey = ~np.ma.getmaskarray(mesh.get_array())
+        return middles[..., 0], middles[..., 1], grey.reshape(middles.shape[:2])
+
+    def test_what_is_not_safe_is_grey(self):
+        self.simulated(example("circle.json"), "--from", "x1=0.55,x2=0.55", "--steps", "200")
+        _, figure = self.plotted("run", "--plane", "x1,x2", file="runs.h5")
+        x, y, grey = self.shaded(figure.axes[0])
+        far = x**2 + y**2 - 0.64
+        self.assertTrue(grey[far > 1e-3].all() and not grey[far < -1e-3].any() and grey.any())
+        # Of one state over time; of two on one pair of axes it would be neither's.
+        self.simulated(HEATER, "--from", "T=24,h=2", "--steps", "9")
+        _, figure = self.plotted("run", file="runs.h5")
+        _, warm, grey = self.shaded(figure.axes[0]) if figure.axes[0].get_ylim()[1] > 25 else (0, np.zeros(1), np.zeros(1))
+        self.assert_arrays_equal(grey, warm > 25)
+        self.simulated(SPEC, "--from", "x=1,y=1", "--steps", "12")
+        _, figure = self.plotted("run", file="runs.h5")
+        with self.assertRaises(ValueError):
+            self.shaded(figure.axes[0])
 
     def test_run_has_axes_for_each_unit(self):
         self.simulated(example("load.json"), "--from", "v=0,p=0.5", "--steps", "20")
@@ -120,7 +162,7 @@ class Cases(PlotCase):
         self.simulated(SPEC, "--from", "x=1,y=1", "--steps", "12")
         _, figure = self.plotted("run", file="runs.h5")
         time, state = self.state()
-        curves, _, margin = figure.axes
+        curves, _, margin, _ = figure.axes
         for i in (0, 1):
             self.assert_held(curves.lines[i], time, state[:, i], 0.5)
         self.assert_held(margin.lines[0], time, self.stored("margin", "runs.h5")[0], 0.5)
@@ -135,7 +177,7 @@ class Cases(PlotCase):
         self.simulated(HEATER, "--from", "T=19,h=1", "--steps", "40")
         _, figure = self.plotted("run", file="runs.h5")
         time, state = self.state()
-        warm, heater, _, margin = figure.axes
+        warm, heater, _, margin, _ = figure.axes
         self.assert_arrays_equal(warm.lines[0].get_xydata(), np.stack([time, state[:, 0]], axis=1))
         self.assert_held(heater.lines[0], time, state[:, 1], 0.5)
         # Of its values there are ticks, and nowhere else.
@@ -156,7 +198,7 @@ class Cases(PlotCase):
         self.simulated(dict(HEATER, safe="T >= 15 and T <= 25 and strong <= 1"), "--from", "T=20,h=1", "--steps", "40")
         _, figure = self.plotted("run", file="runs.h5")
         time, _ = self.state()
-        self.assert_held(figure.axes[-1].lines[0], time, self.stored("margin", "runs.h5")[0], 0.5)
+        self.assert_held(figure.axes[3].lines[0], time, self.stored("margin", "runs.h5")[0], 0.5)
 
     def test_no_line_joins_the_sides_of_a_seam(self):
         self.simulated(RING, "--from", "a=0,b=0", "--steps", "40")

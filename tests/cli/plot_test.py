@@ -1,11 +1,10 @@
 """What figures of scripts/plot show is what the results file holds."""
 
-import itertools
 import json
 import unittest
 
 import numpy as np
-from plot_case import PlotCase, example, labels, legend, titles
+from plot_case import PlotCase, drawn, example, labels, legend, titles
 from program import SPEC, spec_with
 
 UNBOUNDED = np.iinfo(np.int16).max
@@ -110,6 +109,26 @@ class Cases(PlotCase):
             self.assert_arrays_equal(kinds.get_array().filled(-1) == 2, delay >= k)
         self.assertEqual(titles(figure)[1:], ["k = 1 step (0.01 s)", "k = 14 steps (0.14 s)", "k = 29 steps (0.29 s)"])
         self.assertEqual(legend(figure), ["not safe", "safe, not invariant", "tolerates k steps (Z_k)"])
+
+    def test_no_title_covers_another(self):
+        self.analyzed(example("intersection_coarse.json"))
+        cut = ("--slice", "v1=1,v2=2", "--snapshots", "1,2,3")
+        for words in ((), ("--size", "12x3.5"), ("--size", "9x4")):
+            _, figure = self.plotted("layers", *cut, *words)
+            drawn(figure)
+            above = figure._suptitle.get_window_extent()
+            for axes in figure.axes[:3]:
+                self.assertFalse(axes.title.get_window_extent().overlaps(above), words)
+            ticks = [axes.xaxis.get_tightbbox() for axes in figure.axes[:3]]
+            self.assertFalse(any(one.overlaps(next_one) for one, next_one in zip(ticks, ticks[1:])), words)
+
+    def test_a_slice_may_have_a_scale_of_its_own(self):
+        self.analyzed(example("intersection_coarse.json"))
+        cut = ("--slice", "v1=1,v2=2", "--snapshots", "3")
+        all_cells, own = (self.plotted("layers", *cut, *words)[0].most for words in ((), ("--own-scale",)))
+        self.assertEqual(all_cells, self.stored("fixed_point_index")[0] - 1)
+        self.assertEqual(own, 2)
+        self.assertGreater(all_cells, own)
 
     def test_slices_of_more_dimensions(self):
         partitions = [{"classes": []}, {"name": "both", "classes": [["first", "second"]]}]
@@ -223,72 +242,13 @@ class Cases(PlotCase):
         self.analyzed(SPEC)
         data, figure = self.plotted("layers")
         bar = figure.axes[1]
-        figure.canvas.draw()
+        drawn(figure)
         steps = bar.get_yticks()
         self.assertEqual([step % 1 for step in steps], [0] * len(steps))
         self.assertTrue((0 <= min(steps)) and (max(steps) <= data.most))
         (times,) = bar.child_axes
         np.testing.assert_allclose(times.get_yticks(), steps * 0.5)
         self.assertEqual([text.get_text() for text in times.get_yticklabels()][:2], ["0 s", f"{steps[1] * 0.5:g} s"])
-
-    # unsafe3d
-
-    def test_unsafe3d_shows_the_surface_of_what_is_lost(self):
-        self.analyzed(example("aircraft_coarse.json"))
-        data, figure = self.plotted("unsafe3d", "--delays", "2,6", "--x", "x", "--y", "y", "--z", "h")
-        # The file has them as h, y, x.
-        lost = self.stored("invariant").transpose() == 0
-        delay = self.stored("delay")[0].transpose()
-        collision = self.stored("collision_time").transpose()
-        self.assert_arrays_equal(data.collision.members, lost)
-        self.assert_arrays_equal(data.collision.steps[lost], collision[lost])
-        for panel, d in zip(data.growth, (2, 6)):
-            self.assert_arrays_equal(panel.members, delay < d)
-            self.assert_arrays_equal(panel.steps[delay >= 0], delay[delay >= 0])
-            self.assertEqual(set(panel.steps[delay < 0]), {-1})
-        for axes, panel in zip(figure.axes, [data.collision, *data.growth]):
-            self.assertEqual(len(axes.collections[0].get_facecolor()), self.faces(panel.members, data.viewer))
-        panels = ["outside K", "D = 2 steps (0.4 min)", "D = 6 steps (1.2 min)"]
-        self.assertEqual(titles(figure), ["aircraft_coarse, first|second", *panels])
-        self.assertEqual((*labels(figure.axes[0]), figure.axes[0].get_zlabel()), ("x [km]", "y [km]", "h [rad]"))
-
-    @staticmethod
-    def faces(members, viewer):
-        """By definition: pairs of a cell and a side whose neighbour towards the viewer is not a member."""
-        count = 0
-        for cell in np.argwhere(members):
-            for dimension, side in enumerate(viewer):
-                beyond = cell.copy()
-                beyond[dimension] += side
-                inside = 0 <= beyond[dimension] < members.shape[dimension]
-                count += not (inside and members[tuple(beyond)])
-        return count
-
-    def test_faces_lie_between_a_member_and_what_is_none(self):
-        from plotting.surface import visible_faces
-
-        members = np.random.default_rng(7).random((4, 5, 6)) < 0.5
-        padded = np.pad(members, 1)
-        for viewer in itertools.product((1, -1), repeat=3):
-            cells, corners, dimensions = visible_faces(members, viewer)
-            self.assertEqual(len(cells), self.faces(members, viewer))
-            for cell, quad, dimension in zip(cells, corners, dimensions):
-                self.assertTrue(members[tuple(cell)])
-                beyond = cell + 1
-                beyond[dimension] += viewer[dimension]
-                self.assertFalse(padded[tuple(beyond)])
-                at = cell[dimension] + (viewer[dimension] > 0)
-                self.assertEqual(set(quad[:, dimension]), {at})
-                others = [d for d in range(3) if d != dimension]
-                expected = set(itertools.product(*((cell[d], cell[d] + 1) for d in others)))
-                self.assertEqual({tuple(corner) for corner in quad[:, others]}, expected)
-
-    def test_unsafe3d_needs_three_states(self):
-        self.analyzed(SPEC)
-        words = ("unsafe3d", "out.h5", "-o", "a.png")
-        self.assert_plot_fails(2, "the picture has 3 axes, found 2 states to draw", *words)
-        view = "expected an elevation and an azimuth such as 24,-56, found '95,0' (--view)"
-        self.assert_plot_fails(2, view, *words, "--view", "95,0")
 
     # coalition
 
@@ -342,6 +302,7 @@ class Cases(PlotCase):
         self.assertEqual([image.norm.vmax for image in shown], [960.5, 3.5])
         self.assertEqual(titles(figure)[1:], ["time to the goal\nup to 960 steps (480 s)",
                                               "silence that costs no time\nup to 3 steps (1.5 s)"])  # fmt: skip
+        self.assertNotEqual(*(image.cmap for image in shown))  # two quantities, two maps
         # Lines at ticks of the bar, of many steps only.
         self.assertEqual([len(axes.collections) > 0 for axes in (way, silence)], [True, False])
 

@@ -21,7 +21,7 @@ class Cases(PageCase):
     def test_its_two_commands(self):
         (shown,) = re.findall(r"(?s)```sh\n(.*?)```", README.read_text())
         commands = [line.split()[0] for line in shown.splitlines()]
-        self.assertEqual(commands, ["scripts/quickstart", "scripts/test"])
+        self.assertEqual(commands, ["scripts/quickstart", "scripts/test", "export"])
         self.assertIn("scripts/test", (ROOT / ".ci/run").read_text())
 
     def test_files_that_it_names(self):

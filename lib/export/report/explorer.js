@@ -39,11 +39,14 @@ class Explorer {
     this.index = data.states.map((state) => (state.kept ? 0 : Math.floor(state.points.length / 2)));
   }
 
-  // Shows a best state, or the middle of the grid where there is none at first, when nothing is remembered.
+  // Shows the worst state of the first requirement that fails, else a best state.
   async start() {
     await this.change({});
-    const { best } = data.maps[this.map];
-    if (best !== null && best.every((k, i) => k === 0 || !data.states[i].kept)) this.goTo(best);
+    if (data.ways.length > 0) await this.showWay(0, 0);
+    else {
+      const best = data.maps[this.map].best ?? data.latest;
+      if (best !== null) this.goTo(best);
+    }
     find("spoken").textContent = "";
   }
 
@@ -106,8 +109,10 @@ class Explorer {
 
   // The map that is shown.
   shownMap() {
-    const first = data.maps.findIndex((map) => map.kind === this.kind);
     if (this.kind === "delay") return this.map;
+    const ofPartition = data.maps.findIndex((map) => map.kind === this.kind && map.partition === data.maps[this.map].partition);
+    if (ofPartition >= 0) return ofPartition;
+    const first = data.maps.findIndex((map) => map.kind === this.kind);
     return this.kind === "freedom" || isLogarithm(data.maps[first]) ? first + (this.members[this.kind] ?? 0) : first;
   }
 
@@ -135,12 +140,16 @@ class Explorer {
 
   // Goes to a cell that a counterexample visits.
   async visit(way, sample) {
+    await this.showWay(way, sample);
+    find("picture").scrollIntoView({ block: "center" });
+    find("picture").focus({ preventScroll: true });
+  }
+
+  async showWay(way, sample) {
     const { partition, cells } = data.ways[way];
     const map = data.maps.findIndex((other) => other.kind === "delay" && other.partition === partition);
     await this.change({ way, kind: partition === null ? "collision_time" : "delay", ...(map >= 0 ? { map } : {}) });
     this.goTo(cells[sample]);
-    find("picture").scrollIntoView({ block: "center" });
-    find("picture").focus({ preventScroll: true });
   }
 
   partition() {

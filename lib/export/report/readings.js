@@ -14,7 +14,7 @@ function readings(cell) {
     ["Leaves the safe set", collisionText(valueAt(cell, (map) => map.kind === "collision_time"))],
     ["Delay", delayText(delay, partition)],
     ["Countdown", countdownText(delay)],
-    ...data.maps.flatMap((map) => furtherReading(map, cell)),
+    ...data.maps.filter((map) => map.partition === undefined || data.partitions[map.partition] === partition).flatMap((map) => furtherReading(map, cell)),
   ];
 }
 
