@@ -4,18 +4,19 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/query_values.hpp"
 #include "app/render.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
 
-std::string least_steps_text(const Json& found) {
+std::string least_steps_text(const Json& found, const Field& field) {
   const std::string status = text_of(found["least_status"]);
   if (status == "unbounded") return "unbounded";
   if (status == "steps") return duration(found["least"], found);
   if (status == "at_least") return "at least " + duration(found["least"], found);
-  return "none: " + words_of(status);
+  return status_words(field, status);
 }
 
 }  // namespace
@@ -41,9 +42,9 @@ Json least_json(const LeastSteps& found, const Field& field, std::size_t partiti
   return json;
 }
 
-std::string least_text(const Json& found) {
+std::string least_text(const Json& found, const Field& field) {
   const std::string pairs = count_of(number_of(found["pairs"]), "pair");
-  Facts facts = {{"least silence", least_steps_text(found) + ", of pair " + line_of(found["pair"])}};
+  Facts facts = {{"least silence", least_steps_text(found, field) + ", of pair " + line_of(found["pair"])}};
   if (found.contains("below")) {
     facts.emplace_back("below " + duration(found["at_least"], found),
                        fmt::format("{} of {}", grouped(found["below"]), pairs));

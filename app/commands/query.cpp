@@ -72,7 +72,8 @@ ExitCode answer_least(const QueryOptions& own, const ResultsReader& results) {
   const LeastSteps found =
       least_steps(results, field, partition, std::cin, "standard input", own.at_least,
                   [&ignored](const std::vector<std::string>& names) { ignored.tell(names, ""); });
-  print_answer(own, least_json(found, field, partition, own.at_least, results), least_text);
+  print_answer(own, least_json(found, field, partition, own.at_least, results),
+               [&](const Json& json) { return least_text(json, field); });
   return found.below.value_or(0) > 0 ? ExitCode::requirement_failed : ExitCode::success;
 }
 

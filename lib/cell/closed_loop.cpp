@@ -72,19 +72,13 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
   RandomStream disturbances(options_.seed, run, RandomStream::Purpose::disturbances);
   State state = first_state(std::move(measured), draw_nature(disturbances));
   RunTrace trace;
-  const auto add_sample = [&]() -> RunTrace::Sample& {
-    trace.samples.push_back(sample(state));
-    const bool is_there = !to_aim_.empty() && trace.samples.back().arrival == 0;
-    if (is_there && !trace.arrived) trace.arrived = static_cast<std::int64_t>(trace.samples.size()) - 1;
-    return trace.samples.back();
-  };
-  add_sample();
+  add_sample(state, trace);
   std::size_t policy = policy_at(state, trace);
   std::int32_t countdown = begin_countdown(policy, state, trace);
   trace.samples.back().countdown = countdown;
   const std::int32_t promised = has_aim(policy) ? trace.samples.front().arrival : RunTrace::kForever;
   for (std::int64_t k = 0; k < options_.steps; ++k) {
-    if (ends_in_goal_ && trace.arrived) {
+    if (is_at_end(trace)) {
       trace.outcome = Outcome::reached_goal;
       return trace;
     }
@@ -113,7 +107,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
     const std::optional<std::int32_t> agreed =
         coordinated ? chooser_.countdown_after(policy, state.place.cell, *u) : std::nullopt;
     const bool known = advance(state, *u, nature);
-    RunTrace::Sample& reached = add_sample();
+    RunTrace::Sample& reached = add_sample(state, trace);
     if (countdown != RunTrace::kForever) {
       if (coordinated) policy = policy_at(state, trace);
       countdown = !coordinated ? countdown - 1
@@ -122,7 +116,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
     }
     reached.countdown = countdown;
     if (state.place.kind == Kind::left_safely) {
-      trace.outcome = ends_in_goal_ && trace.arrived ? Outcome::reached_goal : Outcome::left_safely;
+      trace.outcome = is_at_end(trace) ? Outcome::reached_goal : Outcome::left_safely;
       return trace;
     }
     if (!known || reached.delay < 0) {
@@ -134,7 +128,7 @@ RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
       return trace;
     }
   }
-  if (ends_in_goal_ && trace.arrived) trace.outcome = Outcome::reached_goal;
+  if (is_at_end(trace)) trace.outcome = Outcome::reached_goal;
   return trace;
 }
 
@@ -217,6 +211,13 @@ bool ClosedLoop::advance(State& state, std::int64_t u, const Nature& nature) {
     if (dimension.periodic()) state.measured[i] = reset_at_sample(dimension, state.measured[i]);
   }
   return all_known;
+}
+
+RunTrace::Sample& ClosedLoop::add_sample(const State& state, RunTrace& trace) {
+  RunTrace::Sample& own = trace.samples.emplace_back(sample(state));
+  const bool is_there = !to_aim_.empty() && own.arrival == 0;
+  if (is_there && !trace.arrived) trace.arrived = std::ssize(trace.samples) - 1;
+  return own;
 }
 
 RunTrace::Sample ClosedLoop::sample(const State& state) {

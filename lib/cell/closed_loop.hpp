@@ -131,6 +131,9 @@ class ClosedLoop {
   /// @returns whether the next state is known
   [[nodiscard]] bool advance(State& state, std::int64_t u, const Nature& nature);
   [[nodiscard]] RunTrace::Sample sample(const State& state);
+  RunTrace::Sample& add_sample(const State& state, RunTrace& trace);
+  /// It has come to a goal in which runs end.
+  [[nodiscard]] bool is_at_end(const RunTrace& trace) const { return ends_in_goal_ && trace.arrived; }
   [[nodiscard]] std::int32_t reset_countdown(std::int32_t delay) const;
   /// The place of the policy that is followed from a sample on.
   [[nodiscard]] std::size_t policy_at(const State& state, const RunTrace& trace);

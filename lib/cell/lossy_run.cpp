@@ -47,19 +47,14 @@ RunTrace ClosedLoop::run_lossy(std::vector<Rational> measured, std::uint64_t run
   State state = first_state(std::move(measured), draw_nature(disturbances));
   std::size_t mode = 0;
   RunTrace trace;
-  const auto add_sample = [&] {
-    trace.samples.push_back(sample(state));
-    trace.samples.back().countdown = modes[mode].is_connected ? 0 : 1;
-    const bool is_there = !to_aim_.empty() && trace.samples.back().arrival == 0;
-    if (is_there && !trace.arrived) trace.arrived = static_cast<std::int64_t>(trace.samples.size()) - 1;
-  };
+  const auto add = [&] { add_sample(state, trace).countdown = modes[mode].is_connected ? 0 : 1; };
   const auto end = [&trace](Outcome outcome) {
     trace.outcome = outcome;
     return trace;
   };
-  add_sample();
+  add();
   for (std::int64_t k = 0; k < options_.steps; ++k) {
-    if (ends_in_goal_ && trace.arrived) return end(Outcome::reached_goal);
+    if (is_at_end(trace)) return end(Outcome::reached_goal);
     const std::int64_t cell = state.place.cell;
     const Nature nature = draw_nature(disturbances);
     next_.begin(state.exact, nature.disturbance, nature.error, cell);
@@ -75,13 +70,13 @@ RunTrace ClosedLoop::run_lossy(std::vector<Rational> measured, std::uint64_t run
     trace.steps.push_back({*u, countdown == 0, std::move(disturbance)});
     const bool known = advance(state, *u, nature);
     mode = problem_.network->draw(mode, losses);
-    add_sample();
+    add();
     if (state.place.kind == Kind::left_safely) {
-      return end(ends_in_goal_ && trace.arrived ? Outcome::reached_goal : Outcome::left_safely);
+      return end(is_at_end(trace) ? Outcome::reached_goal : Outcome::left_safely);
     }
     if (!known || trace.samples.back().delay < 0) return end(Outcome::left_invariant);
   }
-  return end(ends_in_goal_ && trace.arrived ? Outcome::reached_goal : Outcome::completed);
+  return end(is_at_end(trace) ? Outcome::reached_goal : Outcome::completed);
 }
 
 }  // namespace coordreq

@@ -18,11 +18,10 @@ RunTrace ClosedLoop::run_silent(std::vector<Rational> measured, std::uint64_t ru
   const std::int64_t promised = silence[static_cast<std::size_t>(state.place.cell)];
   const bool is_for_ever = promised == RunTrace::kForever || *options_.silent_steps <= promised;
   RunTrace trace;
-  const auto add_sample = [&] {
+  const auto add = [&] {
     const auto k = static_cast<std::int64_t>(trace.samples.size());
-    trace.samples.push_back(sample(state));
     const bool is_silent = *options_.silent_steps == RunTrace::kForever;
-    trace.samples.back().countdown =
+    add_sample(state, trace).countdown =
         is_silent ? RunTrace::kForever
                   : static_cast<std::int32_t>(std::max<std::int64_t>(0, *options_.silent_steps - k));
   };
@@ -34,8 +33,9 @@ RunTrace ClosedLoop::run_silent(std::vector<Rational> measured, std::uint64_t ru
     trace.outcome = is_end && is_promised ? Outcome::broke_promise : outcome;
     return trace;
   };
-  add_sample();
+  add();
   for (std::int64_t k = 0; k < options_.steps; ++k) {
+    if (is_at_end(trace)) return end(Outcome::reached_goal, 0);
     const std::int64_t cell = state.place.cell;
     const Nature nature = draw_nature(disturbances);
     next_.begin(state.exact, nature.disturbance, nature.error, cell);
@@ -53,13 +53,14 @@ RunTrace ClosedLoop::run_silent(std::vector<Rational> measured, std::uint64_t ru
     for (const Rational& value : nature.disturbance) disturbance.push_back(nearest_double(value));
     trace.steps.push_back({*u, is_coordinated, std::move(disturbance)});
     const bool known = advance(state, *u, nature);
-    add_sample();
-    if (state.place.kind == Kind::left_safely) return end(Outcome::left_safely, 0);
+    add();
+    if (state.place.kind == Kind::left_safely)
+      return end(is_at_end(trace) ? Outcome::reached_goal : Outcome::left_safely, 0);
     const bool is_safe = known && state.place.kind == Kind::cell &&
                          silence[static_cast<std::size_t>(state.place.cell)] != DelayLayers::kOutsideSafe;
     if (!is_safe) return end(Outcome::left_safe_set, 0);
   }
-  return end(Outcome::completed, 0);
+  return end(is_at_end(trace) ? Outcome::reached_goal : Outcome::completed, 0);
 }
 
 }  // namespace coordreq

@@ -200,10 +200,17 @@ class Walk {
     }
   }
 
+  /// What a key can be, if that is one of a few words.
+  [[nodiscard]] std::string choices(const Json& schema, const std::string& key) const {
+    if (!schema.contains("properties") || !schema["properties"].contains(key)) return "";
+    const Json& own = resolve(schema["properties"][key]);
+    return own.contains("enum") ? ", expected " + wanted(own) : "";
+  }
+
   void missing_keys(const Json& schema, const Json& value, const std::string& pointer) {
     if (schema.contains("required")) {
       for (const std::string& key : texts(schema["required"])) {
-        if (!value.contains(key)) add("missing key " + quote_text(key), pointer);
+        if (!value.contains(key)) add("missing key " + quote_text(key) + choices(schema, key), pointer);
       }
     }
     if (!schema.contains("dependencies")) return;

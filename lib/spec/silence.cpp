@@ -90,9 +90,6 @@ void check_measured(const ProblemSpec& spec) {
 
 void check_silence(const ProblemSpec& spec) {
   if (!spec.silence) return;
-  if (spec.ends_at_goal) {
-    throw SpecError("'silence' together with a goal that ends the task is not supported yet", "/silence");
-  }
   for_each_rule(spec, [&](const Rule& rule) { check_rule(spec, rule); });
   check_measured(spec);
 }

@@ -241,6 +241,43 @@ class Cases(Case):
         self.assertEqual((silence["failing"], silence["counterexample"]["end"]), (1, "left_domain"))
         self.assertEqual(self.run_program("verify", "r.h5", "--strict").returncode, 0)
 
+    def test_silent_agents_and_what_comes_after(self):
+        both = {"a": "u == 1", "b": "v == 1"}
+        self.results({**LANDER, "silence": {"actions": both}})
+        (partition,) = self.summary["partitions"]
+        # Two down a second: from 4 by 2 into the goal, from 3 by 1 past it.
+        expected = {"F": 2, "layers": [5, 4, 3], "fixed_point": 3, "truncated": False}
+        self.assertEqual(partition["silence"], expected)
+        with h5py.File(self.folder / "r.h5") as file:
+            self.assertEqual(file["silence"][...].tolist(), [[MOST, 0, MOST, 1, MOST]])
+        self.assertEqual(self.run_program("verify", "r.h5", "--strict").returncode, 0)
+        # After any silence two down a second for ever: from 1 and 3 that is too much.
+        found = self.results({**LANDER, "silence": {"actions": {"a": "true", "b": "true"}, "then": both}})
+        self.assertEqual(found["silence"].tolist(), [[MOST, -1, 0, -1, 0]])
+        self.assertEqual(found["silence_set"].tolist(), [1, 0, 1, 0, 1])
+        self.assertEqual(self.summary["silence_set"], 3)
+        self.assertEqual(self.run_program("verify", "r.h5", "--strict").returncode, 0)
+        run = ("simulate", "r.h5", "--steps", "9", "--runs", "20", "--json", "--silent")
+        found = json.loads(self.text_of(*run, "0", "--from", "h=4"))
+        self.assertEqual({(trace["outcome"], trace["steps"]) for trace in found["traces"]}, {("reached_goal", 2)})
+        found = json.loads(self.text_of(*run, "--start", "random"))
+        self.assertIn("reached_goal", {trace["outcome"] for trace in found["traces"]})
+        for at, value in (((0, 0), 0), ((0, 2), MOST)):
+            with h5py.File(self.folder / "r.h5", "r+") as file:
+                before = file["silence"][at]
+                file["silence"][at] = value
+            self.assertEqual(self.run_program("verify", "r.h5").returncode, 1)
+            with h5py.File(self.folder / "r.h5", "r+") as file:
+                file["silence"][at] = before
+        with h5py.File(self.folder / "r.h5", "r+") as file:
+            file["silence_set"][0] = 0
+        self.assertEqual(self.run_program("verify", "r.h5").returncode, 1)
+        # Nobody is asked there, so that a rule may say nothing.
+        self.results({**LANDER, "silence": {"actions": {"a": "h > 0 and u == 1", "b": "v == 1"}}})
+        self.assertEqual(self.summary["partitions"][0]["silence"], expected)
+        self.assertEqual(self.run_program("verify", "r.h5", "--strict").returncode, 0)
+        self.assertNotIn("silence", [warning["kind"] for warning in self.summary["warnings"]])
+
     def test_c_headers_know_when_it_is_over(self):
         self.results({**LANDER, "states": [{**LANDER["states"][0], "outside": {"above": "goal", "below": "unsafe"}}]})
         self.text_of("export", "r.h5", "--format", "c-header", "-o", "exported.h")

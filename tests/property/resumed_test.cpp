@@ -10,6 +10,7 @@
 
 #include "answers/blind/answer.hpp"
 #include "answers/blind/blind_layers.hpp"
+#include "answers/invariance/safe_set.hpp"
 #include "answers/network/network_problem.hpp"
 #include "answers/risk/risk.hpp"
 #include "answers/silence/answer.hpp"
@@ -17,6 +18,7 @@
 #include "spec/read_spec.hpp"
 #include "spec/sight.hpp"
 #include "support/fast_engine.hpp"
+#include "support/random_goal.hpp"
 #include "support/random_problem.hpp"
 #include "support/random_sight.hpp"
 #include "support/random_silence.hpp"
@@ -154,16 +156,18 @@ TEST(Resumed, BlindLayersAreTheSameFromAnyStep) {
 TEST(Resumed, SilenceIsTheSameFromAnyStep) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("the layers of agents that do what they are told", [&] {
-    const ProblemSpec spec = read_spec(with_silence(draw_problem()), "random");
+    const ProblemSpec spec = read_spec(with_silence(perhaps_with_end(draw_problem())), "random");
     const FastAnalysis fast(spec, team);
     const CellSet& set = silence_set(*fast.answers);
+    const CellSet* const over = fast.answers->ground.over_or_null();
+    const CellSet going_on = over == nullptr ? set : part_of(set, *over, false, nullptr);
     bool goes_on = false;
     for (std::size_t p = 0; p < fast.layers.size(); ++p) {
       const SilentActions actions(*fast.answers, {spec.silence->actions, "actions"},
-                                  spec.coordination.partitions[p].classes, set, team);
+                                  spec.coordination.partitions[p].classes, going_on, team);
       const auto find = [&](const WaveWatch& watch) {
         return find_delay_layers(fast.engine, fast.hull, set, actions.projections, {},
-                                 spec.coordination.max_delay, watch, team)
+                                 spec.coordination.max_delay, watch, team, over)
             .layers_of;
       };
       std::vector<Seen> seen;

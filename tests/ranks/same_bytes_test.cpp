@@ -168,7 +168,7 @@ TEST(ManyRanks, CountCellsInWhichSilentAgentsHaveNothingToDo) {
   const Folder folder;
   EXPECT_TRUE(rc::check("agents that do what they are told", [&] {
     const bool is_alike = draw(0, 3) == 0;
-    Json spec = Json::parse(with_silence(is_alike ? draw_like_agents() : draw_problem()));
+    Json spec = Json::parse(with_silence(perhaps_with_end(is_alike ? draw_like_agents() : draw_problem())));
     const bool is_one = spec["agents"].size() == 1;
     if (!is_one && draw(0, 2) == 0) {
       spec["network"] = {{"loss", 0.125}};

@@ -40,15 +40,6 @@ TEST(SilenceSpec, IsAboutAgentsAndAllOfThemAfterwards) {
   EXPECT_EQ(test::error_of(told({{"actions", {{"a", "u1"}}}})).find("expected a condition"), 0U);
 }
 
-TEST(SilenceSpec, DoesNotGoWithAGoalThatEndsTheTask) {
-  nlohmann::json spec = told({{"actions", {{"a", "u1 == 0"}}}});
-  spec["goal"] = {{"where", "x1 >= 0"}, {"then", "over"}};
-  EXPECT_EQ(test::error_of(spec),
-            "'silence' together with a goal that ends the task is not supported yet (/silence)");
-  spec["goal"]["then"] = "safe";
-  EXPECT_EQ(test::error_of(spec), "");
-}
-
 TEST(SilenceSpec, ReadsOwnInputsAndStatesThatAreSeen) {
   EXPECT_EQ(
       test::error_of(told({{"actions", {{"a", "u2 <= 0"}}}})),

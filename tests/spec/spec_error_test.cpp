@@ -45,7 +45,7 @@ TEST(SpecError, KeysAreKnownAndPresent) {
       {"/inputs/1/step", "1", "'step' needs 'lower' (/inputs/1)"},
       {"/inputs/1/upper", "1", "'values' and 'upper' exclude each other (/inputs/1)"},
       {"/dynamics/period", "-", "missing key 'period' (/dynamics)"},
-      {"/dynamics/time", "-", "missing key 'time' (/dynamics)"},
+      {"/dynamics/time", "-", "missing key 'time', expected 'continuous' or 'discrete' (/dynamics)"},
       {"/coordination", R"({"horizon": 1, "horizon_time": 1})",
        "'horizon' and 'horizon_time' exclude each other (/coordination)"},
   });
@@ -107,7 +107,7 @@ TEST(SpecError, ValuesHaveTheRightType) {
       {"/goal", R"({"where": 0, "then": "over"})",
        "expected a string with a condition, found 0 (/goal/where)"},
       {"/goal", R"({"then": "over"})", "missing key 'where' (/goal)"},
-      {"/goal", R"({"where": "x1 <= 0"})", "missing key 'then' (/goal)"},
+      {"/goal", R"({"where": "x1 <= 0"})", "missing key 'then', expected 'safe' or 'over' (/goal)"},
       {"/goal", R"({"where": "x1 <= 0", "then": "over", "than": 1})",
        "unknown key 'than', did you mean 'then'? (/goal)"},
       {"/goal", R"({"where": "x1", "then": "over"})",

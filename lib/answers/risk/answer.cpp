@@ -63,7 +63,7 @@ class SilentModes {
     for (const PartitionSpec* const partition : network_partitions(*spec.network)) {
       if (spec.silence && partition->classes.size() > 1) {
         actions_.emplace_back(answers, AgentRules{spec.silence->actions, "actions"}, partition->classes,
-                              answers.get<Invariance>().invariant, team);
+                              *answers.get<GoingOn>().controller.invariant, team);
         projections_.push_back(&actions_.back().projections);
       } else {
         projections_.push_back(nullptr);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "answers/invariance/answer.hpp"
+#include "answers/invariance/safe_set.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/answer.hpp"
 #include "answers/layers/projection_bytes.hpp"
@@ -32,6 +33,13 @@ Silence& silence_in(Answers& answers) {
   return answers.get<Silence>();
 }
 
+/// The cells of a set in which the task goes on: all, but for a goal that ends it. @param part keeps them
+const CellSet& going_on(const Ground& ground, const CellSet& set, CellSet& part) {
+  if (!ground.over) return set;
+  part = part_of(set, *ground.over, false, ground.shared_rows());
+  return part;
+}
+
 /// K' = lim SPRE_S^i(X) for the product of what `then` leaves to each agent: the operator of the layers, from
 /// S on and without end.
 void find_set(Answers& answers, const StageWork& work) {
@@ -40,11 +48,12 @@ void find_set(Answers& answers, const StageWork& work) {
   const LevelBounds bounds{&ground.safe, ground.engine->grid().points() + 1};
   find_or_take_levels(work, *ground.engine, bounds, silence.lost, [&](const WaveWatch& watch) {
     work.enter_part("projections");
+    CellSet part;
     const SilentActions actions(answers, {ground.spec.silence->then, "then"}, agents_alone(ground.spec),
-                                ground.safe, work.team);
+                                going_on(ground, ground.safe, part), work.team);
     work.enter_part("");
     DelayLayers found = find_delay_layers(*ground.engine, *ground.hull, ground.safe, actions.projections, {},
-                                          std::nullopt, watch, work.team);
+                                          std::nullopt, watch, work.team, ground.over_or_null());
     silence.counts = found.counts;
     return std::move(found.layers_of);
   });
@@ -66,6 +75,8 @@ void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
   const CoordinationSpec& coordination = spec.coordination;
   SilencePartition& own = silence_in(answers).partitions[p];
   const CellSet& set = silence_set(answers);
+  CellSet part;
+  const CellSet& asked = going_on(ground, set, part);
   const auto classes =
       all_have_rules(*spec.silence) ? agents_alone(spec) : coordination.partitions[p].classes;
   const AgentRules rules{spec.silence->actions, "actions"};
@@ -73,16 +84,17 @@ void find_silence(std::size_t p, Answers& answers, const StageWork& work) {
   const LevelBounds bounds{&set, coordination.max_delay ? std::min(*coordination.max_delay, steps) : steps};
   find_or_take_levels(work, *ground.engine, bounds, own.layers.layers_of, [&](const WaveWatch& watch) {
     work.enter_part("projections");
-    const SilentActions actions(answers, rules, classes, set, work.team);
+    const SilentActions actions(answers, rules, classes, asked, work.team);
     work.enter_part("");
     own.lacking = sums(ground, actions);
     DelayLayers found = find_delay_layers(*ground.engine, *ground.hull, set, actions.projections, {},
-                                          coordination.max_delay, watch, work.team);
+                                          coordination.max_delay, watch, work.team, ground.over_or_null());
     own.layers.counts = found.counts;
     return std::move(found.layers_of);
   });
   // Levels that were kept do not tell it.
-  if (own.lacking.empty()) own.lacking = sums(ground, SilentActions(answers, rules, classes, set, work.team));
+  if (own.lacking.empty())
+    own.lacking = sums(ground, SilentActions(answers, rules, classes, asked, work.team));
   follow_from_levels(coordination.max_delay, work.team, own.layers);
 }
 

@@ -49,8 +49,9 @@ struct SetOfSilence {
   std::atomic<std::int64_t> looked_at{0};
 };
 
-/// What keeps a cell in a set whatever agents do then. @param set 0 or 1
+/// What keeps a cell in a set whatever agents do then, or the end of the task in it. @param set 0 or 1
 bool stays(CheckedCell& cell, RuledChoices& then, const std::vector<std::uint8_t>& set) {
+  if (cell.is_over()) return true;
   const std::vector<std::int64_t> choices = then.of(cell.number(), cell.admitted());
   return !choices.empty() && std::ranges::all_of(choices, [&](std::int64_t u) {
     return !cell.is_forbidden(u) && cell.least(u, set, 0) > 0;
@@ -91,14 +92,15 @@ class SilenceChecker : public CellChecker {
   [[nodiscard]] static std::int32_t silence_by_definition(CheckedCell& cell, const PartitionOfSilence& own,
                                                           RuledChoices& actions) {
     std::int32_t worst = kForever;
-    const std::vector<std::int64_t> choices = actions.of(cell.number(), cell.admitted());
+    const bool is_over = cell.is_over();
+    const auto choices = is_over ? std::vector<std::int64_t>() : actions.of(cell.number(), cell.admitted());
     for (const std::int64_t u : choices) {
       const std::int32_t least =
           cell.is_forbidden(u) ? kOutsideInvariant : cell.least(u, own.claims.delay, kOutsideInvariant);
       worst = std::min(worst, std::max(least, kOutsideInvariant));
       if (worst == kOutsideInvariant) break;
     }
-    const std::int32_t silence = choices.empty() ? 0 : one_more(worst);
+    const std::int32_t silence = choices.empty() && !is_over ? 0 : one_more(worst);
     return own.most ? std::min(silence, static_cast<std::int32_t>(*own.most)) : silence;
   }
 

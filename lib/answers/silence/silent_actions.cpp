@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "answers/invariance/answer.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "base/index.hpp"
 #include "engine/action_sources.hpp"
@@ -80,7 +81,7 @@ SilentActions::SilentActions(const Answers& answers, const AgentRules& rules, co
       lacking(rules.conditions.size()),
       grouping(*answers.ground.engine, inputs_of(answers.ground, classes), sources_of(answers.ground, tables),
                team),
-      projections(answers.get<Controller>(), grouping, *answers.ground.hull, team,
+      projections(answers.get<GoingOn>().controller, grouping, *answers.ground.hull, team,
                   rules_of(rules, classes, tables, grouping.sources().size(), cells, lacking)) {}
 
 double silent_bytes(const EngineSizes& sizes, const std::vector<InputClass>& classes) {

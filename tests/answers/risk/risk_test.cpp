@@ -97,6 +97,17 @@ TEST(RiskOfABrink, WhatIsForbiddenBlocksTheProduct) {
   expect_risks(found.risk[1], {1, 1, 1, 1});
 }
 
+/// Whatever they do they have left for good, so that no row is ever met: but what is forbidden counts at
+/// once.
+TEST(RiskOfABrink, WhatIsForbiddenCountsWhereAllHaveLeftTheDomain) {
+  Json spec = brink();
+  spec["states"][0]["outside"]["above"] = "safe";
+  spec["dynamics"]["equations"]["d"] = "d + 4";
+  spec["controller"]["allow"] = "u1 == u2";
+  const Found found = find_brink(spec);
+  EXPECT_EQ(found.risk, (std::vector<std::vector<double>>{{0, 0, 0, 0}, {1, 1, 1, 1}}));
+}
+
 TEST(RiskOfABrink, TheSafestGiveSlackBack) {
   Json spec = brink();
   spec["risk"]["coordinated"] = "safest";

@@ -111,6 +111,34 @@ TEST(SilenceHandCases, WhatComesAfterHasToBeSafeForEver) {
             (Silences{1, 0, -1, -1, -1}));
 }
 
+/// What is over is left for good: nobody is asked there, and the ways into it are safe for ever.
+TEST(SilenceHandCases, TheEndOfTheTaskIsReachedForGood) {
+  Json spec = two_points({{"actions", {{"a", "u == 1 and x != 3"}, {"b", "true"}}}});
+  EXPECT_EQ(found(spec).silence, (Silences{3, 2, 1, 0, 0}));
+  EXPECT_EQ(found(spec).lacking, (std::vector<std::int64_t>{2, 0}));
+  spec["goal"] = {{"where", "x == 3"}, {"then", "over"}};
+  EXPECT_EQ(found(spec).silence, (Silences{kForGood, kForGood, kForGood, kForGood, 0}));
+  EXPECT_EQ(found(spec).lacking, (std::vector<std::int64_t>{0, 0}));
+  spec["goal"]["where"] = "x == 1";
+  EXPECT_EQ(found(spec).silence, (Silences{kForGood, kForGood, 1, 0, 0}));
+  spec["goal"]["where"] = "x == 2 and y == 1";  // which b need not reach from y = 0
+  EXPECT_EQ(found(spec).silence, (Silences{3, 2, 1, 0, 0}));
+  spec["coordination"]["max_delay"] = 1;
+  spec["goal"]["where"] = "x == 3";
+  EXPECT_EQ(found(spec).silence, (Silences{1, 1, 1, 1, 0}));
+}
+
+TEST(SilenceHandCases, WhatComesAfterMayEndTheTask) {
+  // Down from 2 on, where they fall out of the domain unless the task is over at 1; 3 and 4 rise out of it.
+  const Json then = {{"a", "u == if(x <= 2, -1, 1)"}, {"b", "v == 0 and x != 1"}};
+  Json spec = two_points({{"actions", {{"a", "u == 1"}, {"b", "true"}}}, {"then", then}});
+  EXPECT_EQ(found(spec).silence, (Silences{-1, -1, -1, -1, -1}));
+  spec["goal"] = {{"where", "x == 1"}, {"then", "over"}};
+  EXPECT_EQ(found(spec).silence, (Silences{-1, kForGood, 0, -1, -1}));
+  spec["goal"]["where"] = "x == 1 or x == 4";
+  EXPECT_EQ(found(spec).silence, (Silences{-1, kForGood, kForGood, kForGood, kForGood}));
+}
+
 TEST(SilenceHandCases, OneAnswerServesAllPartitionsWhereAllHaveRules) {
   ThreadTeam team(1);
   Json json = two_points({{"actions", {{"a", "u == 1"}, {"b", "true"}}}});
