@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "answers/field_parts.hpp"
+#include "answers/one_cell/action_words.hpp"
 #include "answers/requirements/answer.hpp"
 #include "app/query_values.hpp"
 #include "app/render.hpp"
@@ -50,6 +51,67 @@ Json remedy_json(const DelayExplanation::Remedy& remedy, std::size_t partition,
     json["inputs"][spec.inputs[static_cast<std::size_t>(inputs[i])].name] = nearest_double(values[i]);
   add_delay(json, remedy.delay, remedy.delay != ResultsReader::kNever);
   return json;
+}
+
+/// As requirements have it, so that the story is told the same way.
+Json as_silence_requirement(const Json& found) {
+  return {{"kind", "min_silence"},
+          {"partition", found["partition"]},
+          {"counterexample", found["silence"]["way_out"]}};
+}
+
+Json silence_json(const DelayExplanation::Silence& found, std::size_t partition,
+                  const ResultsReader& results) {
+  const ProblemSpec& spec = results.spec();
+  const Field& field = results.field("/silence");
+  Json json;
+  json["silence"] = delay_json(found.steps);
+  json["silence_status"] = found.is_lower_bound ? "at_least" : status_of(field, found.steps);
+  json["classes"] = Json::array();
+  for (std::size_t c = 0; c < found.actions.size(); ++c) {
+    const std::vector<bool>& own = found.actions[c];
+    const auto permitted = std::count(own.begin(), own.end(), true);
+    const auto& agents = spec.coordination.partitions[partition].classes[c];
+    json["classes"].push_back({{"name", results.partitions()[partition].classes[c]},
+                               {"permitted", permitted},
+                               {"total", own.size()},
+                               {"actions", permitted == 0 ? Json() : Json(action_words(spec, agents, own))}});
+  }
+  Json& way = json["way_out"] = Json();
+  if (!found.path) return json;
+  way = story_json(*found.path, RequirementKind::min_silence, spec);
+  // Where it goes from there the file does not tell.
+  if (way["end_sample"].is_object() && way["end_sample"]["silence_status"] == "not_in_silence_set" &&
+      spec.silence->has_then())
+    way["end"] = "outside_silence_set";
+  return json;
+}
+
+std::string silence_text(const Json& silence, const ProblemSpec& spec) {
+  const std::string status = text_of(silence["silence_status"]);
+  if (status == "not_safe") return "none: the cell is not safe";
+  if (status == "not_invariant") return "none: no coordination keeps the system safe from here";
+  if (status == "not_in_silence_set") return "none: what comes after it does not keep the system safe";
+  if (status == "unbounded") return "unbounded: safe for ever";
+  return (status == "at_least" ? "at least " : "") + steps_text(number_of(silence["silence"]), spec);
+}
+
+/// What silent agents may do, and what breaks it.
+void add_silence(const Json& found, const ProblemSpec& spec, std::vector<std::string>& text) {
+  const Json& silence = found["silence"];
+  std::vector<std::string> parts;
+  for (const Json& own : silence["classes"]) {
+    const bool is_all = own["permitted"] == own["total"];
+    const std::string what = own["permitted"] == 0 ? "nothing"
+                             : is_all              ? "anything"
+                                                   : text_of(own["actions"]);
+    parts.push_back(fmt::format("{} {}", line_of(own["name"]), what));
+  }
+  text.push_back(
+      fmt::format("While they are silent the agents are told to do here: {}.", listed_words(parts)));
+  if (silence["way_out"].is_null()) return;
+  for (std::string& sentence : story_sentences(as_silence_requirement(found), spec))
+    text.push_back(std::move(sentence));
 }
 
 std::string classes_are(const Json& freedom) {
@@ -141,15 +203,16 @@ std::string delay_text(const Json& found, const ProblemSpec& spec) {
   return (status == "at_least" ? "at least " : "") + steps_text(number_of(found["delay"]), spec);
 }
 
-std::string way_text(const Json& found, const ProblemSpec& spec) {
-  if (found["way_out"].is_null() || found["way_out"]["steps"].empty()) return "";
-  const StoryTable story = story_table(as_requirement(found), spec);
+std::string way_text(const char* title, const Json& requirement, const ProblemSpec& spec) {
+  const Json& way = requirement["counterexample"];
+  if (way.is_null() || way["steps"].empty()) return "";
+  const StoryTable story = story_table(requirement, spec);
   std::vector<Table::Align> columns(story.heads.size(), Table::Align::left);
   std::fill_n(columns.begin(), story.numbers, Table::Align::right);
   Table table(columns);
   table.add(story.heads);
   for (const std::vector<std::string>& row : story.rows) table.add(row);
-  return "\nthe shortest way out\n" + table.text();
+  return fmt::format("\n{}\n{}", title, table.text());
 }
 
 }  // namespace
@@ -174,6 +237,7 @@ Json explanation_json(const DelayExplanation& found, const std::vector<Rational>
   for (const DelayExplanation::Remedy& own : found.remedies)
     json["remedies"].push_back(remedy_json(own, partition, results));
   for (const Explained& own : found.others) json[own.key] = *own.found;
+  if (found.silence) json["silence"] = silence_json(*found.silence, partition, results);
   json["freer_is_shorter"] = Json();
   if (const auto& other = found.freer_is_shorter) {
     Json& own = json["freer_is_shorter"] = {{"state", centre_json(grid, other->cell)}, {"cell", other->cell}};
@@ -181,6 +245,11 @@ Json explanation_json(const DelayExplanation& found, const std::vector<Rational>
     own["alone"] = other->alone;
   }
   json["sentences"] = sentences_of(json, spec);
+  if (found.silence && json["silence"]["silence_status"] != "not_safe") {
+    std::vector<std::string> text;
+    add_silence(json, spec, text);
+    for (const std::string& sentence : text) json["sentences"].push_back(sentence);
+  }
   for (const Explained& own : found.others) {
     for (const std::string& sentence : own.sentences) json["sentences"].push_back(sentence);
   }
@@ -188,12 +257,17 @@ Json explanation_json(const DelayExplanation& found, const std::vector<Rational>
 }
 
 std::string explanation_text(const Json& explanation, const ProblemSpec& spec) {
-  std::string text = facts_text({{"state", values_text(explanation["state"])},
-                                 {"cell", fmt::format("number {}, around {}", grouped(explanation["cell"]),
-                                                      values_text(explanation["center"]))},
-                                 {"partition", line_of(explanation["partition"])},
-                                 {"delay", delay_text(explanation, spec)}});
-  text += way_text(explanation, spec) + "\n";
+  Facts facts = {{"state", values_text(explanation["state"])},
+                 {"cell", fmt::format("number {}, around {}", grouped(explanation["cell"]),
+                                      values_text(explanation["center"]))},
+                 {"partition", line_of(explanation["partition"])},
+                 {"delay", delay_text(explanation, spec)}};
+  const bool has_silence = explanation.contains("silence");
+  if (has_silence) facts.emplace_back("silence", silence_text(explanation["silence"], spec));
+  std::string text = facts_text(facts) + way_text("the shortest way out", as_requirement(explanation), spec);
+  if (has_silence)
+    text += way_text("the shortest way out of silent agents", as_silence_requirement(explanation), spec);
+  text += "\n";
   for (const Json& sentence : explanation["sentences"]) text += text_of(sentence) + "\n";
   return text;
 }

@@ -83,6 +83,7 @@ std::string end_text(const Json& story) {
   if (end == "time_lost") return "the state is not nearer to the goal";
   if (end == "not_allowed") return "together they do what 'allow' forbids";
   if (end == "no_common_action") return "some class has no action for all that it may see";
+  if (end == "outside_silence_set") return "what comes after silence is no longer safe";
   if (end == "no_silent_action") return "some agent is told nothing that it could do";
   return "no action is allowed any more";
 }
@@ -203,16 +204,19 @@ namespace {
 /// What is proven beside what is seen: enclosures are wider than motion.
 void add_seen(const Json& story, const ProblemSpec& spec, std::vector<std::string>& sentences) {
   if (story["proven"].is_null()) return;
-  const bool is_in_k = story["steps"].front()["action"] == "independent";
-  const char* const set = is_in_k ? "the invariance set" : "the safe set";
+  const Json& first = story["steps"].front()["action"];
+  const bool is_inside = first == "independent" || first == "silent";
+  const char* const set = !is_inside                                      ? "the safe set"
+                          : first == "silent" && spec.silence->has_then() ? "the silence set"
+                                                                          : "the invariance set";
   const std::string seen =
       story["seen"].is_null()
           ? fmt::format("does not leave {} as far as it was followed", set)
           : fmt::format("leaves {} after {}", set, steps_text(number_of(story["seen"]), spec));
   const std::string proven = steps_text(number_of(story["proven"]), spec);
-  sentences.push_back(fmt::format("{}; the system itself, followed like that, {}.",
-                                  is_in_k ? "The grid proves " + proven : "On the grid that takes " + proven,
-                                  seen));
+  sentences.push_back(
+      fmt::format("{}; the system itself, followed like that, {}.",
+                  is_inside ? "The grid proves " + proven : "On the grid that takes " + proven, seen));
 }
 
 std::vector<std::string> way_sentences(const Json& own, const ProblemSpec& spec) {

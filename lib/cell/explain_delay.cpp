@@ -9,6 +9,8 @@
 #include "answers/plan.hpp"
 #include "answers/requirements/escape_result.hpp"
 #include "answers/requirements/requirement.hpp"
+#include "answers/silence/fields.hpp"
+#include "answers/silence/policy.hpp"
 #include "base/index.hpp"
 #include "cell/cell_controller.hpp"
 #include "cell/file_sets.hpp"
@@ -39,7 +41,10 @@ class Explainer {
     const bool is_bounded = found.delay != kNever && !found.is_lower_bound;
     if (is_bounded) found.path = way_out(cell, state);
     found.is_over = is_over(cell);
-    if (!found.is_over) add_others(cell, is_bounded, found);
+    if (!found.is_over) {
+      add_others(cell, is_bounded, found);
+      if (results_.spec().silence) found.silence = explain_silence(cell, state);
+    }
     if (found.delay < 0) return found;
     found.actions = controller_.actions(partition_, cell);
     const std::vector<bool>& together = controller_.joint_inputs(cell);
@@ -83,19 +88,44 @@ class Explainer {
   }
 
   [[nodiscard]] ResultPath way_out(std::int64_t cell, const std::vector<Rational>& state) const {
-    const std::vector<std::int64_t> strides = sets_.number_stride();
-    const EscapeSets sets{.ground = &sets_.ground(),
+    return way_out({.ground = &sets_.ground(),
+                    .invariance = &sets_.invariance(),
+                    .classes = classes_,
+                    .layers_of = &sets_.layers().layers_of,
+                    .number_stride = sets_.number_stride()},
+                   sets_.layers(), cell, state);
+  }
+
+  [[nodiscard]] ResultPath way_out(const EscapeSets& sets, const DelayLayers& layers, std::int64_t cell,
+                                   const std::vector<Rational>& state) const {
+    const CellRequirement asked{
+        .collision_time = &sets_.invariance().collision_time, .kind = sets.kind, .layers = &layers};
+    ResultPath path = result_of(find_escape(sets, cell, state), sets_.ground(), asked, sets.number_stride);
+    if (path.steps() > 0) path.seen = follow_escape(sets, cell, state);
+    return path;
+  }
+
+  [[nodiscard]] DelayExplanation::Silence explain_silence(std::int64_t cell,
+                                                          const std::vector<Rational>& state) {
+    const ProblemSpec& spec = results_.spec();
+    const DelayLayers& layers = sets_.silence();
+    DelayExplanation::Silence found{.steps = controller_.values(paths::kSilence, partition_)(cell)};
+    found.is_lower_bound = layers.truncated && found.steps >= 0 && found.steps == layers.top_delay();
+    found.actions = controller_.actions(silence_policies(spec).front(), partition_, cell, 0);
+    if (found.steps < 0 || found.steps == kNever || found.is_lower_bound) return found;
+    const bool has_then = spec.silence->has_then();
+    found.path = way_out({.ground = &sets_.ground(),
                           .invariance = &sets_.invariance(),
                           .classes = classes_,
                           .layers_of = &sets_.layers().layers_of,
-                          .number_stride = strides};
-    const CellRequirement asked{.collision_time = &sets_.invariance().collision_time,
-                                .kind = RequirementKind::min_delay,
-                                .layers = &sets_.layers()};
-    ResultPath path = result_of(find_escape(sets, cell, state), sets_.ground(), asked, strides);
-    if (path.steps() > 0 && !results_.spec().abstraction.between_samples)
-      path.seen = follow_escape(sets, cell, state);
-    return path;
+                          .kind = RequirementKind::min_silence,
+                          .partition = &spec.coordination.partitions[partition_],
+                          .silence_of = &layers.layers_of,
+                          .lost = has_then ? &sets_.lost() : nullptr,
+                          .ends_after_silence = has_then,
+                          .number_stride = sets_.number_stride()},
+                         layers, cell, state);
+    return found;
   }
 
   [[nodiscard]] static std::int64_t choices(const std::vector<std::vector<bool>>& actions) {
@@ -182,9 +212,12 @@ MemoryDemand explain_demand(const ResultsReader& results, std::size_t partition,
   MemoryDemand demand = controller_demand(results, false);
   // Neighbours may be so many that all posts are worked out once more.
   demand.once += FileSets::bytes(results) + abstraction_bytes(results);
-  const std::int32_t delay = results.values(paths::kDelay, partition, one_cell(results.grid(), cell)).front();
   const auto numbers = static_cast<double>(results.grid().size() + results.inputs().size() + 2);
-  if (delay > 0 && delay != kNever) demand.once += kBytesOfNumber * numbers * delay;
+  for (const char* const path : {paths::kDelay, paths::kSilence}) {
+    if (!results.has(path)) continue;
+    const std::int32_t steps = results.values(path, partition, one_cell(results.grid(), cell)).front();
+    if (steps > 0 && steps != kNever) demand.once += kBytesOfNumber * numbers * steps;
+  }
   return demand;
 }
 

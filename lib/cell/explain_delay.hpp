@@ -42,6 +42,17 @@ struct DelayExplanation {
     std::int32_t delay = 0;
     std::int64_t alone = 0;
   };
+  /// The same of agents who do what they are told, if the spec tells them.
+  struct Silence {
+    std::int32_t steps = 0;       ///< as `/silence`
+    bool is_lower_bound = false;  ///< likewise
+    /// A shortest way out of K', or of S if nothing is said of what comes after; none where it has no known
+    /// end.
+    std::optional<ResultPath> path;
+    std::vector<std::vector<bool>> actions;  ///< [class][action] what they may do here
+  };
+  std::optional<Silence> silence;  ///< not where the task is over
+
   std::vector<Explained> others;  ///< what answers add, in their order
 
   std::optional<Neighbour> freer_is_shorter;  ///< the nearest, of equals in the first dimension, below first

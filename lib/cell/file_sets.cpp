@@ -3,6 +3,8 @@
 #include "answers/invariance/fields.hpp"
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/layers/fields.hpp"
+#include "answers/layers/stored_partition.hpp"
+#include "answers/silence/fields.hpp"
 #include "cell/cell_controller.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/make_model.hpp"
@@ -19,11 +21,18 @@ std::uint32_t level_of_steps(std::int32_t steps, std::int32_t first) {
   return steps < 0 ? 0 : static_cast<std::uint32_t>(steps + first);
 }
 
+void take_sizes(const StoredPartition& stored, DelayLayers& layers) {
+  layers.sizes.assign(stored.layer_sizes.begin(), stored.layer_sizes.end());
+  layers.fixed_point_index = stored.fixed_point_index;
+  layers.truncated = stored.truncated();
+}
+
 }  // namespace
 
 double FileSets::bytes(const ResultsReader& results) {
   constexpr double kBytesOfCell = 2 * sizeof(std::uint32_t) + 1;  // two levels, narrowed after all, and sets
   double of_cell = kBytesOfCell;
+  if (results.spec().silence) of_cell += 2 * sizeof(std::uint32_t);
   if (results.spec().controller.file)
     of_cell += 2 * static_cast<double>(PackedPairs::bytes_for(results.inputs().count()));
   return of_cell * static_cast<double>(results.grid().cells()) + abstraction_bytes(results);
@@ -36,6 +45,7 @@ FileSets::FileSets(const ResultsReader& results, std::size_t partition, ThreadTe
   ground_.abstraction =
       is_stored ? results.abstraction() : build_abstraction(model_.spec(), model_.shapes(), team);
   read_cells(partition);
+  if (results.spec().silence) read_silence(partition);
   if (results.spec().controller.file) read_listed();
   ground_.beyond = safe_beyond_limits(results.spec(), *ground_.abstraction, ground_.safe, team);
 }
@@ -47,10 +57,7 @@ void FileSets::read_cells(std::size_t partition) {
   invariance_.invariant = CellSet(grid.rows(), length);
   Levels collision_time(grid.rows(), length, {}, {});
   Levels layers_of(grid.rows(), length, {}, {});
-  const StoredPartition& stored = results_.partitions()[partition];
-  layers_.sizes.assign(stored.layer_sizes.begin(), stored.layer_sizes.end());
-  layers_.fixed_point_index = stored.fixed_point_index;
-  layers_.truncated = stored.truncated();
+  take_sizes(results_.partitions()[partition], layers_);
   const auto last = static_cast<std::int32_t>(layers_.sizes.size()) - 1;
   for (std::int64_t r = 0; r < grid.rows(); ++r) {
     const auto read = [&](const auto& part) { return results_.stretch(r * length, (r + 1) * length, part); };
@@ -70,6 +77,27 @@ void FileSets::read_cells(std::size_t partition) {
   }
   invariance_.collision_time = LevelMap(std::move(collision_time));
   layers_.layers_of = LevelMap(std::move(layers_of));
+}
+
+void FileSets::read_silence(std::size_t partition) {
+  const UniformGrid& grid = ground_.abstraction->grid;
+  const std::int64_t length = grid.row_length();
+  take_sizes(read_partition_values(results_.spec(), results_, "/silence_")[partition], silence_);
+  const auto last = static_cast<std::int32_t>(silence_.sizes.size()) - 1;
+  Levels silence(grid.rows(), length, {}, {}), lost(grid.rows(), length, {}, {});
+  for (std::int64_t r = 0; r < grid.rows(); ++r) {
+    const auto steps = results_.stretch(r * length, (r + 1) * length, [&](const CellBlock& block) {
+      return results_.values(paths::kSilence, partition, block);
+    });
+    for (std::int64_t i = 0; i < length; ++i) {
+      const std::int32_t own = steps[static_cast<std::size_t>(i)];
+      const bool is_cut_off = silence_.truncated && own == last;
+      silence.row(r)[i] = is_cut_off ? Levels::kTop : level_of_steps(own, 1);
+      lost.row(r)[i] = own >= 0 ? Levels::kTop : own == DelayLayers::kOutsideSafe ? 0 : 1;
+    }
+  }
+  silence_.layers_of = LevelMap(std::move(silence));
+  lost_ = LevelMap(std::move(lost));
 }
 
 void FileSets::read_listed() {

@@ -12,8 +12,8 @@
 namespace coordreq {
 
 /// What a results file says of all cells, and the posts of its spec, as an analysis has them in memory: S, K
-/// with its collision times, and the delays of one partition. States are in the order of the spec; there is
-/// no engine.
+/// with its collision times, and the delays of one partition; and the silence of agents who are told what to
+/// do, if the spec tells them. States are in the order of the spec; there is no engine.
 class FileSets {
  public:
   /// What an object takes.
@@ -25,11 +25,16 @@ class FileSets {
   [[nodiscard]] const Ground& ground() const { return ground_; }
   [[nodiscard]] const Invariance& invariance() const { return invariance_; }
   [[nodiscard]] const DelayLayers& layers() const { return layers_; }
+  // REQUIRES: the spec has `silence`.
+  [[nodiscard]] const DelayLayers& silence() const { return silence_; }
+  /// 0 outside S, 1 in S but not in K', LevelMap::kTop in K'.
+  [[nodiscard]] const LevelMap& lost() const { return lost_; }
   /// [dimension]: what one index adds to a cell's number.
   [[nodiscard]] std::vector<std::int64_t> number_stride() const;
 
  private:
   void read_cells(std::size_t partition);
+  void read_silence(std::size_t partition);
   void read_listed();
 
   const ResultsReader& results_;
@@ -37,6 +42,8 @@ class FileSets {
   Ground ground_;
   Invariance invariance_;
   DelayLayers layers_;
+  DelayLayers silence_;
+  LevelMap lost_;
 };
 
 }  // namespace coordreq

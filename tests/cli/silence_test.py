@@ -311,11 +311,14 @@ int main(void) {
         self.assertEqual([step["state"]["x"] for step in story["steps"]], [2, 3, 4, 5, 6])
         self.assertEqual([step["action"] for step in story["steps"]], ["silent"] * 3 + ["afterwards"] * 2)
         self.assertEqual((story["end"], story["end_sample"]["state"]), ("outside_safe_set", {"x": 7}))
+        self.assertEqual((story["proven"], story["seen"]), (2, 3))
         text = self.run_program("analyze", "spec.json", "-o", "r.h5").stdout.decode()
         self.assertIn("requirement r: silence of a|b at least 3 steps\n", text)
         self.assertIn("FAILS: 1 of 3 cells fails, the worst at x = 2: it has a silence of 2 steps.", text)
         self.assertIn("Silent agents do what they are told, and after 3 steps it is too late.", text)
         self.assertIn("With what they do from then on, after 2 steps the state is no longer safe.", text)
+        seen = "The grid proves 2 steps; the system itself, followed like that, leaves the silence set after 3 steps."
+        self.assertIn(seen, text)
         # Without what comes after: all together cannot help from beyond K.
         alone = chain(silence={"actions": {"a": "u == 1", "b": "true"}})
         story = asked(alone, "x <= 5", min_silence=3)["counterexample"]
@@ -326,6 +329,55 @@ int main(void) {
         found = asked(chain(), "x <= 5", min_silence=0)
         self.assertEqual((found["least_silence"], found["least_silence_status"]), (None, "not_in_silence_set"))
         self.assertEqual([step["action"] for step in found["counterexample"]["steps"]], ["afterwards"] * 2)
+        self.assertEqual((found["counterexample"]["proven"], found["counterexample"]["seen"]), (2, 2))
+
+    def test_explained(self):
+        def explained(at):
+            return json.loads(self.run_program("explain", "r.h5", "--at", at, "--json").stdout)
+
+        self.results(chain())
+        found = explained("x=2")
+        own = found["silence"]
+        self.assertEqual((own["silence"], own["silence_status"], found["delay_status"]), (2, "steps", "unbounded"))
+        classes = [(one["name"], one["permitted"], one["total"], one["actions"]) for one in own["classes"]]
+        self.assertEqual(classes, [("a", 1, 3, "u = 1"), ("b", 2, 2, "v = 0, 1")])
+        way = own["way_out"]
+        self.assertEqual([step["state"]["x"] for step in way["steps"]], [2, 3, 4])
+        self.assertEqual([step["silence"] for step in way["steps"]], [2, 1, 0])
+        self.assertEqual((way["end"], way["end_sample"]["state"]), ("outside_silence_set", {"x": 5}))
+        self.assertEqual((way["proven"], way["seen"]), (2, 3))
+        said = [
+            "While they are silent the agents are told to do here: a u = 1 and b anything.",
+            "Silent agents do what they are told, and after 3 steps what comes after silence is no longer safe.",
+            "The grid proves 2 steps; the system itself, followed like that, leaves the silence set after 3 steps.",
+        ]
+        for sentence in said:
+            self.assertIn(sentence, found["sentences"])
+        text = self.run_program("explain", "r.h5", "--at", "x=2").stdout.decode()
+        self.assertRegex(text, r"\nsilence +2 steps\n")
+        self.assertIn("\nthe shortest way out of silent agents\n", text)
+        own = explained("x=5")["silence"]
+        self.assertEqual((own["silence"], own["silence_status"], own["way_out"]), (None, "not_in_silence_set", None))
+        text = self.run_program("explain", "r.h5", "--at", "x=5").stdout.decode()
+        self.assertRegex(text, r"\nsilence +none: what comes after it does not keep the system safe\n")
+        self.assertEqual(explained("x=8")["sentences"], ["The cell is not safe."])
+        self.results(chain(silence={"actions": {"a": "u == 1", "b": "x != 5"}}))
+        way = explained("x=4")["silence"]["way_out"]
+        self.assertEqual((len(way["steps"]), way["end"], way["proven"], way["seen"]), (1, "no_silent_action", 1, None))
+        self.assertIn("a u = 1 and b nothing.", " ".join(explained("x=5")["sentences"]))
+        self.results(chain(silence={"actions": {"a": "u == 0", "b": "true"}}))
+        own = explained("x=4")["silence"]
+        self.assertEqual((own["silence"], own["silence_status"], own["way_out"]), (None, "unbounded", None))
+
+    def test_the_way_that_is_explained_is_that_of_a_requirement(self):
+        asked = [{"name": "r", "where": "-4.1 < p1 < -3.9 and -4.1 < p2 < -3.9 and v1 == 1 and v2 == 1", "min_silence": 30}]
+        self.write("spec.json", crossing({"actions": both("u# <= 0")}, requirements=asked))
+        result = self.run_program("analyze", "spec.json", "-o", "r.h5", "--json", "--quiet")
+        (judged,) = json.loads(result.stdout)["requirements"]
+        state = ",".join(f"{name}={value}" for name, value in judged["counterexample"]["state"].items())
+        found = json.loads(self.run_program("explain", "r.h5", "--at", state, "--json").stdout)["silence"]
+        self.assertEqual(found["silence"], judged["least_silence"])
+        self.assertEqual(found["way_out"], judged["counterexample"])
 
     def test_risk_is_that_of_what_agents_are_told(self):
         self.results(chain(network={"loss": 0.5}, risk={"horizon": 1}, silence={"actions": {"a": "u == 1", "b": "true"}}))

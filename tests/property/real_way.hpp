@@ -83,4 +83,47 @@ inline void expect_followed(const ProblemSpec& spec, const Abstraction& a, const
   RC_CLASSIFY(followed + 1 == path.samples(), "the system itself goes all the way");
 }
 
+/// Ways out of K on which each step takes the delay down by one.
+struct ShortestWays {
+  const std::vector<std::int32_t>& delay;
+  std::function<bool(std::int64_t x, std::int64_t u)> is_choice;
+};
+
+/// How many steps of them the system itself can follow at the most, but for the last one; all are tried.
+inline std::size_t longest_followed(const ProblemSpec& spec, const Abstraction& a, const ShortestWays& ways,
+                                    std::int64_t x, const std::vector<Rational>& state, int& tries) {
+  PointDynamics dynamics(spec);
+  std::size_t longest = 0;
+  for (std::int64_t u = 0; ways.delay[at(x)] > 0 && u < a.inputs.count() && --tries > 0; ++u) {
+    if (!ways.is_choice(x, u)) continue;
+    const auto cells = post_cells(a, x, u);
+    if (!cells || cells->empty()) continue;
+    std::vector<Rational> next = state;
+    const std::optional<std::int64_t> y = real_step(spec, a, dynamics, next, u);
+    if (!y || ways.delay[at(*y)] != ways.delay[at(x)] - 1) continue;
+    if (std::find(cells->begin(), cells->end(), *y) == cells->end()) continue;
+    longest = std::max(longest, 1 + longest_followed(spec, a, ways, *y, next, tries));
+  }
+  return longest;
+}
+
+/// A story is one of those that the system itself follows longest.
+inline void expect_longest(const ProblemSpec& spec, const Abstraction& a, const ResultPath& path,
+                           const ShortestWays& ways) {
+  PointDynamics dynamics(spec);
+  const auto first = static_cast<std::int64_t>(path.cell.front());
+  std::vector<Rational> state;
+  for (std::size_t i = 0; i < a.grid.size(); ++i) state.push_back(a.grid[i].point(a.grid.index(first, i)));
+  int tries = 20'000;
+  const std::size_t longest = longest_followed(spec, a, ways, first, state, tries);
+  if (tries <= 0) return;
+  const auto most = static_cast<std::size_t>(std::max(ways.delay[at(first)], 0));
+  std::size_t followed = 0;
+  while (followed < most && real_step(spec, a, dynamics, state, input_of(a, path, followed)) ==
+                                static_cast<std::int64_t>(path.cell[followed + 1]))
+    ++followed;
+  RC_ASSERT(followed == longest);
+  RC_CLASSIFY(longest > 1 && longest < most, "followed for some steps");
+}
+
 }  // namespace coordreq

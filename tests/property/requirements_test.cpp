@@ -14,8 +14,7 @@
 #include "answers/requirements/answer.hpp"
 #include "answers/requirements/result_requirement.hpp"
 #include "base/index.hpp"
-#include "model/odometer.hpp"
-#include "model/pieces.hpp"
+#include "property/plain_region.hpp"
 #include "property/real_way.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/make_model.hpp"
@@ -27,8 +26,10 @@
 #include "support/plain_blind.hpp"
 #include "support/plain_engine.hpp"
 #include "support/plain_goal.hpp"
+#include "support/plain_silence.hpp"
 #include "support/random_requirements.hpp"
 #include "support/random_sight.hpp"
+#include "support/random_silence.hpp"
 
 namespace coordreq {
 namespace {
@@ -45,6 +46,8 @@ struct Both {
     if (has_limited_sight(spec)) {
       blind = silence_plainly(spec, abstraction, members(safe), members(beyond.value_or(safe)), plain);
     }
+    if (spec.silence)
+      told = told_silence_plainly(spec, abstraction, members(safe), members(beyond.value_or(safe)), plain);
     if (!spec.goal) return;
     const CellSet satisfying =
         cells_that_satisfy(*spec.goal, spec, abstraction.grid, abstraction.inputs, team);
@@ -67,6 +70,8 @@ struct Both {
       return goal->partitions[at(*requirement.partition)].delay[x];
     if (requirement.kind == RequirementKind::min_blind_delay)
       return blind->partitions[at(*requirement.partition)].delay[x];
+    if (requirement.kind == RequirementKind::min_silence)
+      return told->partitions[at(*requirement.partition)].silence[x];
     if (requirement.partition) return plain.partitions[at(*requirement.partition)].delay[x];
     return !safe.test(static_cast<std::int64_t>(x)) ? -2 : plain.invariant[x] ? INT32_MAX : -1;
   }
@@ -78,6 +83,7 @@ struct Both {
   std::optional<CellSet> beyond;
   PlainAnalysis plain;
   std::optional<PlainBlind> blind;
+  std::optional<PlainSilence> told;
   std::optional<PlainGoal> goal;
 };
 
@@ -86,65 +92,6 @@ std::int64_t merit(RequirementKind kind, std::int32_t value) {
   if (value < 0) return INT64_MIN + (value == -2 ? 0 : value == -1 ? 1 : 2);
   return kind == RequirementKind::max_arrival ? -std::int64_t{value} : std::int64_t{value};
 }
-
-/// The cells of a region lie between these: those with a point in it, and those that natural interval
-/// evaluation does not tell from it.
-struct PlainRegion {
-  std::vector<bool> sampled, natural;
-
-  PlainRegion(const ProblemSpec& spec, const Program& where, const UniformGrid& grid)
-      : condition_(where), variables_(where.variables()), box_(spec.slot_count()) {
-    std::vector<std::vector<std::vector<Piece>>> parts;  // [state][index]
-    for (const GridDimension& dimension : grid.dimensions()) {
-      auto& indices = parts.emplace_back();
-      for (std::int64_t k = 0; k < dimension.count; ++k) indices.push_back(pieces(dimension, k));
-    }
-    for (std::int64_t x = 0; x < grid.cells(); ++x) {
-      std::vector<std::int64_t> counts;
-      for (const std::uint32_t i : variables_)
-        counts.push_back(static_cast<std::int64_t>(parts[i][at(grid.index(x, i))].size()));
-      sampled.push_back(false);
-      natural.push_back(false);
-      Odometer choice(counts);
-      do {
-        for (std::size_t v = 0; v < variables_.size(); ++v) {
-          const Piece& piece =
-              parts[variables_[v]][at(grid.index(x, variables_[v]))][at(choice.indices()[v])];
-          box_[variables_[v]] = {.lower = piece.lower, .upper = piece.upper};
-        }
-        look_at_box();
-      } while (choice.advance());
-    }
-  }
-
- private:
-  void look_at_box() {
-    const Truth truth = condition_.condition(box_);
-    if (truth == Truth::no) return;
-    natural.back() = true;
-    sampled.back() = sampled.back() || truth == Truth::yes || holds_at_a_point();
-  }
-
-  /// Corners and middles.
-  bool holds_at_a_point() {
-    Odometer choice(std::vector<std::int64_t>(variables_.size(), 3));
-    std::vector<RationalInterval> point = box_;
-    do {
-      for (std::size_t v = 0; v < variables_.size(); ++v) {
-        const RationalInterval& range = box_[variables_[v]];
-        const Rational value =
-            range.lower + (range.upper - range.lower) * static_cast<long>(choice.indices()[v]) / 2;
-        point[variables_[v]] = {.lower = value, .upper = value};
-      }
-      if (condition_.condition(point) == Truth::yes) return true;
-    } while (choice.advance());
-    return false;
-  }
-
-  Evaluator<RationalInterval> condition_;
-  std::vector<std::uint32_t> variables_;
-  std::vector<RationalInterval> box_;
-};
 
 bool is_independent_choice(const Both& both, std::size_t p, std::int64_t x, std::int64_t u) {
   const auto& inputs = both.abstraction.inputs;
@@ -197,7 +144,7 @@ void expect_real_path(const Both& both, const RequirementSpec& asked, const Resu
     RC_ASSERT(evasive + (stuck ? 1 : 0) == static_cast<std::size_t>(time));
   }
   const std::int32_t soonest = delay < 0 ? both.plain.collision_time[start] : delay + 1;
-  RC_ASSERT((path.seen != 0) == (path.steps() > 0 && both.abstraction.tubes.empty()));
+  RC_ASSERT((path.seen != 0) == (path.steps() > 0));
   RC_ASSERT(path.seen <= 0 || path.seen >= soonest);
   RC_CLASSIFY(path.seen > soonest, "more is seen than is proven");
   const auto value = [&](std::size_t step, std::int64_t y) {
@@ -207,6 +154,30 @@ void expect_real_path(const Both& both, const RequirementSpec& asked, const Resu
   expect_followed(both.spec, both.abstraction, path, value);
   if (path.end == EscapeEnd::outside_safe_set)
     RC_ASSERT(!both.safe.test(static_cast<std::int64_t>(path.cell.back())));
+  if (asked.kind != RequirementKind::min_delay) return;
+  const std::size_t p = at(*asked.partition);
+  const auto is_choice = [&](std::int64_t x, std::int64_t u) {
+    return both.plain.permitted[at(x)][at(u)] && is_independent_choice(both, p, x, u);
+  };
+  expect_longest(both.spec, both.abstraction, path, {both.plain.partitions[p].delay, is_choice});
+}
+
+/// Of agents who do what they are told: down to no silence by A, and from there by what comes after.
+void expect_silent_path(const Both& both, const RequirementSpec& asked, const ResultPath& path) {
+  const auto& told = both.told->partitions[at(*asked.partition)];
+  const std::int32_t silence = told.silence[path.cell.front()];
+  RC_CLASSIFY(silence > 0, "some silence, and a way out of it");
+  for (std::size_t s = 0; s < path.steps(); ++s) {
+    const std::size_t x = path.cell[s];
+    const auto u = at(input_of(both.abstraction, path, s));
+    RC_ASSERT((told.silence[x] >= 0) == (path.phase[s] == EscapePhase::silent));
+    if (path.phase[s] == EscapePhase::silent) RC_ASSERT(told.actions[x][u]);
+    if (path.phase[s] == EscapePhase::silent && s < at(silence))
+      RC_ASSERT(told.silence[path.cell[s + 1]] == silence - 1 - static_cast<std::int32_t>(s));
+    if (path.phase[s] == EscapePhase::afterwards) RC_ASSERT(both.told->then[x][u]);
+  }
+  RC_ASSERT((path.seen != 0) == (path.steps() > 0));
+  RC_ASSERT(path.seen <= 0 || path.seen > silence);
 }
 
 void expect_plain_verdict(const Both& both, std::size_t r) {
@@ -239,6 +210,7 @@ void expect_plain_verdict(const Both& both, std::size_t r) {
   RC_CLASSIFY(found.path->steps() > 2, "a way out of more than two steps");
   RC_ASSERT(region.natural[found.path->cell.front()]);
   RC_ASSERT(both.delay(asked, found.path->cell.front()) == found.least_delay);
+  if (asked.kind == RequirementKind::min_silence) expect_silent_path(both, asked, *found.path);
   // Ways that miss a goal, and those of agents who do not see all, are looked at by `verify`.
   if (asked.kind != RequirementKind::min_delay && asked.kind != RequirementKind::invariant) return;
   expect_real_path(both, asked, *found.path);
@@ -283,10 +255,22 @@ TEST(Requirements, OfLimitedSightAreJudgedAsThePlainEngineDoes) {
   }));
 }
 
+TEST(Requirements, OfAgentsWhoAreToldWhatToDoAreJudgedAsThePlainEngineDoes) {
+  ThreadTeam team(2);
+  EXPECT_TRUE(rc::check("verdicts on silence", [&] {
+    const std::string text = with_requirements(with_silence(draw_team()));
+    const Both both(text, team);
+    for (std::size_t r = 0; r < both.spec.requirements.size(); ++r) expect_plain_verdict(both, r);
+  }));
+}
+
 TEST(Requirements, HoldAtTheirExactBoundAndNoFurther) {
   ThreadTeam team(2);
   EXPECT_TRUE(rc::check("the worst value is the bound", [&] {
-    const std::string system = draw(0, 1) == 0 ? with_sight(draw_problem()) : draw_problem();
+    const int agents = draw(0, 2);
+    const std::string system = agents == 0   ? with_sight(draw_problem())
+                               : agents == 1 ? with_silence(draw_team())
+                                             : draw_problem();
     ProblemSpec spec = read_spec(with_requirements(system), "random");
     const std::vector<ResultRequirement> found = Both::judged(spec, team);
     for (const std::int64_t further : {0, 1}) {
@@ -313,7 +297,10 @@ TEST(Requirements, ThatWereWrittenVerify) {
   EXPECT_TRUE(rc::check("files with requirements hold", [&] {
     const RandomTime kind = *rc::gen::arbitrary<bool>() ? RandomTime::between_samples : RandomTime::any;
     const std::string system = draw_problem(kind);
-    const std::string text = with_requirements(draw(0, 2) == 0 ? with_sight(system) : system);
+    const int kind_of_agents = draw(0, 3);
+    const std::string text = with_requirements(kind_of_agents == 0   ? with_sight(system)
+                                               : kind_of_agents == 1 ? with_silence(system)
+                                                                     : system);
     const Verification result = verify_file(analysed_file(text, team), {.budget_seconds = 0.1}, team);
     RC_LOG(complaints(result));
     RC_ASSERT(result.holds());

@@ -211,7 +211,8 @@ TEST(Silence, KeepsItsPromiseWhateverAgentsChoose) {
   }));
 }
 
-/// Two agents on a line, of which each moves by itself; apart by at least `gap`, or on lanes of their own.
+/// Two agents on a line, of which each moves by itself; apart by one or two. Every other pair goes one way
+/// until the first one is at the end of the line, and stands still afterwards: silence of some steps.
 nlohmann::json draw_pair() {
   nlohmann::json spec = nlohmann::json::parse(R"({"coordreq": 1, "name": "pair",
 "states": [{"name": "x1", "lower": 0, "step": 1, "discrete": true}, {"name": "x2", "lower": 0, "step": 1, "discrete": true}],
@@ -219,8 +220,9 @@ nlohmann::json draw_pair() {
 "agents": [{"name": "a", "inputs": ["u1"], "sees": ["x1"]}, {"name": "b", "inputs": ["u2"], "sees": ["x2"]}],
 "dynamics": {"time": "discrete", "period": 1}})");
   const int last = draw(3, 5);
-  const std::string outside = pick<std::string>({"saturate", "unsafe", "safe"});
-  const int drift = pick<int>({-1, 0, 0, 0, 1}), from = draw(0, last);
+  const bool is_long = draw(0, 1) == 0;
+  const std::string outside = is_long ? "saturate" : pick<std::string>({"saturate", "unsafe", "safe"});
+  const int drift = is_long ? 0 : pick<int>({-1, 0, 0, 0, 1}), from = draw(0, last);
   for (const std::string number : {"1", "2"}) {
     nlohmann::json& state = spec["states"][number == "1" ? 0 : 1];
     state["upper"] = last;
@@ -243,9 +245,12 @@ nlohmann::json draw_pair() {
     return result;
   };
   const std::string middle = std::to_string(draw(1, 3));
-  spec["silence"]["actions"] =
-      rules({"true", "u# <= 0", "u# >= 0", "u# == 0", "u# == 1", "x# > " + middle + " or u# == 0"});
-  spec["silence"]["then"] = rules({"u# == 0", "u# == if(x# > " + middle + ", 1, -1)", "u# <= 0", "u# == -1"});
+  const std::vector<std::string> actions = {"true",    "u# <= 0", "u# >= 0",
+                                            "u# == 0", "u# == 1", "x# > " + middle + " or u# == 0"};
+  const std::vector<std::string> then = {"u# == 0", "u# == if(x# > " + middle + ", 1, -1)", "u# <= 0",
+                                         "u# == -1"};
+  spec["silence"]["actions"] = rules(is_long ? std::vector<std::string>{"u# == 1", "u# == -1"} : actions);
+  spec["silence"]["then"] = rules(is_long ? std::vector<std::string>{"u# == 0"} : then);
   return spec;
 }
 

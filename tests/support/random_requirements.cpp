@@ -89,16 +89,19 @@ std::string with_requirements(std::string text) {
   const auto most = static_cast<int>(std::min<std::int64_t>(spec.coordination.max_delay.value_or(4), 4));
   const bool has_goal = draw(0, 1) == 0;
   const bool is_blind = has_limited_sight(spec);
+  const bool is_told = spec.silence.has_value();
   std::vector<std::string> requirements;
   for (int r = 0; r < 2; ++r) {
     const auto of_partition = [&](const std::string& kind) {
+      const bool is_much = kind == "min_silence" && !spec.coordination.max_delay;  // so that more cells fail
       return fmt::format(R"("partition": "{}", "{}": {})", pick(spec.coordination.partitions).name, kind,
-                         draw(std::min(1, most), most));
+                         is_much ? draw(most, 3 * most) : draw(std::min(1, most), most));
     };
     const std::vector<std::string> of_goal = {fmt::format(R"("max_arrival": {})", draw(0, 4)),
                                               of_partition("min_approach_delay")};
     const std::string asked = has_goal && draw(0, 1) == 0  ? pick(of_goal)
                               : draw(0, 3) == 0            ? R"("invariant": true)"
+                              : is_told && draw(0, 2) > 0  ? of_partition("min_silence")
                               : is_blind && draw(0, 2) > 0 ? of_partition("min_blind_delay")
                                                            : of_partition("min_delay");
     requirements.push_back(

@@ -11,7 +11,8 @@ namespace coordreq {
 [[nodiscard]] std::string draw_team();
 
 /// The spec with two random requirements, of any kind but `max_risk`, whose regions meet its grid; half of
-/// the time with a goal. Agents of limited sight are asked for `min_blind_delay`, too.
+/// the time with a goal. Agents of limited sight are asked for `min_blind_delay`,
+/// too, and those who are told what to do for `min_silence`.
 [[nodiscard]] std::string with_requirements(std::string text);
 
 }  // namespace coordreq

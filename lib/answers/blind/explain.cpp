@@ -13,6 +13,7 @@
 #include "answers/field_parts.hpp"
 #include "answers/goal/fields.hpp"
 #include "answers/layers/fields.hpp"
+#include "answers/one_cell/action_words.hpp"
 #include "answers/one_cell/cell_members.hpp"
 #include "base/grouped.hpp"
 #include "base/index.hpp"
@@ -163,34 +164,6 @@ std::string centre_words(const UniformGrid& grid, std::int64_t cell) {
   return text;
 }
 
-/// "u1 = -1, -0.5", or of several inputs "(u1, u2) = (-1, 0), ...".
-std::string action_words(const ExplainGround& ground, std::size_t c, const std::vector<bool>& actions) {
-  constexpr std::size_t kMostWords = 5;
-  const ProblemSpec& spec = *ground.spec;
-  const std::vector<std::int32_t> inputs = inputs_of(spec, ground.partition->classes[c]);
-  std::vector<std::string> names, values;
-  std::vector<std::int64_t> counts;
-  for (const std::int32_t i : inputs) {
-    names.push_back(spec.inputs[at(i)].name);
-    counts.push_back(std::ssize(spec.inputs[at(i)].values));
-  }
-  for (std::size_t a = 0; a < actions.size(); ++a) {
-    if (!actions[a]) continue;
-    if (values.size() == kMostWords) {
-      values.emplace_back("...");
-      break;
-    }
-    const Odometer index(counts, static_cast<std::int64_t>(a));
-    std::vector<double> tuple;
-    for (std::size_t k = 0; k < inputs.size(); ++k)
-      tuple.push_back(nearest_double(spec.inputs[at(inputs[k])].values[at(index[k])]));
-    values.push_back(inputs.size() == 1 ? fmt::format("{}", tuple.front())
-                                        : fmt::format("({})", fmt::join(tuple, ", ")));
-  }
-  const std::string name = names.size() == 1 ? names.front() : fmt::format("({})", fmt::join(names, ", "));
-  return fmt::format("{} = {}", name, fmt::join(values, ", "));
-}
-
 Json actions_json(const std::vector<bool>& actions) {
   Json numbers = Json::array();
   for (std::size_t a = 0; a < actions.size(); ++a) {
@@ -204,16 +177,17 @@ std::string steps_words(std::int32_t steps) {
 }
 
 void add_confusion(const ExplainGround& ground, const Confusion& found, Explained& result) {
-  const std::string name = class_name(ground.spec->agents, ground.partition->classes[found.class_number]);
+  const std::vector<std::int32_t>& own = ground.partition->classes[found.class_number];
+  const std::string name = class_name(ground.spec->agents, own);
   const UniformGrid& grid = ground.posts->grid();
   (*result.found)["class"] = name;
   (*result.found)["cells"] = {
       {{"state", centre_json(grid, found.cell)}, {"actions", actions_json(found.actions)}},
       {{"state", centre_json(grid, found.other)}, {"actions", actions_json(found.others_actions)}}};
-  result.sentences.push_back(fmt::format(
-      "It may end at {}, where {} has {}; but it cannot tell that from {}, where it has {}.",
-      centre_words(grid, found.cell), name, action_words(ground, found.class_number, found.actions),
-      centre_words(grid, found.other), action_words(ground, found.class_number, found.others_actions)));
+  result.sentences.push_back(
+      fmt::format("It may end at {}, where {} has {}; but it cannot tell that from {}, where it has {}.",
+                  centre_words(grid, found.cell), name, action_words(*ground.spec, own, found.actions),
+                  centre_words(grid, found.other), action_words(*ground.spec, own, found.others_actions)));
 }
 
 }  // namespace

@@ -101,6 +101,19 @@ Json counterexample_json(const ResultRequirement& result, RequirementKind kind, 
 
 }  // namespace
 
+namespace {
+
+/// How long the grid proves that the system stays: in the set in which agents go on as they are, or else in
+/// S.
+std::int64_t proven_steps(const ResultPath& path) {
+  if (path.phase.front() != EscapePhase::afterwards)
+    return path.delay.front() < 0 ? path.collision_time.front() : path.delay.front();
+  // A step that nobody can take leaves, too.
+  return static_cast<std::int64_t>(path.steps()) + (path.end == EscapeEnd::no_silent_action ? 1 : 0);
+}
+
+}  // namespace
+
 Json story_json(const ResultPath& path, RequirementKind kind, const ProblemSpec& spec) {
   Json json;
   json["state"] = state_json(path, 0, spec);
@@ -111,8 +124,7 @@ Json story_json(const ResultPath& path, RequirementKind kind, const ProblemSpec&
   json["end_sample"] = stays ? sample_json(path, path.steps(), kind, spec) : Json();
   json["left_side"] = side_json(path.left_side, spec);
   const bool is_followed = path.seen != ResultPath::kNotFollowed;
-  const bool is_in_k = path.collision_time.front() == DelayLayers::kUnbounded;
-  json["proven"] = is_followed ? Json(is_in_k ? path.delay.front() : path.collision_time.front()) : Json();
+  json["proven"] = is_followed ? Json(proven_steps(path)) : Json();
   json["seen"] = path.seen > 0 ? Json(path.seen) : Json();
   return json;
 }

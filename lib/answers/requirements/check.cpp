@@ -169,10 +169,14 @@ class RequirementChecker {
     if (Rank(rank_by_definition(asked_.kind, value), collision_time_[first], cell) > bounds.sure_worst)
       wrong("the counterexample does not begin in the worst cell");
     // When the system itself leaves is an observation, but sooner than is proven it cannot.
-    const std::int32_t soonest = value < 0 ? collision_time_[first] : value + 1;
+    const bool is_after = value < 0 && asked_.kind == RequirementKind::min_silence && has_then();
+    const std::int32_t soonest = value >= 0 ? value + 1 : is_after ? 1 : collision_time_[first];
     if (path.seen > 0 && path.seen < soonest) wrong("the system itself leaves sooner than is proven");
     PathChecker(ground_, asked_).check(path, tally_);
   }
+
+  /// Of what comes after silence the file does not tell when it leaves S.
+  [[nodiscard]] bool has_then() const { return ground_.spec->silence && ground_.spec->silence->has_then(); }
 
   const CheckGround& ground_;
   const RequirementSpec& asked_;

@@ -7,11 +7,12 @@ namespace coordreq {
 Bytes escape_message(const EscapeNews& news, const EscapePath& path, std::size_t inputs, std::size_t cells) {
   const bool has_step = path.joint_inputs.size() > inputs;
   std::vector<std::int64_t> numbers = {news.goes_on ? 1 : 0,
+                                       news.has_more ? 1 : 0,
                                        news.way,
                                        news.reached.place.is_known ? 1 : 0,
                                        static_cast<std::int64_t>(news.reached.place.kind),
                                        news.reached.place.cell,
-                                       news.reached.is_invariant ? 1 : 0,
+                                       news.reached.is_inside ? 1 : 0,
                                        news.reached.is_safe ? 1 : 0,
                                        static_cast<std::int64_t>(path.end),
                                        has_step ? path.joint_inputs.back() : -1,
@@ -28,11 +29,12 @@ EscapeNews read_escape_message(const Bytes& message, EscapePath& path) {
   MessageReader reader(message);
   EscapeNews news;
   news.goes_on = reader.number() != 0;
+  news.has_more = reader.number() != 0;
   news.way = reader.number();
   news.reached.place.is_known = reader.number() != 0;
   news.reached.place.kind = static_cast<Location::Kind>(reader.number());
   news.reached.place.cell = reader.number();
-  news.reached.is_invariant = reader.number() != 0;
+  news.reached.is_inside = reader.number() != 0;
   news.reached.is_safe = reader.number() != 0;
   path.end = static_cast<EscapeEnd>(reader.number());
   const std::int64_t input = reader.number(), phase = reader.number(), cell = reader.number();

@@ -11,12 +11,14 @@ namespace coordreq {
 /// Where the system itself is after a step of an escape; beyond `safe` sides it is in all sets.
 struct Reached {
   RealRun::Place place;
-  bool is_invariant = false, is_safe = false;
+  bool is_inside = false;  ///< in K, or of silence in K'
+  bool is_safe = false;
 };
 
 /// What a step adds to an escape, as the process that owns its cell tells the others.
 struct EscapeNews {
   bool goes_on = false;
+  bool has_more = false;  ///< equal steps that the system itself can follow
   std::int64_t way = 0;
   Reached reached;
 };

@@ -8,9 +8,8 @@
 #include "answers/one_cell/admissible_inputs.hpp"
 #include "answers/one_cell/progress_inputs.hpp"
 #include "answers/one_cell/silent_inputs.hpp"
-#include "answers/requirements/escape_news.hpp"
+#include "answers/requirements/escape_run.hpp"
 #include "answers/requirements/escape_step.hpp"
-#include "answers/requirements/real_run.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -19,26 +18,24 @@ namespace {
 using Start = std::optional<std::vector<Rational>>;
 
 constexpr std::int64_t kLeast = EscapeSteps::kLeast;
+/// At a joint input, by which the system itself could go on.
+constexpr std::int64_t kMostLooks = 200'000;
 
 std::int64_t level_of(const LevelMap& levels, std::int64_t cell) {
   return EscapeSteps::level_of(levels, cell);
 }
 
-class EscapeFinder {
+/// What agents do on the way out.
+class EscapeFinder : public EscapeRun {
  public:
   explicit EscapeFinder(const EscapeSets& sets)
-      : sets_(sets),
-        ground_(*sets.ground),
+      : EscapeRun(sets),
         grid_(ground_.abstraction->grid),
-        collision_time_(sets.invariance->collision_time),
-        tubes_(ground_.tubes()),
-        posts_(*ground_.abstraction),
         invariant_(grid_, [&set = sets.invariance->invariant](std::int64_t cell) { return set.test(cell); }),
         safe_(grid_, [this](std::int64_t cell) { return tubes_.inside->test(cell); }),
         beyond_(grid_, [this](std::int64_t cell) { return tubes_.beyond->test(cell); }),
         inputs_(ground_.spec, posts_, members()),
         progress_(ground_.spec, posts_, [this](std::int64_t y) { return arrival(y); }),
-        real_(ground_.spec, *ground_.abstraction),
         steps_(sets, posts_, inputs_, real_) {
     if (sets.silence_of == nullptr) return;
     silent_.emplace(ground_.spec, SilentInputs::Part::actions, sets.partition->classes, posts_);
@@ -46,119 +43,31 @@ class EscapeFinder {
       afterwards_.emplace(ground_.spec, SilentInputs::Part::then, sets.partition->classes, posts_);
   }
 
-  EscapePath run(std::int64_t cell, const Start& start) {
-    path_.cells.push_back(cell);
-    begin_at(cell, start);
-    bool goes_on = true;
-    while (goes_on) {
-      const std::size_t steps = path_.joint_inputs.size();
-      goes_on = step_of_owner();
-      if (!real_.is_followed() || path_.joint_inputs.size() == steps) continue;
-      real_.advance(path_.joint_inputs.back(), reached_.place);
-      if (path_.cells.back() != reached_.place.cell) real_.stop();
-      if (real_.is_followed()) ++path_.followed;
-    }
-    return std::move(path_);
-  }
-
-  std::int32_t follow(std::int64_t cell, const Start& start) {
-    begin_at(cell, start);
-    std::optional<EscapePhase> first;
-    const std::int64_t most = std::clamp<std::int64_t>(1'000'000 / posts_.inputs().count(), 20, 1000);
-    for (std::int32_t steps = 1; steps <= most; ++steps) {
-      path_ = {};
-      path_.cells.push_back(cell);
-      way_ = Way::unknown;
-      static_cast<void>(step_of_owner());
-      if (path_.joint_inputs.empty() || !reached_.place.is_known) break;
-      if (!first) first = path_.phases.front();
-      const bool is_kept = *first == EscapePhase::independent ? reached_.is_invariant : reached_.is_safe;
-      if (!is_kept || path_.end == EscapeEnd::not_allowed) return steps;
-      if (reached_.place.kind != Location::Kind::cell) break;
-      real_.advance(path_.joint_inputs.back(), reached_.place);
-      cell = reached_.place.cell;
-    }
-    return ResultPath::kNotLeft;
-  }
-
  private:
-  /// How the path goes on from where it is; before the first step nothing of it is known.
-  enum class Way : std::uint8_t { unknown, together, approaching, silent, independent, evasive };
-
-  void begin_at(std::int64_t cell, const Start& start) {
-    if (start) {
-      real_.start(*start);
-    } else {
-      real_.start(cell);
-    }
-  }
-
-  /// A step of the way, and that of the system itself.
-  bool step_and_follow() {
-    const std::int64_t cell = path_.cells.back();
-    const std::size_t steps = path_.joint_inputs.size();
-    const bool goes_on = step();
-    reached_ = {};
-    if (!real_.is_followed() || path_.joint_inputs.size() == steps) return goes_on;
-    reached_.place = real_.after(cell, path_.joint_inputs.back());
-    const bool is_cell = reached_.place.kind == Location::Kind::cell;
-    posts_.move_to(cell);
-    if (is_cell && !steps_.holds(posts_.post(path_.joint_inputs.back(), tubes_), reached_.place.cell)) {
-      reached_ = {};  // nothing may be known of that cell
-      return goes_on;
-    }
-    const bool has_left = reached_.place.kind == Location::Kind::left_safely;
-    reached_.is_safe = is_cell ? level_of(collision_time_, reached_.place.cell) > 0 : has_left;
-    reached_.is_invariant = is_cell ? sets_.invariance->invariant.test(reached_.place.cell) : has_left;
-    return goes_on;
-  }
-
-  /// The step from the last cell, which the process that owns the cell finds for all. @returns whether to go
-  /// on
-  bool step_of_owner() {
-    const RowShare* const share = ground_.shared_rows();
-    if (share == nullptr) return step_and_follow();
-    Ranks& ranks = share->ranks();
-    const int owner = share->owner(path_.cells.back() / grid_.row_length());
-    if (owner != ranks.rank()) {
-      const EscapeNews news = read_escape_message(ranks.receive(owner), path_);
-      way_ = static_cast<Way>(news.way);
-      reached_ = news.reached;
-      return news.goes_on;
-    }
-    const std::size_t cells = path_.cells.size(), inputs = path_.joint_inputs.size();
-    const bool goes_on = step_and_follow();
-    const EscapeNews news{.goes_on = goes_on, .way = static_cast<std::int64_t>(way_), .reached = reached_};
-    const Bytes message = escape_message(news, path_, inputs, cells);
-    for (int other = 0; other < ranks.count(); ++other) {
-      if (other != owner) ranks.send(other, message);
-    }
-    return goes_on;
-  }
-
-  bool step() {
+  bool add_step() override {
     const std::int64_t cell = path_.cells.back();
     const bool is_invariant = sets_.invariance->invariant.test(cell);
-    if (way_ == Way::unknown) {
+    if (way() == Way::unknown) {
       const bool has_goal = sets_.goal != nullptr && is_invariant;
       const bool is_lost =
           has_goal && (sets_.kind == RequirementKind::max_arrival || !sets_.goal->winning.test(cell));
-      way_ = is_lost ? Way::together : has_goal ? Way::approaching : Way::independent;
-      if (sets_.silence_of != nullptr) way_ = Way::silent;
+      change_way(is_lost ? Way::together : has_goal ? Way::approaching : Way::independent);
+      if (sets_.silence_of != nullptr) change_way(Way::silent);
     }
-    if (way_ == Way::silent) {
+    if (way() == Way::silent) {
       if (level_of(*sets_.silence_of, cell) > 0) return take_silent();
+      if (sets_.ends_after_silence) return false;
       if (sets_.lost != nullptr) return level_of(collision_time_, cell) > 0 && take_afterwards();
-      way_ = Way::evasive;
+      change_way(Way::evasive);
     }
-    if (way_ == Way::together) return take_together();
-    if (way_ == Way::approaching) {
+    if (way() == Way::together) return take_together();
+    if (way() == Way::approaching) {
       if (sets_.goal->away.test(cell)) return take_approaching();
-      way_ = Way::independent;
+      change_way(Way::independent);
     }
-    if (way_ == Way::independent) {
+    if (way() == Way::independent) {
       if (is_invariant) return take_independent();
-      way_ = Way::evasive;
+      change_way(Way::evasive);
     }
     return level_of(collision_time_, cell) > 0 && take_evasive();
   }
@@ -168,7 +77,7 @@ class EscapeFinder {
     if (tubes_.beyond != nullptr) sets.safe_beyond = [this] { return &beyond_; };
     if (ground_.listed) {
       sets.listed = [this](std::int64_t cell, std::int64_t u) {
-        return ground_.listed->pairs.test(steps_.number(cell), u);
+        return ground_.listed->pairs.test(steps_.number_of(cell), u);
       };
     }
     return sets;
@@ -317,7 +226,7 @@ class EscapeFinder {
   template <class IsCandidate>
   std::optional<EscapeChoice> find(const LevelMap& levels, std::int64_t target,
                                    const IsCandidate& is_candidate) {
-    return steps_.find(path_.cells.back(), levels, target, is_candidate);
+    return steps_.find(path_.cells.back(), levels, target, is_candidate, number());
   }
 
   /// Goes the step. @returns false if the path ends with it
@@ -328,6 +237,7 @@ class EscapeFinder {
     }
     path_.joint_inputs.push_back(choice->joint_input);
     path_.phases.push_back(phase);
+    note_more(choice->has_more);
     if (choice->is_forbidden || choice->post.blocked != CellPost::Blocked::no) {
       end_at_block(choice->post, choice->is_forbidden);
       return false;
@@ -338,31 +248,63 @@ class EscapeFinder {
     return true;
   }
 
-  const EscapeSets& sets_;
-  const Ground& ground_;
   const UniformGrid& grid_;
-  const LevelMap& collision_time_;
-  TubeSets tubes_;
-  CellPosts posts_;
   MembersByCell invariant_, safe_, beyond_;
   AdmissibleInputs inputs_;
   ProgressInputs progress_;
   std::optional<SilentInputs> silent_, afterwards_;  ///< of `min_silence`; the second one with `then`
-  EscapePath path_;
-  Way way_ = Way::unknown;
-  RealRun real_;
   EscapeSteps steps_;
-  Reached reached_;
 };
+
+/// Of equal steps from a cell on which to take.
+EscapeSearch::Choices find_choices(std::int64_t cell, EscapeSearch& search, EscapeRun& run) {
+  run.begin_way(cell);
+  const FollowedPlace here = *run.place();
+  EscapeSearch::Choices choices = search.find(run);
+  run.go_to(here);
+  return choices;
+}
 
 }  // namespace
 
 EscapePath find_escape(const EscapeSets& sets, std::int64_t cell, const Start& start) {
-  return EscapeFinder(sets).run(cell, start);
+  EscapeFinder run(sets);
+  run.begin_at(cell, start);
+  EscapeSearch search(kMostLooks);
+  const EscapeSearch::Choices choices = find_choices(cell, search, run);
+  for (std::size_t k = 0; run.goes_on(); ++k) run.step(k < choices.size() ? choices[k] : 0);
+  return std::move(run.path());
 }
 
 std::int32_t follow_escape(const EscapeSets& sets, std::int64_t cell, const Start& start) {
-  return EscapeFinder(sets).follow(cell, start);
+  EscapeFinder run(sets);
+  run.begin_at(cell, start);
+  EscapeSearch search(kMostLooks);
+  std::optional<EscapePhase> first;
+  EscapeSearch::Choices choices;
+  std::size_t next = 0;
+  const std::int64_t inputs = sets.ground->abstraction->inputs.count();
+  const std::int64_t most = std::clamp<std::int64_t>(1'000'000 / inputs, 20, 1000);
+  for (std::int32_t steps = 1; steps <= most; ++steps) {
+    if (next == choices.size()) {
+      choices = find_choices(cell, search, run);
+      next = 0;
+    }
+    run.begin_way(cell);
+    run.step_alone(next < choices.size() ? choices[next++] : 0);
+    const Reached& reached = run.reached();
+    const EscapePath& path = run.path();
+    if (path.joint_inputs.empty() || !reached.place.is_known) break;
+    if (!first) first = path.phases.front();
+    const bool is_inside = *first == EscapePhase::independent || *first == EscapePhase::silent;
+    const bool is_kept = is_inside ? reached.is_inside : reached.is_safe;
+    if (!is_kept || path.end == EscapeEnd::not_allowed) return steps;
+    if (!is_inside && reached.is_inside) break;  // where what they do outside keeps it
+    if (reached.place.kind != Location::Kind::cell) break;
+    run.advance();
+    cell = reached.place.cell;
+  }
+  return ResultPath::kNotLeft;
 }
 
 }  // namespace coordreq

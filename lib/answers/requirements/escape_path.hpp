@@ -48,14 +48,17 @@ struct EscapeSets {
   const PartitionSpec* partition = nullptr;
   const LevelMap* silence_of = nullptr;
   const LevelMap* lost = nullptr;
+  /// What comes after is not known step by step: the path ends where it is not safe, and all that `lost` has
+  /// to tell of S is where that is.
+  bool ends_after_silence = false;
   /// [dimension]: what one index adds to a cell's number, by which ties are broken.
   std::vector<std::int64_t> number_stride;
 };
 
 /// A shortest way out of S as the abstraction has it. Ways are many, and most are made of what its boxes add:
 /// a car that brakes may stay in its cell of speed. So the system itself is followed from the start
-/// (RealRun), and of equals the joint inputs and cells come first with which it can be, for as long as there
-/// are any; then the lowest-numbered.
+/// (RealRun), and of equals the way comes first that it can follow longest (EscapeSearch); then the
+/// lowest-numbered.
 ///
 /// - From x in K with delay k, k + 1 steps lead out of K, and fewer cannot: each takes the lowest-numbered u
 ///   in IND_C(x) that may lead to delay k - 1, and there the lowest-numbered such cell. With k = 0 it is the
@@ -85,10 +88,11 @@ struct EscapeSets {
 
 /// Follows the system itself from a cell; at each step all do what they do first on the shortest way out from
 /// where it is (find_escape()), so that nothing about it is an enclosure. Of requirements about safety that
-/// all agents see alike: `min_delay`, `invariant`. Cost: as find_escape() for each step.
-/// @returns after how many steps it has left K, or S where it begins outside K; ResultPath::kNotLeft if it
-/// does
-///   not within 1,000 steps (fewer where joint inputs are many), or where no such way leads on
+/// all agents see alike: `min_delay`, `invariant`, `min_silence`. It is looked at at the samples, also where
+/// safety is asked for between them. Cost: as find_escape() for each step.
+/// @returns after how many steps it has left K (`min_silence`: K'), or S where it begins outside; kNotLeft of
+///   ResultPath if it does not within 1,000 steps (fewer where joint inputs are many), where no such way
+///   leads on, or where it comes inside from outside
 [[nodiscard]] std::int32_t follow_escape(const EscapeSets& sets, std::int64_t cell,
                                          const std::optional<std::vector<Rational>>& start = std::nullopt);
 

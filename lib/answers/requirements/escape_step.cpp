@@ -11,10 +11,10 @@ std::int64_t EscapeSteps::level_of(const LevelMap& levels, std::int64_t cell) {
 }
 
 std::optional<EscapeChoice> EscapeSteps::find(std::int64_t cell, const LevelMap& levels, std::int64_t target,
-                                              const IsWanted& is_candidate) {
+                                              const IsWanted& is_candidate, std::int64_t number) {
   Known known;
   std::optional<EscapeChoice> best;
-  bool is_followed = false;
+  std::int64_t followed = 0;  // so far, of those that are as good
   posts_.move_to(cell);
   for (std::int64_t u = 0; u < posts_.inputs().count(); ++u) {
     if (!is_candidate(u)) continue;
@@ -23,13 +23,15 @@ std::optional<EscapeChoice> EscapeSteps::find(std::int64_t cell, const LevelMap&
     choice.level = choice.is_forbidden ? 0 : worst_level(choice.post, levels, known);
     const bool is_better =
         target == kLeast ? !best || choice.level < best->level : !best && choice.level == target;
-    const bool is_equal = best && choice.level == best->level;
-    if (is_better || (is_equal && !is_followed && follows(cell, choice, levels))) {
-      is_followed = !is_better || follows(cell, choice, levels);
+    if (is_better) followed = 0;
+    if ((is_better || (best && choice.level == best->level)) && follows(cell, choice, levels)) {
+      if (followed == number || is_better) best = std::move(choice);
+      best->has_more = followed++ > number;
+    } else if (is_better) {
       best = std::move(choice);
     }
     const bool is_least = best && (target != kLeast || best->level == 0);
-    if (is_least && (is_followed || !real_.is_followed())) break;
+    if (is_least && (best->has_more || !real_.is_followed())) break;
   }
   return best;
 }
@@ -54,8 +56,7 @@ bool EscapeSteps::follows(std::int64_t cell, const EscapeChoice& choice, const L
   return next >= 0 && level_of(levels, next) == choice.level;
 }
 
-bool EscapeSteps::holds(const CellPost& post, std::int64_t cell) const {
-  const UniformGrid& grid = posts_.grid();
+bool EscapeSteps::holds(const UniformGrid& grid, const CellPost& post, std::int64_t cell) {
   for (std::size_t d = 0; d < grid.size(); ++d) {
     const std::int64_t k = grid.index(cell, d);
     const IndexRange& range = post.box[d];
@@ -70,7 +71,7 @@ std::int64_t EscapeSteps::real_cell(std::int64_t cell, const CellPost& post, std
   if (!real_.is_followed() || post.all_left) return -1;
   const RealRun::Place place = real_.after(cell, u);
   const bool is_cell = place.is_known && place.kind == Location::Kind::cell;
-  return is_cell && holds(post, place.cell) ? place.cell : -1;
+  return is_cell && holds(posts_.grid(), post, place.cell) ? place.cell : -1;
 }
 
 std::int64_t EscapeSteps::next_cell(std::int64_t cell, const CellPost& post, std::int64_t u,
@@ -80,13 +81,13 @@ std::int64_t EscapeSteps::next_cell(std::int64_t cell, const CellPost& post, std
   std::int64_t lowest = -1;
   if (post.all_left) return lowest;
   for_each_cell(posts_.grid(), post.box, [&](std::int64_t next) {
-    if (is_wanted(next) && (lowest < 0 || number(next) < number(lowest))) lowest = next;
+    if (is_wanted(next) && (lowest < 0 || number_of(next) < number_of(lowest))) lowest = next;
     return true;
   });
   return lowest;
 }
 
-std::int64_t EscapeSteps::number(std::int64_t cell) const {
+std::int64_t EscapeSteps::number_of(std::int64_t cell) const {
   std::int64_t sum = 0;
   for (std::size_t i = 0; i < sets_.number_stride.size(); ++i)
     sum += posts_.grid().index(cell, i) * sets_.number_stride[i];

@@ -21,6 +21,7 @@ struct EscapeChoice {
   std::int64_t level = INT64_MAX;
   CellPost post;
   bool is_forbidden = false;
+  bool has_more = false;  ///< there are equal ones behind it that the system itself can follow, too
 };
 
 /// Finds the steps of an escape, one cell after the other.
@@ -37,19 +38,20 @@ class EscapeSteps {
   /// The level of a cell, INT64_MAX if it is never lost.
   [[nodiscard]] static std::int64_t level_of(const LevelMap& levels, std::int64_t cell);
 
-  /// A joint input of the candidates whose worst successor has the level that is looked for: the lowest with
-  /// which the system itself comes to that level, too; else the lowest.
+  /// A joint input of the candidates whose worst successor has the level that is looked for: of those with
+  /// which the system itself comes to that level, too, the one of this number; if there is none the lowest.
   [[nodiscard]] std::optional<EscapeChoice> find(std::int64_t cell, const LevelMap& levels,
-                                                 std::int64_t target, const IsWanted& is_candidate);
+                                                 std::int64_t target, const IsWanted& is_candidate,
+                                                 std::int64_t number);
   /// The cell of a post that is wanted: the one in which the system itself is then, else the lowest-numbered;
   /// negative: there is none.
   [[nodiscard]] std::int64_t next_cell(std::int64_t cell, const CellPost& post, std::int64_t u,
                                        const IsWanted& is_wanted);
   /// Whether a cell is in a post. (The system itself may miss it by a rounding, where floating point follows
   /// it.)
-  [[nodiscard]] bool holds(const CellPost& post, std::int64_t cell) const;
+  [[nodiscard]] static bool holds(const UniformGrid& grid, const CellPost& post, std::int64_t cell);
   /// The number of a cell in the grid of the spec.
-  [[nodiscard]] std::int64_t number(std::int64_t cell) const;
+  [[nodiscard]] std::int64_t number_of(std::int64_t cell) const;
 
  private:
   using Known = std::map<std::vector<IndexRange>, std::int64_t>;

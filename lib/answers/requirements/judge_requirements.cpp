@@ -114,10 +114,11 @@ class Judge {
     return path;
   }
 
-  /// Of safety that all agents see alike; at the samples, for between them nobody looks at it.
-  [[nodiscard]] bool is_followed(RequirementKind kind, const ResultPath& path) const {
-    const bool is_alike = kind == RequirementKind::min_delay || kind == RequirementKind::invariant;
-    return is_alike && path.steps() > 0 && !ground_.spec.abstraction.between_samples;
+  /// Of safety that all agents see alike.
+  [[nodiscard]] static bool is_followed(RequirementKind kind, const ResultPath& path) {
+    const bool is_alike = kind == RequirementKind::min_delay || kind == RequirementKind::invariant ||
+                          kind == RequirementKind::min_silence;
+    return is_alike && path.steps() > 0;
   }
 
   const Answers& answers_;

@@ -28,6 +28,8 @@ class RealRun {
   /// It is followed no longer.
   void stop() { state_.reset(); }
   [[nodiscard]] bool is_followed() const { return state_.has_value(); }
+  /// Where it is. REQUIRES: it is followed.
+  [[nodiscard]] const std::vector<Rational>& state() const { return *state_; }
 
   /// Where it is after a step.
   struct Place {

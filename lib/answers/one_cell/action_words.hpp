@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "spec/spec_types.hpp"
+
+namespace coordreq {
+
+/// Some joint actions of a class, the first few: "u1 = -1, -0.5", or of several inputs "(u1, u2) = (-1, 0),
+/// ...". @param agents of the class @param actions [action] whether it is one of them. REQUIRES: there is one
+[[nodiscard]] std::string action_words(const ProblemSpec& spec, const std::vector<std::int32_t>& agents,
+                                       const std::vector<bool>& actions);
+
+}  // namespace coordreq

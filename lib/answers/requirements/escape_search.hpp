@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "numeric/rational.hpp"
+
+namespace coordreq {
+
+/// A place on an escape that the system itself has followed so far.
+struct FollowedPlace {
+  std::int64_t cell = 0;
+  std::int64_t way = 0;         ///< how the escape goes on
+  std::vector<Rational> state;  ///< of the system itself
+  std::size_t steps = 0;        ///< from the start
+  std::int64_t number = 0;      ///< of the joint input to go on with, among those that are equal
+};
+
+/// Of equally short escapes the one that the system itself follows longest, of these the one of lowest
+/// numbers: depth first over the joint inputs of equal steps that it can follow. A place that was met before
+/// is not looked at again. Once the work is done the longest so far is taken, which is never shorter than the
+/// one found step by step.
+class EscapeSearch {
+ public:
+  /// Of equal steps, in order, which joint input is taken; those after the last one are of no choice.
+  using Choices = std::vector<std::int64_t>;
+
+  /// @param work looks at a joint input that all searches of this object may take
+  explicit EscapeSearch(std::int64_t work) : work_(work) {}
+
+  /// @param walk has, of an escape that begins where it is:
+  ///   place(), where the system itself is, nothing if it is followed no longer; go_to(place);
+  ///   step(number), one more step: the looks it took; has_more(), whether there are equal ones behind that
+  ///   number; is_whole(), whether it has been followed to its end
+  /// REQUIRES: the system itself is followed.
+  template <class Walk>
+  [[nodiscard]] Choices find(Walk& walk) {
+    Choices taken, longest;
+    std::vector<FollowedPlace> open;
+    std::set<std::tuple<std::size_t, std::int64_t, std::int64_t, std::vector<Rational>>> known;
+    std::optional<FollowedPlace> here = walk.place();
+    for (;;) {
+      while (here && work_ > 0) {
+        const std::int64_t number = here->number;
+        work_ -= walk.step(number);
+        if (walk.has_more()) {
+          open.push_back(std::move(*here));
+          ++open.back().number;
+        }
+        if (walk.is_whole()) return taken.push_back(number), taken;
+        here = walk.place();
+        if (here) taken.push_back(number);
+        if (here && !known.emplace(here->steps, here->way, here->cell, here->state).second) here.reset();
+      }
+      if (taken.size() > longest.size()) longest = taken;
+      if (open.empty() || work_ <= 0) return longest;
+      here = std::move(open.back());
+      open.pop_back();
+      taken.resize(here->steps);
+      walk.go_to(*here);
+    }
+  }
+
+ private:
+  std::int64_t work_;
+};
+
+}  // namespace coordreq

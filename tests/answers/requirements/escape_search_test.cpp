@@ -1,0 +1,97 @@
+// Ways through a tree of equal choices, of which the system itself can go some.
+
+#include "answers/requirements/escape_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+namespace coordreq {
+namespace {
+
+/// Ways are texts, a letter a step: each letter is the number of an equal choice, 'a' the first. Those that
+/// the system itself can go are given, some of them whole.
+class Tree {
+ public:
+  Tree(std::vector<std::string> followed, std::vector<std::string> whole)
+      : followed_(std::move(followed)), whole_(std::move(whole)) {}
+
+  [[nodiscard]] std::optional<FollowedPlace> place() const {
+    if (!is_followed(way_)) return std::nullopt;
+    const auto met = joins_.find(way_);
+    const std::string name = met == joins_.end() ? way_ : met->second;
+    FollowedPlace place{.cell = static_cast<std::int64_t>(std::hash<std::string>()(name) >> 1),
+                        .way = 0,
+                        .state = {},
+                        .steps = way_.size()};
+    ways_[{place.steps, place.cell}] = way_;
+    return place;
+  }
+  void go_to(const FollowedPlace& place) { way_ = ways_.at({place.steps, place.cell}); }
+  std::int64_t step(std::int64_t number) {
+    ++steps_;
+    way_ += static_cast<char>('a' + number);
+    return 1;
+  }
+  [[nodiscard]] bool has_more() const {
+    std::string next = way_;
+    return is_followed(next) && is_followed((++next.back(), next));
+  }
+  [[nodiscard]] bool is_whole() const { return std::ranges::find(whole_, way_) != whole_.end(); }
+
+  /// Ways that lead to the same place as another one.
+  void join(const std::string& way, const std::string& other) { joins_[way] = other; }
+  [[nodiscard]] int steps() const { return steps_; }
+
+ private:
+  [[nodiscard]] bool is_followed(const std::string& way) const {
+    return std::ranges::any_of(followed_, [&](const std::string& own) { return own.starts_with(way); });
+  }
+
+  std::vector<std::string> followed_, whole_;
+  std::map<std::string, std::string> joins_;
+  mutable std::map<std::pair<std::size_t, std::int64_t>, std::string> ways_;
+  std::string way_;
+  int steps_ = 0;
+};
+
+std::string found(Tree& tree, std::int64_t work = 1000) {
+  EscapeSearch search(work);
+  std::string way;
+  for (const std::int64_t number : search.find(tree)) way += static_cast<char>('a' + number);
+  return way;
+}
+
+TEST(EscapeSearch, TakesTheLongestWayEvenIfAnotherOneComesFirst) {
+  Tree tree({"aab", "aaa", "aba", "abba", "b"}, {});
+  EXPECT_EQ(found(tree), "abba");
+}
+
+TEST(EscapeSearch, TakesTheFirstOfTheLongest) {
+  Tree tree({"aa", "ab", "bb", "ba"}, {});
+  EXPECT_EQ(found(tree), "aa");
+}
+
+TEST(EscapeSearch, IsContentWithAWayToTheEnd) {
+  Tree tree({"aa", "ba", "bbbb"}, {"ba"});
+  EXPECT_EQ(found(tree), "ba");
+}
+
+TEST(EscapeSearch, LooksAtAPlaceOnce) {
+  Tree once({"aaa", "aab", "baa", "bab"}, {});
+  once.join("ba", "aa");
+  Tree twice({"aaa", "aab", "baa", "bab"}, {});
+  EXPECT_EQ(found(once), found(twice));
+  EXPECT_LT(once.steps(), twice.steps());
+}
+
+TEST(EscapeSearch, TakesTheLongestSoFarWhenItsWorkIsDone) {
+  Tree tree({"aab", "aaa", "aba", "abba", "b"}, {});
+  EXPECT_EQ(found(tree, 4), "aaa");
+  EXPECT_EQ(found(tree, 0), "");
+}
+
+}  // namespace
+}  // namespace coordreq
