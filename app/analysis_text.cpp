@@ -1,12 +1,14 @@
 #include "app/analysis_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "answers/plan.hpp"
 #include "app/answers/all.hpp"
+#include "app/guarantee_line.hpp"
 #include "app/render.hpp"
 #include "app/requirement_text.hpp"
 #include "spec/problem_spec.hpp"
@@ -83,6 +85,36 @@ void add_layers(const AnswerPolicy& policy, const Json& own, Facts& facts) {
                                                      cells(layers[layers.size() > 1 ? 1 : 0]), for_ever));
 }
 
+/// How much silence so many percent of K tolerate at least. REQUIRES: there is a finite delay
+std::string tolerated(const Json& partition, const Json& summary, int percent) {
+  const Json& layers = partition["layers"];
+  const std::int64_t kept = number_of(layers[0]);
+  std::int64_t steps = 0;
+  for (std::size_t k = 1; k < layers.size() && number_of(layers[k]) * 100 >= kept * percent; ++k)
+    steps = static_cast<std::int64_t>(k);
+  const bool is_last = steps + 1 == static_cast<std::int64_t>(layers.size());
+  if (is_last && !partition["truncated"].get<bool>() && number_of(layers.back()) * 100 >= kept * percent)
+    return "for ever";
+  return steps == 0 ? "not a step" : "at least " + duration(steps, summary);
+}
+
+void add_shares(const Json& partition, const Json& summary, Facts& facts) {
+  if (partition["layers"].size() < 2) return;
+  for (const auto& [percent, words] : {std::pair(50, "half"), std::pair(90, "90 %"), std::pair(99, "99 %")})
+    facts.emplace_back(fmt::format("  {} of K can tolerate", words), tolerated(partition, summary, percent));
+}
+
+/// " All best states lie at the edge of the grid, ...", or nothing.
+std::string edge_hint(const Json& partition) {
+  std::vector<std::string> sides;
+  for (const Json& own : partition["best_at_edges"])
+    sides.push_back(fmt::format("{} = {:.6g}", text_of(own["state"]), own["value"].get<double>()));
+  if (sides.empty()) return "";
+  return fmt::format(
+      "\n  All best states lie at the edge of the grid ({}): a larger domain may tolerate more.",
+      fmt::join(sides, ", "));
+}
+
 std::string unbounded_cells(const Json& partition) {
   return partition["truncated"] ? "unknown" : cells(partition["fixed_point"]);
 }
@@ -91,14 +123,15 @@ std::string partition_text(const Json& partition, const Json& summary,
                            const std::vector<AnswerPolicy>& policies) {
   Facts facts = {{"  layers", shortened(partition["layers"].get<std::vector<std::int64_t>>())},
                  {"  fixed point", (partition["truncated"] ? "" : "F = ") + fixed_point_text(partition)},
-                 {"  unbounded", unbounded_cells(partition)}};
+                 {"  silence for ever", unbounded_cells(partition)}};
+  add_shares(partition, summary, facts);
   for (const AnswerPolicy& policy : policies) {
     if (partition.contains(policy.name)) add_layers(policy, partition[policy.name], facts);
   }
   if (number_of(summary["connection_delay"]) > 0)
     facts.emplace_back("  connection", connection_text(partition, summary));
-  return fmt::format("\npartition {}\n{}  {}\n", text_of(partition["name"]), facts_text(facts),
-                     meaning(partition, summary));
+  return fmt::format("\npartition {}\n{}  {}{}\n", text_of(partition["name"]), facts_text(facts),
+                     meaning(partition, summary), edge_hint(partition));
 }
 
 /// One line a partition.
@@ -119,7 +152,7 @@ std::string partitions_table(const Json& summary) {
   return "\n" + table_text(summary["partitions"], columns) + connection;
 }
 
-std::string sets_text(const Json& summary) {
+std::string sets_text(const Json& summary, const ProblemSpec& spec) {
   Facts facts;
   if (summary.contains("controller")) {
     const Json& controller = summary["controller"];
@@ -132,7 +165,7 @@ std::string sets_text(const Json& summary) {
   facts.emplace_back("invariance set", fmt::format("{} after {}", cells(summary["invariant"]),
                                                    count_of(number_of(summary["iterations"]), "sweep")));
   for (const AddFacts add : analysis_facts()) add(summary, facts);
-  facts.emplace_back("guarantee", guarantee_text(text_of(summary["guarantee"])));
+  facts.emplace_back("guarantee", guarantee_line(text_of(summary["guarantee"]), summary["motion"], spec));
   const Json& tightness = summary["tightness"];
   if (!tightness.is_null() && number_of(tightness["p99"]) > 1) {
     facts.emplace_back(
@@ -172,7 +205,7 @@ std::string closing_text(const Json& summary) {
 }  // namespace
 
 std::string summary_text(const Json& summary, const ProblemSpec& spec) {
-  std::string text = sizes(summary, spec) + sets_text(summary) + partitions_text(summary, spec);
+  std::string text = sizes(summary, spec) + sets_text(summary, spec) + partitions_text(summary, spec);
   for (const AnalysisSection section : analysis_sections()) text += section(summary, spec);
   std::vector<std::string> told = {"controller", "seconds", "work", "tightness", "warnings"};
   told.insert(told.end(), told_members().begin(), told_members().end());

@@ -104,6 +104,14 @@ std::string duration(std::int64_t steps, double period, std::string_view unit) {
   return fmt::format("{} ({:.6g} {})", count, static_cast<double>(steps) * period, printable(unit));
 }
 
+std::string rough_amount(double value, std::string_view unit) {
+  constexpr double kAllDigits = 1e3, kWhole = 1e15;
+  const std::string number = value < kAllDigits || value > kWhole
+                                 ? fmt::format("{:.3g}", value)
+                                 : grouped(static_cast<std::uint64_t>(std::llround(value)));
+  return unit.empty() ? number : fmt::format("{} {}", number, printable(unit));
+}
+
 std::string time_span(double seconds) {
   if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
   const double whole = std::round(seconds);

@@ -32,6 +32,10 @@ namespace coordreq {
 /// "28 steps (0.28 s)", "1 step"; without the time if `unit` is empty. `unit` is user text.
 [[nodiscard]] std::string duration(std::int64_t steps, double period, std::string_view unit);
 
+/// "6 m", "0.125 rad", "1,234 m", "0.5" without a unit: three digits, all of those before the point.
+/// REQUIRES: value >= 0
+[[nodiscard]] std::string rough_amount(double value, std::string_view unit);
+
 /// "12 s", "3 min 20 s", "5 h 12 min", "3 days 4 h"; less than 10 s with a tenth. REQUIRES: seconds >= 0
 [[nodiscard]] std::string time_span(double seconds);
 

@@ -18,6 +18,7 @@ Run declare_analyze(Options& options);
 Run declare_validate(Options& options);
 Run declare_info(Options& options);
 Run declare_query(Options& options);
+Run declare_require(Options& options);
 Run declare_explain(Options& options);
 Run declare_simulate(Options& options);
 Run declare_judge(Options& options);
@@ -58,6 +59,11 @@ inline const CommandInfo kCommands[] = {
      "Print everything that is known at a state: delay, countdown, allowed actions",
      declare_query,
      {"coordreq query circle.h5 --at x1=0.1,x2=0", "coordreq query circle.h5 < states.csv"}},
+    {"require",
+     "Print from which values of a state on so much silence is tolerated, or the frontier of two",
+     declare_require,
+     {"coordreq require crossing.h5 --delay 2s --over p1 --given v1=1,v2=1,p2=-8",
+      "coordreq require crossing.h5 --delay 2 --over p1,p2 --given v1=1,v2=1 --best small --csv"}},
     {"explain",
      "Print why a state tolerates so much silence: the shortest way out, and what would buy more",
      declare_explain,

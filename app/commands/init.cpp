@@ -68,9 +68,8 @@ constexpr std::string_view kTemplate =
   "safe": "p2 - p1 >= gap",
 
   // Cells without their upper faces: sharper than the default, "closed", where motions end on faces of cells.
-  "abstraction": { "cells": "half_open" },
-  // Instead, to be safe between the sampling instants too:
-  //? "abstraction": { "cells": "half_open", "between_samples": true },
+  // Safe at all times, not at the sampling instants alone.
+  "abstraction": { "cells": "half_open", "between_samples": true },
 
   // A connection that takes two steps to establish:
   //? "coordination": { "connection_delay": 2 },

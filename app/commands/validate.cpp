@@ -9,6 +9,7 @@
 #include "analysis/estimate_memory.hpp"
 #include "answers/requirements/judge_requirements.hpp"
 #include "app/commands/all.hpp"
+#include "app/guarantee_line.hpp"
 #include "app/load_spec.hpp"
 #include "app/option_values.hpp"
 #include "app/print_answer.hpp"
@@ -36,7 +37,7 @@ Json state_json(const SpecReport::State& state) {
   return json;
 }
 
-Json report_json(const SpecReport& report) {
+Json report_json(const SpecReport& report, const ProblemSpec& spec) {
   Json json;
   json["name"] = report.name;
   json["cells"] = report.cells;
@@ -55,6 +56,7 @@ Json report_json(const SpecReport& report) {
   json["partitions"] = report.partitions;
   if (!report.modes.empty()) json["modes"] = report.modes;
   json["exact"] = report.exact;
+  json["motion"] = motion_json(spec, report.motion);
   json["guarantee"] = report.guarantee;
   json["memory_bytes"] = report.memory_bytes;
   return json;
@@ -96,17 +98,30 @@ std::string unit_of(const Json& own) {
   return line_of(own["unit"]);
 }
 
-std::string states_table(const Json& states) {
-  return table_text(states,
-                    {{"state", Align::left, name_of},
-                     {"points", Align::right, points_of},
-                     {"unit", Align::left, unit_of},
-                     {"outside", Align::left, [](const Json& own) { return sides_text(own["outside"]); }},
-                     {"table", Align::left, table_kind},
-                     {"entries", Align::right, [](const Json& own) { return grouped(own["table_entries"]); }},
-                     {"memory", Align::right,
-                      [](const Json& own) { return byte_size(own["table_bytes"].get<std::uint64_t>()); }},
-                     {"next value depends on", Align::left, dependencies}});
+/// "10 cells (9.9 %)": in a period at most, and of the domain.
+std::string motion_text(const Json& own) {
+  const auto cells = own["cells"].get<double>();
+  const std::string count = rough_amount(cells, cells == 1 ? "cell" : "cells");
+  return fmt::format("{} ({} %)", count, rough_amount(100 * own["share"].get<double>(), ""));
+}
+
+std::string states_table(const Json& states, const Json& motion, bool is_verbose) {
+  std::size_t at = 0;
+  std::vector<Column> columns = {
+      {"state", Align::left, name_of},
+      {"points", Align::right, points_of},
+      {"unit", Align::left, unit_of},
+      {"outside", Align::left, [](const Json& own) { return sides_text(own["outside"]); }},
+      {"moves in a period at most", Align::left, [&](const Json&) { return motion_text(motion[at++]); }}};
+  if (is_verbose) {
+    columns.insert(columns.end(),
+                   {{"table", Align::left, table_kind},
+                    {"entries", Align::right, [](const Json& own) { return grouped(own["table_entries"]); }},
+                    {"memory", Align::right,
+                     [](const Json& own) { return byte_size(own["table_bytes"].get<std::uint64_t>()); }}});
+  }
+  columns.push_back({"next value depends on", Align::left, dependencies});
+  return table_text(states, columns);
 }
 
 std::string inputs_table(const Json& inputs) {
@@ -132,16 +147,15 @@ std::string rows_text(const Json& rows) {
                      grouped(rows["drawn"]), grouped(rows["different"]));
 }
 
-std::string totals_table(const Json& report) {
-  Facts facts = {{"cells", grouped(report["cells"])},
-                 {"joint inputs", grouped(report["joint_inputs"])},
-                 {"rows", rows_text(report["rows"])},
-                 {"partitions", partition_names(report["partitions"])}};
+std::string totals_table(const Json& report, const ProblemSpec& spec, bool is_verbose) {
+  Facts facts = {{"cells", grouped(report["cells"])}, {"joint inputs", grouped(report["joint_inputs"])}};
+  if (is_verbose) facts.emplace_back("rows", rows_text(report["rows"]));
+  facts.emplace_back("partitions", partition_names(report["partitions"]));
   if (report.contains("modes"))
     facts.emplace_back("modes of the network", grouped(std::uint64_t{report["modes"].size()}));
   facts.insert(facts.end(),
                {{"reachable sets", report["exact"] ? "exact interval hulls" : "outward rounded"},
-                {"guarantee", guarantee_text(text_of(report["guarantee"]))},
+                {"guarantee", guarantee_line(text_of(report["guarantee"]), report["motion"], spec)},
                 {"memory of analyze", "about " + byte_size(report["memory_bytes"].get<std::uint64_t>())}});
   if (report.contains("fullest_rank")) {
     const Json& rank = report["fullest_rank"];
@@ -153,9 +167,10 @@ std::string totals_table(const Json& report) {
   return facts_text(facts);
 }
 
-std::string report_text(const Json& report) {
+std::string report_text(const Json& report, const ProblemSpec& spec, bool is_verbose) {
   return fmt::format("{}: the spec is valid\n\n{}\n{}\n{}", text_of(report["name"]),
-                     states_table(report["states"]), inputs_table(report["inputs"]), totals_table(report));
+                     states_table(report["states"], report["motion"], is_verbose),
+                     inputs_table(report["inputs"]), totals_table(report, spec, is_verbose));
 }
 
 /// What cannot be analysed here is not looked at cell by cell.
@@ -170,6 +185,7 @@ struct ValidateOptions : CommonOptions {
   std::string spec;
   std::vector<SpecSetting> settings;
   std::optional<int> ranks;
+  bool is_verbose = false;
 };
 
 ExitCode run(const ValidateOptions& own) {
@@ -179,7 +195,7 @@ ExitCode run(const ValidateOptions& own) {
   const Model model = make_model(spec);
   const int threads = own.ranks ? own.threads : threads_within(model, own.max_memory, own.threads, false);
   const SpecReport report = inspect(model, threads);
-  Json found = report_json(report);
+  Json found = report_json(report, spec);
   if (!memory || report.memory_bytes <= *memory) {
     ThreadTeam team(threads);
     check_regions(spec, team);
@@ -194,7 +210,8 @@ ExitCode run(const ValidateOptions& own) {
         inspect_ranks(model, *own.ranks, own.threads, {.of_rank = own.max_memory, .here = memory}, team));
   }
   PrintedWarnings(own).print(found["warnings"]);
-  print_answer(own, found, report_text);
+  print_answer(own, found,
+               [&](const Json& report_of_spec) { return report_text(report_of_spec, spec, own.is_verbose); });
   return ExitCode::success;
 }
 
@@ -208,6 +225,7 @@ Run declare_validate(Options& options) {
       own->ranks, "--ranks", "N",
       "Also tell what the fullest of so many processes of coordreq-mpi would need, each with --threads",
       WholeNumber<int>{1, kMostRanks});
+  options.flag(own->is_verbose, "--verbose", "Also show how tables and rows are kept");
   declare_common(options, *own);
   return [own] { return run(*own); };
 }

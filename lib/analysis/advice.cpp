@@ -3,7 +3,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "analysis/unseen_motion.hpp"
 #include "answers/ground/answer.hpp"
+#include "answers/invariance/invariance.hpp"
 #include "answers/plan.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -27,10 +29,12 @@ void add(Warnings more, Warnings& all) {
 
 Warnings advise_before(const Model& model, ThreadTeam& team) {
   Warnings all = advise_on_spec(model.spec());
+  add(advise_on_units(model.spec(), sample_motion(model.spec())), all);
   if (!has_few_posts(model)) return all;
   Answers answers(model);
   run_stages(ground_stages(model.spec()), answers, {.team = team});
   add(advise_on_posts(answers.ground), all);
+  add(advise_on_unseen_motion(answers.ground, answers.ground.safe), all);
   return all;
 }
 
@@ -40,7 +44,9 @@ Warnings advise(const Answers& answers, ThreadTeam& team) {
     all = advise_before(answers.ground.model, team);
   } else {
     all = advise_on_spec(answers.ground.spec);
+    add(advise_on_units(answers.ground.spec, sample_motion(answers.ground.spec)), all);
     add(advise_on_posts(answers.ground), all);
+    add(advise_on_unseen_motion(answers.ground, answers.get<Invariance>().invariant), all);
   }
   add(advise_on_answers(answers, team), all);
   for (const Answer& answer : all_answers()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/motion.hpp"
 #include "answers/answers.hpp"
 #include "answers/warning.hpp"
 #include "base/json.hpp"
@@ -11,6 +12,12 @@ namespace coordreq {
 /// What the spec itself shows: grids that miss the ends of their domains; constants, definitions, inputs and
 /// disturbances that nothing uses.
 [[nodiscard]] Warnings advise_on_spec(const ProblemSpec& spec);
+
+/// Units of a small table that do not fit: a term of a derivative that is not in the unit of its state by
+/// that of time, sines of degrees; unknown units, and what constants multiply, are left alone. Periodic
+/// states in sin or cos whose period is no whole number of turns. In continuous time states that move by more
+/// than a third of their domain in a period, or by all of it where limits hold them on both sides.
+[[nodiscard]] Warnings advise_on_units(const ProblemSpec& spec, const std::vector<StateMotion>& motion);
 
 /// What posts show: states that move less than a cell in a period; sides left at the default `unsafe` through
 /// which pairs of safe cells are blocked. REQUIRES: the ground is laid. Cost: a pass over tables and S.

@@ -11,6 +11,7 @@
 #include "analysis/analysis_stages.hpp"
 #include "analysis/checkpoint.hpp"
 #include "analysis/estimate_memory.hpp"
+#include "analysis/motion.hpp"
 #include "analysis/stage_reporter.hpp"
 #include "analysis/tightness.hpp"
 #include "answers/field_table.hpp"
@@ -19,6 +20,7 @@
 #include "base/timer.hpp"
 #include "reach/make_model.hpp"
 #include "results/write_results.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -154,6 +156,7 @@ Json analyze(const Model& model, const AnalysisOptions& options, ThreadTeam& tea
   meter.tell(work);
   const std::optional<Tightness> tightness = find_tightness(answers.ground);
   summary["tightness"] = tightness_json(tightness);
+  summary["motion"] = motion_json(model.spec(), sample_motion(model.spec()));
   if (!options.output.empty()) write(options.output, answers, reporter, team);
   if (checkpoint) checkpoint->remove();
   summary["output"] = options.output.empty() ? Json() : Json(options.output);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/checkpoint_options.hpp"
+#include "analysis/motion.hpp"
 #include "analysis/progress.hpp"
 #include "base/json.hpp"
 #include "base/thread_team.hpp"
@@ -34,9 +35,10 @@ struct AnalysisOptions {
 /// is the same to the byte whether or not the work was broken off and gone on with from a checkpoint; that is
 /// removed in the end.
 /// @returns the summary of the contract, section 3: what each answer says of itself, and then `output` (null
-///   if no file was written), `threads`, `seconds` (wall time by stage), `work` (of each fixed point, by
-///   stage), `peak_memory_bytes` (of several processes the largest), and what is worth a warning, `warnings`
-///   (advice.hpp; in the first process only). Of several processes the first writes the file
+///   if no file was written), `motion` (sample_motion(), by state), `threads`, `seconds` (wall time by
+///   stage), `work` (of each fixed point, by stage), `peak_memory_bytes` (of several processes the largest),
+///   and what is worth a warning, `warnings` (advice.hpp; in the first process only). Of several processes
+///   the first writes the file
 /// @throws LimitError if one of several processes needs more than `max_memory`
 /// @throws SpecError for what only shows when the system is built (undecidable `allow`, a discrete state off
 ///   its grid, dynamics that this version cannot abstract); IoError
@@ -77,10 +79,11 @@ struct SpecReport {
   std::int64_t cells = 0;
   std::int64_t joint_inputs = 0;
   std::vector<std::string> partitions;
-  std::vector<std::string> modes;  ///< of the network, the initial one first; none without one
-  bool exact = false;              ///< posts are exact hulls
-  std::string guarantee;           ///< as guarantee_of() has it
-  std::uint64_t memory_bytes = 0;  ///< estimate of the peak of `analyze`
+  std::vector<std::string> modes;   ///< of the network, the initial one first; none without one
+  bool exact = false;               ///< posts are exact hulls
+  std::string guarantee;            ///< as guarantee_of() has it
+  std::vector<StateMotion> motion;  ///< one a state
+  std::uint64_t memory_bytes = 0;   ///< estimate of the peak of `analyze`
 };
 
 /// @param threads that an analysis would have; 0: all cores

@@ -8,8 +8,8 @@ namespace coordreq {
 /// What is no error and can mislead: a result that shows the grid rather than the system, a name that nothing
 /// uses. It never changes a result.
 struct Warning {
-  std::string kind;   ///< "grid", "unused", "motion", "blocked", "empty", "no_silence",
-                      ///< "goal", "memory", "sight" or "silence"
+  std::string kind;  ///< "grid", "unused", "units", "scale", "motion", "blocked", "between_samples", "empty",
+                     ///< "no_silence", "goal", "memory", "sight" or "silence"
   std::string place;  ///< JSON pointer
   std::string text;   ///< one line
 };

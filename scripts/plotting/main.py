@@ -8,8 +8,8 @@ import sys
 from .errors import PlotError, StreamError, UsageError, quoted
 
 _PROGRAM = "coordreq-plot"
-_FIGURES = ("actions", "layers", "unsafe3d", "run", "requirements", "coalition", "goal", "risk", "sweep", "blind", "silence")
-_WRITERS = {"run": "simulate -o", "sweep": "analyze --sweep --json"}
+_FIGURES = ("actions", "layers", "unsafe3d", "run", "requirements", "coalition", "goal", "risk", "sweep", "blind", "silence", "require")
+_WRITERS = {"run": "simulate -o", "sweep": "analyze --sweep --json", "require": "require --json"}
 _EPILOG = "Exit codes: 0 done, 2 wrong usage, 3 invalid file, 5 input or output failed, 130 interrupted."
 
 

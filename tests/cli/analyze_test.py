@@ -43,12 +43,15 @@ class Cases(Case):
             r"""^circle: 201 x 201 = 40,401 cells, 41 x 41 = 1,681 joint inputs
 safe set        20,081 cells
 invariance set  20,077 cells after 2 sweeps
-guarantee       samples-center: at the sampling instants, where the centre of a cell is safe
+guarantee       samples-center: checked every 0\.01 s only, where the centre of a cell is safe; between, x1 moves up to 0\.01 m
 
 partition horizontal\|vertical
-  layers       20,077 19,421 17,869 16,717 15,533 14,317 \.\.\. 61 5 0
-  fixed point  F = 29
-  unbounded    0 cells
+  layers                  20,077 19,421 17,869 16,717 15,533 14,317 \.\.\. 61 5 0
+  fixed point             F = 29
+  silence for ever        0 cells
+  half of K can tolerate  at least 8 steps \(0\.08 s\)
+  90 % of K can tolerate  at least 1 step \(0\.01 s\)
+  99 % of K can tolerate  not a step
   From the best state, 28 steps \(0\.28 s\) without coordination are safe\.
 
 results in circle\.h5 \([0-9.]+ s on 2 threads, [0-9.]+ MiB\)
@@ -114,6 +117,7 @@ $""",
                 "coalition",
                 "requirements",
                 "tightness",
+                "motion",
                 "output",
                 "threads",
                 "seconds",
@@ -124,7 +128,7 @@ $""",
         )
         self.assertEqual(
             list(summary["partitions"][0]),
-            ["name", "classes", "F", "fixed_point", "layers", "truncated", "never_without_connection", "max_delay_time"],
+            ["name", "classes", "F", "fixed_point", "layers", "truncated", "never_without_connection", "max_delay_time", "best_at_edges"],
         )
         self.assertEqual((summary["name"], summary["output"]), ("small", "out.h5"))
         self.assertEqual((summary["period"], summary["period_unit"]), (0.5, "s"))
@@ -152,7 +156,7 @@ $""",
             (partition["F"], partition["fixed_point"], partition["truncated"]), (None, None, True)
         )
         text = self.run_program("analyze", "spec.json").stdout.decode()
-        self.assertIn("  fixed point  not reached\n  unbounded    unknown\n", text)
+        self.assertRegex(text, r"  fixed point +not reached\n  silence for ever +unknown\n")
         self.assertIn(
             "  Stopped at max_delay: 16,717 cells allow 3 steps (0.03 s) without coordination, "
             "perhaps more.\n",
@@ -271,6 +275,8 @@ $""",
         self.write("named.json", spec)
         self.write("small.json", SPEC)
         named, small = self.analyze("named.json", "-o", "named.h5"), self.analyze("small.json", "-o", "small.h5")
+        for edge in small["partitions"][0]["best_at_edges"]:
+            edge["state"] = names[edge["state"]]
         self.assertEqual(named["partitions"], small["partitions"])
         for command in (
             ("query", "named.h5", "--at", "mode=1,pair=2"),

@@ -10,7 +10,7 @@ import unittest
 from program import CONFIGS, PROGRAM, ROOT, SPEC, Case
 
 COMMANDS = (
-    *("init", "analyze", "validate", "info", "query", "explain", "simulate", "judge", "verify", "compare", "export"),
+    *("init", "analyze", "validate", "info", "query", "require", "explain", "simulate", "judge", "verify", "compare", "export"),
     *("report", "schema", "completion", "help"),
 )
 LISTED = ", ".join(COMMANDS)

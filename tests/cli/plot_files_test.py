@@ -122,7 +122,7 @@ class Cases(PlotCase):
             ((*layers, "--partition", "a"), "no partition 'a', expected 'a|b' (--partition)"),
             (
                 ("maps", "out.h5", "-o", "a.png"),
-                "unknown figure 'maps', expected 'actions', 'layers', 'unsafe3d', 'run', 'requirements', 'coalition', 'goal', 'risk', 'sweep', 'blind' or 'silence'",
+                "unknown figure 'maps', expected 'actions', 'layers', 'unsafe3d', 'run', 'requirements', 'coalition', 'goal', 'risk', 'sweep', 'blind', 'silence' or 'require'",
             ),
         ):
             self.assert_plot_fails(2, message, *words)

@@ -366,6 +366,32 @@ class Cases(PlotCase):
             self.write("losses.json", self.run_program("analyze", "spec.json", *words, "--json").stdout.decode())
             self.assert_plot_fails(3, message + " (losses.json)", "sweep", "losses.json", "-o", "a.png")
 
+    # require
+
+    def test_require_shows_what_is_tolerated(self):
+        self.write("spec.json", example("crossing.json"))
+        self.analyze("spec.json", "-o", "out.h5")
+        for words, ends in (
+            (("--over", "p1", "--given", "v1=1,v2=1,p2=-8"), [(-10.5, 10.5)]),
+            (("--over", "p1,p2", "--given", "v1=2,v2=1", "--best", "small,large"), [(10.5, -10.5), (-10.5, 10.5)]),
+        ):
+            result = self.run_program("require", "out.h5", "--delay", "2s", *words, "--json")
+            self.write("found.json", result.stdout.decode())
+            data, figure = self.plotted("require", file="found.json")
+            self.assertEqual(data.ends, ends)
+            self.assertEqual([list(corner) for corner in data.corners], json.loads(result.stdout)["corners"])
+            self.assertEqual(len(figure.axes[0].patches), len(data.corners))
+            self.assertEqual(data.title, "crossing, first|second: delay of at least 2 steps (2 s)")
+            for patch, corner in zip(figure.axes[0].patches, data.corners):
+                reached = {patch.get_x() + patch.get_width(), patch.get_x()}
+                self.assertEqual(reached, {corner[0], ends[0][1]})
+
+    def test_require_names_what_is_wrong(self):
+        for text in ("{}", "[", "[]"):
+            self.write("found.json", text)
+            message = "expected what 'coordreq require ... --json' prints (found.json)"
+            self.assert_plot_fails(3, message, "require", "found.json", "-o", "a.png")
+
 
 if __name__ == "__main__":
     unittest.main()

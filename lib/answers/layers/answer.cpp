@@ -6,6 +6,7 @@
 
 #include "answers/invariance/answer.hpp"
 #include "answers/kept_levels.hpp"
+#include "answers/layers/best_cells.hpp"
 #include "answers/layers/fields.hpp"
 #include "answers/layers/projection_bytes.hpp"
 #include "answers/layers/refinement.hpp"
@@ -70,6 +71,17 @@ Json stored_json(const StoredPartition& partition) {
           {"truncated", partition.truncated()}};
 }
 
+/// Places at which the cells of the longest finite delay lie, if these are all sides of the domain.
+Json best_at_json(const Ground& ground, const DelayLayers& layers) {
+  Json json = Json::array();
+  for (const GridSide& side : sides_of_best_cells(ground, layers)) {
+    const GridDimension& dimension = ground.abstraction->grid[side.dimension];
+    json.push_back({{"state", dimension.name},
+                    {"value", nearest_double(dimension.point(side.above ? dimension.count - 1 : 0))}});
+  }
+  return json;
+}
+
 Json partition_json(const Ground& ground, const PartitionSpec& partition, const DelayLayers& layers) {
   const ProblemSpec& spec = ground.spec;
   Json json;
@@ -82,6 +94,7 @@ Json partition_json(const Ground& ground, const PartitionSpec& partition, const 
   json["truncated"] = layers.truncated;
   json["never_without_connection"] = cells_bound_to_connect(ground, layers);
   json["max_delay_time"] = longest_delay(ground, layers);
+  json["best_at_edges"] = best_at_json(ground, layers);
   return json;
 }
 

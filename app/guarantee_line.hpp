@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "app/json_text.hpp"
+#include "spec/spec_types.hpp"
+
+namespace coordreq {
+
+/// The guarantee in words; where safety is asked at samples of a continuous system, how often that is, and
+/// how far the state that moves by the most cells gets in between: "samples: checked every 1 s only, for
+/// every point of a cell; between, p1 moves up to 10 m".
+/// @param motion of motion_json()
+[[nodiscard]] std::string guarantee_line(const std::string& guarantee, const Json& motion,
+                                         const SystemSpec& spec);
+
+}  // namespace coordreq

@@ -1,0 +1,119 @@
+#include "app/require_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/csv_text.hpp"
+#include "app/guarantee_line.hpp"
+#include "app/render.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+/// The face of a cell on the worse side, of a boundary cell at a limit the limit.
+double worst_value(const GridDimension& dimension, std::int64_t index, bool is_large_best) {
+  const Rational half = is_large_best ? Rational(-dimension.radius()) : dimension.radius();
+  return nearest_double(dimension.point(index) + half);
+}
+
+Json over_json(const ResultsReader& results, const ToleranceQuestion::Over& own) {
+  const GridDimension& dimension = results.grid()[own.state];
+  const std::int64_t best = own.is_large_best ? dimension.count - 1 : 0;
+  return {{"state", dimension.name},
+          {"unit", results.spec().states[own.state].unit},
+          {"best", own.is_large_best ? "large" : "small"},
+          {"worst_value", worst_value(dimension, dimension.count - 1 - best, own.is_large_best)},
+          {"best_value", worst_value(dimension, best, !own.is_large_best)}};
+}
+
+/// "p1 from 2.5 m on", "p1 up to 2.5 m".
+std::string bound_text(const Json& own, const Json& value) {
+  const std::string unit = text_of(own["unit"]);
+  const std::string bound =
+      fmt::format("{:.6g}{}{}", value.get<double>(), unit.empty() ? "" : " ", printable(unit));
+  return own["best"] == "large" ? fmt::format("{} from {} on", text_of(own["state"]), bound)
+                                : fmt::format("{} up to {}", text_of(own["state"]), bound);
+}
+
+std::string corner_text(const Json& found, const Json& corner) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < corner.size(); ++i) parts.push_back(bound_text(found["over"][i], corner[i]));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// "x1 from -0.995 m", of all of the domain.
+bool is_everywhere(const Json& found) {
+  const Json& over = found["over"];
+  const Json& corners = found["corners"];
+  if (corners.size() != 1) return false;
+  for (std::size_t i = 0; i < over.size(); ++i)
+    if (corners[0][i] != over[i]["worst_value"]) return false;
+  return true;
+}
+
+}  // namespace
+
+Json require_json(const ResultsReader& results, const ToleranceQuestion& question,
+                  const std::vector<FrontierCorner>& corners) {
+  const ProblemSpec& spec = results.spec();
+  Json json = {{"name", spec.name},
+               {"results", results.path()},
+               {"guarantee", results.attributes().guarantee},
+               {"partition", results.partitions()[question.partition].name},
+               {"period", nearest_double(spec.dynamics.period)},
+               {"period_unit", spec.dynamics.unit},
+               {"delay", question.steps}};
+  json["over"] = Json::array();
+  for (const ToleranceQuestion::Over& own : question.over) json["over"].push_back(over_json(results, own));
+  json["given"] = Json::object();
+  std::vector<bool> is_named(results.grid().size(), false);
+  for (const ToleranceQuestion::Over& own : question.over) is_named[own.state] = true;
+  for (const TableSelection::Slice& own : question.given) {
+    const GridDimension& dimension = results.grid()[own.dimension];
+    json["given"][dimension.name] = nearest_double(dimension.point(own.index));
+    is_named[own.dimension] = true;
+  }
+  json["whatever"] = Json::array();
+  for (std::size_t i = 0; i < is_named.size(); ++i)
+    if (!is_named[i]) json["whatever"].push_back(results.grid()[i].name);
+  json["corners"] = Json::array();
+  for (const FrontierCorner& corner : corners) {
+    Json& values = json["corners"].emplace_back(Json::array());
+    for (std::size_t i = 0; i < corner.size(); ++i) {
+      const ToleranceQuestion::Over& own = question.over[i];
+      values.push_back(worst_value(results.grid()[own.state], corner[i], own.is_large_best));
+    }
+  }
+  return json;
+}
+
+std::string require_text(const Json& found) {
+  Facts facts;
+  if (!found["given"].empty()) facts.emplace_back("given the cell of", values_text(found["given"]));
+  if (!found["whatever"].empty())
+    facts.emplace_back("whatever",
+                       fmt::format("{}", fmt::join(found["whatever"].get<std::vector<std::string>>(), ", ")));
+  facts.emplace_back("guarantee", guarantee_text(text_of(found["guarantee"])));
+  if (found["corners"].empty()) facts.emplace_back("tolerated", "nowhere, not even in the best cell");
+  for (const Json& corner : found["corners"]) {
+    facts.emplace_back("tolerated", fmt::format("{}{}", corner_text(found, corner),
+                                                is_everywhere(found) ? ", all of the domain" : ""));
+  }
+  return fmt::format("{}, partition {}: a delay of at least {}\n{}", text_of(found["name"]),
+                     text_of(found["partition"]), duration(found["delay"], found), facts_text(facts));
+}
+
+std::string require_csv(const Json& found) {
+  std::vector<std::string> names;
+  for (const Json& own : found["over"]) names.push_back(text_of(own["state"]));
+  std::string text = fmt::format("{}\n", fmt::join(names, ","));
+  for (const Json& corner : found["corners"])
+    text += fmt::format("{}\n", fmt::join(corner.get<std::vector<double>>(), ","));
+  return text;
+}
+
+}  // namespace coordreq

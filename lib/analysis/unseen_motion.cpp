@@ -1,0 +1,283 @@
+#include "analysis/unseen_motion.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "answers/one_cell/cell_posts.hpp"
+#include "base/index.hpp"
+#include "expression/evaluate.hpp"
+#include "model/odometer.hpp"
+#include "reach/point_flow.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Reads of tables and of sets, of all pairs together.
+constexpr std::int64_t kMostReads = 2'000'000;
+/// Solutions that are followed, and the sub-steps of each.
+constexpr std::int64_t kMostFollowed = 500;
+constexpr std::int64_t kMostSubSteps = 64;
+/// Joint inputs tried at a cell.
+constexpr std::int64_t kInputsOfCell = 8;
+/// Cells of a post that are looked at; larger ones are passed over.
+constexpr std::int64_t kMostOfPost = 4096;
+constexpr double kGoldenRatio = 0.6180339887498949;
+constexpr double kPathTolerance = 1e-6;
+
+/// What was found: where it begins, and where it is outside S.
+struct Passage {
+  std::vector<double> begin;  ///< [state]
+  std::vector<double> there;
+  bool is_unsafe = false;  ///< there the condition itself fails, not that of all of the cell
+  std::vector<double> end;
+  std::int64_t input = 0;
+};
+
+/// By index of each dimension of the grid of the abstraction, the nearest to a real one: in the domain, or
+/// -1.
+std::int64_t index_near(const GridDimension& dimension, double real) {
+  auto index = static_cast<std::int64_t>(std::floor(real + 0.5));
+  if (dimension.periodic()) index = (index % dimension.count + dimension.count) % dimension.count;
+  if (index < 0) return traits(dimension.below).clamps ? 0 : -1;
+  if (index >= dimension.count) return traits(dimension.above).clamps ? dimension.count - 1 : -1;
+  return index;
+}
+
+class PassageSearch {
+ public:
+  PassageSearch(const Ground& ground, const CellSet& kept)
+      : ground_(ground),
+        abstraction_(*ground.abstraction),
+        grid_(abstraction_.grid),
+        kept_(kept),
+        posts_(abstraction_),
+        is_safe_(ground.spec.safe),
+        moved_(grid_.size()) {
+    std::vector<std::int64_t> counts;
+    for (const GridDimension& dimension : grid_.dimensions()) counts.push_back(dimension.count);
+    counts_ = counts;
+  }
+
+  std::optional<Passage> run() {
+    const std::int64_t all = grid_.points(), choices = abstraction_.inputs.count();
+    const std::int64_t far = step_through(all), far_input = step_through(choices);
+    std::int64_t number = 0, u = 0;
+    std::optional<Passage> first;
+    for (std::int64_t k = 0; k < all && reads_ < kMostReads && followed_ < kMostFollowed; ++k) {
+      const std::int64_t x = place_of(number);
+      number = (number + far) % all;
+      ++reads_;
+      if (!kept_.test(x) || (ground_.over && ground_.over->test(x))) continue;
+      for (std::int64_t j = 0; j < std::min(kInputsOfCell, choices); ++j) {
+        u = (u + far_input) % choices;
+        if (!may_pass(x, u) || !is_admissible(x, u)) continue;
+        const auto found = follow(x, u);
+        if (found && found->is_unsafe) return found;
+        if (!first) first = found;
+      }
+    }
+    return first;
+  }
+
+ private:
+  /// Steps of this length, modulo `count`, come to all of them, those soon after one another far apart.
+  static std::int64_t step_through(std::int64_t count) {
+    auto step =
+        std::max<std::int64_t>(1, static_cast<std::int64_t>(kGoldenRatio * static_cast<double>(count)));
+    while (std::gcd(step, count) != 1) ++step;
+    return step;
+  }
+
+  /// Of all cells the k-th.
+  [[nodiscard]] std::int64_t place_of(std::int64_t k) const {
+    std::int64_t place = 0;
+    for (std::size_t i = grid_.size(); i-- > 0; k /= counts_[i]) place += k % counts_[i] * grid_.stride(i);
+    return place;
+  }
+
+  /// Whether a straight line to the middle of the post passes a cell outside S.
+  bool may_pass(std::int64_t x, std::int64_t u) {
+    double most = 0;
+    reads_ += static_cast<std::int64_t>(grid_.size());
+    for (std::size_t i = 0; i < grid_.size(); ++i) {
+      const IndexRange raw = abstraction_.raw(i, x, u);
+      if (raw.first == std::numeric_limits<std::int32_t>::min() ||
+          raw.last == std::numeric_limits<std::int32_t>::max())
+        return false;
+      const double middle = (static_cast<double>(raw.first) + raw.last) / 2;
+      moved_[i] = ground_.spec.dynamics.update(grid_.state(i)) != nullptr
+                      ? 0
+                      : middle - static_cast<double>(grid_.index(x, i));
+      most = std::max(most, std::fabs(moved_[i]));
+    }
+    parts_ = std::min(kMostSubSteps, static_cast<std::int64_t>(std::ceil(most)));
+    for (std::int64_t part = 1; part < parts_; ++part) {
+      ++reads_;
+      const double share = static_cast<double>(part) / static_cast<double>(parts_);
+      if (is_outside(
+              [&](std::size_t i) { return static_cast<double>(grid_.index(x, i)) + share * moved_[i]; }))
+        return true;
+    }
+    return false;
+  }
+
+  /// Whether a point is in a cell of the domain, but not in S. @param real its real index in each dimension
+  template <class Real>
+  [[nodiscard]] bool is_outside(const Real& real) const {
+    std::int64_t place = 0;
+    for (std::size_t i = 0; i < grid_.size(); ++i) {
+      const std::int64_t index = index_near(grid_[i], real(i));
+      if (index < 0) return false;
+      place += index * grid_.stride(i);
+    }
+    return !ground_.safe.test(place);
+  }
+
+  /// The pair is allowed, and its post is there and in what is kept.
+  bool is_admissible(std::int64_t x, std::int64_t u) {
+    const PairTable* const allow = ground_.pairs.admissible();
+    const std::int64_t row = x / grid_.row_length(), column = x % grid_.row_length();
+    if (allow != nullptr &&
+        (allow->row(row, u)[at(column / CellSet::kWordBits)] >> (column % CellSet::kWordBits) & 1) == 0)
+      return false;
+    posts_.move_to(x);
+    const CellPost post = posts_.post(u, {});
+    if (post.blocked != CellPost::Blocked::no) return false;
+    return post.all_left || lies_inside(post);
+  }
+
+  bool lies_inside(const CellPost& post) {
+    std::vector<std::int64_t> sizes;
+    std::int64_t cells = 1;
+    for (const IndexRange range : post.box) {
+      sizes.push_back(std::int64_t{range.last} - range.first + 1);
+      cells *= sizes.back();
+      if (cells > kMostOfPost) return false;
+    }
+    reads_ += cells;
+    Odometer box(sizes);
+    do {
+      std::int64_t place = 0;
+      for (std::size_t i = 0; i < sizes.size(); ++i)
+        place += (post.box[i].first + box.indices()[i]) % grid_[i].count * grid_.stride(i);
+      if (!kept_.test(place)) return false;
+    } while (box.advance());
+    return true;
+  }
+
+  /// The solution from the centre of the cell.
+  std::optional<Passage> follow(std::int64_t x, std::int64_t u) {
+    ++followed_;
+    const SystemSpec& spec = ground_.spec;
+    SystemSpec part = spec;
+    const std::int64_t parts = std::min(kMostSubSteps, 2 * parts_);
+    part.dynamics.period /= static_cast<long>(parts);
+    std::vector<std::int32_t> moving(spec.states.size());
+    std::iota(moving.begin(), moving.end(), 0);
+    PointFlow flow(part, moving, kPathTolerance);
+    std::vector<double> slots(spec.slot_count());
+    for (std::size_t i = 0; i < grid_.size(); ++i)
+      slots[spec.state_slot(grid_.state(i))] = nearest_double(grid_[i].point(grid_.index(x, i)));
+    for (std::size_t j = 0; j < abstraction_.inputs.size(); ++j)
+      slots[spec.input_slot(j)] =
+          nearest_double(abstraction_.inputs[j].values[at(abstraction_.inputs.index(u, j))]);
+    for (std::size_t l = 0; l < spec.disturbances.size(); ++l)
+      slots[spec.disturbance_slot(l)] =
+          nearest_double((spec.disturbances[l].lower + spec.disturbances[l].upper) / 2);
+    const auto states = [&] {
+      return std::vector<double>(slots.begin(),
+                                 slots.begin() + static_cast<std::ptrdiff_t>(spec.states.size()));
+    };
+    Passage found{.begin = states(), .input = u};
+    for (std::int64_t k = 1; k <= parts; ++k) {
+      const auto end = flow.after_period(slots);
+      if (!end) return std::nullopt;
+      std::copy(end->begin(), end->end(), slots.begin());
+      if (k == parts || found.is_unsafe || !is_outside([&](std::size_t i) {
+            const double value = slots[spec.state_slot(grid_.state(i))];
+            return (value - nearest_double(grid_[i].first)) / nearest_double(grid_[i].step);
+          }))
+        continue;
+      found.is_unsafe = is_safe_.condition(slots) == Truth::no;
+      if (found.is_unsafe || found.there.empty()) found.there = states();
+    }
+    if (found.there.empty()) return std::nullopt;
+    found.end = states();
+    return found;
+  }
+
+  const Ground& ground_;
+  const Abstraction& abstraction_;
+  const UniformGrid& grid_;
+  const CellSet& kept_;
+  CellPosts posts_;
+  Evaluator<double> is_safe_;
+  std::vector<std::int64_t> counts_;
+  std::vector<double> moved_;  ///< [dimension] to the middle of the post
+  std::int64_t parts_ = 0;     ///< of the straight line
+  std::int64_t reads_ = 0;
+  std::int64_t followed_ = 0;
+};
+
+std::string with_unit(double value, const std::string& unit) {
+  return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
+}
+
+std::string values_of(const SystemSpec& spec, const std::vector<double>& values) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    all.push_back(fmt::format("{} = {}", spec.states[i].name, with_unit(values[i], spec.states[i].unit)));
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+std::string inputs_of(const Abstraction& abstraction, const SystemSpec& spec, std::int64_t u) {
+  std::vector<std::string> all;
+  for (std::size_t j = 0; j < abstraction.inputs.size(); ++j) {
+    const Rational& value = abstraction.inputs[j].values[at(abstraction.inputs.index(u, j))];
+    all.push_back(
+        fmt::format("{} = {}", spec.inputs[j].name, with_unit(nearest_double(value), spec.inputs[j].unit)));
+  }
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+/// "p1 moves by 10 m", of the state that moves by the most cells.
+std::string longest_way(const SystemSpec& spec, const Passage& passage) {
+  std::size_t longest = 0;
+  double most = -1;
+  for (std::size_t i = 0; i < spec.states.size(); ++i) {
+    const double cells =
+        std::fabs(passage.end[i] - passage.begin[i]) / nearest_double(spec.states[i].grid.step);
+    if (cells <= most) continue;
+    most = cells;
+    longest = i;
+  }
+  const StateSpec& state = spec.states[longest];
+  return fmt::format("{} moves by {} unseen", state.name,
+                     with_unit(std::fabs(passage.end[longest] - passage.begin[longest]), state.unit));
+}
+
+}  // namespace
+
+Warnings advise_on_unseen_motion(const Ground& ground, const CellSet& kept) {
+  const ProblemSpec& spec = ground.spec;
+  if (spec.dynamics.time == Time::discrete || spec.abstraction.between_samples) return {};
+  const std::optional<Passage> found = PassageSearch(ground, kept).run();
+  if (!found) return {};
+  return {{"between_samples", "/abstraction",
+           fmt::format("safety is asked only at samples, every {}: from {}, with {}, the way to the next one "
+                       "{}, at {}, and {}; \"between_samples\": true asks for "
+                       "safety at all times",
+                       with_unit(nearest_double(spec.dynamics.period), spec.dynamics.unit),
+                       values_of(spec, found->begin), inputs_of(*ground.abstraction, spec, found->input),
+                       found->is_unsafe ? "is not safe" : "passes cells outside the safe set",
+                       values_of(spec, found->there), longest_way(spec, *found))}};
+}
+
+}  // namespace coordreq

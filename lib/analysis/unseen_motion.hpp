@@ -1,0 +1,17 @@
+#pragma once
+
+#include "answers/ground.hpp"
+#include "answers/warning.hpp"
+
+namespace coordreq {
+
+/// Where safety is asked at samples only: a motion from one cell of a set to others of it, under an
+/// admissible joint input, that passes cells outside S in between. Tried on a sample: a fixed amount of work,
+/// the same on every machine. Cells are chosen by the straight line to the middle of their post, and then
+/// followed from their centre with disturbances in the middle, without a guarantee; whoever finds none has
+/// proved nothing. Of those found it tells the first where the condition itself fails, else the first.
+/// @param kept K, or S where K is not known
+/// REQUIRES: the ground is laid, by one process; `kept` has its rows
+[[nodiscard]] Warnings advise_on_unseen_motion(const Ground& ground, const CellSet& kept);
+
+}  // namespace coordreq

@@ -1,0 +1,68 @@
+#include "answers/layers/best_cells.hpp"
+
+#include <algorithm>
+
+#include "model/outside.hpp"
+
+namespace coordreq {
+namespace {
+
+/// Whether a larger domain would go on beyond a side.
+bool is_arbitrary(const GridDimension& dimension, bool above) {
+  const OutsideTraits& rule = traits(above ? dimension.above : dimension.below);
+  return !dimension.discrete && dimension.count > 1 && (rule.blocks || rule.resets);
+}
+
+/// What the best cells in some rows touch.
+struct Touched {
+  std::vector<std::int64_t> sides;  ///< [2 * dimension + above] so many of them lie there
+  std::int64_t inside = 0;          ///< so many at no side
+
+  void add(const UniformGrid& grid, std::int64_t cell) {
+    bool is_inside = true;
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      const std::int64_t index = grid.index(cell, i);
+      for (const bool above : {false, true}) {
+        if (index != (above ? grid[i].count - 1 : 0) || !is_arbitrary(grid[i], above)) continue;
+        ++sides[2 * i + (above ? 1 : 0)];
+        is_inside = false;
+      }
+    }
+    if (is_inside) ++inside;
+  }
+};
+
+}  // namespace
+
+std::vector<GridSide> sides_of_best_cells(const Ground& ground, const DelayLayers& layers) {
+  const auto last = static_cast<std::int64_t>(layers.sizes.size()) - 1;
+  if (layers.truncated || last < 2) return {};
+  const UniformGrid& grid = ground.abstraction->grid;
+  Touched touched{std::vector<std::int64_t>(2 * grid.size(), 0)};
+  layers.layers_of.visit([&](const auto& levels) {
+    const std::int64_t begin = ground.share ? ground.share->own().begin : 0;
+    const std::int64_t end = ground.share ? ground.share->own().end : levels.rows();
+    // One process may stop at the first of them that is inside.
+    for (std::int64_t r = begin; r < end && (ground.share || touched.inside == 0); ++r) {
+      const auto* const row = levels.row(r);
+      levels.shape().for_each_run([&](std::int64_t lane, std::int64_t count) {
+        for (const auto* at = std::find(row + lane, row + lane + count, last); at != row + lane + count;
+             at = std::find(at + 1, row + lane + count, last))
+          touched.add(grid, r * grid.row_length() + (at - row));
+      });
+    }
+  });
+  if (ground.share) {
+    touched.sides.push_back(touched.inside);
+    ground.ranks->add(touched.sides);
+    touched.inside = touched.sides.back();
+    touched.sides.pop_back();
+  }
+  std::vector<GridSide> found;
+  for (std::size_t s = 0; touched.inside == 0 && s < touched.sides.size(); ++s) {
+    if (touched.sides[s] > 0) found.push_back({s / 2, s % 2 == 1});
+  }
+  return found;
+}
+
+}  // namespace coordreq

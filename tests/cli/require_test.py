@@ -1,0 +1,115 @@
+"""From which values on so much silence is tolerated: the answer of require, against the table of all cells."""
+
+import csv
+import io
+import itertools
+import json
+import unittest
+
+from program import CONFIGS, Case
+
+
+class Cases(Case):
+    def setUp(self):
+        super().setUp()
+        self.analyze(str(CONFIGS / "crossing.json"))
+
+    def require(self, *arguments):
+        result = self.run_program("require", "crossing.h5", *arguments)
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        return result.stdout.decode()
+
+    def delays(self):
+        """Of each cell, by (p1, v1, v2, p2)."""
+        text = self.run_program("export", "crossing.h5", "--format", "csv").stdout.decode()
+        rows = csv.DictReader(io.StringIO(text))
+        return {tuple(float(row[name]) for name in ("p1", "v1", "v2", "p2")): float(row["delay:first|second"]) for row in rows}
+
+    def test_in_words(self):
+        self.assertEqual(
+            self.require("--delay", "2s", "--over", "p1", "--given", "v1=1,v2=1,p2=-8"),
+            "crossing, partition first|second: a delay of at least 2 steps (2 s)\n"
+            "given the cell of  v1 = 1, v2 = 1, p2 = -8\n"
+            "guarantee          samples-center: at the sampling instants, where the centre of a cell is safe\n"
+            "tolerated          p1 from 2.5 m on\n",
+        )
+        text = self.require("--delay", "2", "--over", "p1,p2", "--given", "v1=1,v2=1", "--best", "small,large")
+        self.assertIn("\ntolerated          p1 up to 10.5 m, p2 from 2.5 m on\n", text)
+        text = self.require("--delay", "1", "--over", "p2", "--given", "p1=10", "--best", "small")
+        self.assertIn("\nwhatever           v1, v2\n", text)
+        text = self.require("--delay", "900", "--over", "v1", "--given", "p1=-4,p2=-4,v2=1")
+        self.assertTrue(text.endswith("\ntolerated          nowhere, not even in the best cell\n"))
+
+    def test_a_time_is_rounded_up_to_periods(self):
+        for text, steps in (("2", 2), ("2s", 2), ("2 s", 2), ("1.5s", 2), ("0.1s", 1)):
+            found = json.loads(self.require("--delay", text, "--over", "p1", "--json"))
+            self.assertEqual(found["delay"], steps, text)
+
+    def test_one_state_against_all_cells(self):
+        delays = self.delays()
+        values = sorted({cell[0] for cell in delays})
+        seen = set()
+        for steps, best, given in itertools.product((1, 2, 4), ("large", "small"), ({1: 1, 2: 1, 3: -8}, {1: 3, 2: 0, 3: -1}, {3: -9}, {1: 2})):
+            names = ("p1", "v1", "v2", "p2")
+            text = ",".join(f"{names[i]}={value}" for i, value in given.items())
+            found = json.loads(self.require("--delay", str(steps), "--over", "p1", "--given", text, "--best", best, "--json"))
+            holds = {
+                value: all(
+                    delay >= steps
+                    for cell, delay in delays.items()
+                    if cell[0] == value and all(cell[i] == given[i] for i in given)
+                )
+                for value in values
+            }
+            order = values[::-1] if best == "large" else values
+            run = list(itertools.takewhile(lambda value: holds[value], order))
+            expected = [[run[-1] + (-0.5 if best == "large" else 0.5)]] if run else []
+            self.assertEqual(found["corners"], expected, (steps, best, given))
+            seen.add(len(run))
+        self.assertGreater(len(seen), 3)
+
+    def test_two_states_against_all_cells(self):
+        delays = self.delays()
+        values = sorted({cell[0] for cell in delays})
+        for best in (("large", "large"), ("small", "large"), ("small", "small")):
+            found = json.loads(
+                self.require("--delay", "2", "--over", "p1,p2", "--given", "v1=2,v2=1", "--best", ",".join(best), "--json")
+            )
+            order = [values[::-1] if word == "large" else values for word in best]
+            half = [-0.5 if word == "large" else 0.5 for word in best]
+            reach, corners = len(values), []
+            for p1 in order[0]:
+                row = [delays[p1, 2, 1, p2] >= 2 for p2 in order[1]]
+                reach = min(reach, row.index(False) if False in row else len(row))
+                if reach == 0:
+                    break
+                if corners and corners[-1][1] == order[1][reach - 1] + half[1]:
+                    corners.pop()
+                corners.append([p1 + half[0], order[1][reach - 1] + half[1]])
+            self.assertEqual(found["corners"], corners[::-1], best)
+            lines = self.require("--delay", "2", "--over", "p1,p2", "--given", "v1=2,v2=1", "--best", ",".join(best), "--csv")
+            rows = [[float(value) for value in line.split(",")] for line in lines.splitlines()[1:]]
+            self.assertEqual((lines.splitlines()[0], rows), ("p1,p2", found["corners"]))
+
+    def test_what_cannot_be_asked(self):
+        for arguments, message in (
+            ((), "expected how much silence is to be tolerated (--delay)"),
+            (("--delay", "2"), "expected the state that is sought (--over)"),
+            (("--delay", "2x", "--over", "p1"), "expected a number of steps, or a time as 2s, found '2x' (--delay)"),
+            (("--delay", "0", "--over", "p1"), "expected a number of steps, or a time as 2s, found '0' (--delay)"),
+            (("--delay", "1.5", "--over", "p1"), "expected a number of steps, or a time as 2s, found '1.5' (--delay)"),
+            (("--delay", "2", "--over", "p1,p1"), "'p1' is given twice (--over)"),
+            (("--delay", "2", "--over", "q"), "'q' is no state, expected 'p1', 'v1', 'v2' or 'p2' (--over)"),
+            (("--delay", "2", "--over", "p1,v1,p2"), "expected one state or two, found 3 (--over)"),
+            (("--delay", "2", "--over", "p1", "--given", "p1=2"), "'p1' is sought, expected no value (--given)"),
+            (("--delay", "2", "--over", "p1", "--given", "p2=50"), "p2 = 50 is outside of the domain (--given)"),
+            (("--delay", "2", "--over", "p1", "--best", "x"), "expected large or small, found 'x' (--best)"),
+            (("--delay", "2", "--over", "p1,p2", "--best", "large,small,large"), "expected one word for each state of --over (--best)"),
+            (("--delay", "2", "--over", "p1", "--csv", "--json"), "expected --csv or --json, found both (--csv)"),
+        ):
+            with self.subTest(arguments=arguments):
+                self.assert_fails(2, message, "require", "crossing.h5", *arguments)
+
+
+if __name__ == "__main__":
+    unittest.main()
