@@ -107,8 +107,7 @@ void add_silence(const Json& found, const ProblemSpec& spec, std::vector<std::st
                                                    : text_of(own["actions"]);
     parts.push_back(fmt::format("{} {}", line_of(own["name"]), what));
   }
-  text.push_back(
-      fmt::format("While they are silent the agents are told to do here: {}.", listed_words(parts)));
+  text.push_back(fmt::format("While they are silent the agents may do here: {}.", listed_words(parts)));
   if (silence["way_out"].is_null()) return;
   for (std::string& sentence : story_sentences(as_silence_requirement(found), spec))
     text.push_back(std::move(sentence));

@@ -347,7 +347,7 @@ int main(void) {
         self.assertEqual((way["end"], way["end_sample"]["state"]), ("outside_silence_set", {"x": 5}))
         self.assertEqual((way["proven"], way["seen"]), (2, 3))
         said = [
-            "While they are silent the agents are told to do here: a u = 1 and b anything.",
+            "While they are silent the agents may do here: a u = 1 and b anything.",
             "Silent agents do what they are told, and after 3 steps what comes after silence is no longer safe.",
             "The grid proves 2 steps; the system itself, followed like that, leaves the silence set after 3 steps.",
         ]
