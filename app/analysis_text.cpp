@@ -67,13 +67,22 @@ std::string meaning(const Json& partition, const Json& summary) {
                      cells(unbounded), who, duration(largest, summary), without, are);
 }
 
-/// For how many cells D steps are more than they can do without.
+/// In how many cells D steps are more than they can do without, and in how many they are all of it, or more.
 std::string connection_text(const Json& partition, const Json& summary) {
   const std::int64_t delay = number_of(summary["connection_delay"]);
   const bool unknown =
       partition["truncated"].get<bool>() && delay >= static_cast<std::int64_t>(partition["layers"].size());
-  return fmt::format("{}{} may never be without one, which takes {} to establish", unknown ? "at most " : "",
-                     cells(partition["never_without_connection"]), duration(delay, summary));
+  const Json& layers = partition["layers"];
+  const auto next = static_cast<std::size_t>(delay) + 1;
+  const std::int64_t longer = next < layers.size()     ? number_of(layers[next])
+                              : partition["truncated"] ? 0
+                                                       : number_of(layers.back());
+  return fmt::format(
+      "takes {} to establish: must stand already in {}{}, or be asked for at once in {}{} more",
+      duration(delay, summary), unknown ? "at most " : "", cells(partition["never_without_connection"]),
+      partition["truncated"] && next >= layers.size() ? "at most " : "",
+      grouped(static_cast<std::uint64_t>(std::max<std::int64_t>(
+          number_of(layers[0]) - number_of(partition["never_without_connection"]) - longer, 0))));
 }
 
 /// From where agents that act alone by a policy gain by it.

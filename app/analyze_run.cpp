@@ -1,6 +1,7 @@
 #include "app/analyze_run.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "app/interrupt.hpp"
 #include "app/junit_report.hpp"
 #include "app/load_spec.hpp"
+#include "app/nearest_region.hpp"
 #include "app/print_answer.hpp"
 #include "app/print_warnings.hpp"
 #include "app/progress_display.hpp"
@@ -90,8 +92,11 @@ ExitCode analyze_and_print(const ProblemSpec& spec, const AnalyzeOptions& own) {
   const std::string output = own.output.value_or(spec.name + ".h5");
   if (own.is_first()) check_files(spec, output, own);
   if (own.is_first() && own.junit) try_to_write(*own.junit);
-  const std::shared_ptr<const Json> summary = analyze_with_progress(spec, output, own, "");
+  std::shared_ptr<const Json> summary = analyze_with_progress(spec, output, own, "");
   if (!own.is_first()) return ExitCode::success;
+  const bool is_alone = own.ranks == nullptr || own.ranks->count() == 1;
+  if (is_alone && verdict(*summary) != ExitCode::success && std::filesystem::is_regular_file(output))
+    summary = std::make_shared<const Json>(with_nearest_regions(*summary, output));
   {
     const InterruptDelay delay;
     if (own.junit) write_junit(*own.junit, {{.name = spec.name, .spec = &spec, .summary = summary.get()}});

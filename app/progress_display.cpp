@@ -13,6 +13,8 @@ namespace coordreq {
 namespace {
 
 constexpr std::chrono::duration<double> kPauseOfBar{0.1};
+/// Between two lines, in seconds.
+constexpr double kPauseOfLog = 10, kPauseElsewhere = 60;
 /// Columns of the bar with all around it.
 constexpr std::size_t kShortestBar = 8;
 constexpr std::size_t kLongestBar = 28;
@@ -60,8 +62,11 @@ ProgressDisplay::ProgressDisplay(const ProgressOptions& options, bool quiet)
   if (mode_ == ProgressMode::automatic) mode_ = quiet ? ProgressMode::none : ProgressMode::bar;
   // Room for the ^C that a terminal shows.
   if (mode_ == ProgressMode::bar) width_ = std::max(diagnostics_terminal_width() - 3, 0);
-  if (width_ == 0 && mode_ == ProgressMode::bar) mode_ = ProgressMode::none;
-  pause_ = mode_ == ProgressMode::log ? std::chrono::duration<double>(options.every_seconds) : kPauseOfBar;
+  is_sparse_ = width_ == 0 && mode_ == ProgressMode::bar;
+  if (is_sparse_) mode_ = ProgressMode::log;
+  pause_ = mode_ == ProgressMode::log ? std::chrono::duration<double>(options.every_seconds.value_or(
+                                            is_sparse_ ? kPauseElsewhere : kPauseOfLog))
+                                      : kPauseOfBar;
   next_ = begin_ + std::chrono::duration_cast<Clock::duration>(pause_);
 }
 
@@ -96,7 +101,7 @@ void ProgressDisplay::update(const Progress& progress) {
 }
 
 void ProgressDisplay::end_stage() {
-  if (mode_ != ProgressMode::log || stage_.empty()) return;
+  if (mode_ != ProgressMode::log || is_sparse_ || stage_.empty()) return;
   write_diagnostics(
       fmt::format("coordreq: {}: done in {}\n", printable(stage_), time_span(seconds_since(stage_begin_))));
   stage_.clear();

@@ -10,7 +10,8 @@
 namespace coordreq {
 
 /// Shows progress on standard error: as one line that is rewritten at most ten times a second and
-/// gone in the end, or as a log. Uses no colour, so NO_COLOR has nothing to switch off.
+/// gone in the end, as a log, or where there is no terminal as a line a minute. Uses no colour, so NO_COLOR
+/// has nothing to switch off.
 class ProgressDisplay {
  public:
   ProgressDisplay(const ProgressOptions& options, bool quiet);
@@ -30,7 +31,8 @@ class ProgressDisplay {
   [[nodiscard]] double seconds_since(Clock::time_point time) const;
 
   ProgressMode mode_;
-  int width_ = 0;  ///< columns of the bar
+  bool is_sparse_ = false;  ///< lines alone, without the ends of stages
+  int width_ = 0;           ///< columns of the bar
   std::chrono::duration<double> pause_;
   Clock::time_point begin_;
   Clock::time_point next_;

@@ -8,13 +8,14 @@ namespace coordreq {
 void declare_progress(Options& options, ProgressOptions& progress) {
   options.option(
       progress.mode, "--progress", "auto|log|none",
-      "auto: a bar on a terminal, but for --quiet; log: lines (default: auto)",
+      "auto: a bar on a terminal, elsewhere a line a minute, but for --quiet; log: more lines (default: "
+      "auto)",
       OneOf<ProgressMode>{
           {{"auto", ProgressMode::automatic}, {"log", ProgressMode::log}, {"none", ProgressMode::none}}});
-  options.option("--progress-every", "SECONDS", "Between two lines of the log (default: 10)",
+  options.option("--progress-every", "SECONDS", "Between two lines (default: 10 of the log, else 60)",
                  [&progress](const auto& text, const auto& option) {
-                   if (progress.mode != ProgressMode::log)
-                     throw UsageError("only a log has lines every so often, expected --progress log", option);
+                   if (progress.mode == ProgressMode::none)
+                     throw UsageError("nothing is told, expected --progress log", option);
                    progress.every_seconds = seconds(text, option);
                  });
 }

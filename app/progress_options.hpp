@@ -2,12 +2,14 @@
 
 #include <cstdint>
 
+#include <optional>
+
 #include "app/options.hpp"
 
 namespace coordreq {
 
 enum class ProgressMode : std::uint8_t {
-  automatic,  ///< the bar, but for --quiet
+  automatic,  ///< the bar, a line a minute where there is no terminal; but for --quiet
   bar,        ///< on a terminal; nothing elsewhere
   log,
   none,
@@ -16,7 +18,7 @@ enum class ProgressMode : std::uint8_t {
 /// --progress and --progress-every.
 struct ProgressOptions {
   ProgressMode mode = ProgressMode::automatic;
-  double every_seconds = 10;  ///< between two lines of a log
+  std::optional<double> every_seconds = {};  ///< between two lines; nothing: 10 of a log, else 60
 };
 
 void declare_progress(Options& options, ProgressOptions& progress);

@@ -35,7 +35,7 @@ std::string worst(const Json& own, const ProblemSpec& spec) {
   const auto text = [&] { return worst_text(own["kind"], own[key], status, spec); };
   if (!own["holds"].get<bool>() && !own["counterexample"]["state"].is_null())
     return fmt::format("{}: {}", values_text(own["counterexample"]["state"]), text());
-  if (!own["reaches_outside"].is_null()) return capital(outside_text(own));
+  if (!own["reaches_outside"].is_null()) return capital(outside_text(own, spec));
   if (own["kind"] == "invariant") return "";
   return status == "unbounded" ? "Never needs contact" : capital(text());
 }
@@ -77,7 +77,8 @@ std::string failure(std::size_t& way, const Json& own, const ProblemSpec& spec) 
   // How many fail and the worst state are in the table above.
   if (own["counterexample"]["state"].is_null()) return "";
   std::string html = fmt::format("<h3>{}</h3>\n", html_line(own["name"].get<std::string>()));
-  if (!own["reaches_outside"].is_null()) html += "<p>" + html_line(capital(outside_text(own))) + ".</p>\n";
+  if (!own["reaches_outside"].is_null())
+    html += "<p>" + html_line(capital(outside_text(own, spec))) + ".</p>\n";
   if (!has_story(own)) return html + "<p>" + visit_button(way++, 0, "Show in the picture", "") + "</p>\n";
   html += "<p>";
   for (const std::string& sentence : story_sentences(own, spec)) html += html_line(sentence) + " ";

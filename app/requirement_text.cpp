@@ -117,6 +117,18 @@ bool is_all_alone(const Json& own, const ProblemSpec& spec) {
   return std::all_of(classes.begin(), classes.end(), [](const auto& agents) { return agents.size() == 1; });
 }
 
+/// The nearest values of one state with which the delay is long enough, in a line.
+std::string nearest_text(const Json& own, const ProblemSpec& spec) {
+  if (!own.contains("nearest") || own["nearest"].is_null()) return "";
+  const Json& nearest = own["nearest"];
+  const auto is_meant = [&](const StateSpec& state) { return state.name == nearest["state"]; };
+  const auto state = std::find_if(spec.states.begin(), spec.states.end(), is_meant);
+  const std::string unit = state->unit.empty() ? "" : " " + printable(state->unit);
+  const bool is_from = nearest["best"] == "large";
+  return fmt::format("  With {} {} {:.6g}{}{}, all else as there, the delay is that long.\n", state->name,
+                     is_from ? "from" : "up to", nearest["value"].get<double>(), unit, is_from ? " on" : "");
+}
+
 }  // namespace
 
 std::string steps_text(std::int64_t steps, const ProblemSpec& spec) {
@@ -142,8 +154,18 @@ std::string worst_text(const Json& kind, const Json& value, const Json& status, 
                      fmt::arg("risk", is_risk ? probability_text(value) : ""));
 }
 
-std::string outside_text(const Json& own) {
-  return "the region may reach outside the domain, " + side_text(own["reaches_outside"]);
+std::string outside_text(const Json& own, const ProblemSpec& spec) {
+  const Json& side = own["reaches_outside"];
+  std::string text = "the region may reach outside the domain, " + side_text(side);
+  for (const StateSpec& state : spec.states) {
+    if (state.name != text_of(side["state"])) continue;
+    const bool is_above = side["side"] == "above";
+    const Rational last =
+        state.grid.first + state.grid.step * Rational(static_cast<long>(state.grid.count - 1));
+    text += fmt::format("; add \"and {} {} {:.6g}\" to its \"where\"", state.name,
+                        is_above ? "<=" : ">=", nearest_double(is_above ? last : state.grid.first));
+  }
+  return text;
 }
 
 std::string claim_text(const Json& own, const ProblemSpec& spec) {
@@ -161,16 +183,16 @@ std::string claim_text(const Json& own, const ProblemSpec& spec) {
 std::string failure_line(const Json& own, const ProblemSpec& spec) {
   if (own["holds"]) return {};
   std::string text = own["counterexample"]["state"].is_null() ? "" : cell_failures(own, spec);
-  if (!own["reaches_outside"].is_null()) text += (text.empty() ? "" : "; ") + outside_text(own);
+  if (!own["reaches_outside"].is_null()) text += (text.empty() ? "" : "; ") + outside_text(own, spec);
   return text;
 }
 
 std::string failure_text(const Json& own, const ProblemSpec& spec) {
   if (own["holds"]) return {};
   std::string text;
-  if (!own["reaches_outside"].is_null()) text += fmt::format("  FAILS: {}.\n", outside_text(own));
+  if (!own["reaches_outside"].is_null()) text += fmt::format("  FAILS: {}.\n", outside_text(own, spec));
   if (own["counterexample"]["state"].is_null()) return text;
-  text += fmt::format("  FAILS: {}.\n", cell_failures(own, spec));
+  text += fmt::format("  FAILS: {}.\n", cell_failures(own, spec)) + nearest_text(own, spec);
   return has_story(own) ? text + "\n" + story_text(own, spec) : text;
 }
 
@@ -237,7 +259,7 @@ std::vector<std::string> way_sentences(const Json& own, const ProblemSpec& spec)
   std::vector<std::string> sentences;
   if (alone > 0) {
     const std::string text =
-        fmt::format("Each {} does what is reasonable to it alone, and after {}",
+        fmt::format("Each {} does what is permitted to it alone, and after {}",
                     is_all_alone(own, spec) ? "agent" : "class of agents", steps_text(alone, spec));
     if (evasive == 0 && story["end"] != "no_allowed_action")
       return {fmt::format("{} {}.", text, end_text(story))};

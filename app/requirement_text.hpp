@@ -25,8 +25,8 @@ namespace coordreq {
 [[nodiscard]] std::string worst_text(const Json& kind, const Json& value, const Json& status,
                                      const ProblemSpec& spec);
 
-/// Where the region may reach. REQUIRES: own["reaches_outside"].
-[[nodiscard]] std::string outside_text(const Json& own);
+/// Where the region may reach, and what ends that. REQUIRES: own["reaches_outside"].
+[[nodiscard]] std::string outside_text(const Json& own, const ProblemSpec& spec);
 
 /// Why it fails, in one line; empty if it holds.
 [[nodiscard]] std::string failure_line(const Json& own, const ProblemSpec& spec);

@@ -161,12 +161,20 @@ std::string left_text(const Json& simulation) {
   return risk.is_null() ? text : fmt::format("{}; the risk is at most {}", text, probability_text(risk));
 }
 
+/// "0.6, in the units of \"safe\"".
+std::string margin_text(double margin, const ProblemSpec& spec) {
+  const bool is_by_centre = margin < 0 && spec.abstraction.safe == Membership::center;
+  return fmt::format(
+      "{:.6g}, in the units of \"safe\"{}", margin,
+      is_by_centre ? "; only centres of cells are kept safe, states may be half a cell away" : "");
+}
+
 std::string simulation_text(const Json& simulation, const ProblemSpec& spec) {
   const Json& traces = simulation["traces"];
   Facts facts = {{"outcome", outcomes_text(simulation)},
                  {"coordinated", coordinated_text(simulation)},
                  {"longest silence", duration(simulation["longest_silence"], simulation)},
-                 {"smallest margin", fmt::format("{:.6g}", simulation["smallest_margin"].get<double>())}};
+                 {"smallest margin", margin_text(simulation["smallest_margin"].get<double>(), spec)}};
   if (is_lossy(simulation)) facts.emplace_back("left", left_text(simulation));
   if (spec.goal) facts.emplace_back("goal", goal_of_runs_text(simulation));
   if (traces.size() == 1) {

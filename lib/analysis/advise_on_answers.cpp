@@ -43,7 +43,17 @@ struct Relaxation {
   std::function<void(ProblemSpec&)> apply;
 };
 
+/// Several of one kind at once, where one alone may not be enough. @param begin of those in `all`
+void relax_together(std::size_t begin, const std::string& text, std::vector<Relaxation>& all) {
+  if (all.size() < begin + 2) return;
+  const std::vector<Relaxation> parts(all.begin() + static_cast<std::ptrdiff_t>(begin), all.end());
+  all.push_back({text, [parts](ProblemSpec& copy) {
+                   for (const Relaxation& part : parts) part.apply(copy);
+                 }});
+}
+
 void relax_sides(const ProblemSpec& spec, std::vector<Relaxation>& all) {
+  const std::size_t begin = all.size();
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     const StateSpec& state = spec.states[i];
     if (state.below == Outside::unsafe)
@@ -53,9 +63,11 @@ void relax_sides(const ProblemSpec& spec, std::vector<Relaxation>& all) {
       all.push_back({state.name + " saturates above",
                      [i](ProblemSpec& copy) { copy.states[i].above = Outside::saturate; }});
   }
+  relax_together(begin, "all sides saturate", all);
 }
 
 void relax_disturbances(const ProblemSpec& spec, std::vector<Relaxation>& all) {
+  const std::size_t begin = all.size();
   for (std::size_t i = 0; i < spec.disturbances.size(); ++i) {
     const DisturbanceSpec& own = spec.disturbances[i];
     if (own.lower == own.upper) continue;
@@ -65,11 +77,16 @@ void relax_disturbances(const ProblemSpec& spec, std::vector<Relaxation>& all) {
         {fmt::format("{} is {:.6g}", own.name, nearest_double(value)),
          [i, value](ProblemSpec& copy) { copy.disturbances[i].lower = copy.disturbances[i].upper = value; }});
   }
+  std::vector<std::string> texts;
+  for (std::size_t d = begin; d < all.size(); ++d) texts.push_back(all[d].text);
+  relax_together(begin, fmt::format("{}", fmt::join(texts, " and ")), all);
+  const std::size_t errors = all.size();
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     if (spec.states[i].measurement_error == 0) continue;
     all.push_back({spec.states[i].name + " is measured without an error",
                    [i](ProblemSpec& copy) { copy.states[i].measurement_error = 0; }});
   }
+  relax_together(errors, "all states are measured without an error", all);
 }
 
 void relax_grid(const ProblemSpec& spec, std::vector<Relaxation>& all) {

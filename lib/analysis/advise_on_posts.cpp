@@ -7,6 +7,7 @@
 
 #include "analysis/advice.hpp"
 #include "analysis/blocked_pairs.hpp"
+#include "analysis/motion.hpp"
 #include "base/grouped.hpp"
 #include "spec/json_document.hpp"
 #include "spec/problem_spec.hpp"
@@ -127,6 +128,20 @@ std::string amount(const Rational& value, const std::string& unit) {
   return fmt::format("{:.6g}{}{}", nearest_double(value), unit.empty() ? "" : " ", unit);
 }
 
+/// ", to 0.01 m or 0.25 s": where a state just moves by a cell, as far as a sample shows.
+std::string numbers_to_set(const ProblemSpec& spec, std::size_t state) {
+  const StateMotion moved = sample_motion(spec)[state];
+  if (!(moved.amount > 0)) return "";
+  const auto rough = [](double value, const std::string& unit) {
+    return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit);
+  };
+  const double period = nearest_double(spec.dynamics.period) / moved.cells;
+  const std::string step = fmt::format(", as to {}", rough(moved.amount, spec.states[state].unit));
+  return spec.dynamics.time == Time::discrete
+             ? step
+             : fmt::format("{} or {}", step, rough(period, spec.dynamics.unit));
+}
+
 void advise_on_motion(const Ground& ground, std::size_t i, const Spreads& spreads, Warnings& found) {
   const GridDimension& dimension = ground.abstraction->grid[i];
   const bool is_sum = ground.abstraction->tables[i].is_sum();
@@ -139,9 +154,9 @@ void advise_on_motion(const Ground& ground, std::size_t i, const Spreads& spread
        fmt::format(
            "{} moves by less than one cell ({}) in a period ({}), so that every reachable set spreads "
            "to the next cell and answers show the grid rather than the system; make the step smaller "
-           "or the period longer",
+           "or the period longer{}",
            dimension.name, amount(dimension.step, ground.spec.states[state].unit),
-           amount(dynamics.period, dynamics.unit))});
+           amount(dynamics.period, dynamics.unit), numbers_to_set(ground.spec, state))});
 }
 
 /// Whether the spec says nothing about a side of one of its states.

@@ -78,7 +78,7 @@ void add_words(const Json& value, Words& words) {
 Words used_names(const Json& root) {
   Words used;
   for (const auto& [key, part] : root.items()) {
-    if (key == "constants" || key == "definitions") continue;
+    if (key == "constants" || key == "definitions" || key == "memory") continue;
     if (key != "agents") {
       add_words(part, used);
       continue;
@@ -95,8 +95,8 @@ void advise_on_names(const Node& root, const Json& document, Warnings& found) {
     if (used.contains(name)) return;
     found.push_back({"unused", place, fmt::format("nothing depends on the {} {}", kind, name)});
   };
-  for (const auto& [list, kind] :
-       {std::pair("constants", "constant"), std::pair("definitions", "definition")}) {
+  for (const auto& [list, kind] : {std::pair("constants", "constant"), std::pair("definitions", "definition"),
+                                   std::pair("memory", "memory")}) {
     if (!root.has(list)) continue;
     for (const std::string& name : root[list].keys()) look(kind, name, root[list][name].pointer());
   }

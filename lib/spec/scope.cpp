@@ -10,6 +10,7 @@
 #include "spec/dependency_order.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
+#include "spec/unit_value.hpp"
 #include "spec/wording.hpp"
 
 namespace coordreq {
@@ -214,7 +215,24 @@ Rational Scope::number(const Node& node) const {
   return *value;
 }
 
+namespace {
+
+/// "2 s", "30 km/h": a number with a unit of the usual ones behind it.
+bool has_unit(std::string_view text) {
+  const std::size_t end = text.find_first_not_of("+-.0123456789");
+  if (end == std::string_view::npos || !parse_decimal(text.substr(0, end))) return false;
+  const std::size_t unit = text.find_first_not_of(' ', end);
+  return unit != std::string_view::npos && unit_value(text.substr(unit)).has_value();
+}
+
+}  // namespace
+
 Rational Scope::constant_expression(const Node& node) const {
+  if (has_unit(node.text())) {
+    throw SpecError(
+        fmt::format("expected a number, found {}: units are separate, in \"unit\"", quote_text(node.text())),
+        node.pointer());
+  }
   for (const std::string& name : mentioned_names(node.text(), node.pointer())) {
     const std::optional<NameKind> kind = names_.find(name);
     if (kind && *kind != NameKind::constant) {

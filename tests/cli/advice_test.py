@@ -96,6 +96,13 @@ class Cases(Case):
         spec = spec_with(dynamics=dict(SPEC["dynamics"], equations={"x": "x + u", "y": "y"}))
         self.assertEqual(self.both(spec), [("unused", "/inputs/1")])
 
+    def test_a_memory_that_nothing_uses(self):
+        memory = {"seen": "once(x >= 3)", "both": "once(seen and y >= 3)", "used": "once(y >= 2)"}
+        self.assertEqual(
+            self.both(spec_with(memory=memory, safe="x + y <= 6 or used")),
+            [("unused", "/memory/both"), ("unused", "/memory/seen")],
+        )
+
     def corridor(self):
         return json.loads(without_comments((CONFIGS / "tutorial/corridor_2.json").read_text()))
 
@@ -110,6 +117,7 @@ class Cases(Case):
         self.assertIn(
             "p1 moves by less than one cell (0.25 m) in a period (0.01 s)", self.texts("validate", spec, "motion")[0]
         )
+        self.assertIn("make the step smaller or the period longer, as to 0.01 m or 0.25 s", self.texts("validate", spec, "motion")[0])
         # Half-open cells lose as much, unless nothing moves at all; discrete states have no cells to spread to.
         spec["abstraction"] = {"cells": "half_open"}
         self.assertEqual([place for _, place in self.both(spec)], ["/states/0", "/states/1"])
@@ -168,6 +176,12 @@ class Cases(Case):
         w = [{"name": "w", "lower": -3, "upper": 3}]
         spec = spec_with(disturbances=w, dynamics=dict(SPEC["dynamics"], equations={"x": "x + u + w", "y": "y + v"}))
         self.assertRegex(self.likely_causes(spec, "empty"), "it helps if w is 0$")
+
+    def test_disturbances_that_help_only_together(self):
+        w = [{"name": name, "lower": -3, "upper": 3} for name in ("wx", "wy")]
+        equations = {"x": "x + u + wx", "y": "y + v + wy"}
+        spec = spec_with(disturbances=w, dynamics=dict(SPEC["dynamics"], equations=equations))
+        self.assertRegex(self.likely_causes(spec, "empty"), "it helps if wx is 0 and wy is 0$")
 
     def test_a_safe_set_that_is_empty_for_its_steps(self):
         spec = spec_with(safe="x >= 0.9 and x <= 1.1", abstraction={"cells": "half_open"}, states=[X, dict(Y, outside="saturate")])

@@ -86,6 +86,24 @@ $""",
         summary = self.analyze("spec.json")
         self.assertEqual((summary["invariant"], summary["guarantee"]), (4, "samples-center"))
 
+    def test_best_states_at_the_edge_of_the_grid(self):
+        """Who runs from a wall tolerates the more the farther away it is, as far as the grid goes."""
+        spec = spec_with(
+            states=[{"name": "x", "lower": 0, "upper": 9, "step": 1, "unit": "m", "outside": "saturate"}],
+            dynamics=dict(SPEC["dynamics"], equations={"x": "x + u + v"}),
+            safe="x >= 1",
+        )
+        self.write("spec.json", spec)
+        (partition,) = self.analyze("spec.json")["partitions"]
+        self.assertEqual(partition["best_at_edges"], [{"state": "x", "value": 9}])
+        hint = "\n  All best states lie at the edge of the grid (x = 9): a larger domain may tolerate more.\n"
+        self.assertIn(hint, self.run_program("analyze", "spec.json").stdout.decode())
+        for changes in ({"outside": {"below": "saturate", "above": "safe"}}, {"discrete": True}):
+            spec["states"][0].update(changes)
+            self.write("spec.json", spec)
+            self.assertEqual(self.analyze("spec.json")["partitions"][0]["best_at_edges"], [])
+        self.assertEqual(self.analyze(str(CONFIGS / "circle.json"))["partitions"][0]["best_at_edges"], [])
+
     def test_lane_change(self):
         summary = self.analyze(str(CONFIGS / "lane_change.json"))
         self.assertEqual((summary["cells"], summary["joint_inputs"]), (28, 4))

@@ -17,6 +17,12 @@ def state(**changes):
 
 
 class Cases(Case):
+    def test_a_number_with_its_unit(self):
+        for text in ("2 s", "2s", "30 km/h", "0.5 m/s^2"):
+            self.write("spec.json", spec_with(dynamics=dict(SPEC["dynamics"], period=text)))
+            message = f"expected a number, found '{text}': units are separate, in \"unit\" (/dynamics/period)"
+            self.assert_fails(3, message, "validate", "spec.json")
+
     def assert_rejected(self, message, spec, code=3):
         self.write("spec.json", spec)
         for command in ("validate", "analyze"):

@@ -146,7 +146,7 @@ step  x [m]  y [m]  delay  collision time  action       a      b
    0      3      2      0           never  independent  u = 1  v = 1
    1      4      3      -               0
 
-Each agent does what is reasonable to it alone, and after 1 step (0.5 s) the state is no longer safe.
+Each agent does what is permitted to it alone, and after 1 step (0.5 s) the state is no longer safe.
 The grid proves 0 steps (0 s); the system itself, followed like that, leaves the invariance set after 1 step (0.5 s).
 Of their actions the controller leaves a all 3 and b all 3 here.
 Picked alone that makes 9 joint actions, of which 8 keep the next state in the invariance set.

@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from program import CONFIGS, PROGRAM, Case, without_comments
+from program import CONFIGS, PROGRAM, Case, without_comments, without_warnings
 
 CIRCLE = str(CONFIGS / "circle.json")
 EVERYTHING = ["--progress", "log", "--progress-every", "0"]
@@ -34,7 +34,7 @@ class Cases(Case):
         """The lines of a log, each as it must be, and the stages that they say are done."""
         result = self.run_program(*arguments)
         self.assertEqual(result.returncode, 0, result.stderr)
-        lines = result.stderr.decode().splitlines(keepends=True)
+        lines = without_warnings(result.stderr).decode().splitlines(keepends=True)
         for line in lines:
             self.assertRegex(line, LINE)
         return lines, [match["stage"] for match in map(LINE.fullmatch, lines) if match["done"]]
@@ -52,6 +52,16 @@ class Cases(Case):
     def test_log_of_a_quick_analysis_has_its_stages_only(self):
         lines, done = self.log("analyze", CIRCLE, "--progress", "log")
         self.assertEqual(len(lines), len(done))
+
+    def test_where_there_is_no_terminal_a_line_now_and_then(self):
+        """Here after no time at all, else every minute; ends of stages are not told."""
+        spec = self.fine_circle(0.001)
+        lines, done = self.log("analyze", spec, "--progress-every", "0")
+        self.assertTrue(any("layers horizontal|vertical: sweep" in line for line in lines))
+        self.assertEqual(done, [])
+        self.assertEqual(self.log("analyze", CIRCLE), ([], []))
+        result = self.run_program("analyze", CIRCLE, "--quiet", "--progress-every", "0")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
 
     def test_log_also_with_quiet(self):
         result = self.run_program("analyze", CIRCLE, "--quiet", "--progress", "log")
@@ -119,7 +129,9 @@ class Cases(Case):
         for message, *options in (
             ("expected auto, log or none, found 'no' (--progress)", "--progress", "no"),
             (
-                "only a log has lines every so often, expected --progress log (--progress-every)",
+                "nothing is told, expected --progress log (--progress-every)",
+                "--progress",
+                "none",
                 "--progress-every",
                 "5",
             ),

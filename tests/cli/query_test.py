@@ -24,7 +24,7 @@ guarantee            samples-center: at the sampling instants, where the centre 
 
 partition a|b
   delay         2 steps (1 s)
-  countdown     2 steps (1 s)
+  connect in    2 steps (1 s)
   actions of a  all 3
   actions of b  all 3
 """

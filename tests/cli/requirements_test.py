@@ -15,6 +15,7 @@ ALL = "0 <= x <= 4 and 0 <= y <= 4"
 HOLDS = {"name": "corner", "where": "-0.4 < x < 0.4 and -0.4 < y < 0.4", "min_delay": 1}
 STORY = """requirement 1.5 s of silence, fast: delay of first|second at least 3 steps (1.5 s)
   FAILS: 1 of 81 cells fails, the worst at p1 = -9, v1 = 2, v2 = 2, p2 = -9: it has a delay of 2 steps (1 s).
+  With p1 up to -9.25 m, all else as there, the delay is that long.
 
   step  p1 [m]  v1 [m/s]  v2 [m/s]  p2 [m]  delay  collision time  action       first     second
      0      -9         2         2      -9      2           never  independent  u1 = 0.5  u2 = 0.5
@@ -26,7 +27,7 @@ STORY = """requirement 1.5 s of silence, fast: delay of first|second at least 3 
      6      -2      0.25      0.25      -2      -               1  evasive      u1 = -1   u2 = -1
      7    -1.5         0         0    -1.5      -               0
 
-  Each agent does what is reasonable to it alone, and after 3 steps (1.5 s) it is too late.
+  Each agent does what is permitted to it alone, and after 3 steps (1.5 s) it is too late.
   Whatever all agents then do together, after 4 steps (2 s) the state is no longer safe.
   The grid proves 2 steps (1 s); the system itself, followed like that, leaves the invariance set after 5 steps (2.5 s).
 """
@@ -49,7 +50,7 @@ class Cases(Case):
 
     def test_story_of_the_two_vehicles(self):
         result = self.run_program("analyze", EXAMPLE)
-        self.assertEqual((result.returncode, result.stderr), (1, b""))
+        self.assertEqual((result.returncode, without_warnings(result.stderr)), (1, b""))
         text = result.stdout.decode()
         self.assertIn(
             "requirement coordination keeps them apart: in the invariance set\n"
@@ -268,6 +269,21 @@ datasets
         )
         self.assertEqual(self.run_program("verify", "small.h5", "--quiet").returncode, 0)
 
+    def test_the_nearest_values_of_a_state_with_which_it_would_hold(self):
+        x = {"name": "x", "lower": 0, "upper": 9, "step": 1, "unit": "m", "outside": "saturate"}
+        dynamics = {"time": "discrete", "period": 0.5, "unit": "s", "equations": {"x": "x + u + v", "y": "y"}}
+        asked = {"name": "near", "where": "x == 2 and y == 1", "min_delay": 3}
+        y = dict(x, name="y", upper=4)
+        spec = asking(asked, states=[x, y], dynamics=dynamics, safe="x >= 1")
+        result = self.run_spec(spec, "--json")
+        (own,) = json.loads(result.stdout)["requirements"]
+        self.assertEqual(own["nearest"], {"state": "x", "best": "large", "value": 6.5})
+        text = self.run_spec(spec).stdout.decode()
+        self.assertIn("\n  With x from 6.5 m on, all else as there, the delay is that long.\n", text)
+        asked["min_delay"] = 100
+        (own,) = json.loads(self.run_spec(spec, "--json").stdout)["requirements"]
+        self.assertIsNone(own["nearest"])
+
     def test_region_that_reaches_outside(self):
         asked = {"name": "wide", "where": "x <= 1 and -0.4 < y < 0.4", "invariant": True}
         (wide,) = self.requirements(asking(asked), 1)
@@ -286,7 +302,7 @@ datasets
             },
         )
         text = self.run_spec(asking(asked)).stdout.decode()
-        self.assertIn("  FAILS: the region may reach outside the domain, x below its grid.\n", text)
+        self.assertIn("  FAILS: the region may reach outside the domain, x below its grid; add \"and x >= 0\" to its \"where\".\n", text)
         self.assertEqual(self.run_program("verify", "small.h5", "--quiet").returncode, 0)
         spec = asking(asked)
         spec["states"][0]["outside"] = {"below": "saturate"}

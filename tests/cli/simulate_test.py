@@ -67,7 +67,7 @@ class Cases(Case):
 outcome          stayed in the invariance set
 coordinated      3 of 4 steps (75 %); a centralised loop coordinates all of them
 longest silence  1 step (0.5 s)
-smallest margin  0
+smallest margin  0, in the units of "safe"
 start            x = 1, y = 3
 end              x = 2, y = 4
 """,
@@ -83,7 +83,7 @@ end              x = 2, y = 4
 outcome          7 stayed in the invariance set
 coordinated      \d+ of 63 steps \([0-9.]+ %\); a centralised loop coordinates all of them
 longest silence  \d steps? \(\d s\)
-smallest margin  [0-9.]+
+smallest margin  [0-9.]+, in the units of "safe"
 
 runs in runs\.h5
 $""",

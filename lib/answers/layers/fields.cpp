@@ -61,7 +61,7 @@ void add_steps(Fields& fields, const ProblemSpec& spec) {
                           {"connection_delay", spec.coordination.connection_delay}},
                   {.column = "countdown",
                    .below_zero = TriggerTable::kMustBeConnected,
-                   .asked = {.words = "countdown", .meanings = countdown_meanings(spec)}}));
+                   .asked = {.words = "connect in", .meanings = countdown_meanings(spec)}}));
 }
 
 void add_lists(Fields& fields, const PartitionSpec& partition, std::uint64_t cells, std::uint64_t layers) {
