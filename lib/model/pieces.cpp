@@ -27,9 +27,11 @@ IndexRange merge_ranges(IndexRange a, IndexRange b, const GridDimension& target)
 IndexRange raw_range(const GridDimension& dimension, std::int64_t first, std::int64_t last) {
   constexpr std::int64_t kFar = std::int64_t{1} << 30;
   constexpr std::int64_t kUnknown = std::int64_t{1} << 62;
-  const bool known = first > -kUnknown && last < kUnknown;
+  const bool known = first > -kUnknown && std::max(first, last + 1) < kUnknown;
   const bool far = first < -kFar || last > kFar;
-  if (dimension.periodic() && known && far) {
+  // Beyond 64 bits nobody knows where on the ring that is.
+  if (dimension.periodic() && !known) return {0, static_cast<std::int32_t>(dimension.count - 1)};
+  if (dimension.periodic() && far) {
     const std::int64_t turns = first / dimension.count * dimension.count;
     first -= turns;
     last -= turns;

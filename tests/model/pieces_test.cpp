@@ -32,6 +32,14 @@ TEST(Pieces, AnOrdinaryCellIsOnePieceWidenedByTheMeasurementError) {
   EXPECT_EQ(pieces(d, 4), (std::vector<Piece>{{Rational(11, 4), Rational(21, 4)}}));
 }
 
+TEST(Pieces, OfARingAnythingIsPossibleBeyondWhatIndicesHold) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 62;  // where rationals become whole numbers no farther
+  EXPECT_EQ(raw_range(ring(7), kMost, kMost - 1), (IndexRange{0, 6}));
+  EXPECT_EQ(raw_range(ring(7), -kMost, -kMost), (IndexRange{0, 6}));
+  EXPECT_EQ(raw_range(ring(7), 7 * (kMost / 14), 7 * (kMost / 14) + 1), (IndexRange{0, 1}));
+  EXPECT_EQ(raw_range(plain(7), kMost, kMost - 1), (IndexRange{INT32_MAX, INT32_MAX}));
+}
+
 TEST(Pieces, NoStateIsBeyondAStopLimit) {
   GridDimension d = plain(5);
   d.below = Outside::stop;

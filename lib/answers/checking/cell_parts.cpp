@@ -56,8 +56,10 @@ std::vector<RationalInterval> parts_of(const GridDimension& dimension, std::int6
 }
 
 IndexRange cut_to_range(const GridDimension& dimension, std::int64_t first, std::int64_t last) {
-  const bool is_known = first > -4 * kFarOut * kFarOut && last < 4 * kFarOut * kFarOut;
-  if (dimension.periodic() && is_known && (first < -kFarOut || last > kFarOut)) {
+  constexpr std::int64_t kUnknown = 4 * kFarOut * kFarOut;
+  const bool is_known = first > -kUnknown && std::max(first, last + 1) < kUnknown;
+  if (dimension.periodic() && !is_known) return {0, static_cast<std::int32_t>(dimension.count - 1)};
+  if (dimension.periodic() && (first < -kFarOut || last > kFarOut)) {
     const std::int64_t length = last - first;
     first %= dimension.count;
     last = first + length;
