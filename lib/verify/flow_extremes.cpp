@@ -12,11 +12,6 @@ namespace coordreq {
 namespace {
 
 constexpr int kMostSteps = 128;
-/// That the exponential of a matrix takes, about.
-constexpr std::size_t kProducts = 20;
-
-/// After how many shares of the period ends are narrowed.
-constexpr int kPauses = 16;
 
 ArbMatrix columns(const ArbMatrix& a, std::size_t rows, std::size_t first, std::size_t count) {
   ArbMatrix result(rows, count);
@@ -25,62 +20,6 @@ ArbMatrix columns(const ArbMatrix& a, std::size_t rows, std::size_t first, std::
   }
   return result;
 }
-
-/// Solutions lie about that from the middle of their box, as far away as transition matrices take them. Wide
-/// boxes are narrowed little by that, small ones much: their corners are taken where they turn.
-class SolutionBundle {
- public:
-  SolutionBundle(Trajectory& trajectory, const std::vector<std::uint32_t>& states, const SpanBox& start,
-                 double tolerance)
-      : trajectory_(trajectory),
-        states_(states),
-        tolerance_(tolerance),
-        spread_(states.size(), states.size()) {
-    arb_mat_one(spread_.get());
-    for (const ArbSpan& span : start) middle_.push_back(span.middle());
-    for (const std::uint32_t slot : states) away_.push_back(start[slot].all() - middle_[slot]);
-  }
-
-  void advance(const TubeStep& step, const Arb& duration) {
-    is_known_ = is_known_ && step.slopes.has_value();
-    if (!is_known_) return;
-    const std::size_t n = states_.size();
-    work_ += static_cast<Work>(kProducts * n * n * n);
-    spread_ = transition_matrix(columns(*step.slopes, n, 0, n), duration) * spread_;
-    is_known_ = arb_mat_is_finite(spread_.get()) != 0;
-    time_ = time_ + duration;
-  }
-
-  void narrow(SpanBox& end) {
-    is_known_ = is_known_ && trajectory_.advance(middle_, time_, tolerance_);
-    time_ = Arb();
-    if (!is_known_) return;
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-      Arb value = middle_[states_[i]];
-      for (std::size_t j = 0; j < states_.size(); ++j) value = value + spread_(i, j) * away_[j];
-      ArbSpan& span = end[states_[i]];
-      span.lower = greater(span.lower, value.lower()).lower();
-      span.upper = lesser(span.upper, value.upper()).upper();
-    }
-  }
-
-  /// How differences at the end follow from those at the beginning; nothing where that has no bound.
-  [[nodiscard]] std::optional<ArbMatrix> spread() const {
-    return is_known_ ? std::optional(spread_) : std::nullopt;
-  }
-  [[nodiscard]] Work work() const { return work_; }
-
- private:
-  Trajectory& trajectory_;
-  const std::vector<std::uint32_t>& states_;
-  double tolerance_;
-  ArbMatrix spread_;
-  ArbBox middle_;
-  std::vector<Arb> away_;
-  Arb time_;
-  bool is_known_ = true;
-  Work work_ = 0;
-};
 
 bool same(const std::vector<Arb>& a, const std::vector<Arb>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -150,43 +89,9 @@ bool FlowExtremes::passes_a_seam() const {
   });
 }
 
-ArbBox FlowExtremes::way() const {
-  ArbBox result = all_of(box_);
-  for (const TubeStep& step : steps_) {
-    for (const std::uint32_t slot : states_) result[slot] = hull(result[slot], step.tube[slot]);
-  }
-  return result;
-}
-
-bool FlowExtremes::boundary_will_do(const ArbBox& way) {
-  const auto is_free = [](const StopLimits& limits) { return !limits.below && !limits.above; };
-  if (!seams_.empty() || !std::all_of(limits_.begin(), limits_.end(), is_free)) return false;
-  ArbBox around = way;
-  for (const std::uint32_t slot : states_) {
-    const Arb margin(1e-6 * way[slot].width());
-    if (!(margin.approximately() > 0.0)) return false;
-    around[slot] = hull(way[slot] - margin, way[slot] + margin);
-  }
-  return field_.jacobian(around).has_value();
-}
-
 std::optional<std::vector<TubeStep>> FlowExtremes::enclosed(int steps) {
-  spread_.reset();
   const int pieces = effort_.steps < 8 ? 1 : std::min(effort_.steps / 4, 8);
-  if (!disturbances_.empty() || steps < 8) return enclose_flow(field_, limits_, box_, period_, steps, pieces);
-  SolutionBundle bundle(trajectory_, states_, box_, effort_.tolerance * cell_);
-  const Arb step = period_ / Arb(static_cast<double>(steps));
-  const int pause = std::max(steps / kPauses, 1);
-  int until = pause;
-  auto made = enclose_flow(field_, limits_, box_, period_, steps, pieces, [&](TubeStep& one) {
-    bundle.advance(one, step);
-    if (--until > 0) return;
-    bundle.narrow(one.end);
-    until = pause;
-  });
-  matrix_work_ += bundle.work();
-  spread_ = bundle.spread();
-  return made;
+  return enclose_flow(field_, limits_, box_, period_, steps, pieces);
 }
 
 int FlowExtremes::steps_for(const ArbMatrix& slopes, const Effort& effort) const {
@@ -225,10 +130,7 @@ std::optional<FlowExtremes::Influence> FlowExtremes::find_influence(std::size_t 
   Influence result{.of_start = ArbMatrix(n, n)};
   arb_mat_one(result.of_start.get());
   result.of_disturbance.assign(steps, ArbMatrix(n, m));
-  if (spread_ && steps == steps_.size()) {
-    result.of_start = *spread_;
-    return result;
-  }
+  constexpr std::size_t kProducts = 20;  // that the exponential of a matrix takes, about
   for (std::size_t k = steps; k-- > 0;) {
     if (!steps_[k].slopes) return std::nullopt;
     matrix_work_ += static_cast<Work>(kProducts * n * n * (n + m));

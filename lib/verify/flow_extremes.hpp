@@ -28,11 +28,6 @@ class FlowExtremes : public NextValue {
   [[nodiscard]] Extremes extremes(std::size_t state, const Enough& enough) override;
   [[nodiscard]] const std::vector<std::uint32_t>& divisible() const override { return states_; }
 
-  [[nodiscard]] ArbBox way() const override;
-  /// Where f has slopes all over a neighbourhood of a box that solutions from the boundary do not leave, the
-  /// flow maps the cell one to one, for each disturbance signal, and so its boundary to that of its image.
-  [[nodiscard]] bool boundary_will_do(const ArbBox& way) override;
-
   [[nodiscard]] Work work() const override {
     return field_.work() + trajectory_.repeated_work() + matrix_work_;
   }
@@ -75,7 +70,6 @@ class FlowExtremes : public NextValue {
   Effort effort_;
   Arb step_;
   std::vector<TubeStep> steps_;
-  std::optional<ArbMatrix> spread_;  ///< how all ends follow from starts, where that is known already
   std::vector<std::optional<std::optional<Influence>>> influences_;  ///< [steps]
   Work matrix_work_ = 0;
 };

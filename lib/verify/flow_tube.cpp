@@ -128,7 +128,7 @@ class StepMaker {
 
 std::optional<std::vector<TubeStep>> enclose_flow(SeriesField& field, const std::vector<StopLimits>& limits,
                                                   const SpanBox& start, const Arb& duration, int steps,
-                                                  int pieces, const std::function<void(TubeStep&)>& tighten) {
+                                                  int pieces) {
   const Arb share = duration / Arb(static_cast<double>(steps));
   std::vector<TubeStep> result;
   const SpanBox* now = &start;
@@ -136,7 +136,6 @@ std::optional<std::vector<TubeStep>> enclose_flow(SeriesField& field, const std:
   for (int step = 0; step < steps; ++step) {
     std::optional<TubeStep> next = StepMaker(field, limits, share, pieces).make(*now);
     if (!next) return std::nullopt;
-    if (tighten) tighten(*next);
     result.push_back(std::move(*next));
     now = &result.back().end;
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -23,12 +22,12 @@ struct TubeStep {
 /// taken at the beginning of a step, and with a bound of how it changes during the step.
 /// A state that may be held has a derivative of 0 as well, and its upper end is, after the last time at the
 /// lower limit, no farther than it can have come from there.
-/// @param tighten narrows the end of each step before the next begins there
 /// @param limits one a state; @param duration of the whole, a point
 /// @param pieces that disturbances are cut into where that matters
 /// @returns nothing where some solution may not last so long
-[[nodiscard]] std::optional<std::vector<TubeStep>> enclose_flow(
-    SeriesField& field, const std::vector<StopLimits>& limits, const SpanBox& start, const Arb& duration,
-    int steps, int pieces, const std::function<void(TubeStep&)>& tighten = {});
+[[nodiscard]] std::optional<std::vector<TubeStep>> enclose_flow(SeriesField& field,
+                                                                const std::vector<StopLimits>& limits,
+                                                                const SpanBox& start, const Arb& duration,
+                                                                int steps, int pieces);
 
 }  // namespace coordreq

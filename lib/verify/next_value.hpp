@@ -54,10 +54,6 @@ class NextValue {
   /// @param enough tells whether a range that is found first, with less effort, will do
   using Enough = std::function<bool(const Arb& lower, const Arb& upper)>;
   [[nodiscard]] virtual Extremes extremes(std::size_t value, const Enough& enough) = 0;
-  /// Of the box enclosed last: where all goes through on the way.
-  [[nodiscard]] virtual ArbBox way() const { return {}; }
-  /// Whether values from a box are between those from its boundary if these go through `way` alone.
-  [[nodiscard]] virtual bool boundary_will_do(const ArbBox& /*way*/) { return false; }
   /// Slots of what may be cut into pieces: for each piece a bound holds by itself.
   [[nodiscard]] virtual const std::vector<std::uint32_t>& divisible() const = 0;
   /// Done so far: the same for the same questions, whatever is remembered.

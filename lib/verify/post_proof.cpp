@@ -47,43 +47,13 @@ PostProver::PostProver(const SystemSpec& spec, const UniformGrid& grid, const Po
     values_.push_back(is_map ? 0 : row_of(group.influences, i).value_or(0));
 }
 
-/// The boundary of a box is less than the box: what has to be cut is cut there, where that will do.
+/// Pieces are proven one after the other; only those where something does not fit are cut.
 std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<PostClaim>& claims,
                                          const PostEffort& effort, Work most) {
   const Work end = work() + most;
-  const std::vector<SpanBox> faces = effort.most_boxes > 1 ? faces_of(box) : std::vector<SpanBox>{};
-  if (faces.empty()) return prove_all({box}, claims, effort, end);
-  Proofs proofs = prove_all(faces, claims, effort, end);
-  const auto holds = [](const PostProof& proof) { return proof.verdict == PostVerdict::holds; };
-  if (std::none_of(proofs.begin(), proofs.end(), holds) || next_->boundary_will_do(way_)) return proofs;
-  return prove_all({box}, claims, effort, end);
-}
-
-/// Nothing where some side of the box has no width: then it has no inside.
-std::vector<SpanBox> PostProver::faces_of(const SpanBox& box) {
-  const std::vector<std::uint32_t>& slots = next_->divisible();
-  const auto has_width = [&](std::uint32_t slot) { return box[slot].width() > 0.0; };
-  if (!std::all_of(slots.begin(), slots.end(), has_width) || !next_->boundary_will_do(all_of(box))) return {};
-  std::vector<SpanBox> faces;
-  for (const std::uint32_t slot : slots) {
-    for (const Arb& end : {box[slot].lower, box[slot].upper}) {
-      faces.push_back(box);
-      faces.back()[slot] = {end, end};
-    }
-  }
-  return faces;
-}
-
-/// Pieces are proven one after the other; only those where something does not fit are cut.
-std::vector<PostProof> PostProver::prove_all(const std::vector<SpanBox>& parts,
-                                             const std::vector<PostClaim>& claims, const PostEffort& effort,
-                                             Work end) {
   std::vector<PostProof> proofs(claims.size());
-  std::vector<std::size_t> all(claims.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  std::vector<Piece> pending;
-  for (const SpanBox& box : parts) pending.push_back({box, all});
-  way_.clear();
+  std::vector<Piece> pending = {{box, std::vector<std::size_t>(claims.size())}};
+  std::iota(pending.front().claims.begin(), pending.front().claims.end(), std::size_t{0});
   for (int boxes = 1; !pending.empty(); ++boxes) {
     Piece piece = std::move(pending.back());
     pending.pop_back();
@@ -93,9 +63,6 @@ std::vector<PostProof> PostProver::prove_all(const std::vector<SpanBox>& parts,
     const bool may_cut = boxes + static_cast<int>(pending.size()) < effort.most_boxes && work() < end;
     std::vector<PostProof> own(claims.size());
     const std::optional<std::uint32_t> cut = prove_piece(piece, claims, effort.effort, own);
-    const bool some_hold = std::any_of(piece.claims.begin(), piece.claims.end(),
-                                       [&](std::size_t c) { return own[c].verdict == PostVerdict::holds; });
-    if (some_hold && parts.size() > 1) add_to_way();
     std::erase_if(piece.claims, [&](std::size_t c) {
       const bool is_open = own[c].verdict == PostVerdict::open;
       if (own[c].verdict == PostVerdict::wrong || (is_open && !(may_cut && cut))) proofs[c] = own[c];
@@ -109,12 +76,6 @@ std::vector<PostProof> PostProver::prove_all(const std::vector<SpanBox>& parts,
     pending.push_back(std::move(half));
   }
   return proofs;
-}
-
-void PostProver::add_to_way() {
-  const ArbBox own = next_->way();
-  if (way_.empty()) way_ = own;
-  for (std::size_t s = 0; s < own.size(); ++s) way_[s] = hull(way_[s], own[s]);
 }
 
 /// @returns what to cut where something is open

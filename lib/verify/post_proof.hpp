@@ -64,12 +64,6 @@ class PostProver {
     SpanBox box;
     std::vector<std::size_t> claims;  ///< that are open on it, by number
   };
-  using Proofs = std::vector<PostProof>;
-
-  void add_to_way();
-  [[nodiscard]] std::vector<SpanBox> faces_of(const SpanBox& box);
-  [[nodiscard]] Proofs prove_all(const std::vector<SpanBox>& parts, const std::vector<PostClaim>& claims,
-                                 const PostEffort& effort, Work end);
 
   [[nodiscard]] std::optional<std::uint32_t> prove_piece(Piece& piece, const std::vector<PostClaim>& claims,
                                                          const Effort& effort,
@@ -87,7 +81,6 @@ class PostProver {
   const PostGroup& group_;
   std::unique_ptr<NextValue> next_;
   std::vector<std::size_t> values_;  ///< [target]: which of those of next_
-  ArbBox way_;                       ///< where all that is proven goes through; empty: that was not asked
 };
 
 }  // namespace coordreq

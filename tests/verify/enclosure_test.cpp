@@ -149,32 +149,6 @@ TEST(FlowExtremes, ASolutionThatEscapesHasNoBound) {
   EXPECT_FALSE(range_of(spec_of("x^2", "0"), {2, 3}, {0, 0}));
 }
 
-SpanBox small_box(const SystemSpec& spec) {
-  SpanBox box(spec.slot_count());
-  box[0] = span_of(Rational(9, 10), Rational(11, 10));
-  box[1] = span_of(Rational(-1, 10), Rational(1, 10));
-  return box;
-}
-
-TEST(FlowExtremes, BoxesThatTurnRoundDoNotGrow) {
-  const SystemSpec spec = spec_of("-y", "x", "", "continuous", "6");
-  FlowExtremes flow(spec, influences_on(spec, 0), 1.0);
-  ASSERT_TRUE(flow.enclose(small_box(spec), {8, 1e-6}));
-  const ArbSpan& x = flow.steps().back().end[0];
-  EXPECT_LE(x.lower.approximately(), std::cos(6.0) - 0.1);
-  EXPECT_LT(x.width(), 0.3);
-}
-
-TEST(FlowExtremes, TheBoundaryWillDoWhereTheFlowIsOneToOne) {
-  const auto will_do = [](const SystemSpec& spec) {
-    FlowExtremes flow(spec, influences_on(spec, 0), 1.0);
-    return flow.enclose(small_box(spec), {8, 1e-6}) && flow.boundary_will_do(flow.way());
-  };
-  EXPECT_TRUE(will_do(spec_of("y", "(1 - x^2)*y - x")));
-  EXPECT_TRUE(will_do(spec_of("y", "abs(x)")));
-  EXPECT_FALSE(will_do(spec_of("y", "sign(y)")));
-}
-
 TEST(MapExtremes, WhatIsMonotoneHasItsExtremesAtCorners) {
   expect_tight(range_of(spec_of("x^3 - x + 2*y", "0", "", "discrete"), {1, 2}, {0, 5}), 0, 16, 0.0);
   expect_tight(range_of(spec_of("if(x > 0.5, x*y, 9)", "0", "", "discrete"), {1, 2}, {1, 2}), 1, 4, 0.0);
