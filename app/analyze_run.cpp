@@ -94,8 +94,7 @@ ExitCode analyze_and_print(const ProblemSpec& spec, const AnalyzeOptions& own) {
   if (own.is_first() && own.junit) try_to_write(*own.junit);
   std::shared_ptr<const Json> summary = analyze_with_progress(spec, output, own, "");
   if (!own.is_first()) return ExitCode::success;
-  const bool is_alone = own.ranks == nullptr || own.ranks->count() == 1;
-  if (is_alone && verdict(*summary) != ExitCode::success && std::filesystem::is_regular_file(output))
+  if (verdict(*summary) != ExitCode::success && std::filesystem::is_regular_file(output))
     summary = std::make_shared<const Json>(with_nearest_regions(*summary, output));
   {
     const InterruptDelay delay;

@@ -5,6 +5,7 @@
 
 #include "analysis/unseen_motion.hpp"
 #include "answers/ground/answer.hpp"
+#include "answers/invariance/answer.hpp"
 #include "answers/invariance/invariance.hpp"
 #include "answers/plan.hpp"
 #include "spec/problem_spec.hpp"
@@ -25,23 +26,31 @@ void add(Warnings more, Warnings& all) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-}  // namespace
-
-Warnings advise_before(const Model& model, ThreadTeam& team) {
+/// What one process can say by itself, from K or from S alone.
+Warnings advise_alone(const Model& model, bool finds_invariance, ThreadTeam& team) {
   Warnings all = advise_on_spec(model.spec());
   add(advise_on_units(model.spec(), sample_motion(model.spec())), all);
   if (!has_few_posts(model)) return all;
   Answers answers(model);
   run_stages(ground_stages(model.spec()), answers, {.team = team});
+  if (finds_invariance) run_stages(invariance_stages(model.spec()), answers, {.team = team});
   add(advise_on_posts(answers.ground), all);
-  add(advise_on_unseen_motion(answers.ground, answers.ground.safe), all);
+  add(advise_on_unseen_motion(answers.ground, finds_invariance ? answers.get<Invariance>().invariant
+                                                               : answers.ground.safe),
+      all);
   return all;
+}
+
+}  // namespace
+
+Warnings advise_before(const Model& model, ThreadTeam& team) {
+  return advise_alone(model, false, team);
 }
 
 Warnings advise(const Answers& answers, ThreadTeam& team) {
   Warnings all;
-  if (answers.ground.share) {  // nobody has all of S
-    all = advise_before(answers.ground.model, team);
+  if (answers.ground.share) {  // nobody has all of S and K: small ones are found once more
+    all = advise_alone(answers.ground.model, true, team);
   } else {
     all = advise_on_spec(answers.ground.spec);
     add(advise_on_units(answers.ground.spec, sample_motion(answers.ground.spec)), all);
