@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "analysis/analyze.hpp"
 #include "analysis/estimate_memory.hpp"
@@ -77,9 +78,11 @@ std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const
   options.notice = [&](const std::string& text) {
     if (!asked.quiet) shown.notice(text);
   };
-  auto summary = std::make_shared<const Json>(analyze(model, options, team));
+  Json summary = analyze(model, options, team);
   shown.finish();
-  return summary;
+  if (asked.is_first() && verdict(summary) != ExitCode::success && std::filesystem::is_regular_file(output))
+    summary = with_nearest_regions(summary, output);
+  return std::make_shared<const Json>(std::move(summary));
 }
 
 void check_interrupted(const std::string& place) {
@@ -92,10 +95,8 @@ ExitCode analyze_and_print(const ProblemSpec& spec, const AnalyzeOptions& own) {
   const std::string output = own.output.value_or(spec.name + ".h5");
   if (own.is_first()) check_files(spec, output, own);
   if (own.is_first() && own.junit) try_to_write(*own.junit);
-  std::shared_ptr<const Json> summary = analyze_with_progress(spec, output, own, "");
+  const std::shared_ptr<const Json> summary = analyze_with_progress(spec, output, own, "");
   if (!own.is_first()) return ExitCode::success;
-  if (verdict(*summary) != ExitCode::success && std::filesystem::is_regular_file(output))
-    summary = std::make_shared<const Json>(with_nearest_regions(*summary, output));
   {
     const InterruptDelay delay;
     if (own.junit) write_junit(*own.junit, {{.name = spec.name, .spec = &spec, .summary = summary.get()}});

@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from program import CONFIGS, PROGRAM, SPEC, Case, spec_with, without_comments
+from program import CONFIGS, PROGRAM, SPEC, Case, spec_with, without_comments, without_warnings
 
 CIRCLE = str(CONFIGS / "circle.json")
 CHECKPOINT = ["--checkpoint", "run.ckpt"]
@@ -62,7 +62,7 @@ class Cases(Case):
         said = json.loads(result.stdout)
         for own in ("output", "seconds", "work", "peak_memory_bytes"):
             del said[own]
-        self.said_on_the_way = result.stderr.decode()
+        self.said_on_the_way = without_warnings(result.stderr).decode()
         return (self.folder / name).read_bytes(), said
 
     def kill_and_resume(self, spec, seed, number=signal.SIGKILL, saves=(1, 3, 10, 30), often=OFTEN):

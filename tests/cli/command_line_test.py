@@ -47,7 +47,7 @@ class Cases(Case):
     def test_unknown_option_of_a_command(self):
         self.assert_fails(
             2,
-            "unknown option '--fast' of validate, expected one of --help, --set, --refine, --ranks, --threads, --max-memory, --json, --quiet",
+            "unknown option '--fast' of validate, expected one of --help, --set, --refine, --ranks, --verbose, --threads, --max-memory, --json, --quiet",
             "validate",
             "--fast",
             "spec.json",
@@ -149,7 +149,7 @@ class Cases(Case):
                 self.assertIn(f"Usage: coordreq {command} [OPTIONS]", result.stdout.decode())
                 # Only what the command has a use for.
                 useless = {
-                    "--threads N": {"init", "info", "compare", "report", "schema", "completion", "help"},
+                    "--threads N": {"init", "info", "compare", "require", "report", "schema", "completion", "help"},
                     "--max-memory SIZE": {"init", "schema", "completion", "help"},
                     "--json": {"export", "schema", "completion", "help"},
                     "--quiet": {"export", "schema", "completion", "help"},
@@ -167,6 +167,7 @@ class Cases(Case):
 
     def test_examples_of_every_help_run(self):
         self.analyze(str(CONFIGS / "circle.json"))
+        self.analyze(str(CONFIGS / "crossing.json"))
         (self.folder / "circle.json").symlink_to(CONFIGS / "circle.json")
         for copy in ("before.h5", "after.h5"):
             shutil.copy(self.folder / "circle.h5", self.folder / copy)

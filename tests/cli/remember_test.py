@@ -7,7 +7,7 @@ import unittest
 
 import h5py
 import numpy as np
-from program import CONFIGS, ROOT, Case, spec_with
+from program import CONFIGS, ROOT, Case, spec_with, without_warnings
 
 CHECK = """#include <stdio.h>
 #include "exported.h"
@@ -91,7 +91,7 @@ def random_spec(seed):
 class Cases(Case):
     def run_well(self, *arguments):
         result = self.run_program(*arguments)
-        self.assertEqual(result.stderr.decode(), "")
+        self.assertEqual(without_warnings(result.stderr).decode(), "")
         self.assertEqual(result.returncode, 0, result.stdout.decode())
         return result.stdout.decode()
 
