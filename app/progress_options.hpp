@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-
 #include <optional>
 
 #include "app/options.hpp"
@@ -10,7 +9,7 @@ namespace coordreq {
 
 enum class ProgressMode : std::uint8_t {
   automatic,  ///< the bar, a line a minute where there is no terminal; but for --quiet
-  bar,        ///< on a terminal; nothing elsewhere
+  bar,        ///< on a terminal
   log,
   none,
 };

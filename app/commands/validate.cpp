@@ -199,7 +199,7 @@ ExitCode run(const ValidateOptions& own) {
   if (!memory || report.memory_bytes <= *memory) {
     ThreadTeam team(threads);
     check_regions(spec, team);
-    found["warnings"] = warnings_json(advise_before(model, team));
+    found["warnings"] = warnings_json(advise_before(model, report.motion, team));
   } else {
     found["warnings"] = warnings_json({too_large_here(report, *memory)});
   }

@@ -27,34 +27,35 @@ void add(Warnings more, Warnings& all) {
 }
 
 /// What one process can say by itself, from K or from S alone.
-Warnings advise_alone(const Model& model, bool finds_invariance, ThreadTeam& team) {
+Warnings advise_alone(const Model& model, const std::vector<StateMotion>& motion, bool finds_invariance,
+                      ThreadTeam& team) {
   Warnings all = advise_on_spec(model.spec());
-  add(advise_on_units(model.spec(), sample_motion(model.spec())), all);
+  add(advise_on_units(model.spec(), motion), all);
   if (!has_few_posts(model)) return all;
   Answers answers(model);
   run_stages(ground_stages(model.spec()), answers, {.team = team});
   if (finds_invariance) run_stages(invariance_stages(model.spec()), answers, {.team = team});
-  add(advise_on_posts(answers.ground), all);
-  add(advise_on_unseen_motion(answers.ground, finds_invariance ? answers.get<Invariance>().invariant
-                                                               : answers.ground.safe),
+  add(advise_on_posts(answers.ground, motion), all);
+  add(advise_on_unseen_motion(answers.ground,
+                              finds_invariance ? answers.get<Invariance>().invariant : answers.ground.safe),
       all);
   return all;
 }
 
 }  // namespace
 
-Warnings advise_before(const Model& model, ThreadTeam& team) {
-  return advise_alone(model, false, team);
+Warnings advise_before(const Model& model, const std::vector<StateMotion>& motion, ThreadTeam& team) {
+  return advise_alone(model, motion, false, team);
 }
 
-Warnings advise(const Answers& answers, ThreadTeam& team) {
+Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, ThreadTeam& team) {
   Warnings all;
   if (answers.ground.share) {  // nobody has all of S and K: small ones are found once more
-    all = advise_alone(answers.ground.model, true, team);
+    all = advise_alone(answers.ground.model, motion, true, team);
   } else {
     all = advise_on_spec(answers.ground.spec);
-    add(advise_on_units(answers.ground.spec, sample_motion(answers.ground.spec)), all);
-    add(advise_on_posts(answers.ground), all);
+    add(advise_on_units(answers.ground.spec, motion), all);
+    add(advise_on_posts(answers.ground, motion), all);
     add(advise_on_unseen_motion(answers.ground, answers.get<Invariance>().invariant), all);
   }
   add(advise_on_answers(answers, team), all);

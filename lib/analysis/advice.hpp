@@ -21,7 +21,7 @@ namespace coordreq {
 
 /// What posts show: states that move less than a cell in a period; sides left at the default `unsafe` through
 /// which pairs of safe cells are blocked. REQUIRES: the ground is laid. Cost: a pass over tables and S.
-[[nodiscard]] Warnings advise_on_posts(const Ground& ground);
+[[nodiscard]] Warnings advise_on_posts(const Ground& ground, const std::vector<StateMotion>& motion);
 
 /// What the answer shows: nothing that can be kept safe, or no silence at all, with what would help. For that
 /// one rule, disturbance, error or step after the other is relaxed on a copy with at most some 10^5 cells, as
@@ -29,11 +29,13 @@ namespace coordreq {
 /// is passed over. REQUIRES: K and the layers are there.
 [[nodiscard]] Warnings advise_on_answers(const Answers& answers, ThreadTeam& team);
 
-/// All that is known without the answer; what posts show only where they are few.
+/// All that is known without the answer; what posts show only where they are few. @param motion of the spec
 /// @throws SpecError where the analysis does, as far as posts are looked at
-[[nodiscard]] Warnings advise_before(const Model& model, ThreadTeam& team);
+[[nodiscard]] Warnings advise_before(const Model& model, const std::vector<StateMotion>& motion,
+                                     ThreadTeam& team);
 /// All of them. REQUIRES: as advise_on_answers()
-[[nodiscard]] Warnings advise(const Answers& answers, ThreadTeam& team);
+[[nodiscard]] Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion,
+                              ThreadTeam& team);
 
 /// A list of objects with `kind`, `place` and `message`.
 [[nodiscard]] Json warnings_json(const Warnings& warnings);

@@ -129,8 +129,7 @@ std::string amount(const Rational& value, const std::string& unit) {
 }
 
 /// ", to 0.01 m or 0.25 s": where a state just moves by a cell, as far as a sample shows.
-std::string numbers_to_set(const ProblemSpec& spec, std::size_t state) {
-  const StateMotion moved = sample_motion(spec)[state];
+std::string numbers_to_set(const ProblemSpec& spec, std::size_t state, const StateMotion& moved) {
   if (!(moved.amount > 0)) return "";
   const auto rough = [](double value, const std::string& unit) {
     return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit);
@@ -142,7 +141,8 @@ std::string numbers_to_set(const ProblemSpec& spec, std::size_t state) {
              : fmt::format("{} or {}", step, rough(period, spec.dynamics.unit));
 }
 
-void advise_on_motion(const Ground& ground, std::size_t i, const Spreads& spreads, Warnings& found) {
+void advise_on_motion(const Ground& ground, std::size_t i, const Spreads& spreads,
+                      const std::vector<StateMotion>& motion, Warnings& found) {
   const GridDimension& dimension = ground.abstraction->grid[i];
   const bool is_sum = ground.abstraction->tables[i].is_sum();
   if (dimension.discrete || dimension.count < 3 || !moves_less_than_a_cell(spreads, is_sum)) return;
@@ -156,7 +156,7 @@ void advise_on_motion(const Ground& ground, std::size_t i, const Spreads& spread
            "to the next cell and answers show the grid rather than the system; make the step smaller "
            "or the period longer{}",
            dimension.name, amount(dimension.step, ground.spec.states[state].unit),
-           amount(dynamics.period, dynamics.unit), numbers_to_set(ground.spec, state))});
+           amount(dynamics.period, dynamics.unit), numbers_to_set(ground.spec, state, motion[state]))});
 }
 
 /// Whether the spec says nothing about a side of one of its states.
@@ -186,7 +186,7 @@ std::string blocked_at(const Ground& ground, std::size_t i, const Spreads& sprea
 
 }  // namespace
 
-Warnings advise_on_posts(const Ground& ground) {
+Warnings advise_on_posts(const Ground& ground, const std::vector<StateMotion>& motion) {
   constexpr std::size_t kLongText = std::size_t{1} << 20;
   const bool is_short = ground.spec.text.size() <= kLongText;
   const JsonDocument document =
@@ -206,7 +206,7 @@ Warnings advise_on_posts(const Ground& ground) {
     }
     if (sides.empty() && !may_move_less_than_a_cell(abstraction.tables[i], i, dimension.count)) continue;
     const Spreads spreads = spreads_of(abstraction.tables[i], i, dimension.count);
-    advise_on_motion(ground, i, spreads, found);
+    advise_on_motion(ground, i, spreads, motion, found);
     for (const bool above : sides) {
       const std::string text = blocked_at(ground, i, spreads, above);
       if (!text.empty()) blocked.push_back(text);

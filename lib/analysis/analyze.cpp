@@ -156,7 +156,8 @@ Json analyze(const Model& model, const AnalysisOptions& options, ThreadTeam& tea
   meter.tell(work);
   const std::optional<Tightness> tightness = find_tightness(answers.ground);
   summary["tightness"] = tightness_json(tightness);
-  summary["motion"] = motion_json(model.spec(), sample_motion(model.spec()));
+  const std::vector<StateMotion> motion = sample_motion(model.spec());
+  summary["motion"] = motion_json(model.spec(), motion);
   if (!options.output.empty()) write(options.output, answers, reporter, team);
   if (checkpoint) checkpoint->remove();
   summary["output"] = options.output.empty() ? Json() : Json(options.output);
@@ -166,7 +167,7 @@ Json analyze(const Model& model, const AnalysisOptions& options, ThreadTeam& tea
   summary["work"] = std::move(work);
   const auto peak = static_cast<std::int64_t>(peak_memory_bytes());
   summary["peak_memory_bytes"] = ranks == nullptr ? peak : ranks->greatest(peak);
-  Warnings warnings = is_first ? advise(answers, team) : Warnings();
+  Warnings warnings = is_first ? advise(answers, motion, team) : Warnings();
   if (is_first) {
     for (Warning& more : advise_on_tightness(model.spec(), tightness)) warnings.push_back(std::move(more));
   }
