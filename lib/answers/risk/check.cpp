@@ -103,7 +103,7 @@ std::vector<Ranked> rank_all(const std::vector<Outgoing>& outgoing,
 /// One more step at single cells. One object a thread.
 class RiskStep {
  public:
-  explicit RiskStep(const CheckGround& ground) : ground_(ground) {
+  explicit RiskStep(const CheckGround& ground) {
     for (const NetworkModeSpec& mode : ground.spec->network->modes) {
       is_least_.push_back(ground.spec->risk->is_safest && mode.partition.classes.size() == 1);
       const auto known = std::find(partitions_.begin(), partitions_.end(), mode.partition.classes);
@@ -146,7 +146,6 @@ class RiskStep {
     return rank == kForever ? 0 : std::min(1.0, after.risks[static_cast<std::size_t>(rank)]);
   }
 
-  const CheckGround& ground_;
   std::vector<bool> is_least_;  ///< [mode]
   std::vector<std::vector<std::vector<std::int32_t>>> partitions_;
   std::vector<std::size_t> partition_of_;  ///< [mode]
