@@ -60,8 +60,8 @@ TEST(EnclosureTable, CoupledStatesJumpTogether) {
                                R"json("x": "sin(h/2) - 0.1*x", "h": "3*u + 0.1*x")json"),
                      "t"),
          300);
-  const std::string second = R"({"name": "g", "lower": 0, "upper": 0.7, "count": 7, "outside": "periodic"})";
-  attack(read_system(spec_text(kRoad + kHeading + ", " + second, "continuous",
+  const std::string second = R"({"name": "g", "lower": 0, "upper": 0.7, "count": 2, "outside": "periodic"})";
+  attack(read_system(spec_text(coarse + kHeading + ", " + second, "continuous",
                                R"json("x": "h*g", "h": "2*u + g", "g": "0.5 + 0.2*sin(h)")json"),
                      "t"),
          300);

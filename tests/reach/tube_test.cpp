@@ -181,7 +181,9 @@ TEST(Tube, ThereIsNoneUnlessAskedFor) {
 TEST(Tube, IsTheSameFromASharedFlow) {
   const std::string coarse =
       R"({"name": "x", "lower": -2, "upper": 2, "step": 1}, {"name": "y", "lower": -2, "upper": 2, "step": 1})";
-  const SystemSpec spec = flow(coarse + ", " + kTubeHeading,
+  const std::string heading =
+      R"({"name": "h", "lower": "-pi", "upper": "pi", "count": 4, "outside": "periodic"})";
+  const SystemSpec spec = flow(coarse + ", " + heading,
                                R"json("x": "sin(h) - u*y", "y": "cos(h) + x*y + u", "h": "x - 0.3*h")json");
   const AffineDynamics dynamics(spec);
   const Abstraction together = test::build(spec);
