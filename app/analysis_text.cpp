@@ -124,6 +124,16 @@ std::string edge_hint(const Json& partition) {
       fmt::join(sides, ", "));
 }
 
+/// "873 cells, of these 140 because they leave through a safe side".
+std::string for_ever_text(const Json& partition) {
+  if (partition["truncated"]) return "unknown";
+  const std::int64_t all = number_of(partition["fixed_point"]);
+  const Json& leaving = partition["leaving"];
+  if (leaving.is_null() || all == 0) return cells(all);
+  if (number_of(leaving) == all) return cells(all) + ", because they leave through a safe side";
+  return fmt::format("{}, of these {} because they leave through a safe side", cells(all), grouped(leaving));
+}
+
 std::string unbounded_cells(const Json& partition) {
   return partition["truncated"] ? "unknown" : cells(partition["fixed_point"]);
 }
@@ -132,7 +142,7 @@ std::string partition_text(const Json& partition, const Json& summary,
                            const std::vector<AnswerPolicy>& policies) {
   Facts facts = {{"  layers", shortened(partition["layers"].get<std::vector<std::int64_t>>())},
                  {"  fixed point", (partition["truncated"] ? "" : "F = ") + fixed_point_text(partition)},
-                 {"  silence for ever", unbounded_cells(partition)}};
+                 {"  silence for ever", for_ever_text(partition)}};
   add_shares(partition, summary, facts);
   for (const AnswerPolicy& policy : policies) {
     if (partition.contains(policy.name)) add_layers(policy, partition[policy.name], facts);

@@ -1,6 +1,7 @@
 """What analyze prints and writes."""
 
 import json
+import re
 import unittest
 
 from program import CONFIGS, ROOT, SPEC, Case, spec_with, without_warnings
@@ -104,6 +105,43 @@ $""",
             self.assertEqual(self.analyze("spec.json")["partitions"][0]["best_at_edges"], [])
         self.assertEqual(self.analyze(str(CONFIGS / "circle.json"))["partitions"][0]["best_at_edges"], [])
 
+    def test_silence_for_ever_because_runs_leave_through_a_safe_side(self):
+        """A lane with a wall that nobody passes: before it all stay, behind it who goes on leaves."""
+        lane = {
+            "states": [{"name": "n", "lower": 0, "upper": 5, "step": 1, "discrete": True, "outside": {"above": "safe"}}],
+            "inputs": [{"name": name, "values": [0, 1]} for name in "uv"],
+            "dynamics": {"time": "discrete", "period": 1, "equations": {"n": "if(n <= 2, min(n + u + v, 2), n + u + v)"}},
+            "safe": "true",
+        }
+
+        def partition(**changes):
+            self.write("spec.json", spec_with(**{**lane, **changes}))
+            (own,) = self.analyze("spec.json")["partitions"]
+            return own["fixed_point"], own["leaving"]
+
+        def line():
+            return re.search("(?m)^  silence for ever  +(.*)$", self.run_program("analyze", "spec.json").stdout.decode())[1]
+
+        self.assertEqual(partition(), (6, 3))
+        self.assertEqual(line(), "6 cells, of these 3 because they leave through a safe side")
+        # Whoever goes on behind the wall is noticed, unless it leaves at once: only 5 leaves, by u = 1 or v = 1.
+        noticed = {"name": "m", "lower": 0, "upper": 1, "step": 1, "discrete": True, "outside": "unsafe"}
+        equations = {"n": "if(n <= 2, n, n + u)", "m": "if(n >= 3, u, 0)"}
+        states = [*lane["states"], noticed]
+        changes = {"states": states, "dynamics": dict(lane["dynamics"], equations=equations), "safe": "m == 0"}
+        changes["inputs"] = [{"name": "u", "values": [0, 1]}, {"name": "v", "values": [0]}]
+        self.assertEqual(partition(**changes), (6, 1))
+        everywhere = dict(lane["dynamics"], equations={"n": "n + u + v"})
+        self.assertEqual(partition(dynamics=everywhere), (6, 6))
+        self.assertEqual(line(), "6 cells, because they leave through a safe side")
+        self.assertEqual(partition(inputs=[{"name": name, "values": [0]} for name in "uv"]), (6, 0))
+        self.assertEqual(line(), "6 cells, of these 0 because they leave through a safe side")
+        # Nobody is ever silent; no side is safe.
+        whole = {"partitions": [{"name": "both", "classes": [["a", "b"]]}]}
+        self.assertEqual(partition(coordination=whole), (6, None))
+        self.assertEqual(partition(states=[dict(lane["states"][0], outside={"above": "saturate"})]), (6, None))
+        self.assertEqual(line(), "6 cells")
+
     def test_lane_change(self):
         summary = self.analyze(str(CONFIGS / "lane_change.json"))
         self.assertEqual((summary["cells"], summary["joint_inputs"]), (28, 4))
@@ -146,7 +184,7 @@ $""",
         )
         self.assertEqual(
             list(summary["partitions"][0]),
-            ["name", "classes", "F", "fixed_point", "layers", "truncated", "never_without_connection", "max_delay_time", "best_at_edges"],
+            ["name", "classes", "F", "fixed_point", "leaving", "layers", "truncated", "never_without_connection", "max_delay_time", "best_at_edges"],
         )
         self.assertEqual((summary["name"], summary["output"]), ("small", "out.h5"))
         self.assertEqual((summary["period"], summary["period_unit"]), (0.5, "s"))

@@ -11,6 +11,7 @@
 #include "answers/invariance/safe_set.hpp"
 #include "answers/kept_levels.hpp"
 #include "answers/layers/answer.hpp"
+#include "answers/layers/leaving_cells.hpp"
 #include "answers/layers/projection_bytes.hpp"
 #include "answers/work_json.hpp"
 #include "base/grouped.hpp"

@@ -1,8 +1,8 @@
 #include "answers/goal/progress_engine.hpp"
 
-#include <algorithm>
 #include <utility>
 
+#include "answers/layers/leaving_cells.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -28,12 +28,6 @@ ProgressEngine::ProgressEngine(const Ground& ground) : ground_(&ground) {
   tubes.grid = &ground.abstraction->grid;
   engine_.emplace(*abstraction_, &ground.pairs, tubes, ground.shared_rows());
   hull_.emplace(*engine_);
-}
-
-bool has_safe_side(const ProblemSpec& spec) {
-  return std::any_of(spec.states.begin(), spec.states.end(), [](const StateSpec& state) {
-    return traits(state.below).is_only_safe() || traits(state.above).is_only_safe();
-  });
 }
 
 }  // namespace coordreq

@@ -28,7 +28,4 @@ class ProgressEngine {
   std::optional<RowHull> hull_;
 };
 
-/// Some side is `safe`, so that a ProgressEngine has tables of its own.
-[[nodiscard]] bool has_safe_side(const ProblemSpec& spec);
-
 }  // namespace coordreq

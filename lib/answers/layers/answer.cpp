@@ -8,6 +8,7 @@
 #include "answers/kept_levels.hpp"
 #include "answers/layers/best_cells.hpp"
 #include "answers/layers/fields.hpp"
+#include "answers/layers/leaving_cells.hpp"
 #include "answers/layers/projection_bytes.hpp"
 #include "answers/layers/refinement.hpp"
 #include "answers/layers/stored_partition.hpp"
@@ -17,6 +18,12 @@
 
 namespace coordreq {
 namespace {
+
+/// Whether it is told of unbounded cells that their runs leave through a `safe` side. Where all coordinate
+/// nobody is ever silent, and beside a controller file classes may do what it does not list.
+bool tells_leaving(const Ground& ground, const DelayLayers& layers) {
+  return !layers.truncated && !ground.listed && has_safe_side(ground.spec);
+}
 
 /// REQUIRES: the layers of all coarser partitions are known.
 void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
@@ -32,19 +39,35 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
   const std::int64_t steps = ground.engine->grid().points();
   const LevelBounds bounds{&invariant,
                            coordination.max_delay ? std::min(*coordination.max_delay, steps) : steps};
+  std::optional<PartitionActions> actions;
+  const auto projections = [&]() -> const Projections& {
+    if (!actions) {
+      work.enter_part("projections");
+      actions.emplace(answers, p, work.team);
+      work.enter_part("");
+    }
+    return actions->projections;
+  };
   find_or_take_levels(work, *ground.engine, bounds, all[p].layers_of, [&](const WaveWatch& watch) {
-    work.enter_part("projections");
-    const PartitionActions actions(answers, p, work.team);
-    work.enter_part("");
     std::vector<const LevelMap*> coarser;
     for (const std::size_t q : next_coarser(coordination.partitions, p)) coarser.push_back(&all[q].layers_of);
-    DelayLayers found =
-        find_delay_layers(*ground.engine, *ground.hull, invariant, actions.projections, coarser,
-                          coordination.max_delay, watch, work.team, ground.over_or_null());
+    DelayLayers found = find_delay_layers(*ground.engine, *ground.hull, invariant, projections(), coarser,
+                                          coordination.max_delay, watch, work.team, ground.over_or_null());
     all[p].counts = found.counts;
     return std::move(found.layers_of);
   });
-  follow_from_levels(coordination.max_delay, work.team, all[p]);
+  DelayLayers& layers = all[p];
+  follow_from_levels(coordination.max_delay, work.team, layers);
+  if (!tells_leaving(ground, layers)) return;
+  layers.leaving = 0;
+  if (layers.sizes.back() == ground.over_cells) return;
+  const Projections& silent = projections();
+  work.enter_part("safe sides");
+  layers.leaving = count_leaving_cells(
+      answers, silent, layers,
+      {.step = work.step ? [&](const WaveStep& step) { work.step(step, steps / ground.engine->rows()); }
+                         : std::function<void(const WaveStep&)>()},
+      work.team);
 }
 
 /// |Z_0 \ Z_D|, where a layer that is not known counts as empty, but for a goal that ends the task.
@@ -90,6 +113,7 @@ Json partition_json(const Ground& ground, const PartitionSpec& partition, const 
   for (const auto& agents : partition.classes) json["classes"].push_back(class_name(spec.agents, agents));
   json["F"] = layers.truncated ? Json() : Json(layers.fixed_point_index);
   json["fixed_point"] = layers.truncated ? Json() : Json(layers.sizes.back());
+  json["leaving"] = layers.leaving ? Json(*layers.leaving) : Json();
   json["layers"] = layers.sizes;
   json["truncated"] = layers.truncated;
   json["never_without_connection"] = cells_bound_to_connect(ground, layers);
@@ -186,6 +210,7 @@ MemoryNeed layers_memory(const EngineSizes& sizes, int threads) {
       need.array = std::max(need.array, sizes.packed_pairs(own.actions()));
   }
   need.work += sizes.wave(threads) + sizes.recent_levels();
+  if (has_safe_side(spec)) need.work += sizes.levels() + 2 * sizes.set();
   if (spec.output.actions) need.written += actions + sizes.readers(threads);
   // Processes sort equal parts of the cells, of which each is told its layer.
   if (spec.output.layers) need.written += std::min(sizes.cells(), 2 * sizes.lanes()) * sizeof(std::uint32_t);

@@ -29,6 +29,9 @@ struct DelayLayers {
   bool truncated =
       false;  ///< `max_delay` came first: the last layer's delays are lower bounds, none is unbounded
   WaveCounts counts;
+  /// Cells of Z_F from which a run leaves through a `safe` side, see count_leaving_cells(); nothing where
+  /// that is not asked.
+  std::optional<std::int64_t> leaving = {};
 
   /// What LevelMap::kTop means as a delay.
   [[nodiscard]] std::int32_t top_delay() const {

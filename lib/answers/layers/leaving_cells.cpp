@@ -1,0 +1,185 @@
+#include "answers/layers/leaving_cells.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "answers/invariance/answer.hpp"
+#include "answers/layers/independent_actions.hpp"
+#include "answers/one_cell/cell_posts.hpp"
+#include "base/index.hpp"
+#include "engine/find_levels.hpp"
+#include "engine/level_messages.hpp"
+#include "model/odometer.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+bool is_safe(const GridDimension& dimension, bool above) {
+  return traits(above ? dimension.above : dimension.below).is_only_safe();
+}
+
+/// Looks for a joint input of C(x) that leaves. Works for one thread.
+class LeavingInput {
+ public:
+  explicit LeavingInput(const Answers& answers)
+      : ground_(answers.ground),
+        abstraction_(*ground_.abstraction),
+        grid_(abstraction_.grid),
+        invariant_(answers.get<Invariance>().invariant),
+        posts_(abstraction_) {
+    for (std::size_t i = 0; i < grid_.size(); ++i) {
+      if (!is_safe(grid_[i], false) && !is_safe(grid_[i], true)) continue;
+      Side& side = sides_.emplace_back(Side{i, {}});
+      std::vector<std::int64_t> counts, strides;
+      for (const std::int32_t j : abstraction_.tables[i].inputs) {
+        counts.push_back(abstraction_.inputs[at(j)].count());
+        strides.push_back(abstraction_.inputs.stride(at(j)));
+      }
+      Odometer choice(counts);
+      do {
+        std::int64_t part = 0;
+        for (std::size_t k = 0; k < counts.size(); ++k) part += choice.indices()[k] * strides[k];
+        side.parts.push_back(part);
+      } while (choice.advance());
+    }
+  }
+
+  /// REQUIRES: x is in Z_F.
+  bool is_at(std::int64_t x) {
+    if (std::none_of(sides_.begin(), sides_.end(), [&](const Side& side) { return is_near(side, x); }))
+      return false;
+    posts_.move_to(x);
+    const std::int64_t all = abstraction_.inputs.count();
+    // What left the cell before most often leaves this one.
+    for (std::int64_t k = 0; k < all; ++k) {
+      const std::int64_t u = (last_ + k) % all;
+      if (!leaves(x, u) || !is_admissible(x, u)) continue;
+      last_ = u;
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Side {
+    std::size_t dimension;
+    std::vector<std::int64_t> parts;  ///< of joint inputs, one for each choice of those that it depends on
+  };
+
+  /// Some input, in C(x) or not, leads out of it.
+  [[nodiscard]] bool is_near(const Side& side, std::int64_t x) const {
+    return std::any_of(side.parts.begin(), side.parts.end(),
+                       [&](std::int64_t part) { return leaves_by(side.dimension, x, part); });
+  }
+
+  [[nodiscard]] bool leaves_by(std::size_t i, std::int64_t x, std::int64_t u) const {
+    const IndexRange raw = abstraction_.raw(i, x, u);
+    return (raw.first < 0 && is_safe(grid_[i], false)) ||
+           (raw.last >= grid_[i].count && is_safe(grid_[i], true));
+  }
+
+  [[nodiscard]] bool leaves(std::int64_t x, std::int64_t u) const {
+    return std::any_of(sides_.begin(), sides_.end(),
+                       [&](const Side& side) { return leaves_by(side.dimension, x, u); });
+  }
+
+  [[nodiscard]] bool is_admissible(std::int64_t x, std::int64_t u) {
+    const PairTable* const allow = ground_.pairs.admissible();
+    const std::int64_t row = x / grid_.row_length(), column = x % grid_.row_length();
+    if (allow != nullptr &&
+        (allow->row(row, u)[at(column / CellSet::kWordBits)] >> (column % CellSet::kWordBits) & 1) == 0)
+      return false;
+    if (ground_.spec.controller.synthesis == Synthesis::given) return true;
+    const CellPost post = posts_.post(u, ground_.tubes());
+    if (post.blocked != CellPost::Blocked::no) return false;
+    return post.all_left || is_invariant(post.box);
+  }
+
+  [[nodiscard]] bool is_invariant(const std::vector<IndexRange>& ranges) const {
+    std::vector<std::int64_t> sizes;
+    for (const IndexRange range : ranges) sizes.push_back(std::int64_t{range.last} - range.first + 1);
+    Odometer box(sizes);
+    do {
+      std::int64_t place = 0;
+      for (std::size_t i = 0; i < sizes.size(); ++i)
+        place += (ranges[i].first + box.indices()[i]) % grid_[i].count * grid_.stride(i);
+      if (!invariant_.test(place)) return false;
+    } while (box.advance());
+    return true;
+  }
+
+  const Ground& ground_;
+  const Abstraction& abstraction_;
+  const UniformGrid& grid_;
+  const CellSet& invariant_;
+  CellPosts posts_;
+  std::vector<Side> sides_;
+  std::int64_t last_ = 0;
+};
+
+/// Takes the cells from where some joint input leaves out of Z_F, in the rows owned.
+void take_out_leaving(const Answers& answers, ThreadTeam& team, CellSet& cells) {
+  const Ground& ground = answers.ground;
+  std::vector<std::unique_ptr<LeavingInput>> inputs;
+  for (int w = 0; w < team.size(); ++w) inputs.push_back(std::make_unique<LeavingInput>(answers));
+  const RowEngine& engine = *ground.engine;
+  for_each_own_row(team, engine.share(), engine.rows(), 16, [&](ThreadTeam::Range range, int worker) {
+    LeavingInput& input = *inputs[at(worker)];
+    std::vector<std::int64_t> found;
+    for (std::int64_t r = range.begin; r < range.end; ++r) {
+      const MutableRow row = cells.row(r);
+      found.clear();
+      for_each_bit(row, [&](std::int64_t lane) {
+        const std::int64_t x = r * engine.row_length() + lane;
+        if ((ground.over && ground.over->test(x)) || !input.is_at(x)) return;
+        found.push_back(lane);
+      });
+      for (const std::int64_t lane : found)
+        row[at(lane / CellSet::kWordBits)] &= ~(Word{1} << (lane % CellSet::kWordBits));
+    }
+  });
+}
+
+/// The greatest level for the cells of a set that is known in the rows owned.
+LevelMap first_levels(const RowEngine& engine, const CellSet& cells, bool shared, ThreadTeam& team) {
+  auto levels = engine.make_levels<std::uint8_t>(cells, team, shared);
+  if (engine.share() != nullptr) {
+    LevelMessages<std::uint8_t>(levels).exchange(
+        [](std::int64_t) { return true; },
+        [&levels](std::int64_t row, const std::uint8_t* others) { levels.put(row, others); });
+  }
+  return LevelMap(std::move(levels));
+}
+
+}  // namespace
+
+bool has_safe_side(const ProblemSpec& spec) {
+  return std::any_of(spec.states.begin(), spec.states.end(), [](const StateSpec& state) {
+    return traits(state.below).is_only_safe() || traits(state.above).is_only_safe();
+  });
+}
+
+std::int64_t count_leaving_cells(const Answers& answers, const Projections& projections,
+                                 const DelayLayers& layers, const WaveWatch& watch, ThreadTeam& team) {
+  const Ground& ground = answers.ground;
+  CellSet cells = layers.layers_of.top_cells(team);
+  take_out_leaving(answers, team, cells);
+  const CellSet& invariant = answers.get<Invariance>().invariant;
+  const auto make = [&]<class Level>(Level) -> std::unique_ptr<RowOperator<Level>> {
+    return std::make_unique<IndependentActions<Level>>(projections, *ground.hull, invariant, team.size());
+  };
+  const LevelProblem problem{.spared = ground.over_or_null(),
+                             .equal = projections.equal_work(),
+                             .make8 = [&] { return make(std::uint8_t{}); },
+                             .make16 = [&] { return make(std::uint16_t{}); },
+                             .make32 = [&] { return make(std::uint32_t{}); }};
+  LevelMap start = first_levels(*ground.engine, cells, problem.equal.tiles != nullptr, team);
+  WaveCounts counts;
+  const LevelMap steps = find_levels(*ground.engine, *ground.hull, problem,
+                                     {.step = watch.step, .resumed = &start}, team, counts);
+  return layers.sizes.back() - steps.histogram(team).top;
+}
+
+}  // namespace coordreq
