@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 void read_into(PlannedRun& run, const SpecSource& source, std::vector<SpecSetting> settings) {
   settings.insert(settings.end(), run.values.begin(), run.values.end());
   try {
-    run.spec = read_spec(with_settings(source, settings));
+    run.spec = read_with_settings(source, settings);
   } catch (...) {
     run.failure = describe_current_exception();
   }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -80,9 +81,16 @@ SpecSource load_source(const std::string& path, std::optional<std::uint64_t> mem
   return source;
 }
 
+ProblemSpec read_with_settings(const SpecSource& source, const std::vector<SpecSetting>& settings) {
+  const auto written = std::make_shared<const WrittenSpec>(WrittenSpec{source.text, settings});
+  ProblemSpec spec = with_places(*written, [&] { return read_spec(with_settings(source, settings)); });
+  if (!settings.empty()) spec.written = written;
+  return spec;
+}
+
 ProblemSpec load_spec(const std::string& path, const std::vector<SpecSetting>& settings,
                       std::optional<std::uint64_t> memory) {
-  return read_spec(with_settings(load_source(path, memory), settings));
+  return read_with_settings(load_source(path, memory), settings);
 }
 
 }  // namespace coordreq

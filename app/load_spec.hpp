@@ -9,6 +9,7 @@
 #include "app/options.hpp"
 #include "spec/read_spec.hpp"
 #include "spec/set_value.hpp"
+#include "spec/spec_place.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
@@ -22,6 +23,17 @@ void declare_settings(Options& options, std::vector<SpecSetting>& settings);
 /// @param memory that this program may take. @throws LimitError if reading a text so long would take more;
 /// IoError
 [[nodiscard]] SpecSource load_source(const std::string& path, std::optional<std::uint64_t> memory);
+
+/// The spec that a text is with the settings carried out, checked; it knows what was written.
+/// @throws SpecError with the place in the text; UsageError
+[[nodiscard]] ProblemSpec read_with_settings(const SpecSource& source,
+                                             const std::vector<SpecSetting>& settings);
+
+/// What `work` on a spec returns. @throws SpecError with the place in what was written
+template <class Work>
+auto with_places_in(const ProblemSpec& spec, const Work& work) {
+  return with_places(written_spec(spec), work);
+}
 
 /// The spec at `path`, as the settings make it, checked.
 /// @throws as load_source(); SpecError; UsageError for a setting that leads nowhere

@@ -23,13 +23,16 @@ namespace {
 ProblemSpec shared_spec(const AnalyzeOptions& own, Ranks& ranks) {
   SpecSource source;
   if (ranks.rank() == 0) {
-    source = with_settings(load_source(own.specs.front(), own.memory()), own.settings);
+    const SpecSource written = load_source(own.specs.front(), own.memory());
     // Before anybody else knows of it: whatever is wrong is said once.
-    static_cast<void>(read_spec(source));
+    static_cast<void>(read_with_settings(written, own.settings));
+    source = with_settings(written, own.settings);
   }
   for (std::string* const part : {&source.text, &source.name, &source.folder})
     *part = text_of(ranks.from_first(bytes_of(*part)));
-  return read_spec(source);
+  ProblemSpec spec = read_spec(source);
+  if (!own.settings.empty()) spec.written = std::make_shared<WrittenSpec>();  // not all have what was written
+  return spec;
 }
 
 Run declare_analyze(Options& options, Ranks& ranks, const std::function<void()>& watch) {

@@ -1,6 +1,7 @@
 #include "app/mpi/batch_on_ranks.hpp"
 
 #include <chrono>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
@@ -9,6 +10,7 @@
 #include "app/interrupt.hpp"
 #include "app/mpi/text_messages.hpp"
 #include "spec/read_spec.hpp"
+#include "spec/spec_place.hpp"
 
 namespace coordreq {
 namespace {
@@ -24,7 +26,11 @@ Json json_of(const Bytes& message) {
 }
 
 Json request_of(const PlannedRun& run) {
-  return {{"text", run.spec->text}, {"path", run.path}, {"folder", run.spec->folder}, {"output", run.output}};
+  return {{"text", run.spec->text},
+          {"is_written", !run.spec->written},
+          {"path", run.path},
+          {"folder", run.spec->folder},
+          {"output", run.output}};
 }
 
 Json answer_of(const RunOutcome& outcome) {
@@ -48,8 +54,9 @@ void serve(const AnalyzeOptions& asked, Ranks& ranks) {
     const Bytes message = ranks.receive(0);
     if (message.empty()) return;
     const Json request = json_of(message);
-    const ProblemSpec spec =
+    ProblemSpec spec =
         read_spec({.text = request["text"], .name = request["path"], .folder = request["folder"]});
+    if (!request["is_written"].get<bool>()) spec.written = std::make_shared<WrittenSpec>();
     ranks.send(0, message_of(answer_of(outcome_of(spec, request["output"], asked, ""))));
   }
 }

@@ -74,19 +74,36 @@ std::size_t token_end(std::string_view text, std::size_t offset) {
 
 }  // namespace
 
-std::string JsonText::at(std::size_t offset) const {
+std::string JsonText::place(std::size_t offset) const {
   const std::string_view before = text.substr(0, offset);
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
   std::size_t column = 1;
   for (const char c : before.substr(line_start))
     column += is_continuation(static_cast<unsigned char>(c)) ? 0U : 1U;
-  return fmt::format("{}, line {}, column {}", source, line, column);
+  return fmt::format("line {}, column {}", line, column);
+}
+
+std::string JsonText::at(std::size_t offset) const {
+  return fmt::format("{}, {}", source, place(offset));
 }
 
 std::string JsonText::found_at(std::size_t offset) const {
   if (offset >= text.size()) return "the end of the file";
   return quote_text(text.substr(offset, token_end(text, offset) - offset));
+}
+
+std::size_t JsonText::token_from(std::size_t offset) const {
+  for (std::size_t before = text.size(); offset != before && offset < text.size();) {
+    before = offset;
+    while (offset < text.size() && is_space(text[offset])) ++offset;
+    offset = after_comments(text, offset);
+  }
+  return offset;
+}
+
+std::size_t JsonText::end_of_token(std::size_t offset) const {
+  return token_end(text, offset);
 }
 
 std::size_t JsonText::bracket(std::size_t number) const {

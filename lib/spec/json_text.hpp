@@ -12,11 +12,18 @@ struct JsonText {
   std::string_view text;    ///< without a byte order mark
   std::string_view source;  ///< file name
 
-  /// "circle.json, line 3, column 5" for the byte at `offset`; both count from 1, columns in code points.
+  /// "line 3, column 5" for the byte at `offset`; both count from 1, columns in code points.
+  [[nodiscard]] std::string place(std::size_t offset) const;
+  /// "circle.json, line 3, column 5".
   [[nodiscard]] std::string at(std::size_t offset) const;
 
   /// The token that starts at `offset`, quoted for a message; "the end of the file" behind the last byte.
   [[nodiscard]] std::string found_at(std::size_t offset) const;
+
+  /// Where the first token at `offset` or behind it starts, comments left out.
+  [[nodiscard]] std::size_t token_from(std::size_t offset) const;
+  /// Behind the token that starts at `offset`.
+  [[nodiscard]] std::size_t end_of_token(std::size_t offset) const;
 
   /// Where the `number`-th bracket (from 1) stands that opens an object or a list.
   /// REQUIRES: the text is well-formed up to there.

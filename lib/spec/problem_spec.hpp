@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 // The problem as plain data, contract section 2. Only read_spec() makes one, so every invariant named here
 // holds wherever a ProblemSpec is seen.
 namespace coordreq {
+
+struct WrittenSpec;
 
 struct ControllerSpec {
   Synthesis synthesis = Synthesis::maximal;
@@ -64,7 +67,9 @@ struct OutputSpec {
 };
 
 struct ProblemSpec : SystemSpec {
-  std::string text;    ///< the spec as read, UTF-8
+  std::string text;  ///< the spec as read, UTF-8
+  /// As its author has written it, where that is another text; null: it is the same.
+  std::shared_ptr<const WrittenSpec> written;
   std::string folder;  ///< where relative paths start; empty: the current one
   std::string name;
   std::string description;

@@ -196,6 +196,18 @@ void refine(OrderedJson& state, std::int64_t factor) {
 
 }  // namespace
 
+std::optional<std::string> pointer_of_setting(const std::string& text, const SpecSetting& setting) {
+  const OrderedJson spec = parsed(text);
+  std::string pointer;
+  try {
+    for (const std::string& step : PlaceFinder(spec, setting.path).to(steps_of(setting.path)))
+      pointer = member_pointer(pointer, step);
+  } catch (const UsageError&) {
+    return std::nullopt;
+  }
+  return pointer;
+}
+
 std::string without_comments(const std::string& text) {
   return parsed(text).dump(2) + "\n";
 }

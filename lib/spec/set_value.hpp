@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace coordreq {
@@ -23,6 +24,11 @@ struct SpecSetting {
 ///   the place if the path leads nowhere, the value starts like JSON and is none, or one of them is not UTF-8
 [[nodiscard]] std::string with_setting(const std::string& text, const std::string& source,
                                        const SpecSetting& setting);
+
+/// The JSON pointer of what a setting sets in a text; nothing if it leads nowhere.
+/// REQUIRES: JsonDocument::parse() has accepted the text.
+[[nodiscard]] std::optional<std::string> pointer_of_setting(const std::string& text,
+                                                            const SpecSetting& setting);
 
 /// The text of a spec without its comments, its numbers as with_setting() has them.
 /// REQUIRES: JsonDocument::parse() has accepted it.
