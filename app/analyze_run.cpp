@@ -1,5 +1,7 @@
 #include "app/analyze_run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -8,6 +10,7 @@
 
 #include "analysis/analyze.hpp"
 #include "analysis/estimate_memory.hpp"
+#include "analysis/estimate_seconds.hpp"
 #include "app/analysis_text.hpp"
 #include "app/files_in_use.hpp"
 #include "app/interrupt.hpp"
@@ -17,6 +20,8 @@
 #include "app/print_answer.hpp"
 #include "app/print_warnings.hpp"
 #include "app/progress_display.hpp"
+#include "app/standard_streams.hpp"
+#include "app/text.hpp"
 #include "reach/make_model.hpp"
 #include "results/write_results.hpp"
 #include "spec/problem_spec.hpp"
@@ -42,6 +47,19 @@ class InterruptPolicy {
   std::optional<InterruptDelay> delay_;
 };
 
+/// Before work that will take hours it says so. What is known of that decides nothing.
+void tell_of_hours(const Model& model, ThreadTeam& team) {
+  constexpr double kHour = 3600;
+  if (!may_take_hours(model)) return;
+  const std::optional<double> seconds = estimate_seconds(model, team);
+  if (!seconds || *seconds < kHour) return;
+  write_diagnostics(fmt::format(
+      "coordreq: warning: {} will take about {} on {} thread{}; --checkpoint keeps what is done, and a "
+      "coarser "
+      "grid takes less\n",
+      printable(model.spec().name), time_span(*seconds), team.size(), team.size() == 1 ? "" : "s"));
+}
+
 /// @throws UsageError if a file would take the place of another
 void check_files(const ProblemSpec& spec, const std::string& output, const AnalyzeOptions& own) {
   FilesInUse files;
@@ -55,12 +73,13 @@ void check_files(const ProblemSpec& spec, const std::string& output, const Analy
 
 std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const std::string& output,
                                                   const AnalyzeOptions& asked, const std::string& prefix) {
-  const Model model = make_model(spec);
+  const Model model = with_places_in(spec, [&] { return make_model(spec); });
   // Of several processes each knows what it holds only later.
   const bool is_alone = asked.ranks == nullptr || asked.ranks->count() == 1;
   ThreadTeam team(is_alone
                       ? threads_within(model, asked.memory(), asked.threads, asked.checkpoint.has_value())
                       : asked.threads);
+  if (is_alone && !asked.quiet) tell_of_hours(model, team);
   InterruptPolicy interrupts;
   ProgressDisplay shown(asked.progress, asked.quiet);
   AnalysisOptions options;
@@ -78,7 +97,7 @@ std::shared_ptr<const Json> analyze_with_progress(const ProblemSpec& spec, const
   options.notice = [&](const std::string& text) {
     if (!asked.quiet) shown.notice(text);
   };
-  Json summary = analyze(model, options, team);
+  Json summary = with_places_in(spec, [&] { return analyze(model, options, team); });
   shown.finish();
   if (asked.is_first() && verdict(summary) != ExitCode::success && std::filesystem::is_regular_file(output))
     summary = with_nearest_regions(summary, output);

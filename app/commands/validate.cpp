@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -7,6 +8,7 @@
 #include "analysis/advice.hpp"
 #include "analysis/analyze.hpp"
 #include "analysis/estimate_memory.hpp"
+#include "analysis/estimate_seconds.hpp"
 #include "answers/requirements/judge_requirements.hpp"
 #include "app/commands/all.hpp"
 #include "app/guarantee_line.hpp"
@@ -15,6 +17,7 @@
 #include "app/print_answer.hpp"
 #include "app/print_warnings.hpp"
 #include "app/render.hpp"
+#include "app/text.hpp"
 #include "model/outside_word.hpp"
 #include "reach/make_model.hpp"
 #include "spec/problem_spec.hpp"
@@ -147,6 +150,15 @@ std::string rows_text(const Json& rows) {
                      grouped(rows["drawn"]), grouped(rows["different"]));
 }
 
+/// To one digit: more would be a pretence.
+std::string time_text(const Json& seconds) {
+  if (seconds.is_null()) return "unknown";
+  const auto value = seconds.get<double>();
+  if (value < 1) return "less than a second";
+  const double digit = std::pow(10, std::floor(std::log10(value)));
+  return "about " + time_span(value < 60 ? std::round(value / digit) * digit : value);
+}
+
 std::string totals_table(const Json& report, const ProblemSpec& spec, bool is_verbose) {
   Facts facts = {{"cells", grouped(report["cells"])}, {"joint inputs", grouped(report["joint_inputs"])}};
   if (is_verbose) facts.emplace_back("rows", rows_text(report["rows"]));
@@ -156,7 +168,8 @@ std::string totals_table(const Json& report, const ProblemSpec& spec, bool is_ve
   facts.insert(facts.end(),
                {{"reachable sets", report["exact"] ? "exact interval hulls" : "outward rounded"},
                 {"guarantee", guarantee_line(text_of(report["guarantee"]), report["motion"], spec)},
-                {"memory of analyze", "about " + byte_size(report["memory_bytes"].get<std::uint64_t>())}});
+                {"memory of analyze", "about " + byte_size(report["memory_bytes"].get<std::uint64_t>())},
+                {"time of analyze", time_text(report["seconds"])}});
   if (report.contains("fullest_rank")) {
     const Json& rank = report["fullest_rank"];
     facts.emplace_back(fmt::format("fullest of {} ranks", rank["ranks"].get<int>()),
@@ -188,16 +201,19 @@ struct ValidateOptions : CommonOptions {
   bool is_verbose = false;
 };
 
-ExitCode run(const ValidateOptions& own) {
-  own.hold_to_memory();
+/// What is found out about a spec.
+Json inspected(const ProblemSpec& spec, const ValidateOptions& own) {
   const std::optional<std::uint64_t> memory = own.memory();
-  const ProblemSpec spec = load_spec(own.spec, own.settings, memory);
   const Model model = make_model(spec);
   const int threads = own.ranks ? own.threads : threads_within(model, own.max_memory, own.threads, false);
   const SpecReport report = inspect(model, threads);
   Json found = report_json(report, spec);
+  found["seconds"] = nullptr;
   if (!memory || report.memory_bytes <= *memory) {
     ThreadTeam team(threads);
+    if (const std::optional<double> seconds = own.quiet ? std::nullopt : estimate_seconds(model, team);
+        seconds)
+      found["seconds"] = *seconds;
     check_regions(spec, team);
     found["warnings"] = warnings_json(advise_before(model, report.motion, team));
   } else {
@@ -209,6 +225,13 @@ ExitCode run(const ValidateOptions& own) {
         *own.ranks,
         inspect_ranks(model, *own.ranks, own.threads, {.of_rank = own.max_memory, .here = memory}, team));
   }
+  return found;
+}
+
+ExitCode run(const ValidateOptions& own) {
+  own.hold_to_memory();
+  const ProblemSpec spec = load_spec(own.spec, own.settings, own.memory());
+  const Json found = with_places_in(spec, [&] { return inspected(spec, own); });
   PrintedWarnings(own).print(found["warnings"]);
   print_answer(own, found,
                [&](const Json& report_of_spec) { return report_text(report_of_spec, spec, own.is_verbose); });

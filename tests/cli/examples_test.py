@@ -59,6 +59,7 @@ partitions         horizontal\|vertical
 reachable sets     exact interval hulls
 guarantee          samples-center: checked every 0\.01 s only, where the centre of a cell is safe; between, x1 moves up to 0\.01 m
 memory of analyze  about [0-9.]+ MiB
+time of analyze    (less than a second|about [0-9.]+ s)
 $""",
         )
         self.assertEqual(self.files(), [])
@@ -83,6 +84,7 @@ $""",
                 "motion",
                 "guarantee",
                 "memory_bytes",
+                "seconds",
                 "warnings",
             ],
         )

@@ -19,6 +19,7 @@ def blocks(page, language):
 def without_effort(text):
     text = re.sub(r"\([0-9.]+ s on [0-9]+ threads?(, [0-9.]+ MiB)?\)", "(effort)", text)
     text = re.sub(r"(?<=memory of analyze  about )[0-9.]+(?= MiB)", "N", text)
+    text = re.sub(r"(?<=time of analyze    )(about [0-9].*|less than a second)", "N", text)
     return re.sub(r" +[0-9]+\.[0-9]{2} +[0-9.]+ MiB  ", " effort ", text)  # in a table
 
 

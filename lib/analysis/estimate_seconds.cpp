@@ -1,0 +1,131 @@
+#include "analysis/estimate_seconds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <numeric>
+#include <vector>
+
+#include "analysis/analysis_stages.hpp"
+#include "analysis/coarse_copy.hpp"
+#include "answers/answers.hpp"
+#include "answers/plan.hpp"
+#include "base/error.hpp"
+#include "base/timer.hpp"
+#include "reach/make_model.hpp"
+#include "spec/problem_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+constexpr std::int64_t kFirstCells = 1000;
+constexpr std::int64_t kGrowth = 4;
+/// A copy that takes longer is the last one.
+constexpr double kLongEnough = 0.1;
+/// By which powers of the number of cells work grows: equal work is done once, so that it may be few.
+constexpr double kLeastPower = 0.3, kMostPower = 1.5;
+
+/// What a copy has, and took.
+struct Measured {
+  double cells = 0, entries = 0;
+  double tables = 0, rest = 0;  ///< seconds
+  [[nodiscard]] double all() const { return tables + rest; }
+};
+
+double cells_of(const ProblemSpec& spec) {
+  return std::accumulate(spec.states.begin(), spec.states.end(), 1.0, [](double cells, const StateSpec& own) {
+    return cells * static_cast<double>(own.grid.count);
+  });
+}
+
+double entries_of(const Model& model) {
+  const auto& shapes = model.shapes();
+  return std::accumulate(shapes.begin(), shapes.end(), 0.0,
+                         [](double sum, const TableShape& own) { return sum + own.entries; });
+}
+
+Measured measure(const ProblemSpec& spec, ThreadTeam& team) {
+  StageTimer timer;
+  timer.begin("model");
+  const Model model = make_model(spec);
+  Answers answers(model);
+  run_stages(analysis_stages(spec), answers, {.team = team},
+             {.enter = [&timer](const std::string& stage) { timer.begin(stage); }});
+  timer.end();
+  Measured found{.cells = cells_of(spec), .entries = entries_of(model)};
+  for (const auto& [stage, seconds] : timer.seconds())
+    (stage == "abstraction" ? found.tables : found.rest) += seconds;
+  return found;
+}
+
+/// The problem with steps `factor` times as long.
+ProblemSpec coarser(const ProblemSpec& spec, std::int64_t factor) {
+  constexpr std::int64_t kFewPoints = 4;
+  ProblemSpec copy = spec;
+  copy.requirements.clear();  // their regions may be none on it
+  for (StateSpec& state : copy.states)
+    regrid(state,
+           Rational(static_cast<long>(std::clamp<std::int64_t>(state.grid.count / kFewPoints, 1, factor))));
+  return copy;
+}
+
+/// The least coarse one of at most so many cells, or the problem itself.
+std::optional<ProblemSpec> copy_within(const ProblemSpec& spec, double most_cells) {
+  for (std::int64_t factor = 1; factor <= 4096; factor = factor < 8 ? factor + 1 : factor * 5 / 4) {
+    ProblemSpec copy = coarser(spec, factor);
+    if (cells_of(copy) <= most_cells) return copy;
+  }
+  return std::nullopt;
+}
+
+double extrapolated(const Model& model, const std::vector<Measured>& copies) {
+  const Measured& last = copies.back();
+  const double cells = cells_of(model.spec());
+  double power = 1;
+  if (copies.size() > 1) {
+    const Measured& before = copies[copies.size() - 2];
+    power = std::log(std::max(last.rest, 1e-6) / std::max(before.rest, 1e-6)) /
+            std::log(last.cells / before.cells);
+  }
+  return last.tables * entries_of(model) / last.entries +
+         last.rest * std::pow(cells / last.cells, std::clamp(power, kLeastPower, kMostPower));
+}
+
+std::optional<double> estimated(const Model& model, ThreadTeam& team) {
+  const ProblemSpec& spec = model.spec();
+  const double cells = cells_of(spec);
+  std::vector<Measured> copies;
+  for (auto most = static_cast<double>(kFirstCells);; most *= kGrowth) {
+    const std::optional<ProblemSpec> copy = copy_within(spec, most);
+    if (copy && (copies.empty() || cells_of(*copy) > copies.back().cells))
+      copies.push_back(measure(*copy, team));
+    if (!copies.empty() && copies.back().cells == cells) return copies.back().all();
+    if (!copies.empty() && copies.back().all() > kLongEnough) return extrapolated(model, copies);
+    if (most > cells) return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::optional<double> estimate_seconds(const Model& model, ThreadTeam& team) {
+  if (model.spec().controller.file) return std::nullopt;
+  try {
+    return estimated(model, team);
+  } catch (const SpecError&) {
+    return std::nullopt;
+  } catch (const LimitError&) {
+    return std::nullopt;
+  } catch (const std::bad_alloc&) {
+    return std::nullopt;
+  }
+}
+
+bool may_take_hours(const Model& model) {
+  constexpr double kManyVisits = 2e8, kManyEntries = 2e6;
+  const ProblemSpec& spec = model.spec();
+  const double horizon = spec.risk ? static_cast<double>(spec.risk->horizon) : 0;
+  const auto partitions = static_cast<double>(spec.coordination.partitions.size());
+  return cells_of(spec) * (partitions + horizon) > kManyVisits || entries_of(model) > kManyEntries;
+}
+
+}  // namespace coordreq
