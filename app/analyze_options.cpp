@@ -22,7 +22,7 @@ void declare_files(Options& options, AnalyzeOptions& own) {
 /// The other two come after it, so that they can ask whether it was given.
 void declare_checkpoint(Options& options, std::optional<CheckpointOptions>& checkpoint, const char* takes) {
   options.option("--checkpoint", takes,
-                 "Save the work there now and then; removed when the results are written",
+                 "Save the work there from time to time; removed when the results are written",
                  [&checkpoint](const auto& text, const auto& option) {
                    checkpoint = {.file = file_name(text, option)};
                  });

@@ -23,7 +23,7 @@ struct AnalyzeOptions : CommonOptions {
   ProgressOptions progress;
   std::optional<CheckpointOptions> checkpoint;
   Ranks* ranks = nullptr;  ///< the processes that share the work; null: there is one
-  /// Called now and then while the work goes on; what it throws ends it. May be empty.
+  /// Called again and again while the work goes on; what it throws ends it. May be empty.
   std::function<void()> watch;
 
   /// Whether this process reads, writes and prints.

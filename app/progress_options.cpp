@@ -15,7 +15,7 @@ void declare_progress(Options& options, ProgressOptions& progress) {
   options.option("--progress-every", "SECONDS", "Between two lines (default: 10 of the log, else 60)",
                  [&progress](const auto& text, const auto& option) {
                    if (progress.mode == ProgressMode::none)
-                     throw UsageError("nothing is told, expected --progress log", option);
+                     throw UsageError("no lines are printed, expected --progress log", option);
                    progress.every_seconds = seconds(text, option);
                  });
 }

@@ -84,11 +84,11 @@ std::string end_text(const Json& story) {
   if (end == "not_allowed") return "together they do what 'allow' forbids";
   if (end == "no_common_action") return "some class has no action for all that it may see";
   if (end == "outside_silence_set") return "what comes after silence is no longer safe";
-  if (end == "no_silent_action") return "some agent is told nothing that it could do";
+  if (end == "no_silent_action") return "the rules of silence leave some agent no action";
   return "no action is allowed any more";
 }
 
-/// Of agents who do what they are told, until what comes after silence cannot help any more.
+/// Of agents who act by their rules, until what comes after silence cannot help any more.
 std::vector<std::string> silent_sentences(const Json& own, const ProblemSpec& spec) {
   const Json& story = own["counterexample"];
   std::map<std::string, std::int64_t> count;
@@ -96,11 +96,11 @@ std::vector<std::string> silent_sentences(const Json& own, const ProblemSpec& sp
   const std::int64_t later = count["afterwards"] + count["evasive"];
   const std::string end = end_text(story);
   if (later == 0)
-    return {fmt::format("Silent agents do what they are told, and after {} {}.",
+    return {fmt::format("Silent agents act by their rules, and after {} {}.",
                         steps_text(count["silent"], spec), end)};
   std::vector<std::string> sentences;
   if (count["silent"] > 0)
-    sentences.push_back(fmt::format("Silent agents do what they are told, and after {} it is too late.",
+    sentences.push_back(fmt::format("Silent agents act by their rules, and after {} it is too late.",
                                     steps_text(count["silent"], spec)));
   sentences.push_back(fmt::format(
       "{}, after {} {}.",

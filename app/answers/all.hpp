@@ -9,7 +9,7 @@
 #include "spec/spec_types.hpp"
 
 // What commands say of single answers, beyond what they say of any: members of JSON for which nothing is here
-// are told as they are. All other texts know no answer by name.
+// are printed as they are. All other texts know no answer by name.
 namespace coordreq {
 
 /// Facts about the sets, of the summary of `analyze` and of `info`; nothing where there are none.

@@ -59,7 +59,7 @@ void check_least(const QueryOptions& own) {
   if (own.least && own.extra) throw UsageError("one answer for all pairs, expected no --extra", "--extra");
   if (!own.least && own.at_least) throw UsageError("expected --least with it", "--at-least");
   if (!own.least && !own.partition.empty())
-    throw UsageError("all partitions are told, expected it with --least only", "--partition");
+    throw UsageError("all partitions are shown, expected it with --least only", "--partition");
 }
 
 ExitCode answer_least(const QueryOptions& own, const ResultsReader& results) {

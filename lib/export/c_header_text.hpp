@@ -193,7 +193,7 @@ static inline double $P_kept(int32_t kept, uint32_t k) {{
 /// Before all that an agent does not need who has nothing but silent tables.
 inline constexpr char kSilentOnly[] = R"c(
 /* With $M_SILENT_ONLY defined before this file is included there is nothing in it but $P_silent, and what that
-   takes: all that a class needs that sees only some states, once it has been told how many steps it may go on. */
+   takes: all that a class needs that sees only some states, once it knows how many steps it may go on. */
 #ifndef $M_SILENT_ONLY
 )c";
 

@@ -28,7 +28,7 @@ class Cases(Case):
             (("--least", "--at", "x=1,y=1"), "expected --at or --least, found both (--least)"),
             (("--least", "--extra"), "one answer for all pairs, expected no --extra (--extra)"),
             (("--at-least", "3"), "expected --least with it (--at-least)"),
-            (("--partition", "a|b"), "all partitions are told, expected it with --least only (--partition)"),
+            (("--partition", "a|b"), "all partitions are shown, expected it with --least only (--partition)"),
             (("--least", "--at-least", "-1"), "expected a whole number from 0 to 2147483646, found '-1' (--at-least)"),
         ):
             with self.subTest(arguments=arguments):

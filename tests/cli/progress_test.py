@@ -129,7 +129,7 @@ class Cases(Case):
         for message, *options in (
             ("expected auto, log or none, found 'no' (--progress)", "--progress", "no"),
             (
-                "nothing is told, expected --progress log (--progress-every)",
+                "no lines are printed, expected --progress log (--progress-every)",
                 "--progress",
                 "none",
                 "--progress-every",

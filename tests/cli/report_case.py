@@ -15,7 +15,7 @@ ROWS = {
     "Invariance set": "invariance set",
     "Leaves the safe set": "leaves the safe set",
     "Delay": "delay",
-    "Countdown": "connect in",
+    "Connect in": "connect in",
 }
 # What some files have only, named alike.
 FURTHER_ROWS = {"Cheapest partition", "Critical pairs", "Safe in"}

@@ -65,7 +65,7 @@ class Cases(PageCase):
             for up in range(0, 13, 2):
                 self.point((across + 0.5) / 13, (up + 0.5) / 13)
                 cell = self.cell()
-                seen.setdefault(cell["Countdown"], cell)
+                seen.setdefault(cell["Connect in"], cell)
         for cell in seen.values():
             self.assert_is_answer(cell, "alone")
         self.assertLessEqual({"a connection must exist already", "start to connect now", "none"}, set(seen))

@@ -110,7 +110,7 @@ Fields blind_fields(const ProblemSpec& spec) {
                    .map = {.kind = "blind_delay", .title = "Silence of agents that see only themselves"}}));
   fields.push_back(blind_steps("blind_countdown", spec,
                                "steps of silence that are left where agents no longer know the cell",
-                               {.column = "blind_countdown", .asked = {.words = "blind countdown"}}));
+                               {.column = "blind_countdown", .asked = {.words = "blind steps left"}}));
   add_sizes(fields, "/blind_", 'B', cell_count(spec), spec);
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
   const bool has_tables = std::ranges::any_of(

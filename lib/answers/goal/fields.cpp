@@ -69,7 +69,7 @@ void add_approach(Fields& fields, const ProblemSpec& spec) {
               {"connection_delay", spec.coordination.connection_delay}},
       {.column = "approach_countdown",
        .below_zero = TriggerTable::kMustBeConnected,
-       .asked = {.words = "approach countdown"}}));
+       .asked = {.words = "approach: connect in"}}));
 }
 
 template <class Integer>

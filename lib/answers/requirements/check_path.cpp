@@ -174,7 +174,7 @@ void PathChecker::check_evasive(std::size_t step, std::int64_t u) {
 
 void PathChecker::check_silent(std::size_t step, std::int64_t u) {
   if (!std::ranges::binary_search(silent_->of(cell_.number(), cell_.admitted()), u))
-    differs(step, "the joint input is not what agents are told");
+    differs(step, "the joint input is not what the rules of silence allow");
   const std::int32_t delay = path_->delay[step];
   const bool goes_on = step + 1 < path_->samples();
   const std::int32_t next = goes_on ? std::max(path_->delay[step + 1], kOutsideInvariant) : kOutsideInvariant;

@@ -13,7 +13,7 @@ function readings(cell) {
     ["Invariance set", delay < 0 ? "outside" : "inside"],
     ["Leaves the safe set", collisionText(valueAt(cell, (map) => map.kind === "collision_time"))],
     ["Delay", delayText(delay, partition)],
-    ["Countdown", countdownText(delay)],
+    ["Connect in", countdownText(delay)],
     ...data.maps.filter((map) => map.partition === undefined || data.partitions[map.partition] === partition).flatMap((map) => furtherReading(map, cell)),
   ];
 }
