@@ -12,6 +12,7 @@
 #include "answers/goal/policy.hpp"
 #include "answers/invariance/safe_set.hpp"
 #include "answers/layers/fields.hpp"
+#include "answers/layers/leaving_cells.hpp"
 #include "answers/layers/policy.hpp"
 #include "cell/margin.hpp"
 #include "cell/simulate_runs.hpp"

@@ -63,14 +63,14 @@ std::int64_t leaving_plainly(const ProblemSpec& spec, const FastAnalysis& fast, 
 }
 
 /// What of the tested cases there are.
-struct Seen {
+struct SeenLeaving {
   bool some = false, all = false, none = false;
 };
 
 void expect_same_leaving(const ProblemSpec& spec, ThreadTeam& team) {
   const FastAnalysis fast(spec, team);
   const PlainAnalysis plain = plainly(spec, fast);
-  Seen seen;
+  SeenLeaving seen;
   for (std::size_t p = 0; p < plain.partitions.size(); ++p) {
     const std::optional<std::int64_t>& leaving = fast.layers[p].leaving;
     const bool is_asked = has_safe_side(spec) && !fast.layers[p].truncated &&
