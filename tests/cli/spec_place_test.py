@@ -38,7 +38,7 @@ class Cases(Case):
     def test_a_value_in_a_text_with_comments(self):
         self.assert_said(
             COMMENTED.replace('"step": 1 }', '"step": -1 }'),
-            "expected a number above 0, found -1 (/states/1/step; line 8, column 15)",
+            "expected a step > 0, found -1 (/states/1/step; line 8, column 15)",
         )
 
     def test_columns_are_those_of_characters(self):
@@ -80,18 +80,17 @@ class Cases(Case):
     def test_what_is_not_there_or_no_value_has_no_place(self):
         self.assert_said(
             COMMENTED.replace('"safe": "x', '"saef": "x'),
-            "missing key 'safe' (top level)",
             "unknown key 'saef', did you mean 'safe'? (top level)",
         )
         self.assert_said("{\n", "expected a key in double quotes, found the end of the file (spec.json, line 2, column 1)")
 
     def test_a_value_that_was_set_says_by_what(self):
-        message = "expected a number above 0, found -1 (/states/1/step; set by states.y.step=-1)"
+        message = "expected a step > 0, found -1 (/states/1/step; set by states.y.step=-1)"
         self.assert_said(COMMENTED, message, settings=("--set", "states.y.step=-1"))
         # What was not set stands where it stands in the file, not in the text with the settings.
         text = COMMENTED.replace("x + y <= 6", "x + p <= 6")
         self.assert_said(
-            text, "unknown name 'p' (/safe, column 5; line 14, column 11)", settings=("--set", "states.y.step=2")
+            text, "'p' is not defined (/safe, column 5; line 14, column 11)", settings=("--set", "states.y.step=2")
         )
 
     def test_a_sweep_says_so_in_its_label(self):
@@ -100,7 +99,7 @@ class Cases(Case):
         self.assertEqual(
             [line for line in result.stderr.decode().splitlines() if "error" in line],
             [
-                "coordreq: error: spec.json states.0.step=-1: expected a number above 0, found -1 "
+                "coordreq: error: spec.json states.0.step=-1: expected a step > 0, found -1 "
                 "(/states/0/step; set by states.0.step=-1)"
             ],
         )

@@ -12,9 +12,9 @@ SWEPT = spec_with(constants={"R": 6}, safe="x + y <= R")
 
 TABLE = """constants.R  states.x.step  cells  safe  invariant  requirements met   seconds    memory     F  unbounded  longest finite delay
 6            1                 25    22         22                 -      SECS    MEMORY     4          0  3 steps (1.5 s)
-6            0              error: expected a step > 0, found 0 (/states/0/step)
+6            0              error: expected a step > 0, found 0 (/states/0/step; set by states.x.step=0)
 4            1                 25    15         15                 -      SECS    MEMORY     3          0  2 steps (1 s)
-4            0              error: expected a step > 0, found 0 (/states/0/step)
+4            0              error: expected a step > 0, found 0 (/states/0/step; set by states.x.step=0)
 
 no results files: --output names a folder for them
 """

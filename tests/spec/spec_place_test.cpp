@@ -7,14 +7,14 @@
 namespace coordreq {
 namespace {
 
-const std::string kText = R"({ // "a": 0
+const std::string kPlacedText = R"({ // "a": 0
   "b": [1, {"c": "x, ]}", "a/b": [], "d~": 2}, /* ] */ [3, 4]],
   "a": {"\u0062": {"b": 7}}, "e": -1.5e3
 })";
 
 std::string rest_from(std::string_view pointer) {
-  const auto offset = offset_of_value(kText, pointer);
-  return offset ? kText.substr(*offset, 3) : "nothing";
+  const auto offset = offset_of_value(kPlacedText, pointer);
+  return offset ? kPlacedText.substr(*offset, 3) : "nothing";
 }
 
 TEST(OffsetOfValue, FindsMembersAndElements) {
@@ -44,14 +44,14 @@ TEST(OffsetOfValue, OfWhatIsNotThereIsNothing) {
 }
 
 TEST(WithPlace, NamesLineAndColumn) {
-  const WrittenSpec written{kText, {}};
+  const WrittenSpec written{kPlacedText, {}};
   EXPECT_EQ(with_place("bad (/b/2/1)", written), "bad (/b/2/1; line 2, column 60)");
   EXPECT_EQ(with_place("bad (/e, column 3)", written), "bad (/e, column 3; line 3, column 35)");
   EXPECT_EQ(with_place("bad (very) (/e)", written), "bad (very) (/e; line 3, column 35)");
 }
 
 TEST(WithPlace, LeavesOtherErrorsAsTheyAre) {
-  const WrittenSpec written{kText, {}};
+  const WrittenSpec written{kPlacedText, {}};
   for (const char* error :
        {"bad", "bad (top level)", "bad (/c)", "bad (file.json, line 1, column 2)", "bad ()"})
     EXPECT_EQ(with_place(error, written), error);
@@ -60,7 +60,7 @@ TEST(WithPlace, LeavesOtherErrorsAsTheyAre) {
 }
 
 TEST(WithPlace, NamesTheLastSettingThatMadeTheValue) {
-  const WrittenSpec written{kText, {{"e", "1"}, {"b.2", "[3, 5]"}, {"e", "2"}, {"refine", "2"}}};
+  const WrittenSpec written{kPlacedText, {{"e", "1"}, {"b.2", "[3, 5]"}, {"e", "2"}, {"refine", "2"}}};
   EXPECT_EQ(with_place("bad (/e)", written), "bad (/e; set by e=2)");
   EXPECT_EQ(with_place("bad (/b/2/1)", written), "bad (/b/2/1; set by b.2=[3, 5])");
   EXPECT_EQ(with_place("bad (/b)", written), "bad (/b; line 2, column 8)");
@@ -68,7 +68,7 @@ TEST(WithPlace, NamesTheLastSettingThatMadeTheValue) {
 }
 
 TEST(WithPlaces, KeepsTheNumberOfErrors) {
-  const WrittenSpec written{kText, {}};
+  const WrittenSpec written{kPlacedText, {}};
   const auto several = [&] { with_places(written, [] { throw SpecErrors({"one (/a)", "two (/e)"}); }); };
   try {
     several();
