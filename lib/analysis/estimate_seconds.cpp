@@ -20,10 +20,11 @@ namespace {
 
 constexpr std::int64_t kFirstCells = 1000;
 constexpr std::int64_t kGrowth = 4;
-/// A copy that takes longer is the last one.
-constexpr double kLongEnough = 0.1;
+/// A copy that takes longer is the last one, but that the problem itself is measured if it is next and the
+/// copy takes no longer than the other.
+constexpr double kLongEnough = 0.3, kShortEnough = 0.5;
 /// By which powers of the number of cells work grows: equal work is done once, so that it may be few.
-constexpr double kLeastPower = 0.3, kMostPower = 1.5;
+constexpr double kLeastPower = 0.3, kMostPower = 1.1;
 
 /// What a copy has, and took.
 struct Measured {
@@ -58,11 +59,13 @@ Measured measure(const ProblemSpec& spec, ThreadTeam& team) {
   return found;
 }
 
-/// The problem with steps `factor` times as long.
+/// The problem with steps `factor` times as long; 1: as it is.
 ProblemSpec coarser(const ProblemSpec& spec, std::int64_t factor) {
   constexpr std::int64_t kFewPoints = 4;
   ProblemSpec copy = spec;
-  copy.requirements.clear();  // their regions may be none on it
+  if (factor == 1) return copy;
+  copy.controller.file.reset();  // that is of one grid
+  copy.requirements.clear();     // their regions may be none on another
   for (StateSpec& state : copy.states)
     regrid(state,
            Rational(static_cast<long>(std::clamp<std::int64_t>(state.grid.count / kFewPoints, 1, factor))));
@@ -99,16 +102,20 @@ std::optional<double> estimated(const Model& model, ThreadTeam& team) {
     const std::optional<ProblemSpec> copy = copy_within(spec, most);
     if (copy && (copies.empty() || cells_of(*copy) > copies.back().cells))
       copies.push_back(measure(*copy, team));
-    if (!copies.empty() && copies.back().cells == cells) return copies.back().all();
-    if (!copies.empty() && copies.back().all() > kLongEnough) return extrapolated(model, copies);
-    if (most > cells) return std::nullopt;
+    if (copies.empty()) {
+      if (most > cells) return std::nullopt;
+      continue;
+    }
+    const Measured& last = copies.back();
+    if (last.cells == cells) return last.all();
+    const bool is_last = last.all() > (last.cells * kGrowth >= cells ? kShortEnough : kLongEnough);
+    if (is_last || most > cells) return extrapolated(model, copies);
   }
 }
 
 }  // namespace
 
 std::optional<double> estimate_seconds(const Model& model, ThreadTeam& team) {
-  if (model.spec().controller.file) return std::nullopt;
   try {
     return estimated(model, team);
   } catch (const SpecError&) {
