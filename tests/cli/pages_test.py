@@ -24,7 +24,6 @@ SESSIONS = {
     "how-to/networks.md": (1, []),
     "reference/outputs.md": (5, []),
     "how-to/queries.md": (2, ["circle.json"]),
-    "how-to/requirements.md": (1, []),
     "reference/results.md": (1, ["circle.json"]),
     "how-to/risk.md": (3, []),
     "how-to/rules.md": (1, []),
@@ -68,9 +67,6 @@ class Cases(PageCase):
 
     def test_sessions_of_queries(self):
         self.assert_sessions("how-to/queries.md")
-
-    def test_sessions_of_requirements(self):
-        self.assert_sessions("how-to/requirements.md")
 
     def test_sessions_of_results(self):
         self.assert_sessions("reference/results.md")
