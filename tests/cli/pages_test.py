@@ -184,8 +184,8 @@ class Cases(PageCase):
         self.analyze(str(CONFIGS / "platoon_coalition.json"))
         self.assert_programs_print(DOCS / "how-to/coalitions.md", "lead+middle|tail\n2880\n")
 
-    def test_python_of_rules(self):
-        self.assert_programs_print(DOCS / "how-to/rules.md", "")
+    def test_controller_of_rules(self):
+        subprocess.run(["/usr/bin/python3", CONFIGS / "first_come.py"], cwd=self.folder, check=True)
         with h5py.File(self.folder / "first_come.h5") as written, h5py.File(CONFIGS / "first_come.h5") as stored:
             self.assertTrue(np.array_equal(written["controller"][...], stored["controller"][...]))
 
