@@ -22,7 +22,7 @@ SESSIONS = {
     "how-to/grids.md": (1, []),
     "how-to/logs.md": (1, ["crossing.json"]),
     "how-to/networks.md": (1, []),
-    "reference/outputs.md": (5, []),
+    "reference/outputs.md": (4, ["tutorial/corridor_4.json"]),
     "how-to/queries.md": (2, ["circle.json"]),
     "reference/results.md": (1, ["circle.json"]),
     "how-to/risk.md": (3, []),
