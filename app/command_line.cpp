@@ -82,6 +82,8 @@ std::string hint(const std::string& typed, const std::vector<std::string>& known
     const std::string line = fmt::format("{} {} {}", program.name, command, typed);
     throw UsageError(fmt::format("no command before {}, did you mean {}?", echoed(typed), echoed(line)));
   }
+  if (typed == "plot")
+    throw UsageError("no command 'plot', expected coordreq-plot (scripts/plot) to draw pictures");
   throw UsageError(fmt::format("unknown command {}{}", echoed(typed), hint(typed, names)));
 }
 

@@ -45,6 +45,17 @@ std::string corner_text(const Json& found, const Json& corner) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// "p1 = 10.5 m, v1 = 3.25 m/s": the ends of the domain that are best in the states asked about.
+std::string best_ends_text(const Json& found) {
+  std::vector<std::string> ends;
+  for (const Json& own : found["over"]) {
+    const std::string unit = text_of(own["unit"]);
+    ends.push_back(fmt::format("{} = {:.6g}{}{}", text_of(own["state"]), own["best_value"].get<double>(),
+                               unit.empty() ? "" : " ", printable(unit)));
+  }
+  return fmt::format("{}", fmt::join(ends, ", "));
+}
+
 /// "x1 from -0.995 m", of all of the domain.
 bool is_everywhere(const Json& found) {
   const Json& over = found["over"];
@@ -98,7 +109,8 @@ std::string require_text(const Json& found) {
     facts.emplace_back("whatever",
                        fmt::format("{}", fmt::join(found["whatever"].get<std::vector<std::string>>(), ", ")));
   facts.emplace_back("guarantee", guarantee_text(text_of(found["guarantee"])));
-  if (found["corners"].empty()) facts.emplace_back("tolerated", "nowhere, not even in the best cell");
+  if (found["corners"].empty())
+    facts.emplace_back("tolerated", fmt::format("not even at the best end, {}", best_ends_text(found)));
   for (const Json& corner : found["corners"]) {
     facts.emplace_back("tolerated", fmt::format("{}{}", corner_text(found, corner),
                                                 is_everywhere(found) ? ", all of the domain" : ""));

@@ -96,11 +96,11 @@ std::vector<std::string> silent_sentences(const Json& own, const ProblemSpec& sp
   const std::int64_t later = count["afterwards"] + count["evasive"];
   const std::string end = end_text(story);
   if (later == 0)
-    return {fmt::format("Silent agents act by their rules, and after {} {}.",
-                        steps_text(count["silent"], spec), end)};
+    return {fmt::format("Silent agents follow the rule, and after {} {}.", steps_text(count["silent"], spec),
+                        end)};
   std::vector<std::string> sentences;
   if (count["silent"] > 0)
-    sentences.push_back(fmt::format("Silent agents act by their rules, and after {} it is too late.",
+    sentences.push_back(fmt::format("Silent agents follow the rule, and after {} it is too late.",
                                     steps_text(count["silent"], spec)));
   sentences.push_back(fmt::format(
       "{}, after {} {}.",
@@ -125,8 +125,9 @@ std::string nearest_text(const Json& own, const ProblemSpec& spec) {
   const auto state = std::find_if(spec.states.begin(), spec.states.end(), is_meant);
   const std::string unit = state->unit.empty() ? "" : " " + printable(state->unit);
   const bool is_from = nearest["best"] == "large";
-  return fmt::format("  With {} {} {:.6g}{}{}, all else as there, the delay is that long.\n", state->name,
-                     is_from ? "from" : "up to", nearest["value"].get<double>(), unit, is_from ? " on" : "");
+  return fmt::format("  With {} {} {:.6g}{}{} and the other states as there, the delay is long enough.\n",
+                     state->name, is_from ? "from" : "up to", nearest["value"].get<double>(), unit,
+                     is_from ? " on" : "");
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ std::string outcome_text(const std::string& outcome) {
       {"not_allowed", "did what 'allow' forbids"},
       {"not_followed", "could not be followed"},
       {"left_safe_set", "left the safe set, later than promised"},
-      {"stuck", "could not go on by their rules, later than promised"},
+      {"stuck", "could not go on by the rule, later than promised"},
       {"broke_promise", "broke the promise of silence"}};
   return kTexts.at(outcome);
 }

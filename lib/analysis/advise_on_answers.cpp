@@ -248,7 +248,8 @@ std::string place_of_trials(const CoarseCopy& copy) {
                      copy.factor);
 }
 
-constexpr std::string_view kAskExplain = "; 'coordreq explain' shows what goes wrong at a state";
+constexpr std::string_view kAskExplain =
+    "; a finer grid may (--refine 4), and 'coordreq explain' shows what goes wrong at a state";
 
 /// What would help, as the end of a sentence. @param otherwise is added if nothing does
 std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault, std::string_view otherwise,

@@ -54,6 +54,21 @@ std::size_t state_number(std::string_view name, const std::vector<std::string>& 
                    where);
 }
 
+namespace {
+
+/// Whether one more NAME=VALUE follows without a comma: an '=' of no comparison.
+bool has_assignment(std::string_view value) {
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const std::size_t end = value.find_first_not_of("<>=!", i);
+    if (value.substr(i, end == std::string_view::npos ? end : end - i) == "=") return true;
+    if (end == std::string_view::npos) break;
+    i = end;
+  }
+  return false;
+}
+
+}  // namespace
+
 StateNames state_names(const SystemSpec& spec) {
   std::vector<std::string> names;
   std::size_t kept = 0;
@@ -74,6 +89,9 @@ std::vector<Rational> parse_state(std::string_view text, const StateNames& state
     if (equals == std::string_view::npos) {
       throw UsageError(fmt::format("expected NAME=VALUE, found {}", quote_text(trimmed(part))), where);
     }
+    if (has_assignment(part.substr(equals + 1)))
+      throw UsageError(fmt::format("expected a comma between states, found {}", quote_text(trimmed(part))),
+                       where);
     const std::size_t i = state_number(trimmed(part.substr(0, equals)), names, where);
     if (values[i]) throw UsageError(fmt::format("'{}' is given twice", names[i]), where);
     values[i] = parse_value(part.substr(equals + 1), where + ", " + names[i]);

@@ -144,6 +144,8 @@ void check_encoding(const JsonText& json) {
   if (std::all_of(json.text.begin(), json.text.end(), is_space)) {
     throw SpecError("the file is empty, expected a spec", json.source);
   }
+  if (json.text.starts_with("\x89HDF"))
+    throw SpecError("is HDF5 as results are, expected a spec", json.source);
   for (std::size_t i = 0; i < json.text.size();) {
     const std::size_t length = utf8_length(json.text, i);
     if (length == 0) {

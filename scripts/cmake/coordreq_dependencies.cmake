@@ -29,12 +29,15 @@ if(COORDREQ_STATIC_HDF5)
   endif()
 endif()
 # Ball arithmetic of the verifier, and the solver of stiff plants in simulations; none has a pkg-config file.
+set(names_of_flint-arb flint)  # FLINT 3 has taken Arb in, with its headers in a folder
 foreach(library flint flint-arb sundials_cvode)
   string(REPLACE - _ name ${library})
-  find_library(${name}_LIBRARY ${library} REQUIRED)
+  find_library(${name}_LIBRARY NAMES ${library} ${names_of_${library}} REQUIRED)
   add_library(coordreq::${name} UNKNOWN IMPORTED GLOBAL)
   set_target_properties(coordreq::${name} PROPERTIES IMPORTED_LOCATION ${${name}_LIBRARY})
 endforeach()
+find_path(ARB_INCLUDE_DIR arb.h PATH_SUFFIXES flint REQUIRED)
+set_target_properties(coordreq::flint_arb PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${ARB_INCLUDE_DIR})
 
 if(NOT COORDREQ_MPI STREQUAL "OFF")
   find_package(MPI QUIET COMPONENTS C)

@@ -31,12 +31,15 @@ TEST(StateText, NamesInAnyOrder) {
 
 TEST(StateText, CommasInParenthesesBelongToAValue) {
   EXPECT_EQ(parse_state("x1=max(1,2),x2=min(3,if(1 < 2, 4, 5))", kNames, ""), (std::vector<Rational>{2, 3}));
+  EXPECT_EQ(parse_state("x1=if(1 <= 2, 4, 5),x2=if(1 == 2, 4, 5)", kNames, ""),
+            (std::vector<Rational>{4, 5}));
 }
 
 TEST(StateText, ErrorsNameWhatIsWrong) {
   EXPECT_EQ(defect_of_state("x1=1"), "no value for the state 'x2' (--at)");
   EXPECT_EQ(defect_of_state(""), "expected NAME=VALUE, found '' (--at)");
   EXPECT_EQ(defect_of_state("x1=1,x2"), "expected NAME=VALUE, found 'x2' (--at)");
+  EXPECT_EQ(defect_of_state("x1=1 x2=2"), "expected a comma between states, found 'x1=1 x2=2' (--at)");
   EXPECT_EQ(defect_of_state("x1=1,y=2"), "'y' is no state, expected 'x1' or 'x2' (--at)");
   EXPECT_EQ(defect_of_state("x1=1,x2=2,x1=3"), "'x1' is given twice (--at)");
   EXPECT_EQ(defect_of_state("x1=,x2=2"), "expected a number, found nothing (--at, x1)");

@@ -210,7 +210,7 @@ class Cases(Case):
         self.assertRegex(
             text,
             r"^with the partition a\|b no state tolerates even one step without coordination on this grid; of [0-9]+ "
-            "changes tried one by one, none helps; 'coordreq explain' shows what goes wrong at a state$",
+            "changes tried one by one, none helps; a finer grid may .--refine 4., and 'coordreq explain' shows what goes wrong at a state$",
         )
 
     def test_causes_are_sought_on_a_coarse_copy(self):

@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from program import SPEC, Case, spec_with
+from program import CONFIGS, SPEC, Case, spec_with
 
 FUNCTIONS = (
     "if, mod, pow, atan2, min, max, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, log, sqrt, abs, sign, floor"
@@ -40,6 +40,10 @@ class Cases(Case):
 
     def test_empty_file(self):
         self.assert_rejected("the file is empty, expected a spec (spec.json)", "")
+
+    def test_results_in_place_of_a_spec(self):
+        self.write("results.h5", (CONFIGS / "first_come.h5").read_bytes())
+        self.assert_fails(3, "is HDF5 as results are, expected a spec (results.h5)", "analyze", "results.h5")
 
     def test_empty_standard_input(self):
         self.assert_fails(3, "the file is empty, expected a spec (standard input)", "analyze", "-")

@@ -23,6 +23,9 @@ class Cases(Case):
     def test_unknown_command(self):
         self.assert_fails(2, f"unknown command 'solve', expected one of {LISTED}", "solve")
 
+    def test_pictures_are_drawn_by_another_program(self):
+        self.assert_fails(2, "no command 'plot', expected coordreq-plot (scripts/plot) to draw pictures", "plot", "out.h5")
+
     def test_command_that_is_almost_one(self):
         self.assert_fails(2, "unknown command 'analyse', did you mean 'analyze'?", "analyse", "spec.json")
         self.assert_fails(2, "unknown command 'vaildate', did you mean 'validate'?", "help", "vaildate")

@@ -15,7 +15,7 @@ ALL = "0 <= x <= 4 and 0 <= y <= 4"
 HOLDS = {"name": "corner", "where": "-0.4 < x < 0.4 and -0.4 < y < 0.4", "min_delay": 1}
 STORY = """requirement 1.5 s of silence, fast: delay of first|second at least 3 steps (1.5 s)
   FAILS: 1 of 81 cells fails, the worst at p1 = -9, v1 = 2, v2 = 2, p2 = -9: it has a delay of 2 steps (1 s).
-  With p1 up to -9.25 m, all else as there, the delay is that long.
+  With p1 up to -9.25 m and the other states as there, the delay is long enough.
 
   step  p1 [m]  v1 [m/s]  v2 [m/s]  p2 [m]  delay  collision time  action       first     second
      0      -9         2         2      -9      2           never  independent  u1 = 0.5  u2 = 0.5
@@ -279,7 +279,7 @@ datasets
         (own,) = json.loads(result.stdout)["requirements"]
         self.assertEqual(own["nearest"], {"state": "x", "best": "large", "value": 6.5})
         text = self.run_spec(spec).stdout.decode()
-        self.assertIn("\n  With x from 6.5 m on, all else as there, the delay is that long.\n", text)
+        self.assertIn("\n  With x from 6.5 m on and the other states as there, the delay is long enough.\n", text)
         asked["min_delay"] = 100
         (own,) = json.loads(self.run_spec(spec, "--json").stdout)["requirements"]
         self.assertIsNone(own["nearest"])

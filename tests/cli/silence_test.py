@@ -215,7 +215,7 @@ class Cases(Case):
         names = table[0].split(",")
         self.assertTrue({"silence", "silence_set"} <= {name.split(":")[0] for name in names})
         self.run_program("report", "r.h5", "-o", "r.html")
-        self.assertIn("Silence of agents that act by their rules", (self.folder / "r.html").read_text())
+        self.assertIn("Silence of agents that follow the rule", (self.folder / "r.html").read_text())
         info = json.loads(self.run_program("info", "r.h5", "--json").stdout)
         self.assertEqual((info["silence_set"], info["partitions"][0]["silence"]["layers"]), (5, [5, 4, 3, 2, 1, 0]))
         text = self.analyze_text("spec.json")
@@ -315,7 +315,7 @@ int main(void) {
         text = self.run_program("analyze", "spec.json", "-o", "r.h5").stdout.decode()
         self.assertIn("requirement r: silence of a|b at least 3 steps\n", text)
         self.assertIn("FAILS: 1 of 3 cells fails, the worst at x = 2: it has a silence of 2 steps.", text)
-        self.assertIn("Silent agents act by their rules, and after 3 steps it is too late.", text)
+        self.assertIn("Silent agents follow the rule, and after 3 steps it is too late.", text)
         self.assertIn("With what they do from then on, after 2 steps the state is no longer safe.", text)
         seen = "The grid proves 2 steps; the system itself, followed like that, leaves the silence set after 3 steps."
         self.assertIn(seen, text)
@@ -348,7 +348,7 @@ int main(void) {
         self.assertEqual((way["proven"], way["seen"]), (2, 3))
         said = [
             "While they are silent the agents may do here: a u = 1 and b anything.",
-            "Silent agents act by their rules, and after 3 steps what comes after silence is no longer safe.",
+            "Silent agents follow the rule, and after 3 steps what comes after silence is no longer safe.",
             "The grid proves 2 steps; the system itself, followed like that, leaves the silence set after 3 steps.",
         ]
         for sentence in said:

@@ -20,6 +20,7 @@ struct SyntaxCase {
 TEST(JsonSyntax, ErrorsNameLineColumnFoundAndExpected) {
   const std::vector<SyntaxCase> cases{
       {"", "the file is empty, expected a spec (test.json)"},
+      {"\x89HDF\r\n\x1A\n", "is HDF5 as results are, expected a spec (test.json)"},
       {" \n\t ", "the file is empty, expected a spec (test.json)"},
       {"// nothing\n", "expected a value, found the end of the file (test.json, line 2, column 1)"},
       {"{\n  \"name\": \"a\"\n  \"states\": []\n}",

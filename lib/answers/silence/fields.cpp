@@ -32,7 +32,7 @@ Field silence_field(const ProblemSpec& spec) {
                               {"not_in_silence_set",
                                "none: what comes after it does not keep the system safe"},
                               {"unbounded", "unbounded: safe for ever"}}},
-       .map = {.kind = "silence", .title = "Silence of agents that act by their rules"}},
+       .map = {.kind = "silence", .title = "Silence of agents that follow the rule"}},
       "/silence_fixed_point_index");
 }
 

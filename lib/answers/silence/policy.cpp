@@ -31,15 +31,15 @@ std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec) {
   if (!spec.silence) return {};
   return {{.name = "silence",
            .words = "silent",
-           .gain = "by their rules",
+           .gain = "safe by the rule",
            .delay = paths::kSilence,
            .is_on_request = true,
            .is_anywhere = true,
            .make = [](const PolicyGround& ground) -> std::unique_ptr<CellPolicy> {
              return std::make_unique<SilencePolicy>(ground, SilentInputs::Part::actions);
            },
-           .header = {.where = "while agents act by their rules",
-                      .purpose = "Agents who act by their rules while they are silent.",
+           .header = {.where = "while silent agents follow the rule",
+                      .purpose = "Agents who follow the rule while they are silent.",
                       .countdown = "Steps of that which are safe, or one of the numbers above.",
                       .allowed = "Whether class c may take its joint action a while it is silent."}}};
 }
