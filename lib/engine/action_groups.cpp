@@ -7,6 +7,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "base/fast_paths.hpp"
 #include "engine/limits.hpp"
 
 namespace coordreq {
@@ -94,6 +95,7 @@ ActionGroups ActionGrouping::find_groups(const ClassData& data, const RowPlace& 
   ActionGroups groups;
   groups.group_of.assign(static_cast<std::size_t>(data.inputs.actions()), 0);
   std::unordered_map<std::uint64_t, std::uint32_t> numbers;
+  if (!fast_paths().grouped_actions) std::iota(groups.group_of.begin(), groups.group_of.end(), 0U);
   for (const View& view : data.views) {
     const std::uint32_t* ids = view_ids(view, place);
     numbers.clear();
@@ -117,7 +119,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
   groups.all.resize(size);
   std::iota(groups.all.begin(), groups.all.end(), 0U);
   groups.holders.resize(size);
-  if (std::ssize(groups.representative) > kMostComparedGroups) {
+  if (!fast_paths().covered_actions || std::ssize(groups.representative) > kMostComparedGroups) {
     groups.minimal = groups.maximal = groups.all;
     return;
   }
@@ -182,7 +184,7 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
     data.state_stride[i] = choices;
     choices *= grid[i].count;
   }
-  if (choices > most_shared_choices(data.inputs.actions())) return;
+  if (!fast_paths().shared_groups || choices > most_shared_choices(data.inputs.actions())) return;
   const RowShare::Range held = held_choices(data, choices);
   data.before = held.begin;
   const auto find = [&](std::int64_t choice) {

@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/fast_paths.hpp"
 #include "engine/different_rows.hpp"
 #include "engine/sparing_operator.hpp"
 
@@ -113,13 +114,8 @@ class LevelFinder {
       : engine_(engine), hull_(hull), problem_(problem), watch_(watch), team_(team), counts_(counts) {}
 
   LevelMap from_start() {
-    const bool shared = problem_.equal.tiles != nullptr;
-    auto levels = engine_.make_levels<std::uint8_t>(*problem_.start, team_, shared);
-    for (const LevelMap* bound : problem_.bounds) lower_to(*bound, levels, team_);
-    const std::vector<std::uint8_t> nothing;
-    return from(std::move(levels), problem_.settled == nullptr ? nothing : *problem_.settled);
+    return fast_paths().narrow_levels ? from_start_of<std::uint8_t>() : from_start_of<std::uint32_t>();
   }
-
   /// What is settled at the bounds may not be so at levels that have sunk below them.
   template <class Level>
   LevelMap from(LevelRows<Level> levels, const std::vector<std::uint8_t>& settled = {}) {
@@ -143,6 +139,15 @@ class LevelFinder {
   }
 
  private:
+  template <class Level>
+  LevelMap from_start_of() {
+    const bool shared = problem_.equal.tiles != nullptr;
+    auto levels = engine_.make_levels<Level>(*problem_.start, team_, shared);
+    for (const LevelMap* bound : problem_.bounds) lower_to(*bound, levels, team_);
+    const std::vector<std::uint8_t> nothing;
+    return from(std::move(levels), problem_.settled == nullptr ? nothing : *problem_.settled);
+  }
+
   template <class Level>
   auto widened_and_bounded(LevelRows<Level> levels, bool rises) {
     using Wide = std::conditional_t<sizeof(Level) == 1, std::uint16_t, std::uint32_t>;

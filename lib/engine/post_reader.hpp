@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/fast_paths.hpp"
 #include "engine/box_reader.hpp"
 #include "engine/sum_reader.hpp"
 
@@ -66,7 +67,7 @@ class PostReader {
   /// Levels that are nowhere above those of the choices [begin, end), in some lanes of the row; null: nothing
   /// is known of all of them.
   [[nodiscard]] const Level* bound(std::size_t begin, std::size_t end, LaneRange lanes) {
-    return has_bounds() ? sums_->bound(begin, end, lanes) : nullptr;
+    return bounds_several_ && has_bounds() ? sums_->bound(begin, end, lanes) : nullptr;
   }
   /// Least levels of the box around all posts of a row. REQUIRES box.covers.
   [[nodiscard]] const Level* minimum(const RowBox& box) {
@@ -90,6 +91,7 @@ class PostReader {
   std::optional<SumReader<Level>> sums_;
   RowReader<Level>* posts_;  ///< one of these two
   std::vector<BoxReader<std::uint8_t>> tubes_;
+  bool bounds_several_ = fast_paths().choice_bounds;
   std::span<const std::uint32_t> taken_;
   std::vector<Word> safe_;
   std::vector<Word> one_;

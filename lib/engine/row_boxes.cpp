@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/fast_paths.hpp"
+
 namespace coordreq {
 
 RowBoxes::RowBoxes(const ActionGrouping& grouping)
@@ -21,7 +23,8 @@ RowBoxes::RowBoxes(const ActionGrouping& grouping)
     is_product_ = is_product_ && owners <= 1;
     moved_[owner].push_back(t);
   }
-  is_product_ = is_product_ && engine.demands().empty() && engine.posts().is_cut();
+  is_product_ =
+      is_product_ && fast_paths().product_posts && engine.demands().empty() && engine.posts().is_cut();
   base_.resize(engine.tables());
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/fast_paths.hpp"
 #include "engine/row_box.hpp"
 
 namespace coordreq {
@@ -18,7 +19,8 @@ PairProjection::PairProjection(const Controller& controller, const RowBoxes& box
       boxes_(boxes),
       engine_(*controller.engine),
       kernels_(&bit_kernels(best_instruction_set())) {
-  if (classes != 2 || !boxes.is_product() || boxes.moved(0).empty() || boxes.moved(1).empty()) return;
+  if (!fast_paths().pair_projections || classes != 2 || !boxes.is_product()) return;
+  if (boxes.moved(0).empty() || boxes.moved(1).empty()) return;
   applies_ = true;
   leader_ = boxes.moved(0).back() < boxes.moved(1).back() ? 0 : 1;
   follower_ = 1 - leader_;
