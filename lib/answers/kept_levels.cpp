@@ -37,10 +37,8 @@ LevelMap load_levels(Archive& archive, const RowEngine& engine, const LevelBound
   LevelRows<Level> levels = engine.make_levels<Level>(engine.posts());
   serialise_rows(archive, levels.share(), rows_of(levels));
   archive.expect(are_possible(levels, bounds), "a cell has a level that it cannot have");
-  for_each_held(levels, [&](std::int64_t r) {
-    levels.clear_gaps(levels.row(r));
-    levels.close(r);
-  });
+  for_each_held(
+      levels, [&](std::int64_t r) { levels.change_row(r, [&](Level* cells) { levels.clear_gaps(cells); }); });
   return LevelMap(std::move(levels));
 }
 

@@ -21,7 +21,7 @@ constexpr std::int64_t kLongRow = 1024;
 /// Leaves each row once, where rows that are equal are one.
 template <class Level>
 void leave_different(const LevelRows<Level>& levels, std::vector<const Level*>& rows) {
-  if (!levels.is_shared() || levels.row_length() < kLongRow || rows.size() < 2) return;
+  if (!levels.is_interned() || levels.row_length() < kLongRow || rows.size() < 2) return;
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 }

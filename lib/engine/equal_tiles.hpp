@@ -17,7 +17,7 @@ class EqualTiles {
  public:
   /// REQUIRES: all outlive this object.
   EqualTiles(const EqualWork& equal, LevelRows<Level>& levels)
-      : equal_(equal), levels_(levels), is_on_(equal.tiles != nullptr && levels.is_shared()) {}
+      : equal_(equal), levels_(levels), is_on_(equal.tiles != nullptr && levels.is_interned()) {}
 
   /// False where too little has been found: looking up costs more than it saves.
   [[nodiscard]] bool is_on() const { return is_on_; }

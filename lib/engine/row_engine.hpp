@@ -91,15 +91,15 @@ class RowEngine {
 
   /// Levels of all rows, 0, with the margins that a family asks for.
   template <class Level>
-  [[nodiscard]] LevelRows<Level> make_levels(const RowFamily& family, bool shared = false) const {
-    return {rows(), family.shape, shared, share_};
+  [[nodiscard]] LevelRows<Level> make_levels(const RowFamily& family, bool interned = false) const {
+    return {rows(), family.shape, interned, share_};
   }
   /// The greatest level for the cells of a set, 0 for all others, laid out for the posts, in the rows held.
   template <class Level>
   [[nodiscard]] LevelRows<Level> make_levels(const CellSet& set, ThreadTeam& team,
-                                             bool shared = false) const {
-    auto levels = make_levels<Level>(posts(), shared);
-    for_each_held_row(team, share_, levels.rows(), shared ? levels.rows() : 256,
+                                             bool interned = false) const {
+    auto levels = make_levels<Level>(posts(), interned);
+    for_each_held_row(team, share_, levels.rows(), interned ? levels.rows() : 256,
                       [&](ThreadTeam::Range range, int) { levels.assign(set, range.begin, range.end); });
     return levels;
   }

@@ -189,7 +189,7 @@ class WaveRunner {
   void mark_changed(std::int64_t row) {
     news_.mark_row(row);
     news_.mark_unit_of(row);
-    if (recent_) recent_->change(row, std::as_const(levels_).row(row));
+    if (recent_) recent_->change(row, levels_.row(row));
   }
 
   /// A row of the halo has changed.
@@ -264,7 +264,7 @@ class WaveRunner {
   void visit_row(const RowPlace& place, Worker& worker, int w) {
     ++worker.visited;
     const auto n = static_cast<std::size_t>(levels_.row_length());
-    std::copy_n(std::as_const(levels_).row(place.row), n, worker.old.begin());
+    std::copy_n(levels_.row(place.row), n, worker.old.begin());
     levels_.clear_gaps(worker.old.data());
     if (!op_.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w)) return;
     const LevelKernels<Level>& kernels = worker.posts.kernels();
@@ -293,7 +293,7 @@ class WaveRunner {
   void commit_all() {
     std::size_t levels = 0;
     for (const Worker& worker : workers_) levels += worker.storage.size();
-    if (levels < kFewLevels || levels_.is_shared()) {
+    if (levels < kFewLevels || levels_.is_interned()) {
       for (const Worker& worker : workers_) commit(worker);
       return;
     }
@@ -306,7 +306,7 @@ class WaveRunner {
     for (const Change& change : worker.changes) {
       const Level* const lanes = worker.storage.data() + change.position;
       const auto recall = [&](std::int64_t row) {
-        if (recent_) recent_->change(row, std::as_const(levels_).row(row), lanes + levels_.margins().before);
+        if (recent_) recent_->change(row, levels_.row(row), lanes + levels_.margins().before);
       };
       recall(change.row);
       levels_.put_ready(change.row, lanes, change.ready);

@@ -88,11 +88,12 @@ class RowChooser {
   }
 
   void assign(std::int64_t row, const std::vector<Word>& cells, Level level) {
-    Level* const levels = chosen_.row(row);
-    for (std::size_t w = 0; w < cells.size(); ++w) {
-      for (Word rest = cells[w]; rest != 0; rest &= rest - 1)
-        levels[w * CellSet::kWordBits + static_cast<std::size_t>(std::countr_zero(rest))] = level;
-    }
+    chosen_.change_row(row, [&](Level* levels) {
+      for (std::size_t w = 0; w < cells.size(); ++w) {
+        for (Word rest = cells[w]; rest != 0; rest &= rest - 1)
+          levels[w * CellSet::kWordBits + static_cast<std::size_t>(std::countr_zero(rest))] = level;
+      }
+    });
   }
 
   CoalitionMap& map_;

@@ -1,6 +1,7 @@
 #include "answers/layers/pair_projection.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/fast_paths.hpp"
 #include "engine/row_box.hpp"
@@ -106,12 +107,13 @@ const std::vector<Word>& PairProjection::continued(std::int64_t row) {
 /// are the numbers of its lanes.
 void PairProjection::find_beyond() {
   LevelRows<std::uint32_t> numbers(1, shape_);
-  std::uint32_t* const row = numbers.row(0);
-  for (std::int64_t lane = 0; lane < shape_.length(); ++lane)
-    row[lane] = static_cast<std::uint32_t>(lane) + 1;
-  numbers.clear_gaps(row);
-  std::vector<std::uint32_t> own(row - margins_.before, row + shape_.length() + margins_.after);
-  numbers.close(0);
+  std::vector<std::uint32_t> own;
+  numbers.change_row(0, [&](std::uint32_t* row) {
+    std::iota(row, row + shape_.length(), std::uint32_t{1});
+    numbers.clear_gaps(row);
+    own.assign(row - margins_.before, row + shape_.length() + margins_.after);
+  });
+  const std::uint32_t* const row = numbers.row(0);
   for (std::size_t lane = 0; lane < own.size(); ++lane) {
     const std::uint32_t number = row[static_cast<std::int64_t>(lane) - margins_.before];
     if (own[lane] != 0 || number == 0) continue;
