@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "base/fast_paths.hpp"
+#include "base/requires.hpp"
 #include "engine/limits.hpp"
 
 namespace coordreq {
@@ -31,6 +32,10 @@ std::vector<std::int32_t> difference(const std::vector<std::int32_t>& a, const s
 ActionGrouping::ActionGrouping(const RowEngine& engine, const std::vector<InputClass>& classes,
                                std::vector<ActionSource> sources, ThreadTeam& team)
     : engine_(&engine), sources_(std::move(sources)) {
+  REQUIRES(std::accumulate(classes.begin(), classes.end(), std::size_t{0},
+                           [](std::size_t sum, const InputClass& own) {
+                             return sum + own.inputs().size();
+                           }) == engine.abstraction().inputs.size());
   for (const InputClass& inputs : classes) {
     classes_.push_back(make_class(inputs));
     share_groups(classes_.back(), team);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
 #include "engine/limits.hpp"
 #include "engine/row_box.hpp"
 
@@ -72,6 +73,7 @@ const Level* BoxReader<Level>::minimum(std::span<const std::uint32_t> ids) {
 
 template <class Level>
 const Level* BoxReader<Level>::minimum(const RowBox& box, std::int64_t begin, std::int64_t end) {
+  REQUIRES(box.covers);
   ranges_ = box.ranges;
   windows_ = box.windows;
   read_windows(false, begin, end, result_.data());

@@ -12,7 +12,7 @@ namespace coordreq {
 template <class Level>
 class DifferentRows {
  public:
-  /// REQUIRES: `levels` outlives this object and does not change.
+  /// @pre unchecked: `levels` outlives this object and does not change.
   explicit DifferentRows(const LevelRows<Level>& levels)
       : levels_(levels), own_(own_rows(levels.share(), levels.rows())) {
     if (!levels.is_interned()) return;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "base/zeroed_array.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/level_kernels.hpp"
@@ -42,7 +43,7 @@ class LevelRows {
   LevelRows(std::int64_t rows, std::int64_t row_length, RowMargins margins, RowEnds ends)
       : LevelRows(rows, {{{row_length, 1, margins, ends}}}) {}
   /// All levels 0. @param interned whether equal rows are held once; then they are closed
-  /// @param share which rows are whose; null: there is one process. REQUIRES: it outlives this object
+  /// @param share which rows are whose; null: there is one process. @pre unchecked: it outlives this object
   LevelRows(std::int64_t rows, RowShape shape, bool interned = false, const RowShare* share = nullptr)
       : rows_(rows),
         share_(share),
@@ -150,8 +151,9 @@ class LevelRows {
     return true;
   }
   /// Equal numbers mean equal rows, and different ones different rows; as long as renumber() is not called.
-  /// REQUIRES: rows are interned.
+  /// @pre rows are interned
   [[nodiscard]] std::uint32_t content(std::int64_t r) const {
+    REQUIRES(is_interned());
     return book_.content(slots_[static_cast<std::size_t>(r)]);
   }
   void renumber() { book_.renumber(); }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/fast_paths.hpp"
+#include "base/requires.hpp"
 #include "engine/box_reader.hpp"
 #include "engine/sum_reader.hpp"
 
@@ -20,7 +21,7 @@ class PostReader {
  public:
   static constexpr Level kTop = LevelRows<Level>::kTop;
 
-  /// REQUIRES: `engine` and `levels` (from engine.make_levels(engine.posts())) outlive this object.
+  /// @pre unchecked: `engine` and `levels` (from engine.make_levels(engine.posts())) outlive this object.
   PostReader(const RowEngine& engine, const LevelRows<Level>& levels);
 
   PostReader(const PostReader&) = delete;
@@ -69,8 +70,9 @@ class PostReader {
   [[nodiscard]] const Level* bound(std::size_t begin, std::size_t end, LaneRange lanes) {
     return bounds_several_ && has_bounds() ? sums_->bound(begin, end, lanes) : nullptr;
   }
-  /// Least levels of the box around all posts of a row. REQUIRES box.covers.
+  /// Least levels of the box around all posts of a row. @pre box.covers
   [[nodiscard]] const Level* minimum(const RowBox& box) {
+    REQUIRES(box.covers);
     return boxes_.minimum(box, 0, engine_.row_length());
   }
   /// The same for the lanes [begin, end) of the row alone.

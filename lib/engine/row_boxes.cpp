@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/fast_paths.hpp"
+#include "base/requires.hpp"
 
 namespace coordreq {
 
@@ -29,6 +30,7 @@ RowBoxes::RowBoxes(const ActionGrouping& grouping)
 }
 
 bool RowBoxes::fill(const RowPlace& place, const RowGroups& groups) {
+  REQUIRES(is_product());
   for (std::size_t t = 0; t < base_.size(); ++t) base_[t] = grouping_.sources()[t].base(place);
   has_gone_ = false;
   for (std::size_t c = 0; c < moved_.size(); ++c) {
