@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "engine/kept_rows.hpp"
 
 namespace coordreq {
@@ -78,6 +79,7 @@ void serialise(Archive& archive, const RowEngine& engine, const LevelBounds& bou
 }
 
 void serialise(Archive& archive, const RowShare* share, const CellSet& within, CellSet& set) {
+  REQUIRES(within.words().size() == set.words().size());
   serialise_rows(archive, share, rows_of(set));
   bool is_part = true;
   for (std::size_t w = 0; archive.is_loading() && w < set.words().size(); ++w)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/requires.hpp"
 #include "spec/coordination_spec.hpp"
 
 namespace coordreq {
@@ -153,6 +154,7 @@ void count_cells(CoalitionMap& map, ThreadTeam& team) {
 CoalitionMap find_coalitions(const CoordinationSpec& coordination, std::size_t agents,
                              const CellSet& invariant, const std::vector<const DelayLayers*>& layers,
                              ThreadTeam& team) {
+  REQUIRES(coordination.horizon.has_value());
   CoalitionMap map{.horizon = *coordination.horizon,
                    .choices = order_of_preference(coordination),
                    .pairs = agent_pairs(agents)};

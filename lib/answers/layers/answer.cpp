@@ -18,7 +18,7 @@
 namespace coordreq {
 namespace {
 
-/// REQUIRES: the layers of all coarser partitions are known.
+/// @pre unchecked: the layers of all coarser partitions are known.
 void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
   const Ground& ground = answers.ground;
   const CoordinationSpec& coordination = ground.spec.coordination;

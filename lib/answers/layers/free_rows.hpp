@@ -14,7 +14,7 @@ namespace coordreq {
 template <class Level>
 class FreeRows {
  public:
-  /// REQUIRES: all outlive this object; `posts` reads the levels of controller.levels.
+  /// @pre unchecked: all outlive this object; `posts` reads the levels of controller.levels.
   FreeRows(const Controller& controller, const RowHull& hull, PostReader<Level>& posts)
       : controller_(controller), hull_(hull), posts_(posts), lanes_(posts.lanes(), 0) {}
 

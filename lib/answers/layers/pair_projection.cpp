@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/fast_paths.hpp"
+#include "base/requires.hpp"
 #include "engine/row_box.hpp"
 
 namespace coordreq {
@@ -46,6 +47,8 @@ PairProjection::PairProjection(const Controller& controller, const RowBoxes& box
 
 void PairProjection::find_masks(const RowPlace& place, const RowGroups& groups,
                                 std::vector<std::vector<Word>>& masks) {
+  REQUIRES(applies_ && !boxes_.has_gone() && engine_.allow() == nullptr);
+  REQUIRES(controller_.synthesis == Synthesis::maximal && !controller_.approaches);
   const ConstRow invariant = controller_.invariant->row(place.row);
   enter_unit(place, *groups.classes[leader_]);
   row_boxes_.clear();
@@ -76,8 +79,9 @@ void PairProjection::enter_unit(const RowPlace& place, const ActionGroups& own) 
   for (Plane& plane : planes_) plane.is_known = false;
 }
 
-/// REQUIRES: the group's post is a box.
+/// @pre the group's post is a box
 const PairProjection::Plane& PairProjection::plane(std::uint32_t group) {
+  REQUIRES(boxes_.kind(leader_, group) == RowBoxes::Kind::box);
   Plane& plane = planes_[group];
   if (plane.is_known) return plane;
   plane.is_known = true;

@@ -88,7 +88,7 @@ class Iteration {
     if (watch.resumed != nullptr) resume(*watch.resumed);
   }
 
-  /// In the order that is best; REQUIRES: the operators are monotone.
+  /// In the order that is best; @pre unchecked: the operators are monotone.
   void run_in_any_order() {
     const std::vector<std::size_t> order = successors_first(modes_);
     for (bool changed = true; changed || hears_of_others();) {
