@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "answers/ground.hpp"
+#include "base/requires.hpp"
 
 namespace coordreq {
 
@@ -15,14 +16,15 @@ namespace coordreq {
 class Answers {
  public:
   /// @param ranks the processes that share the work; null: there is one
-  /// REQUIRES: both outlive this object.
+  /// @pre unchecked: both outlive this object
   explicit Answers(const Model& model, Ranks* ranks = nullptr) : ground(model, ranks) {}
   Answers(const Answers&) = delete;
   Answers& operator=(const Answers&) = delete;
 
-  /// REQUIRES: there is no value of this type yet.
+  /// @pre there is no value of this type yet
   template <class Value>
   Value& add(Value value) {
+    REQUIRES(find<Value>() == nullptr);
     auto owned = std::make_shared<Value>(std::move(value));
     Value& result = *owned;
     values_.emplace(typeid(Value), std::move(owned));
@@ -34,9 +36,10 @@ class Answers {
     const auto found = values_.find(typeid(Value));
     return found == values_.end() ? nullptr : static_cast<const Value*>(found->second.get());
   }
-  /// REQUIRES: it is there.
+  /// @pre it is there
   template <class Value>
   [[nodiscard]] const Value& get() const {
+    REQUIRES(find<Value>() != nullptr);
     return *find<Value>();
   }
   template <class Value>

@@ -9,6 +9,7 @@
 #include "answers/invariance/safe_tubes.hpp"
 #include "answers/row_cut.hpp"
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "engine/engine_sizes.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -138,6 +139,7 @@ bool take_like_agents(Ground& ground, const std::vector<AgentPart>& agents) {
 }  // namespace
 
 TubeSets Ground::tubes() const {
+  REQUIRES(safe.rows() == abstraction->grid.rows());
   if (abstraction->tubes.empty()) return {};
   return {&safe, beyond ? &*beyond : nullptr};
 }

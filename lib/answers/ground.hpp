@@ -61,7 +61,7 @@ struct Ground {
   std::vector<AgentPart> like_agents;  ///< that can change places, in S too; two or more, or none
   std::optional<CellOrder> order;
 
-  /// What tubes must stay in, if there are any. REQUIRES: S is there.
+  /// What tubes must stay in, if there are any. @pre S is there
   [[nodiscard]] TubeSets tubes() const;
   /// Which rows are whose, or null.
   [[nodiscard]] const RowShare* shared_rows() const { return share ? &*share : nullptr; }

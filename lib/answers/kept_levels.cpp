@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "engine/kept_rows.hpp"
 
 namespace coordreq {
@@ -37,10 +38,8 @@ LevelMap load_levels(Archive& archive, const RowEngine& engine, const LevelBound
   LevelRows<Level> levels = engine.make_levels<Level>(engine.posts());
   serialise_rows(archive, levels.share(), rows_of(levels));
   archive.expect(are_possible(levels, bounds), "a cell has a level that it cannot have");
-  for_each_held(levels, [&](std::int64_t r) {
-    levels.clear_gaps(levels.row(r));
-    levels.close(r);
-  });
+  for_each_held(
+      levels, [&](std::int64_t r) { levels.change_row(r, [&](Level* cells) { levels.clear_gaps(cells); }); });
   return LevelMap(std::move(levels));
 }
 
@@ -80,6 +79,7 @@ void serialise(Archive& archive, const RowEngine& engine, const LevelBounds& bou
 }
 
 void serialise(Archive& archive, const RowShare* share, const CellSet& within, CellSet& set) {
+  REQUIRES(within.words().size() == set.words().size());
   serialise_rows(archive, share, rows_of(set));
   bool is_part = true;
   for (std::size_t w = 0; archive.is_loading() && w < set.words().size(); ++w)

@@ -29,7 +29,7 @@ struct LevelBounds {
 void serialise_rows(Archive& archive, const RowShare* share, const NumberRows& rows);
 /// Saves levels, or makes those that were saved.
 void serialise(Archive& archive, const RowEngine& engine, const LevelBounds& bounds, LevelMap& levels);
-/// Saves a set, or loads it to where it is. REQUIRES: it has the shape of `within`.
+/// Saves a set, or loads it to where it is. @pre it has the shape of `within`
 /// @param within the set is a part of
 void serialise(Archive& archive, const RowShare* share, const CellSet& within, CellSet& set);
 

@@ -4,6 +4,8 @@
 #include <mutex>
 #include <utility>
 
+#include "base/fast_paths.hpp"
+
 namespace coordreq {
 
 /// What is asked for by a key, made when another one was asked for before: there is never more than one,
@@ -15,7 +17,7 @@ class Latest {
   template <class Make>
   [[nodiscard]] std::shared_ptr<const Value> get(const Key& key, const Make& make) {
     const std::lock_guard lock(mutex_);
-    if (value_ != nullptr && key == key_) return value_;
+    if (keeps_ && value_ != nullptr && key == key_) return value_;
     value_ = nullptr;
     value_ = std::make_shared<const Value>(make());
     key_ = key;
@@ -23,6 +25,7 @@ class Latest {
   }
 
  private:
+  const bool keeps_ = fast_paths().last_values;
   std::mutex mutex_;
   Key key_{};
   std::shared_ptr<const Value> value_;

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "base/fast_paths.hpp"
+#include "base/requires.hpp"
 #include "engine/limits.hpp"
 
 namespace coordreq {
@@ -30,6 +32,10 @@ std::vector<std::int32_t> difference(const std::vector<std::int32_t>& a, const s
 ActionGrouping::ActionGrouping(const RowEngine& engine, const std::vector<InputClass>& classes,
                                std::vector<ActionSource> sources, ThreadTeam& team)
     : engine_(&engine), sources_(std::move(sources)) {
+  REQUIRES(std::accumulate(classes.begin(), classes.end(), std::size_t{0},
+                           [](std::size_t sum, const InputClass& own) {
+                             return sum + own.inputs().size();
+                           }) == engine.abstraction().inputs.size());
   for (const InputClass& inputs : classes) {
     classes_.push_back(make_class(inputs));
     share_groups(classes_.back(), team);
@@ -94,6 +100,7 @@ ActionGroups ActionGrouping::find_groups(const ClassData& data, const RowPlace& 
   ActionGroups groups;
   groups.group_of.assign(static_cast<std::size_t>(data.inputs.actions()), 0);
   std::unordered_map<std::uint64_t, std::uint32_t> numbers;
+  if (!fast_paths().grouped_actions) std::iota(groups.group_of.begin(), groups.group_of.end(), 0U);
   for (const View& view : data.views) {
     const std::uint32_t* ids = view_ids(view, place);
     numbers.clear();
@@ -117,7 +124,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
   groups.all.resize(size);
   std::iota(groups.all.begin(), groups.all.end(), 0U);
   groups.holders.resize(size);
-  if (std::ssize(groups.representative) > kMostComparedGroups) {
+  if (!fast_paths().covered_actions || std::ssize(groups.representative) > kMostComparedGroups) {
     groups.minimal = groups.maximal = groups.all;
     return;
   }
@@ -182,7 +189,7 @@ void ActionGrouping::share_groups(ClassData& data, ThreadTeam& team) const {
     data.state_stride[i] = choices;
     choices *= grid[i].count;
   }
-  if (choices > most_shared_choices(data.inputs.actions())) return;
+  if (!fast_paths().shared_groups || choices > most_shared_choices(data.inputs.actions())) return;
   const RowShare::Range held = held_choices(data, choices);
   data.before = held.begin;
   const auto find = [&](std::int64_t choice) {

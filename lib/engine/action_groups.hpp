@@ -50,7 +50,7 @@ struct RowGroups {
 /// choice of those and looked up for every row.
 class ActionGrouping {
  public:
-  /// REQUIRES: the classes are a partition of all inputs; `engine` outlives this object.
+  /// @pre the classes are a partition of all inputs. @pre unchecked: `engine` outlives this object
   ActionGrouping(const RowEngine& engine, const std::vector<InputClass>& classes, ThreadTeam& team)
       : ActionGrouping(engine, classes, action_sources(engine), team) {}
   /// Told apart by other sources.

@@ -10,7 +10,7 @@ namespace coordreq {
 /// Operations on rows of bits, 64 a word. Exactly the words named are read and written.
 struct BitKernels {
   /// target[w] &= the 64 bits from bit lane + s + 64 * w of `bits` on, for all s < count and w < words.
-  /// REQUIRES: the word after the last of these bits may be read, too.
+  /// @pre unchecked: the word after the last of these bits may be read, too.
   void (*and_shifted)(const std::uint64_t* bits, std::size_t lane, std::size_t count, std::uint64_t* target,
                       std::size_t words);
   /// 1 if some bit is in both rows, plus 2 if some bit of `a` is not in `b`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
 #include "engine/limits.hpp"
 #include "engine/row_box.hpp"
 
@@ -21,7 +22,7 @@ constexpr std::int64_t kLongRow = 1024;
 /// Leaves each row once, where rows that are equal are one.
 template <class Level>
 void leave_different(const LevelRows<Level>& levels, std::vector<const Level*>& rows) {
-  if (!levels.is_shared() || levels.row_length() < kLongRow || rows.size() < 2) return;
+  if (!levels.is_interned() || levels.row_length() < kLongRow || rows.size() < 2) return;
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 }
@@ -72,6 +73,7 @@ const Level* BoxReader<Level>::minimum(std::span<const std::uint32_t> ids) {
 
 template <class Level>
 const Level* BoxReader<Level>::minimum(const RowBox& box, std::int64_t begin, std::int64_t end) {
+  REQUIRES(box.covers);
   ranges_ = box.ranges;
   windows_ = box.windows;
   read_windows(false, begin, end, result_.data());

@@ -18,14 +18,14 @@ class BoxReader final : public RowReader<Level> {
   static constexpr Level kTop = LevelRows<Level>::kTop;
 
   /// @param outer number of leading dimensions whose minimum is shared by the rows of a unit
-  /// REQUIRES: `engine` and `levels` (from engine.make_levels(family)) outlive this object.
+  /// @pre unchecked: `engine` and `levels` (from engine.make_levels(family)) outlive this object.
   BoxReader(const RowEngine& engine, const RowFamily& family, std::size_t outer,
             const LevelRows<Level>& levels);
 
   void read(const LevelRows<Level>& levels) override { levels_ = &levels; }
   void enter() override;
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) override;
-  /// Least levels of the box around all posts of a row, for its lanes [begin, end). REQUIRES box.covers.
+  /// Least levels of the box around all posts of a row, for its lanes [begin, end). @pre box.covers
   [[nodiscard]] const Level* minimum(const RowBox& box, std::int64_t begin, std::int64_t end);
 
   [[nodiscard]] const LevelKernels<Level>& kernels() const { return *kernels_; }

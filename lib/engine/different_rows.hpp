@@ -12,10 +12,10 @@ namespace coordreq {
 template <class Level>
 class DifferentRows {
  public:
-  /// REQUIRES: `levels` outlives this object and does not change.
+  /// @pre unchecked: `levels` outlives this object and does not change.
   explicit DifferentRows(const LevelRows<Level>& levels)
       : levels_(levels), own_(own_rows(levels.share(), levels.rows())) {
-    if (!levels.is_shared()) return;
+    if (!levels.is_interned()) return;
     for (std::int64_t r = own_.begin; r < own_.end; ++r) {
       const std::size_t slot = levels.slots()[static_cast<std::size_t>(r)];
       if (slot >= rows_of_slot_.size()) rows_of_slot_.resize(slot + 1, 0);
@@ -25,13 +25,13 @@ class DifferentRows {
 
   /// What for_each() has to go over.
   [[nodiscard]] std::int64_t size() const {
-    return levels_.is_shared() ? static_cast<std::int64_t>(rows_of_slot_.size()) : own_.end - own_.begin;
+    return levels_.is_interned() ? static_cast<std::int64_t>(rows_of_slot_.size()) : own_.end - own_.begin;
   }
   /// Calls `visit(row, count)`: first cell, and how many rows are like it.
   template <class Visit>
   void for_each(ThreadTeam::Range range, const Visit& visit) const {
     for (std::int64_t k = range.begin; k < range.end; ++k) {
-      if (!levels_.is_shared()) {
+      if (!levels_.is_interned()) {
         visit(levels_.row(own_.begin + k), std::int64_t{1});
       } else if (const std::uint32_t count = rows_of_slot_[static_cast<std::size_t>(k)]; count > 0) {
         visit(levels_.first_place() + k * levels_.stride(), std::int64_t{count});

@@ -28,7 +28,7 @@ struct RowPart {
 class EngineSizes {
  public:
   /// @param part of a process, of several that share the work; all: there is one. At least a row counts
-  /// REQUIRES: `model` outlives this object.
+  /// @pre unchecked: `model` outlives this object.
   explicit EngineSizes(const Model& model, RowPart part = {});
 
   [[nodiscard]] const Model& model() const { return *model_; }

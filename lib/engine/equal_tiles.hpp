@@ -15,9 +15,9 @@ namespace coordreq {
 template <class Level>
 class EqualTiles {
  public:
-  /// REQUIRES: all outlive this object.
+  /// @pre unchecked: all outlive this object.
   EqualTiles(const EqualWork& equal, LevelRows<Level>& levels)
-      : equal_(equal), levels_(levels), is_on_(equal.tiles != nullptr && levels.is_shared()) {}
+      : equal_(equal), levels_(levels), is_on_(equal.tiles != nullptr && levels.is_interned()) {}
 
   /// False where too little has been found: looking up costs more than it saves.
   [[nodiscard]] bool is_on() const { return is_on_; }
@@ -40,7 +40,7 @@ class EqualTiles {
   }
 
   /// The tile whose result is that of the one at `place`; the latter itself if it is to be worked out.
-  /// REQUIRES: it is asked once a sweep.
+  /// @pre unchecked: it is asked once a sweep.
   [[nodiscard]] std::int64_t find(const RowPlace& place) {
     const std::int64_t tile = place.row / rows();
     key_.assign(1, (*equal_.numbers)[static_cast<std::size_t>(tile)]);

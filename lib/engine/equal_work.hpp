@@ -11,7 +11,7 @@ struct EqualWork {
   const Tiles* tiles = nullptr;  ///< null: nobody looks for equal work
   const Tiles::Numbers* numbers = nullptr;
   /// Rows of which an operator says the same where levels are the same in all images; null: there are none.
-  /// REQUIRES: all rows of a tile of many are first, or none is.
+  /// @pre unchecked: all rows of a tile of many are first, or none is.
   const RowMirror* mirror = nullptr;
 
   /// With numbers, those of the tables if there are none yet.

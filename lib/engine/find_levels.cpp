@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/fast_paths.hpp"
 #include "engine/different_rows.hpp"
 #include "engine/sparing_operator.hpp"
 
@@ -27,12 +28,12 @@ Wide raised(Narrow level) {
 /// Calls `change(row, cells)` for every row held, and puts the cells that it leaves in `levels`.
 template <class Level, class Change>
 void change_rows(LevelRows<Level>& levels, ThreadTeam& team, const Change& change) {
-  // Rows that are shared are put one after the other.
-  const std::int64_t grain = levels.is_shared() ? levels.rows() : 256;
+  // Rows that are interned are put one after the other.
+  const std::int64_t grain = levels.is_interned() ? levels.rows() : 256;
   for_each_held_row(team, levels.share(), levels.rows(), grain, [&](ThreadTeam::Range range, int) {
     std::vector<Level> cells(static_cast<std::size_t>(levels.row_length()) + kLevelBlock / sizeof(Level));
     for (std::int64_t r = range.begin; r < range.end; ++r) {
-      const Level* const row = std::as_const(levels).row(r);
+      const Level* const row = levels.row(r);
       std::copy(row, row + levels.row_length(), cells.begin());
       change(r, cells.data());
       levels.put(r, cells.data());
@@ -43,7 +44,7 @@ void change_rows(LevelRows<Level>& levels, ThreadTeam& team, const Change& chang
 template <class Wide, class Narrow>
 LevelRows<Wide> widened(const RowEngine& engine, const LevelRows<Narrow>& narrow, bool rises,
                         ThreadTeam& team) {
-  LevelRows<Wide> levels = engine.make_levels<Wide>(engine.posts(), narrow.is_shared());
+  LevelRows<Wide> levels = engine.make_levels<Wide>(engine.posts(), narrow.is_interned());
   change_rows(levels, team, [&](std::int64_t r, Wide* cells) {
     const Narrow* source = narrow.row(r);
     std::transform(source, source + levels.row_length(), cells,
@@ -113,13 +114,8 @@ class LevelFinder {
       : engine_(engine), hull_(hull), problem_(problem), watch_(watch), team_(team), counts_(counts) {}
 
   LevelMap from_start() {
-    const bool shared = problem_.equal.tiles != nullptr;
-    auto levels = engine_.make_levels<std::uint8_t>(*problem_.start, team_, shared);
-    for (const LevelMap* bound : problem_.bounds) lower_to(*bound, levels, team_);
-    const std::vector<std::uint8_t> nothing;
-    return from(std::move(levels), problem_.settled == nullptr ? nothing : *problem_.settled);
+    return fast_paths().narrow_levels ? from_start_of<std::uint8_t>() : from_start_of<std::uint32_t>();
   }
-
   /// What is settled at the bounds may not be so at levels that have sunk below them.
   template <class Level>
   LevelMap from(LevelRows<Level> levels, const std::vector<std::uint8_t>& settled = {}) {
@@ -143,6 +139,14 @@ class LevelFinder {
   }
 
  private:
+  template <class Level>
+  LevelMap from_start_of() {
+    auto levels = engine_.make_levels<Level>(*problem_.start, team_, problem_.equal.tiles != nullptr);
+    for (const LevelMap* bound : problem_.bounds) lower_to(*bound, levels, team_);
+    const std::vector<std::uint8_t> nothing;
+    return from(std::move(levels), problem_.settled == nullptr ? nothing : *problem_.settled);
+  }
+
   template <class Level>
   auto widened_and_bounded(LevelRows<Level> levels, bool rises) {
     using Wide = std::conditional_t<sizeof(Level) == 1, std::uint16_t, std::uint32_t>;

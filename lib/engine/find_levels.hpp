@@ -13,8 +13,8 @@ namespace coordreq {
 /// What a fixed point is asked for, whatever the width of its levels.
 struct LevelProblem {
   const CellSet* start = nullptr;  ///< the first set; levels of its cells are above 0
-  /// Cells that keep kTop whatever the operator says of them; null: none. REQUIRES: they have it at first, in
-  /// the start and in all bounds, and `equal` tells rows apart in which there are others.
+  /// Cells that keep kTop whatever the operator says of them; null: none. @pre unchecked: they have it at
+  /// first, in the start and in all bounds, and `equal` tells rows apart in which there are others.
   const CellSet* spared = nullptr;
   /// Levels that are known not to be too low: each with the same start, the greatest solution of
   /// level = 1 + op'(level) for some op' that is nowhere below this problem's, under the same limit.

@@ -29,7 +29,7 @@ class HaloNews {
  public:
   /// @param mirror where not null only the first of images is told of: the others follow from it, and any
   ///   row of this rank can be one of them
-  /// REQUIRES: there are several ranks, and all outlive this object.
+  /// @pre unchecked: there are several ranks, and all outlive this object.
   HaloNews(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, WaveNews& news,
            std::int64_t unit_rows, const RowMirror* mirror)
       : levels_(levels),

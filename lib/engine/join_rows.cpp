@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "base/fast_paths.hpp"
 #include "engine/level_rows.hpp"
 #include "engine/row_shape.hpp"
 
@@ -45,6 +46,7 @@ bool are_alone_from(std::size_t i, const std::vector<Table>& tables) {
 template <class Table, class Offsets>
 UniformGrid joined(const UniformGrid& grid, const std::vector<Table>& tables, const Offsets& offsets,
                    std::size_t most) {
+  if (!fast_paths().joined_rows) return grid;
   std::vector<std::int64_t> gaps;  // of all dimensions taken so far, the first one too
   std::int64_t lanes = 1;
   for (std::size_t i = grid.size() - 1; i > 0 && gaps.size() < most; --i) {

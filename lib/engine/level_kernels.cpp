@@ -1,5 +1,6 @@
 #include "engine/level_kernels.hpp"
 
+#include "base/fast_paths.hpp"
 #include "engine/bit_kernels.hpp"
 #include "engine/sum_kernels.hpp"
 
@@ -22,6 +23,7 @@ COORDREQ_DECLARE_KERNELS(avx512_kernels)
 #undef COORDREQ_DECLARE_KERNELS
 
 InstructionSet best_instruction_set() {
+  if (!fast_paths().vector_instructions) return InstructionSet::portable;
 #if COORDREQ_X86_KERNELS
   if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512dq")) {

@@ -17,12 +17,12 @@ struct LaneRange {
 
 /// Operations on rows of levels: small unsigned integers, one a cell, see LevelRows.
 ///
-/// A row operation works on whole blocks of `kLevelBlock` bytes: REQUIRES that every row handed in may be
+/// A row operation works on whole blocks of `kLevelBlock` bytes: @pre unchecked: every row handed in may be
 /// read, and every target written, up to the next multiple of that many bytes after its `n` lanes. What
 /// stands in lanes beyond n is of no meaning. No alignment is asked for; a target may be one of the sources.
 template <class Level>
 struct LevelKernels {
-  /// out[j] = min over k < count of rows[k][j]. REQUIRES count >= 1.
+  /// out[j] = min over k < count of rows[k][j]. @pre count >= 1
   void (*minimum)(const Level* const* rows, std::size_t count, Level* out, std::size_t n);
   /// target[j] = max(target[j], source[j]).
   void (*raise)(const Level* source, Level* target, std::size_t n);
@@ -60,7 +60,7 @@ inline constexpr std::size_t kLevelBlock = 64;
 
 /// The fastest set that this processor has.
 [[nodiscard]] InstructionSet best_instruction_set();
-/// The kernels for a set. REQUIRES: the processor has it. Level: an unsigned integer of 8 to 64
+/// The kernels for a set. @pre unchecked: the processor has it. Level: an unsigned integer of 8 to 64
 /// bits.
 template <class Level>
 [[nodiscard]] const LevelKernels<Level>& level_kernels(InstructionSet set);

@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/requires.hpp"
 #include "engine/level_kernels.hpp"
 
 namespace coordreq::COORDREQ_KERNEL_NAMESPACE {
@@ -76,6 +77,7 @@ inline __attribute__((always_inline)) void minimum_of_blocks(const Level* const*
 
 template <class Level>
 void minimum(const Level* const* rows, size_t count, Level* out, size_t n) {
+  REQUIRES(count >= 1);
   constexpr size_t kCount = Lanes<Level>::kCount;
   size_t j = 0;
   for (; j + 3 * kCount < n; j += 4 * kCount) minimum_of_blocks<Level, 4>(rows, count, j, out);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "engine/level_rows.hpp"
 #include "ranks/exchange_row_bytes.hpp"
 
@@ -13,11 +14,13 @@ namespace coordreq {
 template <class Level>
 class LevelMessages {
  public:
-  /// REQUIRES: there are several processes, and `levels` outlive this object.
+  /// @pre there are several processes. @pre unchecked: `levels` outlive this object
   explicit LevelMessages(const LevelRows<Level>& levels)
       : levels_(levels),
         lanes_(static_cast<std::size_t>(levels.row_length())),
-        cells_(lanes_ + kLevelBlock / sizeof(Level)) {}
+        cells_(lanes_ + kLevelBlock / sizeof(Level)) {
+    REQUIRES(levels.share() != nullptr);
+  }
 
   template <class IsSent>
   [[nodiscard]] Bytes message(const RowShare::Peer& peer, const IsSent& is_sent) const {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "base/zeroed_array.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/level_kernels.hpp"
@@ -27,8 +28,9 @@ namespace coordreq {
 /// 8 bits are enough for most problems; Level is the narrowest of 8, 16, 32 bits that all finite levels fit
 /// into.
 ///
-/// Rows that are equal may be *shared*: held once, and only put(), never written to where they stand. Memory
-/// for all rows is asked for all the same, but what is not used the system never gives.
+/// Rows that are equal may be *interned*: held once. Memory for all rows is asked for all the same, but what
+/// is not used the system never gives. Nobody writes to a row where it stands: change_row() and put() see to
+/// it that a row held once is changed for one alone.
 ///
 /// Where several processes share the work each has rows of all of them, of which only those that it holds
 /// mean something and take memory (RowShare).
@@ -40,9 +42,9 @@ class LevelRows {
   LevelRows() = default;
   LevelRows(std::int64_t rows, std::int64_t row_length, RowMargins margins, RowEnds ends)
       : LevelRows(rows, {{{row_length, 1, margins, ends}}}) {}
-  /// All levels 0. @param shared whether equal rows are held once; then they are closed
-  /// @param share which rows are whose; null: there is one process. REQUIRES: it outlives this object
-  LevelRows(std::int64_t rows, RowShape shape, bool shared = false, const RowShare* share = nullptr)
+  /// All levels 0. @param interned whether equal rows are held once; then they are closed
+  /// @param share which rows are whose; null: there is one process. @pre unchecked: it outlives this object
+  LevelRows(std::int64_t rows, RowShape shape, bool interned = false, const RowShare* share = nullptr)
       : rows_(rows),
         share_(share),
         shape_(std::move(shape)),
@@ -53,7 +55,7 @@ class LevelRows {
     // A row that is put takes a place before the one that stood there leaves its own.
     const auto size = static_cast<std::size_t>((rows + 1) * stride_) + kLevelBlock / sizeof(Level);
     levels_ = ZeroedArray<Level>(size);
-    if (!shared || rows == 0) return;
+    if (!interned || rows == 0) return;
     lanes_.assign(static_cast<std::size_t>(stride_), 0);
     Level* const first = levels_.data() + margins_.before;
     close_row(first);
@@ -83,34 +85,40 @@ class LevelRows {
     return (static_cast<std::size_t>((rows_ + 1) * stride_) + kLevelBlock / sizeof(Level)) * sizeof(Level);
   }
 
-  [[nodiscard]] bool is_shared() const { return !slots_.empty(); }
+  [[nodiscard]] bool is_interned() const { return !slots_.empty(); }
   /// First cell of a row; margins().before levels stand before it, margins().after after its last.
   [[nodiscard]] const Level* row(std::int64_t r) const { return at(slot(r)); }
-  /// REQUIRES: rows are not shared.
-  [[nodiscard]] Level* row(std::int64_t r) { return levels_.data() + r * stride_ + margins_.before; }
   /// The row in the first place, and [row] in which place a row stands; empty: each in its own.
   [[nodiscard]] const Level* first_place() const { return at(0); }
   [[nodiscard]] const std::vector<std::uint32_t>& slots() const { return slots_; }
 
-  /// Gives a row these cells, and margins to them. By one thread at a time if rows are shared.
+  /// Calls `change(cells)`, which may write to the cells of a row, and gives margins to what it leaves. By
+  /// one thread at a time if rows are interned.
+  template <class Change>
+  void change_row(std::int64_t r, const Change& change) {
+    if (!is_interned()) {
+      Level* const cells = levels_.data() + r * stride_ + margins_.before;
+      change(cells);
+      return close_row(cells);
+    }
+    std::copy_n(row(r), length_, lanes_.data() + margins_.before);
+    change(lanes_.data() + margins_.before);
+    put_ready(r, lanes_.data(), make_ready(lanes_.data()));
+  }
+  /// Gives a row these cells, and margins to them. By one thread at a time if rows are interned.
   /// @param cells whole blocks may be read; what gaps hold does not matter
   void put(std::int64_t r, const Level* cells) {
-    if (!is_shared()) {
-      std::copy_n(cells, length_, row(r));
-      return close(r);
-    }
-    std::copy_n(cells, length_, lanes_.data() + margins_.before);
-    put_ready(r, lanes_.data(), make_ready(lanes_.data()));
+    change_row(r, [&](Level* own) { std::copy_n(cells, length_, own); });
   }
   /// put() in two parts, of which the first is for any number of threads: gives margins to the cells of a row
   /// that stands elsewhere. @param lanes stride() of them, margins().before before the first cell
   /// @returns what put_ready() is to know
   [[nodiscard]] std::uint64_t make_ready(Level* lanes) const {
     close_row(lanes + margins_.before);
-    return is_shared() ? hash_of(lanes + margins_.before) : 0;
+    return is_interned() ? hash_of(lanes + margins_.before) : 0;
   }
   void put_ready(std::int64_t r, const Level* lanes, std::uint64_t hash) {
-    if (!is_shared()) {
+    if (!is_interned()) {
       std::copy_n(lanes, stride_, levels_.data() + r * stride_);
       return;
     }
@@ -127,9 +135,9 @@ class LevelRows {
     move_to(r, place);
   }
   /// Makes a row equal to another one. @returns whether it was not. By one thread at a time if rows are
-  /// shared.
+  /// interned.
   bool copy_row(std::int64_t from, std::int64_t to) {
-    if (!is_shared()) {
+    if (!is_interned()) {
       const Level* const source = levels_.data() + from * stride_;
       Level* const target = levels_.data() + to * stride_;
       if (std::equal(source, source + stride_, target)) return false;
@@ -143,8 +151,9 @@ class LevelRows {
     return true;
   }
   /// Equal numbers mean equal rows, and different ones different rows; as long as renumber() is not called.
-  /// REQUIRES: rows are shared.
+  /// @pre rows are interned
   [[nodiscard]] std::uint32_t content(std::int64_t r) const {
+    REQUIRES(is_interned());
     return book_.content(slots_[static_cast<std::size_t>(r)]);
   }
   void renumber() { book_.renumber(); }
@@ -161,9 +170,7 @@ class LevelRows {
     }
   }
 
-  /// Brings the margins and gaps of a row up to date with its cells.
-  void close(std::int64_t r) { close_row(row(r)); }
-  /// The same for a row of this layout that stands elsewhere.
+  /// Brings the margins and gaps of a row of this layout that stands elsewhere up to date with its cells.
   void close_row(Level* cells) const { close_part(cells, 0); }
 
   /// Sets the gaps of a row, or of a copy of it, to 0.
@@ -261,7 +268,7 @@ class LevelRows {
   RowMargins margins_;
   std::int64_t stride_ = 0;
   ZeroedArray<Level> levels_;
-  std::vector<std::uint32_t> slots_;  ///< [row]; empty: rows are not shared
+  std::vector<std::uint32_t> slots_;  ///< [row]; empty: rows are not interned
   SlotBook book_;
   std::vector<Level> lanes_;  ///< the row to be put, with its margins
 };

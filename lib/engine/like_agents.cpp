@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/fast_paths.hpp"
 #include "base/index.hpp"
 #include "base/merger.hpp"
 #include "engine/row_mirror.hpp"
@@ -132,6 +133,7 @@ std::vector<AgentPart> find_like_agents(const Abstraction& abstraction, std::spa
            std::ranges::all_of(part.dimensions, [&](std::size_t d) { return d < abstraction.grid.across(); });
   };
   std::vector<AgentPart> most;
+  if (!fast_paths().like_agents) return most;
   std::vector<std::uint8_t> is_known(parts.size(), 0);
   // Being alike is transitive, so that each agent is in one set of such.
   for (std::size_t a = 0; a < parts.size(); ++a) {

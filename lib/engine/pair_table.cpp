@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -53,6 +55,8 @@ PairTable::PairTable(const UniformGrid& grid, const InputSpace& inputs, const Pa
                  .input_space = &inputs,
                  .inputs = std::vector<std::int32_t>(inputs.size()),
                  .state_stride = std::vector<std::int64_t>(grid.size(), 0)} {
+  REQUIRES(listed.inputs == inputs.count());
+  REQUIRES(std::ssize(listed.bytes) == grid.cells() * listed.bytes_per_cell());
   std::iota(positions_.inputs.begin(), positions_.inputs.end(), 0);
   for (std::size_t i = 0; i < inputs.size(); ++i) positions_.input_stride.push_back(inputs.stride(i));
   for (std::size_t i = 0; i + 1 < grid.size(); ++i)

@@ -22,8 +22,8 @@ class PairTable {
   /// What is listed, and permitted by a condition too. It depends on all states and inputs.
   /// @param permitted by the condition; may be null: everything
   /// @param rows of the grid that it is asked for
-  /// REQUIRES: `listed` is over the cells of `grid` in its order, and over all joint inputs; grid and inputs
-  /// outlive this object.
+  /// @pre `listed` is over the cells of `grid` in its order, and over all joint inputs.
+  /// @pre unchecked: grid and inputs outlive this object
   PairTable(const UniformGrid& grid, const InputSpace& inputs, const PackedPairs& listed,
             const PairTable* permitted, ThreadTeam::Range rows, ThreadTeam& team);
 

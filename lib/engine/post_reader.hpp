@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "base/fast_paths.hpp"
+#include "base/requires.hpp"
 #include "engine/box_reader.hpp"
 #include "engine/sum_reader.hpp"
 
@@ -19,7 +21,7 @@ class PostReader {
  public:
   static constexpr Level kTop = LevelRows<Level>::kTop;
 
-  /// REQUIRES: `engine` and `levels` (from engine.make_levels(engine.posts())) outlive this object.
+  /// @pre unchecked: `engine` and `levels` (from engine.make_levels(engine.posts())) outlive this object.
   PostReader(const RowEngine& engine, const LevelRows<Level>& levels);
 
   PostReader(const PostReader&) = delete;
@@ -66,10 +68,11 @@ class PostReader {
   /// Levels that are nowhere above those of the choices [begin, end), in some lanes of the row; null: nothing
   /// is known of all of them.
   [[nodiscard]] const Level* bound(std::size_t begin, std::size_t end, LaneRange lanes) {
-    return has_bounds() ? sums_->bound(begin, end, lanes) : nullptr;
+    return bounds_several_ && has_bounds() ? sums_->bound(begin, end, lanes) : nullptr;
   }
-  /// Least levels of the box around all posts of a row. REQUIRES box.covers.
+  /// Least levels of the box around all posts of a row. @pre box.covers
   [[nodiscard]] const Level* minimum(const RowBox& box) {
+    REQUIRES(box.covers);
     return boxes_.minimum(box, 0, engine_.row_length());
   }
   /// The same for the lanes [begin, end) of the row alone.
@@ -90,6 +93,7 @@ class PostReader {
   std::optional<SumReader<Level>> sums_;
   RowReader<Level>* posts_;  ///< one of these two
   std::vector<BoxReader<std::uint8_t>> tubes_;
+  bool bounds_several_ = fast_paths().choice_bounds;
   std::span<const std::uint32_t> taken_;
   std::vector<Word> safe_;
   std::vector<Word> one_;

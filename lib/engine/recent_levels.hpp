@@ -40,14 +40,14 @@ class RecentLevels {
 
   /// A row gets other levels. Threads may tell of different rows.
   void change(std::int64_t row, const Level* before, const Level* after) {
-    Level* const own = levels_.row(row);
     const auto words = now_.row(row);
-    for (std::int64_t c = 0; c < levels_.row_length(); ++c) {
-      if (before[c] == after[c]) continue;
-      own[c] = after[c];
-      words[static_cast<std::size_t>(c / CellSet::kWordBits)] |= bit(c);
-    }
-    levels_.close(row);
+    levels_.change_row(row, [&](Level* own) {
+      for (std::int64_t c = 0; c < levels_.row_length(); ++c) {
+        if (before[c] == after[c]) continue;
+        own[c] = after[c];
+        words[static_cast<std::size_t>(c / CellSet::kWordBits)] |= bit(c);
+      }
+    });
     age_[static_cast<std::size_t>(row)] = Age::now;
   }
   /// The same where nobody knows any more what they were: all of them count.
@@ -65,14 +65,14 @@ class RecentLevels {
 
   /// All but what has changed in this sweep.
   void forget(std::int64_t row) {
-    Level* const own = levels_.row(row);
     const auto words = now_.row(row);
-    for (std::int64_t c = 0; c < levels_.row_length(); ++c) {
-      if ((words[static_cast<std::size_t>(c / CellSet::kWordBits)] & bit(c)) == 0)
-        own[c] = LevelRows<Level>::kTop;
-    }
+    levels_.change_row(row, [&](Level* own) {
+      for (std::int64_t c = 0; c < levels_.row_length(); ++c) {
+        if ((words[static_cast<std::size_t>(c / CellSet::kWordBits)] & bit(c)) == 0)
+          own[c] = LevelRows<Level>::kTop;
+      }
+    });
     std::ranges::fill(words, CellSet::Word{0});
-    levels_.close(row);
   }
 
   LevelRows<Level> levels_;

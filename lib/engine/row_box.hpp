@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "model/outside.hpp"
 #include "model/uniform_grid.hpp"
 
@@ -31,8 +32,10 @@ struct RowPlace {
   }
 
   /// To the row that begins the next or the last `dimensions`-dimensional block of rows, as advance() does.
-  /// REQUIRES: this row begins one; there is such a block.
+  /// @pre this row begins one. @pre unchecked: there is such a block
   void step(const UniformGrid& grid, std::size_t dimensions, bool backwards) {
+    REQUIRES(
+        std::ranges::none_of(std::span(index).subspan(dimensions), [](std::int64_t i) { return i != 0; }));
     row += backwards ? -grid.row_stride(dimensions - 1) : grid.row_stride(dimensions - 1);
     for (std::size_t i = dimensions; i-- > 0;) {
       const std::int64_t last = grid[i].count - 1;

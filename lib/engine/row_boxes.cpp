@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "base/fast_paths.hpp"
+#include "base/requires.hpp"
+
 namespace coordreq {
 
 RowBoxes::RowBoxes(const ActionGrouping& grouping)
@@ -21,11 +24,13 @@ RowBoxes::RowBoxes(const ActionGrouping& grouping)
     is_product_ = is_product_ && owners <= 1;
     moved_[owner].push_back(t);
   }
-  is_product_ = is_product_ && engine.demands().empty() && engine.posts().is_cut();
+  is_product_ =
+      is_product_ && fast_paths().product_posts && engine.demands().empty() && engine.posts().is_cut();
   base_.resize(engine.tables());
 }
 
 bool RowBoxes::fill(const RowPlace& place, const RowGroups& groups) {
+  REQUIRES(is_product());
   for (std::size_t t = 0; t < base_.size(); ++t) base_[t] = grouping_.sources()[t].base(place);
   has_gone_ = false;
   for (std::size_t c = 0; c < moved_.size(); ++c) {

@@ -27,14 +27,14 @@ class RowBoxes {
     blocked,  ///< left through an unsafe side
   };
 
-  /// REQUIRES: `grouping` outlives this object.
+  /// @pre unchecked: `grouping` outlives this object.
   explicit RowBoxes(const ActionGrouping& grouping);
 
   /// True if posts are products: no state is moved by two classes, and no tube can block a post.
   [[nodiscard]] bool is_product() const { return is_product_; }
 
   /// Takes up the posts of a row. @returns false if some slice of it falls into several pieces, or leads all
-  /// cells of the row to the same ones. REQUIRES: is_product()
+  /// cells of the row to the same ones. @pre is_product()
   bool fill(const RowPlace& place, const RowGroups& groups);
 
   [[nodiscard]] Kind kind(std::size_t c, std::uint32_t g) const { return kinds_[c][g]; }

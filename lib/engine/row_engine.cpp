@@ -5,6 +5,8 @@
 #include <iterator>
 #include <set>
 
+#include "base/fast_paths.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -90,7 +92,7 @@ std::vector<RowSlices> RowEngine::summed_slices() const {
   const std::vector<TransitionTable>& tables = abstraction_->tables;
   std::size_t outer = 0;
   while (outer < tables.size() && !tables[outer].is_sum()) ++outer;
-  if (outer == 0 || !is_closed(outer) || along() != 1) return {};
+  if (!fast_paths().added_rows || outer == 0 || !is_closed(outer) || along() != 1) return {};
   std::vector<RowSlices> result;
   double variants = 1;
   for (std::size_t t = outer; t < tables.size(); ++t) {
@@ -175,7 +177,7 @@ void RowEngine::choose_outer() {
     unit_rows_ = grid().row_stride(outer_ - 1);
     return;
   }
-  const std::size_t last = across();
+  const std::size_t last = fast_paths().shared_minima ? across() : 0;
   std::vector<TableProfile> profiles;
   for (const RowSlices& slices : posts().slices) profiles.push_back(profile(slices, share_));
   const auto cost = [&](std::size_t outer) {

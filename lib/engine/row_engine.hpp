@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "base/thread_team.hpp"
 #include "engine/level_rows.hpp"
 #include "engine/pair_table.hpp"
@@ -38,12 +39,16 @@ class RowEngine {
   /// @param pairs may be null: everything is allowed
   /// @param tubes what tubes must stay in, if there are any
   /// @param share which rows are whose, together; null: there is one process
-  /// REQUIRES: they outlive this object.
+  /// @pre unchecked: they outlive this object
   RowEngine(const Abstraction& abstraction, const PairRules* pairs, const TubeSets& tubes,
             const RowShare* share = nullptr);
 
-  /// Only what is allowed counts from now on. REQUIRES: nobody has asked; `pairs` outlives this object.
-  void set_pairs(const PairRules& pairs) { pairs_ = &pairs; }
+  /// Only what is allowed counts from now on. @pre there were no pairs.
+  /// @pre unchecked: nobody has asked; `pairs` outlives this object
+  void set_pairs(const PairRules& pairs) {
+    REQUIRES(pairs_ == nullptr);
+    pairs_ = &pairs;
+  }
   /// Takes in, once more, what tubes must stay in: in the rows held, which may not be there before.
   void take_tube_sets();
 
@@ -91,15 +96,15 @@ class RowEngine {
 
   /// Levels of all rows, 0, with the margins that a family asks for.
   template <class Level>
-  [[nodiscard]] LevelRows<Level> make_levels(const RowFamily& family, bool shared = false) const {
-    return {rows(), family.shape, shared, share_};
+  [[nodiscard]] LevelRows<Level> make_levels(const RowFamily& family, bool interned = false) const {
+    return {rows(), family.shape, interned, share_};
   }
   /// The greatest level for the cells of a set, 0 for all others, laid out for the posts, in the rows held.
   template <class Level>
   [[nodiscard]] LevelRows<Level> make_levels(const CellSet& set, ThreadTeam& team,
-                                             bool shared = false) const {
-    auto levels = make_levels<Level>(posts(), shared);
-    for_each_held_row(team, share_, levels.rows(), shared ? levels.rows() : 256,
+                                             bool interned = false) const {
+    auto levels = make_levels<Level>(posts(), interned);
+    for_each_held_row(team, share_, levels.rows(), interned ? levels.rows() : 256,
                       [&](ThreadTeam::Range range, int) { levels.assign(set, range.begin, range.end); });
     return levels;
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/fast_paths.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -74,7 +76,8 @@ std::vector<TubeHulls> hulls_of_tubes(const RowEngine& engine) {
 
 }  // namespace
 
-RowHull::RowHull(const RowEngine& engine) : engine_(&engine), is_bound_(engine.demands().empty()) {
+RowHull::RowHull(const RowEngine& engine)
+    : engine_(&engine), is_bound_(fast_paths().row_bounds && engine.demands().empty()) {
   const RowFamily posts = engine.posts();
   for (std::size_t i = 0; i < engine.tables(); ++i) {
     const bool is_along = i >= engine.across();

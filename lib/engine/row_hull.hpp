@@ -13,7 +13,7 @@ namespace coordreq {
 /// Blocked posts, and dimensions in which all has left for good, add nothing to the box.
 class RowHull {
  public:
-  /// REQUIRES: `engine` outlives this object.
+  /// @pre unchecked: `engine` outlives this object.
   explicit RowHull(const RowEngine& engine);
 
   /// What the posts of one row have in common.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -33,6 +35,7 @@ void add_bits(ConstRow source, std::int64_t offset, MutableRow target) {
       ++at;
       continue;
     }
+    REQUIRES(at < target.size());
     target[at++] |= word << shift;
     if (shift != 0 && word >> (kWordBits - shift) != 0) target[at] |= word >> (kWordBits - shift);
   }
@@ -43,6 +46,7 @@ bool any_set(ConstRow row) {
 }
 
 bool is_subset(ConstRow a, ConstRow b) {
+  REQUIRES(a.size() == b.size());
   for (std::size_t w = 0; w < a.size(); ++w) {
     if ((a[w] & ~b[w]) != 0) return false;
   }

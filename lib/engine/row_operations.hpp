@@ -15,10 +15,10 @@ using MutableRow = std::span<Word>;
 
 /// Sets bits [begin, end) and leaves the others.
 void set_bits(MutableRow row, std::int64_t begin, std::int64_t end);
-/// Sets those bits of `target` that are set in `source`, moved on by `offset`. REQUIRES: they exist.
+/// Sets those bits of `target` that are set in `source`, moved on by `offset`. @pre they exist
 void add_bits(ConstRow source, std::int64_t offset, MutableRow target);
 [[nodiscard]] bool any_set(ConstRow row);
-/// True if every bit of `a` is set in `b`. REQUIRES: equally many words.
+/// True if every bit of `a` is set in `b`. @pre equally many words
 [[nodiscard]] bool is_subset(ConstRow a, ConstRow b);
 
 /// Calls `visit(position)` for every set bit.

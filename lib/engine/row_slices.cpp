@@ -152,7 +152,7 @@ class RowChoices {
 /// Numbers slices in the order in which they are met, equal ones alike.
 class SliceNumbers {
  public:
-  /// REQUIRES: `slices` outlives this object.
+  /// @pre unchecked: `slices` outlives this object.
   explicit SliceNumbers(std::vector<std::vector<RowSegment>>& slices)
       : slices_(slices), known_(0, Hash{&slices}, Equal{&slices}) {}
 

@@ -35,7 +35,7 @@ struct BoxSides {
 struct SumKernels {
   /// place[c] = origin + sum over the sides of at(first, last) * stride + (last - first) * width_stride,
   /// where at = first, but at least first - last - 1 and at most count: a box beyond the domain is moved to
-  /// where it just touches it, and meets the same there. REQUIRES size >= 1.
+  /// where it just touches it, and meets the same there. @pre size >= 1
   void (*find_places)(const BoxSides* sides, std::size_t size, std::int32_t origin, std::int32_t* place,
                       std::size_t n);
 };

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/requires.hpp"
 #include "engine/sum_kernels.hpp"
 
 namespace coordreq::COORDREQ_KERNEL_NAMESPACE {
@@ -25,6 +26,7 @@ inline __attribute__((always_inline)) Places upper_half(const SplitRow& run, int
 }
 
 void find_places(const BoxSides* sides, size_t size, int32_t origin, int32_t* place, size_t n) {
+  REQUIRES(size >= 1);
   for (size_t c = 0; c < n; c += kPlaces) {
     Places sum = Places{} + origin;
     for (const BoxSides* side = sides; side < sides + size; ++side) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
 #include "engine/limits.hpp"
 #include "engine/list_numbers.hpp"
 #include "engine/row_box.hpp"
@@ -34,6 +35,7 @@ SumReader<Level>::SumReader(const RowEngine& engine, const LevelRows<Level>& lev
       levels_(&levels),
       kernels_(&level_kernels<Level>(best_instruction_set())),
       sums_(&sum_kernels(best_instruction_set())) {
+  REQUIRES(!engine.posts().is_cut());
   lay_out_block();
   find_margins();
   constexpr std::size_t kLanes = kLevelBlock / sizeof(std::int32_t);

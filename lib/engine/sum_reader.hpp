@@ -24,8 +24,8 @@ class SumReader final : public RowReader<Level> {
  public:
   static constexpr Level kTop = LevelRows<Level>::kTop;
 
-  /// REQUIRES: the posts of the engine are not cut; `engine` and `levels` (from
-  /// engine.make_levels(engine.posts())) outlive this object.
+  /// @pre the posts of the engine are not cut.
+  /// @pre unchecked: `engine` and `levels` (from engine.make_levels(engine.posts())) outlive this object
   SumReader(const RowEngine& engine, const LevelRows<Level>& levels);
 
   void read(const LevelRows<Level>& levels) override { levels_ = &levels; }

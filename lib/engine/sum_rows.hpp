@@ -50,7 +50,7 @@ class SumRows {
   /// Adds up rows. One object a thread.
   class Reader {
    public:
-    /// REQUIRES: `rows` outlives this object.
+    /// @pre unchecked: `rows` outlives this object.
     explicit Reader(const SumRows& rows);
     [[nodiscard]] Row row(std::uint32_t number);
     /// Rows that differ in their inputs alone. @param numbers theirs are `step` apart, from the first on

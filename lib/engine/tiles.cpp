@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/fast_paths.hpp"
 #include "engine/action_sources.hpp"
 #include "engine/slot_book.hpp"
 
@@ -40,7 +41,8 @@ Numbers number_lists(const std::vector<std::uint32_t>& ids, std::int64_t combina
 }
 
 bool are_possible(const RowEngine& engine) {
-  return engine.posts().is_cut() && engine.demands().empty() && engine.across() > 0;
+  return fast_paths().equal_rows && engine.posts().is_cut() && engine.demands().empty() &&
+         engine.across() > 0;
 }
 
 }  // namespace

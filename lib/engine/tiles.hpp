@@ -30,7 +30,7 @@ class Tiles {
   };
 
   /// Rows, units or nothing: what is often equal in a sample, where `set` is what rows hold.
-  /// REQUIRES: engine and hull outlive the tiles.
+  /// @pre unchecked: engine and hull outlive the tiles.
   [[nodiscard]] static std::optional<Tiles> find(const RowEngine& engine, const RowHull& hull,
                                                  const CellSet& set);
   /// The same without a sample.
@@ -103,7 +103,7 @@ class Tiles {
 /// in whose tile the same is said, at the same place in it, or the row itself.
 /// @param tiles null: of each row something else is said
 /// @param classes [tile] equal numbers where it is the same
-/// REQUIRES: `has` says the same of the rows of two such tiles.
+/// @pre unchecked: `has` says the same of the rows of two such tiles.
 template <class Has, class Visit>
 void for_each_with_first(const Tiles* tiles, const Tiles::Numbers& classes, RowShare::Range rows,
                          const Has& has, const Visit& visit) {

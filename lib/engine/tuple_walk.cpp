@@ -1,9 +1,12 @@
 #include "engine/tuple_walk.hpp"
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 
 void TupleWalk::begin(const ActionGrouping& grouping, const RowPlace& place, const RowGroups& groups,
                       const Candidates& candidates, std::size_t fastest) {
+  REQUIRES(std::ranges::none_of(candidates, [](const auto& own) { return own.empty(); }));
   grouping_ = &grouping;
   candidates_ = candidates;
   sources_ = grouping.sources().size();

@@ -15,7 +15,8 @@ class TupleWalk {
   /// Groups of each class to choose from.
   using Candidates = std::vector<std::span<const std::uint32_t>>;
 
-  /// Stands at the first choice. REQUIRES: no class is without a candidate; the arguments outlive the walk.
+  /// Stands at the first choice. @pre no class is without a candidate.
+  /// @pre unchecked: the arguments outlive the walk
   void begin(const ActionGrouping& grouping, const RowPlace& place, const RowGroups& groups,
              const Candidates& candidates) {
     begin(grouping, place, groups, candidates, grouping.size() - 1);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/fast_paths.hpp"
 #include "engine/alive_rows.hpp"
 #include "engine/equal_tiles.hpp"
 #include "engine/halo_news.hpp"
@@ -51,7 +52,8 @@ class WaveRunner {
     for (std::int64_t row = own_.begin; row < own_.end; ++row) {
       if (alive_.has(row) && !is_settled(row)) news_.set_unseen(row / unit_rows_);
     }
-    if (op.is_minimum() && !engine.posts().is_cut()) recent_.emplace(engine, team);
+    if (fast_paths().recent_levels && op.is_minimum() && !engine.posts().is_cut())
+      recent_.emplace(engine, team);
     if (engine.share() != nullptr) halo_.emplace(levels, engine, hull, news_, unit_rows_, equal.mirror);
   }
 
@@ -81,8 +83,7 @@ class WaveRunner {
     }
     if (halo_) halo_->end_sweep([this](std::int64_t row) { hear_of(row); });
     // Levels below the lowest to which a cell has sunk in a whole sweep are final: the sets they make have
-    // not changed while it was found of each cell that it stays in them.
-    // Of one process, that is: nobody knows what others have on its way.
+    // not changed while each cell was found to stay in them. Of one process: others may have more on its way.
     if (lowest_ != kTop && engine_.share() == nullptr)
       layer_ = std::max<std::int64_t>(layer_, std::int64_t{lowest_} - 1);
     step.layer = layer_;
@@ -90,8 +91,7 @@ class WaveRunner {
     return step.visited;
   }
 
-  /// After a sweep. @returns whether there may be more to find. Of several processes each knows that one
-  /// sweep late, so that none waits for the sum.
+  /// @returns whether there may be more to find; each of several processes knows a sweep late, and waits not.
   bool goes_on(std::int64_t sweep, std::int64_t visited) {
     if (!halo_) return visited > 0;
     Ranks& ranks = engine_.share()->ranks();
@@ -189,7 +189,7 @@ class WaveRunner {
   void mark_changed(std::int64_t row) {
     news_.mark_row(row);
     news_.mark_unit_of(row);
-    if (recent_) recent_->change(row, std::as_const(levels_).row(row));
+    if (recent_) recent_->change(row, levels_.row(row));
   }
 
   /// A row of the halo has changed.
@@ -264,7 +264,7 @@ class WaveRunner {
   void visit_row(const RowPlace& place, Worker& worker, int w) {
     ++worker.visited;
     const auto n = static_cast<std::size_t>(levels_.row_length());
-    std::copy_n(std::as_const(levels_).row(place.row), n, worker.old.begin());
+    std::copy_n(levels_.row(place.row), n, worker.old.begin());
     levels_.clear_gaps(worker.old.data());
     if (!op_.next_levels(place, worker.posts, worker.old.data(), worker.next.data(), w)) return;
     const LevelKernels<Level>& kernels = worker.posts.kernels();
@@ -293,7 +293,7 @@ class WaveRunner {
   void commit_all() {
     std::size_t levels = 0;
     for (const Worker& worker : workers_) levels += worker.storage.size();
-    if (levels < kFewLevels || levels_.is_shared()) {
+    if (levels < kFewLevels || levels_.is_interned()) {
       for (const Worker& worker : workers_) commit(worker);
       return;
     }
@@ -306,7 +306,7 @@ class WaveRunner {
     for (const Change& change : worker.changes) {
       const Level* const lanes = worker.storage.data() + change.position;
       const auto recall = [&](std::int64_t row) {
-        if (recent_) recent_->change(row, std::as_const(levels_).row(row), lanes + levels_.margins().before);
+        if (recent_) recent_->change(row, levels_.row(row), lanes + levels_.margins().before);
       };
       recall(change.row);
       levels_.put_ready(change.row, lanes, change.ready);

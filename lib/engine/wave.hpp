@@ -38,9 +38,10 @@ class RowOperator {
 /// Rows are therefore swept in batches, to and fro over the grid, each batch seeing what those before it have
 /// found: levels travel through the whole grid in one sweep where motion is one way, instead of one
 /// step a sweep. A row is looked at again only after a row that its posts can meet has changed.
-/// REQUIRES: the given levels are nowhere below the solution. Where 1 + op(levels) is nowhere above them they
-/// only ever sink. Else some may rise before they sink, yet the end is the same: if all levels have come
-/// below the k-th set of levels of the synchronous iteration from kTop, they come below the next one, too.
+/// @pre unchecked: the given levels are nowhere below the solution. Where 1 + op(levels) is nowhere above
+/// them they only ever sink. Else some may rise before they sink, yet the end is the same: if all levels have
+/// come below the k-th set of levels of the synchronous iteration from kTop, they come below the next one,
+/// too.
 ///
 /// Of several processes (RowEngine::share()) each sweeps the rows that it owns, with what it knows of its
 /// halo (HaloNews). What it knows may be too high, never too low, so that the solution is the same; it is
@@ -57,8 +58,8 @@ class RowOperator {
 /// @param watch its `resumed` is not looked at
 /// @param equal what the operator says depends on the tiles' numbers, and on the levels, alone. Where rows of
 ///   levels are shared, work that would be equal to some done in the same sweep is not done again. Of rows
-///   that are images of each other only the first is worked out, by the process that owns it. REQUIRES: then
-///   levels are the same in all images, and whoever holds a row holds the first of its images
+///   that are images of each other only the first is worked out, by the process that owns it. @pre unchecked:
+///   then levels are the same in all images, and whoever holds a row holds the first of its images
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
                     const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,

@@ -21,7 +21,7 @@ class WaveNews {
     std::vector<std::int64_t> counter;
   };
 
-  /// REQUIRES: both outlive this object.
+  /// @pre unchecked: both outlive this object.
   WaveNews(const RowEngine& engine, const RowHull& hull, std::int64_t unit_rows);
 
   /// The unit has to be looked at whatever has changed.

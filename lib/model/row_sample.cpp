@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "base/fast_paths.hpp"
 #include "base/index.hpp"
 #include "expression/condition.hpp"
 #include "numeric/rational.hpp"
@@ -159,7 +160,7 @@ RowSample sample_rows(const ProblemSpec& spec, const std::vector<TableShape>& sh
 std::optional<std::vector<std::size_t>> find_similar_rows(const ProblemSpec& spec,
                                                           const std::vector<TableShape>& shapes,
                                                           const std::vector<std::size_t>& order) {
-  if (cells_of(spec, order) < kFewCells) return std::nullopt;
+  if (!fast_paths().similar_rows || cells_of(spec, order) < kFewCells) return std::nullopt;
   std::vector<std::size_t> movable;  // in the order that is given
   for (const std::size_t i : order) {
     const bool leads = std::any_of(shapes.begin(), shapes.end(), [&](const TableShape& shape) {

@@ -63,6 +63,7 @@ void FlowSensitivity::append(const TransitionMatrix& transition, const Jacobian&
 }
 
 void FlowSensitivity::intersect_with_turning(const IntervalMatrix& transition) {
+  if (!turns_) return;
   if (first_steps_.size() < kShortProduct) {
     first_steps_.push_back(transition);
     if (first_steps_.size() < kShortProduct) return;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/fast_paths.hpp"
 #include "reach/jacobian.hpp"
 #include "reach/sensitivity.hpp"
 #include "reach/turning_product.hpp"
@@ -42,6 +43,7 @@ class FlowSensitivity {
 
   void intersect_with_turning(const IntervalMatrix& transition);
 
+  bool turns_ = fast_paths().turning_products;
   bool bounded_ = true;
   bool first_ = true;
   IntervalMatrix initial_;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/fast_paths.hpp"
+
 #include "reach/flow_solver.hpp"
 
 namespace coordreq {
@@ -47,7 +49,7 @@ const FlowEnclosure& ValidatedFlow::Solver::flow(std::span<const Interval> slots
         start > 0.0 || system_.steps.empty() ? kTight * start : kTightStep * system_.steps[i];
   }
   result_.reached.clear();
-  enclose(slots, kMostSplits);
+  enclose(slots, fast_paths().halved_boxes ? kMostSplits : 0);
   return result_;
 }
 
@@ -183,6 +185,7 @@ std::size_t ValidatedFlow::Solver::most_uncertain() const {
 
 /// Puts what is in both enclosures into the result. @returns whether there is one by faces
 bool ValidatedFlow::Solver::bound_by_faces(std::span<const Interval> slots, bool found) {
+  if (!fast_paths().face_flow) return false;
   for (std::size_t i = 0; i < n_; ++i) {
     if (field_.has_seams(i)) return false;
   }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/fast_paths.hpp"
 #include "base/index.hpp"
 #include "expression/dual.hpp"
 #include "expression/evaluate.hpp"
@@ -40,6 +41,10 @@ bool has_left(const StateSpec& state, const Interval& tube) {
 std::optional<Ring> ring_of(const StateSpec& state) {
   if (state.below != Outside::periodic) return std::nullopt;
   return Ring{.lower = state.lower, .upper = state.upper};
+}
+
+std::int64_t effort_of(const SystemSpec& spec) {
+  return fast_paths().divided_boxes ? spec.abstraction.effort : 0;
 }
 
 }  // namespace
@@ -83,7 +88,7 @@ void StateEnclosure::prepare_map() {
   }
   EndCells target = cells_of(state_);
   target.state = 0;
-  map_.emplace(spec_->dynamics.equations[state_], boxes, steps, target, spec_->abstraction.effort);
+  map_.emplace(spec_->dynamics.equations[state_], boxes, steps, target, effort_of(*spec_));
 }
 
 void StateEnclosure::prepare_flow(const std::vector<std::size_t>& states) {
@@ -104,7 +109,7 @@ void StateEnclosure::prepare_flow(const std::vector<std::size_t>& states) {
   for (const std::size_t state : served(states)) targets.push_back(cells_of(state));
   PeriodicFlow flow(system, rings, lower_double(spec_->dynamics.period),
                     upper_double(spec_->dynamics.period));
-  flow_.emplace(std::move(flow), system, std::move(targets), spec_->abstraction.effort);
+  flow_.emplace(std::move(flow), system, std::move(targets), effort_of(*spec_));
 }
 
 /// Whose cells count when a box is divided: all states that one flow serves, whichever are asked for, so that

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/fast_paths.hpp"
 #include "base/index.hpp"
 #include "model/odometer.hpp"
 #include "reach/abstraction.hpp"
@@ -49,7 +50,8 @@ void for_each_row(const SystemSpec& spec, const AffineDynamics& dynamics, std::s
 /// are no sums: a tube is an entry for every choice in any case, found by the same flow as that of the table.
 std::vector<std::int32_t> states_of_sum(const SystemSpec& spec, const AffineDynamics& dynamics,
                                         const AffinePart& part, std::size_t state) {
-  if (spec.abstraction.between_samples || has_measured_limit(spec.states[state])) return {};
+  if (!fast_paths().sum_tables || spec.abstraction.between_samples || has_measured_limit(spec.states[state]))
+    return {};
   std::vector<std::int32_t> summed = summed_states(spec, dynamics.dependencies(state), part, state);
   if (summed.empty()) return summed;
   bool exact = true;  // then the table holds exact hulls, away from limits at least

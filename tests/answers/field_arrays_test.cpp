@@ -20,7 +20,9 @@ LevelMap levels(std::int64_t row_length, const std::vector<int>& values) {
   LevelRows<std::uint8_t> rows(static_cast<std::int64_t>(values.size()) / row_length, row_length, {1, 3}, {});
   for (std::size_t x = 0; x < values.size(); ++x) {
     const auto cell = static_cast<std::int64_t>(x);
-    rows.row(cell / row_length)[cell % row_length] = static_cast<std::uint8_t>(values[x]);
+    rows.change_row(cell / row_length, [&](std::uint8_t* row) {
+      row[cell % row_length] = static_cast<std::uint8_t>(values[x]);
+    });
   }
   return LevelMap(std::move(rows));
 }

@@ -125,8 +125,8 @@ struct Levels {
   }
   void fill(LevelRows<Level>& rows) const {
     for (std::int64_t r = 0; r < rows.rows(); ++r) {
-      std::copy_n(cells.begin() + r * rows.row_length(), rows.row_length(), rows.row(r));
-      rows.close(r);
+      rows.change_row(
+          r, [&](Level* row) { std::copy_n(cells.begin() + r * rows.row_length(), rows.row_length(), row); });
     }
   }
 
@@ -261,9 +261,10 @@ TYPED_TEST(BoxReaderTest, SharedMinimaGiveWay) {
                   0);
   LevelRows<TypeParam> rows = problem.engine.template make_levels<TypeParam>(problem.family);
   for (std::int64_t r = 0; r < rows.rows(); ++r) {
-    for (std::int64_t c = 0; c < rows.row_length(); ++c)
-      rows.row(r)[c] = static_cast<TypeParam>((r * 31 + c * 7) % 251);
-    rows.close(r);
+    rows.change_row(r, [&](TypeParam* row) {
+      for (std::int64_t c = 0; c < rows.row_length(); ++c)
+        row[c] = static_cast<TypeParam>((r * 31 + c * 7) % 251);
+    });
   }
   EXPECT_TRUE(rc::check("least levels with few slots", [&] {
     const std::int64_t second = problem.dimensions[1].count;
@@ -307,8 +308,9 @@ TEST(BoxReader, TheLastSharedRowIsReadToTheEndOfABlock) {
   ASSERT_EQ(engine.outer(), 1U);
   auto levels = engine.make_levels<std::uint8_t>(engine.posts());
   for (std::int64_t r = 0; r < levels.rows(); ++r) {
-    for (std::int64_t c = 0; c < 62; ++c) levels.row(r)[c] = static_cast<std::uint8_t>(200 - c - r);
-    levels.close(r);
+    levels.change_row(r, [&](std::uint8_t* row) {
+      for (std::int64_t c = 0; c < 62; ++c) row[c] = static_cast<std::uint8_t>(200 - c - r);
+    });
   }
   BoxReader<std::uint8_t> reader(engine, engine.posts(), engine.outer(), levels);
   const std::uint8_t* row = reader.minimum(RowBox{{{0, 1}, {2, 2}}, {{0, 1}}, true}, 0, 62);

@@ -8,10 +8,9 @@ namespace {
 template <class Level>
 LevelMap sample(std::int64_t length) {
   LevelRows<Level> rows(3, length, {1, 2}, {Outside::safe, Outside::safe});
-  rows.row(0)[0] = 1;
-  rows.row(1)[length - 1] = 3;
-  rows.row(2)[1] = LevelRows<Level>::kTop;
-  for (std::int64_t r = 0; r < 3; ++r) rows.close(r);
+  rows.change_row(0, [](Level* row) { row[0] = 1; });
+  rows.change_row(1, [&](Level* row) { row[length - 1] = 3; });
+  rows.change_row(2, [](Level* row) { row[1] = LevelRows<Level>::kTop; });
   return LevelMap(std::move(rows));
 }
 
@@ -34,7 +33,7 @@ TEST(LevelMap, CountsTheCellsOfEachLevelButNotTheMargins) {
 TEST(LevelMap, NothingButTopHasNoFiniteLevels) {
   ThreadTeam team(1);
   LevelRows<std::uint8_t> rows(1, 4, {0, 0}, {});
-  std::fill_n(rows.row(0), 4, LevelRows<std::uint8_t>::kTop);
+  rows.change_row(0, [](std::uint8_t* row) { std::fill_n(row, 4, LevelRows<std::uint8_t>::kTop); });
   const LevelMap::Histogram histogram = LevelMap(std::move(rows)).histogram(team);
   EXPECT_TRUE(histogram.finite.empty());
   EXPECT_EQ(histogram.top, 4);

@@ -4,8 +4,9 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
-#include <utility>
+#include <vector>
 
 #include "engine/different_rows.hpp"
 
@@ -17,8 +18,7 @@ using ByteRows = LevelRows<std::uint8_t>;
 /// The row 7 8 9 with all it goes on with: two cells before, four after.
 std::vector<int> closed(RowEnds ends) {
   ByteRows levels(2, 3, {2, 4}, ends);
-  for (int c = 0; c < 3; ++c) levels.row(1)[c] = static_cast<std::uint8_t>(7 + c);
-  levels.close(1);
+  levels.change_row(1, [](std::uint8_t* cells) { std::iota(cells, cells + 3, std::uint8_t{7}); });
   return {levels.row(1) - 2, levels.row(1) + 7};
 }
 
@@ -29,9 +29,9 @@ TEST(LevelRows, GoOnBeyondTheirEndsByTheRulesForLeaving) {
   EXPECT_EQ(closed({Outside::periodic, Outside::periodic}), (std::vector<int>{8, 9, 7, 8, 9, 7, 8, 9, 7}));
 }
 
-TEST(LevelRows, ClosingOneRowLeavesTheOthers) {
+TEST(LevelRows, ChangingOneRowLeavesTheOthers) {
   ByteRows levels(3, 5, {3, 3}, {Outside::safe, Outside::safe});
-  levels.close(1);
+  levels.change_row(1, [](std::uint8_t*) {});
   for (const std::int64_t r : {0, 2}) {
     EXPECT_EQ(std::vector<int>(levels.row(r) - 3, levels.row(r) + 8), std::vector<int>(11, 0));
   }
@@ -63,29 +63,31 @@ TEST(LevelRows, OfSeveralDimensionsGoOnInEach) {
       // Runs of 2 cells with a gap of 5; one index before and two after in the slower dimension.
       ByteRows levels(2, RowShape{{{3, 7, {1, 2}, slow}, {2, 1, {2, 3}, fast}}});
       ASSERT_EQ(levels.row_length(), 21);
-      std::uint8_t* const row = levels.row(1);
-      for (std::int64_t i = 0; i < 3; ++i) {
-        for (std::int64_t j = 0; j < 2; ++j) row[7 * i + j] = static_cast<std::uint8_t>(10 * i + j + 1);
-      }
-      levels.close(1);
+      levels.change_row(1, [](std::uint8_t* cells) {
+        for (std::int64_t i = 0; i < 3; ++i) {
+          for (std::int64_t j = 0; j < 2; ++j) cells[7 * i + j] = static_cast<std::uint8_t>(10 * i + j + 1);
+        }
+      });
+      const std::uint8_t* const row = levels.row(1);
       for (std::int64_t i = -1; i < 5; ++i) {
         for (std::int64_t j = -2; j < 5; ++j)
           EXPECT_EQ(row[7 * i + j], expected_level(i, j, slow, fast)) << i << ", " << j;
       }
-      levels.clear_gaps(row);
+      std::vector<std::uint8_t> lanes(row, row + 21);
+      levels.clear_gaps(lanes.data());
       for (std::int64_t lane = 0; lane < 21; ++lane)
-        EXPECT_EQ(row[lane], lane % 7 < 2 ? 10 * (lane / 7) + lane % 7 + 1 : 0);
+        EXPECT_EQ(lanes[static_cast<std::size_t>(lane)], lane % 7 < 2 ? 10 * (lane / 7) + lane % 7 + 1 : 0);
     }
   }
 }
 
-TEST(LevelRows, SharedRowsAreHeldOnceAndReadAsOthersAre) {
+TEST(LevelRows, InternedRowsAreHeldOnceAndReadAsOthersAre) {
   const RowShape shape{{{3, 7, {1, 2}, {Outside::safe, Outside::saturate}},
                         {2, 1, {2, 3}, {Outside::periodic, Outside::periodic}}}};
-  EXPECT_TRUE(rc::check("shared rows", [&] {
+  EXPECT_TRUE(rc::check("interned rows", [&] {
     ByteRows plain(5, shape);
-    ByteRows shared(5, shape, true);
-    for (std::int64_t r = 0; r < 5; ++r) plain.close(r);
+    ByteRows interned(5, shape, true);
+    for (std::int64_t r = 0; r < 5; ++r) plain.change_row(r, [](std::uint8_t*) {});
     const int changes = *rc::gen::inRange(0, 30);
     for (int k = 0; k < changes; ++k) {
       const auto r = *rc::gen::inRange<std::int64_t>(0, 5);
@@ -98,16 +100,20 @@ TEST(LevelRows, SharedRowsAreHeldOnceAndReadAsOthersAre) {
       if (*rc::gen::inRange(0, 4) == 0) {
         const std::vector<std::uint8_t> other(plain.row(from), plain.row(from) + 21 + kLevelBlock);
         plain.put(r, other.data());
-        const bool was_equal = shared.content(from) == shared.content(r);
-        RC_ASSERT(shared.copy_row(from, r) != was_equal);
+        const bool was_equal = interned.content(from) == interned.content(r);
+        RC_ASSERT(interned.copy_row(from, r) != was_equal);
+      } else if (*rc::gen::inRange(0, 3) == 0) {
+        const auto change = [&](std::uint8_t* row) { row[0] = cells[0]; };
+        plain.change_row(r, change);
+        interned.change_row(r, change);
       } else {
         plain.put(r, cells.data());
-        shared.put(r, cells.data());
+        interned.put(r, cells.data());
       }
-      if (k % 7 == 0) shared.renumber();
+      if (k % 7 == 0) interned.renumber();
     }
     const RowMargins margins = plain.margins();
-    const DifferentRows<std::uint8_t> different(shared);
+    const DifferentRows<std::uint8_t> different(interned);
     std::int64_t held = 0;
     std::set<const std::uint8_t*> met;
     different.for_each({0, different.size()}, [&](const std::uint8_t* row, std::int64_t rows) {
@@ -116,13 +122,13 @@ TEST(LevelRows, SharedRowsAreHeldOnceAndReadAsOthersAre) {
     });
     RC_ASSERT(held == 5);
     for (std::int64_t r = 0; r < 5; ++r) {
-      const std::uint8_t* const a = std::as_const(plain).row(r);
-      const std::uint8_t* const b = std::as_const(shared).row(r);
+      const std::uint8_t* const a = plain.row(r);
+      const std::uint8_t* const b = interned.row(r);
       RC_ASSERT(std::equal(a - margins.before, a + 21 + margins.after, b - margins.before));
       for (std::int64_t other = 0; other < r; ++other) {
-        const bool equal = std::equal(a, a + 21, std::as_const(plain).row(other));
-        RC_ASSERT((b == std::as_const(shared).row(other)) == equal);
-        RC_ASSERT((shared.content(r) == shared.content(other)) == equal);
+        const bool equal = std::equal(a, a + 21, plain.row(other));
+        RC_ASSERT((b == interned.row(other)) == equal);
+        RC_ASSERT((interned.content(r) == interned.content(other)) == equal);
       }
     }
   }));

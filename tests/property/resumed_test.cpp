@@ -36,8 +36,8 @@ template <class Level>
 LevelMap read_levels(const RowEngine& engine, const NumberRows& bytes) {
   LevelRows<Level> levels = engine.make_levels<Level>(engine.posts());
   for (std::int64_t r = 0; r < levels.rows(); ++r) {
-    std::memcpy(levels.row(r), bytes.row(r), static_cast<std::size_t>(bytes.row_bytes()));
-    levels.close(r);
+    levels.change_row(
+        r, [&](Level* row) { std::memcpy(row, bytes.row(r), static_cast<std::size_t>(bytes.row_bytes())); });
   }
   return LevelMap(std::move(levels));
 }
@@ -267,8 +267,9 @@ TEST(Resumed, RisksAreTheSameFromAnyStep) {
           seen.emplace_back(RiskState{steps, first_risks(fast.invariance.invariant, 2, nullptr)});
       for (std::size_t mode = 0; mode < 2; ++mode) {
         for (std::int64_t r = 0; r < step.state[mode].rows; ++r)
-          std::memcpy(state.risks[mode].row(r), step.state[mode].row(r),
-                      static_cast<std::size_t>(step.state[mode].row_bytes()));
+          state.risks[mode].change_row(r, [&](std::uint32_t* row) {
+            std::memcpy(row, step.state[mode].row(r), static_cast<std::size_t>(step.state[mode].row_bytes()));
+          });
       }
     }};
     const Risk end = find_risk(problem, record, team);

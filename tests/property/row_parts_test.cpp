@@ -63,10 +63,12 @@ TEST(RowHull, HoldsThePostsOfTheRow) {
     const UniformGrid& grid = f.grid;
     const RowHull hull(random.engine);
     LevelRows<std::uint8_t> levels = random.engine.make_levels<std::uint8_t>(random.engine.posts());
-    for (std::int64_t x = 0; x < grid.cells(); ++x)
-      levels.row(x / grid.row_length())[x % grid.row_length()] =
-          static_cast<std::uint8_t>(draw(0, 3) == 0 ? draw(0, 9) : 255);
-    for (std::int64_t r = 0; r < grid.rows(); ++r) levels.close(r);
+    for (std::int64_t r = 0; r < grid.rows(); ++r) {
+      levels.change_row(r, [&](std::uint8_t* row) {
+        for (std::int64_t c = 0; c < grid.row_length(); ++c)
+          row[c] = static_cast<std::uint8_t>(draw(0, 3) == 0 ? draw(0, 9) : 255);
+      });
+    }
     BoxReader<std::uint8_t> reader(random.engine, random.engine.posts(), random.engine.outer(), levels);
     bool covers = false;
     for (RowPlace place(grid, 0); place.row < grid.rows(); place.advance(grid)) {

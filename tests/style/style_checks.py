@@ -27,6 +27,9 @@ CLOCKS = {
     "app/mpi/batch_on_ranks": "how often rank 0 looks for answers",
 }
 MAX_LINES = 400
+# Rooms in which what a function needs from its caller is checked, or is said to be unchecked.
+CHECKED_ROOMS = ["lib/engine", "lib/answers"]
+KERNEL_TABLES = ["level_kernels", "sum_kernels"]  # they are checked in files named _impl
 
 
 def sources(root, *folders):
@@ -134,6 +137,23 @@ TYPE = re.compile(r"^(?:struct|class|enum class|union) (?:\[\[\w+\]\] )?(\w+)\b(
 NAMESPACE = re.compile(r"^(?:inline )?namespace ?([\w:]*) ?\{")
 
 
+def needs_are_checked(root):
+    """In docstrings `@pre` is for what REQUIRES() checks, here or in the source beside, and `@pre unchecked:` for the rest."""
+    findings, stated, checked = [], {}, {}
+    for path, lines in sources(root, *CHECKED_ROOMS):
+        name = path.with_suffix("")
+        for number, line in enumerate(lines, 1):
+            code, _, comment = line.partition("//")
+            if "REQUIRES" in comment:
+                findings.append(f"{path}:{number}: REQUIRES is for checks; say '@pre', or '@pre unchecked:'")
+            stated[name] = stated.get(name, 0) + len(re.findall(r"@pre (?!unchecked:)", comment))
+            checked[name] = checked.get(name, 0) + code.count("REQUIRES(")
+    return findings + [
+        f"{name}: '@pre' {count} times, and REQUIRES() {checked[name]} times"
+        for name, count in stated.items() if count > checked[name] and name.name not in KERNEL_TABLES
+    ]
+
+
 def types_by_name(root):
     """Where each type of a namespace with a name is defined: places by full name. What is indented is a member."""
     places = {}
@@ -168,6 +188,7 @@ RULES = {
         library_never_prints,
         no_clock_decides,
         files_are_short,
+        needs_are_checked,
         types_have_names_of_their_own,
     )
 }

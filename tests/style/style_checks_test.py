@@ -123,6 +123,18 @@ class StyleChecks(unittest.TestCase):
             style_checks.files_are_short(self.root), ["app/b.cpp: 401 lines, at most 400 are allowed"]
         )
 
+    def test_a_need_that_only_a_comment_states_is_found(self):
+        self.write("lib/engine/a.hpp", "/// @pre k > 0. @pre unchecked: `b` outlives it\nint f(int k) {\n  REQUIRES(k > 0);\n}\n")
+        self.write("lib/engine/b.hpp", "/// @pre k > 0\nint g(int k);\n")
+        self.write("lib/engine/b.cpp", "int g(int k) {\n  REQUIRES(k > 0);\n}\n")
+        self.assertEqual(style_checks.needs_are_checked(self.root), [])
+        self.write("lib/engine/c.hpp", "/// REQUIRES: k > 0\nint h(int k);\n/// @pre k > 0\nint i(int k);\n")
+        self.assertEqual(
+            style_checks.needs_are_checked(self.root),
+            ["lib/engine/c.hpp:1: REQUIRES is for checks; say '@pre', or '@pre unchecked:'",
+             "lib/engine/c: '@pre' 1 times, and REQUIRES() 0 times"],
+        )
+
     def test_types_of_one_name_are_found(self):
         self.write("lib/base/a.hpp", "namespace coordreq {\n\nstruct Form {\n  int a;\n};\n\n}  // namespace coordreq\n")
         own = "namespace coordreq {\nnamespace {\n\nclass Form {\n};\n\n}  // namespace\n\nclass Base;\n\n}  // namespace coordreq\n"

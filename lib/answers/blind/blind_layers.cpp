@@ -21,7 +21,7 @@ const RowEngine& engine_of(const BlindProblem& problem) {
 LevelMap first_levels(const BlindProblem& problem, const CellSet* common) {
   const RowEngine& engine = engine_of(problem);
   return problem.layers.layers_of.visit([&]<class Level>(const LevelRows<Level>& layers) {
-    auto levels = engine.make_levels<Level>(engine.posts(), problem.shared);
+    auto levels = engine.make_levels<Level>(engine.posts(), problem.interned);
     std::vector<Level> cells(at(levels.row_length()) + kLevelBlock / sizeof(Level));
     const RowShare::Range own = own_rows(engine.share(), levels.rows());
     for (std::int64_t r = own.begin; r < own.end; ++r) {

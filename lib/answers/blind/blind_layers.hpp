@@ -14,7 +14,7 @@ struct BlindProblem {
   const RowHull& hull;
   const DelayLayers& layers;  ///< Z
   std::optional<std::int64_t> max_delay;
-  bool shared = false;            ///< whether equal rows are held once
+  bool interned = false;          ///< whether equal rows are held once
   const CellSet* over = nullptr;  ///< G of a goal that ends the task, in every B_k; null: there is none
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "answers/blind/silent_table.hpp"
+#include "base/requires.hpp"
 #include "engine/row_operations.hpp"
 
 namespace coordreq {
@@ -15,8 +16,9 @@ class ClassRows {
  public:
   explicit ClassRows(const SilentSources& sources) : sources_(sources) {}
 
-  /// REQUIRES: the row is an own one, and K has cells in it.
+  /// @pre K has cells in the row. @pre unchecked: it is an own one
   void enter(const RowPlace& place) {
+    REQUIRES(any_set(sources_.invariant.row(place.row)));
     row_ = place.row;
     is_full_ = sources_.projections.full_rows()[static_cast<std::size_t>(row_)] != 0;
     if (!is_full_) sources_.projections.grouping().group(place, groups_);

@@ -32,7 +32,7 @@ inline constexpr char kSilentLayer[] = "/silent_layer";
 /// What was found for them. The arrays refer to the answers, which must outlive the writing.
 void fill_blind_fields(const Answers& answers, ThreadTeam& team, FieldValues& values);
 
-/// B of a partition: that of Z where it has one class. REQUIRES: they have been found.
+/// B of a partition: that of Z where it has one class. @pre unchecked: they have been found
 [[nodiscard]] const DelayLayers& blind_layers(const Answers& answers, std::size_t p);
 /// The same with blind delays.
 [[nodiscard]] const DelayLayers& blind_delays(const Answers& answers, std::size_t p);

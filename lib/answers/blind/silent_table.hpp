@@ -7,6 +7,7 @@
 
 #include "answers/blind/fibres.hpp"
 #include "answers/layers/projections.hpp"
+#include "base/requires.hpp"
 #include "base/thread_team.hpp"
 #include "engine/cell_set.hpp"
 #include "engine/level_map.hpp"
@@ -29,8 +30,9 @@ struct SilentTable {
 
   [[nodiscard]] std::int64_t fibres() const { return static_cast<std::int64_t>(met.size()); }
   /// Whether the action is in Q^k. No action is where no cell of B_k is in the fibre.
-  /// REQUIRES: 1 <= k, at most the depth that the table was made for.
+  /// @pre 1 <= k. @pre unchecked: k is at most the depth that the table was made for
   [[nodiscard]] bool allows(std::int64_t fibre, std::int64_t action, std::int64_t k) const {
+    REQUIRES(1 <= k);
     return met[static_cast<std::size_t>(fibre)] >= k &&
            lacked[static_cast<std::size_t>(fibre * actions + action)] < k;
   }

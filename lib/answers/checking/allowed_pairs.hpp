@@ -22,7 +22,7 @@ namespace coordreq {
 /// object a thread.
 class PermittedPairs {
  public:
-  /// REQUIRES: all outlive this object. @param words, @param pointer for errors
+  /// @pre unchecked: all outlive this object. @param words, @param pointer for errors
   PermittedPairs(const ProblemSpec& spec, const Program& condition, const UniformGrid& grid,
                  const InputSpace& inputs, std::string words, std::string pointer);
 
@@ -53,7 +53,7 @@ class PermittedPairs {
 /// Which joint inputs `allow` permits, and the controller file lists. One object a thread.
 class AllowedPairs {
  public:
-  /// REQUIRES: all outlive this object.
+  /// @pre unchecked: all outlive this object.
   /// @param listed none where the spec has no controller file
   AllowedPairs(const ProblemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
                const std::optional<PackedPairs>& listed);

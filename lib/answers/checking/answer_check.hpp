@@ -33,7 +33,7 @@ class AnswerCheck {
   /// Compares what is said of all cells together with what is said of each; no posts are needed.
   /// @param sizes how many cells sets have; @returns what is no matter of these
   virtual std::vector<Finding> compare_sizes(Comparison& /*sizes*/) { return {}; }
-  /// Null: single cells are not looked at. REQUIRES: this object outlives the result.
+  /// Null: single cells are not looked at. @pre unchecked: this object outlives the result.
   [[nodiscard]] virtual std::unique_ptr<CellChecker> cell_checker() { return nullptr; }
   /// Cells that check_all() asks for the posts of, whatever the sample is.
   [[nodiscard]] virtual std::vector<std::uint64_t> more_cells() const { return {}; }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -33,6 +35,7 @@ bool goes_round(IndexRange range, std::int64_t count) {
 }  // namespace
 
 std::vector<RationalInterval> parts_of(const GridDimension& dimension, std::int64_t k) {
+  REQUIRES(0 <= k && k < dimension.count);
   const Rational reach = dimension.radius() + dimension.measurement_error;
   const RationalInterval cell{.lower = dimension.point(k) - reach, .upper = dimension.point(k) + reach};
   if (!dimension.periodic()) return {within_limits(dimension, k, cell)};
@@ -56,6 +59,7 @@ std::vector<RationalInterval> parts_of(const GridDimension& dimension, std::int6
 }
 
 IndexRange cut_to_range(const GridDimension& dimension, std::int64_t first, std::int64_t last) {
+  REQUIRES(first <= last);
   constexpr std::int64_t kUnknown = 4 * kFarOut * kFarOut;
   const bool is_known = first > -kUnknown && std::max(first, last + 1) < kUnknown;
   if (dimension.periodic() && !is_known) return {0, static_cast<std::int32_t>(dimension.count - 1)};
@@ -71,6 +75,7 @@ IndexRange cut_to_range(const GridDimension& dimension, std::int64_t first, std:
 }
 
 IndexRange both_of(IndexRange a, IndexRange b, const GridDimension& dimension) {
+  REQUIRES(a.first <= a.last && b.first <= b.last);
   if (!dimension.periodic()) return {std::min(a.first, b.first), std::max(a.last, b.last)};
   const std::int64_t count = dimension.count;
   const IndexRange all{0, static_cast<std::int32_t>(count - 1)};

@@ -14,16 +14,16 @@ namespace coordreq {
 /// the measurement error, without what lies beyond a `stop` limit, and with what it is stretched by. In a
 /// periodic dimension its copies, whole periods apart, as far as they lie in [lower, upper], those along the
 /// cell first: one copy, two on the seam, and all of [lower, upper] if the cell is as wide. A copy that only
-/// begins at `upper` is none, for that point is seen as `lower`. REQUIRES: 0 <= k < count
+/// begins at `upper` is none, for that point is seen as `lower`. @pre 0 <= k < count
 [[nodiscard]] std::vector<RationalInterval> parts_of(const GridDimension& dimension, std::int64_t k);
 
 /// Raw indices first, ..., last, cut to 32 bits; of a ring the same cells, some turns nearer, if they are far
-/// out. REQUIRES: first <= last
+/// out. @pre first <= last
 [[nodiscard]] IndexRange cut_to_range(const GridDimension& dimension, std::int64_t first, std::int64_t last);
 
 /// The fewest cells side by side that hold both ranges. In a ring the shortest arc, of equally short ones
 /// that which begins as `a` does, from there or less than a turn below; {0, count - 1} if it goes all round.
-/// REQUIRES: first <= last of both
+/// @pre first <= last of both
 [[nodiscard]] IndexRange both_of(IndexRange a, IndexRange b, const GridDimension& dimension);
 
 }  // namespace coordreq

@@ -14,7 +14,7 @@ struct Tubes {
   std::vector<std::int32_t> inside;               ///< [cell]: 1 in S, else 0
   std::vector<std::int32_t> beyond;               ///< the same; for tubes that pass a limit
 };
-/// REQUIRES: `grid` and `tables` outlive the result.
+/// @pre unchecked: `grid` and `tables` outlive the result.
 [[nodiscard]] Tubes make_tubes(const UniformGrid& grid, const InputSpace& inputs,
                                const std::vector<PostTable>& tables, const std::vector<std::uint8_t>& safe,
                                const std::vector<std::uint8_t>& beyond);
@@ -25,7 +25,7 @@ struct Tubes {
 /// The tubes of one cell at a time. One object a thread.
 class CellTubes {
  public:
-  /// REQUIRES: `tubes` outlives this object.
+  /// @pre unchecked: `tubes` outlives this object.
   explicit CellTubes(const Tubes& tubes) : tubes_(&tubes), covering_(tubes.covering) {}
 
   void go_to(std::int64_t cell);

@@ -8,6 +8,7 @@
 #include "answers/checking/allowed_pairs.hpp"
 #include "answers/checking/check_ground.hpp"
 #include "answers/checking/tally.hpp"
+#include "base/requires.hpp"
 
 namespace coordreq {
 
@@ -15,7 +16,7 @@ namespace coordreq {
 /// definitions, one joint input at a time. A pair whose tube is not safe has no post. One object a thread.
 class CheckedCell {
  public:
-  /// REQUIRES: `ground` outlives this object.
+  /// @pre unchecked: `ground` outlives this object.
   explicit CheckedCell(const CheckGround& ground);
 
   void go_to(std::int64_t cell);
@@ -34,13 +35,16 @@ class CheckedCell {
 
   /// C(x): [joint input] 1 or 0; none outside K.
   [[nodiscard]] const std::vector<std::uint8_t>& admitted() const { return admitted_; }
-  /// Every allowed joint input keeps the cell in K. REQUIRES: is_invariant().
-  [[nodiscard]] bool all_stay() const { return all_stay_; }
+  /// Every allowed joint input keeps the cell in K. @pre is_invariant()
+  [[nodiscard]] bool all_stay() const {
+    REQUIRES(is_invariant());
+    return all_stay_;
+  }
 
   /// Minima asked for and cells looked at for them, so far: a measure of the work.
   [[nodiscard]] std::int64_t looked_at() const { return posts_.looked_at(); }
 
-  // REQUIRES, for what follows: is_safe().
+  // @pre unchecked: for what follows, is_safe()
   [[nodiscard]] bool is_allowed(std::int64_t u) const { return allowed_(u); }
   /// `allow` does not permit it; a file that does not list it forbids nothing. Blocked, where classes act by
   /// themselves.
@@ -49,7 +53,7 @@ class CheckedCell {
   [[nodiscard]] bool is_way_safe(std::int64_t u) { return !tubes_ || tubes_->is_safe(u); }
   /// min over y in f(x, u) of values[y]; `forever` where all has left safely, `blocked` if there is no post.
   /// @param values over all cells; minima are remembered by where they lie
-  /// REQUIRES: for the same values the same `blocked` and `forever`.
+  /// @pre unchecked: for the same values the same `blocked` and `forever`.
   template <class Value>
   [[nodiscard]] std::int32_t least(std::int64_t u, const std::vector<Value>& values, std::int32_t blocked,
                                    std::int32_t forever = kForever) {

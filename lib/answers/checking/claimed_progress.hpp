@@ -10,7 +10,7 @@ namespace coordreq {
 /// The progress controller P by its definition, from the arrivals that a file claims.
 class ClaimedProgress {
  public:
-  /// REQUIRES: the spec has a goal; `ground` outlives this object.
+  /// @pre unchecked: the spec has a goal; `ground` outlives this object
   explicit ClaimedProgress(const CheckGround& ground);
 
   /// -2 outside S, -1 in S but not in K, kForever where the goal cannot be forced.
@@ -26,7 +26,7 @@ class ClaimedProgress {
   [[nodiscard]] bool comes_nearer(CheckedCell& cell, std::int64_t u) const {
     return worst(cell, u) < arrival_[cell.at()];
   }
-  /// P(x) as [joint input] 1 or 0. REQUIRES: x is in W \ G.
+  /// P(x) as [joint input] 1 or 0. @pre unchecked: x is in W \ G
   [[nodiscard]] std::vector<std::uint8_t> of(CheckedCell& cell) const;
 
  private:

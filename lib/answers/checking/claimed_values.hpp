@@ -20,7 +20,7 @@ namespace coordreq {
 /// is that of all agents together.
 class ClaimedValues {
  public:
-  /// REQUIRES: `claims` outlives this object.
+  /// @pre unchecked: `claims` outlives this object.
   ClaimedValues(const Claims& claims, const RequirementSpec& asked);
 
   [[nodiscard]] std::int32_t operator()(std::size_t cell) const {

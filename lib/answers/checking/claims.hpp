@@ -46,7 +46,7 @@ class Claims : public FieldSource {
   bool same_version = true;                   ///< written by this version of the program
   std::string file;                           ///< its path, for errors
 
-  // REQUIRES, for what follows: the file has the field, of that kind.
+  // @pre unchecked: for what follows, the file has the field, of that kind.
   [[nodiscard]] const FieldClaims& at(const std::string& path) const { return fields.at(path); }
   [[nodiscard]] const std::vector<std::int32_t>& values(const std::string& path,
                                                         std::size_t entry = 0) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -22,7 +24,9 @@ std::optional<std::size_t> PostTable::find(std::int64_t place) const {
 }
 
 std::size_t PostTable::entry_of(const UniformGrid& grid, std::int64_t cell) const {
-  return *find(first_place(*this, grid, cell));
+  const std::optional<std::size_t> found = find(first_place(*this, grid, cell));
+  REQUIRES(found.has_value());
+  return *found;
 }
 
 /// Inputs run fastest, so that entries of a cell lie together.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "model/input_space.hpp"
 #include "model/outside.hpp"
 #include "model/uniform_grid.hpp"
@@ -27,9 +28,13 @@ struct PostTable {
   }
   /// The entry with a place; nothing if it is left out.
   [[nodiscard]] std::optional<std::size_t> find(std::int64_t place) const;
-  /// REQUIRES: it is not left out.
-  [[nodiscard]] const IndexRange& at(std::int64_t place) const { return entries[*find(place)]; }
-  /// The first entry of a cell; those of its other inputs follow. REQUIRES: they are not left out.
+  /// @pre it is not left out
+  [[nodiscard]] const IndexRange& at(std::int64_t place) const {
+    const std::optional<std::size_t> found = find(place);
+    REQUIRES(found.has_value());
+    return entries[*found];
+  }
+  /// The first entry of a cell; those of its other inputs follow. @pre they are not left out
   [[nodiscard]] std::size_t entry_of(const UniformGrid& grid, std::int64_t cell) const;
 };
 

@@ -23,7 +23,7 @@ struct Posts {
   std::vector<std::vector<std::int32_t>> input_part;  ///< [state][u]: entry, counted from the cell's first
   std::vector<std::int64_t> input_choices;            ///< [state]: entries of one cell
 };
-/// REQUIRES: `grid` and `tables` outlive the result.
+/// @pre unchecked: `grid` and `tables` outlive the result.
 [[nodiscard]] Posts make_posts(const UniformGrid& grid, const InputSpace& inputs,
                                const std::vector<PostTable>& tables);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/requires.hpp"
 #include "spec/coordination_spec.hpp"
 
 namespace coordreq {
@@ -88,11 +89,12 @@ class RowChooser {
   }
 
   void assign(std::int64_t row, const std::vector<Word>& cells, Level level) {
-    Level* const levels = chosen_.row(row);
-    for (std::size_t w = 0; w < cells.size(); ++w) {
-      for (Word rest = cells[w]; rest != 0; rest &= rest - 1)
-        levels[w * CellSet::kWordBits + static_cast<std::size_t>(std::countr_zero(rest))] = level;
-    }
+    chosen_.change_row(row, [&](Level* levels) {
+      for (std::size_t w = 0; w < cells.size(); ++w) {
+        for (Word rest = cells[w]; rest != 0; rest &= rest - 1)
+          levels[w * CellSet::kWordBits + static_cast<std::size_t>(std::countr_zero(rest))] = level;
+      }
+    });
   }
 
   CoalitionMap& map_;
@@ -152,6 +154,7 @@ void count_cells(CoalitionMap& map, ThreadTeam& team) {
 CoalitionMap find_coalitions(const CoordinationSpec& coordination, std::size_t agents,
                              const CellSet& invariant, const std::vector<const DelayLayers*>& layers,
                              ThreadTeam& team) {
+  REQUIRES(coordination.horizon.has_value());
   CoalitionMap map{.horizon = *coordination.horizon,
                    .choices = order_of_preference(coordination),
                    .pairs = agent_pairs(agents)};

@@ -32,7 +32,7 @@ struct CoalitionMap {
 /// Delays that `max_delay` cut off count as lower bounds, so that a cell is never given a partition that has
 /// not been shown to be enough.
 /// @param layers of the partitions of `coordination`, in its order
-/// REQUIRES: coordination.horizon is set.
+/// @pre coordination.horizon is set
 [[nodiscard]] CoalitionMap find_coalitions(const CoordinationSpec& coordination, std::size_t agents,
                                            const CellSet& invariant,
                                            const std::vector<const DelayLayers*>& layers, ThreadTeam& team);

@@ -15,7 +15,7 @@ bool is_share(float freedom) {
   return std::isnan(freedom) || (freedom > 0 && freedom <= 1);
 }
 
-/// REQUIRES: the agents are there.
+/// @pre unchecked: the agents are there.
 void serialise(Archive& archive, const RowEngine& engine, ConventionFreedom& convention) {
   const std::int64_t cells = engine.grid().cells(), length = engine.row_length();
   const RowShare::Range own = own_rows(engine.share(), engine.rows());

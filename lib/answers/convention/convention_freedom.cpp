@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "answers/convention/convention_row.hpp"
+#include "base/requires.hpp"
 #include "engine/action_groups.hpp"
 #include "engine/level_map.hpp"
 #include "engine/packed_pairs.hpp"
@@ -157,6 +158,7 @@ void copy_to_like_rows(const LikeRows& like, std::int64_t begin, std::int64_t le
 
 ConventionFreedom find_convention(const Controller& controller, const RowHull& hull,
                                   const ActionGrouping& agents, ThreadTeam& team, const Tiles* tiles) {
+  REQUIRES(tiles == nullptr || controller.approaches || &controller.target() == controller.invariant);
   const RowEngine& engine = *controller.engine;
   const RowShare::Range own = own_rows(engine.share(), engine.rows());
   ConventionFreedom result;

@@ -27,8 +27,8 @@ struct ConventionFreedom {
 };
 
 /// @param agents the actions of each agent as a class of its own, in the order of the spec
-/// @param tiles where equal work is looked for; null: nowhere. REQUIRES: null unless posts must stay
-///   in controller.invariant itself
+/// @param tiles where equal work is looked for; null: nowhere. @pre null unless posts must stay in
+///   controller.invariant itself
 /// Cost: for each row of cells the choices of one group of actions an agent, times agents^2.
 [[nodiscard]] ConventionFreedom find_convention(const Controller& controller, const RowHull& hull,
                                                 const ActionGrouping& agents, ThreadTeam& team,

@@ -6,6 +6,7 @@
 
 #include "answers/invariance/controller_row.hpp"
 #include "answers/layers/free_rows.hpp"
+#include "base/requires.hpp"
 #include "engine/action_groups.hpp"
 #include "engine/post_reader.hpp"
 #include "engine/tuple_walk.hpp"
@@ -28,7 +29,7 @@ template <class Level>
 class ConventionRows {
  public:
   /// @param agents the actions of each agent as a class of its own, in the order of the spec
-  /// REQUIRES: all outlive this object; `levels` are those of controller.levels.
+  /// @pre unchecked: all outlive this object; `levels` are those of controller.levels.
   ConventionRows(const Controller& controller, const RowHull& hull, const ActionGrouping& agents,
                  const LevelRows<Level>& levels)
       : controller_(controller),
@@ -43,8 +44,9 @@ class ConventionRows {
   /// Begins with the rows of another unit.
   void enter() { posts_.enter(); }
 
-  /// REQUIRES: some cell of the row is in K.
+  /// @pre some cell of the row is in K
   void find(const RowPlace& place, ConventionRow& row) {
+    REQUIRES(any_set(controller_.invariant->row(place.row)));
     agents_.group(place, row.groups);
     row.is_free = free_.is_free(place);
     if (row.is_free) return;

@@ -11,8 +11,9 @@ namespace coordreq {
 namespace {
 
 /// Nothing is known but what the goal is.
-LevelMap first_nearness(const RowEngine& engine, const CellSet& invariant, const CellSet& goal, bool shared) {
-  auto levels = engine.make_levels<std::uint8_t>(engine.posts(), shared);
+LevelMap first_nearness(const RowEngine& engine, const CellSet& invariant, const CellSet& goal,
+                        bool interned) {
+  auto levels = engine.make_levels<std::uint8_t>(engine.posts(), interned);
   std::vector<std::uint8_t> cells(static_cast<std::size_t>(levels.row_length()) + kLevelBlock);
   for (const RowShare::Range run : held_rows(levels.share(), levels.rows())) {
     for (std::int64_t r = run.begin; r < run.end; ++r) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/requires.hpp"
 #include "base/thread_team.hpp"
 #include "engine/level_map.hpp"
 #include "engine/row_hull.hpp"
@@ -24,9 +25,10 @@ namespace coordreq {
 /// Arrival of a cell from where the goal cannot be forced.
 inline constexpr std::int32_t kNeverArrives = std::numeric_limits<std::int32_t>::max();
 
-/// What a level of nearness says. REQUIRES: it is that of a cell in K.
+/// What a level of nearness says. @pre it is that of a cell in K
 template <class Level>
 [[nodiscard]] std::int32_t arrival_of(Level nearness) {
+  REQUIRES(nearness > 0);
   if (nearness <= 1) return kNeverArrives;
   return static_cast<std::int32_t>(LevelRows<Level>::kTop - nearness);
 }

@@ -3,12 +3,13 @@
 #include <utility>
 
 #include "answers/layers/leaving_cells.hpp"
+#include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
 
-/// REQUIRES: the rules are those of a grid with such a side.
+/// @pre unchecked: the rules are those of a grid with such a side.
 UniformGrid without_safe_sides(const UniformGrid& grid) {
   std::vector<GridDimension> dimensions = grid.dimensions();
   for (GridDimension& dimension : dimensions) {
@@ -21,6 +22,7 @@ UniformGrid without_safe_sides(const UniformGrid& grid) {
 }  // namespace
 
 ProgressEngine::ProgressEngine(const Ground& ground) : ground_(&ground) {
+  REQUIRES(ground.engine && ground.hull);
   if (!has_safe_side(ground.spec)) return;
   abstraction_ = *ground.abstraction;
   abstraction_->grid = without_safe_sides(abstraction_->grid);

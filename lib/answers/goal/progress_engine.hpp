@@ -10,7 +10,7 @@ namespace coordreq {
 /// that is the engine of the ground. Else tables are held a second time, as their rows are cut otherwise.
 class ProgressEngine {
  public:
-  /// REQUIRES: `ground` is laid and outlives this object.
+  /// @pre `ground` is laid. @pre unchecked: it outlives this object
   explicit ProgressEngine(const Ground& ground);
   ProgressEngine(const ProgressEngine&) = delete;
   ProgressEngine& operator=(const ProgressEngine&) = delete;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/requires.hpp"
 #include "spec/spec_types.hpp"
 
 namespace coordreq {
@@ -24,8 +25,11 @@ struct Controller {
   bool approaches = false;         ///< it is P
   const CellSet* whole = nullptr;  ///< K, where C is asked of a part of it; null: that is `invariant`
 
-  /// K. REQUIRES: it is C, and K has been told.
-  [[nodiscard]] const CellSet& target() const { return whole == nullptr ? *invariant : *whole; }
+  /// K. @pre it is C, and K has been told
+  [[nodiscard]] const CellSet& target() const {
+    REQUIRES(!approaches && (whole != nullptr || invariant != nullptr));
+    return whole == nullptr ? *invariant : *whole;
+  }
 };
 
 }  // namespace coordreq

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "answers/invariance/controller.hpp"
+#include "base/requires.hpp"
 #include "engine/post_reader.hpp"
 #include "engine/tuple_walk.hpp"
 
@@ -12,10 +13,11 @@ namespace coordreq {
 /// {x in the row : u in C(x)} for all u in one choice of groups.
 /// @param posts of `levels`, which are controller.levels
 /// @param lanes at least these cells of the row are found, if they are in it
-/// REQUIRES: `out` has engine->row_words() words.
+/// @pre `out` has engine->row_words() words
 template <class Level>
 void controller_row(const Controller& controller, const LevelRows<Level>& levels, std::int64_t row,
                     TupleWalk& tuple, PostReader<Level>& posts, LaneRange lanes, MutableRow out) {
+  REQUIRES(out.size() == controller.engine->row_words());
   const ConstRow invariant = controller.invariant->row(row);
   const ConstRow allowed = tuple.allowed();
   if (controller.synthesis == Synthesis::maximal) {

@@ -25,7 +25,7 @@ bool tells_leaving(const Ground& ground, const DelayLayers& layers) {
   return !layers.truncated && !ground.listed && has_safe_side(ground.spec);
 }
 
-/// REQUIRES: the layers of all coarser partitions are known.
+/// @pre unchecked: the layers of all coarser partitions are known.
 void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
   const Ground& ground = answers.ground;
   const CoordinationSpec& coordination = ground.spec.coordination;

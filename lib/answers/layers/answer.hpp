@@ -22,7 +22,7 @@ struct PartitionLayers {
 /// What the classes of a partition can do, each by itself. Kept only as long as its layers are looked for:
 /// with many partitions it would take more memory than all else.
 struct PartitionActions {
-  /// REQUIRES: K is known. @param p number of the partition
+  /// @pre unchecked: K is known. @param p number of the partition
   PartitionActions(const Answers& answers, std::size_t p, ThreadTeam& team);
   PartitionActions(const PartitionActions&) = delete;
   PartitionActions& operator=(const PartitionActions&) = delete;

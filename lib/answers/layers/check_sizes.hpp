@@ -21,7 +21,7 @@ struct LayersMeant {
 /// Those of agents who do what they are told, with silence for delays.
 [[nodiscard]] LayersMeant silence_layers_meant();
 
-/// What a file says about one partition. REQUIRES: the claims outlive it.
+/// What a file says about one partition. @pre unchecked: the claims outlive it.
 struct PartitionClaims {
   PartitionClaims(const ProblemSpec& spec, const Claims& claims, std::size_t p, LayersMeant layers = {});
 

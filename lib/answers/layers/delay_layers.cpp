@@ -47,8 +47,8 @@ DelayLayers find_delay_layers(const RowEngine& engine, const RowHull& hull, cons
 }
 
 DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
-                               std::optional<std::int64_t> max_delay, ThreadTeam& team, bool shared) {
-  DelayLayers result{.layers_of = LevelMap(engine.make_levels<std::uint8_t>(invariant, team, shared))};
+                               std::optional<std::int64_t> max_delay, ThreadTeam& team, bool interned) {
+  DelayLayers result{.layers_of = LevelMap(engine.make_levels<std::uint8_t>(invariant, team, interned))};
   follow_from_levels(max_delay, team, result);
   return result;
 }

@@ -60,10 +60,10 @@ struct DelayLayers {
 
 /// The same for the partition in which all agents are together, at no cost: IND_C = C, and C keeps every cell
 /// of K in K, so Z_k = K for every k.
-/// @param shared whether equal rows are held once
+/// @param interned whether equal rows are held once
 [[nodiscard]] DelayLayers coordinated_layers(const RowEngine& engine, const CellSet& invariant,
                                              std::optional<std::int64_t> max_delay, ThreadTeam& team,
-                                             bool shared = false);
+                                             bool interned = false);
 
 /// Fills in all that follows from the levels.
 void follow_from_levels(std::optional<std::int64_t> max_delay, ThreadTeam& team, DelayLayers& layers);

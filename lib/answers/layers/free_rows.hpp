@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "answers/invariance/controller.hpp"
+#include "base/fast_paths.hpp"
 #include "engine/post_reader.hpp"
 #include "engine/row_hull.hpp"
 
@@ -13,7 +14,7 @@ namespace coordreq {
 template <class Level>
 class FreeRows {
  public:
-  /// REQUIRES: all outlive this object; `posts` reads the levels of controller.levels.
+  /// @pre unchecked: all outlive this object; `posts` reads the levels of controller.levels.
   FreeRows(const Controller& controller, const RowHull& hull, PostReader<Level>& posts)
       : controller_(controller), hull_(hull), posts_(posts), lanes_(posts.lanes(), 0) {}
 
@@ -21,7 +22,7 @@ class FreeRows {
   [[nodiscard]] bool is_free(const RowPlace& place) {
     if (controller_.engine->allow() != nullptr) return false;
     if (controller_.synthesis == Synthesis::given) return true;
-    if (controller_.approaches) return false;
+    if (!looks_ || controller_.approaches) return false;
     hull_.box(place, box_);
     if (!box_.covers) return false;
     const auto n = static_cast<std::size_t>(controller_.engine->row_length());
@@ -33,6 +34,7 @@ class FreeRows {
   const Controller& controller_;
   const RowHull& hull_;
   PostReader<Level>& posts_;
+  bool looks_ = fast_paths().free_rows;
   RowBox box_;
   std::vector<Level> lanes_;
 };

@@ -89,6 +89,7 @@ void IndependentActions<Level>::lower_by_boxes(const RowPlace& place, PostReader
                            work.row);
   work.is_moved = projections_.find_shift(place.row, work.shift);
   work.box.resize(engine.grid());
+  work.box.covers = true;  // each is the post of a choice
   work.labels = nullptr;
   for (std::size_t p = 0; p < work.row.parts.size(); ++p) {
     if (!work.row.pages.empty() && p % IndependentPosts::kLabelsOfPage == 0)

@@ -15,7 +15,7 @@ namespace coordreq {
 template <class Level>
 class IndependentActions final : public RowOperator<Level> {
  public:
-  /// REQUIRES: all outlive this object.
+  /// @pre unchecked: all outlive this object.
   IndependentActions(const Projections& projections, const RowHull& hull, const CellSet& invariant,
                      int workers);
 

@@ -70,7 +70,7 @@ void IndependentPosts::find_lists(const RowBoxes& boxes, std::size_t c, ClassPar
       list_.ranges.insert(list_.ranges.end(), ranges.begin(), ranges.end());
     }
     if (list_.ranges.empty()) continue;  // all that it may do here leaves for good
-    merge_boxes(list_, longest_);
+    if (joins_boxes_) merge_boxes(list_, longest_);
     const auto known = std::find_if(own.lists.begin(), own.lists.end(),
                                     [&](const BoxList& other) { return other.ranges == list_.ranges; });
     const auto number = static_cast<std::size_t>(known - own.lists.begin());

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/fast_paths.hpp"
 #include "engine/bit_kernels.hpp"
 #include "engine/merge_boxes.hpp"
 #include "engine/row_boxes.hpp"
@@ -78,6 +79,7 @@ class IndependentPosts {
   [[nodiscard]] std::size_t lanes() const { return words_ * CellSet::kWordBits; }
 
   std::size_t words_;
+  bool joins_boxes_ = fast_paths().joined_boxes;
   const BitKernels* kernels_;
   std::vector<std::uint32_t> worst_;
   std::vector<std::int64_t> longest_;

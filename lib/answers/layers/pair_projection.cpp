@@ -1,7 +1,10 @@
 #include "answers/layers/pair_projection.hpp"
 
 #include <algorithm>
+#include <numeric>
 
+#include "base/fast_paths.hpp"
+#include "base/requires.hpp"
 #include "engine/row_box.hpp"
 
 namespace coordreq {
@@ -18,7 +21,8 @@ PairProjection::PairProjection(const Controller& controller, const RowBoxes& box
       boxes_(boxes),
       engine_(*controller.engine),
       kernels_(&bit_kernels(best_instruction_set())) {
-  if (classes != 2 || !boxes.is_product() || boxes.moved(0).empty() || boxes.moved(1).empty()) return;
+  if (!fast_paths().pair_projections || classes != 2 || !boxes.is_product()) return;
+  if (boxes.moved(0).empty() || boxes.moved(1).empty()) return;
   applies_ = true;
   leader_ = boxes.moved(0).back() < boxes.moved(1).back() ? 0 : 1;
   follower_ = 1 - leader_;
@@ -43,6 +47,8 @@ PairProjection::PairProjection(const Controller& controller, const RowBoxes& box
 
 void PairProjection::find_masks(const RowPlace& place, const RowGroups& groups,
                                 std::vector<std::vector<Word>>& masks) {
+  REQUIRES(applies_ && !boxes_.has_gone() && engine_.allow() == nullptr);
+  REQUIRES(controller_.synthesis == Synthesis::maximal && !controller_.approaches);
   const ConstRow invariant = controller_.invariant->row(place.row);
   enter_unit(place, *groups.classes[leader_]);
   row_boxes_.clear();
@@ -73,8 +79,9 @@ void PairProjection::enter_unit(const RowPlace& place, const ActionGroups& own) 
   for (Plane& plane : planes_) plane.is_known = false;
 }
 
-/// REQUIRES: the group's post is a box.
+/// @pre the group's post is a box
 const PairProjection::Plane& PairProjection::plane(std::uint32_t group) {
+  REQUIRES(boxes_.kind(leader_, group) == RowBoxes::Kind::box);
   Plane& plane = planes_[group];
   if (plane.is_known) return plane;
   plane.is_known = true;
@@ -104,12 +111,13 @@ const std::vector<Word>& PairProjection::continued(std::int64_t row) {
 /// are the numbers of its lanes.
 void PairProjection::find_beyond() {
   LevelRows<std::uint32_t> numbers(1, shape_);
-  std::uint32_t* const row = numbers.row(0);
-  for (std::int64_t lane = 0; lane < shape_.length(); ++lane)
-    row[lane] = static_cast<std::uint32_t>(lane) + 1;
-  numbers.clear_gaps(row);
-  std::vector<std::uint32_t> own(row - margins_.before, row + shape_.length() + margins_.after);
-  numbers.close(0);
+  std::vector<std::uint32_t> own;
+  numbers.change_row(0, [&](std::uint32_t* row) {
+    std::iota(row, row + shape_.length(), std::uint32_t{1});
+    numbers.clear_gaps(row);
+    own.assign(row - margins_.before, row + shape_.length() + margins_.after);
+  });
+  const std::uint32_t* const row = numbers.row(0);
   for (std::size_t lane = 0; lane < own.size(); ++lane) {
     const std::uint32_t number = row[static_cast<std::int64_t>(lane) - margins_.before];
     if (own[lane] != 0 || number == 0) continue;

@@ -21,15 +21,15 @@ namespace coordreq {
 /// One object a thread.
 class PairProjection {
  public:
-  /// REQUIRES: the arguments outlive this object.
+  /// @pre unchecked: the arguments outlive this object.
   PairProjection(const Controller& controller, const RowBoxes& boxes, std::size_t classes);
 
   /// False if the classes are not like that. Then find_masks() must not be called.
   [[nodiscard]] bool applies() const { return applies_; }
 
   /// Sets masks[class][group * words, ...] to {x in the row : group is in the projection of C(x)}.
-  /// REQUIRES: `boxes` has been filled for this row and has none that are gone, everything is allowed, and C
-  /// is maximal.
+  /// @pre applies(), `boxes` has none that are gone, everything is allowed, and C is maximal.
+  /// @pre unchecked: `boxes` has been filled for this row
   void find_masks(const RowPlace& place, const RowGroups& groups, std::vector<std::vector<Word>>& masks);
 
  private:

@@ -8,6 +8,7 @@
 #include "answers/layers/forbidden_choices.hpp"
 #include "answers/layers/free_rows.hpp"
 #include "answers/layers/pair_projection.hpp"
+#include "base/requires.hpp"
 #include "engine/level_map.hpp"
 #include "engine/post_reader.hpp"
 #include "engine/tuple_walk.hpp"
@@ -369,6 +370,7 @@ bool Projections::has_cells(const CellSet& invariant, std::int64_t row) const {
 }
 
 ConstRow Projections::mask(std::int64_t row, const RowGroups& groups, std::size_t c, std::uint32_t g) const {
+  REQUIRES(!of(row).masks.empty());
   return {of(row).masks.data() + (group_offset(groups, c) + g) * words_, words_};
 }
 

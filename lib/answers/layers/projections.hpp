@@ -7,6 +7,7 @@
 #include "answers/invariance/controller.hpp"
 #include "answers/layers/class_rules.hpp"
 #include "answers/layers/independent_posts.hpp"
+#include "base/requires.hpp"
 #include "base/thread_team.hpp"
 #include "base/zeroed_array.hpp"
 #include "engine/cell_set.hpp"
@@ -29,7 +30,7 @@ class Projections {
               ThreadTeam& team, const EqualWork& equal = {}, bool keeps_masks = false);
   /// What classes do by rules instead: of the cells in which they are asked for, each class by what it may do
   /// there. Where some class may do nothing, or all together what is forbidden, see forbidden().
-  /// REQUIRES: the grouping tells actions apart by the rules, too.
+  /// @pre unchecked: the grouping tells actions apart by the rules, too.
   Projections(const Controller& controller, const ActionGrouping& grouping, const RowHull& hull,
               ThreadTeam& team, const SilentRules& rules);
   Projections(Projections&&) = default;  // what it has found points into what it keeps
@@ -54,12 +55,15 @@ class Projections {
   /// the same for all partitions.
   [[nodiscard]] const std::vector<std::uint8_t>& full_rows() const { return is_full_; }
   /// {x in the row : group g of class c is in the projection of C(x)}; groups as ActionGrouping::group
-  /// numbers them. REQUIRES: form(row) is `masks`, or masks are kept and the row is none of full_rows().
+  /// numbers them. @pre form(row) is `masks`, or masks are kept and the row is none of full_rows()
   [[nodiscard]] ConstRow mask(std::int64_t row, const RowGroups& groups, std::size_t c,
                               std::uint32_t g) const;
   /// For IndependentPosts::unpack(). Boxes are those of a row that is the same, seen from itself: they lie
-  /// somewhere else by shift(). REQUIRES: form(row) is `product`.
-  [[nodiscard]] ConstRow packed(std::int64_t row) const { return of(row).packed; }
+  /// somewhere else by shift(). @pre form(row) is `product`
+  [[nodiscard]] ConstRow packed(std::int64_t row) const {
+    REQUIRES(form(row) == Form::product);
+    return of(row).packed;
+  }
   /// The cells of the row where IND_C holds a joint input that is forbidden; by rules also those where it
   /// holds none. Empty if there are none.
   [[nodiscard]] ConstRow forbidden(std::int64_t row) const {

@@ -11,7 +11,7 @@
 namespace coordreq {
 
 /// True if each class of `finer` lies in a class of `coarser`; a partition refines itself.
-/// REQUIRES: both are of the same agents.
+/// @pre unchecked: both are of the same agents
 [[nodiscard]] bool refines(const PartitionSpec& finer, const PartitionSpec& coarser);
 
 /// Indices of the partitions with fewer classes first, otherwise in their order: each comes after all that it

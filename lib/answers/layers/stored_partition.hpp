@@ -31,8 +31,8 @@ struct StoredLayers {
 [[nodiscard]] std::vector<StoredPartition> read_partition_values(const ProblemSpec& spec,
                                                                  const FieldSource& source,
                                                                  const std::string& prefix = "/");
-/// REQUIRES: they are stored. @throws ResultsError unless `start` ascends from 0 to the number of cells and
-/// `cell` holds cells of the grid
+/// @pre unchecked: they are stored. @throws ResultsError unless `start` ascends from 0 to the number of cells
+/// and `cell` holds cells of the grid
 [[nodiscard]] StoredLayers read_layer_lists(const ProblemSpec& spec, const PartitionSpec& partition,
                                             const FieldSource& source);
 

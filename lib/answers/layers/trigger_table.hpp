@@ -15,7 +15,7 @@ struct TriggerTable {
 };
 
 /// The entry for a cell of delay `delay` (kOutsideSafe and kOutsideInvariant stay as they are).
-/// REQUIRES: connection_delay >= 0.
+/// @pre connection_delay >= 0
 [[nodiscard]] std::int32_t trigger_of(std::int32_t delay, std::int64_t connection_delay);
 
 }  // namespace coordreq

@@ -17,7 +17,7 @@ namespace coordreq {
 class CarefulActions final : public RowOperator<std::uint8_t> {
  public:
   /// @param grouping by the classes that coordinate
-  /// REQUIRES: both outlive this object.
+  /// @pre unchecked: both outlive this object.
   CarefulActions(const ActionGrouping& grouping, const RowHull& hull, int workers);
 
   /// @returns false if that is so for all cells x with old[x] != 0

@@ -49,8 +49,7 @@ void ModeTargets::load_row(std::size_t mode, std::int64_t row, std::vector<Word>
   }
   const auto n = static_cast<std::size_t>(engine_.row_length());
   level_kernels<std::uint8_t>(best_instruction_set()).spread(cells.data(), lanes.data(), n);
-  std::copy_n(lanes.begin(), n, levels_.row(row));
-  levels_.close(row);
+  levels_.put(row, lanes.data());
 }
 
 void ModeTargets::load(std::size_t mode, ThreadTeam& team) {

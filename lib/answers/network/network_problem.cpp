@@ -5,6 +5,7 @@
 #include <string>
 
 #include "answers/invariance/answer.hpp"
+#include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -21,6 +22,7 @@ std::vector<const PartitionSpec*> network_partitions(const NetworkSpec& network)
 }
 
 NetworkProblem network_problem(const ProblemSpec& spec, const Controller& controller, const RowHull& hull) {
+  REQUIRES(spec.network.has_value());
   const NetworkSpec& network = *spec.network;
   NetworkProblem problem{.controller = &controller,
                          .invariant = controller.invariant,
@@ -41,6 +43,7 @@ NetworkProblem network_problem(const ProblemSpec& spec, const Controller& contro
 }
 
 NetworkProblem network_problem(const Answers& answers) {
+  REQUIRES(answers.ground.spec.network.has_value());
   const Ground& ground = answers.ground;
   NetworkProblem problem = network_problem(ground.spec, answers.get<GoingOn>().controller, *ground.hull);
   problem.invariant = &answers.get<Invariance>().invariant;

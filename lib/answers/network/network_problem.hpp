@@ -8,10 +8,10 @@ namespace coordreq {
 
 /// The network of a spec as the operators take it; modes that connect the same agents share a partition.
 /// No goal ends the task.
-/// REQUIRES: the spec has a network; `controller` and `hull` outlive the result.
+/// @pre the spec has a network. @pre unchecked: `controller` and `hull` outlive the result
 [[nodiscard]] NetworkProblem network_problem(const ProblemSpec& spec, const Controller& controller,
                                              const RowHull& hull);
-/// That of the spec, of which K is known. REQUIRES: it has a network; `answers` outlive the result.
+/// That of the spec, of which K is known. @pre it has a network. @pre unchecked: `answers` outlive the result
 [[nodiscard]] NetworkProblem network_problem(const Answers& answers);
 
 /// The different partitions of the modes of a network, in the order of the modes.

@@ -88,7 +88,7 @@ class Iteration {
     if (watch.resumed != nullptr) resume(*watch.resumed);
   }
 
-  /// In the order that is best; REQUIRES: the operators are monotone.
+  /// In the order that is best; @pre unchecked: the operators are monotone.
   void run_in_any_order() {
     const std::vector<std::size_t> order = successors_first(modes_);
     for (bool changed = true; changed || hears_of_others();) {
@@ -163,7 +163,7 @@ class Iteration {
     for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
       for (const RowShare::Range run : held_rows(engine_.share(), engine_.rows())) {
         for (std::int64_t row = run.begin; row < run.end; ++row)
-          targets_.shrink(mode, row, std::as_const(sets[mode]).row(row));
+          targets_.shrink(mode, row, sets[mode].row(row));
       }
       sets[mode] = {};
     }

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstddef>
 
 #include "answers/field_parts.hpp"
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "model/odometer.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -14,6 +16,7 @@ namespace coordreq {
 
 std::string action_words(const ProblemSpec& spec, const std::vector<std::int32_t>& agents,
                          const std::vector<bool>& actions) {
+  REQUIRES(std::find(actions.begin(), actions.end(), true) != actions.end());
   constexpr std::size_t kMostWords = 5;
   const std::vector<std::int32_t> inputs = inputs_of(spec, agents);
   std::vector<std::string> names, values;

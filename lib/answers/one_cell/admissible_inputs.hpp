@@ -31,11 +31,12 @@ class AdmissibleInputs {
     std::function<bool(std::int64_t cell, std::int64_t u)> listed;
   };
 
-  /// REQUIRES: `spec`, `posts`, which are the spec's, and all sets outlive this object.
+  /// @pre unchecked: `spec`, `posts`, which are the spec's, and all sets outlive this object.
   AdmissibleInputs(const ProblemSpec& spec, CellPosts& posts, Sets sets);
 
   /// C(x) as joint inputs, ascending. `maximal`: {u allowed : empty != f(x,u) subset of K}; `given`: all that
-  /// are allowed. REQUIRES: x is in K. Cost: that of asking the sets for every different post, and |C(x)|.
+  /// are allowed. @pre unchecked: x is in K. Cost: that of asking the sets for every different post, and
+  /// |C(x)|.
   /// @throws SpecError if `allow` cannot be decided
   [[nodiscard]] const std::vector<std::int64_t>& of(std::int64_t x);
   /// Whether `allow` permits u at any cell x of the grid, and `controller.file` lists it.

@@ -34,8 +34,8 @@ class CellMembers {
 
   /// Makes ready for boxes within this one.
   virtual void cover(std::span<const IndexRange> box) = 0;
-  /// Whether all cells of the box are in the set. REQUIRES: a box that cover() was called for, or part of
-  /// one.
+  /// Whether all cells of the box are in the set. @pre unchecked: a box that cover() was called for, or part
+  /// of one.
   [[nodiscard]] virtual bool contains(std::span<const IndexRange> box) const = 0;
 };
 
@@ -43,7 +43,7 @@ class CellMembers {
 class MembersByCell : public CellMembers {
  public:
   using IsMember = std::function<bool(std::int64_t cell)>;
-  /// REQUIRES: `grid` outlives this object.
+  /// @pre unchecked: `grid` outlives this object.
   MembersByCell(const UniformGrid& grid, IsMember is_member)
       : grid_(grid), is_member_(std::move(is_member)) {}
 

@@ -5,6 +5,7 @@
 
 #include "answers/one_cell/cell_members.hpp"
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "reach/affine_table.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/enclosure_table.hpp"
@@ -130,11 +131,13 @@ ResolvedRange CellPosts::resolved(std::size_t i, std::int64_t u) const {
 }
 
 ResolvedRange CellPosts::resolved_tube(std::size_t i, std::int64_t u) const {
+  REQUIRES(has_tubes());
   return whole_ ? whole_->resolved_tube(i, cell_, u)
                 : source_->parts[i].resolved_tube(i, source_->place[i], u);
 }
 
 IndexRange CellPosts::raw_tube(std::size_t i, std::int64_t u) const {
+  REQUIRES(has_tubes());
   return whole_ ? whole_->raw_tube(i, cell_, u) : source_->parts[i].raw_tube(i, source_->place[i], u);
 }
 

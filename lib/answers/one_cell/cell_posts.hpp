@@ -40,10 +40,10 @@ struct CellPost {
 /// Not thread-safe.
 class CellPosts {
  public:
-  /// REQUIRES: `abstraction` outlives this object.
+  /// @pre unchecked: `abstraction` outlives this object.
   explicit CellPosts(const Abstraction& abstraction)
       : grid_(&abstraction.grid), inputs_(&abstraction.inputs), whole_(&abstraction) {}
-  /// @param stored the abstraction, if it is known. REQUIRES: all others outlive this object.
+  /// @param stored the abstraction, if it is known. @pre unchecked: all others outlive this object
   CellPosts(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, ThreadTeam& team,
             std::optional<Abstraction> stored);
   CellPosts(const CellPosts&) = delete;
@@ -64,11 +64,11 @@ class CellPosts {
 
   /// Goes to a cell. @throws SpecError as build_abstraction()
   void move_to(std::int64_t cell);
-  /// The cells where state `i` can be next under joint input `u`. REQUIRES: move_to() was called.
+  /// The cells where state `i` can be next under joint input `u`. @pre unchecked: move_to() was called
   [[nodiscard]] ResolvedRange resolved(std::size_t i, std::int64_t u) const;
   /// The same before the rules for leaving the domain.
   [[nodiscard]] IndexRange raw(std::size_t i, std::int64_t u) const;
-  /// The same of its tube: see Abstraction. REQUIRES: has_tubes().
+  /// The same of its tube: see Abstraction. @pre has_tubes()
   [[nodiscard]] ResolvedRange resolved_tube(std::size_t i, std::int64_t u) const;
   [[nodiscard]] IndexRange raw_tube(std::size_t i, std::int64_t u) const;
   /// How many entries of tables have been computed so far.

@@ -17,7 +17,7 @@ namespace coordreq {
 /// undecided is false. Scratch inside: one object a thread.
 class PairTruth {
  public:
-  /// REQUIRES: all outlive this object. @param words, @param pointer for errors
+  /// @pre unchecked: all outlive this object. @param words, @param pointer for errors
   PairTruth(const ProblemSpec& spec, const Program& condition, const CellPosts& posts, std::string words,
             std::string pointer);
 

@@ -51,7 +51,7 @@ class CellPolicy {
   /// Whether the policy holds in a cell; where it does not agents go by the one before it in the plan.
   [[nodiscard]] virtual bool holds(std::int64_t cell) = 0;
   /// The joint inputs that agents who coordinate choose from. @param admissible C(x)
-  /// REQUIRES: the policy holds in the cell, which is in K.
+  /// @pre unchecked: the policy holds in the cell, which is in K.
   /// @returns what may change with the next call, or the argument
   [[nodiscard]] virtual const Numbers& together(std::int64_t cell, const Numbers& admissible) = 0;
   /// The actions that each class may take by itself with so many steps of silence left: [class]. By default

@@ -17,13 +17,13 @@ class ProgressInputs {
   /// Steps to the goal from a cell, INT32_MAX where it cannot be forced, below 0 outside K.
   using Arrival = std::function<std::int32_t(std::int64_t cell)>;
 
-  /// REQUIRES: both outlive this object.
+  /// @pre unchecked: both outlive this object.
   ProgressInputs(const ProblemSpec& spec, CellPosts& posts, Arrival arrival)
       : spec_(spec), posts_(posts), arrival_(std::move(arrival)) {}
 
   [[nodiscard]] std::int32_t arrival(std::int64_t x) const { return arrival_(x); }
   /// The greatest arrival in f(x,u), INT32_MAX if T is there through a `safe` side, or a cell outside K.
-  /// REQUIRES: f(x,u) is not empty.
+  /// @pre unchecked: f(x,u) is not empty
   [[nodiscard]] std::int32_t worst(std::int64_t x, std::int64_t u);
   /// P(x) of C(x), ascending, x in W \ G.
   [[nodiscard]] std::vector<std::int64_t> of(std::int64_t x, const std::vector<std::int64_t>& admissible);

@@ -23,7 +23,7 @@ class SilentInputs {
   enum class Part : std::uint8_t { actions, then };
 
   /// @param classes by agents
-  /// REQUIRES: the spec has that part of `silence`; it and `posts` outlive this object.
+  /// @pre unchecked: the spec has that part of `silence`; it and `posts` outlive this object.
   SilentInputs(const ProblemSpec& spec, Part part, const std::vector<std::vector<std::int32_t>>& classes,
                const CellPosts& posts);
 

@@ -6,6 +6,7 @@
 
 #include "answers/checking/cell_parts.hpp"
 #include "answers/checking/corner_truth.hpp"
+#include "base/requires.hpp"
 #include "expression/condition.hpp"
 #include "expression/evaluate.hpp"
 #include "model/odometer.hpp"
@@ -245,6 +246,7 @@ RegionJudge::RegionJudge(const ProblemSpec& spec, const Program& where, const Un
 
 Reach reach_beyond(const ProblemSpec& spec, const Program& where, const UniformGrid& grid,
                    const ResultSide& side) {
+  REQUIRES((side.above ? grid[side.state].above : grid[side.state].below) == Outside::unsafe);
   std::vector<Extent> extents;
   for (std::size_t i = 0; i < grid.size(); ++i)
     extents.push_back(i == side.state ? outside_of(grid[i], side.above) : extent_of(grid[i]));

@@ -48,7 +48,7 @@ enum class Reach : std::uint8_t {
   reached,  ///< a point there is in the region
 };
 
-/// REQUIRES: the side is `unsafe`.
+/// @pre the side is `unsafe`
 [[nodiscard]] Reach reach_beyond(const ProblemSpec& spec, const Program& where, const UniformGrid& grid,
                                  const ResultSide& side);
 

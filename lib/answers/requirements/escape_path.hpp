@@ -79,7 +79,7 @@ struct EscapeSets {
 /// is
 ///   empty that is the end. With `then` u is in C'(x) from there on: the lowest-numbered that leaves S
 ///   soonest, and there the lowest-numbered such cell.
-/// REQUIRES: the delay of x is bounded, and known.
+/// @pre unchecked: the delay of x is bounded, and known.
 /// Cost: a look at every joint input in every step, and at every cell of each different post.
 /// Of several processes together: each step is found by the one that owns the cell.
 /// @param start the state that is followed; none: the centre of the cell

@@ -17,7 +17,7 @@ namespace coordreq {
 /// Of several processes together: each step is found by the one that owns the cell.
 class EscapeRun {
  public:
-  /// REQUIRES: `sets` outlive this object.
+  /// @pre unchecked: `sets` outlive this object.
   explicit EscapeRun(const EscapeSets& sets);
   EscapeRun(const EscapeRun&) = delete;
   EscapeRun& operator=(const EscapeRun&) = delete;

@@ -35,7 +35,7 @@ class EscapeSearch {
   ///   place(), where the system itself is, nothing if it is followed no longer; go_to(place);
   ///   step(number), one more step: the looks it took; has_more(), whether there are equal ones behind that
   ///   number; is_whole(), whether it has been followed to its end
-  /// REQUIRES: the system itself is followed.
+  /// @pre unchecked: the system itself is followed.
   template <class Walk>
   [[nodiscard]] Choices find(Walk& walk) {
     Choices taken, longest;

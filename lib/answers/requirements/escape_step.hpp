@@ -31,7 +31,7 @@ class EscapeSteps {
   /// Instead of a level to look for: the least there is.
   static constexpr std::int64_t kLeast = -1;
 
-  /// REQUIRES: all outlive this object.
+  /// @pre unchecked: all outlive this object.
   EscapeSteps(const EscapeSets& sets, CellPosts& posts, AdmissibleInputs& inputs, RealRun& real)
       : sets_(sets), posts_(posts), inputs_(inputs), real_(real), tubes_(sets.ground->tubes()) {}
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "model/sample_reset.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -64,6 +65,7 @@ std::optional<Rational> RealRun::next(std::size_t state, std::int64_t u) {
 }
 
 RealRun::Place RealRun::after(std::int64_t cell, std::int64_t u) {
+  REQUIRES(is_followed());
   const UniformGrid& grid = abstraction_.grid;
   std::vector<Rational> found(grid.size());
   for (std::size_t d = 0; d < grid.size(); ++d) {

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "model/locate.hpp"
 #include "reach/abstraction.hpp"
 #include "reach/point_dynamics.hpp"
@@ -18,7 +19,7 @@ namespace coordreq {
 /// Of several processes each follows it; what memories keep only the one that owns the cell knows.
 class RealRun {
  public:
-  /// REQUIRES: both outlive this object. @param abstraction its dimensions in any order
+  /// @pre unchecked: both outlive this object. @param abstraction its dimensions in any order
   RealRun(const SystemSpec& spec, const Abstraction& abstraction);
 
   /// From now on it is here. @param state by state of the spec
@@ -28,8 +29,11 @@ class RealRun {
   /// It is followed no longer.
   void stop() { state_.reset(); }
   [[nodiscard]] bool is_followed() const { return state_.has_value(); }
-  /// Where it is. REQUIRES: it is followed.
-  [[nodiscard]] const std::vector<Rational>& state() const { return *state_; }
+  /// Where it is. @pre it is followed
+  [[nodiscard]] const std::vector<Rational>& state() const {
+    REQUIRES(is_followed());
+    return *state_;
+  }
 
   /// Where it is after a step.
   struct Place {
@@ -37,7 +41,7 @@ class RealRun {
     Location::Kind kind = Location::Kind::beyond;
     std::int64_t cell = -1;  ///< unless `kind` is another
   };
-  /// After a step under `u` from where it is, in a cell that this process holds. REQUIRES: it is followed.
+  /// After a step under `u` from where it is, in a cell that this process holds. @pre it is followed
   [[nodiscard]] Place after(std::int64_t cell, std::int64_t u);
   /// Takes the step. @param place after() of it, from whoever knows that
   void advance(std::int64_t u, const Place& place);

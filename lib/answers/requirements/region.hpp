@@ -17,7 +17,7 @@ namespace coordreq {
 /// perhaps not defined. A cell that ends at the seam of a periodic state ends in front of it, as the seam is
 /// the lower end of the period. Errs towards more cells.
 /// Cost: most of the grid is told from the region in large blocks, the cells at its border one by one.
-/// REQUIRES: `where` is over states only.
+/// @pre unchecked: `where` is over states only.
 /// @param share then those in own rows at least; null: all
 [[nodiscard]] CellSet cells_of_region(const Program& where, const UniformGrid& grid, ThreadTeam& team,
                                       const RowShare* share = nullptr);

@@ -66,10 +66,9 @@ void ExpectedLevels<Level>::find_rows(std::size_t number, const std::vector<Leve
       std::ranges::transform(expected.successors(), sources.begin(),
                              [&](std::size_t mode) { return risks[mode].row(row); });
       expected.find<Level>(sources, n, found);
-      levels.close_row(found);
-      Level* const place = levels.row(row);
-      if (std::equal(found, found + n, place)) continue;
-      std::copy(lanes.begin(), lanes.end(), place - before);
+      const std::uint64_t ready = levels.make_ready(lanes.data());
+      if (std::equal(found, found + n, levels.row(row))) continue;
+      levels.put_ready(row, lanes.data(), ready);
       changed_[number][r] = 1;
     }
   });

@@ -17,7 +17,7 @@ template <class Level>
 class ExpectedLevels {
  public:
   /// Levels of 32 bits: one map for each E_q; of 64: one for all.
-  /// REQUIRES: both outlive this object.
+  /// @pre unchecked: both outlive this object.
   ExpectedLevels(const RowEngine& engine, const ExpectedRisks& expected);
 
   /// The map of an E_q.

@@ -28,12 +28,12 @@ class ModeChoices {
  public:
   /// @param partitions the classes of each
   /// @param silent [partition] A(x) in K; null: they choose from IND_C(x)
-  /// REQUIRES: the controller, the hull and A(x) outlive this object.
+  /// @pre unchecked: the controller, the hull and A(x) outlive this object.
   ModeChoices(const Controller& controller, const RowHull& hull,
               const std::vector<std::vector<InputClass>>& partitions,
               const std::vector<const Projections*>& silent, bool is_safest, ThreadTeam& team);
 
-  /// One operator a partition. REQUIRES: this object outlives them.
+  /// One operator a partition. @pre unchecked: this object outlives them.
   template <class Level>
   [[nodiscard]] std::vector<std::unique_ptr<ModeRisk<Level>>> operators(int workers) const;
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "answers/risk/risk_levels.hpp"
+#include "base/requires.hpp"
 #include "engine/row_operations.hpp"
 
 namespace coordreq {
@@ -56,9 +57,10 @@ float worst_risk(const RiskRows& risks, const CellSet& invariant, const RowShare
   return risk_of(static_cast<std::uint32_t>(std::int64_t{RiskRows::kTop} - all));
 }
 
-/// Adds risk / unit, of which what is beyond the last digit is left out. REQUIRES: it is below 2^kDigitBits.
+/// Adds risk / unit, of which what is beyond the last digit is left out. @pre that is below 2^kDigitBits
 void add(double risk, double unit, Digits& sum) {
   double rest = risk / unit;
+  REQUIRES(rest >= 0 && rest < std::ldexp(1, kDigitBits));
   for (std::int64_t& digit : sum) {
     const double whole = std::floor(rest);
     digit += static_cast<std::int64_t>(whole);

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "base/requires.hpp"
+
 // Probabilities as levels: numbers that are not negative order as the unsigned integers that their bits are,
 // so that the complement of the bits is a level: the greater the risk, the lower it is, and the minimum of
 // levels over a box is the greatest risk in it. Level 0 (blocked) stands for certainty, kTop (safe for ever)
@@ -15,9 +17,10 @@ namespace coordreq {
 template <class Level>
 using RiskNumber = std::conditional_t<sizeof(Level) == sizeof(float), float, double>;
 
-/// REQUIRES 0 <= risk <= 1, not -0.
+/// @pre 0 <= risk <= 1, not -0
 template <class Level>
 [[nodiscard]] constexpr Level risk_level(RiskNumber<Level> risk) {
+  REQUIRES(std::bit_cast<Level>(risk) <= std::bit_cast<Level>(RiskNumber<Level>{1}));
   return static_cast<Level>(~std::bit_cast<Level>(risk));
 }
 /// The level of a cell from which K has been left for certain.

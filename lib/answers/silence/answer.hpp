@@ -42,9 +42,9 @@ void tell_silence(const ProblemSpec& spec, const FieldSource& source, Json& info
 /// Cells in which silent agents have nothing that they may do.
 [[nodiscard]] Warnings advise_on_silence(const Answers& answers);
 
-/// Of a partition. REQUIRES: it has been found.
+/// Of a partition. @pre unchecked: it has been found
 [[nodiscard]] const SilencePartition& silence_of(const Answers& answers, std::size_t p);
-/// K'. REQUIRES: it has been found.
+/// K'. @pre unchecked: it has been found
 [[nodiscard]] const CellSet& silence_set(const Answers& answers);
 
 }  // namespace coordreq

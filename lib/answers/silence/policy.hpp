@@ -10,7 +10,7 @@ namespace coordreq {
 /// the time (contract, section 9). None if the spec does not say what silent agents do.
 [[nodiscard]] std::vector<AnswerPolicy> silence_policies(const ProblemSpec& spec);
 
-/// And what they do for ever when silence does not end. REQUIRES: the spec has `then`
+/// And what they do for ever when silence does not end. @pre unchecked: the spec has `then`
 [[nodiscard]] AnswerPolicy afterwards_policy();
 
 }  // namespace coordreq

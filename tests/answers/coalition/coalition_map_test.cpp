@@ -22,7 +22,9 @@ DelayLayers layers(const std::vector<std::int64_t>& delays, bool truncated = fal
   for (std::size_t c = 0; c < delays.size(); ++c) {
     const bool is_finite = delays[c] != DelayLayers::kUnbounded;
     if (is_finite) longest = std::max(longest, delays[c]);
-    levels.row(0)[c] = is_finite ? static_cast<Level>(delays[c] + 1) : LevelRows<Level>::kTop;
+    levels.change_row(0, [&](Level* row) {
+      row[c] = is_finite ? static_cast<Level>(delays[c] + 1) : LevelRows<Level>::kTop;
+    });
   }
   DelayLayers result{.layers_of = LevelMap(std::move(levels)), .truncated = truncated};
   result.sizes.resize(static_cast<std::size_t>(longest) + 2);

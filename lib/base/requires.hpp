@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cassert>
+
+/// What a function needs from its caller, at the top of its body: checked where assertions are on (`dev`, and
+/// under sanitisers), and ends the program where it is not so. In a release the condition is compiled and
+/// never evaluated.
+///
+/// In docstrings `@pre` says it in words, and `@pre unchecked:` what cannot be checked cheaply, such as that
+/// an argument outlives an object.
+#ifdef NDEBUG
+#define REQUIRES(...) static_cast<void>(sizeof(static_cast<bool>(__VA_ARGS__)))
+#else
+#define REQUIRES(...) assert((__VA_ARGS__))
+#endif
