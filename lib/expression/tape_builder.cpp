@@ -97,7 +97,21 @@ Program TapeBuilder::extract(Index result) const {
 }
 
 TapeBuilder::Index TapeBuilder::insert(const Program::Node& node) {
-  return index_of_node_.find_or_append(node, nodes_);
+  const Index index = index_of_node_.find_or_append(node, nodes_);
+  if (index == total_.size()) total_.push_back(is_total(node));
+  return index;
+}
+
+/// But for what depends on the values of its operands, other than constants.
+bool TapeBuilder::is_total(const Program::Node& node) const {
+  const std::size_t operands = operand_count(node.op);
+  if ((operands > 0 && !total_[node.a]) || (operands > 1 && !total_[node.b]) ||
+      (operands > 2 && !total_[node.c]))
+    return false;
+  const Rational* const b = operands == 2 ? constant_at(node.b) : nullptr;
+  if (node.op == Operator::divide) return b != nullptr && *b != 0;
+  if (node.op == Operator::power) return b != nullptr && is_integer(*b) && *b >= 0;
+  return !is_number_function(node.op) || number_function(node.op).is_defined_everywhere();
 }
 
 TapeBuilder::Index TapeBuilder::insert_truth(bool value) {
@@ -121,6 +135,7 @@ std::optional<TapeBuilder::Index> TapeBuilder::fold(const Program::Node& node) {
 
 std::optional<TapeBuilder::Index> TapeBuilder::fold_number(const Program::Node& node) {
   if (node.op == Operator::if_else) {
+    if (node.b == node.c && total_[node.a]) return node.b;
     const std::optional<bool> choice = truth_at(node.a);
     return choice ? std::optional<Index>(*choice ? node.b : node.c) : std::nullopt;
   }

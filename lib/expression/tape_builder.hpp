@@ -11,7 +11,9 @@
 namespace coordreq {
 
 /// Builds the tape of a Program bottom-up. Equal nodes are stored once; operations on constants are carried
-/// out where the result is exact, and stay operations where it is not, so that intervals can enclose it.
+/// out where the result is exact, and stay operations where it is not, so that intervals can enclose it. `if`
+/// with equal branches is that branch where its condition is defined everywhere: what reads the tape need not
+/// know that no cell has to decide it.
 class TapeBuilder {
  public:
   using Index = std::uint32_t;
@@ -40,8 +42,10 @@ class TapeBuilder {
   std::optional<Index> fold_condition(const Program::Node& node);
   [[nodiscard]] const Rational* constant_at(Index index) const;
   [[nodiscard]] std::optional<bool> truth_at(Index index) const;
+  [[nodiscard]] bool is_total(const Program::Node& node) const;
 
   std::vector<Program::Node> nodes_;
+  std::vector<bool> total_;  ///< whether a node is seen to be defined everywhere
   std::vector<Rational> constants_;
   NodeIndex index_of_node_;
   std::unordered_map<Rational, Index, RationalHash> index_of_constant_;

@@ -5,6 +5,15 @@
 #include "model/pieces.hpp"
 
 namespace coordreq {
+namespace {
+
+/// As it was typed, or about: nobody finds a fraction of many digits.
+std::string point_text(const Rational& point) {
+  const std::string exactly = to_text(point);
+  return exactly.find('/') == std::string::npos ? exactly : fmt::format("{:.6g}", point.get_d());
+}
+
+}  // namespace
 
 void BoxChoices::add_state(const GridDimension& dimension, std::uint32_t slot, std::int64_t count,
                            std::int64_t first) {
@@ -40,7 +49,7 @@ std::string BoxChoices::place(const std::vector<std::int64_t>& choice) const {
   std::string text;
   for (std::size_t v = 0; v < choice.size(); ++v) {
     text += fmt::format("{}{} = {}", text.empty() ? " near " : ", ", variables_[v].name,
-                        to_text(variables_[v].points[static_cast<std::size_t>(choice[v])]));
+                        point_text(variables_[v].points[static_cast<std::size_t>(choice[v])]));
   }
   return text;
 }

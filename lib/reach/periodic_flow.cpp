@@ -24,7 +24,7 @@ Rational period_of(const Ring& ring) {
 
 PeriodicFlow::PeriodicFlow(FlowSystem system, const std::vector<std::optional<Ring>>& rings, double tau_lower,
                            double tau_upper)
-    : plain_(system, tau_lower, tau_upper) {
+    : period_(tau_upper), plain_(system, tau_lower, tau_upper) {
   find_windings(system, rings);
   slots_.resize(system.slot_count + 2 * windings_.size());
   if (windings_.empty()) return;

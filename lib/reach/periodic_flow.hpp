@@ -37,6 +37,9 @@ class PeriodicFlow {
   /// equation mentions gets to its seam there. For the slots of the last flow().
   [[nodiscard]] bool keeps_apart(std::span<const Interval> box);
 
+  /// About.
+  [[nodiscard]] double period() const { return period_; }
+
  private:
   /// A periodic state that an equation mentions.
   struct Winding {
@@ -62,6 +65,7 @@ class PeriodicFlow {
   [[nodiscard]] static std::int64_t turns_of(const Winding& winding, const FlowEnclosure& found);
   [[nodiscard]] std::optional<std::size_t> find_excess(const FlowEnclosure& found) const;
 
+  double period_;
   ValidatedFlow plain_;
   std::vector<Winding> windings_;
   std::optional<Wound> followed_;

@@ -124,6 +124,7 @@ class Winder {
   }
 
   /// Of a state exactly on a seam from below it is `upper`, so that a box which just touches it is not cut.
+  /// What a box that is cut leads to is known to be within the ring, too.
   Index followed(Index x) {
     Index value = x;
     for (int k = 1; k <= kMostTurns; ++k) {
@@ -132,7 +133,8 @@ class Winder {
       value = tape_.apply(Operator::if_else, beyond, turned(x, k), value);
       value = tape_.apply(Operator::if_else, before, turned(x, -k), value);
     }
-    return value;
+    value = tape_.apply(Operator::maximum, value, tape_.constant(ring_.lower));
+    return tape_.apply(Operator::minimum, value, tape_.constant(ring_.upper));
   }
 
   Index turned(Index x, int times) {

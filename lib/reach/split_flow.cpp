@@ -1,13 +1,23 @@
 #include "reach/split_flow.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <utility>
+
+#include "expression/dual.hpp"
 
 namespace coordreq {
 namespace {
 
 /// An enclosure that meets more cells than this beyond those of solutions that were followed is divided.
 constexpr double kLooseFlow = 1.5;
+/// One that meets more is divided by how solutions part, without a look at larger parts.
+constexpr double kFarFlow = 16.0;
+/// Solutions of a part are no farther from one another on their way, in steps of the grid: beyond that hardly
+/// any part has an enclosure of use.
+constexpr double kMostSpread = 8.0;
+/// A share of the effort for such parts; the rest is for where it matters.
+constexpr std::size_t kShareOfParts = 2;
 
 }  // namespace
 
@@ -15,11 +25,14 @@ SplitFlow::SplitFlow(PeriodicFlow flow, const FlowSystem& system, std::vector<En
                      std::int64_t effort)
     : flow_(std::move(flow)),
       state_slots_(system.state_slots),
-      division_(std::move(targets), system.steps, effort) {}
+      division_(std::move(targets), system.steps, effort) {
+  if (!system.steps.empty() && effort > 0) spread_.emplace(system, flow_.period());
+}
 
 const FlowEnclosure& SplitFlow::flow(std::span<const Interval> slots) {
   const FlowEnclosure& whole = flow_.flow(slots);
   if (division_.effort() <= 0 || !division_.is_loose(whole, kLooseFlow)) return whole;
+  is_far_ = division_.is_loose(whole, kFarFlow);
   result_ = whole;
   slots_.assign(slots.begin(), slots.end());
   box_.clear();
@@ -40,16 +53,41 @@ bool SplitFlow::can_use_faces() {
          flow_.keeps_apart(box_);
 }
 
+/// Halves boxes one after the other until solutions from each stay close, or there are many.
+std::vector<std::vector<Interval>> SplitFlow::close_parts(std::vector<std::vector<Interval>> boxes) {
+  if (!is_far_ || !spread_) return boxes;
+  const auto most = static_cast<std::size_t>(division_.effort()) / kShareOfParts;
+  std::deque<std::vector<Interval>> open(boxes.begin(), boxes.end());
+  std::vector<std::vector<Interval>> close;
+  while (!open.empty() && open.size() + close.size() < most) {
+    std::vector<Interval> lower = std::move(open.front());
+    open.pop_front();
+    const std::optional<std::size_t> direction = spread_->widest(slots_, lower, kMostSpread);
+    if (!direction) {
+      close.push_back(std::move(lower));
+      continue;
+    }
+    std::vector<Interval> upper = lower;
+    lower[*direction].upper = upper[*direction].lower = midpoint(lower[*direction]);
+    open.push_back(std::move(lower));
+    open.push_back(std::move(upper));
+  }
+  close.insert(close.end(), open.begin(), open.end());
+  return close;
+}
+
 /// @returns whether that gave an enclosure of the whole
 bool SplitFlow::divide_faces() {
   division_.begin(result_.reached);
+  std::vector<std::vector<Interval>> faces;
   for (std::size_t i = 0; i < box_.size(); ++i) {
     for (const double end : {box_[i].lower, box_[i].upper}) {
-      std::vector<Interval> face = box_;
-      face[i] = Interval(end);
-      division_.add(face, flow_of_part(face));
+      faces.push_back(box_);
+      faces.back()[i] = Interval(end);
     }
   }
+  for (const std::vector<Interval>& face : close_parts(std::move(faces)))
+    division_.add(face, flow_of_part(face));
   return division_.refine([this](std::span<const Interval> box) -> const FlowEnclosure& {
     return flow_of_part(box);
   }) && faces_are_enough();
@@ -58,7 +96,10 @@ bool SplitFlow::divide_faces() {
 /// @returns whether all parts have enclosures
 bool SplitFlow::divide_all() {
   division_.begin(result_.reached);
-  division_.add(box_, result_);
+  const std::vector<std::vector<Interval>> parts = close_parts({box_});
+  if (parts.size() == 1) division_.add(box_, result_);
+  for (std::size_t p = 0; p < parts.size() && parts.size() > 1; ++p)
+    division_.add(parts[p], flow_of_part(parts[p]));
   return division_.refine(
       [this](std::span<const Interval> box) -> const FlowEnclosure& { return flow_of_part(box); });
 }

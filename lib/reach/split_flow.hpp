@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "reach/box_division.hpp"
 #include "reach/periodic_flow.hpp"
+#include "reach/solution_spread.hpp"
 
 namespace coordreq {
 
@@ -16,6 +18,9 @@ namespace coordreq {
 /// flow for each signal of the disturbances is then a homeomorphism, which maps the boundary of the box to
 /// the boundary of what is reached (invariance of domain), and each coordinate is extreme there. A solution
 /// from inside cannot get out of the hull of what the faces lead to, so that it does not escape either.
+///
+/// Where the whole meets far more cells, the first parts are those whose solutions stay close to one another
+/// on their way (SolutionSpread), so that few parts are enclosed in vain.
 ///
 /// Over-approximates always. Not thread-safe: use a copy a thread.
 class SplitFlow {
@@ -32,12 +37,15 @@ class SplitFlow {
   [[nodiscard]] bool can_use_faces();
   bool divide_faces();
   bool divide_all();
+  [[nodiscard]] std::vector<std::vector<Interval>> close_parts(std::vector<std::vector<Interval>> boxes);
   [[nodiscard]] bool faces_are_enough();
   void take_over(bool by_faces);
 
   PeriodicFlow flow_;
   std::vector<std::uint32_t> state_slots_;
   BoxDivision division_;
+  std::optional<SolutionSpread> spread_;  ///< none if nothing tells which difference is small
+  bool is_far_ = false;                   ///< the whole meets far more cells than it need
   std::vector<Interval> slots_;
   std::vector<Interval> box_;  ///< the whole one, of the states
   FlowEnclosure result_;

@@ -49,7 +49,8 @@ using AnswerWithin = std::function<Work(std::int64_t question, Work most, int wo
 
 /// Answers questions 0, ..., count - 1 block by block, so that a budget is over at the same question whatever
 /// the number of threads. @param block questions that share what is left before any of them is asked
+/// @param answered is told how many are, after each block
 void answer_within(Budget& budget, std::int64_t count, std::int64_t block, ThreadTeam& team,
-                   const AnswerWithin& answer);
+                   const AnswerWithin& answer, const std::function<void(std::int64_t)>& answered = {});
 
 }  // namespace coordreq

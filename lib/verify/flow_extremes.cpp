@@ -58,22 +58,30 @@ Extremes FlowExtremes::extremes(std::size_t state, const Enough& enough) {
   return result;
 }
 
-/// Where the slopes would turn things round within a step, more steps are taken.
 bool FlowExtremes::enclose(const SpanBox& box, const Effort& effort) {
   box_ = box;
   effort_ = effort;
-  std::optional<std::vector<TubeStep>> steps = enclosed(effort.steps);
-  const ArbBox start = all_of(box);
-  const std::optional<ArbMatrix> slopes = steps ? steps->front().slopes : field_.jacobian(start);
-  const int finer = slopes ? steps_for(*slopes, effort) : effort.steps;
-  if (finer > effort.steps) steps = enclosed(finer);
-  if (!steps) return false;
-  steps_ = std::move(*steps);
-  if (passes_a_seam()) return false;
+  field_.mind({});
+  bool found = find_steps();
+  if (!seams_.empty() && (!found || passes_a_seam())) {
+    field_.mind(seams_);
+    found = find_steps();
+  }
+  if (!found) return false;
   effort_.steps = static_cast<int>(steps_.size());
   step_ = period_ / Arb(static_cast<double>(effort_.steps));
   influences_.assign(steps_.size() + 1, std::nullopt);
   return true;
+}
+
+/// Where the slopes would turn things round within a step, more steps are taken.
+bool FlowExtremes::find_steps() {
+  std::optional<std::vector<TubeStep>> steps = enclosed(effort_.steps);
+  const std::optional<ArbMatrix> slopes = steps ? steps->front().slopes : field_.jacobian(all_of(box_));
+  const int finer = slopes ? steps_for(*slopes, effort_) : effort_.steps;
+  if (finer > effort_.steps) steps = enclosed(finer);
+  if (steps) steps_ = std::move(*steps);
+  return steps.has_value();
 }
 
 /// Then another formula holds. What only falls does not get to the upper end, from which it does not start.

@@ -14,6 +14,9 @@ namespace coordreq {
 ///    disturbance during each step, whatever measurable signal that is.
 /// 3. A solution from the place, and with the disturbances, that these signs say is extreme; where a sign is
 ///    open the rest is added. Cells that meet in a corner share the solutions from there.
+/// 4. Where the tube passes a seam at which equations jump, it is made anew with what they are beyond it;
+/// then
+///    bounds are those of the tube.
 ///
 /// Scratch inside: one object a thread.
 class FlowExtremes : public NextValue {
@@ -44,6 +47,7 @@ class FlowExtremes : public NextValue {
     ArbMatrix of_start;                     ///< of each moving state
     std::vector<ArbMatrix> of_disturbance;  ///< [step]: of each disturbance, per time
   };
+  [[nodiscard]] bool find_steps();
   [[nodiscard]] std::optional<std::vector<TubeStep>> enclosed(int steps);
   [[nodiscard]] bool passes_a_seam() const;
   [[nodiscard]] int steps_for(const ArbMatrix& slopes, const Effort& effort) const;
@@ -55,12 +59,7 @@ class FlowExtremes : public NextValue {
 
   SeriesField field_;
   std::vector<StopLimits> limits_;  ///< [moving state]
-  struct Seam {
-    std::size_t state = 0;  ///< its place among the moving ones
-    Rational lower;
-    Rational upper;
-  };
-  std::vector<Seam> seams_;  ///< at which equations jump
+  std::vector<Seam> seams_;         ///< at which equations jump
   Trajectory trajectory_;
   std::vector<std::uint32_t> states_;
   std::vector<std::uint32_t> disturbances_;

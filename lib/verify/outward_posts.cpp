@@ -77,8 +77,11 @@ class OutwardPosts {
     std::vector<std::unique_ptr<PostProver>> provers(static_cast<std::size_t>(team.size()));
     for (std::size_t round = 0; round < std::size(kRounds) && !open_.empty(); ++round) {
       is_last_ = round + 1 == std::size(kRounds);
-      if (progress) progress(all - open_.size(), all);
-      run_round(kRounds[round], budget, provers, team);
+      const auto tell = [&](std::size_t settled) {
+        if (progress) progress(all - open_.size() + settled, all);
+      };
+      tell(0);
+      run_round(kRounds[round], budget, provers, tell, team);
     }
     std::vector<Finding> findings;
     for (const Tally& tally : tallies_) findings.push_back(tally.finding());
@@ -111,18 +114,22 @@ class OutwardPosts {
   }
 
   void run_round(const PostEffort& effort, Budget& budget, std::vector<std::unique_ptr<PostProver>>& provers,
-                 ThreadTeam& team) {
+                 const std::function<void(std::size_t settled)>& tell, ThreadTeam& team) {
     std::vector<std::uint8_t> still_open(open_.size());
     const auto count = static_cast<std::int64_t>(open_.size());
     const std::int64_t block = effort.most_boxes == 1 ? 1024 : 64;
-    answer_within(budget, count, block, team, [&](std::int64_t i, Work most, int worker) {
+    const auto answered = [&](std::int64_t some) {
+      tell(static_cast<std::size_t>(std::count(still_open.begin(), still_open.begin() + some, 0)));
+    };
+    const auto answer = [&](std::int64_t i, Work most, int worker) {
       auto& prover = provers[static_cast<std::size_t>(worker)];
       if (!prover) prover = std::make_unique<PostProver>(spec_, grid_, group_);
       const Work before = prover->work();
       const auto place = static_cast<std::size_t>(i);
       still_open[place] = settle(open_[place], effort, most, *prover) ? 0 : 1;
       return prover->work() - before;
-    });
+    };
+    answer_within(budget, count, block, team, answer, answered);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < open_.size(); ++i) {
       if (still_open[i] != 0) open_[kept++] = open_[i];

@@ -5,6 +5,32 @@
 #include "spec/system_spec.hpp"
 
 namespace coordreq {
+namespace {
+
+/// What is longer is anywhere.
+constexpr long kMostTurnsSeen = 4;
+
+/// Where a state is that goes round, in parts: a point on its upper end is at the lower one.
+std::vector<Arb> places_on_ring(const Seam& seam, const Arb& range) {
+  const Rational period = seam.upper - seam.lower;
+  const std::vector<Arb> anywhere = {hull(Arb(seam.lower), Arb(seam.upper))};
+  if (!range.is_finite()) return anywhere;
+  const Rational low = range.lower_rational();
+  const Rational high = range.upper_rational();
+  const Rational far = period * kMostTurnsSeen;
+  if (low < seam.lower - far || high > seam.upper + far) return anywhere;
+  std::vector<Arb> result;
+  for (long turn = -kMostTurnsSeen; turn <= kMostTurnsSeen + 1; ++turn) {
+    const Rational by = period * turn;
+    if (high < seam.lower + by || low >= seam.upper + by) continue;
+    if (turn == 0 && low >= seam.lower && high < seam.upper) return {range};
+    result.push_back(hull(Arb(Rational(std::max(low, Rational(seam.lower + by)) - by)),
+                          Arb(Rational(std::min(high, Rational(seam.upper + by)) - by))));
+  }
+  return result;
+}
+
+}  // namespace
 
 SeriesField::SeriesField(const SystemSpec& spec, const Influences& influences,
                          const std::vector<std::size_t>& equations)
@@ -31,13 +57,43 @@ const ArbSeries& SeriesField::run(std::size_t equation, slong length) {
   return equations_[equation](slots_, length);
 }
 
+/// The box in parts, as an equation sees it; none: as all of them do.
+std::vector<ArbBox> SeriesField::seen(const ArbBox& box, std::optional<std::size_t> equation) const {
+  std::vector<ArbBox> parts = {box};
+  for (const Seam& seam : seams_) {
+    if (equation && !mentions_[*equation][seam.state]) continue;
+    const std::uint32_t slot = variables_[seam.state];
+    const std::vector<Arb> places = places_on_ring(seam, box[slot]);
+    const std::vector<ArbBox> before = std::move(parts);
+    parts.clear();
+    for (const ArbBox& part : before) {
+      for (const Arb& place : places) {
+        parts.push_back(part);
+        parts.back()[slot] = place;
+      }
+    }
+  }
+  return parts;
+}
+
 Arb SeriesField::value(std::size_t equation, const ArbBox& box) {
-  put(box);
-  return run(equation, 1)[0];
+  if (seams_.empty()) {
+    put(box);
+    return run(equation, 1)[0];
+  }
+  std::optional<Arb> all;
+  for (const ArbBox& part : seen(box, equation)) {
+    put(part);
+    const Arb own = run(equation, 1)[0];
+    all = all ? hull(*all, own) : own;
+  }
+  return *all;
 }
 
 std::optional<std::vector<Arb>> SeriesField::slopes(std::size_t equation, const ArbBox& box) {
-  put(box);
+  const std::vector<ArbBox> parts = seen(box, equation);
+  if (parts.size() > 1) return std::nullopt;
+  put(parts.front());
   std::vector<Arb> result;
   for (std::size_t j = 0; j < variables_.size(); ++j) {
     const std::uint32_t slot = variables_[j];
@@ -47,7 +103,7 @@ std::optional<std::vector<Arb>> SeriesField::slopes(std::size_t equation, const 
     }
     slots_[slot].set(1, Arb(1.0));
     const Arb slope = run(equation, 2)[1];
-    slots_[slot].assign(box[slot]);
+    slots_[slot].assign(parts.front()[slot]);
     if (equations_[equation].smoothness() == Smoothness::jumps || !slope.is_finite()) return std::nullopt;
     result.push_back(slope);
   }
@@ -65,7 +121,9 @@ std::optional<ArbMatrix> SeriesField::jacobian(const ArbBox& box) {
 }
 
 std::optional<std::vector<ArbSeries>> SeriesField::taylor(const ArbBox& box, slong length) {
-  put(box);
+  const std::vector<ArbBox> parts = seen(box, std::nullopt);
+  if (parts.size() > 1) return std::nullopt;
+  put(parts.front());
   for (slong known = 1; known < length; ++known) {
     std::vector<Arb> next;
     for (std::size_t i = 0; i < equations_.size(); ++i) {
@@ -76,7 +134,10 @@ std::optional<std::vector<ArbSeries>> SeriesField::taylor(const ArbBox& box, slo
     for (std::size_t i = 0; i < next.size(); ++i) slots_[variables_[i]].set(known, next[i]);
   }
   std::vector<ArbSeries> result;
-  for (std::size_t i = 0; i < equations_.size(); ++i) result.push_back(slots_[variables_[i]]);
+  for (std::size_t i = 0; i < equations_.size(); ++i) {
+    result.push_back(slots_[variables_[i]]);
+    result.back().set(0, box[variables_[i]]);
+  }
   return result;
 }
 

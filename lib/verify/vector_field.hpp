@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "spec/spec_types.hpp"
@@ -12,6 +13,13 @@ namespace coordreq {
 
 /// A value for each variable of a spec, by slot.
 using ArbBox = std::vector<Arb>;
+
+/// The range of a state that goes round. At its end equations may jump.
+struct Seam {
+  std::size_t state = 0;  ///< its place among the moving ones
+  Rational lower;
+  Rational upper;
+};
 
 /// Several equations of a spec as functions of what varies: some states x, then disturbances w. Encloses
 /// their ranges, slopes and, as right-hand sides of x' = f(x, w), Taylor series in time. Scratch inside: one
@@ -29,6 +37,10 @@ class SeriesField {
   /// Slots of x, then of w.
   [[nodiscard]] const std::vector<std::uint32_t>& variables() const { return variables_; }
 
+  /// From now on equations see what lies beyond these seams from the other side, in all of what follows;
+  /// where a box meets a seam they jump. None: they go on as if there was no seam.
+  void mind(std::vector<Seam> seams) { seams_ = std::move(seams); }
+
   /// The range of one equation over a box; not finite where it is not defined or has no bound.
   [[nodiscard]] Arb value(std::size_t equation, const ArbBox& box);
   /// Slopes of one equation by all variables, over the box. @returns nothing where it jumps, or they have no
@@ -42,11 +54,13 @@ class SeriesField {
 
  private:
   void put(const ArbBox& box);
+  [[nodiscard]] std::vector<ArbBox> seen(const ArbBox& box, std::optional<std::size_t> equation) const;
   const ArbSeries& run(std::size_t equation, slong length);
 
   std::vector<ExpressionSeries> equations_;
   std::vector<std::vector<bool>> mentions_;  ///< [equation][variable]
   std::vector<std::uint32_t> variables_;
+  std::vector<Seam> seams_;
   std::vector<ArbSeries> slots_;
   Work work_ = 0;
 };

@@ -385,6 +385,24 @@ class Cases(Case):
         self.analyzed(dict(spec, states=states, dynamics=dynamics))
         self.compare(prefix="coordreq_circle")
 
+    def test_c_header_agrees_with_query_where_cells_were_divided(self):
+        states = [
+            {"name": "x", "lower": -2, "upper": 2, "step": 0.5, "outside": "saturate"},
+            {"name": "y", "lower": -3, "upper": 3, "step": 0.5, "outside": "stop"},
+        ]
+        inputs = [{"name": "u", "values": [-1, 0, 1]}, {"name": "v", "values": [-1, 0, 1]}]
+        agents = [{"name": "a", "inputs": ["u"]}, {"name": "b", "inputs": ["v"]}]
+        equations = {"x": "y", "y": "2*(1 - x^2)*y - x + u - v + w"}
+        spec = {"coordreq": 1, "name": "bending", "states": states, "inputs": inputs, "agents": agents}
+        spec["disturbances"] = [{"name": "w", "lower": -0.1, "upper": 0.1}]
+        spec["dynamics"] = {"time": "continuous", "period": 0.5, "equations": equations}
+        spec["safe"] = "abs(x) < 2 or abs(y) < 2"
+        results = []
+        for effort in (0, 60):
+            self.analyzed(dict(spec, abstraction={"effort": effort}))
+            results.append(self.compare(prefix="coordreq_bending"))
+        self.assertNotEqual(*results)
+
     def test_c_header_of_one_of_several_partitions(self):
         partitions = [{"classes": []}, {"name": "both", "classes": [["a", "b"]]}]
         self.analyzed(spec_with(coordination={"partitions": partitions}))

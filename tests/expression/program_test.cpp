@@ -55,6 +55,14 @@ TEST(Link, FoldsConditionsThatAreDecided) {
   EXPECT_EQ(link_xyz("false and 1/x < y").nodes.size(), 1U);
 }
 
+TEST(Link, EqualBranchesAreTheBranchWhereTheConditionIsDefined) {
+  EXPECT_EQ(link_xyz("if(x > 0, -10, -10)").nodes.back().op, Operator::constant);
+  EXPECT_EQ(link_xyz("if(1/(1 + 1)*x^3 < sin(y), x + y, x + y)").nodes.back().op, Operator::add);
+  for (const char* const text : {"if(sqrt(x) > 0, y, y)", "if(1/x > 0, y, y)", "if(x^y > 0, z, z)",
+                                 "if(not (log(x) > 0), y, y)", "if(x > 0, y, z)"})
+    EXPECT_EQ(link_xyz(text).nodes.back().op, Operator::if_else) << text;
+}
+
 TEST(Link, KnowsThatBothFactorsAreTheSame) {
   const std::array slots{Interval{-1.0, 2.0}};
   const Program program = link_xyz("x * x");

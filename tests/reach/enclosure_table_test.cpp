@@ -192,6 +192,10 @@ TEST(EnclosureTable, UndefinedEquationsNameTheStateAndThePlace) {
       "number in [-2.25, -1.75] (/dynamics/equations/x)");
   EXPECT_EQ(error_of(spec_text(kPlane, "discrete", R"json("x": "1/(x*y)", "y": "y")json")).substr(0, 60),
             "the equation of 'x', '1/(x*y)', is not defined everywhere ne");
+  const std::string ring =
+      R"({"name": "x", "lower": "-pi", "upper": "pi", "count": 7, "outside": "periodic"})";
+  const std::string error = error_of(spec_text(ring, "discrete", R"json("x": "sqrt(x) + u")json"));
+  EXPECT_NE(error.find(" near x = -3.14159, u = -1: "), std::string::npos) << error;
 }
 
 TEST(EnclosureTable, ThreadsDoNotChangeTheTables) {

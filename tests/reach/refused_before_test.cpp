@@ -145,5 +145,14 @@ TEST(FarAway, ShiftNearTheLargestIndexIsExactOnARing) {
   }
 }
 
+TEST(Rings, TanOfPartsOfATurnHasNoPoleBeyondTheSeam) {
+  const SystemSpec spec = read_system(R"json({"coordreq": 1, "name": "tan",
+"states": [{"name": "y", "lower": "-pi", "upper": "pi", "count": 12, "outside": "periodic"}],
+"inputs": [{"name": "u", "values": [0, 1]}], "agents": [{"name": "a", "inputs": ["u"]}],
+"dynamics": {"time": "continuous", "period": 0.7, "equations": {"y": "1 + tan(y/4)^2 + 0*u"}}, "safe": "true"})json",
+                                      "tan");
+  test::attack(spec, 200);
+}
+
 }  // namespace
 }  // namespace coordreq
