@@ -46,7 +46,7 @@ class LeavingInput {
     }
   }
 
-  /// REQUIRES: x is in Z_F.
+  /// @pre unchecked: x is in Z_F.
   bool is_at(std::int64_t x) {
     if (std::none_of(sides_.begin(), sides_.end(), [&](const Side& side) { return is_near(side, x); }))
       return false;

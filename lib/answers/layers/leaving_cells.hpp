@@ -20,7 +20,7 @@ namespace coordreq {
 /// whether one leaves is asked of single joint inputs, at cells near such sides; the rest is the ordinary
 /// wave. Finite levels of what it finds count steps until a run can have left.
 /// @param projections those of the partition, which has two classes or more
-/// @param layers its, with F; REQUIRES: no controller file, which makes IND_C(x) larger than C(x)
+/// @param layers its, with F; @pre unchecked: no controller file, which makes IND_C(x) larger than C(x)
 /// Cost: at most about a sweep of the layers, where nothing leaves. Together.
 [[nodiscard]] std::int64_t count_leaving_cells(const Answers& answers, const Projections& projections,
                                                const DelayLayers& layers, const WaveWatch& watch,
