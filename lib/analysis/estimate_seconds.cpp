@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <new>
 #include <numeric>
 #include <vector>
@@ -11,7 +12,6 @@
 #include "answers/answers.hpp"
 #include "answers/plan.hpp"
 #include "base/error.hpp"
-#include "base/timer.hpp"
 #include "reach/make_model.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -45,18 +45,30 @@ double entries_of(const Model& model) {
                          [](double sum, const TableShape& own) { return sum + own.entries; });
 }
 
+/// Of all threads; other programs do not count.
+double processor_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// In processor time, of which each thread is taken to have its share.
 Measured measure(const ProblemSpec& spec, ThreadTeam& team) {
-  StageTimer timer;
-  timer.begin("model");
+  const double begin = processor_seconds();
+  double since = begin, tables = 0;
+  bool is_tables = false;
+  const auto enter = [&](const std::string& stage) {
+    const double now = processor_seconds();
+    if (is_tables) tables += now - since;
+    is_tables = stage == "abstraction";
+    since = now;
+  };
   const Model model = make_model(spec);
   Answers answers(model);
-  run_stages(analysis_stages(spec), answers, {.team = team},
-             {.enter = [&timer](const std::string& stage) { timer.begin(stage); }});
-  timer.end();
-  Measured found{.cells = cells_of(spec), .entries = entries_of(model)};
-  for (const auto& [stage, seconds] : timer.seconds())
-    (stage == "abstraction" ? found.tables : found.rest) += seconds;
-  return found;
+  run_stages(analysis_stages(spec), answers, {.team = team}, {.enter = enter});
+  const double all = processor_seconds() - begin;
+  return {.cells = cells_of(spec),
+          .entries = entries_of(model),
+          .tables = tables / team.size(),
+          .rest = (all - tables) / team.size()};
 }
 
 /// The problem with steps `factor` times as long; 1: as it is.
@@ -109,7 +121,7 @@ std::optional<double> estimated(const Model& model, ThreadTeam& team) {
     const Measured& last = copies.back();
     if (last.cells == cells) return last.all();
     const bool is_last = last.all() > (last.cells * kGrowth >= cells ? kShortEnough : kLongEnough);
-    if (is_last || most > cells) return extrapolated(model, copies);
+    if ((is_last && copies.size() > 1) || most > cells) return extrapolated(model, copies);
   }
 }
 
