@@ -66,14 +66,17 @@ void FileSets::read_cells(std::size_t partition) {
         read([&](const CellBlock& block) { return results_.values(paths::kCollisionTime, block); });
     const auto delays =
         read([&](const CellBlock& block) { return results_.values(paths::kDelay, partition, block); });
+    std::vector<std::uint32_t> times_of_row, layers_of_row;
     for (std::int64_t i = 0; i < length; ++i) {
       const auto at = static_cast<std::size_t>(i);
       if (safe[at] != 0) ground_.safe.set(r * length + i);
       if (delays[at] >= 0) invariance_.invariant.set(r * length + i);
-      collision_time.row(r)[i] = level_of_steps(times[at], 0);
+      times_of_row.push_back(level_of_steps(times[at], 0));
       const bool is_cut_off = layers_.truncated && delays[at] == last;
-      layers_of.row(r)[i] = is_cut_off ? Levels::kTop : level_of_steps(delays[at], 1);
+      layers_of_row.push_back(is_cut_off ? Levels::kTop : level_of_steps(delays[at], 1));
     }
+    collision_time.put(r, times_of_row.data());
+    layers_of.put(r, layers_of_row.data());
   }
   invariance_.collision_time = LevelMap(std::move(collision_time));
   layers_.layers_of = LevelMap(std::move(layers_of));
@@ -89,12 +92,15 @@ void FileSets::read_silence(std::size_t partition) {
     const auto steps = results_.stretch(r * length, (r + 1) * length, [&](const CellBlock& block) {
       return results_.values(paths::kSilence, partition, block);
     });
+    std::vector<std::uint32_t> silence_of_row, lost_of_row;
     for (std::int64_t i = 0; i < length; ++i) {
       const std::int32_t own = steps[static_cast<std::size_t>(i)];
       const bool is_cut_off = silence_.truncated && own == last;
-      silence.row(r)[i] = is_cut_off ? Levels::kTop : level_of_steps(own, 1);
-      lost.row(r)[i] = own >= 0 ? Levels::kTop : own == DelayLayers::kOutsideSafe ? 0 : 1;
+      silence_of_row.push_back(is_cut_off ? Levels::kTop : level_of_steps(own, 1));
+      lost_of_row.push_back(own >= 0 ? Levels::kTop : own == DelayLayers::kOutsideSafe ? 0 : 1);
     }
+    silence.put(r, silence_of_row.data());
+    lost.put(r, lost_of_row.data());
   }
   silence_.layers_of = LevelMap(std::move(silence));
   lost_ = LevelMap(std::move(lost));

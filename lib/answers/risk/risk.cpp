@@ -148,9 +148,9 @@ class Iteration {
         [&](std::int64_t row, int w) {
           Worker<std::uint32_t>& worker = workers[static_cast<std::size_t>(w)];
           find(row, choices, worker, w);
-          std::uint32_t* const own = state_.risks[mode].row(row);
+          const std::uint32_t* const own = state_.risks[mode].row(row);
           if (std::equal(own, own + n, worker.risks.begin())) return;
-          std::copy_n(worker.risks.begin(), n, own);
+          state_.risks[mode].put(row, worker.risks.data());
           changed[static_cast<std::size_t>(row)] = 1;
         });
     const auto visited = std::ssize(rows), alive = std::ssize(alive_);
