@@ -14,9 +14,8 @@ namespace coordreq {
 ///    disturbance during each step, whatever measurable signal that is.
 /// 3. A solution from the place, and with the disturbances, that these signs say is extreme; where a sign is
 ///    open the rest is added. Cells that meet in a corner share the solutions from there.
-/// 4. Where the tube passes a seam at which equations jump, it is made anew with what they are beyond it;
-/// then
-///    bounds are those of the tube.
+/// 4. Where the tube passes a seam at which equations jump, it is made anew with what they are on both sides;
+///    then bounds are those of the tube.
 ///
 /// Scratch inside: one object a thread.
 class FlowExtremes : public NextValue {

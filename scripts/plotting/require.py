@@ -67,6 +67,8 @@ def draw(required, size=None):
         worst = [*corner, 0][:2]
         sides = [best - value for value, (_, best) in zip(worst, ends)]
         axes.add_patch(Rectangle(worst, *sides, color=style.KINDS[2], linewidth=0))
+    if not required.corners:
+        axes.text(0.5, 0.5, "nowhere, not even at the best end", transform=axes.transAxes, ha="center", va="center")
     axes.set_xlim(sorted(ends[0]))
     axes.set_ylim(sorted(ends[1]))
     axes.set_xlabel(style.plain(required.labels[0]))

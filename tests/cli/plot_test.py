@@ -4,7 +4,7 @@ import json
 import unittest
 
 import numpy as np
-from plot_case import PlotCase, drawn, example, labels, legend, titles
+from plot_case import PlotCase, covered, drawn, example, labels, legend, titles
 from program import SPEC, spec_with
 
 UNBOUNDED = np.iinfo(np.int16).max
@@ -385,6 +385,16 @@ class Cases(PlotCase):
             for patch, corner in zip(figure.axes[0].patches, data.corners):
                 reached = {patch.get_x() + patch.get_width(), patch.get_x()}
                 self.assertEqual(reached, {corner[0], ends[0][1]})
+
+    def test_require_says_where_nothing_is_tolerated(self):
+        self.write("spec.json", example("crossing.json"))
+        self.analyze("spec.json", "-o", "out.h5")
+        words = ("--delay", "12s", "--over", "p1", "--given", "v1=3,v2=3,p2=-8", "--best", "small")
+        self.write("found.json", self.run_program("require", "out.h5", *words, "--json").stdout.decode())
+        data, figure = self.plotted("require", file="found.json")
+        self.assertEqual(data.corners, [])
+        self.assertEqual([text.get_text() for text in figure.axes[0].texts], ["nowhere, not even at the best end"])
+        self.assertEqual(covered(figure), [])
 
     def test_require_names_what_is_wrong(self):
         for text in ("{}", "[", "[]"):

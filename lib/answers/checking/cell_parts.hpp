@@ -18,7 +18,8 @@ namespace coordreq {
 [[nodiscard]] std::vector<RationalInterval> parts_of(const GridDimension& dimension, std::int64_t k);
 
 /// Raw indices first, ..., last, cut to 32 bits; of a ring the same cells, some turns nearer, if they are far
-/// out. @pre first <= last
+/// out. Of indices beyond 2^62 no more is known: what they are cut to holds them. @pre first <= last, unless
+/// one is so far out
 [[nodiscard]] IndexRange cut_to_range(const GridDimension& dimension, std::int64_t first, std::int64_t last);
 
 /// The fewest cells side by side that hold both ranges. In a ring the shortest arc, of equally short ones
