@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from program import PROGRAM, Case
+from program import PROGRAM, Case, without_places
 
 MPI_PROGRAM = os.environ.get("COORDREQ_MPI_PROGRAM", "")
 MPIRUN = shutil.which(os.environ.get("COORDREQ_MPIRUN", "mpirun"))
@@ -51,7 +51,7 @@ class RanksCase(Case):
 
     def errors(self, result):
         """Our lines; mpirun adds some of its own."""
-        return [line for line in result.stderr.decode().splitlines() if line.startswith("coordreq: ")]
+        return [line for line in without_places(result.stderr).decode().splitlines() if line.startswith("coordreq: ")]
 
     def assert_one_error(self, result, code, line):
         self.assertEqual(self.errors(result), ["coordreq: error: " + line])
