@@ -23,6 +23,8 @@ constexpr std::int64_t kGrowth = 4;
 /// A copy that takes longer is the last one, but that the problem itself is measured if it is next and the
 /// copy takes no longer than the other.
 constexpr double kLongEnough = 0.3, kShortEnough = 0.5;
+/// One that takes longer is given up.
+constexpr double kPatience = 2;
 /// By which powers of the number of cells work grows: equal work is done once, so that it may be few.
 constexpr double kLeastPower = 0.3, kMostPower = 1.1;
 
@@ -30,6 +32,7 @@ constexpr double kLeastPower = 0.3, kMostPower = 1.1;
 struct Measured {
   double cells = 0, entries = 0;
   double tables = 0, rest = 0;  ///< seconds
+  bool is_given_up = false;     ///< then `tables` is what they were about to take, `rest` unknown
   [[nodiscard]] double all() const { return tables + rest; }
 };
 
@@ -50,9 +53,32 @@ double processor_seconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
+/// Thrown out of a loop that takes too long, of which about this part is done.
+struct GivenUp {
+  double part;
+};
+
+/// As long as it lives, loops of the team are given up at that time.
+class Deadline {
+ public:
+  Deadline(ThreadTeam& team, double seconds) : team_(team) {
+    team.set_watch([seconds](std::int64_t done, std::int64_t count) {
+      if (processor_seconds() > seconds)
+        throw GivenUp{static_cast<double>(done) / static_cast<double>(count)};
+    });
+  }
+  ~Deadline() { team_.set_watch({}); }
+  Deadline(const Deadline&) = delete;
+  Deadline& operator=(const Deadline&) = delete;
+
+ private:
+  ThreadTeam& team_;
+};
+
 /// In processor time, of which each thread is taken to have its share.
 Measured measure(const ProblemSpec& spec, ThreadTeam& team) {
   const double begin = processor_seconds();
+  const Deadline deadline(team, begin + kPatience * team.size());
   double since = begin, tables = 0;
   bool is_tables = false;
   const auto enter = [&](const std::string& stage) {
@@ -63,12 +89,16 @@ Measured measure(const ProblemSpec& spec, ThreadTeam& team) {
   };
   const Model model = make_model(spec);
   Answers answers(model);
-  run_stages(analysis_stages(spec), answers, {.team = team}, {.enter = enter});
-  const double all = processor_seconds() - begin;
-  return {.cells = cells_of(spec),
-          .entries = entries_of(model),
-          .tables = tables / team.size(),
-          .rest = (all - tables) / team.size()};
+  Measured result{.cells = cells_of(spec), .entries = entries_of(model)};
+  try {
+    run_stages(analysis_stages(spec), answers, {.team = team}, {.enter = enter});
+    result.tables = tables / team.size();
+    result.rest = (processor_seconds() - begin - tables) / team.size();
+  } catch (const GivenUp& loop) {
+    result.is_given_up = true;
+    if (is_tables) result.tables = (processor_seconds() - since) / std::max(loop.part, 1e-6) / team.size();
+  }
+  return result;
 }
 
 /// The problem with steps `factor` times as long; 1: as it is.
@@ -119,6 +149,11 @@ std::optional<double> estimated(const Model& model, ThreadTeam& team) {
       continue;
     }
     const Measured& last = copies.back();
+    if (last.is_given_up) {
+      if (copies.size() > 1) copies.pop_back();
+      const double seconds = extrapolated(model, copies);
+      return seconds > 0 ? std::optional(seconds) : std::nullopt;
+    }
     if (last.cells == cells) return last.all();
     const bool is_last = last.all() > (last.cells * kGrowth >= cells ? kShortEnough : kLongEnough);
     if ((is_last && copies.size() > 1) || most > cells) return extrapolated(model, copies);

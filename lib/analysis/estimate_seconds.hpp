@@ -13,7 +13,8 @@ namespace coordreq {
 /// long for each entry as those of the last copy, and all else to grow on by the power of the number of cells
 /// by which it grew from copy to copy. A problem that is itself so small is measured. Copies ask for no
 /// requirements and take no controller from a file. Nothing where there are none, as where a coarser grid
-/// makes an error. For users to see: no result depends on it. Cost: a second or two.
+/// makes an error. A copy that takes longer than two seconds is given up: its tables are taken to go on as
+/// they began. For users to see: no result depends on it. Cost: a second or two.
 [[nodiscard]] std::optional<double> estimate_seconds(const Model& model, ThreadTeam& team);
 
 /// Whether a problem is so large that the analysis may take hours: so that it is worth an estimate.

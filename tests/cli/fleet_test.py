@@ -1,6 +1,7 @@
 """Pairs of a fleet: what the page says of them, and query --least."""
 
 import json
+import re
 import unittest
 
 from pages import DOCS, blocks
@@ -9,8 +10,14 @@ from program import SPEC, Case, spec_with
 
 class Cases(Case):
     def test_lanes_for_two_are_none_for_three(self):
+        page = DOCS / "how-to/fleets.md"
+        (pair,) = blocks(page, "json")
+        three = json.loads(pair)
+        three["inputs"].append({"name": "u3", "values": [0, 1]})
+        three["agents"].append({"name": "three", "inputs": ["u3"]})
+        three["dynamics"]["equations"] = json.loads(re.search(r'Three agents with `("e": .*?)` cannot', page.read_text())[1].join("{}"))
         sizes = []
-        for spec in blocks(DOCS / "how-to/fleets.md", "json"):
+        for spec in (pair, json.dumps(three)):
             self.write("spec.json", spec)
             sizes.append(self.analyze("spec.json", "-o", "out.h5")["invariant"])
         self.assertEqual(sizes, [1, 0])

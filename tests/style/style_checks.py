@@ -20,6 +20,7 @@ CLOCK = re.compile(
 CLOCKS = {
     "lib/base/timer": "seconds that are reported",
     "app/commands/verify": "seconds that are reported",
+    "lib/analysis/estimate_seconds": "seconds that are shown",
     "lib/analysis/stage_reporter": "how often progress is told",
     "app/progress_display": "how often progress is told",
     "lib/analysis/checkpoint": "how often work is saved",
