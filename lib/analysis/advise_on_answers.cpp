@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <new>
 #include <optional>
 
 #include "analysis/advice.hpp"
@@ -201,21 +200,6 @@ Fault fault_of(const ProblemSpec& spec, WorkLimit& limit, ThreadTeam& team) {
                                  meter.step(step, row_length);
                                }});
   return fault_of(answers, 0);
-}
-
-/// `work()`; nothing if the problem that it changes cannot be worked out, as with a state off its new grid,
-/// or for want of memory.
-template <class Work>
-auto if_possible(const Work& work) -> std::optional<decltype(work())> {
-  try {
-    return work();
-  } catch (const SpecError&) {
-    return std::nullopt;
-  } catch (const LimitError&) {
-    return std::nullopt;
-  } catch (const std::bad_alloc&) {
-    return std::nullopt;
-  }
 }
 
 /// Of the relaxations, tried one by one, which helped.

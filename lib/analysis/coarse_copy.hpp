@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <new>
 #include <optional>
 
+#include "base/error.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -25,5 +27,20 @@ struct CoarseCopy {
 /// @param partition that is left
 [[nodiscard]] std::optional<CoarseCopy> coarse_copy(const ProblemSpec& spec, std::size_t partition,
                                                     std::int64_t most_cells, double most_entries);
+
+/// `work()`; nothing if the problem that it changes cannot be worked out, as with a state off its new grid,
+/// or for want of memory.
+template <class Work>
+auto if_possible(const Work& work) -> std::optional<decltype(work())> {
+  try {
+    return work();
+  } catch (const SpecError&) {
+    return std::nullopt;
+  } catch (const LimitError&) {
+    return std::nullopt;
+  } catch (const std::bad_alloc&) {
+    return std::nullopt;
+  }
+}
 
 }  // namespace coordreq

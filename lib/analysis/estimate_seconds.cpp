@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <new>
 #include <numeric>
 #include <vector>
 
@@ -11,7 +10,6 @@
 #include "analysis/coarse_copy.hpp"
 #include "answers/answers.hpp"
 #include "answers/plan.hpp"
-#include "base/error.hpp"
 #include "reach/make_model.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -163,15 +161,7 @@ std::optional<double> estimated(const Model& model, ThreadTeam& team) {
 }  // namespace
 
 std::optional<double> estimate_seconds(const Model& model, ThreadTeam& team) {
-  try {
-    return estimated(model, team);
-  } catch (const SpecError&) {
-    return std::nullopt;
-  } catch (const LimitError&) {
-    return std::nullopt;
-  } catch (const std::bad_alloc&) {
-    return std::nullopt;
-  }
+  return if_possible([&] { return estimated(model, team); }).value_or(std::nullopt);
 }
 
 bool may_take_hours(const Model& model) {

@@ -9,10 +9,10 @@
 #include <numeric>
 #include <optional>
 
+#include "answers/one_cell/cell_members.hpp"
 #include "answers/one_cell/cell_posts.hpp"
 #include "base/index.hpp"
 #include "expression/evaluate.hpp"
-#include "model/odometer.hpp"
 #include "reach/point_flow.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -154,22 +154,13 @@ class PassageSearch {
   }
 
   bool lies_inside(const CellPost& post) {
-    std::vector<std::int64_t> sizes;
     std::int64_t cells = 1;
     for (const IndexRange range : post.box) {
-      sizes.push_back(std::int64_t{range.last} - range.first + 1);
-      cells *= sizes.back();
+      cells *= std::int64_t{range.last} - range.first + 1;
       if (cells > kMostOfPost) return false;
     }
     reads_ += cells;
-    Odometer box(sizes);
-    do {
-      std::int64_t place = 0;
-      for (std::size_t i = 0; i < sizes.size(); ++i)
-        place += (post.box[i].first + box.indices()[i]) % grid_[i].count * grid_.stride(i);
-      if (!kept_.test(place)) return false;
-    } while (box.advance());
-    return true;
+    return for_each_cell(grid_, post.box, [this](std::int64_t cell) { return kept_.test(cell); });
   }
 
   /// The solution from the centre of the cell.

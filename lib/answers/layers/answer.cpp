@@ -19,9 +19,9 @@
 namespace coordreq {
 namespace {
 
-/// Whether it is told of unbounded cells that their runs leave through a `safe` side. Where all coordinate
-/// nobody is ever silent, and beside a controller file classes may do what it does not list.
-bool tells_leaving(const Ground& ground, const DelayLayers& layers) {
+/// Whether unbounded cells whose runs leave through a `safe` side are counted. Where all coordinate nobody is
+/// ever silent, and beside a controller file classes may do what it does not list.
+bool counts_leaving(const Ground& ground, const DelayLayers& layers) {
   return !layers.truncated && !ground.listed && has_safe_side(ground.spec);
 }
 
@@ -58,7 +58,7 @@ void find_layers_of(std::size_t p, Answers& answers, const StageWork& work) {
   });
   DelayLayers& layers = all[p];
   follow_from_levels(coordination.max_delay, work.team, layers);
-  if (!tells_leaving(ground, layers)) return;
+  if (!counts_leaving(ground, layers)) return;
   layers.leaving = 0;
   if (layers.sizes.back() == ground.over_cells) return;
   const Projections& silent = projections();

@@ -6,6 +6,7 @@
 
 #include "answers/invariance/answer.hpp"
 #include "answers/layers/independent_actions.hpp"
+#include "answers/one_cell/cell_members.hpp"
 #include "answers/one_cell/cell_posts.hpp"
 #include "base/index.hpp"
 #include "engine/find_levels.hpp"
@@ -94,20 +95,8 @@ class LeavingInput {
     if (ground_.spec.controller.synthesis == Synthesis::given) return true;
     const CellPost post = posts_.post(u, ground_.tubes());
     if (post.blocked != CellPost::Blocked::no) return false;
-    return post.all_left || is_invariant(post.box);
-  }
-
-  [[nodiscard]] bool is_invariant(const std::vector<IndexRange>& ranges) const {
-    std::vector<std::int64_t> sizes;
-    for (const IndexRange range : ranges) sizes.push_back(std::int64_t{range.last} - range.first + 1);
-    Odometer box(sizes);
-    do {
-      std::int64_t place = 0;
-      for (std::size_t i = 0; i < sizes.size(); ++i)
-        place += (ranges[i].first + box.indices()[i]) % grid_[i].count * grid_.stride(i);
-      if (!invariant_.test(place)) return false;
-    } while (box.advance());
-    return true;
+    return post.all_left ||
+           for_each_cell(grid_, post.box, [this](std::int64_t cell) { return invariant_.test(cell); });
   }
 
   const Ground& ground_;
