@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "spec/json_syntax.hpp"
 #include "spec/json_text.hpp"
 #include "spec/wording.hpp"
 
@@ -16,64 +17,6 @@ using Json = nlohmann::json;
 
 constexpr std::size_t kDeepestNesting = 200;
 constexpr std::size_t kLongestKey = 200;
-
-/// What the parser wanted where it gave up, read off its message.
-std::string_view expected_words(std::string_view message) {
-  const auto mentions = [&](std::string_view part) { return message.find(part) != std::string_view::npos; };
-  if (mentions("parsing object key")) return "a key in double quotes";
-  if (mentions("parsing object separator")) return "':'";
-  if (mentions("parsing object -")) return "',' or '}'";
-  if (mentions("parsing array -")) return "',' or ']'";
-  if (mentions("; expected end of input")) return "the end of the file";
-  return "a value";
-}
-
-/// The lexer's own complaint, as "invalid string: missing closing quote".
-std::string lexer_complaint(std::string_view message) {
-  const std::size_t start = message.find(" - ");
-  if (start == std::string_view::npos) return std::string(message);
-  const std::string_view complaint = message.substr(start + 3);
-  return one_line(complaint.substr(0, complaint.find("; last read")));
-}
-
-bool is_name_part(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
-/// Where the token that ends before `end` starts.
-std::size_t token_start(std::string_view text, std::size_t end, std::size_t token_size,
-                        std::string_view message) {
-  if (end > text.size() || message.find("unexpected end of input") != std::string_view::npos)
-    return text.size();
-  // Only strings and numbers are recorded from their first character on.
-  const bool is_recorded = message.find("unexpected string") != std::string_view::npos ||
-                           message.find("unexpected number") != std::string_view::npos;
-  if (is_recorded) return end - std::min(end, token_size);
-  std::size_t start = end - std::min<std::size_t>(end, 1);
-  while (start > 0 && is_name_part(text[start]) && is_name_part(text[start - 1])) --start;
-  return start;
-}
-
-bool is_closing(std::string_view text, std::size_t offset) {
-  return offset < text.size() && (text[offset] == ']' || text[offset] == '}');
-}
-
-/// Turns the parser's position and message into one line for the author of the text.
-[[noreturn]] void fail_syntax(const JsonText& json, std::size_t end, std::size_t token_size,
-                              std::string_view message) {
-  const std::string complaint = lexer_complaint(message);
-  // "invalid literal" stands for any stray character; strings, numbers and comments have better explanations.
-  const bool is_stray = complaint.rfind("invalid literal", 0) == 0;
-  if (complaint.rfind("invalid", 0) == 0 && !is_stray) {
-    json.fail(complaint, end > json.text.size() ? json.text.size() : end - 1);
-  }
-  const std::size_t start = token_start(json.text, end, token_size, message);
-  const std::size_t before = is_closing(json.text, start) ? json.token_before(start) : json.text.size();
-  if (before < json.text.size() && json.text[before] == ',') {
-    json.fail(fmt::format("expected no comma before {}, found a trailing one", json.found_at(start)), before);
-  }
-  json.fail(fmt::format("expected {}, found {}", expected_words(message), json.found_at(start)), start);
-}
 
 /// Receives the parser's events and builds the document.
 class Builder : public nlohmann::json_sax<Json> {
@@ -117,13 +60,16 @@ class Builder : public nlohmann::json_sax<Json> {
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string& token,
-                   const nlohmann::detail::exception& error) override {
+  bool parse_error(std::size_t position, const std::string& token, const Json::exception& error) override {
     constexpr int kNumberOverflow = 406;
     if (error.id == kNumberOverflow) {
       json_.fail("number beyond the range of a double: " + quote_text(token), position - token.size());
     }
-    fail_syntax(json_, position, token.size(), error.what());
+    const bool is_list = !levels_.empty() && levels_.back().value->is_array();
+    fail_syntax(json_, position,
+                levels_.empty() ? JsonLevel::kOutermost
+                : is_list       ? JsonLevel::kList
+                                : JsonLevel::kObject);
   }
 
  private:
@@ -194,8 +140,8 @@ JsonDocument JsonDocument::parse(std::string_view text, std::string_view source)
   constexpr bool kStrict = true;
   constexpr bool kIgnoreComments = true;
   // The builder throws on every error, so the result says nothing new.
-  static_cast<void>(Json::sax_parse(json.text.begin(), json.text.end(), &builder,
-                                    nlohmann::detail::input_format_t::json, kStrict, kIgnoreComments));
+  static_cast<void>(Json::sax_parse(json.text.begin(), json.text.end(), &builder, Json::input_format_t::json,
+                                    kStrict, kIgnoreComments));
   return document;
 }
 

@@ -29,9 +29,14 @@ class JsonDocument {
   [[nodiscard]] const nlohmann::json& value() const { return *value_; }
   [[nodiscard]] Node root() const;
 
+  /// Numbers as they were typed, by JSON pointer; integers that the values hold are not among them.
+  [[nodiscard]] const std::unordered_map<std::string, std::string>& number_tokens() const {
+    return number_tokens_;
+  }
+
  private:
   std::shared_ptr<const nlohmann::json> value_;
-  std::unordered_map<std::string, std::string> number_tokens_;      // by JSON pointer; integers need none
+  std::unordered_map<std::string, std::string> number_tokens_;
   std::unordered_map<std::string, std::vector<std::string>> keys_;  // of the objects in the outermost one
 };
 

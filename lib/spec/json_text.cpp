@@ -52,16 +52,22 @@ std::size_t string_end(std::string_view text, std::size_t offset) {
   return std::min(text.find('\n', offset), text.size());
 }
 
+/// Behind the comment that starts at `offset`, which is `offset` if none does; nowhere if it has no end.
+std::size_t comment_end(std::string_view text, std::size_t offset) {
+  const std::string_view start = text.substr(offset, 2);
+  if (start == "//") return std::min(text.find('\n', offset), text.size());
+  if (start != "/*") return offset;
+  const std::size_t end = text.find("*/", offset + 2);
+  return end == std::string_view::npos ? end : end + 2;
+}
+
 /// Behind the comments that start at `offset`, one right after the other.
 std::size_t after_comments(std::string_view text, std::size_t offset) {
-  while (true) {
-    const std::string_view start = text.substr(offset, 2);
-    if (start != "//" && start != "/*") return offset;
-    const bool is_line = start == "//";
-    const std::size_t end = is_line ? text.find('\n', offset) : text.find("*/", offset + 2);
-    if (end == std::string_view::npos) return text.size();
-    offset = is_line ? end : end + 2;
+  for (std::size_t before = text.size(); offset != before && offset < text.size();) {
+    before = offset;
+    offset = std::min(comment_end(text, offset), text.size());
   }
+  return offset;
 }
 
 std::size_t token_end(std::string_view text, std::size_t offset) {
@@ -89,8 +95,11 @@ std::string JsonText::at(std::size_t offset) const {
 }
 
 std::string JsonText::found_at(std::size_t offset) const {
-  if (offset >= text.size()) return "the end of the file";
-  return quote_text(text.substr(offset, token_end(text, offset) - offset));
+  return offset >= text.size() ? "the end of the file" : quote_text(token(offset));
+}
+
+std::string_view JsonText::token(std::size_t offset) const {
+  return text.substr(std::min(offset, text.size()), token_end(text, offset) - std::min(offset, text.size()));
 }
 
 std::size_t JsonText::token_from(std::size_t offset) const {
@@ -102,8 +111,13 @@ std::size_t JsonText::token_from(std::size_t offset) const {
   return offset;
 }
 
-std::size_t JsonText::end_of_token(std::size_t offset) const {
-  return token_end(text, offset);
+bool JsonText::ends_in_comment() const {
+  std::size_t i = 0;
+  while (i < text.size()) {
+    const std::size_t end = comment_end(text, i);
+    i = end == i ? token_end(text, i) : end;
+  }
+  return i == std::string_view::npos;
 }
 
 std::size_t JsonText::bracket(std::size_t number) const {
@@ -116,7 +130,8 @@ std::size_t JsonText::bracket(std::size_t number) const {
 
 std::size_t JsonText::token_before(std::size_t offset) const {
   std::size_t last = text.size();
-  for (std::size_t i = after_comments(text, 0); i < offset; i = after_comments(text, token_end(text, i))) {
+  const std::size_t end = std::min(offset, text.size());
+  for (std::size_t i = after_comments(text, 0); i < end; i = after_comments(text, token_end(text, i))) {
     if (!is_space(text[i])) last = i;
   }
   return last;

@@ -20,17 +20,19 @@ struct JsonText {
   /// The token that starts at `offset`, quoted for a message; "the end of the file" behind the last byte.
   [[nodiscard]] std::string found_at(std::size_t offset) const;
 
+  /// The token that starts at `offset`, a string to the end of its line at most; empty behind the last byte.
+  [[nodiscard]] std::string_view token(std::size_t offset) const;
+
   /// Where the first token at `offset` or behind it starts, comments left out.
   [[nodiscard]] std::size_t token_from(std::size_t offset) const;
-  /// Behind the token that starts at `offset`.
-  [[nodiscard]] std::size_t end_of_token(std::size_t offset) const;
+  /// Whether the text ends within a comment that needs an end of its own.
+  [[nodiscard]] bool ends_in_comment() const;
 
   /// Where the `number`-th bracket (from 1) stands that opens an object or a list.
   /// REQUIRES: the text is well-formed up to there.
   [[nodiscard]] std::size_t bracket(std::size_t number) const;
 
   /// Where the last token before `offset` starts, comments left out; behind the text if there is none.
-  /// REQUIRES: the text is well-formed up to there.
   [[nodiscard]] std::size_t token_before(std::size_t offset) const;
 
   /// @throws SpecError with the place

@@ -26,37 +26,24 @@ using Pointer = OrderedJson::json_pointer;
   throw UsageError(what, one_line(path));
 }
 
-/// Builds a document in which numbers are what was typed: one that a double cannot hold becomes a text, for a
-/// spec may have that instead.
-class ExactReader : public nlohmann::detail::json_sax_dom_parser<OrderedJson> {
- public:
-  explicit ExactReader(OrderedJson& document) : json_sax_dom_parser(document) {}
-
-  bool number_float(double value, const std::string& token) {
-    if (parse_decimal(OrderedJson(value).dump()) == parse_decimal(token))
-      return json_sax_dom_parser::number_float(value, token);
-    std::string text = token;
-    return string(text);
+/// A document in the order of its text, with numbers as typed: one that a double cannot hold becomes a text,
+/// for a spec may have that instead.
+/// @throws SpecError as JsonDocument::parse()
+OrderedJson parsed(const std::string& text, const std::string& source) {
+  const JsonDocument document = JsonDocument::parse(text, source);
+  constexpr bool kMayThrow = true, kIgnoreComments = true;
+  OrderedJson json = OrderedJson::parse(without_byte_order_mark(text), nullptr, kMayThrow, kIgnoreComments);
+  for (const auto& [pointer, token] : document.number_tokens()) {
+    OrderedJson& number = json[Pointer(pointer)];
+    if (parse_decimal(number.dump()) != parse_decimal(token)) number = token;
   }
-};
-
-/// REQUIRES: JsonDocument::parse() has accepted the text.
-OrderedJson parsed(const std::string& text) {
-  OrderedJson json;
-  ExactReader reader(json);
-  constexpr bool kStrict = true, kIgnoreComments = true;
-  static_cast<void>(
-      OrderedJson::sax_parse(text, &reader, OrderedJson::input_format_t::json, kStrict, kIgnoreComments));
   return json;
 }
 
 OrderedJson value_of(const SpecSetting& setting) {
   const std::string& value = setting.value;
   if (!is_utf8(value)) fail("expected UTF-8 text as the value", setting.path);
-  if (OrderedJson::accept(value)) {
-    static_cast<void>(JsonDocument::parse(value, setting.path));
-    return parsed(value);
-  }
+  if (OrderedJson::accept(value)) return parsed(value, setting.path);
   if (value.find_first_of("{[\"") == 0)
     fail("expected JSON, since it starts like it, found " + quote_text(value), setting.path);
   return value;
@@ -173,7 +160,7 @@ OrderedJson refined_step(const OrderedJson& step, std::int64_t factor) {
   const std::optional<Rational> value = parse_decimal(step.dump());
   if (!value) return step;
   const std::string text = to_text(*value / Rational(mpz_class(static_cast<long>(factor))));
-  return text.find('/') == std::string::npos ? parsed(text) : OrderedJson(text);
+  return text.find('/') == std::string::npos ? parsed(text, "the step") : OrderedJson(text);
 }
 
 bool is_ring(const OrderedJson& state) {
@@ -197,7 +184,7 @@ void refine(OrderedJson& state, std::int64_t factor) {
 }  // namespace
 
 std::optional<std::string> pointer_of_setting(const std::string& text, const SpecSetting& setting) {
-  const OrderedJson spec = parsed(text);
+  const OrderedJson spec = parsed(text, "the spec");
   std::string pointer;
   try {
     for (const std::string& step : PlaceFinder(spec, setting.path).to(steps_of(setting.path)))
@@ -209,20 +196,18 @@ std::optional<std::string> pointer_of_setting(const std::string& text, const Spe
 }
 
 std::string without_comments(const std::string& text) {
-  return parsed(text).dump(2) + "\n";
+  return parsed(text, "the spec").dump(2) + "\n";
 }
 
 std::string with_refinement(const std::string& text, const std::string& source, std::int64_t factor) {
-  static_cast<void>(JsonDocument::parse(text, source));
-  OrderedJson spec = parsed(text);
+  OrderedJson spec = parsed(text, source);
   if (!spec.is_object() || !spec.contains("states") || !spec["states"].is_array()) return text;
   for (OrderedJson& state : spec["states"]) refine(state, factor);
   return spec.dump(2) + "\n";
 }
 
 std::string with_setting(const std::string& text, const std::string& source, const SpecSetting& setting) {
-  static_cast<void>(JsonDocument::parse(text, source));  // from here on it is well-formed
-  OrderedJson spec = parsed(text);
+  OrderedJson spec = parsed(text, source);
   OrderedJson* at = &spec;
   // A JSON pointer would make a list of what is not there wherever a step is a number, however large.
   for (const std::string& step : PlaceFinder(spec, setting.path).to(steps_of(setting.path)))

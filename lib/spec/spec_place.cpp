@@ -43,11 +43,9 @@ class Walk {
 
  private:
   [[nodiscard]] char sign() const { return offset_ < json_.text.size() ? json_.text[offset_] : '}'; }
-  [[nodiscard]] std::string_view token() const {
-    return json_.text.substr(offset_, json_.end_of_token(offset_) - offset_);
-  }
+  [[nodiscard]] std::string_view token() const { return json_.token(offset_); }
   void go_to(std::size_t offset) { offset_ = json_.token_from(offset); }
-  void step() { go_to(json_.end_of_token(offset_)); }
+  void step() { go_to(offset_ + token().size()); }
 
   void pass_value() {
     int depth = 0;
