@@ -5,6 +5,7 @@
 #include "answers/answers.hpp"
 #include "answers/ground/answer.hpp"
 #include "answers/invariance/answer.hpp"
+#include "answers/share_ground.hpp"
 #include "engine/engine_sizes.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/make_model.hpp"

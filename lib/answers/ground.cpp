@@ -1,16 +1,13 @@
 #include "answers/ground.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <set>
-#include <span>
 
 #include "answers/invariance/safe_set.hpp"
 #include "answers/invariance/safe_tubes.hpp"
-#include "answers/row_cut.hpp"
+#include "answers/share_ground.hpp"
 #include "base/index.hpp"
 #include "base/requires.hpp"
-#include "engine/engine_sizes.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -39,14 +36,6 @@ std::vector<std::size_t> alike_in_classes(const std::vector<AgentPart>& agents,
   return most;
 }
 
-/// Of agents that all change places; nothing if there are none.
-std::optional<RowMirror> mirror_of(const UniformGrid& grid, const std::vector<AgentPart>& agents) {
-  if (agents.empty()) return std::nullopt;
-  std::vector<std::vector<std::size_t>> blocks;
-  for (const AgentPart& agent : agents) blocks.push_back(agent.dimensions);
-  return RowMirror(grid, blocks);
-}
-
 /// What S is, in two ways of asking, and what of it counts as T, in rows held.
 std::vector<const CellSet*> safe_sets(const Ground& ground) {
   std::vector<const CellSet*> sets{&ground.safe};
@@ -55,59 +44,13 @@ std::vector<const CellSet*> safe_sets(const Ground& ground) {
   return sets;
 }
 
-/// Agents that can change places in each of the sets.
-std::vector<AgentPart> agents_alike_in(const Ground& ground, std::span<const CellSet* const> sets) {
+/// Agents that can change places.
+std::vector<AgentPart> find_agents_alike(const Ground& ground) {
   std::vector<std::vector<std::int32_t>> inputs;
   for (const InputClass& own : agent_classes(ground.spec, ground.abstraction->inputs))
     inputs.push_back(own.inputs());
   const std::vector<AgentPart> parts = parts_of_agents(*ground.abstraction, inputs);
-  return find_like_agents(*ground.abstraction, parts, sets);
-}
-
-/// More processes do not exchange agents: while the rows that each works out become fewer, it would have to
-/// hold ever more of which it works out the images, or others do.
-constexpr int kMostThatExchange = 8;
-
-/// Of several processes rows are cut before S is known, for agents of which only S can forbid that all change
-/// places, in whatever partition.
-std::vector<AgentPart> agents_alike_but_for_safe_set(const Ground& ground, int ranks) {
-  const ProblemSpec& spec = ground.spec;
-  if (ranks > kMostThatExchange || is_cut_before_tables(ground.model) || ground.listed ||
-      spec.controller.allow)
-    return {};
-  std::vector<AgentPart> agents = agents_alike_in(ground, {});
-  for (const PartitionSpec& partition : spec.coordination.partitions) {
-    const auto classes = input_classes(spec, ground.abstraction->inputs, partition);
-    if (alike_in_classes(agents, classes).size() < agents.size()) return {};
-  }
-  return agents;
-}
-
-/// [row] not 0 for the rows that a process has to hold beside its own.
-/// @param safe S in its own rows, or null: all that posts can meet
-std::vector<std::uint8_t> rows_needed(const RowHull& hull, const CellSet* safe, RowShare::Range own,
-                                      const std::optional<RowMirror>& mirror) {
-  std::vector<std::uint8_t> is_needed = hull.rows_met(safe, own);
-  if (!mirror) return is_needed;
-  std::fill(is_needed.begin() + own.begin, is_needed.begin() + own.end, std::uint8_t{1});
-  for (std::int64_t row = 0; row < std::ssize(is_needed); ++row) {
-    if (is_needed[at(row)] != 0) is_needed[at(mirror->first_of(row))] = 1;
-  }
-  return is_needed;
-}
-
-/// Cuts the rows, if that is still to be done, and finds S in those held. Together.
-/// @param agents that change places, or none
-void share_rows(Ground& ground, bool is_cut, const std::vector<AgentPart>& agents,
-                const std::function<void(const std::vector<RowShare::Range>&)>& find_safe) {
-  const std::optional<RowMirror> mirror = mirror_of(ground.abstraction->grid, agents);
-  if (!is_cut)
-    *ground.share = {*ground.ranks,
-                     cut_into_shares(ground.model, &*ground.engine, ground.ranks->count(), mirror)};
-  find_safe({ground.share->own()});
-  ground.share->set_halo(rows_needed(*ground.hull, &ground.safe, ground.share->own(), mirror));
-  find_safe(halo_rows(*ground.share));
-  ground.engine->take_tube_sets();
+  return find_like_agents(*ground.abstraction, parts, safe_sets(ground));
 }
 
 /// Adds G, of a goal that ends the task, in some rows where S is known.
@@ -121,19 +64,6 @@ void add_over(const std::vector<RowShare::Range>& runs, ThreadTeam& team, Ground
       for (std::size_t w = 0; w < over.row(r).size(); ++w) over.row(r)[w] &= ground.safe.row(r)[w];
     }
   }
-}
-
-/// Takes the agents as alike if that makes no difference in S, for any process, nor for what tiles are.
-/// Together. @returns whether it has
-bool take_like_agents(Ground& ground, const std::vector<AgentPart>& agents) {
-  ground.like_agents = agents;
-  const std::optional<RowMirror> mirror = ground.mirror(single_classes(ground.abstraction->inputs));
-  const bool can = mirror && std::ranges::all_of(safe_sets(ground), [&](const CellSet* set) {
-                     return mirror->is_same(*set, ground.share->own());
-                   });
-  if (ground.ranks->sum(can ? 0 : 1) == 0) return true;
-  ground.like_agents.clear();
-  return false;
 }
 
 }  // namespace
@@ -153,8 +83,7 @@ std::optional<RowMirror> Ground::mirror(const std::vector<InputClass>& classes) 
   std::vector<std::vector<std::size_t>> blocks;
   for (const std::size_t a : alike_in_classes(like_agents, classes))
     blocks.push_back(like_agents[a].dimensions);
-  // Of several processes each holds the first of all images that there are.
-  if (blocks.size() < 2 || (ranks != nullptr && blocks.size() < like_agents.size())) return std::nullopt;
+  if (blocks.size() < 2) return std::nullopt;
   // Tiles of many rows are worked out as a whole.
   const auto is_in_tile = [&](std::size_t d) { return d >= tiles->leading(); };
   const bool is_any_in_tile =
@@ -168,72 +97,37 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
   const Abstraction& abstraction = *ground.abstraction;
   const std::int64_t rows = abstraction.grid.rows(), row_length = abstraction.grid.row_length();
   const std::optional<TubeLimits> limits = find_tube_limits(ground.spec, abstraction, ground.ranks);
-  const auto clear_safe = [&] {
-    ground.safe = CellSet(rows, row_length);
-    if (limits) ground.beyond = CellSet(rows, row_length);
-    if (ground.spec.ends_at_goal) ground.over = CellSet(rows, row_length);
-  };
-  clear_safe();
+  ground.safe = CellSet(rows, row_length);
+  if (limits) ground.beyond = CellSet(rows, row_length);
+  if (ground.spec.ends_at_goal) ground.over = CellSet(rows, row_length);
   const auto find_safe = [&](const std::vector<RowShare::Range>& runs) {
     add_cells_that_satisfy(ground.spec.safe, ground.spec, abstraction.grid, abstraction.inputs, runs, team,
                            ground.safe);
     if (limits) add_safe_beyond(*limits, ground.spec, abstraction, ground.safe, runs, team, *ground.beyond);
     if (ground.over) add_over(runs, team, ground);
   };
-  if (ground.ranks == nullptr) find_safe({{0, rows}});
-  // How it is cut may depend on the engine, which only has to know that it is.
+  // The engine has to know that rows are cut; where they are may depend on it.
   const bool is_cut = ground.share.has_value();
-  if (ground.ranks != nullptr && !is_cut)
-    ground.share.emplace(*ground.ranks,
-                         std::vector<std::int64_t>(1 + static_cast<std::size_t>(ground.ranks->count()), 0));
+  if (ground.ranks == nullptr) {
+    find_safe({{0, rows}});
+  } else if (!is_cut) {
+    ground.share = nothing_owned(*ground.ranks);
+  }
   ground.engine.emplace(abstraction, nullptr, ground.tubes(), ground.shared_rows());
   ground.hull.emplace(*ground.engine);
-  const std::vector<AgentPart> agents = ground.ranks == nullptr
-                                            ? std::vector<AgentPart>()
-                                            : agents_alike_but_for_safe_set(ground, ground.ranks->count());
-  if (ground.ranks != nullptr) share_rows(ground, is_cut, agents, find_safe);
+  if (ground.ranks != nullptr) share_ground(ground, is_cut, find_safe);
   ground.pairs = pair_rules(ground.spec, abstraction, team, ground.listed ? &ground.listed->pairs : nullptr,
                             ground.shared_rows());
   ground.engine->set_pairs(ground.pairs);
   ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
   if (ground.ranks == nullptr && ground.pairs.admissible() == nullptr)
-    ground.like_agents = agents_alike_in(ground, safe_sets(ground));
-  if (!agents.empty() && !take_like_agents(ground, agents)) {
-    clear_safe();
-    share_rows(ground, is_cut, {}, find_safe);
-    ground.tiles = Tiles::find(*ground.engine, *ground.hull, ground.safe);
-  }
+    ground.like_agents = find_agents_alike(ground);
   ground.safe_cells = ground.count(ground.safe);
   if (ground.tiles && ground.over)
     ground.tiles_with_over =
         ground.tiles->refined(ground.tiles->tables(), number_rows(*ground.over, ground.shared_rows()));
   ground.over_cells = ground.over ? ground.count(*ground.over) : 0;
   ground.order.emplace(abstraction.grid);
-}
-
-std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks) {
-  const UniformGrid& grid = ground.abstraction->grid;
-  const CellSet unknown(grid.rows(), grid.row_length());
-  TubeSets tubes;
-  if (!ground.abstraction->tubes.empty()) tubes = {.inside = &unknown, .are_known = false};
-  const RowEngine engine(*ground.abstraction, nullptr, tubes);
-  const RowHull hull(engine);
-  const std::optional<RowMirror> mirror = mirror_of(grid, agents_alike_but_for_safe_set(ground, ranks));
-  const std::vector<std::int64_t> bounds = cut_into_shares(ground.model, &engine, ranks, mirror);
-  const std::vector<double> slices = bytes_of_slices(engine);
-  std::vector<RankRows> result;
-  for (std::size_t r = 0; r + 1 < bounds.size(); ++r) {
-    const RowShare::Range own{bounds[r], bounds[r + 1]};
-    std::vector<std::uint8_t> is_needed = rows_needed(hull, nullptr, own, mirror);
-    std::fill(is_needed.begin() + own.begin, is_needed.begin() + own.end, std::uint8_t{0});
-    RankRows& rows = result.emplace_back(
-        RankRows{own.end - own.begin, std::count(is_needed.begin(), is_needed.end(), 1), slices});
-    for (std::size_t t = 0; t < slices.size(); ++t) {
-      if (ground.abstraction->tables[t].is_by_cells(grid.size()))
-        rows.slices[t] *= static_cast<double>(rows.own) / static_cast<double>(grid.rows());
-    }
-  }
-  return result;
 }
 
 }  // namespace coordreq

@@ -58,7 +58,9 @@ struct Ground {
   std::optional<RowHull> hull;
   std::optional<Tiles> tiles;      ///< where equal work is looked for, if there seems to be much of it
   Tiles::Numbers tiles_with_over;  ///< [tile] equal numbers where the same cells count as T, too; if any do
-  std::vector<AgentPart> like_agents;  ///< that can change places, in S too; two or more, or none
+  /// That can change places, in S too; two or more, or none. Of several processes none: on three vehicles it
+  /// saved 7 % of the time of two, and 12 % of eight, which hold the rows of all orders for it.
+  std::vector<AgentPart> like_agents;
   std::optional<CellOrder> order;
 
   /// What tubes must stay in, if there are any. @pre S is there
@@ -82,14 +84,5 @@ struct Ground {
 
 /// S and the engine, on an abstraction that is there. Together.
 void lay_ground(Ground& ground, ThreadTeam& team);
-
-/// Rows that a process would own, and hold of others.
-struct RankRows {
-  std::int64_t own = 0;
-  std::int64_t halo = 0;
-  std::vector<double> slices = {};  ///< RowPart::slices
-};
-/// Of so many processes, on an abstraction that is there. Halos are those of all cells, of S or not.
-[[nodiscard]] std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks);
 
 }  // namespace coordreq

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "engine/row_engine.hpp"
-#include "engine/row_mirror.hpp"
 #include "model/model.hpp"
 
 namespace coordreq {
@@ -17,10 +15,8 @@ namespace coordreq {
 /// Cuts the rows into runs, one a process, with about as many in which S may have cells, as some rows of each
 /// block tell: the rows of model.grid() where is_cut_before_tables(), else those of the engine.
 /// @param engine may be null where is_cut_before_tables()
-/// @param mirror of images most of the work is that on the first
 /// @returns parts + 1 ascending numbers, as cut_rows()
 [[nodiscard]] std::vector<std::int64_t> cut_into_shares(const Model& model, const RowEngine* engine,
-                                                        int parts,
-                                                        const std::optional<RowMirror>& mirror = {});
+                                                        int parts);
 
 }  // namespace coordreq

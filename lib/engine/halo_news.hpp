@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/level_messages.hpp"
-#include "engine/row_mirror.hpp"
 #include "engine/wave_news.hpp"
 
 namespace coordreq {
@@ -27,25 +26,16 @@ namespace coordreq {
 template <class Level>
 class HaloNews {
  public:
-  /// @param mirror where not null only the first of images is told of: the others follow from it, and any
-  ///   row of this rank can be one of them
   /// @pre unchecked: there are several ranks, and all outlive this object.
   HaloNews(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, WaveNews& news,
-           std::int64_t unit_rows, const RowMirror* mirror)
+           std::int64_t unit_rows)
       : levels_(levels),
         ranks_(levels.share()->ranks()),
         messages_(levels),
         news_(news),
-        mirror_(mirror),
         peers_(levels.share()->peers().size()) {
     const std::vector<RowShare::Peer>& all = levels.share()->peers();
-    std::vector<RowShare::Range> meeting;
-    if (mirror == nullptr) {
-      meeting = units_that_meet_peers(engine, hull, unit_rows);
-    } else {
-      const RowShare::Range own = levels.share()->own();
-      meeting.assign(all.size(), {own.begin / unit_rows, (own.end + unit_rows - 1) / unit_rows});
-    }
+    const std::vector<RowShare::Range> meeting = units_that_meet_peers(engine, hull, unit_rows);
     for (std::size_t p = 0; p < all.size(); ++p) {
       peers_[p].share = &all[p];
       peers_[p].meeting = meeting[p];
@@ -125,7 +115,7 @@ class HaloNews {
     Peer& peer = *to_send_.back();
     to_send_.pop_back();
     ranks_.send(peer.share->rank, messages_.message(*peer.share, [&](std::int64_t row) {
-      return news_.has_changed_after(peer.told, row) && (mirror_ == nullptr || mirror_->is_first(row));
+      return news_.has_changed_after(peer.told, row);
     }));
     peer.told = news_.batch();
   }
@@ -147,7 +137,6 @@ class HaloNews {
   Ranks& ranks_;
   LevelMessages<Level> messages_;
   WaveNews& news_;
-  const RowMirror* mirror_;
   bool backwards_ = false;
   std::vector<Peer> peers_;
   std::vector<Peer*> to_take_;  ///< in this sweep, the next one last

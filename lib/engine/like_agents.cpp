@@ -144,10 +144,7 @@ std::vector<AgentPart> find_like_agents(const Abstraction& abstraction, std::spa
       std::optional<AgentPart> part = part_like(abstraction, parts[a], parts[b]);
       if (!part) continue;
       const RowMirror mirror(abstraction.grid, {parts[a].dimensions, part->dimensions});
-      if (!std::ranges::all_of(sets, [&](const CellSet* set) {
-            return mirror.is_same(*set, {0, set->rows()});
-          }))
-        continue;
+      if (!std::ranges::all_of(sets, [&](const CellSet* set) { return mirror.is_same(*set); })) continue;
       like.push_back(*std::move(part));
       is_known[b] = 1;
     }

@@ -9,7 +9,6 @@
 
 #include "engine/cell_set.hpp"
 #include "model/uniform_grid.hpp"
-#include "ranks/row_share.hpp"
 
 namespace coordreq {
 
@@ -45,9 +44,9 @@ class RowMirror {
     return rest + offset_of(keys);
   }
 
-  /// Whether a set holds in these rows what it holds in the first of their images.
-  [[nodiscard]] bool is_same(const CellSet& set, RowShare::Range rows) const {
-    for (std::int64_t row = rows.begin; row < rows.end; ++row) {
+  /// Whether a set holds the same in all images.
+  [[nodiscard]] bool is_same(const CellSet& set) const {
+    for (std::int64_t row = 0; row < set.rows(); ++row) {
       if (!std::ranges::equal(set.row(row), set.row(first_of(row)))) return false;
     }
     return true;
@@ -106,26 +105,6 @@ class RowMirror {
   }
 
   std::vector<Block> blocks_;
-};
-
-/// The images of rows that a process knows: all, or those that it holds.
-class HeldImages {
- public:
-  /// @param mirror null: there are none @param share null: there is one process
-  HeldImages(const RowMirror* mirror, const RowShare* share) : mirror_(mirror), share_(share) {}
-
-  /// RowMirror::for_each_image() for those.
-  template <class Visit>
-  void for_each(std::int64_t row, const Visit& visit) const {
-    if (mirror_ == nullptr) return;
-    mirror_->for_each_image(row, [&](std::int64_t image) {
-      if (share_ == nullptr || share_->holds(image)) visit(image);
-    });
-  }
-
- private:
-  const RowMirror* mirror_;
-  const RowShare* share_;
 };
 
 }  // namespace coordreq

@@ -43,7 +43,7 @@ class WaveRunner {
         unit_rows_(std::min(engine.unit_rows(), engine.outer() == 0 ? kBlockRows : engine.unit_rows())),
         news_(engine, hull, unit_rows_),
         equal_(equal, levels),
-        images_(equal.mirror, engine.share()),
+        mirror_(equal.mirror),
         alive_(levels, own_, unit_rows_, op.rises(), equal.mirror) {
     first_unit_ = own_.begin / unit_rows_;
     units_ = (own_.end + unit_rows_ - 1) / unit_rows_ - first_unit_;
@@ -54,7 +54,7 @@ class WaveRunner {
     }
     if (fast_paths().recent_levels && op.is_minimum() && !engine.posts().is_cut())
       recent_.emplace(engine, team);
-    if (engine.share() != nullptr) halo_.emplace(levels, engine, hull, news_, unit_rows_, equal.mirror);
+    if (engine.share() != nullptr) halo_.emplace(levels, engine, hull, news_, unit_rows_);
   }
 
   /// @returns rows visited
@@ -169,7 +169,7 @@ class WaveRunner {
       changed_rows_ += static_cast<std::int64_t>(worker.changes.size());
       for (const Change& change : worker.changes) {
         news_.mark_unit_of(change.row);
-        images_.for_each(change.row, [this](std::int64_t image) {
+        for_each_image(change.row, [this](std::int64_t image) {
           news_.mark_unit_of(image);
           ++mirrored_;
         });
@@ -178,11 +178,16 @@ class WaveRunner {
     if (equal_.is_on() && equal_.rows() > 1) {
       for (const std::int64_t unit : batch) {
         equal_.update(unit);
-        images_.for_each(unit * unit_rows_,
-                         [this](std::int64_t image) { equal_.update(image / unit_rows_); });
+        for_each_image(unit * unit_rows_, [this](std::int64_t image) { equal_.update(image / unit_rows_); });
       }
     }
     return visited;
+  }
+
+  /// RowMirror::for_each_image(), if there are any.
+  template <class Visit>
+  void for_each_image(std::int64_t row, const Visit& visit) const {
+    if (mirror_ != nullptr) mirror_->for_each_image(row, visit);
   }
 
   /// A row has got other levels.
@@ -194,14 +199,8 @@ class WaveRunner {
 
   /// A row of the halo has changed.
   void hear_of(std::int64_t row) {
-    const auto mark = [this](std::int64_t changed) {
-      mark_changed(changed);
-      if (equal_.is_on() && equal_.rows() > 1) equal_.update(changed / unit_rows_);
-    };
-    mark(row);
-    images_.for_each(row, [&](std::int64_t image) {
-      if (levels_.copy_row(row, image)) mark(image);
-    });
+    mark_changed(row);
+    if (equal_.is_on() && equal_.rows() > 1) equal_.update(row / unit_rows_);
   }
 
   void cut_into_pieces(const std::vector<std::int64_t>& batch) {
@@ -311,7 +310,7 @@ class WaveRunner {
       recall(change.row);
       levels_.put_ready(change.row, lanes, change.ready);
       news_.mark_row(change.row);
-      images_.for_each(change.row, [&](std::int64_t image) {
+      for_each_image(change.row, [&](std::int64_t image) {
         recall(image);
         static_cast<void>(levels_.copy_row(change.row, image));
         news_.mark_row(image);
@@ -327,7 +326,7 @@ class WaveRunner {
     for (const Copy& copy : copies_) {
       equal_.copy(copy.from, copy.to, [&](std::int64_t row) {
         mark(row);
-        images_.for_each(row, [&](std::int64_t image) {
+        for_each_image(row, [&](std::int64_t image) {
           if (levels_.copy_row(row, image)) mark(image);
           ++mirrored_;
         });
@@ -349,7 +348,7 @@ class WaveRunner {
   EqualTiles<Level> equal_;
   std::optional<HaloNews<Level>> halo_;        ///< of several processes
   std::optional<RecentLevels<Level>> recent_;  ///< where less is read so
-  HeldImages images_;
+  const RowMirror* mirror_;                    ///< null: rows have no images
   AliveRows alive_;
   std::int64_t copied_ = 0;    ///< rows that would have been worked out
   std::int64_t mirrored_ = 0;  ///< rows that would not, as they are images

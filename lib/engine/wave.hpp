@@ -58,8 +58,8 @@ class RowOperator {
 /// @param watch its `resumed` is not looked at
 /// @param equal what the operator says depends on the tiles' numbers, and on the levels, alone. Where rows of
 ///   levels are shared, work that would be equal to some done in the same sweep is not done again. Of rows
-///   that are images of each other only the first is worked out, by the process that owns it. @pre unchecked:
-///   then levels are the same in all images, and whoever holds a row holds the first of its images
+///   that are images of each other only the first is worked out. @pre unchecked: then there is one process,
+///   and levels are the same in all images
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
                     const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,

@@ -178,7 +178,7 @@ TEST(ManyRanks, CountCellsInWhichSilentAgentsHaveNothingToDo) {
   }));
 }
 
-TEST(ManyRanks, ExchangeAgentsThatAreAlike) {
+TEST(ManyRanks, WorkOutAllOrdersOfAgentsThatAreAlike) {
   const Folder folder;
   EXPECT_TRUE(rc::check("agents that are alike", [&] {
     Json spec = Json::parse(draw(0, 2) > 0 ? draw_like_agents() : perhaps_with_end(draw_like_agents()));
@@ -188,24 +188,6 @@ TEST(ManyRanks, ExchangeAgentsThatAreAlike) {
     spec["output"]["actions"] = draw(0, 2) > 0;
     check_same(folder, read_spec(spec.dump(), "alike"));
   }));
-}
-
-/// A row that another rank works out can be the image of any own one: news of it must not wait for rows that
-/// posts meet there.
-TEST(ManyRanks, HearOfImagesBeforeTheyLookAtRows) {
-  const Folder folder;
-  expect_same(folder, read_spec(R"json({"coordreq": 1, "name": "ends",
-    "states": [{"name": "p0", "lower": 0, "upper": 5, "step": 1, "outside": "saturate"},
-               {"name": "p1", "lower": 0, "upper": 5, "step": 1, "outside": "saturate"},
-               {"name": "p2", "lower": 0, "upper": 5, "step": 1, "outside": "saturate"}],
-    "inputs": [{"name": "u0", "values": [-1, 0, 2]}, {"name": "u1", "values": [-1, 0, 2]},
-               {"name": "u2", "values": [-1, 1]}],
-    "agents": [{"name": "a", "inputs": ["u0"]}, {"name": "b", "inputs": ["u1"]}, {"name": "c", "inputs": ["u2"]}],
-    "dynamics": {"time": "discrete", "period": 1,
-                 "equations": {"p0": "5 - p0 + u0", "p1": "5 - p1 + u1", "p2": "5 - p2 + u2"}},
-    "safe": "p1 + p0 != 5 and p2 + p0 != 5 and p2 + p1 != 5",
-    "abstraction": {"safe": "center", "cells": "half_open"}, "output": {"actions": true}})json",
-                                "ends"));
 }
 
 TEST(ManyRanks, AnswerAllQuestionsAsOneProcessDoes) {

@@ -1,0 +1,48 @@
+#include "answers/share_ground.hpp"
+
+#include <algorithm>
+
+#include "answers/row_cut.hpp"
+#include "engine/engine_sizes.hpp"
+
+namespace coordreq {
+
+RowShare nothing_owned(Ranks& ranks) {
+  return {ranks, std::vector<std::int64_t>(1 + static_cast<std::size_t>(ranks.count()), 0)};
+}
+
+void share_ground(Ground& ground, bool is_cut,
+                  const std::function<void(const std::vector<RowShare::Range>&)>& find_safe) {
+  RowShare& share = *ground.share;
+  if (!is_cut) share = {*ground.ranks, cut_into_shares(ground.model, &*ground.engine, ground.ranks->count())};
+  find_safe({share.own()});
+  share.set_halo(ground.hull->rows_met(&ground.safe, share.own()));
+  find_safe(halo_rows(share));
+  ground.engine->take_tube_sets();
+}
+
+std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks) {
+  const UniformGrid& grid = ground.abstraction->grid;
+  const CellSet unknown(grid.rows(), grid.row_length());
+  TubeSets tubes;
+  if (!ground.abstraction->tubes.empty()) tubes = {.inside = &unknown, .are_known = false};
+  const RowEngine engine(*ground.abstraction, nullptr, tubes);
+  const RowHull hull(engine);
+  const std::vector<std::int64_t> bounds = cut_into_shares(ground.model, &engine, ranks);
+  const std::vector<double> slices = bytes_of_slices(engine);
+  std::vector<RankRows> result;
+  for (std::size_t r = 0; r + 1 < bounds.size(); ++r) {
+    const RowShare::Range own{bounds[r], bounds[r + 1]};
+    std::vector<std::uint8_t> is_needed = hull.rows_met(nullptr, own);
+    std::fill(is_needed.begin() + own.begin, is_needed.begin() + own.end, std::uint8_t{0});
+    RankRows& rows = result.emplace_back(
+        RankRows{own.end - own.begin, std::count(is_needed.begin(), is_needed.end(), 1), slices});
+    for (std::size_t t = 0; t < slices.size(); ++t) {
+      if (ground.abstraction->tables[t].is_by_cells(grid.size()))
+        rows.slices[t] *= static_cast<double>(rows.own) / static_cast<double>(grid.rows());
+    }
+  }
+  return result;
+}
+
+}  // namespace coordreq
