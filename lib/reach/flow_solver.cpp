@@ -44,7 +44,6 @@ ValidatedFlow::Solver::Solver(FlowSystem system, const Interval& period)
       nominal_(tape_, field_),
       affine_kernel_(n_),
       faces_(system_),
-      planar_(system_, tape_),
       wanted_(2 * n_, std::vector<End>(n_ + m_)),
       solution_of_(2 * n_),
       initial_(n_),

@@ -7,7 +7,6 @@
 #include "reach/face_flow.hpp"
 #include "reach/flow_sensitivity.hpp"
 #include "reach/nominal_flow.hpp"
-#include "reach/planar_flow.hpp"
 #include "reach/validated_flow.hpp"
 
 namespace coordreq {
@@ -99,7 +98,6 @@ class ValidatedFlow::Solver {
   NominalFlow nominal_;
   AffineKernel affine_kernel_;
   FaceFlow faces_;
-  PlanarFlow planar_;
   FlowEnclosure by_faces_;
 
   std::vector<FlowStep> steps_;

@@ -111,8 +111,6 @@ void ValidatedFlow::Solver::enclose(std::span<const Interval> slots, int halving
     begin(slots);
     if (run_steps(kMostSteps, true)) note_reached();
   }
-  if (planar_.applies() && result_.status == FlowEnclosure::Status::ok && !divisible)
-    planar_.narrow(slots, period_, result_);
 }
 
 /// What may lie beyond solutions that were followed: of a state that starts from a point, seen from the

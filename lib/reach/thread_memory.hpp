@@ -2,7 +2,7 @@
 
 namespace coordreq {
 
-/// What a thread takes while it encloses posts, in bytes: series, boxes and polygons, and what the allocator
+/// What a thread takes while it encloses posts, in bytes: series and boxes, and what the allocator
 /// sets aside for them. Measured with flows.
 inline constexpr double kBytesOfPostThread = 320.0 * 1024;
 

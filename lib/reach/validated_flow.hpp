@@ -46,8 +46,7 @@ struct FlowEnclosure {
 ///    variables without a proven sign they start in the middle, and the mean value theorem adds the rest.
 ///    Hence the exact hull up to rounding for affine and for monotone systems.
 /// 4. Where that leaves much more than the solutions followed have reached, or finds nothing, bounds of each
-///    state by its derivative on the faces of the box (face_flow.hpp), and of two states that disturbances
-///    multiply by a polygon (planar_flow.hpp); the result is in all.
+///    state by its derivative on the faces of the box (face_flow.hpp); the result is in both.
 ///
 /// Over-approximates always. Not thread-safe, as it holds its scratch memory: use a copy a thread.
 class ValidatedFlow {
