@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "spec/system_spec.hpp"
@@ -12,6 +13,7 @@ namespace coordreq {
 namespace {
 
 constexpr int kMostSteps = 128;
+constexpr double kOfMiddle = 1e-2;  ///< tolerance of a solution around which others are, in cells
 
 ArbMatrix columns(const ArbMatrix& a, std::size_t rows, std::size_t first, std::size_t count) {
   ArbMatrix result(rows, count);
@@ -25,6 +27,102 @@ bool same(const std::vector<Arb>& a, const std::vector<Arb>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const Arb& x, const Arb& y) { return arb_equal(x.get(), y.get()) != 0; });
 }
+
+/// Narrows a tube around a solution from the middle of its start, which goes on from a point of the tube at
+/// each step. From another one it differs by the transition matrices times their distance at the start (mean
+/// value theorem), by what disturbances make of it, and by what was left out at the points.
+class MiddleSolution {
+ public:
+  /// @param tolerance of the solution, for a step
+  MiddleSolution(Trajectory& trajectory, const SpanBox& start, const std::vector<std::uint32_t>& states,
+                 const std::vector<std::uint32_t>& disturbances, Arb step, double tolerance)
+      : trajectory_(trajectory),
+        states_(states),
+        step_(std::move(step)),
+        tolerance_(tolerance),
+        by_start_(states.size(), states.size()),
+        distance_(states.size(), 1),
+        disturbances_(disturbances.size()),
+        disturbance_(disturbances.size(), 1),
+        left_out_(states.size(), 1) {
+    for (const ArbSpan& span : start) now_.push_back(span.middle());
+    for (std::size_t j = 0; j < states.size(); ++j)
+      distance_.set(j, 0, start[states[j]].all() - now_[states[j]]);
+    for (std::size_t l = 0; l < disturbances.size(); ++l)
+      disturbance_.set(l, 0, start[disturbances[l]].all() - now_[disturbances[l]]);
+    arb_mat_one(by_start_.get());
+  }
+
+  /// Steps are told one after the other. Where one has no slopes nothing more is known.
+  void narrow(TubeStep& step) {
+    is_known_ = is_known_ && step.slopes && advance(step.tube);
+    if (!is_known_) return;
+    const std::size_t n = states_.size(), m = disturbances_;
+    const ArbMatrix by_state = columns(*step.slopes, n, 0, n);
+    const ArbMatrix& moved = step.transition.emplace(transition_matrix(by_state, step_));
+    by_start_ = moved * by_start_;
+    left_out_ = moved * left_out_;
+    // Each by itself: boxes would grow as they turn.
+    for (Push& push : pushes_) push.since = moved * push.since;
+    if (m > 0) {
+      const ArbMatrix within = transition_matrix(by_state, hull(Arb(), step_));
+      Push& push = pushes_.emplace_back(
+          Push{ArbMatrix(n, n), within * (columns(*step.slopes, n, n, m) * disturbance_)});
+      arb_mat_one(push.since.get());
+      arb_mat_scalar_mul_arb(push.moved.get(), push.moved.get(), step_.get(), kArbBits);
+    }
+    ArbMatrix distance = by_start_ * distance_;
+    for (const Push& push : pushes_) {
+      const ArbMatrix moved_on = push.since * push.moved;
+      arb_mat_add(distance.get(), distance.get(), moved_on.get(), kArbBits);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      Arb& now = now_[states_[i]];
+      const Arb end = now + distance(i, 0) + left_out_(i, 0);
+      ArbSpan& span = step.end[states_[i]];
+      if (end.is_finite())
+        span = {greater(span.lower, end.lower()).lower(), lesser(span.upper, end.upper()).upper()};
+      // A point again, where the next tube begins; the rest is kept apart.
+      const Arb middle = lesser(greater(now.middle(), span.lower), span.upper).middle();
+      left_out_.set(i, 0, left_out_(i, 0) + (now - middle));
+      now = middle;
+    }
+  }
+
+  /// In the last step.
+  [[nodiscard]] Work work_of_disturbances() const {
+    return static_cast<Work>(pushes_.size() * states_.size() * states_.size() * (states_.size() + 1));
+  }
+
+ private:
+  /// What disturbances do in a step.
+  struct Push {
+    ArbMatrix since;  ///< transition matrix of the steps behind it
+    ArbMatrix moved;  ///< by how much, at its end
+  };
+
+  [[nodiscard]] bool advance(const ArbBox& tube) {
+    constexpr double kNoLimit = std::numeric_limits<double>::max();
+    constexpr slong kTerms = 5;  // steps are short
+    std::optional<ArbBox> end = trajectory_.analytic_step(now_, tube, step_, kNoLimit, kTerms);
+    if (!end) return trajectory_.integrate(now_, step_, tolerance_);
+    now_ = std::move(*end);
+    return true;
+  }
+
+  Trajectory& trajectory_;
+  const std::vector<std::uint32_t>& states_;
+  Arb step_;
+  double tolerance_;
+  ArbBox now_;
+  ArbMatrix by_start_;
+  ArbMatrix distance_;  ///< from the middle of the start
+  std::size_t disturbances_;
+  ArbMatrix disturbance_;     ///< from the middle of disturbances
+  std::vector<Push> pushes_;  ///< [step]
+  ArbMatrix left_out_;        ///< at points
+  bool is_known_ = true;
+};
 
 }  // namespace
 
@@ -56,6 +154,12 @@ Extremes FlowExtremes::extremes(std::size_t state, const Enough& enough) {
   result.least = extreme_after(steps, state, false);
   if (!enough(result.least.bound, result.greatest.bound)) result.greatest = extreme_after(steps, state, true);
   return result;
+}
+
+bool FlowExtremes::has_extremes_on_faces() const {
+  const auto is_wide_in = [this](std::uint32_t slot) { return box_[slot].width() > 0; };
+  const auto has_slopes = [](const TubeStep& step) { return step.slopes.has_value(); };
+  return std::ranges::all_of(states_, is_wide_in) && std::ranges::all_of(steps_, has_slopes);
 }
 
 bool FlowExtremes::enclose(const SpanBox& box, const Effort& effort) {
@@ -99,7 +203,14 @@ bool FlowExtremes::passes_a_seam() const {
 
 std::optional<std::vector<TubeStep>> FlowExtremes::enclosed(int steps) {
   const int pieces = effort_.steps < 8 ? 1 : std::min(effort_.steps / 4, 8);
-  return enclose_flow(field_, limits_, box_, period_, steps, pieces);
+  if (effort_.steps < 8) return enclose_flow(field_, limits_, box_, period_, steps, pieces);
+  MiddleSolution middle(trajectory_, box_, states_, disturbances_, period_ / Arb(static_cast<double>(steps)),
+                        kOfMiddle * cell_ / steps);
+  const auto narrow = [&](TubeStep& step) {
+    middle.narrow(step);
+    matrix_work_ += work_of_transition() + middle.work_of_disturbances();
+  };
+  return enclose_flow(field_, limits_, box_, period_, steps, disturbances_.empty() ? 1 : pieces, narrow);
 }
 
 int FlowExtremes::steps_for(const ArbMatrix& slopes, const Effort& effort) const {
@@ -132,23 +243,29 @@ const std::optional<FlowExtremes::Influence>& FlowExtremes::influence_after(std:
   return *known;
 }
 
+Work FlowExtremes::work_of_transition() const {
+  constexpr std::size_t kProducts = 20;  // that the exponential of a matrix takes, about
+  const std::size_t n = states_.size();
+  return static_cast<Work>(kProducts * n * n * (n + disturbances_.size()));
+}
+
 std::optional<FlowExtremes::Influence> FlowExtremes::find_influence(std::size_t steps) {
   const std::size_t n = states_.size();
   const std::size_t m = disturbances_.size();
   Influence result{.of_start = ArbMatrix(n, n)};
   arb_mat_one(result.of_start.get());
   result.of_disturbance.assign(steps, ArbMatrix(n, m));
-  constexpr std::size_t kProducts = 20;  // that the exponential of a matrix takes, about
   for (std::size_t k = steps; k-- > 0;) {
     if (!steps_[k].slopes) return std::nullopt;
-    matrix_work_ += static_cast<Work>(kProducts * n * n * (n + m));
+    matrix_work_ += work_of_transition();
     const ArbMatrix by_state = columns(*steps_[k].slopes, n, 0, n);
     if (m > 0) {
       const ArbMatrix within = result.of_start * transition_matrix(by_state, hull(Arb(), step_));
       result.of_disturbance[k] = within * columns(*steps_[k].slopes, n, n, m);
       if (arb_mat_is_finite(result.of_disturbance[k].get()) == 0) return std::nullopt;
     }
-    result.of_start = result.of_start * transition_matrix(by_state, step_);
+    result.of_start =
+        result.of_start * (steps_[k].transition ? *steps_[k].transition : transition_matrix(by_state, step_));
   }
   if (arb_mat_is_finite(result.of_start.get()) == 0) return std::nullopt;
   return result;

@@ -6,7 +6,9 @@ namespace coordreq {
 
 /// The values of all states of x' = f(x, w) after a period, or after some of its steps.
 ///
-/// 1. A tube of all solutions (enclose_flow()), and with it bounds.
+/// 1. A tube of all solutions (enclose_flow()), and with it bounds. Where more effort is asked for it is
+/// narrowed
+///    around the solution from the middle by the mean value theorem of 2.
 /// 2. Two solutions x, y for different starts and disturbances v, w differ by e with e' = A(t) e + B(t) (v -
 /// w), A and B
 ///    within the slopes over the tube (a mean value theorem that holds with kinks, too). So the row of a
@@ -28,6 +30,10 @@ class FlowExtremes : public NextValue {
   [[nodiscard]] bool enclose(const SpanBox& box, const Effort& effort) override;
   /// @param state its place among the moving ones
   [[nodiscard]] Extremes extremes(std::size_t state, const Enough& enough) override;
+  /// With slopes all over the tube solutions are unique, so that for every signal of the disturbances the
+  /// flow maps the interior of a box to an open set (invariance of domain): no state has an extreme there. A
+  /// box that is a point in some state has no interior.
+  [[nodiscard]] bool has_extremes_on_faces() const override;
   [[nodiscard]] const std::vector<std::uint32_t>& divisible() const override { return states_; }
 
   [[nodiscard]] Work work() const override {
@@ -52,6 +58,7 @@ class FlowExtremes : public NextValue {
   [[nodiscard]] int steps_for(const ArbMatrix& slopes, const Effort& effort) const;
   [[nodiscard]] const std::optional<Influence>& influence_after(std::size_t steps);
   [[nodiscard]] std::optional<Influence> find_influence(std::size_t steps);
+  [[nodiscard]] Work work_of_transition() const;
   [[nodiscard]] Extreme bound_after(std::size_t steps, std::size_t state, bool greatest) const;
   void follow(const Influence& influence, std::size_t state, bool greatest, Extreme& extreme);
   [[nodiscard]] bool move_on(ArbBox& now, const std::vector<std::vector<Arb>>& signal);

@@ -128,7 +128,7 @@ class StepMaker {
 
 std::optional<std::vector<TubeStep>> enclose_flow(SeriesField& field, const std::vector<StopLimits>& limits,
                                                   const SpanBox& start, const Arb& duration, int steps,
-                                                  int pieces) {
+                                                  int pieces, const std::function<void(TubeStep&)>& narrow) {
   const Arb share = duration / Arb(static_cast<double>(steps));
   std::vector<TubeStep> result;
   const SpanBox* now = &start;
@@ -137,6 +137,7 @@ std::optional<std::vector<TubeStep>> enclose_flow(SeriesField& field, const std:
     std::optional<TubeStep> next = StepMaker(field, limits, share, pieces).make(*now);
     if (!next) return std::nullopt;
     result.push_back(std::move(*next));
+    if (narrow) narrow(result.back());
     now = &result.back().end;
   }
   return result;

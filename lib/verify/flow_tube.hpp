@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct TubeStep {
   /// Of f by x and w, all over the tube; none where f jumps, or a state may be held.
   std::optional<ArbMatrix> slopes;
   SpanBox end;  ///< holds all solutions at its end
+  /// Transition matrix of the states over the step, where somebody has asked for it.
+  std::optional<ArbMatrix> transition = {};
 };
 
 /// Encloses by differential inequalities (Mueller, Math. Z. 26, 1927): the upper end of each state grows as
@@ -24,10 +27,10 @@ struct TubeStep {
 /// lower limit, no farther than it can have come from there.
 /// @param limits one a state; @param duration of the whole, a point
 /// @param pieces that disturbances are cut into where that matters
+/// @param narrow may narrow the end of each step before the next one begins there
 /// @returns nothing where some solution may not last so long
-[[nodiscard]] std::optional<std::vector<TubeStep>> enclose_flow(SeriesField& field,
-                                                                const std::vector<StopLimits>& limits,
-                                                                const SpanBox& start, const Arb& duration,
-                                                                int steps, int pieces);
+[[nodiscard]] std::optional<std::vector<TubeStep>> enclose_flow(
+    SeriesField& field, const std::vector<StopLimits>& limits, const SpanBox& start, const Arb& duration,
+    int steps, int pieces, const std::function<void(TubeStep&)>& narrow = {});
 
 }  // namespace coordreq

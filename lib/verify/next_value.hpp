@@ -54,6 +54,8 @@ class NextValue {
   /// @param enough tells whether a range that is found first, with less effort, will do
   using Enough = std::function<bool(const Arb& lower, const Arb& upper)>;
   [[nodiscard]] virtual Extremes extremes(std::size_t value, const Enough& enough) = 0;
+  /// Whether values from the box enclosed last are nowhere farther than those from its faces.
+  [[nodiscard]] virtual bool has_extremes_on_faces() const { return false; }
   /// Slots of what may be cut into pieces: for each piece a bound holds by itself.
   [[nodiscard]] virtual const std::vector<std::uint32_t>& divisible() const = 0;
   /// Done so far: the same for the same questions, whatever is remembered.

@@ -69,13 +69,29 @@ std::vector<PostProof> PostProver::prove(const SpanBox& box, const std::vector<P
       return !is_open;
     });
     if (piece.claims.empty() || !may_cut || !cut) continue;
-    Piece half = piece;
-    half.box[*cut].upper = piece.box[*cut].middle();
-    piece.box[*cut].lower = half.box[*cut].upper;
-    pending.push_back(std::move(piece));
-    pending.push_back(std::move(half));
+    for (Piece& part : parts_of(piece, *cut)) pending.push_back(std::move(part));
   }
   return proofs;
+}
+
+/// Its faces where these are enough, which are thinner to cut further; else its halves.
+std::vector<PostProver::Piece> PostProver::parts_of(const Piece& piece, std::uint32_t cut) const {
+  std::vector<Piece> parts;
+  const auto add = [&](std::uint32_t slot, const Arb& lower, const Arb& upper) {
+    parts.push_back(piece);
+    parts.back().box[slot] = {lower, upper};
+  };
+  const ArbSpan whole = piece.box[cut];
+  if (next_->has_extremes_on_faces()) {
+    for (const std::uint32_t slot : next_->divisible()) {
+      add(slot, piece.box[slot].lower, piece.box[slot].lower);
+      add(slot, piece.box[slot].upper, piece.box[slot].upper);
+    }
+  } else {
+    add(cut, whole.middle(), whole.upper);
+    add(cut, whole.lower, whole.middle());
+  }
+  return parts;
 }
 
 /// @returns what to cut where something is open

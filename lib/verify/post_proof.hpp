@@ -64,6 +64,7 @@ class PostProver {
     SpanBox box;
     std::vector<std::size_t> claims;  ///< that are open on it, by number
   };
+  [[nodiscard]] std::vector<Piece> parts_of(const Piece& piece, std::uint32_t cut) const;
 
   [[nodiscard]] std::optional<std::uint32_t> prove_piece(Piece& piece, const std::vector<PostClaim>& claims,
                                                          const Effort& effort,

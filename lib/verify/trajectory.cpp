@@ -131,7 +131,8 @@ std::optional<ArbBox> Trajectory::step(const ArbBox& box, const Arb& duration, d
                                        bool last_try) {
   const std::optional<Tube> tube = picard_tube(*field_, box, duration);
   if (!tube) return std::nullopt;
-  if (std::optional<ArbBox> end = analytic_step(box, tube->box, duration, tolerance)) return end;
+  if (std::optional<ArbBox> end = analytic_step(box, tube->box, duration, tolerance, order_for(tolerance)))
+    return end;
   may_double_ = true;
   const ArbBox end = kinked_step(box, tube->box, tube->change, duration);
   for (std::size_t i = 0; i < field_->size() && !last_try; ++i) {
@@ -142,22 +143,21 @@ std::optional<ArbBox> Trajectory::step(const ArbBox& box, const Arb& duration, d
 }
 
 std::optional<ArbBox> Trajectory::analytic_step(const ArbBox& box, const ArbBox& tube, const Arb& duration,
-                                                double tolerance) {
-  const slong order = order_for(tolerance);
-  const std::optional<std::vector<ArbSeries>> rest = field_->taylor(tube, order + 1);
+                                                double tolerance, slong terms) {
+  const std::optional<std::vector<ArbSeries>> rest = field_->taylor(tube, terms + 1);
   if (!rest) return std::nullopt;
   Arb power;
-  arb_pow_ui(power.get(), duration.get(), static_cast<ulong>(order), kArbBits);
+  arb_pow_ui(power.get(), duration.get(), static_cast<ulong>(terms), kArbBits);
   std::vector<Arb> remainder;
   double most = 0.0;
   for (const ArbSeries& series : *rest) {
-    remainder.push_back(series[order] * power);
+    remainder.push_back(series[terms] * power);
     most = std::max(most, remainder.back().width());
     if (!(most <= tolerance)) return std::nullopt;
   }
-  // Twice the time has 2^order times the remainder, and twice the tolerance.
-  may_double_ = std::ldexp(most, static_cast<int>(order)) <= tolerance;
-  const std::optional<std::vector<ArbSeries>> series = field_->taylor(box, order);
+  // Twice the time has 2^terms times the remainder, and twice the tolerance.
+  may_double_ = std::ldexp(most, static_cast<int>(terms)) <= tolerance;
+  const std::optional<std::vector<ArbSeries>> series = field_->taylor(box, terms);
   if (!series) return std::nullopt;
   ArbBox end = box;
   for (std::size_t i = 0; i < series->size(); ++i) {

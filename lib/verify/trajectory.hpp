@@ -20,6 +20,13 @@ class Trajectory {
   /// a step is taken all the same
   /// @returns false if the solution may not last so long; then the box is not changed
   [[nodiscard]] bool advance(ArbBox& box, const Arb& duration, double tolerance);
+  /// The same, not remembered: for what is asked once.
+  [[nodiscard]] bool integrate(ArbBox& box, const Arb& duration, double tolerance);
+  /// One step by a Taylor polynomial with so many terms.
+  /// @param tube holds the solution during the step
+  /// @returns nothing where the remainder is larger than the tolerance
+  [[nodiscard]] std::optional<ArbBox> analytic_step(const ArbBox& box, const ArbBox& tube,
+                                                    const Arb& duration, double tolerance, slong terms);
   /// What was asked again would have been so much work for the field.
   [[nodiscard]] Work repeated_work() const { return repeated_work_; }
 
@@ -28,11 +35,8 @@ class Trajectory {
     [[nodiscard]] bool operator()(const ArbBox& a, const ArbBox& b) const;
   };
 
-  [[nodiscard]] bool integrate(ArbBox& box, const Arb& duration, double tolerance);
   [[nodiscard]] std::optional<ArbBox> step(const ArbBox& box, const Arb& duration, double tolerance,
                                            bool last_try);
-  [[nodiscard]] std::optional<ArbBox> analytic_step(const ArbBox& box, const ArbBox& tube,
-                                                    const Arb& duration, double tolerance);
   [[nodiscard]] ArbBox kinked_step(const ArbBox& box, const ArbBox& tube, const std::vector<Arb>& change,
                                    const Arb& duration);
 

@@ -8,6 +8,7 @@
 #include "verify/flow_extremes.hpp"
 #include "verify/map_extremes.hpp"
 #include "verify/piece_choices.hpp"
+#include "verify/post_proof.hpp"
 
 namespace coordreq {
 namespace {
@@ -65,6 +66,77 @@ TEST(FlowExtremes, DecayIsTheHull) {
 TEST(FlowExtremes, ARotatedBoxHasItsExtremesAtCorners) {
   const double c = std::cos(0.5), s = std::sin(0.5);
   expect_tight(range_of(spec_of("-y", "x"), {1, 2}, {-1, 1}), c - s, 2 * c + s);
+}
+
+/// The end of the tube of x from [1, 2] x [-1, 1], which goes round once.
+Range turned_once(const std::string& dx, const std::string& disturbances) {
+  const SystemSpec spec = spec_of(dx, "x", disturbances, "continuous", "6.283185307179586");
+  SpanBox box(spec.slot_count());
+  box[0] = span_of(1, 2);
+  box[1] = span_of(-1, 1);
+  if (!spec.disturbances.empty()) box[spec.disturbance_slot(0)] = span_of(exact(-0.125), exact(0.125));
+  FlowExtremes flow(spec, influences_on(spec, 0), 1.0);
+  EXPECT_TRUE(flow.enclose(box, {96, 1e-7}));
+  const ArbSpan& end = flow.steps().back().end[0];
+  return {end.lower.approximately(), end.upper.approximately()};
+}
+
+TEST(FlowExtremes, ATubeThatTurnsDoesNotGrow) {
+  const Range free = turned_once("-y", "");
+  EXPECT_NEAR(free.lower, 1, 1e-4);
+  EXPECT_NEAR(free.upper, 2, 1e-4);
+  EXPECT_LE(free.lower, 1);
+  EXPECT_GE(free.upper, 2);
+}
+
+TEST(FlowExtremes, ATubeThatTurnsHoldsWhatDisturbancesDo) {
+  // w = 0.125 sign(cos t) moves x by 0.125 times the integral of |cos|, which is 4.
+  const Range pushed = turned_once("-y + w", R"({"name": "w", "lower": -0.125, "upper": 0.125})");
+  EXPECT_LE(pushed.lower, 0.5);
+  EXPECT_GE(pushed.upper, 2.5);
+  EXPECT_NEAR(pushed.lower, 0.5, 0.1);
+  EXPECT_NEAR(pushed.upper, 2.5, 0.1);
+}
+
+TEST(FlowExtremes, HaveFacesWhereSolutionsAreUnique) {
+  const auto have = [](const std::string& dx, Range y) {
+    const SystemSpec spec = spec_of(dx, "-x");
+    SpanBox box(spec.slot_count());
+    box[0] = span_of(exact(-0.5), exact(0.5));
+    box[1] = span_of(exact(y.lower), exact(y.upper));
+    FlowExtremes flow(spec, influences_on(spec, 0), 1.0);
+    EXPECT_TRUE(flow.enclose(box, {8, 1e-4}));
+    return flow.has_extremes_on_faces();
+  };
+  EXPECT_TRUE(have("abs(y)", {-0.5, 0.5}));
+  EXPECT_FALSE(have("abs(y)", {0.5, 0.5}));
+  EXPECT_FALSE(have("if(y > 0, 1, -1)", {-0.5, 0.5}));
+}
+
+/// Of the van der Pol oscillator: ranges that ends of sampled solutions need are proven with some faces cut
+/// into pieces, and narrower ones are not.
+TEST(PostProver, ProvesWhatSolutionsNeed) {
+  const SystemSpec spec = read_system(R"json({"coordreq": 1, "name": "vdp",
+"states": [{"name": "x", "lower": -3, "upper": 3, "step": 0.5, "outside": "saturate"},
+           {"name": "y", "lower": -4, "upper": 4, "step": 0.5, "outside": "saturate"}],
+"inputs": [{"name": "u", "values": [0]}], "agents": [{"name": "a", "inputs": ["u"]}],
+"dynamics": {"time": "continuous", "period": 1, "equations": {"x": "y", "y": "2*(1-x^2)*y-x"}}, "safe": "true"})json",
+                                      "vdp");
+  const UniformGrid grid = make_grid(spec);
+  const PostGroup group{.states = {0, 1}, .influences = influences_on(spec, 0)};
+  SpanBox box(spec.slot_count());
+  box[0] = span_of(exact(-1.25), exact(-0.75));
+  box[1] = span_of(exact(1.75), exact(2.25));
+  const auto verdicts = [&](IndexRange x, IndexRange y, int boxes) {
+    PostProver prover(spec, grid, group);
+    const std::vector<PostProof> proofs =
+        prover.prove(box, {{0, x}, {1, y}}, {boxes, {16, 1e-6}}, 100'000'000);
+    return std::pair(proofs[0].verdict, proofs[1].verdict);
+  };
+  EXPECT_EQ(verdicts({9, 10}, {8, 14}, 64), std::pair(PostVerdict::holds, PostVerdict::holds));
+  EXPECT_EQ(verdicts({9, 10}, {8, 14}, 1).second, PostVerdict::open);
+  EXPECT_NE(verdicts({9, 10}, {9, 14}, 64).second, PostVerdict::holds);
+  EXPECT_NE(verdicts({9, 10}, {8, 13}, 64).second, PostVerdict::holds);
 }
 
 TEST(FlowExtremes, LogisticGrowthIsTheHull) {
