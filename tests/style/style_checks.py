@@ -29,9 +29,10 @@ CLOCKS = {
 }
 MAX_LINES = 400
 # Rooms in which what a function needs from its caller is checked, or is said to be unchecked.
-CHECKED_ROOMS = ["lib/base", "lib/ranks", "lib/model", "lib/numeric", "lib/expression", "lib/engine", "lib/answers", "lib/export", "lib/analysis"]
-# Headers of several sources, which check: kernels in those named _impl, advice in advise_on_answers and the like.
-CHECKED_ELSEWHERE = ["level_kernels", "sum_kernels", "advice"]
+CHECKED_ROOMS = ["lib/base", "lib/ranks", "lib/model", "lib/numeric", "lib/expression", "lib/engine", "lib/answers", "lib/results", "lib/export", "lib/analysis"]
+# Headers of several sources, which check: kernels in those named _impl, advice in advise_on_answers and the like, blocks of a
+# results file in stored_array.
+CHECKED_ELSEWHERE = ["level_kernels", "sum_kernels", "advice", "results_file"]
 
 
 def sources(root, *folders):
