@@ -26,11 +26,11 @@ struct JsonText {
   [[nodiscard]] std::size_t end_of_token(std::size_t offset) const;
 
   /// Where the `number`-th bracket (from 1) stands that opens an object or a list.
-  /// REQUIRES: the text is well-formed up to there.
+  /// @pre unchecked: the text is well-formed up to there.
   [[nodiscard]] std::size_t bracket(std::size_t number) const;
 
   /// Where the last token before `offset` starts, comments left out; behind the text if there is none.
-  /// REQUIRES: the text is well-formed up to there.
+  /// @pre unchecked: the text is well-formed up to there.
   [[nodiscard]] std::size_t token_before(std::size_t offset) const;
 
   /// @throws SpecError with the place

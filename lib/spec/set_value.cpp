@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "numeric/rational.hpp"
 #include "spec/json_document.hpp"
 #include "spec/json_text.hpp"
@@ -40,7 +41,7 @@ class ExactReader : public nlohmann::detail::json_sax_dom_parser<OrderedJson> {
   }
 };
 
-/// REQUIRES: JsonDocument::parse() has accepted the text.
+/// @pre unchecked: JsonDocument::parse() has accepted the text.
 OrderedJson parsed(const std::string& text) {
   OrderedJson json;
   ExactReader reader(json);
@@ -213,6 +214,7 @@ std::string without_comments(const std::string& text) {
 }
 
 std::string with_refinement(const std::string& text, const std::string& source, std::int64_t factor) {
+  REQUIRES(1 <= factor && factor <= INT32_MAX);
   static_cast<void>(JsonDocument::parse(text, source));
   OrderedJson spec = parsed(text);
   if (!spec.is_object() || !spec.contains("states") || !spec["states"].is_array()) return text;
