@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -109,6 +111,7 @@ PlanarFlow::PlanarFlow(const FlowSystem& system, const FlowTape& tape)
       slots_(system.slot_count) {}
 
 void PlanarFlow::narrow(std::span<const Interval> slots, const Interval& period, FlowEnclosure& known) {
+  REQUIRES(applies_);
   std::array<Interval, 2> start;
   for (const std::size_t i : {0U, 1U}) {
     const Interval& tube = known.tube[i];

@@ -22,14 +22,14 @@ namespace coordreq {
 /// for one thread.
 class PlanarFlow {
  public:
-  /// REQUIRES: system and tape outlive it.
+  /// @pre unchecked: system and tape outlive it.
   PlanarFlow(const FlowSystem& system, const FlowTape& tape);
 
   /// Whether the system has the form above, with a disturbance that multiplies a state, and neither limits
   /// nor seams.
   [[nodiscard]] bool applies() const { return applies_; }
 
-  /// Narrows an enclosure of all solutions in the period, if it can. REQUIRES: applies().
+  /// Narrows an enclosure of all solutions in the period, if it can. @pre applies()
   /// @param slots as in ValidatedFlow::flow()
   void narrow(std::span<const Interval> slots, const Interval& period, FlowEnclosure& known);
 

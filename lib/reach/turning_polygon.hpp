@@ -39,7 +39,7 @@ class TurningPolygon {
     Vector change;  ///< of A' (A x + b), A' of any corner
   };
 
-  /// REQUIRES: coefficients are off by no more than 1e-14 of what is in `bounds`.
+  /// @pre unchecked: coefficients are off by no more than 1e-14 of what is in `bounds`.
   /// @param tolerance what a side that is left out may matter, in each state
   void begin(std::span<const Corner> corners, const Bounds& bounds, const std::array<Interval, 2>& start,
              const Vector& tolerance);

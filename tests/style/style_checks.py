@@ -29,7 +29,7 @@ CLOCKS = {
 }
 MAX_LINES = 400
 # Rooms in which what a function needs from its caller is checked, or is said to be unchecked.
-CHECKED_ROOMS = ["lib/base", "lib/ranks", "lib/model", "lib/numeric", "lib/expression", "lib/spec", "lib/engine", "lib/answers", "lib/results", "lib/cell", "lib/verify", "lib/export", "lib/analysis"]
+CHECKED_ROOMS = ["lib/base", "lib/ranks", "lib/model", "lib/numeric", "lib/expression", "lib/spec", "lib/reach", "lib/engine", "lib/answers", "lib/results", "lib/cell", "lib/verify", "lib/export", "lib/analysis"]
 # Headers of several sources, which check: kernels in those named _impl, advice in advise_on_answers and the like, blocks of a
 # results file in stored_array.
 CHECKED_ELSEWHERE = ["level_kernels", "sum_kernels", "advice", "results_file"]
