@@ -28,8 +28,6 @@ CLOCKS = {
     "app/mpi/batch_on_ranks": "how often rank 0 looks for answers",
 }
 MAX_LINES = 400
-# Rooms in which what a function needs from its caller is checked, or is said to be unchecked.
-CHECKED_ROOMS = ["lib/base", "lib/ranks", "lib/model", "lib/numeric", "lib/expression", "lib/spec", "lib/reach", "lib/engine", "lib/answers", "lib/results", "lib/cell", "lib/verify", "lib/export", "lib/analysis"]
 # Headers of several sources, which check: kernels in those named _impl, advice in advise_on_answers and the like, blocks of a
 # results file in stored_array.
 CHECKED_ELSEWHERE = ["level_kernels", "sum_kernels", "advice", "results_file"]
@@ -143,7 +141,7 @@ NAMESPACE = re.compile(r"^(?:inline )?namespace ?([\w:]*) ?\{")
 def needs_are_checked(root):
     """In docstrings `@pre` is for what REQUIRES() checks, here or in the source beside, and `@pre unchecked:` for the rest."""
     findings, stated, checked = [], {}, {}
-    for path, lines in sources(root, *CHECKED_ROOMS):
+    for path, lines in sources(root, "lib", "app"):
         name = path.with_suffix("")
         for number, line in enumerate(lines, 1):
             code, _, comment = line.partition("//")
