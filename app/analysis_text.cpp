@@ -11,6 +11,7 @@
 #include "app/guarantee_line.hpp"
 #include "app/render.hpp"
 #include "app/requirement_text.hpp"
+#include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -94,9 +95,10 @@ void add_layers(const AnswerPolicy& policy, const Json& own, Facts& facts) {
                                                      cells(layers[layers.size() > 1 ? 1 : 0]), for_ever));
 }
 
-/// How much silence so many percent of K tolerate at least. REQUIRES: there is a finite delay
+/// How much silence so many percent of K tolerate at least. @pre there is a finite delay
 std::string tolerated(const Json& partition, const Json& summary, int percent) {
   const Json& layers = partition["layers"];
+  REQUIRES(layers.size() > 1);
   const std::int64_t kept = number_of(layers[0]);
   std::int64_t steps = 0;
   for (std::size_t k = 1; k < layers.size() && number_of(layers[k]) * 100 >= kept * percent; ++k)

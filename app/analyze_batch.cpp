@@ -25,7 +25,7 @@ void fail_if_interrupted(int exit_code, const std::string& place) {
 /// Tells of runs in the order of the plan, whenever they end.
 class Results {
  public:
-  /// REQUIRES: `plan` outlives this object.
+  /// @pre unchecked: `plan` outlives this object.
   Results(const std::vector<PlannedRun>& plan, const AnalyzeOptions& asked)
       : table_(plan, asked), is_text_(!asked.json && !asked.quiet), warnings_(asked) {
     if (is_text_) write_output(table_.heading());

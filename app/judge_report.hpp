@@ -15,7 +15,7 @@ namespace coordreq {
 /// What the rows of a log come to: of each kind of finding how many, and the first.
 class JudgeSummary {
  public:
-  /// REQUIRES: `results` outlives this object.
+  /// @pre unchecked: `results` outlives this object.
   JudgeSummary(const ResultsReader& results, std::size_t partition);
 
   void add(const JudgedRow& row);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "results/write_results.hpp"
 
 namespace coordreq {
@@ -26,6 +27,7 @@ void LateFile::write(std::string_view text) {
 }
 
 void LateFile::commit() {
+  REQUIRES(file_.has_value());
   stream_.close();
   if (!stream_) fail();
   file_->commit();

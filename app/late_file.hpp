@@ -21,7 +21,7 @@ class LateFile {
 
   /// @throws IoError if that fails; Error if the program was interrupted
   void write(std::string_view text);
-  /// REQUIRES: write() was called. @throws IoError
+  /// @pre write() was called. @throws IoError
   void commit();
 
  private:

@@ -8,6 +8,7 @@
 #include "app/option_values.hpp"
 #include "app/text.hpp"
 #include "base/error.hpp"
+#include "base/requires.hpp"
 
 namespace coordreq {
 namespace {
@@ -64,6 +65,7 @@ void Options::add(const char* names, const char* takes, const char* description,
 }
 
 void Options::read_values() {
+  REQUIRES(command_.parsed());
   for (const Entry& entry : entries_) {
     if (entry.option->count() == 0) continue;
     const std::string name = "--" + entry.option->get_lnames().front();

@@ -72,7 +72,7 @@ class Options {
 
   // For the parser's side.
   [[nodiscard]] const std::list<Argument>& argument_list() const { return arguments_; }
-  /// REQUIRES: the line has been parsed, and every argument is there. @throws UsageError
+  /// @pre the line has been parsed. @pre unchecked: every argument is there. @throws UsageError
   void read_values();
 
  private:

@@ -13,7 +13,7 @@ namespace coordreq {
 
 /// What there is to tell of the states of a file.
 struct QueryForm {
-  /// REQUIRES: `results` outlives this object.
+  /// @pre unchecked: `results` outlives this object.
   explicit QueryForm(const ResultsReader& results);
 
   const ResultsReader& results;

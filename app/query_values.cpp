@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/render.hpp"
+#include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -24,6 +25,7 @@ std::vector<Rational> values_of(const ProblemSpec& spec, const std::vector<std::
 std::int64_t integer_attribute(const Field& field, const std::string& name) {
   const auto found = std::find_if(field.attributes.begin(), field.attributes.end(),
                                   [&name](const FieldAttribute& own) { return own.name == name; });
+  REQUIRES(found != field.attributes.end());
   return std::get<std::int64_t>(found->value);
 }
 

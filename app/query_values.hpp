@@ -16,7 +16,7 @@ namespace coordreq {
 [[nodiscard]] std::vector<Rational> values_of(const ProblemSpec& spec,
                                               const std::vector<std::int32_t>& inputs, std::size_t action);
 
-/// An attribute that the spec tells. REQUIRES: the field has it.
+/// An attribute that the spec tells. @pre the field has it
 [[nodiscard]] std::int64_t integer_attribute(const Field& field, const std::string& name);
 
 /// What a word of the flags means, see FieldAsked::meanings.

@@ -7,6 +7,7 @@
 #include "app/report_html.hpp"
 #include "app/report_text.hpp"
 #include "app/text.hpp"
+#include "base/requires.hpp"
 #include "export/report_page.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -123,8 +124,9 @@ class PartitionAnswer {
     return size * 100 >= kept() * static_cast<std::uint64_t>(percent);
   }
 
-  /// REQUIRES: so many tolerate a step.
+  /// @pre so many tolerate a step
   [[nodiscard]] std::string bearable(int percent) const {
+    REQUIRES(stored_.layer_sizes.size() > 1 && is_share(stored_.layer_sizes[1], percent));
     const auto enough = [&](std::uint64_t size) { return is_share(size, percent); };
     const auto& sizes = stored_.layer_sizes;
     const auto end = std::partition_point(sizes.begin(), sizes.end(), enough);

@@ -14,6 +14,7 @@
 #include "app/text.hpp"
 #include "base/error.hpp"
 #include "base/process_memory.hpp"
+#include "base/requires.hpp"
 #include "spec/spec_errors.hpp"
 
 namespace coordreq {
@@ -105,6 +106,7 @@ std::string report_request() {
 }
 
 Failure describe_current_exception() {
+  REQUIRES(std::current_exception() != nullptr);
   try {
     throw;
   } catch (const SpecErrors& errors) {
@@ -142,6 +144,7 @@ void report_what_terminates() {
 }
 
 int report_current_exception() noexcept {
+  REQUIRES(std::current_exception() != nullptr);
   try {
     return report();
   } catch (...) {

@@ -9,7 +9,7 @@ namespace coordreq {
 constexpr int kInternalError = 70;
 
 /// Prints the exception under way as one line "coordreq: error: WHAT (WHERE)".
-/// REQUIRES: called from within a catch block. @returns the exit code
+/// @pre called from within a catch block. @returns the exit code
 [[nodiscard]] int report_current_exception() noexcept;
 
 /// From now on an exception that nothing can catch is reported so as well, and ends the program: one that is
@@ -28,7 +28,7 @@ struct Failure {
   std::vector<std::string> more;  ///< lines like it, of a spec with several errors
 };
 
-/// The exception under way. REQUIRES: called from within a catch block.
+/// The exception under way. @pre called from within a catch block
 [[nodiscard]] Failure describe_current_exception();
 
 /// Prints it as report_current_exception() does, for one of several things to do. @param subject the thing

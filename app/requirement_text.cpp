@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/render.hpp"
+#include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/requirement_kind.hpp"
 
@@ -156,6 +157,7 @@ std::string worst_text(const Json& kind, const Json& value, const Json& status, 
 }
 
 std::string outside_text(const Json& own, const ProblemSpec& spec) {
+  REQUIRES(!own["reaches_outside"].is_null());
   const Json& side = own["reaches_outside"];
   std::string text = "the region may reach outside the domain, " + side_text(side);
   for (const StateSpec& state : spec.states) {
@@ -198,10 +200,12 @@ std::string failure_text(const Json& own, const ProblemSpec& spec) {
 }
 
 bool has_story(const Json& own) {
+  REQUIRES(own["holds"] == false);
   return own["counterexample"]["end"] != "too_risky";
 }
 
 StoryTable story_table(const Json& own, const ProblemSpec& spec) {
+  REQUIRES(!own["counterexample"]["state"].is_null());
   const std::string key = own["kind"] == "invariant" ? "" : value_key(own);
   StoryTable table;
   table.heads = {"step"};
@@ -280,6 +284,7 @@ std::vector<std::string> way_sentences(const Json& own, const ProblemSpec& spec)
 }  // namespace
 
 std::vector<std::string> story_sentences(const Json& own, const ProblemSpec& spec) {
+  REQUIRES(!own["counterexample"]["state"].is_null());
   std::vector<std::string> sentences = way_sentences(own, spec);
   add_seen(own["counterexample"], spec, sentences);
   return sentences;

@@ -25,7 +25,7 @@ namespace coordreq {
 [[nodiscard]] std::string worst_text(const Json& kind, const Json& value, const Json& status,
                                      const ProblemSpec& spec);
 
-/// Where the region may reach, and what ends that. REQUIRES: own["reaches_outside"].
+/// Where the region may reach, and what ends that. @pre own["reaches_outside"] is there
 [[nodiscard]] std::string outside_text(const Json& own, const ProblemSpec& spec);
 
 /// Why it fails, in one line; empty if it holds.
@@ -33,7 +33,7 @@ namespace coordreq {
 /// The same with the story of its counterexample: lines that end in newlines.
 [[nodiscard]] std::string failure_text(const Json& own, const ProblemSpec& spec);
 
-/// There is more to tell than the worst cell. REQUIRES: it fails.
+/// There is more to tell than the worst cell. @pre it fails
 [[nodiscard]] bool has_story(const Json& own);
 
 /// One row a sample: where, what is left, and what each agent does next.
@@ -42,7 +42,7 @@ struct StoryTable {
   std::vector<std::vector<std::string>> rows;  ///< [sample][head]; the first cell is the number of the sample
   std::size_t numbers = 0;                     ///< so many of the first columns hold numbers
 };
-/// REQUIRES: the counterexample has a state, likewise below.
+/// @pre the counterexample has a state, likewise below
 [[nodiscard]] StoryTable story_table(const Json& own, const ProblemSpec& spec);
 
 /// The same in sentences.

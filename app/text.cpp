@@ -1,4 +1,5 @@
 #include "app/text.hpp"
+#include "base/requires.hpp"
 
 #include <fmt/format.h>
 
@@ -62,6 +63,7 @@ std::string printable(std::string_view text) {
 }
 
 std::string shortened(std::string_view text, std::size_t most, std::size_t at_end) {
+  REQUIRES(most > at_end + 3);
   if (text.size() <= most) return std::string(text);
   const auto is_inside = [text](std::size_t i) {
     return (static_cast<unsigned char>(text[i]) & 0xc0U) == 0x80U;
@@ -83,6 +85,7 @@ std::string column_heading(const std::string& name, const std::string& unit) {
 }
 
 std::string cells(std::int64_t count) {
+  REQUIRES(count >= 0);
   return grouped(count) + (count == 1 ? " cell" : " cells");
 }
 
@@ -105,6 +108,7 @@ std::string duration(std::int64_t steps, double period, std::string_view unit) {
 }
 
 std::string rough_amount(double value, std::string_view unit) {
+  REQUIRES(value >= 0);
   constexpr double kAllDigits = 1e3, kWhole = 1e15;
   const std::string number = value < kAllDigits || value > kWhole
                                  ? fmt::format("{:.3g}", value)
@@ -113,6 +117,7 @@ std::string rough_amount(double value, std::string_view unit) {
 }
 
 std::string time_span(double seconds) {
+  REQUIRES(seconds >= 0);
   if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
   const double whole = std::round(seconds);
   if (whole < 60) return fmt::format("{:.0f} s", whole);

@@ -15,7 +15,7 @@ namespace coordreq {
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// The text, of which so many bytes at most stay: "begin...end", so many of them at the end. Characters stay
-/// whole. REQUIRES: most > at_end + 3
+/// whole. @pre most > at_end + 3
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t most, std::size_t at_end);
 
 /// The text in quotes as error lines repeat it: printable, of at most 200 bytes.
@@ -23,7 +23,7 @@ namespace coordreq {
 
 /// "v1 [m/s]", or "n" without a unit.
 [[nodiscard]] std::string column_heading(const std::string& name, const std::string& unit);
-/// 1 -> "1 cell", 1234 -> "1,234 cells". REQUIRES: count >= 0
+/// 1 -> "1 cell", 1234 -> "1,234 cells". @pre count >= 0
 [[nodiscard]] std::string cells(std::int64_t count);
 
 /// 1536 -> "1.5 KiB".
@@ -33,10 +33,10 @@ namespace coordreq {
 [[nodiscard]] std::string duration(std::int64_t steps, double period, std::string_view unit);
 
 /// "6 m", "0.125 rad", "1,234 m", "0.5" without a unit: three digits, all of those before the point.
-/// REQUIRES: value >= 0
+/// @pre value >= 0
 [[nodiscard]] std::string rough_amount(double value, std::string_view unit);
 
-/// "12 s", "3 min 20 s", "5 h 12 min", "3 days 4 h"; less than 10 s with a tenth. REQUIRES: seconds >= 0
+/// "12 s", "3 min 20 s", "5 h 12 min", "3 days 4 h"; less than 10 s with a tenth. @pre seconds >= 0
 [[nodiscard]] std::string time_span(double seconds);
 
 /// The guarantee of a result in words: "samples" -> "samples: at the sampling instants, for every point of a

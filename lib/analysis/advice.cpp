@@ -7,7 +7,9 @@
 #include "answers/ground/answer.hpp"
 #include "answers/invariance/answer.hpp"
 #include "answers/invariance/invariance.hpp"
+#include "answers/layers/answer.hpp"
 #include "answers/plan.hpp"
+#include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
 
 namespace coordreq {
@@ -49,6 +51,7 @@ Warnings advise_before(const Model& model, const std::vector<StateMotion>& motio
 }
 
 Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion, ThreadTeam& team) {
+  REQUIRES(answers.find<Invariance>() != nullptr && answers.find<PartitionLayers>() != nullptr);
   Warnings all;
   if (answers.ground.share) {  // nobody has all of S and K: small ones are found once more
     all = advise_alone(answers.ground.model, motion, true, team);

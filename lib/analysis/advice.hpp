@@ -20,20 +20,20 @@ namespace coordreq {
 [[nodiscard]] Warnings advise_on_units(const ProblemSpec& spec, const std::vector<StateMotion>& motion);
 
 /// What posts show: states that move less than a cell in a period; sides left at the default `unsafe` through
-/// which pairs of safe cells are blocked. REQUIRES: the ground is laid. Cost: a pass over tables and S.
+/// which pairs of safe cells are blocked. @pre the ground is laid. Cost: a pass over tables and S
 [[nodiscard]] Warnings advise_on_posts(const Ground& ground, const std::vector<StateMotion>& motion);
 
 /// What the answer shows: nothing that can be kept safe, or no silence at all, with what would help. For that
 /// one rule, disturbance, error or step after the other is relaxed on a copy with at most some 10^5 cells, as
 /// far as a fixed amount of work goes: the same on every machine. A relaxed problem that cannot be worked out
-/// is passed over. REQUIRES: K and the layers are there.
+/// is passed over. @pre K and the layers are there
 [[nodiscard]] Warnings advise_on_answers(const Answers& answers, ThreadTeam& team);
 
 /// All that is known without the answer; what posts show only where they are few. @param motion of the spec
 /// @throws SpecError where the analysis does, as far as posts are looked at
 [[nodiscard]] Warnings advise_before(const Model& model, const std::vector<StateMotion>& motion,
                                      ThreadTeam& team);
-/// All of them. REQUIRES: as advise_on_answers()
+/// All of them. @pre as advise_on_answers()
 [[nodiscard]] Warnings advise(const Answers& answers, const std::vector<StateMotion>& motion,
                               ThreadTeam& team);
 

@@ -14,6 +14,7 @@
 #include "answers/plan.hpp"
 #include "base/error.hpp"
 #include "base/grouped.hpp"
+#include "base/requires.hpp"
 #include "reach/make_model.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -253,6 +254,7 @@ std::string remedies(const ProblemSpec& spec, std::size_t partition, Fault fault
 }  // namespace
 
 Warnings advise_on_answers(const Answers& answers, ThreadTeam& team) {
+  REQUIRES(answers.find<Invariance>() != nullptr && answers.find<PartitionLayers>() != nullptr);
   const ProblemSpec& spec = answers.ground.spec;
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
   std::vector<std::size_t> silent;  // without any silence

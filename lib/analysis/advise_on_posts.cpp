@@ -9,6 +9,7 @@
 #include "analysis/blocked_pairs.hpp"
 #include "analysis/motion.hpp"
 #include "base/grouped.hpp"
+#include "base/requires.hpp"
 #include "spec/json_document.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -187,6 +188,7 @@ std::string blocked_at(const Ground& ground, std::size_t i, const Spreads& sprea
 }  // namespace
 
 Warnings advise_on_posts(const Ground& ground, const std::vector<StateMotion>& motion) {
+  REQUIRES(ground.engine && ground.hull);
   constexpr std::size_t kLongText = std::size_t{1} << 20;
   const bool is_short = ground.spec.text.size() <= kLongText;
   const JsonDocument document =

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
@@ -115,6 +116,7 @@ class PairCounter {
 
 BlockedPairs count_blocked(const Ground& ground, std::size_t dimension, bool above,
                            const std::vector<bool>& may_leave) {
+  REQUIRES(ground.engine && ground.hull);
   return PairCounter(ground, dimension, above).run(may_leave);
 }
 

@@ -15,7 +15,7 @@ struct BlockedPairs {
 
 /// @param dimension of the grid of the abstraction, and its side
 /// @param may_leave by own index: false where no post goes beyond that side
-/// REQUIRES: the ground is laid
+/// @pre the ground is laid
 [[nodiscard]] BlockedPairs count_blocked(const Ground& ground, std::size_t dimension, bool above,
                                          const std::vector<bool>& may_leave);
 

@@ -43,7 +43,7 @@ class Checkpoint : public StageStore {
   };
 
   /// Goes through the file if there is one, else makes one in which nothing is saved yet.
-  /// REQUIRES: check_checkpoint(options) has passed.
+  /// @pre unchecked: check_checkpoint(options) has passed.
   /// @param ranks the processes that share the folder; null: there is one, and a file
   /// @throws IoError if the file cannot be read, or another process has it; ResultsError if it is damaged,
   ///   none of ours, or of something else

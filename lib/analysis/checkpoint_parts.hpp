@@ -29,7 +29,7 @@ inline constexpr const char* kUnfinished = ".new";
 /// that have them.
 class CheckpointParts {
  public:
-  /// REQUIRES: `ranks` outlives this object.
+  /// @pre unchecked: `ranks` outlives this object.
   CheckpointParts(std::string folder, Ranks& ranks) : folder_(std::move(folder)), ranks_(&ranks) {}
 
   [[nodiscard]] static std::string manifest(const std::string& folder);

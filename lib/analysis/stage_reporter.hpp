@@ -32,7 +32,7 @@ class StageReporter {
   /// Until told otherwise there may be a temporary file.
   void set_temporary(bool has_temporary);
   /// From now on the pass is to fill the arrays of these values; their functions are replaced by ones that
-  /// count. REQUIRES: this outlives the values.
+  /// count. @pre unchecked: this outlives the values
   void watch_writing(const ProblemSpec& spec, FieldValues& values);
 
   /// Ends the last stage. @returns the stages and their seconds

@@ -14,6 +14,7 @@
 #include "analysis/coarse_copy.hpp"
 #include "base/grouped.hpp"
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "reach/cells_meeting.hpp"
 #include "reach/sampled_ends.hpp"
 #include "reach/state_enclosure.hpp"
@@ -194,6 +195,7 @@ double Tightness::share() const {
 }
 
 std::optional<Tightness> find_tightness(const Ground& ground) {
+  REQUIRES(ground.engine && ground.hull);
   const Abstraction& abstraction = *ground.abstraction;
   if (abstraction.exact) return std::nullopt;
   const ProblemSpec& spec = ground.spec;

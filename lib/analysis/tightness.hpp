@@ -33,7 +33,7 @@ struct Tightness {
 };
 
 /// Of a sample of at most some hundred posts, the same every time and for any number of processes. Together.
-/// @returns nothing if every post is an exact hull. REQUIRES: the ground is laid.
+/// @returns nothing if every post is an exact hull. @pre the ground is laid
 [[nodiscard]] std::optional<Tightness> find_tightness(const Ground& ground);
 
 /// `posts`, `mean`, `p99`, `most`, `share`; null if there is none.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -24,6 +26,7 @@ void TimeLeft::begin(const Progress& progress, double now) {
 }
 
 void TimeLeft::update(const Progress& progress, double now) {
+  REQUIRES(stage_.empty() || now >= now_);
   const bool is_sweep = progress.sweep > 0;
   const bool same_pass = is_sweep || (progress.all == all_ && progress.done >= done_);
   if (progress.stage != stage_ || progress.part != part_ || progress.sweep < sweep_ || !same_pass ||

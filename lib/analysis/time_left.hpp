@@ -16,7 +16,7 @@ namespace coordreq {
 ///   taken to shrink in the same ratio. In the first sweep, and where they do not shrink, nothing is known.
 class TimeLeft {
  public:
-  /// @param now seconds on any clock; REQUIRES: never less than before
+  /// @param now seconds on any clock. @pre never less than before
   void update(const Progress& progress, double now);
   /// Seconds until the stage, or its part, is over.
   [[nodiscard]] std::optional<double> seconds() const { return left_; }

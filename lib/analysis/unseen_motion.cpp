@@ -12,6 +12,7 @@
 #include "answers/one_cell/cell_members.hpp"
 #include "answers/one_cell/cell_posts.hpp"
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "expression/evaluate.hpp"
 #include "reach/point_flow.hpp"
 #include "spec/problem_spec.hpp"
@@ -257,6 +258,7 @@ std::string longest_way(const SystemSpec& spec, const Passage& passage) {
 }  // namespace
 
 Warnings advise_on_unseen_motion(const Ground& ground, const CellSet& kept) {
+  REQUIRES(ground.engine && ground.hull && !ground.share && kept.rows() == ground.abstraction->grid.rows());
   const ProblemSpec& spec = ground.spec;
   if (spec.dynamics.time == Time::discrete || spec.abstraction.between_samples) return {};
   const std::optional<Passage> found = PassageSearch(ground, kept).run();

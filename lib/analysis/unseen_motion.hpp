@@ -11,7 +11,7 @@ namespace coordreq {
 /// followed from their centre with disturbances in the middle, without a guarantee; whoever finds none has
 /// proved nothing. Of those found it tells the first where the condition itself fails, else the first.
 /// @param kept K, or S where K is not known
-/// REQUIRES: the ground is laid, by one process; `kept` has its rows
+/// @pre the ground is laid, by one process; `kept` has its rows
 [[nodiscard]] Warnings advise_on_unseen_motion(const Ground& ground, const CellSet& kept);
 
 }  // namespace coordreq

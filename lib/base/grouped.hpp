@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 
 /// 1234567 -> "1,234,567".
@@ -12,8 +14,9 @@ namespace coordreq {
   for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, 1, ',');
   return text;
 }
-/// REQUIRES: number >= 0
+/// @pre number >= 0
 [[nodiscard]] inline std::string grouped(std::int64_t number) {
+  REQUIRES(number >= 0);
   return grouped(static_cast<std::uint64_t>(number));
 }
 
@@ -25,8 +28,9 @@ namespace coordreq {
   return text;
 }
 
-/// "1,234 steps", "1 step". REQUIRES: count >= 0
+/// "1,234 steps", "1 step". @pre count >= 0
 [[nodiscard]] inline std::string count_of(std::int64_t count, const std::string& noun) {
+  REQUIRES(count >= 0);
   return grouped(count) + " " + noun + (count == 1 ? "" : "s");
 }
 

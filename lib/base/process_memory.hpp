@@ -51,7 +51,7 @@ void hold_to_memory(std::uint64_t bytes);
 
 /// While it lives the process is not held to its limit, so that address space can be set aside that is hardly
 /// touched, or given back; then the limit has moved by as much as there is more of it, or less.
-/// REQUIRES: no other thread takes memory meanwhile.
+/// @pre unchecked: no other thread takes memory meanwhile.
 class LimitMove {
  public:
   LimitMove();

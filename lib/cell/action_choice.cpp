@@ -8,6 +8,7 @@
 
 #include "answers/layers/delay_layers.hpp"
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "model/odometer.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -221,8 +222,9 @@ std::int64_t ActionChooser::smallest_preference(const std::vector<std::int32_t>&
       });
 }
 
-/// The next state and the inputs that lead to it, at their slots. REQUIRES: the state is known.
+/// The next state and the inputs that lead to it, at their slots. @pre the state is known
 void ActionChooser::fill(NextStates& next, std::int64_t u) {
+  REQUIRES(next.is_known(u));
   const ProblemSpec& spec = *problem_.spec;
   for (std::size_t i = 0; i < spec.states.size(); ++i) slots_[spec.state_slot(i)] = next.state(i, u).value;
   const InputSpace& space = problem_.abstraction->inputs;

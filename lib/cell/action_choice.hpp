@@ -27,7 +27,7 @@ enum class Policy : std::uint8_t {
   prefer,       ///< what their `prefer` likes best
 };
 
-/// What a closed loop runs on. REQUIRES: all parts belong together and outlive whoever is handed this.
+/// What a closed loop runs on. @pre unchecked: all parts belong together and outlive whoever is handed this.
 struct LoopProblem {
   const ProblemSpec* spec = nullptr;
   const Abstraction* abstraction = nullptr;

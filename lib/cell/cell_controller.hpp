@@ -40,7 +40,7 @@ using ActionSets = std::vector<std::vector<bool>>;
 /// Not thread-safe.
 class CellController : private ByteTables {
  public:
-  /// REQUIRES: `results` and `team` outlive this object.
+  /// @pre unchecked: `results` and `team` outlive this object.
   CellController(const ResultsReader& results, ThreadTeam& team);
   CellController(const CellController&) = delete;
   CellController& operator=(const CellController&) = delete;

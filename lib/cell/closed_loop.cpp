@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "answers/goal/fields.hpp"
+#include "base/requires.hpp"
 #include "model/sample_reset.hpp"
 #include "spec/problem_spec.hpp"
 
@@ -65,7 +66,16 @@ ClosedLoop::ClosedLoop(const LoopProblem& problem, const LoopOptions& options)
   mode_choosers_ = choosers_of_modes();
 }
 
+bool ClosedLoop::is_in_k(const std::vector<Rational>& measured) const {
+  const Location location = locate(problem_.abstraction->grid, measured);
+  if (location.kind != Kind::cell) return false;
+  const std::span<const std::int32_t> delay =
+      options_.silent_steps ? problem_.values.at(problem_.policies[1].delay) : delay_;
+  return delay[static_cast<std::size_t>(location.cell)] >= 0;
+}
+
 RunTrace ClosedLoop::run(std::vector<Rational> measured, std::uint64_t run) {
+  REQUIRES(is_in_k(measured));
   if (problem_.network != nullptr) return run_lossy(std::move(measured), run);
   if (options_.silent_steps) return run_silent(std::move(measured), run);
   RandomStream actions(options_.seed, run, RandomStream::Purpose::actions);
@@ -148,8 +158,9 @@ std::int32_t ClosedLoop::begin_countdown(std::size_t policy, const State& state,
   return reset_countdown(delay[static_cast<std::size_t>(state.place.cell)]);
 }
 
-/// REQUIRES: it has left through `goal` or `safe` sides alone.
+/// @pre it has left through `goal` or `safe` sides alone
 bool ClosedLoop::is_beyond_goal_side(const State& state) const {
+  REQUIRES(state.place.kind == Kind::left_safely);
   const UniformGrid& grid = problem_.abstraction->grid;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const Rational upper = grid[i].point(grid[i].count - 1) + grid[i].radius();

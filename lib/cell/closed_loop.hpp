@@ -113,7 +113,7 @@ class ClosedLoop {
 
   /// @param measured the state as first measured; the true one is off by a measurement error
   /// @param run number of the run: the random streams depend on it, the seed and nothing else
-  /// REQUIRES: the cell of `measured` is in K.
+  /// @pre the cell of `measured` is in K; of agents who do what they are told, in theirs
   [[nodiscard]] RunTrace run(std::vector<Rational> measured, std::uint64_t run);
 
  private:
@@ -123,6 +123,7 @@ class ClosedLoop {
     NextStates::Place place;
   };
 
+  [[nodiscard]] bool is_in_k(const std::vector<Rational>& measured) const;
   [[nodiscard]] RunTrace run_lossy(std::vector<Rational> measured, std::uint64_t run);
   [[nodiscard]] RunTrace run_silent(std::vector<Rational> measured, std::uint64_t run);
   [[nodiscard]] std::vector<std::shared_ptr<ActionChooser>> choosers_of_modes();

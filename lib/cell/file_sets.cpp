@@ -5,6 +5,7 @@
 #include "answers/layers/fields.hpp"
 #include "answers/layers/stored_partition.hpp"
 #include "answers/silence/fields.hpp"
+#include "base/requires.hpp"
 #include "cell/cell_controller.hpp"
 #include "reach/build_abstraction.hpp"
 #include "reach/make_model.hpp"
@@ -111,6 +112,11 @@ void FileSets::read_listed() {
   listed.pairs.inputs = results_.inputs().count();
   listed.pairs.bytes = results_.bits(paths::kListed, all_cells(results_.grid()));
   ground_.listed = std::move(listed);
+}
+
+const DelayLayers& FileSets::silence() const {
+  REQUIRES(results_.spec().silence);
+  return silence_;
 }
 
 std::vector<std::int64_t> FileSets::number_stride() const {

@@ -25,8 +25,8 @@ class FileSets {
   [[nodiscard]] const Ground& ground() const { return ground_; }
   [[nodiscard]] const Invariance& invariance() const { return invariance_; }
   [[nodiscard]] const DelayLayers& layers() const { return layers_; }
-  // REQUIRES: the spec has `silence`.
-  [[nodiscard]] const DelayLayers& silence() const { return silence_; }
+  /// @pre the spec has `silence`
+  [[nodiscard]] const DelayLayers& silence() const;
   /// 0 outside S, 1 in S but not in K', LevelMap::kTop in K'.
   [[nodiscard]] const LevelMap& lost() const { return lost_; }
   /// [dimension]: what one index adds to a cell's number.

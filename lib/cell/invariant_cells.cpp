@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "spec/system_spec.hpp"
 
 namespace coordreq {
@@ -19,6 +20,7 @@ InvariantCells::InvariantCells(const SystemSpec& spec, std::span<const std::int3
 }
 
 std::int64_t InvariantCells::draw(RandomStream& random) const {
+  REQUIRES(count_ > 0);
   const std::uint64_t wanted = random.below(count_);
   const auto block = std::upper_bound(before_.begin(), before_.end(), wanted) - before_.begin() - 1;
   std::uint64_t passed = before_[at(block)];

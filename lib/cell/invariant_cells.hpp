@@ -13,11 +13,11 @@ namespace coordreq {
 /// counts by block, then a walk through one block.
 class InvariantCells {
  public:
-  /// @param delay of all cells in the order of the spec. REQUIRES: it outlives this object.
+  /// @param delay of all cells in the order of the spec. @pre unchecked: it outlives this object.
   InvariantCells(const SystemSpec& spec, std::span<const std::int32_t> delay);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
-  /// REQUIRES: there are any.
+  /// @pre there are any
   [[nodiscard]] std::int64_t draw(RandomStream& random) const;
 
  private:

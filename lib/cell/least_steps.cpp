@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "cell/state_reader.hpp"
 #include "model/locate.hpp"
 #include "model/outside.hpp"
@@ -33,6 +34,7 @@ std::vector<std::string> other_names(const StateReader& reader) {
 
 std::int32_t steps_of_pair(const ResultsReader& results, const Field& field, std::size_t partition,
                            const std::vector<Rational>& state, const std::string& where) {
+  REQUIRES(field.kind == FieldKind::steps && field.axes.front() == "/partition");
   const UniformGrid& grid = results.grid();
   std::int64_t cell = 0;
   bool has_left_safely = false, is_unsafe = false;

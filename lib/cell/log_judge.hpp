@@ -59,7 +59,7 @@ struct JudgedRow {
 /// A row after which some are missing (`t`) is judged alone, and a countdown begins after it.
 class LogJudge {
  public:
-  /// REQUIRES: all outlive this object.
+  /// @pre unchecked: all outlive this object.
   LogJudge(const ResultsReader& results, std::size_t partition, LogReader& log, ThreadTeam& team);
 
   /// The next row; nothing at the end. @throws UsageError naming the line, as LogReader, and where samples do

@@ -32,7 +32,7 @@ struct LogPlace {
 /// where there are none it is what it is at first.
 class LogPlaces {
  public:
-  /// REQUIRES: both outlive this object.
+  /// @pre unchecked: both outlive this object.
   LogPlaces(const SystemSpec& spec, CellPosts& posts);
 
   /// @param before cells of the sample before; none: the log begins here

@@ -28,7 +28,7 @@ struct LogRow {
 /// Errors are UsageErrors that name the line, as there.
 class LogReader {
  public:
-  /// REQUIRES: `stream` and `spec` outlive this object. @param source for messages
+  /// @pre unchecked: `stream` and `spec` outlive this object. @param source for messages
   LogReader(std::istream& stream, const SystemSpec& spec, std::string source);
 
   [[nodiscard]] std::optional<LogRow> next();

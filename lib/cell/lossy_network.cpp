@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "spec/coordination_spec.hpp"
 
 namespace coordreq {
@@ -21,9 +22,20 @@ std::uint64_t in_parts(const Rational& p) {
   return parts;
 }
 
+/// Whether there are probabilities in the ranges that are 1 in sum.
+[[maybe_unused]] bool can_be_one(const std::vector<ProbabilityRange>& ranges) {
+  Rational least = 0, most = 0;
+  for (const ProbabilityRange& own : ranges) {
+    least += own.low;
+    most += own.high;
+  }
+  return least <= 1 && 1 <= most;
+}
+
 }  // namespace
 
 std::vector<Rational> likeliest(const std::vector<ProbabilityRange>& ranges) {
+  REQUIRES(can_be_one(ranges));
   std::vector<Rational> result;
   std::vector<std::pair<Rational, std::size_t>> rooms;  // on either side, ascending
   Rational rest = 1;
@@ -43,6 +55,7 @@ std::vector<Rational> likeliest(const std::vector<ProbabilityRange>& ranges) {
 }
 
 LossyNetwork::LossyNetwork(const NetworkSpec& network) : modes_(network.modes.size()) {
+  REQUIRES(!network.probabilities.empty());
   std::vector<std::vector<ProbabilityRange>> ranges(modes_.size());
   for (std::size_t t = 0; t < network.transitions.size(); ++t) {
     const auto& [from, to] = network.transitions[t];

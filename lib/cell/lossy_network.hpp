@@ -21,7 +21,7 @@ class LossyNetwork {
     std::vector<std::pair<std::size_t, std::uint64_t>> next;
   };
 
-  /// REQUIRES: the network has numbers, and outlives this object.
+  /// @pre the network has numbers. @pre unchecked: it outlives this object
   explicit LossyNetwork(const NetworkSpec& network);
 
   [[nodiscard]] const std::vector<Mode>& modes() const { return modes_; }
@@ -33,7 +33,7 @@ class LossyNetwork {
 };
 
 /// The probabilities nearest to the middles of ranges, by least squares, that are 1 in sum: all are moved by
-/// the same, but none beyond an end of its range. REQUIRES: the ranges hold some that are.
+/// the same, but none beyond an end of its range. @pre the ranges hold some that are
 [[nodiscard]] std::vector<Rational> likeliest(const std::vector<ProbabilityRange>& ranges);
 
 }  // namespace coordreq

@@ -30,7 +30,7 @@ class NextStates {
     std::int64_t cell = -1;  ///< -1 unless `kind` is `cell`
   };
 
-  /// REQUIRES: all outlive this object.
+  /// @pre unchecked: all outlive this object.
   NextStates(const SystemSpec& spec, const Abstraction& abstraction, PointDynamics& dynamics);
 
   /// @param error what measuring the next state adds, one a state

@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -36,6 +38,7 @@ std::uint64_t RandomStream::next() {
 }
 
 std::uint64_t RandomStream::below(std::uint64_t count) {
+  REQUIRES(count >= 1);
   // The first 2^64 mod count numbers are those that too many remainders would share.
   const std::uint64_t skipped = (0 - count) % count;
   std::uint64_t drawn = next();

@@ -20,7 +20,7 @@ class RandomStream {
 
   [[nodiscard]] std::uint64_t next();
   /// Uniform in [0, count): next() modulo count, draws from the incomplete last round thrown away.
-  /// REQUIRES: count >= 1.
+  /// @pre count >= 1
   [[nodiscard]] std::uint64_t below(std::uint64_t count);
   /// k / 2^32 with k uniform in [0, 2^32): the upper half of next().
   [[nodiscard]] Rational fraction();

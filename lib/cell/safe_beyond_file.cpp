@@ -4,6 +4,8 @@
 
 #include "answers/invariance/fields.hpp"
 #include "answers/invariance/safe_tubes.hpp"
+#include "base/requires.hpp"
+#include "spec/problem_spec.hpp"
 
 namespace coordreq {
 namespace {
@@ -23,6 +25,11 @@ CellSet all_safe_cells(const ResultsReader& results) {
 }
 
 }  // namespace
+
+SafeBeyondFile::SafeBeyondFile(const ResultsReader& results, CellPosts& posts, ThreadTeam& team)
+    : results_(results), posts_(posts), team_(team) {
+  REQUIRES(results.spec().abstraction.between_samples);
+}
 
 CellMembers* SafeBeyondFile::members() {
   if (!is_known_) {

@@ -14,9 +14,8 @@ namespace coordreq {
 /// all tubes, so that it is answered only when it is first asked. Not thread-safe.
 class SafeBeyondFile {
  public:
-  /// REQUIRES: all outlive this object; the spec asks for safety between the samples.
-  SafeBeyondFile(const ResultsReader& results, CellPosts& posts, ThreadTeam& team)
-      : results_(results), posts_(posts), team_(team) {}
+  /// @pre the spec asks for safety between the samples. @pre unchecked: all outlive this object
+  SafeBeyondFile(const ResultsReader& results, CellPosts& posts, ThreadTeam& team);
 
   /// Null if it is S.
   [[nodiscard]] CellMembers* members();

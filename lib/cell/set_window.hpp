@@ -19,7 +19,7 @@ class SetWindow : public CellMembers {
   /// Membership of the cells of a block: 0 or 1.
   using Read = std::function<std::vector<std::uint8_t>(const CellBlock&)>;
 
-  /// REQUIRES: `grid` outlives this object.
+  /// @pre unchecked: `grid` outlives this object.
   SetWindow(const UniformGrid& grid, Read read) : grid_(grid), read_(std::move(read)) {}
 
   /// Reads the box unless it is there already.

@@ -24,7 +24,7 @@ enum class Contact : std::uint8_t {
 /// Where contact is possible a countdown is the longest that the log leaves open.
 class SilenceWatch {
  public:
-  /// REQUIRES: all outlive this object.
+  /// @pre unchecked: all outlive this object.
   SilenceWatch(const ResultsReader& results, std::size_t partition, CellController& controller);
 
   /// A first sample.

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "cell/invariant_cells.hpp"
 #include "model/sample_reset.hpp"
 #include "spec/problem_spec.hpp"
@@ -40,6 +41,7 @@ std::vector<RunTrace> simulate_runs(const LoopProblem& problem, const RunOptions
   const bool is_silent = options.loop.silent_steps.has_value();
   if (!options.start)
     cells.emplace(*problem.spec, is_silent ? problem.values.at(problem.policies[1].delay) : problem.delay());
+  REQUIRES(!cells || cells->count() > 0);  // of a start that is given ClosedLoop::run() needs as much
   std::vector<std::unique_ptr<ClosedLoop>> loops(at(team.size()));
   std::vector<RunTrace> traces(at(options.runs));
   team.for_each(options.runs, 1, [&](ThreadTeam::Range range, int worker) {

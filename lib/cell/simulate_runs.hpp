@@ -21,7 +21,7 @@ struct RunOptions {
 /// Uniform over K: a cell of K and a point of the cell [a, b), each with equal chances (the point on a
 /// lattice of 2^-32 of the cell); drawn again if the point is beyond a `stop` limit, where no state is.
 ///
-/// REQUIRES: `options.start` lies in a cell of K; K is not empty.
+/// @pre `options.start` lies in a cell of K; K is not empty
 /// @throws LimitError if an exact state grows too long
 [[nodiscard]] std::vector<RunTrace> simulate_runs(const LoopProblem& problem, const RunOptions& options,
                                                   ThreadTeam& team);

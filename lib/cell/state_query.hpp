@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "base/thread_team.hpp"
 #include "cell/cell_controller.hpp"
 #include "model/locate.hpp"
@@ -26,8 +27,9 @@ struct StateAnswer {
   /// if of one partition, each agent.
   std::map<std::string, std::vector<ActionSets>> actions;
 
-  /// @param entry of the leading axis, if there is one. REQUIRES: there is such a value
+  /// @param entry of the leading axis, if there is one. @pre there is such a value
   [[nodiscard]] std::int32_t value(const std::string& path, std::size_t entry = 0) const {
+    REQUIRES(values.contains(path) && entry < values.at(path).size());
     return values.at(path)[entry];
   }
 };
@@ -39,7 +41,7 @@ struct StateAnswer {
 /// Answers questions about states. Not thread-safe.
 class StateQuery {
  public:
-  /// REQUIRES: `results` and `team` outlive this object.
+  /// @pre unchecked: `results` and `team` outlive this object.
   StateQuery(const ResultsReader& results, ThreadTeam& team)
       : results_(results), controller_(results, team), asked_(asked_fields(results)) {}
 

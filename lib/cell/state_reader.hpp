@@ -23,7 +23,7 @@ class StateReader {
  public:
   enum class Format : std::uint8_t { csv, json_lines };
 
-  /// Reads up to the first line that is not empty. REQUIRES: `stream` outlives this object.
+  /// Reads up to the first line that is not empty. @pre unchecked: `stream` outlives this object.
   /// @param source for messages
   StateReader(std::istream& stream, StateNames states, std::string source);
 

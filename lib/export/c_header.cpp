@@ -12,6 +12,7 @@
 #include "answers/blind/fields.hpp"
 #include "answers/field_parts.hpp"
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "cell/cell_controller.hpp"
 #include "export/c_header_tables.hpp"
 #include "export/c_header_text.hpp"
@@ -348,6 +349,7 @@ MemoryDemand c_header_demand(const ResultsReader& results) {
 
 void export_c_header(const ResultsReader& results, std::size_t partition, ThreadTeam& team,
                      const TextSink& sink) {
+  REQUIRES(partition < results.partitions().size());
   if (results.grid().cells() > std::numeric_limits<std::int32_t>::max()) {
     throw LimitError(fmt::format("{} cells, a C header can have at most {}", results.grid().cells(),
                                  std::numeric_limits<std::int32_t>::max()),

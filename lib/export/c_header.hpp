@@ -15,7 +15,7 @@ namespace coordreq {
 /// Cells with the same countdown and actions that follow one another are one run; a lookup is a binary search
 /// among the runs. Sets of actions are stored once each, as bits. Cells are found by comparing with the exact
 /// faces, so that no rounding puts a state into another cell than query does.
-/// REQUIRES: partition < results.partitions().size().
+/// @pre partition < results.partitions().size()
 /// @throws LimitError beyond 2^31 - 1 cells; ResultsError if the actions cannot be computed
 void export_c_header(const ResultsReader& results, std::size_t partition, ThreadTeam& team,
                      const TextSink& sink);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "base/process_memory.hpp"
+#include "base/requires.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
@@ -18,6 +20,12 @@ std::int64_t part_cells(std::optional<std::uint64_t> max_memory, std::size_t col
   const double left = static_cast<double>(*max_memory) - memory_of_program();
   const double cells = left / 4 / static_cast<double>(sizeof(std::int32_t) * columns);
   return static_cast<std::int64_t>(std::clamp<double>(cells, 1, kPartCells));
+}
+
+[[maybe_unused]] bool is_each_once(const TableSelection& selection) {
+  std::set<std::size_t> dimensions;
+  const auto is_new = [&dimensions](const auto& own) { return dimensions.insert(own.dimension).second; };
+  return std::ranges::all_of(selection.slices, is_new) && std::ranges::all_of(selection.projections, is_new);
 }
 
 }  // namespace
@@ -79,6 +87,7 @@ CellTable::CellTable(const ResultsReader& results, TableSelection selection)
       columns_(cell_columns(results, selection_.partition)),
       block_(all_cells(results.grid())),
       part_cells_(part_cells(results.max_memory(), columns_.size())) {
+  REQUIRES(is_each_once(selection_));
   for (const TableSelection::Slice& slice : selection_.slices) {
     block_.first[slice.dimension] = slice.index;
     block_.count[slice.dimension] = 1;

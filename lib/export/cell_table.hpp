@@ -51,7 +51,7 @@ class CellTable {
   /// What it takes to go over the rows of a table.
   [[nodiscard]] static double bytes(const ResultsReader& results, const TableSelection& selection);
 
-  /// REQUIRES: `results` outlives this object; every dimension at most once in the selection.
+  /// @pre every dimension at most once in the selection. @pre unchecked: `results` outlives this object
   CellTable(const ResultsReader& results, TableSelection selection);
 
   [[nodiscard]] const std::vector<CellColumn>& columns() const { return columns_; }

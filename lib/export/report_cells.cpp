@@ -5,13 +5,16 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
 using Indices = std::vector<std::int64_t>;
 
-/// `most` of the indices of a dimension, evenly spread. REQUIRES: 1 <= most <= count.
+/// `most` of the indices of a dimension, evenly spread. @pre 1 <= most <= count
 Indices spread(const GridDimension& dimension, std::int64_t most) {
+  REQUIRES(1 <= most && most <= dimension.count);
   if (most == 1) return {dimension.count / 2};
   Indices indices;
   for (std::int64_t j = 0; j < most; ++j) {
@@ -102,6 +105,7 @@ std::int64_t ReportCells::count() const {
 
 std::vector<ReportCells> choose_cells(const UniformGrid& grid, std::int64_t most,
                                       const std::vector<std::vector<std::int64_t>>& pins) {
+  REQUIRES(most >= 1);
   if (grid.cells() <= most) return {whole(grid)};
   if (grid.size() == 1) return {cells_of_pair(grid, 0, 0, most, pins)};
   std::vector<ReportCells> all;

@@ -24,7 +24,7 @@ struct ReportCells {
 /// @param pins cells that should be among them, as grid indices: each other dimension takes theirs, the first
 ///   pins first, in place of the nearest ones. Example: 31 points, room for 3: 0 15 30, with a pin at 7: 7
 ///   15 30.
-/// REQUIRES: most >= 1.
+/// @pre most >= 1
 [[nodiscard]] std::vector<ReportCells> choose_cells(const UniformGrid& grid, std::int64_t most,
                                                     const std::vector<std::vector<std::int64_t>>& pins);
 

@@ -23,7 +23,7 @@ struct ReportMap {
 };
 
 /// The maps of a page, of every field that is drawn: first those over partitions for each of `partitions`,
-/// then the others in the order of the answers. REQUIRES: `results` outlives them.
+/// then the others in the order of the answers. @pre unchecked: `results` outlives them.
 [[nodiscard]] std::vector<ReportMap> list_maps(const ResultsReader& results,
                                                const std::vector<std::size_t>& partitions,
                                                const ReportLimits& limits);

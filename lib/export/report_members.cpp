@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "answers/invariance/fields.hpp"
+#include "base/requires.hpp"
 
 namespace coordreq {
 
@@ -15,7 +16,9 @@ MemberMap::MemberMap(const ResultsReader& results, ReadMember read, std::vector<
       read_(std::move(read)),
       names_(std::move(names)),
       shown_(std::min(names_.size(), most)),
-      most_sets_(most_sets) {}
+      most_sets_(most_sets) {
+  REQUIRES(1 <= most && most <= 64 && most_sets >= 2);
+}
 
 std::vector<std::int32_t> MemberMap::read(const CellBlock& block) {
   std::vector<std::int32_t> values = results_.values(paths::kCollisionTime, block);

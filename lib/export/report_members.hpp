@@ -20,7 +20,7 @@ class MemberMap {
   using ReadMember = std::function<std::vector<std::uint8_t>(std::size_t member, const CellBlock&)>;
 
   /// @param names of all members; the first `most` are in the map. @param most_sets that are numbered
-  /// REQUIRES: 1 <= most <= 64, most_sets >= 2; `results` outlives this object.
+  /// @pre 1 <= most <= 64, most_sets >= 2. @pre unchecked: `results` outlives this object
   MemberMap(const ResultsReader& results, ReadMember read, std::vector<std::string> names, std::size_t most,
             std::size_t most_sets);
 

@@ -11,6 +11,7 @@
 #include "answers/goal/fields.hpp"
 #include "answers/invariance/fields.hpp"
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "cell/cell_controller.hpp"
 #include "results/scots_format.hpp"
 #include "spec/problem_spec.hpp"
@@ -111,6 +112,7 @@ MemoryDemand scots_demand(const ResultsReader& results) {
 }
 
 void export_scots(const ResultsReader& results, ControllerKind kind, ThreadTeam& team, const TextSink& sink) {
+  REQUIRES(kind != ControllerKind::progress || results.spec().goal);
   std::vector<Axis> states, inputs;
   for (const GridDimension& dimension : results.grid().dimensions())
     states.push_back(axis_of_state(dimension));

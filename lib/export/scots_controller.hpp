@@ -19,7 +19,7 @@ enum class ControllerKind : std::uint8_t {
 /// cell that has any its number and those of its joint inputs. Numbers count with dimension 0 fastest.
 /// @throws ResultsError if SCOTS cannot have the grids: points that are no multiples of the step, or listed
 ///   input values that are not evenly spaced and ascending
-/// REQUIRES: for `progress` the spec has a goal
+/// @pre for `progress` the spec has a goal
 void export_scots(const ResultsReader& results, ControllerKind kind, ThreadTeam& team, const TextSink& sink);
 /// What that takes.
 [[nodiscard]] MemoryDemand scots_demand(const ResultsReader& results);

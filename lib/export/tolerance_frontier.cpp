@@ -1,8 +1,10 @@
 #include "export/tolerance_frontier.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "base/index.hpp"
+#include "base/requires.hpp"
 
 namespace coordreq {
 namespace {
@@ -67,10 +69,19 @@ class Tolerated {
   std::vector<bool> holds_;
 };
 
+[[maybe_unused]] bool are_all_different(const ToleranceQuestion& question) {
+  std::set<std::size_t> states;
+  return std::ranges::all_of(question.over,
+                             [&](const auto& own) { return states.insert(own.state).second; }) &&
+         std::ranges::all_of(question.given,
+                             [&](const auto& own) { return states.insert(own.dimension).second; });
+}
+
 }  // namespace
 
 std::vector<FrontierCorner> tolerance_frontier(const ResultsReader& results,
                                                const ToleranceQuestion& question) {
+  REQUIRES(are_all_different(question));
   const Tolerated tolerated(results, question);
   const std::vector<std::int64_t> reach = tolerated.reach();
   std::vector<FrontierCorner> corners;

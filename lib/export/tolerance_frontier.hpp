@@ -29,7 +29,7 @@ using FrontierCorner = std::vector<std::int64_t>;
 /// The least such region: its corners, none of which lies in the region of another, by the first state, the
 /// worst value first. Of one state at most one; none: not even in the best cell. Cells outside of K tolerate
 /// nothing. Memory: a bit for each pair of values, and what CellTable takes.
-/// REQUIRES: the states of a question are all different
+/// @pre the states of a question are all different
 [[nodiscard]] std::vector<FrontierCorner> tolerance_frontier(const ResultsReader& results,
                                                              const ToleranceQuestion& question);
 

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <span>
 
+#include "base/requires.hpp"
 #include "export/report_page.hpp"
 #include "results/chunk_codec.hpp"
 
@@ -57,6 +58,8 @@ std::string packed(const ResultArray& array, std::uint64_t elements) {
 }  // namespace
 
 void export_vti(const ImageContent& image, const TextSink& sink) {
+  REQUIRES(std::ranges::all_of(image.arrays,
+                               [](const auto& array) { return array.values.type == ElementType::float64; }));
   const std::uint64_t cells = image.cells[0] * image.cells[1] * image.cells[2];
   const std::string extent = fmt::format("0 {} 0 {} 0 {}", image.cells[0], image.cells[1], image.cells[2]);
   sink(fmt::format(

@@ -9,7 +9,7 @@ namespace coordreq {
 /// of VTK and ParaView that is in use reads it. `title`, `axes` and `cut` are field data.
 ///
 /// Source: "VTK File Formats" in The VTK User's Guide, 11th edition.
-/// REQUIRES: every array is float64.
+/// @pre every array is float64
 void export_vti(const ImageContent& image, const TextSink& sink);
 
 }  // namespace coordreq

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -55,6 +57,7 @@ std::size_t comparison_count(const Program& condition) {
 
 ConditionDecider::ConditionDecider(const Program& condition, Question question)
     : fast_(condition), exact_(condition), variables_(condition.variables()), question_(question) {
+  REQUIRES(condition.is_condition());
   std::vector<std::uint32_t> repeated = repeated_variables(condition);
   if (repeated.empty() || condition.nodes.size() * comparison_count(condition) > kMostNodes) return;
   sharp_ = std::make_unique<SharpCondition>(condition, std::move(repeated), question);

@@ -16,7 +16,7 @@ namespace coordreq {
 /// already exact. Errs towards `undecided`. Scratch inside: one object a thread.
 class ConditionDecider {
  public:
-  /// REQUIRES: `condition` outlives this object and is a condition.
+  /// @pre `condition` is a condition. @pre unchecked: it outlives this object
   explicit ConditionDecider(const Program& condition, Question question = Question::truth);
 
   /// @param box by slot

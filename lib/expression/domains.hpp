@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/requires.hpp"
 #include "expression/functions.hpp"
 #include "expression/operators.hpp"
 #include "numeric/interval.hpp"
@@ -53,8 +54,9 @@ struct Order {
   bool above_or_touching = false;  ///< every a >= every b
 };
 
-/// "a op b" over all pairs. REQUIRES: is_comparison(op).
+/// "a op b" over all pairs. @pre is_comparison(op)
 [[nodiscard]] constexpr Truth truth_of(Operator op, const Order& order) {
+  REQUIRES(is_comparison(op));
   const auto decide = [](bool yes, bool no) { return yes ? Truth::yes : no ? Truth::no : Truth::undecided; };
   switch (op) {
     case Operator::less:

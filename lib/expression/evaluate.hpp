@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "expression/domains.hpp"
 #include "expression/program.hpp"
 #include "numeric/truth.hpp"
@@ -63,7 +64,7 @@ template <class Node, class T>
 template <class T>
 class Evaluator {
  public:
-  /// REQUIRES: `program` outlives the evaluator.
+  /// @pre unchecked: `program` outlives the evaluator.
   explicit Evaluator(const Program& program)
       : program_(&program), numbers_(program.nodes.size()), truths_(program.nodes.size()) {
     constants_.reserve(program.constants.size());
@@ -72,18 +73,23 @@ class Evaluator {
     }
   }
 
-  /// REQUIRES: the program is a number; `slots` has a value for every variable.
+  /// @pre the program is a number; `slots` has a value for every variable
   [[nodiscard]] const T& number(std::span<const T> slots) {
+    REQUIRES(!program_->is_condition());
     run(slots);
     return numbers_.back();
   }
-  /// REQUIRES: the program is a condition; `slots` has a value for every variable.
+  /// @pre the program is a condition; `slots` has a value for every variable
   [[nodiscard]] Truth condition(std::span<const T> slots) {
+    REQUIRES(program_->is_condition());
     run(slots);
     return truths_.back().value;
   }
-  /// The value of a node in the last run. REQUIRES: the node is a number.
-  [[nodiscard]] const T& at(std::uint32_t node) const { return numbers_[node]; }
+  /// The value of a node in the last run. @pre the node is a number
+  [[nodiscard]] const T& at(std::uint32_t node) const {
+    REQUIRES(!is_condition(program_->nodes[node].op));
+    return numbers_[node];
+  }
   /// The same of a node that is a condition.
   [[nodiscard]] Truth truth_at(std::uint32_t node) const { return truths_[node].value; }
 
@@ -105,6 +111,7 @@ class Evaluator {
         result = constants_[node.a];
         return;
       case Operator::variable:
+        REQUIRES(node.a < slots.size());
         result = slots[node.a];
         return;
       case Operator::if_else:

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/requires.hpp"
 #include "expression/tape_builder.hpp"
 
 namespace coordreq {
@@ -74,6 +75,7 @@ Truth Formula::value(std::span<const Truth> truths) const {
 }
 
 Formula take_apart(const Program& condition) {
+  REQUIRES(condition.is_condition());
   return Dismantler(condition).run();
 }
 

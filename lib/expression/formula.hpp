@@ -28,7 +28,7 @@ struct Formula {
   [[nodiscard]] Truth value(std::span<const Truth> truths) const;
 };
 
-/// REQUIRES: `condition` is a condition.
+/// @pre `condition` is a condition
 [[nodiscard]] Formula take_apart(const Program& condition);
 
 }  // namespace coordreq

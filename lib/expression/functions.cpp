@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/requires.hpp"
 #include "expression/dual.hpp"
 #include "numeric/correct_rounding.hpp"
 #include "numeric/rational_functions.hpp"
@@ -340,6 +341,7 @@ std::span<const NumberFunction> number_functions() {
 }
 
 const NumberFunction& number_function(Operator op) {
+  REQUIRES(is_number_function(op));
   return kFunctions[place_of(op)];
 }
 

@@ -99,7 +99,7 @@ struct NumberFunction {
 
 /// The whole table, in the order of Operator.
 [[nodiscard]] std::span<const NumberFunction> number_functions();
-/// REQUIRES: is_number_function(op).
+/// @pre is_number_function(op)
 [[nodiscard]] const NumberFunction& number_function(Operator op);
 
 }  // namespace coordreq

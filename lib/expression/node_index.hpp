@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "expression/program.hpp"
 
 namespace coordreq {
@@ -17,7 +18,7 @@ namespace coordreq {
 class NodeIndex {
  public:
   /// The index of a node equal to `node` in `nodes`; it is appended if there is none.
-  /// REQUIRES: `nodes` is what earlier calls made of it.
+  /// @pre unchecked: `nodes` is what earlier calls made of it.
   std::uint32_t find_or_append(const Program::Node& node, std::vector<Program::Node>& nodes) {
     if (2 * (nodes.size() + 1) > buckets_.size()) rebuild(nodes);
     std::size_t bucket = bucket_of(node);
@@ -42,8 +43,9 @@ class NodeIndex {
     return a.op == b.op && a.a == b.a && a.b == b.b && a.c == b.c;
   }
 
-  /// REQUIRES: there are buckets; their number is a power of two.
+  /// @pre there are buckets; their number is a power of two
   [[nodiscard]] std::size_t bucket_of(const Program::Node& node) const {
+    REQUIRES(std::has_single_bit(buckets_.size()));
     constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15ULL;
     std::uint64_t hash = static_cast<std::uint64_t>(node.op) * kOdd;
     for (const std::uint32_t operand : {node.a, node.b, node.c})

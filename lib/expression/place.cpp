@@ -5,12 +5,18 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 
 namespace coordreq {
 namespace {
 
 bool is_continuation(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
+/// ASCII, and no control character but white space.
+[[maybe_unused]] bool is_quotable(char c) {
+  return (' ' <= c && c <= '~') || ('\t' <= c && c <= '\r');
 }
 
 unsigned lead_size(unsigned char lead) {
@@ -39,6 +45,7 @@ void Place::fail(std::string_view what, std::size_t offset) const {
 }
 
 std::string quoted(std::string_view text) {
+  REQUIRES(std::ranges::all_of(text, is_quotable));
   constexpr std::size_t kMost = 40;
   const std::string_view dots = text.size() > kMost ? "..." : "";
   std::string shortened(text.substr(0, kMost));
@@ -49,6 +56,7 @@ std::string quoted(std::string_view text) {
 }
 
 std::size_t code_point_size(std::string_view text) {
+  REQUIRES(!text.empty());
   const std::size_t size = lead_size(static_cast<unsigned char>(text.front()));
   if (size == 0 || size > text.size()) return 1;
   const std::string_view rest = text.substr(1, size - 1);

@@ -19,8 +19,8 @@ struct Place {
   [[noreturn]] void fail(std::string_view what, std::size_t offset) const;
 };
 
-/// `text` in quotes and on one line for a message, shortened if long. REQUIRES: ASCII, no control characters
-/// but white space; what the grammar accepts is that.
+/// `text` in quotes and on one line for a message, shortened if long. @pre ASCII, no control characters but
+/// white space; what the grammar accepts is that
 [[nodiscard]] std::string quoted(std::string_view text);
 
 /// The character at the start of `text` as a message may show it: printable ASCII in quotes, anything else by
@@ -28,7 +28,7 @@ struct Place {
 /// characters.
 [[nodiscard]] std::string shown_character(std::string_view text);
 
-/// Bytes of the code point at the start of `text`, 1 for broken UTF-8. REQUIRES: text is not empty.
+/// Bytes of the code point at the start of `text`, 1 for broken UTF-8. @pre text is not empty
 [[nodiscard]] std::size_t code_point_size(std::string_view text);
 
 }  // namespace coordreq

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "expression/domains.hpp"
 #include "expression/evaluate.hpp"
 
@@ -13,8 +14,10 @@ namespace coordreq {
 /// bound on its error. Scratch inside: one object a thread.
 class PointValue {
  public:
-  /// REQUIRES: `program` outlives this object and is a number.
-  explicit PointValue(const Program& program) : fast_(program), exact_(program) {}
+  /// @pre `program` is a number. @pre unchecked: it outlives this object
+  explicit PointValue(const Program& program) : fast_(program), exact_(program) {
+    REQUIRES(!program.is_condition());
+  }
 
   /// In double arithmetic. NaN where it is undefined.
   [[nodiscard]] double approximate(std::span<const double> slots) { return fast_.number(slots); }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -32,6 +34,8 @@ SharpComparison::SharpComparison(const Formula::Comparison& comparison)
 }
 
 Truth SharpComparison::decide(std::span<const RationalInterval> box) {
+  REQUIRES(std::ranges::all_of(variables_,
+                               [&](std::uint32_t slot) { return box[slot].bounded && box[slot].total; }));
   const Dual& g = derivative(box);
   if (!g.total) return Truth::undecided;
   Truth result = truth(g.value.lower, g.value.upper);

@@ -20,10 +20,10 @@ namespace coordreq {
 /// Errs towards `undecided`. Scratch inside: one object a thread.
 class SharpComparison {
  public:
-  /// REQUIRES: `comparison` outlives this object.
+  /// @pre unchecked: `comparison` outlives this object.
   explicit SharpComparison(const Formula::Comparison& comparison);
 
-  /// @param box by slot; REQUIRES: bounded and total in all variables of the comparison
+  /// @param box by slot. @pre bounded and total in all variables of the comparison
   [[nodiscard]] Truth decide(std::span<const RationalInterval> box);
 
  private:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 
 SharpCondition::SharpCondition(const Program& condition, std::vector<std::uint32_t> divisible,
@@ -16,6 +18,8 @@ SharpCondition::SharpCondition(const Program& condition, std::vector<std::uint32
 }
 
 Truth SharpCondition::decide(std::span<const RationalInterval> box) {
+  REQUIRES(
+      std::ranges::all_of(box, [](const RationalInterval& range) { return range.bounded && range.total; }));
   whole_.assign(box.begin(), box.end());
   boxes_left_ = kMostBoxes;
   may_be_yes_ = true;

@@ -31,7 +31,7 @@ class SharpCondition {
   /// @param divisible slots of variables worth cutting
   SharpCondition(const Program& condition, std::vector<std::uint32_t> divisible, Question question);
 
-  /// @param box by slot; REQUIRES: bounded and total
+  /// @param box by slot. @pre bounded and total
   [[nodiscard]] Truth decide(std::span<const RationalInterval> box);
 
  private:

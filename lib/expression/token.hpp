@@ -34,7 +34,7 @@ struct Token {
 /// The token as a message names what was found: "'x1'", "the end", "U+00E9".
 [[nodiscard]] std::string shown(const Token& token);
 
-/// A function of the grammar. REQUIRES of a call: `fewest` to `most` arguments.
+/// A function of the grammar, and how many arguments a call has.
 struct Function {
   std::string_view name;
   Operator op;

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
+#include "base/requires.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/functions.hpp"
 
@@ -42,6 +44,8 @@ std::vector<std::uint32_t> operands(const Program::Node& node, const Evaluator<I
 }  // namespace
 
 std::string undefined_reason(const Program& program, std::span<const Interval> slots) {
+  REQUIRES(!program.is_condition());
+  REQUIRES(std::ranges::all_of(program.variables(), [&](std::uint32_t slot) { return slot < slots.size(); }));
   Evaluator<Interval> values(program);
   if (values.number(slots).total) return "";
   // Down from the result through what is undefined; conditions are gone through for what they compare.

@@ -10,7 +10,7 @@ namespace coordreq {
 
 /// Why an expression is not defined everywhere in a box, as a message may say it: "division by a number in
 /// [-0.5, 0.5]". Empty if natural interval evaluation finds no reason.
-/// REQUIRES: `slots` has a value for every variable; the program is a number.
+/// @pre `slots` has a value for every variable; the program is a number
 [[nodiscard]] std::string undefined_reason(const Program& program, std::span<const Interval> slots);
 
 }  // namespace coordreq

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 
 std::int64_t CellBlock::cells() const {
@@ -20,6 +22,7 @@ CellBlock all_cells(const UniformGrid& grid) {
 }
 
 CellBlock one_cell(const UniformGrid& grid, std::int64_t cell) {
+  REQUIRES(0 <= cell && cell < grid.cells());
   CellBlock block;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     block.first.push_back(grid.index(cell, i));
@@ -29,6 +32,7 @@ CellBlock one_cell(const UniformGrid& grid, std::int64_t cell) {
 }
 
 std::vector<CellBlock> blocks_of_stretch(const UniformGrid& grid, std::int64_t begin, std::int64_t end) {
+  REQUIRES(0 <= begin && begin <= end && end <= grid.cells());
   std::vector<CellBlock> blocks;
   while (begin < end) {
     // The slowest dimension along which a whole step fits; those after it are taken in full.

@@ -20,11 +20,11 @@ struct CellBlock {
 };
 
 [[nodiscard]] CellBlock all_cells(const UniformGrid& grid);
-/// REQUIRES: 0 <= cell < grid.cells().
+/// @pre 0 <= cell < grid.cells()
 [[nodiscard]] CellBlock one_cell(const UniformGrid& grid, std::int64_t cell);
 
 /// The cells with linear indices begin, ..., end - 1 as at most 2 * grid.size() - 1 blocks, which one after
-/// the other hold them in that order. REQUIRES: 0 <= begin <= end <= grid.cells().
+/// the other hold them in that order. @pre 0 <= begin <= end <= grid.cells()
 [[nodiscard]] std::vector<CellBlock> blocks_of_stretch(const UniformGrid& grid, std::int64_t begin,
                                                        std::int64_t end);
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/requires.hpp"
 #include "model/pieces.hpp"
 
 namespace coordreq {
@@ -72,6 +73,8 @@ ConditionTable::ConditionTable(const Program& allow, const UniformGrid& grid, co
 
 void ConditionTable::find_positions(std::optional<ThreadTeam::Range> leading) {
   const UniformGrid& grid = *positions_.grid;
+  REQUIRES(grid.across() + 1 == grid.size());
+  REQUIRES(!leading || grid.size() > 1 || (leading->begin == 0 && leading->end == grid[0].count));
   const InputSpace& inputs = *positions_.input_space;
   const std::vector<std::int64_t>& strides = table_.strides();
   for (std::size_t i = 0; i < grid.size(); ++i) positions_.state_stride.push_back(strides[grid.state(i)]);

@@ -20,7 +20,7 @@ enum class Sampling : std::uint8_t {
   closed_cells,
 };
 
-/// What states and inputs can be, by slot. REQUIRES: grid and inputs outlive the axes.
+/// What states and inputs can be, by slot. @pre unchecked: grid and inputs outlive the axes.
 /// @param leading indices of the first dimension, or all
 [[nodiscard]] std::vector<ConditionAxis> condition_axes(
     const UniformGrid& grid, const InputSpace& inputs, Sampling sampling,
@@ -41,8 +41,8 @@ class ConditionTable {
 
   /// @param undecided and @param question as for TruthTable
   /// @param leading indices of the first dimension, or all; no row with another one may be asked for
-  /// REQUIRES: grid and inputs outlive this object; the rows of the grid run along its last dimension, and
-  /// `leading` is all if that is the first one too.
+  /// @pre the rows of the grid run along its last dimension, and `leading` is all if that is the first one
+  /// too. @pre unchecked: grid and inputs outlive this object
   ConditionTable(const Program& condition, const UniformGrid& grid, const InputSpace& inputs,
                  Sampling sampling, const Undecided& undecided, ThreadTeam& team,
                  Question question = Question::truth,

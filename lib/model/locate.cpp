@@ -1,5 +1,6 @@
 #include "model/locate.hpp"
 
+#include "base/requires.hpp"
 #include "model/outside.hpp"
 
 namespace coordreq {
@@ -46,6 +47,7 @@ Location::Kind kind_of(const GridDimension& dimension, const Rational& value, st
 }  // namespace
 
 Location locate(const UniformGrid& grid, std::span<const Rational> state) {
+  REQUIRES(state.size() == grid.size());
   Location location;
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const std::int64_t k = index_of(grid[i], state[i]);

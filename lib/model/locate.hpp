@@ -30,7 +30,7 @@ struct Location {
 ///
 /// A periodic dimension wraps. Beyond a `saturate` or `stop` side the true state never is, so what is
 /// measured there, by no more than the measurement error beyond the last grid point, reads as the boundary
-/// cell. REQUIRES: one value a dimension.
+/// cell. @pre one value a dimension
 [[nodiscard]] Location locate(const UniformGrid& grid, std::span<const Rational> state);
 
 }  // namespace coordreq

@@ -25,7 +25,7 @@ struct StateOrder {
 class Model {
  public:
   /// @param shapes of the tables, one a state: see table_shapes()
-  /// REQUIRES: `spec` outlives this object.
+  /// @pre unchecked: `spec` outlives this object.
   Model(const ProblemSpec& spec, std::vector<TableShape> shapes);
 
   [[nodiscard]] const ProblemSpec& spec() const { return *spec_; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -23,6 +25,7 @@ IndexRange moved(IndexRange raw, std::int64_t by) {
 }
 
 IndexRange wrap_range(IndexRange raw, std::int64_t count) {
+  REQUIRES(raw.first <= raw.last && count >= 1);
   const std::int64_t distance = std::int64_t{raw.last} - raw.first;
   const bool lost = raw.first == Limits::min() || raw.last == Limits::max();
   const std::int64_t first = (raw.first % count + count) % count;
@@ -33,6 +36,7 @@ IndexRange wrap_range(IndexRange raw, std::int64_t count) {
 }
 
 ResolvedRange resolve(IndexRange raw, std::int64_t count, Outside below, Outside above) {
+  REQUIRES(raw.first <= raw.last && count >= 1 && traits(below).wraps == traits(above).wraps);
   if (traits(below).wraps) return {.blocked = false, .inside = wrap_range(raw, count)};
   const auto top = static_cast<std::int32_t>(count - 1);
   const bool leaves_below = raw.first < 0;

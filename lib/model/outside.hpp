@@ -54,7 +54,7 @@ struct IndexRange {
 
 /// The cells of a periodic dimension that a raw range means, with 0 <= first < count. {0, count - 1} for a
 /// range as long as the period, and wherever 32 bits do not hold the place: an end that was saturated, or a
-/// sum beyond them. REQUIRES raw.first <= raw.last, count >= 1.
+/// sum beyond them. @pre raw.first <= raw.last, count >= 1
 [[nodiscard]] IndexRange wrap_range(IndexRange raw, std::int64_t count);
 
 /// A raw range further up by `by` indices, 0 <= by < 2^31. What was saturated stays so.
@@ -73,8 +73,8 @@ struct ResolvedRange {
 
 /// Contract, "Leaving the domain": `unsafe` blocks, `safe` drops what left, `saturate` moves it to the
 /// boundary cell. `stop` has done its work in the dynamics; what measurement errors still put beyond the
-/// limit reads as the boundary cell, as with `saturate`. `periodic`: see wrap_range(). REQUIRES raw.first <=
-/// raw.last, count >= 1, `periodic` on both sides or none.
+/// limit reads as the boundary cell, as with `saturate`. `periodic`: see wrap_range().
+/// @pre raw.first <= raw.last, count >= 1, `periodic` on both sides or none
 [[nodiscard]] ResolvedRange resolve(IndexRange raw, std::int64_t count, Outside below, Outside above);
 
 }  // namespace coordreq

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 
 IndexRange merge_ranges(IndexRange a, IndexRange b, const GridDimension& target) {
+  REQUIRES(a.first <= a.last && b.first <= b.last);
   if (!target.periodic()) return {std::min(a.first, b.first), std::max(a.last, b.last)};
   const std::int64_t count = target.count;
   const IndexRange whole{0, static_cast<std::int32_t>(count - 1)};

@@ -6,6 +6,7 @@
 
 #include "base/fast_paths.hpp"
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "expression/condition.hpp"
 #include "numeric/rational.hpp"
 #include "spec/problem_spec.hpp"
@@ -123,6 +124,7 @@ std::vector<std::size_t> joined_states(const ProblemSpec& spec, const std::vecto
 
 RowSample sample_rows(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
                       const std::vector<std::size_t>& along) {
+  REQUIRES(std::ranges::all_of(along, [&](std::size_t state) { return state < spec.states.size(); }));
   std::vector<std::size_t> across;
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
     if (!contains(along, i)) across.push_back(i);

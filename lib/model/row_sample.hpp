@@ -25,7 +25,7 @@ struct RowSample {
 
 /// Draws rows along the states `along`, the same ones whenever it is asked. What a table says of a row is
 /// taken to differ with every state across rows on which it depends otherwise than by an offset.
-/// REQUIRES: `along` are some of the states, not all.
+/// @pre `along` are some of the states, or all of them
 [[nodiscard]] RowSample sample_rows(const ProblemSpec& spec, const std::vector<TableShape>& shapes,
                                     const std::vector<std::size_t>& along);
 

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/requires.hpp"
 #include "spec/system_spec.hpp"
 
 namespace coordreq {
@@ -36,6 +37,7 @@ UniformGrid::UniformGrid(std::vector<GridDimension> dimensions, std::vector<std:
 }
 
 UniformGrid UniformGrid::arranged(const std::vector<std::size_t>& order) const {
+  REQUIRES(std::ranges::is_permutation(order, natural_order(size())));
   std::vector<GridDimension> dimensions;
   std::vector<std::size_t> states;
   for (const std::size_t i : order) {
@@ -50,6 +52,7 @@ UniformGrid UniformGrid::in_rows(const std::vector<std::int64_t>& gaps) const {
 }
 
 UniformGrid UniformGrid::with(std::vector<GridDimension> dimensions) const {
+  REQUIRES(std::ranges::equal(dimensions, dimensions_, {}, &GridDimension::count, &GridDimension::count));
   UniformGrid result = *this;
   result.dimensions_ = std::move(dimensions);
   return result;

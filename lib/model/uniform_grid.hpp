@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "model/outside.hpp"
 #include "numeric/rational.hpp"
 #include "spec/grid_dimension.hpp"
@@ -27,14 +28,14 @@ class UniformGrid {
   explicit UniformGrid(const std::vector<GridDimension>& dimensions);
 
   /// The same cells with dimension d for the state that is dimension order[d] here, in rows along the last
-  /// one. REQUIRES: `order` is a permutation.
+  /// one. @pre `order` is a permutation
   [[nodiscard]] UniformGrid arranged(const std::vector<std::size_t>& order) const;
   /// The same cells in rows along several dimensions.
   /// @param gaps for each of the last dimensions that rows run along, but for the first of these, its gap, in
   ///   indices of that dimension; none: rows along the last dimension alone
   [[nodiscard]] UniformGrid in_rows(const std::vector<std::int64_t>& gaps) const;
   /// The same rows of as many cells, with other rules for what lies beyond them.
-  /// REQUIRES: as many indices in each of `dimensions`.
+  /// @pre as many indices in each of `dimensions`
   [[nodiscard]] UniformGrid with(std::vector<GridDimension> dimensions) const;
 
   /// State of the spec that dimension i is, and the dimension of a state.
@@ -59,9 +60,12 @@ class UniformGrid {
   [[nodiscard]] std::int64_t row_length() const { return row_length_; }
   [[nodiscard]] std::int64_t rows() const { return cells_ / row_length_; }
 
-  /// REQUIRES: `linear` is a cell's.
+  /// @pre `linear` is a cell's
   [[nodiscard]] std::int64_t index(std::int64_t linear, std::size_t i) const {
-    return i == 0 ? linear / strides_[0] : linear % strides_[i - 1] / strides_[i];
+    REQUIRES(0 <= linear && linear < cells_);
+    const std::int64_t index = i == 0 ? linear / strides_[0] : linear % strides_[i - 1] / strides_[i];
+    REQUIRES(index < dimensions_[i].count);
+    return index;
   }
 
  private:

@@ -2,6 +2,9 @@
 
 #include <mpfr.h>
 
+#include "base/requires.hpp"
+#include "numeric/rational_functions.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -170,10 +173,12 @@ std::optional<double> nearest_value(ElementaryFunction f, const Rational& q) {
 }
 
 double nearest_power(const Rational& base, const Rational& exponent) {
+  REQUIRES(sgn(base) > 0 && !is_integer(exponent) && !exact_power(base, exponent));
   return rounded_at_corners(mpfr_pow, base, exponent);
 }
 
 std::optional<double> nearest_angle(const Rational& y, const Rational& x) {
+  REQUIRES(sgn(y) != 0 || sgn(x) <= 0);
   if (sgn(y) == 0 && sgn(x) == 0) return std::nullopt;
   return rounded_at_corners(mpfr_atan2, y, x);
 }

@@ -32,12 +32,12 @@ enum class ElementaryFunction : std::uint8_t {
 [[nodiscard]] std::optional<double> nearest_value(ElementaryFunction f, const Rational& q);
 
 /// The double nearest to base^exponent, +infinity on overflow.
-/// REQUIRES: base > 0, and base^exponent is irrational (exact_power() returns nothing for an exponent that is
-/// no integer); a rational value could lie between two doubles for ever.
+/// @pre base > 0, and base^exponent is irrational (exact_power() returns nothing for an exponent that is no
+/// integer); a rational value could lie between two doubles for ever
 [[nodiscard]] double nearest_power(const Rational& base, const Rational& exponent);
 
 /// The double nearest to the angle of the point (x, y), which is 0 (seen by the caller) or transcendental.
-/// @returns nothing at the origin. REQUIRES: y != 0 or x <= 0.
+/// @returns nothing at the origin. @pre y != 0 or x <= 0
 [[nodiscard]] std::optional<double> nearest_angle(const Rational& y, const Rational& x);
 
 }  // namespace coordreq

@@ -1,5 +1,7 @@
 #include "numeric/interval.hpp"
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -81,9 +83,10 @@ Interval power_at(double x, double y) {
   return {std::max(0.0, value_below(value)), value_above(value)};
 }
 
-/// x^n by multiplication, which keeps exact results exact. REQUIRES: x >= 0, n >= 1.
+/// x^n by multiplication, which keeps exact results exact. @pre x >= 0, n >= 1
 template <double (*multiply)(double, double)>
 double multiplied(double x, unsigned n) {
+  REQUIRES(x >= 0.0 && n >= 1);
   double result = 1.0;
   for (; n > 0; n /= 2) {
     if (n % 2 == 1) result = multiply(result, x);
@@ -107,8 +110,9 @@ double power_up(double x, double n) {
   return n <= kMostTight ? product : std::min(product, power_at(x, n).upper);
 }
 
-/// REQUIRES: n >= 1.
+/// @pre n >= 1
 Interval positive_power(const Interval& a, double n) {
+  REQUIRES(n >= 1.0);
   const bool even = std::fmod(n, 2.0) == 0.0;
   if (even || a.lower >= 0.0) {
     const Interval magnitude = abs(a);
@@ -143,6 +147,7 @@ Interval enclose(const Rational& q) {
 }
 
 Interval divide_by_zero(const Interval& a, const Interval& b) {
+  REQUIRES(b.contains(0.0));
   using outward::divide_down;
   using outward::divide_up;
   if (b.is_point()) return whole_line(false);
@@ -163,6 +168,7 @@ Interval sqrt(const Interval& a) {
 }
 
 Interval power(const Interval& a, double n) {
+  REQUIRES(is_integer_value(n));
   if (n == 0.0) return {1.0, 1.0, a.total};
   if (n == 2.0) return sqr(a);
   if (n > 0.0) return positive_power(a, n);

@@ -101,7 +101,7 @@ struct Interval {
 }
 
 /// a / b where b contains 0: a half-line if b lies on one side of 0 and a keeps its sign, {0} if a is {0} and
-/// b is not, else the whole line; never total. REQUIRES: b contains 0.
+/// b is not, else the whole line; never total. @pre b contains 0
 [[nodiscard]] Interval divide_by_zero(const Interval& a, const Interval& b);
 
 [[nodiscard]] inline Interval operator/(const Interval& a, const Interval& b) {
@@ -155,7 +155,7 @@ struct Interval {
 [[nodiscard]] Interval sqrt(const Interval& a);
 
 /// a^n for an integer n, also a negative one, with 0^0 = 1. Exact results stay exact for |n| <= 64.
-/// REQUIRES: n is an integer (of any size).
+/// @pre n is an integer (of any size)
 [[nodiscard]] Interval power(const Interval& a, double n);
 
 /// a^b: integer powers for a point b that is an integer, else exp(b log a) on a > 0 together with 0^b for b

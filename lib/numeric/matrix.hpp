@@ -54,8 +54,8 @@ using RealVector = VectorOf<double>;
 /// product sums large matrices in blocks, and the ends of intervals depend on the order. An entry that is a
 /// sum of zeros is exactly zero.
 ///
-/// Not evaluated before it is assigned: REQUIRES that both outlive it, and that neither is what it is
-/// assigned to.
+/// Not evaluated before it is assigned. @pre unchecked: both outlive it, and neither is what it is assigned
+/// to
 template <class A, class B>
 [[nodiscard]] auto product(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
   return a.lazyProduct(b);

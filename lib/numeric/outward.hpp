@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/requires.hpp"
+
 /// Lower (`*_down`) and upper (`*_up`) bounds of one exact operation on doubles.
 ///
 /// The bound is the rounded result itself if an error-free transformation proves it to be exact, else a
@@ -21,8 +23,9 @@ inline constexpr double kLargest = std::numeric_limits<double>::max();
 /// Products and dividends above this have a rounding error that is a double too.
 inline constexpr double kSafeMagnitude = 0x1p-960;
 
-/// `x` moved by `steps` doubles, up if positive; stops at the infinities. REQUIRES: x is not NaN.
+/// `x` moved by `steps` doubles, up if positive; stops at the infinities. @pre x is not NaN
 [[nodiscard]] inline double moved(double x, std::int64_t steps) {
+  REQUIRES(!std::isnan(x));
   constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
   const auto bits = std::bit_cast<std::int64_t>(x);
   // Doubles in ascending order are these integers in ascending order, with both zeros at 0.
@@ -63,8 +66,9 @@ inline constexpr double kSafeMagnitude = 0x1p-960;
   return -multiply_down(-a, b);
 }
 
-/// REQUIRES: b != 0.
+/// @pre b != 0
 [[nodiscard]] inline double divide_down(double a, double b) {
+  REQUIRES(b != 0.0);
   if (a == 0.0 || std::fabs(b) == kInfinity) return 0.0;
   const double quotient = a / b;
   const double magnitude = std::fabs(quotient);
@@ -75,20 +79,23 @@ inline constexpr double kSafeMagnitude = 0x1p-960;
   const double below = next_down(quotient);
   return (a > 0.0) == (b > 0.0) ? std::max(below, 0.0) : below;
 }
-/// REQUIRES: b != 0.
+/// @pre b != 0
 [[nodiscard]] inline double divide_up(double a, double b) {
+  REQUIRES(b != 0.0);
   return -divide_down(-a, b);
 }
 
-/// REQUIRES: a >= 0.
+/// @pre a >= 0
 [[nodiscard]] inline double square_root_down(double a) {
+  REQUIRES(a >= 0.0);
   const double root = std::sqrt(a);
   if (a == 0.0) return 0.0;
   if (a < kSafeMagnitude || a > kLargest) return next_down(root);
   return std::fma(-root, root, a) < 0.0 ? next_down(root) : root;
 }
-/// REQUIRES: a >= 0.
+/// @pre a >= 0
 [[nodiscard]] inline double square_root_up(double a) {
+  REQUIRES(a >= 0.0);
   const double root = std::sqrt(a);
   if (a == 0.0) return 0.0;
   if (a < kSafeMagnitude || a > kLargest) return next_up(root);

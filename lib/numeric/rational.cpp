@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -75,8 +77,9 @@ mpz_class scaled_quotient(const mpz_class& n, const mpz_class& d, long e, mpz_cl
   return quotient;
 }
 
-/// REQUIRES: q != 0.
+/// @pre q != 0
 Bracket bracket(const Rational& q) {
+  REQUIRES(sgn(q) != 0);
   constexpr long kDigits = std::numeric_limits<double>::digits;
   constexpr long kLeastExponent = std::numeric_limits<double>::min_exponent - kDigits;
   constexpr long kGreatestExponent = std::numeric_limits<double>::max_exponent - kDigits;
@@ -177,6 +180,7 @@ double upper_double(const Rational& q) {
 }
 
 Rational exact(double value) {
+  REQUIRES(std::isfinite(value));
   return Rational(value);
 }
 

@@ -24,7 +24,7 @@ using Rational = mpq_class;
 [[nodiscard]] double lower_double(const Rational& q);
 /// The smallest double >= q. +infinity above the range.
 [[nodiscard]] double upper_double(const Rational& q);
-/// The exact value of a finite double. REQUIRES: std::isfinite(value).
+/// The exact value of a finite double. @pre std::isfinite(value)
 [[nodiscard]] Rational exact(double value);
 
 /// Greatest integer <= q and least integer >= q, saturated to +-2^62 so that sums of two stay in range.

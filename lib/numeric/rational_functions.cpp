@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 
 std::size_t bit_size(const Rational& q) {
@@ -9,6 +11,7 @@ std::size_t bit_size(const Rational& q) {
 }
 
 std::optional<Rational> integer_power(const Rational& base, const Rational& exponent) {
+  REQUIRES(is_integer(exponent));
   if (sgn(exponent) == 0 || base == 1) return Rational(1);
   if (sgn(base) == 0) return sgn(exponent) > 0 ? std::optional<Rational>(0) : std::nullopt;
   if (base == -1) return Rational(mpz_even_p(exponent.get_num_mpz_t()) != 0 ? 1 : -1);
@@ -25,6 +28,7 @@ std::optional<Rational> integer_power(const Rational& base, const Rational& expo
 }
 
 std::optional<Rational> exact_root(const Rational& q, unsigned long k) {
+  REQUIRES(k >= 1);
   Rational root;
   if (mpz_root(root.get_num_mpz_t(), q.get_num_mpz_t(), k) == 0) return std::nullopt;
   if (mpz_root(root.get_den_mpz_t(), q.get_den_mpz_t(), k) == 0) return std::nullopt;

@@ -18,10 +18,10 @@ inline constexpr unsigned long kMostExactExponent = 4096;
 
 /// base^exponent for an integer exponent, with 0^0 = 1.
 /// @returns nothing for a negative power of 0, or if the result might exceed the two limits above
-///   (0, 1 and -1 take any exponent). REQUIRES: is_integer(exponent).
+///   (0, 1 and -1 take any exponent). @pre is_integer(exponent)
 [[nodiscard]] std::optional<Rational> integer_power(const Rational& base, const Rational& exponent);
 
-/// The k-th root of q >= 0 if it is rational. REQUIRES: k >= 1.
+/// The k-th root of q >= 0 if it is rational. @pre k >= 1
 [[nodiscard]] std::optional<Rational> exact_root(const Rational& q, unsigned long k);
 
 /// base^exponent if it is a rational number and within the limits: integer exponents, and roots that come out

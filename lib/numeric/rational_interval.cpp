@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/requires.hpp"
 #include "numeric/rational_functions.hpp"
 
 namespace coordreq {
@@ -40,8 +41,9 @@ RationalInterval product(const RationalInterval& a, const RationalInterval& b) {
   return {*least, *greatest, true, true};
 }
 
-/// a^n where both ends stay within the limits of integer_power. REQUIRES: n >= 1 is an integer, a bounded.
+/// a^n where both ends stay within the limits of integer_power. @pre n >= 1 is an integer, a bounded
 std::optional<RationalInterval> positive_power(const RationalInterval& a, const Rational& n) {
+  REQUIRES(n >= 1 && is_integer(n) && a.bounded);
   const bool even = mpz_even_p(n.get_num_mpz_t()) != 0;
   std::optional<Rational> first = integer_power(a.lower, n);
   std::optional<Rational> last = a.lower == a.upper ? first : integer_power(a.upper, n);

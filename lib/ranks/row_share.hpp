@@ -16,7 +16,7 @@ class RowShare {
   using Range = ThreadTeam::Range;
 
   /// @param bounds rank r owns the rows [bounds[r], bounds[r + 1])
-  /// REQUIRES: `ranks` outlives this object.
+  /// @pre unchecked: `ranks` outlives this object.
   RowShare(Ranks& ranks, std::vector<std::int64_t> bounds);
 
   [[nodiscard]] Ranks& ranks() const { return *ranks_; }

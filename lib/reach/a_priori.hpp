@@ -17,7 +17,7 @@ struct FlowFailure {
 
 /// Right-hand sides over boxes, and enclosures of the solutions that start in a box.
 ///
-/// Scratch memory for one thread. REQUIRES: system and tape outlive it.
+/// Scratch memory for one thread. @pre unchecked: system and tape outlive it.
 class VectorField {
  public:
   VectorField(const FlowSystem& system, const FlowTape& tape);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
@@ -37,6 +38,7 @@ ResolvedRange Abstraction::resolved(std::size_t i, std::int64_t x, std::int64_t 
 }
 
 IndexRange Abstraction::raw_tube(std::size_t i, std::int64_t x, std::int64_t u) const {
+  REQUIRES(!tubes.empty());
   return read(*this, tubes[i], i, x, u);
 }
 

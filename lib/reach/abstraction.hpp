@@ -126,7 +126,7 @@ struct Abstraction {
   [[nodiscard]] IndexRange raw(std::size_t i, std::int64_t x, std::int64_t u) const;
   /// The same after the rules for leaving the domain.
   [[nodiscard]] ResolvedRange resolved(std::size_t i, std::int64_t x, std::int64_t u) const;
-  /// Raw range of the tube. REQUIRES: there are tubes.
+  /// Raw range of the tube. @pre there are tubes
   [[nodiscard]] IndexRange raw_tube(std::size_t i, std::int64_t x, std::int64_t u) const;
   /// The cells that must be safe between the samples, likewise. The tube of a state that saturates may go on
   /// beyond the boundary cell: see safe_beyond_limits().

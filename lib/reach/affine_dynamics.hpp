@@ -28,7 +28,7 @@ enum class Limits : std::uint8_t { obeyed, ignored };
 /// Immutable, so safe to share between threads.
 class AffineDynamics {
  public:
-  /// REQUIRES: `spec` outlives this object.
+  /// @pre unchecked: `spec` outlives this object.
   explicit AffineDynamics(const SystemSpec& spec);
 
   [[nodiscard]] const Dependencies& dependencies(std::size_t state) const { return dependencies_[state]; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "expression/evaluate.hpp"
 #include "reach/sensitivity.hpp"
 #include "reach/shift.hpp"
@@ -183,6 +184,7 @@ AffinePart find_affine_part(const SystemSpec& spec, const Dependencies& dependen
 
 AffineCoefficients::AffineCoefficients(const SystemSpec& spec, const AffinePart& part, std::size_t state)
     : spec_(&spec), part_(part) {
+  REQUIRES(!part.states.empty());
   if (spec.dynamics.time == Time::discrete) {
     equations_.push_back(state);
   } else {

@@ -32,7 +32,7 @@ struct AffinePart {
 /// of the equations of A by A. Over-approximates. Not thread-safe.
 class AffineCoefficients {
  public:
-  /// REQUIRES: `spec` outlives this object; `part.states` is not empty.
+  /// @pre `part.states` is not empty. @pre unchecked: `spec` outlives this object
   AffineCoefficients(const SystemSpec& spec, const AffinePart& part, std::size_t state);
 
   /// Sets the box of an input or parameter that Phi depends on.

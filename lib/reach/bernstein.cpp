@@ -2,9 +2,12 @@
 
 #include <cstddef>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 
 std::vector<Rational> to_bernstein(const std::vector<Rational>& coefficient, const Rational& end) {
+  REQUIRES(!coefficient.empty());
   const std::size_t n = coefficient.size() - 1;
   std::vector<Rational> scaled(n + 1);  // c_k * end^k / C(n, k)
   Rational factor = 1;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
 #include "model/pieces.hpp"
 
 namespace coordreq {
@@ -19,6 +20,7 @@ IndexRange cells_meeting(const GridDimension& dimension, Cells cells, const Rati
 }
 
 IndexRange cells_meeting(const GridDimension& dimension, Cells cells, const Interval& enclosure) {
+  REQUIRES(enclosure.is_finite());
   return cells_meeting(dimension, cells, exact(enclosure.lower) - dimension.measurement_error,
                        exact(enclosure.upper) + dimension.measurement_error, true);
 }
@@ -38,6 +40,7 @@ IndexRange cells_covering(const GridDimension& dimension, const Rational& lower,
 }
 
 IndexRange cells_covering_shifted(const GridDimension& dimension, const Interval& shift) {
+  REQUIRES(shift.contains(0.0));
   return raw_range(dimension, floor_to_int(exact(shift.lower) / dimension.step),
                    ceil_to_int(exact(shift.upper) / dimension.step));
 }

@@ -23,8 +23,8 @@ class DividedEntries {
   };
 
   /// @param own numbers of the choices of this process
-  /// REQUIRES: the table, which has its final length, and `ranks`, null if there is one process, outlive this
-  /// object.
+  /// @pre unchecked: the table, which has its final length, and `ranks`, null if there is one process,
+  /// outlive this object.
   DividedEntries(TransitionTable& table, Places places, ThreadTeam::Range own, Ranks* ranks);
 
   /// The entry of one of its own choices. @param position of the entry

@@ -24,7 +24,7 @@ namespace coordreq {
 /// Over-approximates. Scratch memory for one thread.
 class FaceFlow {
  public:
-  /// REQUIRES: the system outlives this object.
+  /// @pre unchecked: the system outlives this object.
   explicit FaceFlow(const FlowSystem& system);
 
   /// @param slots as in ValidatedFlow::flow()

@@ -43,7 +43,7 @@ class FaceSlope {
     double decay = 0.0;   ///< the least derivative of the equation by its own state
   };
 
-  /// REQUIRES: the system outlives this object.
+  /// @pre unchecked: the system outlives this object.
   FaceSlope(const FlowSystem& system, std::size_t state);
 
   /// Sets what is constant in time, and the disturbances' boxes.

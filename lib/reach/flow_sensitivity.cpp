@@ -1,5 +1,7 @@
 #include "reach/flow_sensitivity.hpp"
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -9,9 +11,10 @@ using outward::multiply_up;
 /// A product of fewer matrices is hardly wider than that of a turning frame, which costs more than they do.
 constexpr std::size_t kShortProduct = 8;
 
-/// |Phi(h, 0)| before + (integral of |Phi|) acting, rounded up. REQUIRES: no entry is negative.
+/// |Phi(h, 0)| before + (integral of |Phi|) acting, rounded up. @pre no entry is negative
 template <class Sizes>
 Sizes carried_on(const TransitionMatrix& transition, const Sizes& before, const Sizes& acting) {
+  REQUIRES((before.array() >= 0.0).all() && (acting.array() >= 0.0).all());
   Sizes sizes = Sizes::Zero(before.rows(), before.cols());
   for (Eigen::Index i = 0; i < before.rows(); ++i) {
     for (Eigen::Index l = 0; l < before.cols(); ++l) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/fast_paths.hpp"
+#include "base/requires.hpp"
 #include "reach/jacobian.hpp"
 #include "reach/sensitivity.hpp"
 #include "reach/turning_product.hpp"
@@ -34,8 +35,11 @@ class FlowSensitivity {
     return kernel_(index(i), index(l));
   }
   [[nodiscard]] double weight(std::size_t i, std::size_t l) const { return weight_(index(i), index(l)); }
-  /// Puts a better bound there. REQUIRES: it is one.
-  void set_weight(std::size_t i, std::size_t l, double bound) { weight_(index(i), index(l)) = bound; }
+  /// Puts a better bound there. @pre it is not larger. @pre unchecked: it is one
+  void set_weight(std::size_t i, std::size_t l, double bound) {
+    REQUIRES(bound <= weight(i, l));
+    weight_(index(i), index(l)) = bound;
+  }
   [[nodiscard]] double jump(std::size_t i) const { return jump_(index(i)); }
 
  private:

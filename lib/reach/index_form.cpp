@@ -1,5 +1,7 @@
 #include "reach/index_form.hpp"
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -39,18 +41,21 @@ std::int64_t IndexForm::numerator(const std::vector<std::int64_t>& indices) cons
 }
 
 std::int64_t IndexForm::floor(const std::vector<std::int64_t>& indices) const {
+  REQUIRES(indices.size() == factors_.size());
   if (!small_) return floor_to_int(value(indices));
   const std::int64_t n = numerator(indices);
   return n / denominator_ - (n % denominator_ < 0 ? 1 : 0);
 }
 
 std::int64_t IndexForm::ceil(const std::vector<std::int64_t>& indices) const {
+  REQUIRES(indices.size() == factors_.size());
   if (!small_) return ceil_to_int(value(indices));
   const std::int64_t n = numerator(indices);
   return n / denominator_ + (n % denominator_ > 0 ? 1 : 0);
 }
 
 bool IndexForm::integral(const std::vector<std::int64_t>& indices) const {
+  REQUIRES(indices.size() == factors_.size());
   return small_ ? numerator(indices) % denominator_ == 0 : is_integer(value(indices));
 }
 

@@ -16,7 +16,7 @@ class IndexForm {
   IndexForm(const std::vector<Rational>& factors, const Rational& offset,
             const std::vector<std::int64_t>& counts);
 
-  /// Saturated to +-2^62. REQUIRES: as many indices as factors, each in its range.
+  /// Saturated to +-2^62. @pre as many indices as factors. @pre unchecked: each is in its range
   [[nodiscard]] std::int64_t floor(const std::vector<std::int64_t>& indices) const;
   [[nodiscard]] std::int64_t ceil(const std::vector<std::int64_t>& indices) const;
   /// True if the value is an integer.

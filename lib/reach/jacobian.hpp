@@ -16,7 +16,7 @@ namespace coordreq {
 /// Matrices n x n and n x m. Scratch memory for one thread.
 class Jacobian {
  public:
-  /// REQUIRES: system and tape outlive it.
+  /// @pre unchecked: system and tape outlive it.
   Jacobian(const FlowSystem& system, const FlowTape& tape);
 
   /// Sets what is constant in time, and the disturbances' boxes.

@@ -4,7 +4,7 @@
 
 namespace coordreq {
 
-/// The problem made ready. REQUIRES: `spec` outlives it. @throws SpecError as table_shapes()
+/// The problem made ready. @pre unchecked: `spec` outlives it. @throws SpecError as table_shapes()
 [[nodiscard]] Model make_model(const ProblemSpec& spec);
 
 }  // namespace coordreq

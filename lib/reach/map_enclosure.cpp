@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -23,7 +25,9 @@ MapEnclosure::MapEnclosure(const Program& equation, std::span<const std::uint32_
       derivative_(equation),
       directions_(mentioned_among(equation, box_slots)),
       gradient_(directions_.size()),
-      spread_(directions_.size()) {}
+      spread_(directions_.size()) {
+  REQUIRES(!equation.is_condition());
+}
 
 Interval MapEnclosure::enclose(std::span<const Interval> slots) {
   const Interval natural = natural_.number(slots);

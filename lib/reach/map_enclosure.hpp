@@ -22,7 +22,7 @@ namespace coordreq {
 class MapEnclosure {
  public:
   /// @param box_slots the variables that may be more than points; all others count as constants
-  /// REQUIRES: `equation` is a number and outlives this object.
+  /// @pre `equation` is a number. @pre unchecked: it outlives this object
   MapEnclosure(const Program& equation, std::span<const std::uint32_t> box_slots);
 
   /// `total` is false if the expression is not defined somewhere in the box; the ends may be infinite.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/index.hpp"
+#include "base/requires.hpp"
 #include "reach/affine_form.hpp"
 #include "spec/system_spec.hpp"
 
@@ -64,6 +66,7 @@ RationalVector exponential_terms(const Rational& t, Eigen::Index count) {
 std::optional<NilpotentFlow> nilpotent_flow(const SystemSpec& spec, std::size_t state,
                                             const Dependencies& dependencies,
                                             const std::vector<Rational>& slots) {
+  REQUIRES(contains(dependencies.moving, state));
   const std::optional<AffineSystem> system = affine_system(spec, dependencies, slots);
   if (!system) return std::nullopt;
   const std::vector<std::int32_t>& moving = dependencies.moving;

@@ -30,7 +30,7 @@ struct NilpotentFlow {
 
 /// @returns nothing if the system is not of that form, has a periodic state that an
 ///   equation uses
-/// @throws SpecError as affine_form() does. REQUIRES: `state` is a moving one.
+/// @throws SpecError as affine_form() does. @pre `state` is a moving one
 [[nodiscard]] std::optional<NilpotentFlow> nilpotent_flow(const SystemSpec& spec, std::size_t state,
                                                           const Dependencies& dependencies,
                                                           const std::vector<Rational>& slots);

@@ -26,12 +26,12 @@ class NominalFlow {
     std::vector<bool> at_limit;  ///< the state is at one of its limits, not just near it
   };
 
-  /// REQUIRES: `tape` and `field` outlive it.
+  /// @pre unchecked: `tape` and `field` outlive it.
   NominalFlow(const FlowTape& tape, VectorField& field);
 
   /// Moves `state` on by `duration`. @returns false if no enclosure was found.
   /// @param tolerance what a sub-step's remainder may add, a state
-  /// REQUIRES: the field's slots hold the disturbances; discontinuities decided or pinned in `choices`.
+  /// @pre unchecked: the field's slots hold the disturbances; discontinuities decided or pinned in `choices`.
   bool advance(const Interval& duration, const Choices& choices, std::span<const double> tolerance,
                State& state);
 

@@ -22,12 +22,12 @@ namespace coordreq {
 /// Over-approximates always. Not thread-safe: use a copy a thread.
 class PeriodicFlow {
  public:
-  /// @param rings one a state. REQUIRES: the equations outlive this object.
+  /// @param rings one a state. @pre unchecked: the equations outlive this object.
   PeriodicFlow(FlowSystem system, const std::vector<std::optional<Ring>>& rings, double tau_lower,
                double tau_upper);
 
-  /// REQUIRES: the boxes of periodic states that an equation mentions are within their rings; where such a
-  /// box touches `upper`, that point itself is not meant.
+  /// @pre unchecked: the boxes of periodic states that an equation mentions are within their rings; where
+  /// such a box touches `upper`, that point itself is not meant.
   /// @param slots as in ValidatedFlow::flow() @returns a reference that is valid until the next call
   [[nodiscard]] const FlowEnclosure& flow(std::span<const Interval> slots);
   /// The same of a box that is divided further where that pays: with less work.

@@ -22,7 +22,7 @@ class PointDynamics {
   /// Beyond this many bits an exact state is refused: a run of that length should be cut in two.
   static constexpr std::size_t kMostBits = 100'000;
 
-  /// REQUIRES: `spec` outlives this object.
+  /// @pre unchecked: `spec` outlives this object.
   explicit PointDynamics(const SystemSpec& spec);
   ~PointDynamics();
   PointDynamics(PointDynamics&&) noexcept;

@@ -31,7 +31,7 @@ class PointFlow {
 
   /// @param moving states that are integrated, closed under the equations
   /// @param tolerance of the estimated error of a sub-step, relative to the larger of state and grid step
-  /// REQUIRES: `spec` outlives this object.
+  /// @pre unchecked: `spec` outlives this object.
   PointFlow(const SystemSpec& spec, std::span<const std::int32_t> moving, double tolerance = kAccurate);
   PointFlow(const PointFlow&) = delete;
   PointFlow& operator=(const PointFlow&) = delete;

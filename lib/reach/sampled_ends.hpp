@@ -20,7 +20,7 @@ namespace coordreq {
 /// Scratch memory for one thread.
 class SampledEnds {
  public:
-  /// REQUIRES: `spec` outlives this object.
+  /// @pre unchecked: `spec` outlives this object.
   explicit SampledEnds(const SystemSpec& spec);
 
   /// Hull of the next values of a state, before the rules of the sample; nothing if it has an update, or if

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "reach/affine_dynamics.hpp"
 #include "reach/affine_part.hpp"
 #include "reach/scaled_number.hpp"
@@ -74,10 +75,20 @@ void serialise(Archive& archive, const UniformGrid& grid, const std::optional<He
   serialise(archive, base_lower, base_upper);
 }
 
+/// The grid is that of make_grid().
+[[maybe_unused]] bool has_cells_of(const UniformGrid& grid, const SystemSpec& spec) {
+  if (grid.size() != spec.states.size() || grid.across() + 1 != grid.size()) return false;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (grid.state(i) != i || grid[i].count != spec.states[i].grid.count) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void serialise(Archive& archive, const SystemSpec& spec, Abstraction& abstraction) {
   auto& [grid, inputs, tables, tubes, exact, held] = abstraction;
+  REQUIRES(!archive.is_loading() || (has_cells_of(grid, spec) && inputs.size() == spec.inputs.size()));
   const AffineDynamics dynamics(spec);
   tables.resize(grid.size());
   if (spec.abstraction.between_samples) tubes.resize(grid.size());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/requires.hpp"
 #include "expression/dual.hpp"
 
 namespace coordreq {
@@ -22,6 +23,7 @@ SolutionSpread::SolutionSpread(const FlowSystem& system, double period)
       state_slots_(system.state_slots),
       steps_(system.steps),
       pair_(system.equations.size()) {
+  REQUIRES(!system.steps.empty());
   for (const Program* equation : system.equations) equations_.emplace_back(*equation);
 }
 

@@ -16,10 +16,10 @@ namespace coordreq {
 /// and seams: a guess that proves nothing. It tells into which parts a box is worth dividing before any of
 /// them is enclosed.
 ///
-/// Scratch memory for one thread. REQUIRES: the equations outlive it.
+/// Scratch memory for one thread. @pre unchecked: the equations outlive it.
 class SolutionSpread {
  public:
-  /// REQUIRES: `system.steps` is not empty.
+  /// @pre `system.steps` is not empty
   SolutionSpread(const FlowSystem& system, double period);
 
   /// Where some solutions from the middle of the box and from the middles of its sides are at times farther

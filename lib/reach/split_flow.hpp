@@ -29,7 +29,7 @@ class SplitFlow {
   /// @param effort so many parts of one box are enclosed at most; 0: none is divided
   SplitFlow(PeriodicFlow flow, const FlowSystem& system, std::vector<EndCells> targets, std::int64_t effort);
 
-  /// REQUIRES: as PeriodicFlow::flow(). @returns a reference that is valid until the next call
+  /// @pre unchecked: as PeriodicFlow::flow(). @returns a reference that is valid until the next call
   [[nodiscard]] const FlowEnclosure& flow(std::span<const Interval> slots);
 
  private:

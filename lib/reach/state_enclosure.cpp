@@ -6,6 +6,7 @@
 
 #include "base/fast_paths.hpp"
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "expression/dual.hpp"
 #include "expression/evaluate.hpp"
 #include "expression/undefined_reason.hpp"
@@ -144,6 +145,7 @@ void StateEnclosure::enclose() {
 }
 
 std::string StateEnclosure::reason(const Result& result) const {
+  REQUIRES(result.status == Status::undefined);
   return undefined_reason(spec_->dynamics.equations[result.culprit], map_ ? slots_ : found_->undefined_at);
 }
 

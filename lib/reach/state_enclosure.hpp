@@ -33,7 +33,7 @@ class StateEnclosure {
 
   /// @param states whose enclosures are asked for: one that shifts() is alone, in discrete time any is
   /// @param terms whether something is added to the results before cells are counted
-  /// REQUIRES: `spec` outlives this object.
+  /// @pre unchecked: `spec` outlives this object.
   StateEnclosure(const SystemSpec& spec, const Dependencies& dependencies,
                  const std::vector<std::size_t>& states, bool terms = false);
 
@@ -48,8 +48,7 @@ class StateEnclosure {
   /// @param state one of those of the constructor
   [[nodiscard]] Result result(std::size_t state) const;
 
-  /// What made the equation at fault undefined in the last enclose(), or nothing known. REQUIRES: something
-  /// did.
+  /// What made the equation at fault undefined in the last enclose(), or nothing known. @pre something did
   [[nodiscard]] std::string reason(const Result& result) const;
 
  private:

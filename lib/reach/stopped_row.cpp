@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "reach/absolute_integral.hpp"
 #include "reach/affine_form.hpp"
 #include "reach/nilpotent_flow.hpp"
@@ -228,6 +229,7 @@ class RowMaker {
 std::optional<StoppedRow> stopped_row(const SystemSpec& spec, const UniformGrid& grid,
                                       const Dependencies& dependencies, std::size_t state,
                                       const std::vector<Rational>& slots) {
+  REQUIRES(spec.dynamics.time == Time::continuous);
   return RowMaker(spec, grid, dependencies, state, slots).make();
 }
 

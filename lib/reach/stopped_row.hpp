@@ -32,7 +32,7 @@ struct StoppedRow {
 
 /// @param slots exact values of parameters and inputs at their slots
 /// @returns nothing if the system is not of that kind, or w acts on a stopped state and on another one
-/// @throws SpecError as affine_form() does. REQUIRES: continuous time
+/// @throws SpecError as affine_form() does. @pre continuous time
 [[nodiscard]] std::optional<StoppedRow> stopped_row(const SystemSpec& spec, const UniformGrid& grid,
                                                     const Dependencies& dependencies, std::size_t state,
                                                     const std::vector<Rational>& slots);

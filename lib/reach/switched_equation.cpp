@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/requires.hpp"
 #include "expression/domains.hpp"
 #include "expression/truth_of.hpp"
 
@@ -66,6 +67,7 @@ SwitchedEquation::SwitchedEquation(const Program& program)
       numbers_(program.nodes.size()),
       truths_(program.nodes.size()),
       sides_(program.nodes.size()) {
+  REQUIRES(!program.is_condition());
   for (const Rational& q : program.constants) constants_.push_back(nearest_double(q));
 }
 

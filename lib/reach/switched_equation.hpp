@@ -18,7 +18,7 @@ namespace coordreq {
 /// one object a thread.
 class SwitchedEquation {
  public:
-  /// REQUIRES: `program` outlives this object and is a number.
+  /// @pre `program` is a number. @pre unchecked: it outlives this object
   explicit SwitchedEquation(const Program& program);
 
   [[nodiscard]] bool has_switches() const { return has_switches_; }

@@ -1,5 +1,6 @@
 #include "reach/table_layout.hpp"
 
+#include "base/requires.hpp"
 #include "reach/shift.hpp"
 #include "reach/sum_table.hpp"
 
@@ -57,6 +58,7 @@ TransitionTable sum_layout(const SystemSpec& spec, const Dependencies& dependenc
   TransitionTable table = bare_table(spec, dependencies, state);
   for (const std::int32_t j : summed_states(spec, dependencies, part, state))
     table.terms.push_back(term_layout(j, part, grid, inputs));
+  REQUIRES(!table.terms.empty());
   const auto entries = static_cast<std::size_t>(lay_out(table, state, grid, inputs));
   table.base_lower.resize(entries);
   table.base_upper.resize(entries);

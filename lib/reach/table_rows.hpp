@@ -16,7 +16,7 @@ namespace coordreq {
 /// Immutable, so safe to share between threads.
 class TableRows {
  public:
-  /// @param table of `state`; may be that of its tube. REQUIRES: it outlives this object.
+  /// @param table of `state`; may be that of its tube. @pre unchecked: it outlives this object.
   /// @param along the state dimension of the rows
   TableRows(const TransitionTable& table, std::size_t state, std::size_t along);
 

@@ -27,7 +27,7 @@ struct Choice {
 using Choices = std::vector<Choice>;
 
 /// Values of all nodes of a tape in an evaluation domain T, `Interval` or `Dual`. Scratch memory: use one a
-/// thread. REQUIRES: the tape outlives it.
+/// thread. @pre unchecked: the tape outlives it.
 template <class T>
 class TapeValues {
  public:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -74,6 +76,7 @@ Interval TaylorSeries::picked_value(std::uint32_t i) const {
 }
 
 void TaylorSeries::extend() {
+  REQUIRES(order_ < largest_order());
   const std::size_t k = order_;
   if (k > 0) {
     for (const std::uint32_t i : tape_->series) {

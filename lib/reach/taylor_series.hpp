@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "base/requires.hpp"
 #include "reach/ball.hpp"
 #include "reach/tape_values.hpp"
 
@@ -15,7 +16,7 @@ namespace coordreq {
 /// Over-approximates. Scratch memory, use one a thread; cost O(order^2) a product node.
 class TaylorSeries {
  public:
-  /// REQUIRES: the tape outlives it.
+  /// @pre unchecked: the tape outlives it.
   TaylorSeries(const FlowTape& tape, std::size_t largest_order);
 
   /// Starts at order 0.
@@ -26,13 +27,14 @@ class TaylorSeries {
   void start(std::span<const Interval> slots, const TapeValues<Interval>& fixed, const Choices& choices,
              const std::vector<bool>& held);
 
-  /// Adds the next order. REQUIRES: order() < largest_order().
+  /// Adds the next order. @pre order() < largest_order()
   void extend();
 
   [[nodiscard]] std::size_t order() const { return order_; }
   [[nodiscard]] std::size_t largest_order() const { return stride_ - 1; }
-  /// REQUIRES: k <= order().
+  /// @pre k <= order()
   [[nodiscard]] const Ball& coefficient(std::size_t state, std::size_t k) const {
+    REQUIRES(k <= order_);
     return states_[state * stride_ + k];
   }
   /// sum of coefficient(state, k) duration^k over k < order.

@@ -19,7 +19,7 @@ struct TaylorRemainder {
 /// the solution during the step. Scratch memory for one thread.
 class TaylorStep {
  public:
-  /// REQUIRES: the tape outlives it.
+  /// @pre unchecked: the tape outlives it.
   explicit TaylorStep(const FlowTape& tape);
 
   /// Finds the least order whose remainder is narrower than `tolerance` for every state, if there is one.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "expression/tape_builder.hpp"
 #include "model/condition_table.hpp"
 #include "model/pieces.hpp"
@@ -31,6 +32,12 @@ std::vector<bool> value_nodes(const Program& program) {
   return needed;
 }
 
+/// Asked for before all else that needs it.
+const UpdateSpec& update_of(const SystemSpec& spec, std::size_t state) {
+  REQUIRES(spec.dynamics.update(state) != nullptr);
+  return *spec.dynamics.update(state);
+}
+
 }  // namespace
 
 UpdateRanges::UpdateRanges(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
@@ -40,11 +47,12 @@ UpdateRanges::UpdateRanges(const SystemSpec& spec, const UniformGrid& grid, cons
       grid_(grid),
       inputs_(inputs),
       target_(grid[grid.dimension_of(state)]),
-      program_(spec.dynamics.update(state)->value),
+      program_(update_of(spec, state).value),
       needed_(value_nodes(program_)),
       condition_of_(program_.nodes.size(), 0),
       values_(program_.nodes.size()) {
-  past_ = spec.dynamics.update(state)->past ? &*spec.dynamics.update(state)->past : nullptr;
+  const UpdateSpec& update = update_of(spec, state);
+  past_ = update.past ? &*update.past : nullptr;
   const bool centres = past_ != nullptr && spec.abstraction.safe == Membership::center;
   const std::vector<ConditionAxis> axes =
       condition_axes(grid, inputs, centres ? Sampling::centres : Sampling::closed_cells);

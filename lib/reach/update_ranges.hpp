@@ -27,7 +27,7 @@ namespace coordreq {
 /// Scratch inside: one object a thread.
 class UpdateRanges {
  public:
-  /// REQUIRES: all outlive this object; the state has an update.
+  /// @pre the state has an update. @pre unchecked: all outlive this object
   UpdateRanges(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs, std::size_t state);
 
   /// Raw indices.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/index.hpp"
+#include "base/requires.hpp"
 #include "model/dependencies.hpp"
 #include "model/odometer.hpp"
 #include "ranks/divided_loop.hpp"
@@ -14,9 +15,20 @@
 #include "spec/system_spec.hpp"
 
 namespace coordreq {
+namespace {
+
+[[maybe_unused]] bool is_in_order_of_spec(const UniformGrid& grid) {
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (grid.state(i) != i) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 void build_update_table(const SystemSpec& spec, Abstraction& abstraction, std::size_t state, ThreadTeam& team,
                         Ranks* ranks) {
+  REQUIRES(is_in_order_of_spec(abstraction.grid));
   const Dependencies dependencies = find_dependencies(spec, state);
   const UniformGrid& grid = abstraction.grid;
   const InputSpace& inputs = abstraction.inputs;

@@ -51,7 +51,7 @@ struct FlowEnclosure {
 /// Over-approximates always. Not thread-safe, as it holds its scratch memory: use a copy a thread.
 class ValidatedFlow {
  public:
-  /// The period tau lies in [tau_lower, tau_upper], 0 < tau_lower. REQUIRES: the equations outlive this
+  /// The period tau lies in [tau_lower, tau_upper], 0 < tau_lower. @pre unchecked: the equations outlive this
   /// object.
   ValidatedFlow(FlowSystem system, double tau_lower, double tau_upper);
   ~ValidatedFlow();

@@ -28,7 +28,7 @@ class ArrayWriter {
 
   /// @param driver the one that the files are written with
   /// @param ranks who knows arrays over cells, if there are several processes; else null
-  /// REQUIRES: both outlive the writer.
+  /// @pre unchecked: both outlive the writer.
   ArrayWriter(ThreadTeam& team, const hdf5::OutputDriver& driver, RankChunks* ranks = nullptr);
 
   /// Creates the dataset `path` and writes all its elements.

@@ -23,7 +23,7 @@ namespace coordreq {
 /// Small fields as a whole.
 class SmallFields : public FieldSource {
  public:
-  /// REQUIRES: both outlive this object. @param parts with fields and what was counted
+  /// @pre unchecked: both outlive this object. @param parts with fields and what was counted
   SmallFields(const ResultsFile& file, const ResultsParts& parts) : file_(file), parts_(parts) {}
 
   [[nodiscard]] bool has(const std::string& path) const override;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 
 namespace coordreq {
 namespace {
@@ -260,6 +261,7 @@ bool CheckpointReader::read(const NumberRows& rows) {
 
 bool CheckpointReader::read_some(std::size_t item, const NumberRows& rows, std::int64_t first,
                                  std::int64_t count) {
+  REQUIRES(0 <= first && first + rows.rows <= count);
   if (section_ == nullptr || item >= section_->lists.size()) return false;
   const List& list = section_->lists[item];
   if (list.type != type_of(rows) || list.rows != count || list.length != rows.row_length) return false;

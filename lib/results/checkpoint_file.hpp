@@ -40,7 +40,7 @@ class CheckpointWriter {
   /// What is added from now on belongs to this section. @param more what else is to be said of it, an object
   void begin(const std::string& section, const Json& more);
   void add(const NumberRows& rows);
-  /// REQUIRES: all has been added. @returns the SHA-256 at the end of the file
+  /// @pre unchecked: all has been added. @returns the SHA-256 at the end of the file
   std::string finish();
 
  private:
@@ -78,7 +78,7 @@ class CheckpointReader {
   [[nodiscard]] bool read(const NumberRows& rows);
   /// Fills in rows of a list of the section. @param item number of the list @param first of its rows
   /// @param count of its rows. @returns false if it has other numbers, or another count of them
-  /// REQUIRES: it would have these rows.
+  /// @pre it would have these rows
   [[nodiscard]] bool read_some(std::size_t item, const NumberRows& rows, std::int64_t first,
                                std::int64_t count);
 

@@ -15,7 +15,7 @@ namespace coordreq {
 /// The child ends without a clock: it may use processor time in proportion to the file, so that a busy or
 /// slow machine only takes longer; and it can open nothing but the file, so that nothing keeps it waiting.
 ///
-/// REQUIRES: `read` starts no thread, writes nothing, and has one file open at a time.
+/// @pre unchecked: `read` starts no thread, writes nothing, and has one file open at a time.
 /// @param path of the file that is read
 /// @throws what `read` threw in the child if that is an Error (IoError, ResultsError, or an Error with the
 ///   same exit code and text); ResultsError if the child came to another end; IoError if there can be no

@@ -10,6 +10,8 @@
 #include <new>
 #include <stdexcept>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -52,6 +54,7 @@ std::uint64_t mark_of(std::span<const std::byte> bytes) {
 }  // namespace
 
 void shuffle_bytes(std::span<const std::byte> raw, std::size_t element_size, std::span<std::byte> shuffled) {
+  REQUIRES(raw.size() == shuffled.size() && raw.size() % element_size == 0);
   switch (element_size) {
     case 2:
       return shuffle_fixed<2>(raw, shuffled);

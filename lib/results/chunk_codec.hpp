@@ -58,7 +58,7 @@ class ChunkCodec {
 };
 
 /// All first bytes of the elements, then all second bytes, and so on: HDF5's "shuffle" filter.
-/// REQUIRES: both of the same size, a multiple of `element_size`.
+/// @pre both of the same size, a multiple of `element_size`
 void shuffle_bytes(std::span<const std::byte> raw, std::size_t element_size, std::span<std::byte> shuffled);
 
 /// Undoes what was done to a chunk of so many bytes, and never makes more of it.

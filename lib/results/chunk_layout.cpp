@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -48,6 +50,7 @@ double ChunkLayout::largest_chunk(double bytes) {
 }
 
 std::uint64_t ChunkLayout::chunk_elements() const {
+  REQUIRES(chunked());
   return chunk_shape_[cut_] * inner_;
 }
 
@@ -56,6 +59,7 @@ std::uint64_t ChunkLayout::chunk_count() const {
 }
 
 ChunkLayout::Stretch ChunkLayout::stretch(std::uint64_t number) const {
+  REQUIRES(number < chunk_count());
   const std::uint64_t length = shape_[cut_];
   const std::uint64_t first = number % pieces_ * chunk_shape_[cut_];
   std::uint64_t slab = number / pieces_;

@@ -31,7 +31,7 @@ class ChunkLayout {
   [[nodiscard]] bool chunked() const { return !chunk_shape_.empty(); }
   /// Empty if not chunked.
   [[nodiscard]] const std::vector<std::uint64_t>& chunk_shape() const { return chunk_shape_; }
-  /// Elements of a whole chunk, the padding of one at the edge included. REQUIRES: chunked().
+  /// Elements of a whole chunk, the padding of one at the edge included. @pre chunked()
   [[nodiscard]] std::uint64_t chunk_elements() const;
   [[nodiscard]] std::uint64_t chunk_count() const;
 
@@ -41,7 +41,7 @@ class ChunkLayout {
     std::uint64_t begin = 0;            ///< linear index of that element
     std::uint64_t count = 0;            ///< elements, without padding
   };
-  /// REQUIRES: number < chunk_count(). Ascending in `begin`.
+  /// Ascending in `begin`. @pre number < chunk_count()
   [[nodiscard]] Stretch stretch(std::uint64_t number) const;
 
  private:

@@ -5,6 +5,7 @@
 
 #include "answers/requirements/result_requirement.hpp"
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "results/comparable_results.hpp"
 
 namespace coordreq {
@@ -16,17 +17,18 @@ int gravity(const ValueChange& change) {
   return change.before == ResultsReader::kNever ? 1 : 0;
 }
 
-/// Between the two values; REQUIRES: has_lost(change).
-std::int64_t difference(const ValueChange& change) {
-  return std::int64_t{change.before} - change.after;
-}
-
 /// A code of what is no number of steps counts as it does in the file: kNever is the largest number.
 bool has_lost(const ValueChange& change) {
   return change.before >= 0 && change.after < change.before;
 }
 bool has_gained(const ValueChange& change) {
   return change.after >= 0 && change.after > change.before;
+}
+
+/// Between the two values. @pre has_lost(change)
+std::int64_t difference(const ValueChange& change) {
+  REQUIRES(has_lost(change));
+  return std::int64_t{change.before} - change.after;
 }
 
 /// Whether `a` is to be named before `b`.
@@ -124,7 +126,9 @@ void compare_values(const ResultsReader& before, const ResultsReader& after, con
   const auto& pair = result.entry;
   CompareOptions own = options;
   if (field.kind == FieldKind::probability) own.tolerance = 0;
-  ValueCounter counter(result, own, pair ? after.lower_bound(field, pair->after) : std::nullopt);
+  const bool is_over_partitions = !field.fixed_points.empty();
+  ValueCounter counter(result, own,
+                       pair && is_over_partitions ? after.lower_bound(field, pair->after) : std::nullopt);
   const std::string subject =
       pair ? field.axes.front().substr(1) + " " + before.leading_names(field)[pair->before] : result.words;
   const auto read = [&](const ResultsReader& file, std::int64_t begin, std::int64_t end, bool earlier) {

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "results/scots_controller.hpp"
 #include "results/sha256.hpp"
 #include "results/stored_controller.hpp"
@@ -84,6 +85,7 @@ bool ignores_memory(const std::string& path, Kind kind, const ProblemSpec& spec)
 }  // namespace
 
 std::string controller_path(const ProblemSpec& spec) {
+  REQUIRES(spec.controller.file.has_value());
   return (std::filesystem::path(spec.folder) / *spec.controller.file).string();
 }
 
@@ -93,6 +95,7 @@ void check_controller_file(const ProblemSpec& spec) {
 }
 
 ListedController read_controller_file(const ProblemSpec& spec) {
+  REQUIRES(spec.controller.file.has_value());
   const std::string path = controller_path(spec);
   const Kind kind = kind_of(path);
   ListedController listed{.sha256 = sha256_of_file(path), .pairs = {}};

@@ -28,7 +28,7 @@ class ElementOwners {
 /// Of an array over cells: those who own the rows of the cells.
 class CellOwners : public ElementOwners {
  public:
-  /// @param of_cell elements of each cell. REQUIRES: the others outlive this object.
+  /// @param of_cell elements of each cell. @pre unchecked: the others outlive this object.
   CellOwners(const RowShare& share, const CellOrder& order, std::uint64_t of_cell)
       : share_(share), order_(order), of_cell_(of_cell) {}
 

@@ -1,7 +1,10 @@
 #include "results/gather_stretches.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
+
+#include "base/requires.hpp"
 
 namespace coordreq {
 namespace {
@@ -67,8 +70,18 @@ void fill_own(Work& work, int own, const ResultArray& array) {
   }
 }
 
-/// Sends what others take. REQUIRES: stretches of one taker follow one another
+[[maybe_unused]] bool follow_by_taker(const std::vector<Work>& works) {
+  std::set<int> takers;
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    const int taker = works[i].stretch->taker;
+    if ((i == 0 || works[i - 1].stretch->taker != taker) && !takers.insert(taker).second) return false;
+  }
+  return true;
+}
+
+/// Sends what others take. @pre stretches of one taker follow one another
 void send_parts(Ranks& ranks, std::vector<Work>& works) {
+  REQUIRES(follow_by_taker(works));
   for (std::size_t first = 0; first < works.size();) {
     const int taker = works[first].stretch->taker;
     Bytes message;

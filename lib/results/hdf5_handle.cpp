@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/process_memory.hpp"
+#include "base/requires.hpp"
 #include "results/output_driver.hpp"
 
 namespace coordreq::hdf5 {
@@ -274,6 +275,7 @@ void set_attribute(const Handle& object, const std::string& name, std::uint64_t 
 
 void set_attribute(const Handle& object, const std::string& name, ElementType type,
                    const std::vector<std::int64_t>& values) {
+  REQUIRES(type != ElementType::float32 && type != ElementType::float64);
   std::vector<std::int64_t> converted = values;
   check(
       H5Tconvert(H5T_STD_I64LE, number_type(type), converted.size(), converted.data(), nullptr, H5P_DEFAULT),

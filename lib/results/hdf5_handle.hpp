@@ -141,7 +141,7 @@ void set_attribute(const Handle& object, const std::string& name, double value);
 void set_attribute(const Handle& object, const std::string& name, std::int32_t value);
 void set_attribute(const Handle& object, const std::string& name, std::int64_t value);
 void set_attribute(const Handle& object, const std::string& name, std::uint64_t value);
-/// An array of `type`, which holds every value. REQUIRES: an integer type.
+/// An array of `type`, which holds every value. @pre an integer type
 void set_attribute(const Handle& object, const std::string& name, ElementType type,
                    const std::vector<std::int64_t>& values);
 

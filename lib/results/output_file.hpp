@@ -43,7 +43,7 @@ class OutputFile {
 };
 
 /// Removes what processes that were killed have left of an OutputFile with this path and suffix.
-/// REQUIRES: no other process of another machine writes it.
+/// @pre unchecked: no other process of another machine writes it.
 void remove_unfinished(const std::string& path, const std::string& suffix);
 
 }  // namespace coordreq

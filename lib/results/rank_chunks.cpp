@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/requires.hpp"
 #include "results/gather_stretches.hpp"
 
 namespace coordreq {
@@ -48,6 +49,7 @@ void RankChunks::choose_packers() {
 }
 
 void RankChunks::pack(const ChunkLayout& layout, const ResultArray& array) {
+  REQUIRES(array.is_divided());
   layout_ = &layout;
   lists_.reset();
   packed_.clear();

@@ -27,13 +27,13 @@ namespace coordreq {
 /// take() and hand_over().
 class RankChunks {
  public:
-  /// REQUIRES: the arguments outlive this object.
+  /// @pre unchecked: the arguments outlive this object.
   RankChunks(ThreadTeam& team, const RowShare& share, const CellOrder& order);
 
   [[nodiscard]] bool is_first() const { return share_.ranks().rank() == 0; }
 
   /// Fills all chunks of an array and packs them; one that is not chunked is one piece that is not packed.
-  /// REQUIRES: the array is divided.
+  /// @pre the array is divided
   void pack(const ChunkLayout& layout, const ResultArray& array);
   /// Rank 0 takes every chunk, in their order, or the whole; meanwhile the others hand theirs over.
   [[nodiscard]] Bytes take(std::uint64_t chunk);

@@ -16,12 +16,12 @@ namespace coordreq {
 /// the others have told it in which lists these are.
 class RankLists {
  public:
-  /// Together. @param array with CellLists. REQUIRES: the arguments outlive this object.
+  /// Together. @param array with CellLists. @pre unchecked: the arguments outlive this object.
   RankLists(ThreadTeam& team, const RowShare& share, const CellOrder& order, const ResultArray& array);
 
   [[nodiscard]] const ElementOwners& owners() const { return *owners_; }
   /// The lists one after the other; elements that are not of this process are 0.
-  /// REQUIRES: this object outlives it.
+  /// @pre unchecked: this object outlives it.
   [[nodiscard]] ResultArray array() const;
 
  private:

@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "results/version.hpp"
 
 namespace coordreq {
@@ -156,6 +158,8 @@ void ResultsFile::read_attribute(const std::string& path, const std::string& att
 double ResultsFile::number(const std::string& path, const std::string& attribute) const {
   double value = 0;
   read_attribute(path, attribute, H5T_NATIVE_DOUBLE, {H5T_FLOAT, H5T_INTEGER}, 1, &value);
+  if (!std::isfinite(value))
+    throw ResultsError("the attribute " + attribute + " is not a finite number", place(path));
   return value;
 }
 
@@ -171,6 +175,7 @@ std::uint64_t ResultsFile::natural(const std::string& path, const std::string& a
 
 std::vector<std::uint64_t> ResultsFile::naturals(const std::string& path, const std::string& attribute,
                                                  std::uint64_t count) const {
+  REQUIRES(count >= 1);
   std::vector<std::int64_t> values(count);
   read_attribute(path, attribute, H5T_NATIVE_INT64, {H5T_INTEGER}, count, values.data());
   if (std::any_of(values.begin(), values.end(), [](std::int64_t value) { return value < 0; }))

@@ -25,11 +25,12 @@ class ResultsFile {
 
   /// Attributes of the object at `path`; "/" for the file's own.
   [[nodiscard]] std::string text(const std::string& path, const std::string& attribute) const;
+  /// @throws ResultsError also if it is not finite
   [[nodiscard]] double number(const std::string& path, const std::string& attribute) const;
   [[nodiscard]] std::int64_t integer(const std::string& path, const std::string& attribute) const;
   /// The same, which must not be negative.
   [[nodiscard]] std::uint64_t natural(const std::string& path, const std::string& attribute) const;
-  /// A list of so many of them. REQUIRES: count >= 1.
+  /// A list of so many of them. @pre count >= 1
   [[nodiscard]] std::vector<std::uint64_t> naturals(const std::string& path, const std::string& attribute,
                                                     std::uint64_t count) const;
   [[nodiscard]] bool has(const std::string& path, const std::string& attribute) const;
@@ -44,7 +45,7 @@ class ResultsFile {
   /// @throws ResultsError if it is none of ours
   [[nodiscard]] ElementType element_type(const std::string& dataset) const;
 
-  /// All elements of a short array. REQUIRES: expect_array() has passed.
+  /// All elements of a short array. @pre unchecked: expect_array() has passed.
   [[nodiscard]] std::vector<double> numbers(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::uint64_t> naturals(const std::string& dataset) const;
@@ -55,7 +56,8 @@ class ResultsFile {
 
   /// The elements offset[i], ..., offset[i] + count[i] - 1 of every dimension, row-major, into `out`; only
   /// the chunks that hold them are read. @throws ResultsError if they are stored as another type than `type`,
-  /// or damaged. REQUIRES: expect_array() has passed, they lie inside the shape; `out` has room for them.
+  /// or damaged. @pre they lie inside the shape. @pre unchecked: expect_array() has passed, `out` has room
+  /// for them
   void read_block(const std::string& dataset, ElementType type, const std::vector<std::uint64_t>& offset,
                   const std::vector<std::uint64_t>& count, void* out) const;
   /// Whether there is an object at `path`. @throws ResultsError where a link does not lead to an object of

@@ -29,7 +29,7 @@ struct ResultsParts {
 
 /// Reads them, and checks that the arrays are there, have their shapes and types, and that grid points,
 /// partitions and digest fit the spec (see checked_fields()).
-/// REQUIRES: it was tried in a child process first (see try_in_child()). @throws hdf5::Failure; as
+/// @pre unchecked: it was tried in a child process first (see try_in_child()). @throws hdf5::Failure; as
 /// ResultsReader::ResultsReader()
 [[nodiscard]] ResultsParts read_parts(const ResultsFile& file, std::optional<std::uint64_t> max_memory);
 

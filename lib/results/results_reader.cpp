@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/process_memory.hpp"
+#include "base/requires.hpp"
 #include "results/check_fields.hpp"
 #include "results/child_trial.hpp"
 #include "results/reading.hpp"
@@ -112,6 +113,7 @@ std::vector<Value> ResultsReader::elements(const std::string& dataset, ElementTy
 }
 
 const Field& ResultsReader::field(const std::string& path) const {
+  REQUIRES(has(path));
   return parts_->fields[field_of_path_.at(path)];
 }
 
@@ -142,10 +144,13 @@ std::size_t ResultsReader::leading_length(const Field& field) const {
 }
 
 const std::vector<std::string>& ResultsReader::leading_names(const Field& field) const {
-  return std::get<std::vector<std::string>>(this->field(field.axes.front()).scale->coordinates);
+  const auto& names = this->field(field.axes.front()).scale->coordinates;
+  REQUIRES(std::holds_alternative<std::vector<std::string>>(names));
+  return std::get<std::vector<std::string>>(names);
 }
 
 std::optional<std::int64_t> ResultsReader::lower_bound(const Field& field, std::size_t partition) const {
+  REQUIRES(partition < partitions().size());
   if (field.fixed_points.empty() || fixed_points_.at(field.fixed_points)[partition] >= 0) return std::nullopt;
   return parts_->spec.coordination.max_delay;
 }
@@ -262,7 +267,10 @@ std::vector<std::uint8_t> ResultsReader::bytes(const Field& field) const {
 }
 
 std::uint64_t ResultsReader::length(const std::string& scale) const {
-  return reading(path_, [&] { return file_->shape(scale).front(); });
+  return reading(path_, [&] {
+    REQUIRES(file_->exists(scale));
+    return file_->shape(scale).front();
+  });
 }
 
 bool ResultsReader::has_abstraction() const {
@@ -270,6 +278,7 @@ bool ResultsReader::has_abstraction() const {
 }
 
 Abstraction ResultsReader::abstraction() const {
+  REQUIRES(has_abstraction());
   Abstraction abstraction{.grid = grid_, .inputs = inputs_, .tables = parts_->tables};
   for (std::size_t i = 0; i < abstraction.tables.size(); ++i) {
     TransitionTable& table = abstraction.tables[i];

@@ -10,6 +10,7 @@
 #include "answers/field.hpp"
 #include "answers/field_source.hpp"
 #include "answers/layers/stored_partition.hpp"
+#include "base/requires.hpp"
 #include "model/cell_block.hpp"
 #include "model/input_space.hpp"
 #include "model/uniform_grid.hpp"
@@ -63,15 +64,15 @@ class ResultsReader : public FieldSource {
   /// What the file holds.
   [[nodiscard]] const Fields& fields() const;
   [[nodiscard]] bool has(const std::string& path) const override { return field_of_path_.contains(path); }
-  /// REQUIRES: the file has it.
+  /// @pre the file has it
   [[nodiscard]] const Field& field(const std::string& path) const;
   [[nodiscard]] double elements(const Field& field) const;
   /// Entries along the axis before those of the cells; 0: there is none.
   [[nodiscard]] std::size_t leading_length(const Field& field) const;
-  /// What each entry along that axis is called. REQUIRES: there is one.
+  /// What each entry along that axis is called. @pre there is one
   [[nodiscard]] const std::vector<std::string>& leading_names(const Field& field) const;
   /// The number of steps of a field over partitions that says `at least`, since `max_delay` ended the
-  /// iteration; none if F is known. REQUIRES: partition < partitions().size().
+  /// iteration; none if F is known. @pre partition < partitions().size()
   [[nodiscard]] std::optional<std::int64_t> lower_bound(const Field& field, std::size_t partition) const;
   /// Place along the axis before those of the cells; none where there is no such axis.
   using Leading = std::optional<std::size_t>;
@@ -91,11 +92,12 @@ class ResultsReader : public FieldSource {
                                                 const std::vector<std::int64_t>& place) const;
   /// All bytes of such a field, row-major.
   [[nodiscard]] std::vector<std::uint8_t> bytes(const Field& field) const;
-  /// The length of an axis. REQUIRES: the file has it.
+  /// The length of an axis. @pre the file has it
   [[nodiscard]] std::uint64_t length(const std::string& scale) const;
-  /// The same by path. REQUIRES: the file has it.
+  /// The same by path. @pre the file has it
   [[nodiscard]] std::vector<std::int32_t> values(const std::string& path, Leading leading,
                                                  const CellBlock& block) const {
+    REQUIRES(has(path));
     return values(field(path), leading, block);
   }
   [[nodiscard]] std::vector<std::int32_t> values(const std::string& path, const CellBlock& block) const {
@@ -120,7 +122,7 @@ class ResultsReader : public FieldSource {
   [[nodiscard]] std::vector<std::string> datasets() const;
 
   [[nodiscard]] bool has_abstraction() const;
-  /// The finite abstraction. `exact` is not stored and left true. REQUIRES: has_abstraction().
+  /// The finite abstraction. `exact` is not stored and left true. @pre has_abstraction()
   [[nodiscard]] Abstraction abstraction() const;
 
   /// The cells begin, ..., end - 1 by linear index: `read(block)` for each of the blocks that they are,

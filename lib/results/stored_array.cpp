@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "results/chunk_codec.hpp"
 
 namespace coordreq {
@@ -19,6 +20,14 @@ std::uint64_t product(const Shape& shape, std::uint64_t first = 1) {
     if (__builtin_mul_overflow(result, length, &result)) return UINT64_MAX;
   }
   return result;
+}
+
+[[maybe_unused]] bool is_inside(const Shape& offset, const Shape& count, const Shape& shape) {
+  if (offset.size() != shape.size() || count.size() != shape.size()) return false;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    if (offset[i] > shape[i] || count[i] > shape[i] - offset[i]) return false;
+  }
+  return true;
 }
 
 std::vector<hsize_t> sizes(const Shape& shape) {
@@ -230,6 +239,7 @@ void StoredArray::read_in_one_piece(const Shape& offset, const Shape& count, voi
 }
 
 void StoredArray::read(const Shape& offset, const Shape& count, void* out, ChunkCache& cache) const {
+  REQUIRES(type_ && is_inside(offset, count, shape_));
   if (product(count) == 0) return;
   if (chunk_.empty()) return read_in_one_piece(offset, count, out);
   Shape first, last;

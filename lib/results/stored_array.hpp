@@ -64,8 +64,8 @@ class StoredArray {
   void check_storage() const;
 
   /// The elements offset[i], ..., offset[i] + count[i] - 1 of every dimension, row-major, into `out`.
-  /// REQUIRES: they lie inside shape(); `out` has room for them; there is a type(); check_storage() has
-  /// passed.
+  /// @pre they lie inside shape(); there is a type(). @pre unchecked: `out` has room for them;
+  /// check_storage() has passed
   void read(const std::vector<std::uint64_t>& offset, const std::vector<std::uint64_t>& count, void* out,
             ChunkCache& cache) const;
 

@@ -3,8 +3,11 @@
 #include <memory>
 #include <utility>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 void Definitions::add(const std::string& name, Program program) {
+  REQUIRES(!index_of_.contains(name));
   index_of_[name] = programs_.size();
   programs_.push_back(std::move(program));
 }

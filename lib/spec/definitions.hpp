@@ -21,14 +21,15 @@ class Definitions {
   /// @param first_slot the first slot that no variable of the spec has
   explicit Definitions(std::uint32_t first_slot = 0) : first_slot_(first_slot) {}
 
-  /// REQUIRES: a new name; `program` was linked with what find() gave for the definitions added before.
+  /// @pre a new name. @pre unchecked: `program` was linked with what find() gave for the definitions added
+  /// before
   void add(const std::string& name, Program program);
 
   /// What stands for the definition in an expression; not defined if there is none of that name.
   [[nodiscard]] Binding find(std::string_view name) const;
 
   /// `program` with every definition it mentions put in. Cost: linear in the size of all that it needs.
-  /// REQUIRES: `program` was linked with what find() gave.
+  /// @pre unchecked: `program` was linked with what find() gave.
   [[nodiscard]] Program expand(const Program& program) const;
 
  private:

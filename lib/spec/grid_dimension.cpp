@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
 #include "spec/system_spec.hpp"
 
 namespace coordreq {
@@ -41,6 +42,7 @@ GridDimension dimension_of(const StateSpec& state) {
 }
 
 std::vector<Piece> pieces(const GridDimension& dimension, std::int64_t k) {
+  REQUIRES(0 <= k && k < dimension.count);
   const Rational reach = dimension.radius() + dimension.measurement_error;
   if (!dimension.periodic()) return {line_piece(dimension, k, reach)};
   Rational low = dimension.point(k) - reach;

@@ -48,7 +48,7 @@ struct Piece {
 /// In a periodic dimension it is cut at the seam into representatives in [lower, upper), in the order along
 /// the cell: at most two pieces, or [lower, upper] if it is as wide as the period. A cell that ends at
 /// `upper` has the piece {lower} too, since that is how expressions see the point on the seam. A piece that
-/// ends at `upper` includes it, although no state has this value: its limit counts. REQUIRES 0 <= k < count.
+/// ends at `upper` includes it, although no state has this value: its limit counts. @pre 0 <= k < count
 [[nodiscard]] std::vector<Piece> pieces(const GridDimension& dimension, std::int64_t k);
 
 }  // namespace coordreq

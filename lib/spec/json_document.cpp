@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "spec/json_syntax.hpp"
 #include "spec/json_text.hpp"
 #include "spec/wording.hpp"
@@ -174,18 +175,22 @@ std::size_t JsonDocument::Node::size() const {
 }
 
 const std::string& JsonDocument::Node::text() const {
+  REQUIRES(is_text());
   return value_->get_ref<const std::string&>();
 }
 
 std::int64_t JsonDocument::Node::integer() const {
+  REQUIRES(value_->is_number_integer());
   return value_->get<std::int64_t>();
 }
 
 JsonDocument::Node JsonDocument::Node::operator[](const std::string& key) const {
+  REQUIRES(is_object() && has(key));
   return {*document_, value_->at(key), member_pointer(pointer_, key)};
 }
 
 JsonDocument::Node JsonDocument::Node::operator[](std::size_t index) const {
+  REQUIRES(value_->is_array() && index < size());
   return {*document_, value_->at(index), pointer_ + "/" + std::to_string(index)};
 }
 
@@ -194,18 +199,21 @@ std::vector<JsonDocument::Node> JsonDocument::Node::elements(const std::string& 
 }
 
 std::vector<JsonDocument::Node> JsonDocument::Node::elements() const {
+  REQUIRES(value_->is_array());
   std::vector<Node> nodes;
   for (std::size_t i = 0; i < size(); ++i) nodes.push_back((*this)[i]);
   return nodes;
 }
 
 std::vector<std::string> JsonDocument::Node::keys() const {
+  REQUIRES(is_object());
   std::vector<std::string> names;
   for (const auto& [name, value] : value_->items()) names.push_back(name);
   return names;
 }
 
 std::vector<std::string> JsonDocument::Node::keys_as_written() const {
+  REQUIRES(is_object() && pointer_.rfind('/') == 0);
   const auto found = document_->keys_.find(pointer_);
   return found == document_->keys_.end() ? std::vector<std::string>() : found->second;
 }
@@ -219,6 +227,7 @@ bool JsonDocument::Node::flag(const std::string& key) const {
 }
 
 std::string JsonDocument::Node::token() const {
+  REQUIRES(is_number());
   const auto typed = document_->number_tokens_.find(pointer_);
   return typed == document_->number_tokens_.end() ? value_->dump() : typed->second;
 }

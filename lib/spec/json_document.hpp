@@ -54,29 +54,29 @@ class JsonDocument::Node {
   [[nodiscard]] bool is_text() const;
 
   [[nodiscard]] bool has(const std::string& key) const;
-  /// REQUIRES: an object that has the key.
+  /// @pre an object that has the key
   [[nodiscard]] Node operator[](const std::string& key) const;
-  /// REQUIRES: an array with more than `index` elements.
+  /// @pre an array with more than `index` elements
   [[nodiscard]] Node operator[](std::size_t index) const;
   [[nodiscard]] std::size_t size() const;
   /// Elements of the array under `key`; none if there is no such key.
   [[nodiscard]] std::vector<Node> elements(const std::string& key) const;
-  /// Elements of this array. REQUIRES: an array.
+  /// Elements of this array. @pre an array
   [[nodiscard]] std::vector<Node> elements() const;
-  /// Keys of this object, sorted. REQUIRES: an object.
+  /// Keys of this object, sorted. @pre an object
   [[nodiscard]] std::vector<std::string> keys() const;
-  /// In the order of the text. REQUIRES: a member of the document's object, an object itself.
+  /// In the order of the text. @pre a member of the document's object, an object itself
   [[nodiscard]] std::vector<std::string> keys_as_written() const;
 
-  /// REQUIRES: a string.
+  /// @pre a string
   [[nodiscard]] const std::string& text() const;
   /// The string under `key`, `fallback` if there is none.
   [[nodiscard]] std::string text_or(const std::string& key, std::string_view fallback) const;
   /// The boolean under `key`, false if there is none.
   [[nodiscard]] bool flag(const std::string& key) const;
-  /// REQUIRES: a whole number.
+  /// @pre a whole number
   [[nodiscard]] std::int64_t integer() const;
-  /// The number as it was typed. REQUIRES: a number.
+  /// The number as it was typed. @pre a number
   [[nodiscard]] std::string token() const;
 
  private:

@@ -29,7 +29,7 @@ struct JsonText {
   [[nodiscard]] bool ends_in_comment() const;
 
   /// Where the `number`-th bracket (from 1) stands that opens an object or a list.
-  /// REQUIRES: the text is well-formed up to there.
+  /// @pre unchecked: the text is well-formed up to there.
   [[nodiscard]] std::size_t bracket(std::size_t number) const;
 
   /// Where the last token before `offset` starts, comments left out; behind the text if there is none.

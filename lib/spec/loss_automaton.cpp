@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -54,8 +56,9 @@ LossAutomaton unfold(const std::function<std::vector<Losses>(const Losses&)>& su
   return result;
 }
 
-/// Whether "n choose k" is above a limit. REQUIRES: 0 <= k <= n, n and limit below 2^31.
+/// Whether "n choose k" is above a limit. @pre 0 <= k <= n, n and limit below 2^31
 bool exceeds_binomial(std::int64_t n, std::int64_t k, std::int64_t limit) {
+  REQUIRES(0 <= k && k <= n && std::max(n, limit) <= INT32_MAX);
   std::int64_t value = 1;
   for (std::int64_t i = 1; i <= std::min(k, n - k); ++i) {
     value = value * (n - i + 1) / i;  // "n choose i", which grows up to the middle
@@ -97,6 +100,7 @@ std::optional<LossAutomaton> delay_automaton(std::int64_t steps, std::size_t mos
 }
 
 std::optional<LossAutomaton> burst_automaton(std::int64_t length, std::int64_t gap, std::size_t most_modes) {
+  REQUIRES(length >= 1 && gap >= 1);
   if (length + gap > static_cast<std::int64_t>(most_modes)) return std::nullopt;
   const auto successors = [length, gap](const Losses& losses) {
     const bool is_lost = !losses.empty() && losses.front() == 1;
@@ -115,6 +119,7 @@ std::optional<LossAutomaton> burst_automaton(std::int64_t length, std::int64_t g
 
 std::optional<LossAutomaton> weakly_hard_automaton(std::int64_t misses, std::int64_t window,
                                                    std::size_t most_modes) {
+  REQUIRES(0 <= misses && misses <= window && 1 <= window);
   // As many modes as there are ways to lose `misses` of a window: see still_limiting(). All lost: two.
   if (exceeds_binomial(window, misses, static_cast<std::int64_t>(most_modes))) return std::nullopt;
   const auto successors = [misses, window](const Losses& losses) {

@@ -26,7 +26,7 @@ struct LossAutomaton {
 
 /// All sequences with at most `length` lost steps in a row and at least `gap` connected ones between two such
 /// bursts. Names have max(length, gap) letters; a loss that no longer matters is written 1.
-/// REQUIRES: both >= 1.
+/// @pre both >= 1
 [[nodiscard]] std::optional<LossAutomaton> burst_automaton(std::int64_t length, std::int64_t gap,
                                                            std::size_t most_modes);
 
@@ -35,7 +35,7 @@ struct LossAutomaton {
 /// Transactions on Computers 50(4), 2001, doi:10.1109/12.919277, whose strings of met and missed deadlines
 /// have the same letters). Names have as many letters as matter, at most window - 1; a loss that no longer
 /// matters is written 1.
-/// REQUIRES: 0 <= misses <= window, 1 <= window.
+/// @pre 0 <= misses <= window, 1 <= window
 [[nodiscard]] std::optional<LossAutomaton> weakly_hard_automaton(std::int64_t misses, std::int64_t window,
                                                                  std::size_t most_modes);
 

@@ -21,7 +21,7 @@ enum class NameKind : std::uint8_t { state, input, disturbance, constant, defini
 [[nodiscard]] std::string_view kind_in_words(NameKind kind);
 
 /// The datasets and groups that results of a spec have at their top, besides those of its states and inputs
-/// (contract, sections 4 and 5). REQUIRES: the document follows the schema.
+/// (contract, sections 4 and 5). @pre unchecked: the document follows the schema.
 [[nodiscard]] std::set<std::string, std::less<>> dataset_names(const JsonDocument::Node& root);
 
 /// The names of a spec. Invariant: all different, none a function or a keyword, and no state or input, each

@@ -1,8 +1,10 @@
 #include "spec/partition_names.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
+#include "base/requires.hpp"
 #include "spec/coordination_spec.hpp"
 #include "spec/system_spec.hpp"
 
@@ -26,6 +28,16 @@ std::string canonical_name(const std::vector<AgentSpec>& agents, const AgentClas
     name += class_name(agents, members);
   }
   return name;
+}
+
+/// No agent is there twice, and no class empty.
+[[maybe_unused]] bool are_disjoint(const AgentClasses& classes) {
+  std::set<std::int32_t> agents;
+  return std::ranges::all_of(classes, [&agents](const auto& members) {
+    return !members.empty() && std::ranges::all_of(members, [&agents](std::int32_t agent) {
+      return agents.insert(agent).second;
+    });
+  });
 }
 
 /// All ways to put the agents from `labels.size()` on into the classes used so far or into one more
@@ -62,6 +74,7 @@ std::string class_name(const std::vector<AgentSpec>& agents, const std::vector<s
 }
 
 PartitionSpec make_partition(const std::vector<AgentSpec>& agents, AgentClasses classes, std::string name) {
+  REQUIRES(are_disjoint(classes));
   std::vector<bool> is_listed(agents.size(), false);
   for (std::vector<std::int32_t>& members : classes) {
     std::sort(members.begin(), members.end());

@@ -17,7 +17,7 @@ using AgentClasses = std::vector<std::vector<std::int32_t>>;
                                      const std::vector<std::int32_t>& members);
 
 /// The partition with these classes and every agent not listed alone, in canonical order; `name` empty stands
-/// for the canonical name. REQUIRES: no agent twice, no class empty.
+/// for the canonical name. @pre no agent twice, no class empty
 [[nodiscard]] PartitionSpec make_partition(const std::vector<AgentSpec>& agents, AgentClasses classes,
                                            std::string name);
 

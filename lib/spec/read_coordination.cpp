@@ -101,7 +101,7 @@ void check_horizon(const CoordinationSpec& coordination, const std::string& poin
                   pointer);
 }
 
-/// REQUIRES: `max_delay` has been read.
+/// @pre unchecked: `max_delay` has been read.
 void read_horizon(const Scope& scope, const Node& object, const Rational& period,
                   CoordinationSpec& coordination) {
   if (object.has("horizon")) {

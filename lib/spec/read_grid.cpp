@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "spec/check_limits.hpp"
 
 namespace coordreq {
@@ -37,9 +38,10 @@ GridSpec grid_by_step(const Scope& scope, const Node& object, const Rational& lo
   return {origin + Rational(first) * step, step, count.get_si()};
 }
 
-/// REQUIRES: `node` is a count of 1.
+/// @pre `node` is a count of 1
 GridSpec single_point(const Node& object, const Node& node, const Rational& lower, const Rational& upper,
                       GridOf kind) {
+  REQUIRES(node.token() == "1");
   if (lower != upper) {
     throw SpecError(
         fmt::format("one point is lower and upper: expected {}, found {}", to_text(lower), to_text(upper)),

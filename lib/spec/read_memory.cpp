@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "expression/cell_truth.hpp"
 #include "expression/tape_builder.hpp"
 #include "spec/grid_dimension.hpp"
@@ -153,7 +154,14 @@ void MemoryReader::look_at(const std::vector<StateSpec>& states, Membership aske
   next_slot_ = kProvisional;
 }
 
+bool MemoryReader::are_linked(Phase phase) const {
+  return std::ranges::all_of(names_, [&](const std::string& name) {
+    return phase_ == phase && !formulas_.at(name).truth.nodes.empty();
+  });
+}
+
 void MemoryReader::settle() {
+  REQUIRES(are_linked(Phase::provisional));
   phase_ = Phase::final;
   std::size_t slot = states_.size();
   for (const std::string& name : names_) {
@@ -254,6 +262,7 @@ std::vector<std::string> MemoryReader::kept_by(const std::string& name) const {
 }
 
 void MemoryReader::add_to(ProblemSpec& spec) const {
+  REQUIRES(are_linked(Phase::final));
   Program zero;
   zero.nodes = {{Operator::constant}};
   zero.constants = {0};

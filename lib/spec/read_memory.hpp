@@ -19,7 +19,7 @@ namespace coordreq {
 /// it is found out what can be undecided and so how many values each operator keeps; and with the final ones.
 class MemoryReader {
  public:
-  /// REQUIRES: the document outlives this object.
+  /// @pre unchecked: the document outlives this object.
   /// @throws SpecError if a formula cannot be taken apart
   explicit MemoryReader(const JsonDocument::Node& root);
 
@@ -30,20 +30,21 @@ class MemoryReader {
 
   /// From now on provisional numbers.
   void look_at(const std::vector<StateSpec>& states, Membership asked);
-  /// From now on final ones. REQUIRES: all formulas have been linked since look_at().
+  /// From now on final ones. @pre all formulas have been linked since look_at()
   void settle();
 
   /// What the name of a memory stands for: a condition. Until look_at() it is any.
   /// @param find what other names stand for; throws for those that are not for formulas
-  /// REQUIRES: what the formula mentions has been linked before.
+  /// @pre unchecked: what the formula mentions has been linked before.
   [[nodiscard]] Program linked(const std::string& name, const Lookup& find);
 
   /// The names of the states that keep it; none until settle().
   [[nodiscard]] std::vector<std::string> kept_by(const std::string& name) const;
-  /// Adds those states and how they are kept. REQUIRES: all formulas have been linked since settle().
+  /// Adds those states and how they are kept. @pre all formulas have been linked since settle()
   void add_to(ProblemSpec& spec) const;
 
  private:
+  enum class Phase : std::uint8_t { names, provisional, final };
   struct Call {
     PastOperator past;
     bool always = false;  ///< of `once`: not once(not c)
@@ -62,6 +63,8 @@ class MemoryReader {
 
   [[nodiscard]] Program link_part(Formula& formula, const FormulaPart& part, ExpectedType expected,
                                   const Lookup& find);
+  /// This is the phase, and all formulas have been linked.
+  [[nodiscard]] bool are_linked(Phase phase) const;
   void link_call(Formula& formula, std::size_t number, const Lookup& find);
   [[nodiscard]] std::int64_t read_samples(Formula& formula, const FormulaPart& part, const Lookup& find);
   [[nodiscard]] bool can_be_undecided(const Program& condition) const;
@@ -70,7 +73,7 @@ class MemoryReader {
   std::map<std::string, Formula> formulas_;
   std::vector<StateSpec> states_;
   Membership asked_ = Membership::inner;
-  enum class Phase : std::uint8_t { names, provisional, final } phase_ = Phase::names;
+  Phase phase_ = Phase::names;
   std::uint32_t next_slot_ = 0;                   ///< of the provisional ones
   std::map<std::uint32_t, std::int64_t> values_;  ///< [provisional slot] how many there are
 };

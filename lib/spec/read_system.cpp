@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
 #include "spec/spec_errors.hpp"
 #include "spec/spec_parts.hpp"
@@ -42,9 +43,12 @@ std::vector<std::int32_t> read_sees(const Node& agent, const std::vector<std::st
 
 constexpr std::int32_t kNobody = -1;
 
-/// Gives an input to agent `agent`. REQUIRES: `owners` holds the agent that owns each input, or kNobody.
+/// Gives an input to agent `agent`. @pre `owners` holds the agent that owns each input, or kNobody
 void take_input(const Node& name, std::int32_t input, std::int32_t agent,
                 const std::vector<AgentSpec>& agents, std::vector<std::int32_t>& owners) {
+  REQUIRES(std::cmp_less(input, owners.size()) && std::ranges::all_of(owners, [agent](std::int32_t owner) {
+             return kNobody <= owner && owner <= agent;
+           }));
   std::int32_t& owner = owners[static_cast<std::size_t>(input)];
   if (owner == agent)
     throw SpecError("the input " + quote_text(name.text()) + " is listed twice", name.pointer());

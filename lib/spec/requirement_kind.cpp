@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 
 const std::vector<RequirementTraits>& requirement_kinds() {
@@ -69,8 +71,9 @@ std::string requirement_kind_name(RequirementKind kind) {
 }
 
 const RequirementTraits& requirement_traits(const std::string& key) {
-  return *std::find_if(requirement_kinds().begin(), requirement_kinds().end(),
-                       [&key](const RequirementTraits& own) { return own.key == key; });
+  const auto found = std::ranges::find(requirement_kinds(), key, &RequirementTraits::key);
+  REQUIRES(found != requirement_kinds().end());
+  return *found;
 }
 
 }  // namespace coordreq

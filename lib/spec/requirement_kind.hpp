@@ -29,7 +29,7 @@ struct RequirementTraits {
 /// By number of the kind.
 [[nodiscard]] const std::vector<RequirementTraits>& requirement_kinds();
 [[nodiscard]] const RequirementTraits& traits(RequirementKind kind);
-/// REQUIRES: it is one.
+/// @pre it is one
 [[nodiscard]] const RequirementTraits& requirement_traits(const std::string& key);
 
 }  // namespace coordreq

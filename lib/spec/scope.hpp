@@ -25,7 +25,7 @@ class Scope {
  public:
   /// Registers all names, evaluates the constants, links the definitions and the memories.
   /// @param memory of the same document
-  /// REQUIRES: the document follows the schema.
+  /// @pre unchecked: the document follows the schema.
   /// @throws SpecError for names that clash, cycles, and anything wrong in a constant, definition or memory
   Scope(const JsonDocument::Node& root, MemoryReader& memory);
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/requires.hpp"
 #include "numeric/rational.hpp"
 #include "spec/json_document.hpp"
 #include "spec/json_text.hpp"
@@ -200,6 +201,7 @@ std::string without_comments(const std::string& text) {
 }
 
 std::string with_refinement(const std::string& text, const std::string& source, std::int64_t factor) {
+  REQUIRES(1 <= factor && factor <= INT32_MAX);
   OrderedJson spec = parsed(text, source);
   if (!spec.is_object() || !spec.contains("states") || !spec["states"].is_array()) return text;
   for (OrderedJson& state : spec["states"]) refine(state, factor);

@@ -26,16 +26,16 @@ struct SpecSetting {
                                        const SpecSetting& setting);
 
 /// The JSON pointer of what a setting sets in a text; nothing if it leads nowhere.
-/// REQUIRES: JsonDocument::parse() has accepted the text.
+/// @pre unchecked: JsonDocument::parse() has accepted the text.
 [[nodiscard]] std::optional<std::string> pointer_of_setting(const std::string& text,
                                                             const SpecSetting& setting);
 
 /// The text of a spec without its comments, its numbers as with_setting() has them.
-/// REQUIRES: JsonDocument::parse() has accepted it.
+/// @pre unchecked: JsonDocument::parse() has accepted it.
 [[nodiscard]] std::string without_comments(const std::string& text);
 
 /// The text of a spec with a finer grid: every step of a state that is not discrete is divided by `factor`,
-/// so that all grid points stay and others lie between them. REQUIRES: 1 <= factor < 2^31
+/// so that all grid points stay and others lie between them. @pre 1 <= factor < 2^31
 /// @param source as for with_setting(). @throws SpecError likewise
 [[nodiscard]] std::string with_refinement(const std::string& text, const std::string& source,
                                           std::int64_t factor);

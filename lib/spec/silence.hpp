@@ -7,8 +7,8 @@ namespace coordreq {
 
 /// A rule of an agent reads its own inputs and states that it sees; a memory counts as the states that its
 /// formula reads. What is measured with an error is in another cell for everybody who measures it, so that
-/// one agent at most may go by it. REQUIRES: memories have been added. @throws SpecError that names what a
-/// rule must not read
+/// one agent at most may go by it. @pre unchecked: memories have been added. @throws SpecError that names
+/// what a rule must not read
 void check_silence(const ProblemSpec& spec);
 
 /// Every agent has a rule of its own while it is silent: then nothing that they do depends on the partition.

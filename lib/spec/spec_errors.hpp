@@ -12,7 +12,7 @@ namespace coordreq {
 /// Several things that are wrong with one spec. what() is the first one.
 class SpecErrors : public SpecError {
  public:
-  /// REQUIRES: there are at least two.
+  /// @pre there are at least two
   explicit SpecErrors(std::vector<std::string> lines);
 
   /// What an error of its own would say, for each.

@@ -24,7 +24,7 @@ struct WrittenSpec {
 [[nodiscard]] WrittenSpec written_spec(const ProblemSpec& spec);
 
 /// Where in a text the value at a JSON pointer starts; nothing if there is no such value.
-/// REQUIRES: JsonDocument::parse() has accepted the text, without its byte order mark.
+/// @pre unchecked: JsonDocument::parse() has accepted the text, without its byte order mark.
 [[nodiscard]] std::optional<std::size_t> offset_of_value(std::string_view text, std::string_view pointer);
 
 /// An error "WHAT (WHERE)" with the line and column in WHERE: "expected ... (/states/0/step; line 7, column

@@ -49,7 +49,7 @@ enum class RequirementKind : std::uint8_t {
 /// The key of the spec that stands for it.
 [[nodiscard]] std::string requirement_kind_name(RequirementKind kind);
 
-/// The grid points first, first + step, ..., first + (count - 1) * step. REQUIRES count >= 1, step > 0.
+/// The grid points first, first + step, ..., first + (count - 1) * step: count >= 1, step > 0.
 struct GridSpec {
   Rational first;
   Rational step;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/requires.hpp"
 #include "spec/unit_text.hpp"
 
 namespace coordreq {
@@ -126,6 +127,7 @@ bool is_same(const UnitValue& a, const UnitValue& b) {
 }
 
 UnitValue power(const UnitValue& unit, int exponent) {
+  REQUIRES(-9 <= exponent && exponent <= 9);
   UnitValue result{std::pow(unit.scale, exponent), unit.powers};
   for (int& own : result.powers) own *= exponent;
   return result;

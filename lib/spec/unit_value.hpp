@@ -18,7 +18,7 @@ struct UnitValue {
 [[nodiscard]] UnitValue operator/(const UnitValue& a, const UnitValue& b);
 /// To some ten digits.
 [[nodiscard]] bool is_same(const UnitValue& a, const UnitValue& b);
-/// REQUIRES: -9 <= exponent <= 9
+/// @pre -9 <= exponent <= 9
 [[nodiscard]] UnitValue power(const UnitValue& unit, int exponent);
 
 /// "m", "km/h", "m/s^2", "m s-2", "rad/min", "1/s": products and quotients of whole powers of the units of a

@@ -1,7 +1,9 @@
 #include "verify/analysis_tables.hpp"
 
+#include "base/requires.hpp"
 #include "model/odometer.hpp"
 #include "reach/table_shapes.hpp"
+#include "spec/system_spec.hpp"
 
 namespace coordreq {
 
@@ -22,12 +24,14 @@ PostTable AnalysisTables::posts(std::size_t state) {
 }
 
 PostTable AnalysisTables::tubes(std::size_t state) {
+  REQUIRES(spec_.abstraction.between_samples);
   if (cells_.empty()) return whole_tubes(state);
   look_at_cells();
   return tubes_[state];
 }
 
 PostTable AnalysisTables::whole_tubes(std::size_t state) {
+  REQUIRES(spec_.abstraction.between_samples);
   const Abstraction tubes{.grid = grid_, .inputs = inputs_, .tables = whole().tubes};
   PostTable table = empty(state, {});
   table.entries = written_out(tubes, state).entries;

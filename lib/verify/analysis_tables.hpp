@@ -17,14 +17,14 @@ namespace coordreq {
 class AnalysisTables {
  public:
   /// @param cells ascending; all if empty
-  /// REQUIRES: all outlive this object.
+  /// @pre unchecked: all outlive this object.
   AnalysisTables(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
                  const std::vector<std::int64_t>& cells, ThreadTeam& team)
       : spec_(spec), grid_(grid), inputs_(inputs), cells_(cells), source_(spec, grid, inputs, team, {}) {}
 
   [[nodiscard]] const std::vector<std::int64_t>& cells() const { return cells_; }
   [[nodiscard]] PostTable posts(std::size_t state);
-  /// REQUIRES: `spec` asks for safety between the samples.
+  /// @pre `spec` asks for safety between the samples
   [[nodiscard]] PostTable tubes(std::size_t state);
   [[nodiscard]] PostTable whole_tubes(std::size_t state);
   [[nodiscard]] const Abstraction& whole() { return source_.whole(); }

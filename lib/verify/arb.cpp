@@ -1,5 +1,6 @@
 #include "verify/arb.hpp"
 
+#include "base/requires.hpp"
 #include "verify/flint_rational.hpp"
 
 namespace coordreq {
@@ -40,10 +41,12 @@ Arb Arb::middle() const {
 }
 
 Rational Arb::lower_rational() const {
+  REQUIRES(is_finite());
   return rational_of(arb_midref(lower().get()));
 }
 
 Rational Arb::upper_rational() const {
+  REQUIRES(is_finite());
   return rational_of(arb_midref(upper().get()));
 }
 
@@ -68,10 +71,12 @@ Arb hull(const Arb& a, const Arb& b) {
 }
 
 Arb lesser(const Arb& a, const Arb& b) {
+  REQUIRES(a.is_finite() && b.is_finite());
   return arf_cmp(arb_midref(a.lower().get()), arb_midref(b.lower().get())) <= 0 ? a : b;
 }
 
 Arb greater(const Arb& a, const Arb& b) {
+  REQUIRES(a.is_finite() && b.is_finite());
   return arf_cmp(arb_midref(a.upper().get()), arb_midref(b.upper().get())) >= 0 ? a : b;
 }
 
@@ -80,7 +85,7 @@ bool is_below(const Arb& a, const Arb& b) {
 }
 
 Arb absolute(const Arb& a) {
-  if (a.is_nonnegative()) return a;
+  if (a.is_nonnegative() || !a.is_finite()) return a;
   if (a.is_nonpositive()) return Arb(0.0) - a;
   return hull(Arb(0.0), greater(a.upper(), Arb(0.0) - a.lower()));
 }

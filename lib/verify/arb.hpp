@@ -46,7 +46,7 @@ class Arb {
   [[nodiscard]] Arb lower() const;
   [[nodiscard]] Arb upper() const;
   [[nodiscard]] Arb middle() const;
-  /// The ends, exactly. REQUIRES: is_finite().
+  /// The ends, exactly. @pre is_finite()
   [[nodiscard]] Rational lower_rational() const;
   [[nodiscard]] Rational upper_rational() const;
   /// Roughly; for choices that need no proof.
@@ -82,7 +82,7 @@ class Arb {
 [[nodiscard]] Arb ending_at_zero(const Arb& a, bool nonnegative);
 /// A ball that holds both, and ends at 0 if both do not go beyond.
 [[nodiscard]] Arb hull(const Arb& a, const Arb& b);
-/// The points at or below (above) both: for ends. REQUIRES: both finite.
+/// The points at or below (above) both: for ends. @pre both finite
 [[nodiscard]] Arb lesser(const Arb& a, const Arb& b);
 [[nodiscard]] Arb greater(const Arb& a, const Arb& b);
 /// Whether a's middle is below b's; for ends, which are all but points.

@@ -6,11 +6,13 @@
 
 #include "answers/checking/cell_parts.hpp"
 #include "answers/checking/cell_place.hpp"
+#include "base/requires.hpp"
 #include "verify/check_abstraction.hpp"
 
 namespace coordreq {
 
 IndexRange cells_covered(const GridDimension& dimension, const Rational& lower, const Rational& upper) {
+  REQUIRES(lower <= upper);
   const Rational reach = dimension.radius() + dimension.measurement_error;
   const std::int64_t first = floor_to_int((lower - dimension.first + reach) / dimension.step);
   const std::int64_t last = ceil_to_int((upper - dimension.first - reach) / dimension.step);

@@ -35,7 +35,7 @@ struct TubeFinding {
 /// several threads.
 class TubeTally {
  public:
-  /// REQUIRES: what `question` points to outlives this object.
+  /// @pre unchecked: what `question` points to outlives this object.
   explicit TubeTally(const PostQuestion& question);
 
   /// True if the entry holds all that is enough.

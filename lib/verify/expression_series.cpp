@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "base/requires.hpp"
 #include "expression/truth_of.hpp"
 #include "verify/angle_series.hpp"
 
@@ -152,6 +153,7 @@ const SmoothFunction& smooth_function(Operator op) {
 
 ExpressionSeries::ExpressionSeries(const Program& program)
     : program_(&program), values_(program.nodes.size()), truths_(program.nodes.size()) {
+  REQUIRES(!program.is_condition());
   for (std::size_t n = 0; n < program.nodes.size(); ++n) {
     const Program::Node& node = program.nodes[n];
     if (node.op == Operator::constant) values_[n].assign(Arb(program.constants[node.a]));

@@ -22,7 +22,7 @@ enum class Smoothness : std::uint8_t {
 /// inside: one object a thread.
 class ExpressionSeries {
  public:
-  /// REQUIRES: `program` is a number and outlives this object.
+  /// @pre `program` is a number. @pre unchecked: it outlives this object
   explicit ExpressionSeries(const Program& program);
 
   /// @param slots series of all variables; @param length of the series, at least 1

@@ -23,7 +23,7 @@ namespace coordreq {
 class FlowExtremes : public NextValue {
  public:
   /// @param cell the shortest step of the states' grids, for tolerances
-  /// REQUIRES: `spec` outlives this object.
+  /// @pre unchecked: `spec` outlives this object.
   FlowExtremes(const SystemSpec& spec, const Influences& influences, double cell);
 
   /// Makes the tube.

@@ -25,6 +25,7 @@ Arb extreme_change(SeriesField& field, std::size_t i, const SpanBox& face,
   const Arb other = extreme_change(field, i, half, field.jacobian(all_of(half)), greatest, pieces / 2);
   if (!found.is_finite() || !other.is_finite()) return whole.bound;
   found = greatest ? greater(found, other) : lesser(found, other);
+  if (!whole.bound.is_finite()) return found;
   return greatest ? lesser(found, whole.bound) : greater(found, whole.bound);
 }
 
@@ -81,6 +82,7 @@ class StepMaker {
     const Arb fastest = greatest ? step_.change[i].upper() : step_.change[i].lower();
     const Arb rough = from + duration_ * fastest;
     const Arb bound = step_.slopes ? along_face(start, i, greatest) : beyond_face(start, i, greatest);
+    if (!bound.is_finite()) return greatest ? rough.upper() : rough.lower();
     return greatest ? lesser(rough, bound).upper() : greater(rough, bound).lower();
   }
 

@@ -8,7 +8,7 @@ namespace coordreq {
 /// its natural range and of its mean value form, which begins at the ends of what is monotone.
 class MapExtremes : public NextValue {
  public:
-  /// REQUIRES: `spec` outlives this object.
+  /// @pre unchecked: `spec` outlives this object.
   MapExtremes(const SystemSpec& spec, const Influences& influences, std::size_t state);
 
   [[nodiscard]] bool enclose(const SpanBox& box, const Effort& effort) override;

@@ -19,7 +19,7 @@ namespace coordreq {
 class ParameterChoices {
  public:
   /// @param table laid out as the state's own
-  /// REQUIRES: all outlive this object.
+  /// @pre unchecked: all outlive this object.
   ParameterChoices(const SystemSpec& spec, const UniformGrid& grid, const InputSpace& inputs,
                    const Influences& influences, const PostTable& table)
       : spec_(spec), grid_(grid), inputs_(inputs), influences_(influences), table_(table) {
@@ -64,7 +64,7 @@ class ParameterChoices {
 /// The cells that a table has entries of, for one choice of parameters and inputs after the other. Immutable.
 class CellsOfTable {
  public:
-  /// REQUIRES: all outlive this object.
+  /// @pre unchecked: all outlive this object.
   CellsOfTable(const UniformGrid& grid, const Influences& influences, const PostTable& table)
       : grid_(grid), influences_(influences), table_(table) {
     for (const std::int64_t place : table.places) {

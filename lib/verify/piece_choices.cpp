@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "answers/checking/cell_parts.hpp"
+#include "base/requires.hpp"
 #include "spec/system_spec.hpp"
 #include "verify/seam_use.hpp"
 
@@ -111,6 +112,7 @@ std::int64_t PieceChoices::position(const Odometer& choice) const {
 std::size_t PieceChoices::variable(std::uint32_t slot) const {
   const auto found = std::find_if(variables_.begin(), variables_.end(),
                                   [slot](const Variable& variable) { return variable.slot == slot; });
+  REQUIRES(found != variables_.end());
   return static_cast<std::size_t>(found - variables_.begin());
 }
 

@@ -40,7 +40,7 @@ class PieceChoices {
   [[nodiscard]] std::vector<std::int64_t> made_by(const std::vector<std::int64_t>& cells) const;
   /// Position of a choice in the table.
   [[nodiscard]] std::int64_t position(const Odometer& choice) const;
-  /// Among the variables. REQUIRES: `slot` is one of them.
+  /// Among the variables. @pre `slot` is one of them
   [[nodiscard]] std::size_t variable(std::uint32_t slot) const;
 
   /// Calls `visit(piece)` for every choice of one box a variable, which it has put into `slots`, until it

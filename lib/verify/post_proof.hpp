@@ -48,7 +48,7 @@ struct PostGroup {
 /// Proves claimed ranges of next values. One object a thread.
 class PostProver {
  public:
-  /// REQUIRES: all outlive this object.
+  /// @pre unchecked: all outlive this object.
   PostProver(const SystemSpec& spec, const UniformGrid& grid, const PostGroup& group);
 
   /// @param box where the present state can be

@@ -19,7 +19,7 @@ namespace coordreq {
 class SafeBeyond {
  public:
   /// @param tubes one table a state
-  /// REQUIRES: `spec` outlives this object.
+  /// @pre unchecked: `spec` outlives this object.
   SafeBeyond(const ProblemSpec& spec, const UniformGrid& grid, const std::vector<PostTable>& tubes);
 
   /// @param safe S; @param beyond the part of it that is to be checked

@@ -13,7 +13,7 @@ namespace coordreq {
 /// by the range of f where it jumps. Steps are halved until the remainder is small enough.
 class Trajectory {
  public:
-  /// REQUIRES: `field` outlives this object.
+  /// @pre unchecked: `field` outlives this object.
   explicit Trajectory(SeriesField& field) : field_(&field) {}
 
   /// @param duration a point; @param tolerance of the end, in the units of each state; a few halvings later

@@ -1,5 +1,7 @@
 #include "verify/transition_matrix.hpp"
 
+#include "base/requires.hpp"
+
 namespace coordreq {
 namespace {
 
@@ -23,6 +25,7 @@ ArbMatrix paths_in(const ArbMatrix& slopes, slong n) {
 }  // namespace
 
 ArbMatrix transition_matrix(const ArbMatrix& slopes, const Arb& duration) {
+  REQUIRES(duration.is_nonnegative());
   const slong n = arb_mat_nrows(slopes.get());
   ArbMatrix sum(static_cast<std::size_t>(n), static_cast<std::size_t>(n));
   if (n == 1) {  // numbers commute: exp of the integral of A

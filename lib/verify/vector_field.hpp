@@ -27,7 +27,7 @@ struct Seam {
 class SeriesField {
  public:
   /// @param equations indices of states; for taylor() those of all of x
-  /// REQUIRES: `spec` outlives this object.
+  /// @pre unchecked: `spec` outlives this object.
   SeriesField(const SystemSpec& spec, const Influences& influences,
               const std::vector<std::size_t>& equations);
 

@@ -8,6 +8,7 @@
 
 #include "answers/checking/answer_check.hpp"
 #include "answers/plan.hpp"
+#include "base/requires.hpp"
 #include "spec/problem_spec.hpp"
 #include "verify/analysis_tables.hpp"
 #include "verify/check_abstraction.hpp"
@@ -259,6 +260,7 @@ Verdict Verification::verdict() const {
 
 Verification verify_claims(const ProblemSpec& spec, const Claims& claims, const VerifyOptions& options,
                            ThreadTeam& team) {
+  REQUIRES(!options.full || (!options.sample && !options.budget_seconds));
   return Verifier(spec, claims, options, team).run();
 }
 

@@ -28,7 +28,7 @@ struct VerifyOptions {
   std::optional<double> budget_seconds;
 
   static constexpr double kDefaultBudget = 60;
-  /// Risks within the horizon are worked out again too. REQUIRES: then neither of the above is given.
+  /// Risks within the horizon are worked out again too. @pre then neither of the above is given.
   bool full = false;
   std::function<void(const VerifyProgress&)> progress;  ///< may be empty
 };

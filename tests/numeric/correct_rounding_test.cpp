@@ -86,6 +86,7 @@ TEST(CorrectRounding, Angles) {
   for (int i = 0; i < 500; ++i) {
     const double y = random.any();
     const double x = random.any();
+    if (y == 0.0 && x >= 0.0) continue;
     value.set(mpfr_atan2, y, x);
     ASSERT_EQ(nearest_angle(exact(y), exact(x)), value.nearest()) << y << ", " << x;
   }

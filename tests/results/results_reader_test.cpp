@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <limits>
 #include <random>
 
 #include "answers/coalition/fields.hpp"
@@ -259,6 +260,15 @@ TEST_F(Reader, AFileThatDoesNotFitItsSpecIsRefused) {
     hdf5::set_attribute(bits, "actions", std::uint64_t{5});
   });
   EXPECT_EQ(defect(), "the attribute actions is 5, expected 15 (FILE:/actions/a|b+c/b+c)");
+}
+
+TEST_F(Reader, AnAttributeThatIsNoFiniteNumberIsRefused) {
+  write();
+  damage([](const Handle& file) {
+    H5Adelete_by_name(file.get(), "/", "period", H5P_DEFAULT);
+    hdf5::set_attribute(hdf5::open_object(file, "/"), "period", std::numeric_limits<double>::quiet_NaN());
+  });
+  EXPECT_EQ(defect(), "the attribute period is not a finite number (FILE:/)");
 }
 
 TEST_F(Reader, EveryFieldThatTheSpecAsksForMustBeThere) {

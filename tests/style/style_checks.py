@@ -28,9 +28,9 @@ CLOCKS = {
     "app/mpi/batch_on_ranks": "how often rank 0 looks for answers",
 }
 MAX_LINES = 400
-# Rooms in which what a function needs from its caller is checked, or is said to be unchecked.
-CHECKED_ROOMS = ["lib/engine", "lib/answers"]
-KERNEL_TABLES = ["level_kernels", "sum_kernels"]  # they are checked in files named _impl
+# Headers of several sources, which check: kernels in those named _impl, advice in advise_on_answers and the like, blocks of a
+# results file in stored_array.
+CHECKED_ELSEWHERE = ["level_kernels", "sum_kernels", "advice", "results_file"]
 
 
 def sources(root, *folders):
@@ -141,7 +141,7 @@ NAMESPACE = re.compile(r"^(?:inline )?namespace ?([\w:]*) ?\{")
 def needs_are_checked(root):
     """In docstrings `@pre` is for what REQUIRES() checks, here or in the source beside, and `@pre unchecked:` for the rest."""
     findings, stated, checked = [], {}, {}
-    for path, lines in sources(root, *CHECKED_ROOMS):
+    for path, lines in sources(root, "lib", "app"):
         name = path.with_suffix("")
         for number, line in enumerate(lines, 1):
             code, _, comment = line.partition("//")
@@ -151,7 +151,7 @@ def needs_are_checked(root):
             checked[name] = checked.get(name, 0) + code.count("REQUIRES(")
     return findings + [
         f"{name}: '@pre' {count} times, and REQUIRES() {checked[name]} times"
-        for name, count in stated.items() if count > checked[name] and name.name not in KERNEL_TABLES
+        for name, count in stated.items() if count > checked[name] and name.name not in CHECKED_ELSEWHERE
     ]
 
 

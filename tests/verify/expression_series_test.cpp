@@ -62,6 +62,13 @@ TEST(ExpressionSeries, OfARangeEveryFunctionHoldsTheValuesInIt) {
   }
 }
 
+TEST(ExpressionSeries, WhatIsNotDefinedHasNoSizeEither) {
+  const Arb undefined = Arb(1.0) / hull(Arb(-1.0), Arb(1.0));
+  ASSERT_FALSE(undefined.is_finite());
+  EXPECT_FALSE(absolute(undefined).is_finite());
+  EXPECT_FALSE(squared(undefined).is_finite());
+}
+
 TEST(ExpressionSeries, AnAngleJumpsAcrossItsCutOnly) {
   const Program program = program_of(Operator::angle);
   ExpressionSeries series(program);

@@ -1,6 +1,7 @@
 #include "answers/blind/fibres.hpp"
 
 #include "base/index.hpp"
+#include "model/odometer.hpp"
 
 namespace coordreq {
 
@@ -13,16 +14,18 @@ Fibres::Fibres(const UniformGrid& grid, const std::vector<std::size_t>& seen) {
   }
   across_.assign(strides.begin(), strides.begin() + static_cast<std::ptrdiff_t>(grid.across()));
   along_.assign(at(grid.row_length()), 0);
-  for (std::int64_t lane = 0; lane < grid.row_length(); ++lane) {
+  std::vector<std::int64_t> counts;
+  for (std::size_t d = grid.across(); d < grid.size(); ++d) counts.push_back(grid[d].count);
+  Odometer index(counts);
+  do {
+    std::int64_t lane = 0;
     std::int64_t fibre = 0;
-    bool is_cell = true;
-    for (std::size_t d = grid.across(); d < grid.size(); ++d) {
-      const std::int64_t index = grid.index(lane, d);
-      is_cell = is_cell && index < grid[d].count;
-      fibre += index * strides[d];
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      lane += index[k] * grid.stride(grid.across() + k);
+      fibre += index[k] * strides[grid.across() + k];
     }
-    if (is_cell) along_[at(lane)] = fibre;
-  }
+    along_[at(lane)] = fibre;
+  } while (index.advance());
 }
 
 }  // namespace coordreq

@@ -1,5 +1,6 @@
 #include "answers/requirements/real_run.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "base/index.hpp"
@@ -15,7 +16,9 @@ Rational shortened(const Rational& value) {
   constexpr std::size_t kBits = 4096;
   const bool is_long =
       mpz_sizeinbase(value.get_num_mpz_t(), 2) > kBits || mpz_sizeinbase(value.get_den_mpz_t(), 2) > kBits;
-  return is_long ? exact(nearest_double(value)) : value;
+  if (!is_long) return value;
+  const double nearest = nearest_double(value);
+  return std::isfinite(nearest) ? exact(nearest) : value;
 }
 
 }  // namespace

@@ -1,0 +1,36 @@
+#include "answers/requirements/real_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reach/build_abstraction.hpp"
+#include "spec/problem_spec.hpp"
+#include "spec/read_spec.hpp"
+
+namespace coordreq {
+namespace {
+
+Rational whole_power(unsigned long base, unsigned long exponent) {
+  mpz_class result;
+  mpz_ui_pow_ui(result.get_mpz_t(), base, exponent);
+  return Rational(result);
+}
+
+/// Its numbers are longer than those that are kept exact, and no double is near it.
+TEST(RealRun, AStateBeyondAllDoublesIsFollowedAsWell) {
+  const ProblemSpec spec = read_spec(R"({"coordreq": 1, "name": "far",
+    "states": [{"name": "x", "lower": 0, "upper": 4, "step": 1}],
+    "inputs": [{"name": "u", "values": [0, 1]}], "agents": [{"name": "a", "inputs": ["u"]}],
+    "dynamics": {"time": "discrete", "period": 1, "equations": {"x": "x/3 + u"}}, "safe": "true"})",
+                                     "far");
+  ThreadTeam team(1);
+  const Abstraction abstraction = build_abstraction(spec, team);
+  RealRun run(spec, abstraction);
+  const Rational far = whole_power(10, 400) + 1 / whole_power(3, 3000);
+  run.start(std::vector<Rational>{far});
+  const RealRun::Place place = run.after(0, 0);
+  EXPECT_TRUE(place.is_known);
+  EXPECT_EQ(place.kind, Location::Kind::beyond);
+}
+
+}  // namespace
+}  // namespace coordreq
