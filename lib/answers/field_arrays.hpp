@@ -6,7 +6,7 @@
 
 #include "answers/convention/convention_freedom.hpp"
 #include "answers/field.hpp"
-#include "answers/latest.hpp"
+#include "answers/last_value_cache.hpp"
 #include "answers/layers/delay_layers.hpp"
 #include "engine/level_map.hpp"
 #include "model/cell_order.hpp"
@@ -49,8 +49,8 @@ void mark_unsafe(const LevelMap& collision_time, const CellOrder& order, std::ui
 /// (contract `/layers/PARTITION`): where each begins, F + 2 entries; then the lists, uint32 or uint64, of
 /// which there are never those of more than one partition.
 [[nodiscard]] std::vector<std::uint64_t> layer_starts(const DelayLayers& layers);
-using LatestCells = Latest<const DelayLayers*, FillArray>;
+using CellsCache = LastValueCache<const DelayLayers*, FillArray>;
 [[nodiscard]] ResultArray layer_cells(const DelayLayers& layers, const CellOrder& order,
-                                      const std::shared_ptr<LatestCells>& latest);
+                                      const std::shared_ptr<CellsCache>& cache);
 
 }  // namespace coordreq

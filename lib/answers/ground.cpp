@@ -40,11 +40,11 @@ std::vector<std::size_t> alike_in_classes(const std::vector<AgentPart>& agents,
 }
 
 /// Of agents that all change places; nothing if there are none.
-std::optional<RowMirror> mirror_of(const UniformGrid& grid, const std::vector<AgentPart>& agents) {
+std::optional<RowSymmetry> symmetry_of(const UniformGrid& grid, const std::vector<AgentPart>& agents) {
   if (agents.empty()) return std::nullopt;
   std::vector<std::vector<std::size_t>> blocks;
   for (const AgentPart& agent : agents) blocks.push_back(agent.dimensions);
-  return RowMirror(grid, blocks);
+  return RowSymmetry(grid, blocks);
 }
 
 /// What S is, in two ways of asking, and what of it counts as T, in rows held.
@@ -65,7 +65,7 @@ std::vector<AgentPart> agents_alike_in(const Ground& ground, std::span<const Cel
 }
 
 /// More processes do not exchange agents: while the rows that each works out become fewer, it would have to
-/// hold ever more of which it works out the images, or others do.
+/// hold ever more permuted rows of its own and of others.
 constexpr int kMostThatExchange = 8;
 
 /// Of several processes rows are cut before S is known, for agents of which only S can forbid that all change
@@ -86,12 +86,12 @@ std::vector<AgentPart> agents_alike_but_for_safe_set(const Ground& ground, int r
 /// [row] not 0 for the rows that a process has to hold beside its own.
 /// @param safe S in its own rows, or null: all that posts can meet
 std::vector<std::uint8_t> rows_needed(const RowHull& hull, const CellSet* safe, RowShare::Range own,
-                                      const std::optional<RowMirror>& mirror) {
+                                      const std::optional<RowSymmetry>& symmetry) {
   std::vector<std::uint8_t> is_needed = hull.rows_met(safe, own);
-  if (!mirror) return is_needed;
+  if (!symmetry) return is_needed;
   std::fill(is_needed.begin() + own.begin, is_needed.begin() + own.end, std::uint8_t{1});
   for (std::int64_t row = 0; row < std::ssize(is_needed); ++row) {
-    if (is_needed[at(row)] != 0) is_needed[at(mirror->first_of(row))] = 1;
+    if (is_needed[at(row)] != 0) is_needed[at(symmetry->canonical_of(row))] = 1;
   }
   return is_needed;
 }
@@ -100,13 +100,13 @@ std::vector<std::uint8_t> rows_needed(const RowHull& hull, const CellSet* safe, 
 /// @param agents that change places, or none
 void share_rows(Ground& ground, bool is_cut, const std::vector<AgentPart>& agents,
                 const std::function<void(const std::vector<RowShare::Range>&)>& find_safe) {
-  const std::optional<RowMirror> mirror = mirror_of(ground.abstraction->grid, agents);
+  const std::optional<RowSymmetry> symmetry = symmetry_of(ground.abstraction->grid, agents);
   if (!is_cut)
     *ground.share = {*ground.ranks,
-                     cut_into_shares(ground.model, &*ground.engine, ground.ranks->count(), mirror)};
+                     cut_into_shares(ground.model, &*ground.engine, ground.ranks->count(), symmetry)};
   find_safe({ground.share->own()});
-  ground.share->set_halo(rows_needed(*ground.hull, &ground.safe, ground.share->own(), mirror));
-  find_safe(halo_rows(*ground.share));
+  ground.share->set_ghosts(rows_needed(*ground.hull, &ground.safe, ground.share->own(), symmetry));
+  find_safe(ghost_rows(*ground.share));
   ground.engine->take_tube_sets();
 }
 
@@ -127,9 +127,9 @@ void add_over(const std::vector<RowShare::Range>& runs, ThreadTeam& team, Ground
 /// Together. @returns whether it has
 bool take_like_agents(Ground& ground, const std::vector<AgentPart>& agents) {
   ground.like_agents = agents;
-  const std::optional<RowMirror> mirror = ground.mirror(single_classes(ground.abstraction->inputs));
-  const bool can = mirror && std::ranges::all_of(safe_sets(ground), [&](const CellSet* set) {
-                     return mirror->is_same(*set, ground.share->own());
+  const std::optional<RowSymmetry> symmetry = ground.symmetry(single_classes(ground.abstraction->inputs));
+  const bool can = symmetry && std::ranges::all_of(safe_sets(ground), [&](const CellSet* set) {
+                     return symmetry->keeps(*set, ground.share->own());
                    });
   if (ground.ranks->sum(can ? 0 : 1) == 0) return true;
   ground.like_agents.clear();
@@ -149,11 +149,11 @@ std::int64_t Ground::count(const CellSet& set) const {
   return sum_of_all(shared_rows(), set.count(own.begin, own.end));
 }
 
-std::optional<RowMirror> Ground::mirror(const std::vector<InputClass>& classes) const {
+std::optional<RowSymmetry> Ground::symmetry(const std::vector<InputClass>& classes) const {
   std::vector<std::vector<std::size_t>> blocks;
   for (const std::size_t a : alike_in_classes(like_agents, classes))
     blocks.push_back(like_agents[a].dimensions);
-  // Of several processes each holds the first of all images that there are.
+  // Each of several processes holds the canonical rows of all its rows, if there is a symmetry.
   if (blocks.size() < 2 || (ranks != nullptr && blocks.size() < like_agents.size())) return std::nullopt;
   // Tiles of many rows are worked out as a whole.
   const auto is_in_tile = [&](std::size_t d) { return d >= tiles->leading(); };
@@ -161,7 +161,7 @@ std::optional<RowMirror> Ground::mirror(const std::vector<InputClass>& classes) 
       tiles && tiles->rows() > 1 &&
       std::ranges::any_of(blocks, [&](const auto& block) { return std::ranges::any_of(block, is_in_tile); });
   if (is_any_in_tile) return std::nullopt;
-  return RowMirror(abstraction->grid, blocks);
+  return RowSymmetry(abstraction->grid, blocks);
 }
 
 void lay_ground(Ground& ground, ThreadTeam& team) {
@@ -218,13 +218,13 @@ std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks) {
   if (!ground.abstraction->tubes.empty()) tubes = {.inside = &unknown, .are_known = false};
   const RowEngine engine(*ground.abstraction, nullptr, tubes);
   const RowHull hull(engine);
-  const std::optional<RowMirror> mirror = mirror_of(grid, agents_alike_but_for_safe_set(ground, ranks));
-  const std::vector<std::int64_t> bounds = cut_into_shares(ground.model, &engine, ranks, mirror);
+  const std::optional<RowSymmetry> symmetry = symmetry_of(grid, agents_alike_but_for_safe_set(ground, ranks));
+  const std::vector<std::int64_t> bounds = cut_into_shares(ground.model, &engine, ranks, symmetry);
   const std::vector<double> slices = bytes_of_slices(engine);
   std::vector<RankRows> result;
   for (std::size_t r = 0; r + 1 < bounds.size(); ++r) {
     const RowShare::Range own{bounds[r], bounds[r + 1]};
-    std::vector<std::uint8_t> is_needed = rows_needed(hull, nullptr, own, mirror);
+    std::vector<std::uint8_t> is_needed = rows_needed(hull, nullptr, own, symmetry);
     std::fill(is_needed.begin() + own.begin, is_needed.begin() + own.end, std::uint8_t{0});
     RankRows& rows = result.emplace_back(
         RankRows{own.end - own.begin, std::count(is_needed.begin(), is_needed.end(), 1), slices});

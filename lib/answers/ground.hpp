@@ -72,12 +72,12 @@ struct Ground {
   /// The tiles or null.
   [[nodiscard]] const Tiles* equal_work() const { return tiles ? &*tiles : nullptr; }
   /// Work that is equal where S is, and G of a goal that ends the task; or none.
-  [[nodiscard]] EqualWork equal(const RowMirror* mirror = nullptr) const {
-    return {equal_work(), tiles && over ? &tiles_with_over : nullptr, mirror};
+  [[nodiscard]] EqualWork equal(const RowSymmetry* symmetry = nullptr) const {
+    return {equal_work(), tiles && over ? &tiles_with_over : nullptr, symmetry};
   }
   /// Where answers are the same but for the order of like agents, if the inputs of each class are chosen
   /// together. Nothing if there is no such place.
-  [[nodiscard]] std::optional<RowMirror> mirror(const std::vector<InputClass>& classes) const;
+  [[nodiscard]] std::optional<RowSymmetry> symmetry(const std::vector<InputClass>& classes) const;
 };
 
 /// S and the engine, on an abstraction that is there. Together.
@@ -86,10 +86,10 @@ void lay_ground(Ground& ground, ThreadTeam& team);
 /// Rows that a process would own, and hold of others.
 struct RankRows {
   std::int64_t own = 0;
-  std::int64_t halo = 0;
+  std::int64_t ghosts = 0;
   std::vector<double> slices = {};  ///< RowPart::slices
 };
-/// Of so many processes, on an abstraction that is there. Halos are those of all cells, of S or not.
+/// Of so many processes, on an abstraction that is there. Ghost rows are those of all cells, in S or not.
 [[nodiscard]] std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks);
 
 }  // namespace coordreq

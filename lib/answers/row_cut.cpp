@@ -14,9 +14,9 @@ namespace {
 constexpr std::int64_t kBlocksOfRank = 64;
 /// Rows of a block that are looked at.
 constexpr std::int64_t kLooksAtBlock = 8;
-/// About the work on a row (of three vehicles), where that on an image of another one is 1: it is written,
-/// too.
-constexpr std::int64_t kWorkOnFirst = 16;
+/// About the work on a canonical row (of three vehicles), where the work on a permuted one is 1: it is
+/// written, too.
+constexpr std::int64_t kWorkOnCanonical = 16;
 /// Units a rank that are not cut: equal ones are found among whole ones only.
 constexpr std::int64_t kUnitsOfRank = 8;
 
@@ -64,7 +64,7 @@ std::int64_t least_unit(const Model& model) {
 /// @param unit_rows rows that are not cut, if these are not too many
 std::vector<std::int64_t> cut_by_safe_rows(const ProblemSpec& spec, const UniformGrid& grid,
                                            std::int64_t unit_rows, int parts,
-                                           const std::optional<RowMirror>& mirror = {}) {
+                                           const std::optional<RowSymmetry>& symmetry = {}) {
   const std::int64_t rows = grid.rows(), block = block_rows_of(rows, unit_rows, parts);
   SafeRows safe_rows(spec, grid);
   std::vector<std::int64_t> weights;
@@ -73,8 +73,8 @@ std::vector<std::int64_t> cut_by_safe_rows(const ProblemSpec& spec, const Unifor
     std::int64_t safe = 0;
     for (std::int64_t look = 0; look < looks; ++look) {
       const std::int64_t row = (2 * look + 1) * own / (2 * looks) + begin;
-      const bool is_image = mirror && !mirror->is_first(row);
-      safe += safe_rows.may_hold(row) ? (is_image ? 1 : kWorkOnFirst) : 0;
+      const bool is_permuted = symmetry && !symmetry->is_canonical(row);
+      safe += safe_rows.may_hold(row) ? (is_permuted ? 1 : kWorkOnCanonical) : 0;
     }
     weights.push_back(safe * own / looks);
   }
@@ -89,10 +89,10 @@ bool is_cut_before_tables(const Model& model) {
 }
 
 std::vector<std::int64_t> cut_into_shares(const Model& model, const RowEngine* engine, int parts,
-                                          const std::optional<RowMirror>& mirror) {
+                                          const std::optional<RowSymmetry>& symmetry) {
   return is_cut_before_tables(model)
              ? cut_by_safe_rows(model.spec(), model.grid(), least_unit(model), parts)
-             : cut_by_safe_rows(model.spec(), engine->grid(), engine->unit_rows(), parts, mirror);
+             : cut_by_safe_rows(model.spec(), engine->grid(), engine->unit_rows(), parts, symmetry);
 }
 
 }  // namespace coordreq

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/row_engine.hpp"
-#include "engine/row_mirror.hpp"
+#include "engine/row_symmetry.hpp"
 #include "model/model.hpp"
 
 namespace coordreq {
@@ -17,10 +17,10 @@ namespace coordreq {
 /// Cuts the rows into runs, one a process, with about as many in which S may have cells, as some rows of each
 /// block tell: the rows of model.grid() where is_cut_before_tables(), else those of the engine.
 /// @param engine may be null where is_cut_before_tables()
-/// @param mirror of images most of the work is that on the first
+/// @param symmetry of permuted rows most of the work is on the canonical one
 /// @returns parts + 1 ascending numbers, as cut_rows()
 [[nodiscard]] std::vector<std::int64_t> cut_into_shares(const Model& model, const RowEngine* engine,
                                                         int parts,
-                                                        const std::optional<RowMirror>& mirror = {});
+                                                        const std::optional<RowSymmetry>& symmetry = {});
 
 }  // namespace coordreq

@@ -244,17 +244,17 @@ typename BoxReader<Level>::Shared& BoxReader<Level>::shared() {
   const auto is_wanted = [&](const Shared& slot) {
     return slot.epoch == epoch_ && std::equal(slot.ranges.begin(), slot.ranges.end(), ranges_.begin());
   };
-  if (is_wanted(slots_[recent_])) return slots_[recent_];
+  if (is_wanted(slots_[last_slot_])) return slots_[last_slot_];
   std::uint64_t hash = 0;
   for (auto range = ranges_.begin(); range != ranges_.begin() + outer; ++range) {
     hash = (hash ^ static_cast<std::uint32_t>(range->first)) * 0x9E3779B97F4A7C15U;
     hash = (hash ^ static_cast<std::uint32_t>(range->last)) * 0x9E3779B97F4A7C15U;
   }
   // Two places to look; where both are taken the second gives way.
-  recent_ = (hash >> 32) % slots_.size();
-  if (is_wanted(slots_[recent_])) return slots_[recent_];
-  if (slots_[recent_].epoch == epoch_) recent_ = (recent_ + 1) % slots_.size();
-  Shared& slot = slots_[recent_];
+  last_slot_ = (hash >> 32) % slots_.size();
+  if (is_wanted(slots_[last_slot_])) return slots_[last_slot_];
+  if (slots_[last_slot_].epoch == epoch_) last_slot_ = (last_slot_ + 1) % slots_.size();
+  Shared& slot = slots_[last_slot_];
   if (is_wanted(slot)) return slot;
   slot.epoch = epoch_;
   slot.ranges.assign(ranges_.begin(), ranges_.begin() + outer);

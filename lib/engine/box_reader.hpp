@@ -72,7 +72,7 @@ class BoxReader final : public RowReader<Level> {
   std::vector<Level> result_;
   std::vector<Shared> slots_;
   std::uint64_t epoch_ = 1;
-  std::size_t recent_ = 0;  ///< slot used last
+  std::size_t last_slot_ = 0;  ///< slot used last
 };
 
 extern template class BoxReader<std::uint8_t>;

@@ -12,7 +12,7 @@
 
 namespace coordreq {
 
-/// The parts of all rows that one of several processes holds, the halo among them, and that it owns.
+/// The parts of all rows that one of several processes holds, ghost rows among them, and that it owns.
 struct RowPart {
   double held = 1;
   double own = 1;
@@ -62,7 +62,7 @@ class EngineSizes {
   /// run_wave() beside its levels.
   [[nodiscard]] double wave(int threads) const;
   /// And where its operator is a minimum.
-  [[nodiscard]] double recent_levels() const { return model_->keeps_sums() ? levels() + set() : 0; }
+  [[nodiscard]] double level_delta() const { return model_->keeps_sums() ? levels() + set() : 0; }
 
  private:
   [[nodiscard]] double sum_reader() const;

@@ -63,14 +63,15 @@ void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team)
   });
 }
 
-/// Makes images of rows equal: what is a bound of the first of them is one of all. The least of them would be
-/// closer, but a process does not hold all. @returns whether a level has changed; it may have risen
+/// Makes rows equal to their canonical rows, whose bounds are bounds of all permuted rows. The least of these
+/// would be closer, but a process does not hold all of them. @returns whether a level has changed; it may
+/// have risen
 template <class Level>
-bool follow_first_images(const RowMirror& mirror, LevelRows<Level>& levels) {
+bool copy_canonical_rows(const RowSymmetry& symmetry, LevelRows<Level>& levels) {
   bool has_changed = false;
   for (const RowShare::Range run : held_rows(levels.share(), levels.rows())) {
     for (std::int64_t r = run.begin; r < run.end; ++r) {
-      const std::int64_t first = mirror.first_of(r);
+      const std::int64_t first = symmetry.canonical_of(r);
       if (first != r && levels.copy_row(first, r)) has_changed = true;
     }
   }
@@ -126,8 +127,8 @@ class LevelFinder {
       step.sweep += before;
       watch_.step(step);
     } : std::function<void(const WaveStep&)>()};
-    const RowMirror* const mirror = problem_.equal.mirror;
-    const bool has_changed = mirror != nullptr && follow_first_images(*mirror, levels);
+    const RowSymmetry* const symmetry = problem_.equal.symmetry;
+    const bool has_changed = symmetry != nullptr && copy_canonical_rows(*symmetry, levels);
     counts_.add(run_wave(levels, engine_, hull_, clipped<Level>(problem_.limit),
                          has_changed ? std::vector<std::uint8_t>{} : settled, *op, watch, team_,
                          problem_.equal));

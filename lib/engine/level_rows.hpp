@@ -10,10 +10,10 @@
 #include "base/requires.hpp"
 #include "base/zeroed_array.hpp"
 #include "engine/cell_set.hpp"
+#include "engine/interner.hpp"
 #include "engine/level_kernels.hpp"
 #include "engine/list_numbers.hpp"
 #include "engine/row_shape.hpp"
-#include "engine/slot_book.hpp"
 #include "ranks/row_share.hpp"
 
 namespace coordreq {
@@ -59,8 +59,8 @@ class LevelRows {
     lanes_.assign(static_cast<std::size_t>(stride_), 0);
     Level* const first = levels_.data() + margins_.before;
     close_row(first);
-    slots_.assign(static_cast<std::size_t>(rows), book_.add(hash_of(first)));
-    book_.hold(0, rows - 1);
+    slots_.assign(static_cast<std::size_t>(rows), interner_.add(hash_of(first)));
+    interner_.hold(0, rows - 1);
   }
 
   LevelRows(LevelRows&&) noexcept = default;
@@ -124,12 +124,12 @@ class LevelRows {
     }
     const Level* const own = lanes + margins_.before;
     const auto cells_bytes = static_cast<std::size_t>(length_) * sizeof(Level);
-    std::uint32_t place =
-        book_.find(hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), own, cells_bytes) == 0; });
-    if (place != SlotBook::kNone) {
-      book_.hold(place);
+    std::uint32_t place = interner_.find(
+        hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), own, cells_bytes) == 0; });
+    if (place != Interner::kNone) {
+      interner_.hold(place);
     } else {
-      place = book_.add(hash);
+      place = interner_.add(hash);
       std::copy_n(lanes, stride_, levels_.data() + place * stride_);
     }
     move_to(r, place);
@@ -146,7 +146,7 @@ class LevelRows {
     }
     const std::uint32_t place = slots_[static_cast<std::size_t>(from)];
     if (slots_[static_cast<std::size_t>(to)] == place) return false;
-    book_.hold(place);
+    interner_.hold(place);
     move_to(to, place);
     return true;
   }
@@ -154,9 +154,9 @@ class LevelRows {
   /// @pre rows are interned
   [[nodiscard]] std::uint32_t content(std::int64_t r) const {
     REQUIRES(is_interned());
-    return book_.content(slots_[static_cast<std::size_t>(r)]);
+    return interner_.content(slots_[static_cast<std::size_t>(r)]);
   }
-  void renumber() { book_.renumber(); }
+  void renumber() { interner_.renumber(); }
 
   /// Makes the cells of a set in the rows [begin, end) the greatest level, others 0, margins included; as
   /// put() does.
@@ -242,7 +242,7 @@ class LevelRows {
   }
   void move_to(std::int64_t r, std::uint32_t place) {
     std::uint32_t& own = slots_[static_cast<std::size_t>(r)];
-    book_.drop(own);
+    interner_.drop(own);
     own = place;
   }
   [[nodiscard]] std::uint64_t hash_of(const Level* cells) const {
@@ -269,7 +269,7 @@ class LevelRows {
   std::int64_t stride_ = 0;
   ZeroedArray<Level> levels_;
   std::vector<std::uint32_t> slots_;  ///< [row]; empty: rows are not interned
-  SlotBook book_;
+  Interner interner_;
   std::vector<Level> lanes_;  ///< the row to be put, with its margins
 };
 

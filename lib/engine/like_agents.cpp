@@ -4,16 +4,16 @@
 
 #include "base/fast_paths.hpp"
 #include "base/index.hpp"
-#include "base/merger.hpp"
-#include "engine/row_mirror.hpp"
+#include "base/union_find.hpp"
+#include "engine/row_symmetry.hpp"
 #include "model/odometer.hpp"
 
 namespace coordreq {
 namespace {
 
 /// Sets of dimensions of which none moves, or is moved by, one of another set.
-Merger find_components(const Abstraction& abstraction) {
-  Merger components(abstraction.tables.size());
+UnionFind find_components(const Abstraction& abstraction) {
+  UnionFind components(abstraction.tables.size());
   for (const auto* tables : {&abstraction.tables, &abstraction.tubes}) {
     for (std::size_t t = 0; t < tables->size(); ++t) {
       for (const std::int32_t state : (*tables)[t].states) components.merge(t, at(state));
@@ -99,7 +99,7 @@ std::optional<AgentPart> part_like(const Abstraction& abstraction, const AgentPa
 
 std::vector<AgentPart> parts_of_agents(const Abstraction& abstraction,
                                        const std::vector<std::vector<std::int32_t>>& inputs) {
-  const Merger components = find_components(abstraction);
+  const UnionFind components = find_components(abstraction);
   const std::size_t dimensions = abstraction.tables.size();
   const auto uses = [&](std::size_t d, const auto& test) {
     return std::ranges::any_of(abstraction.tables[d].inputs, test) ||
@@ -139,13 +139,13 @@ std::vector<AgentPart> find_like_agents(const Abstraction& abstraction, std::spa
   for (std::size_t a = 0; a < parts.size(); ++a) {
     if (is_known[a] != 0 || !is_across(parts[a])) continue;
     std::vector<AgentPart> like{parts[a]};
-    for (std::size_t b = a + 1; b < parts.size() && like.size() < RowMirror::kMostAgents; ++b) {
+    for (std::size_t b = a + 1; b < parts.size() && like.size() < RowSymmetry::kMostAgents; ++b) {
       if (is_known[b] != 0 || !is_across(parts[b])) continue;
       std::optional<AgentPart> part = part_like(abstraction, parts[a], parts[b]);
       if (!part) continue;
-      const RowMirror mirror(abstraction.grid, {parts[a].dimensions, part->dimensions});
+      const RowSymmetry symmetry(abstraction.grid, {parts[a].dimensions, part->dimensions});
       if (!std::ranges::all_of(sets, [&](const CellSet* set) {
-            return mirror.is_same(*set, {0, set->rows()});
+            return symmetry.keeps(*set, {0, set->rows()});
           }))
         continue;
       like.push_back(*std::move(part));

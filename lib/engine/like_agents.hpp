@@ -40,7 +40,7 @@ template <class Number>
                                                  const AgentPart& other);
 
 /// Of some agents, with dimensions across rows, the most of which any two can change places, in each of the
-/// sets too; their dimensions match one by one. Two or more (RowMirror::kMostAgents), or none.
+/// sets too; their dimensions match one by one. Two or more (RowSymmetry::kMostAgents), or none.
 /// @param sets in all rows
 [[nodiscard]] std::vector<AgentPart> find_like_agents(const Abstraction& abstraction,
                                                       std::span<const AgentPart> parts,

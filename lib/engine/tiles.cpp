@@ -5,7 +5,7 @@
 
 #include "base/fast_paths.hpp"
 #include "engine/action_sources.hpp"
-#include "engine/slot_book.hpp"
+#include "engine/interner.hpp"
 
 namespace coordreq {
 namespace {
@@ -217,17 +217,17 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
 }
 
 Numbers number_rows(const CellSet& set, const RowShare* share) {
-  SlotBook book;
+  Interner interner;
   std::vector<std::int64_t> first;  // [number] the row that has come first
   Numbers result(static_cast<std::size_t>(set.rows()), 0);
   for (const RowShare::Range run : held_rows(share, set.rows())) {
     for (std::int64_t r = run.begin; r < run.end; ++r) {
       std::uint64_t hash = 0;
       for (const Word word : set.row(r)) hash = mixed_hash(hash, word);
-      std::uint32_t number = book.find(
+      std::uint32_t number = interner.find(
           hash, [&](std::uint32_t other) { return std::ranges::equal(set.row(first[other]), set.row(r)); });
-      if (number == SlotBook::kNone) {
-        number = book.add(hash);
+      if (number == Interner::kNone) {
+        number = interner.add(hash);
         first.push_back(r);
       }
       result[static_cast<std::size_t>(r)] = number;

@@ -8,10 +8,10 @@
 
 #include "base/fast_paths.hpp"
 #include "engine/alive_rows.hpp"
-#include "engine/equal_tiles.hpp"
-#include "engine/halo_news.hpp"
-#include "engine/recent_levels.hpp"
-#include "engine/wave_news.hpp"
+#include "engine/dirty_rows.hpp"
+#include "engine/ghost_exchange.hpp"
+#include "engine/level_delta.hpp"
+#include "engine/tile_memo.hpp"
 
 namespace coordreq {
 namespace {
@@ -41,47 +41,46 @@ class WaveRunner {
         watch_(watch),
         team_(team),
         unit_rows_(std::min(engine.unit_rows(), engine.outer() == 0 ? kBlockRows : engine.unit_rows())),
-        news_(engine, hull, unit_rows_),
-        equal_(equal, levels),
-        images_(equal.mirror, engine.share()),
-        alive_(levels, own_, unit_rows_, op.rises(), equal.mirror) {
+        dirty_(engine, hull, unit_rows_),
+        memo_(equal, levels),
+        permuted_(equal.symmetry, engine.share()),
+        alive_(levels, own_, unit_rows_, op.rises(), equal.symmetry) {
     first_unit_ = own_.begin / unit_rows_;
     units_ = (own_.end + unit_rows_ - 1) / unit_rows_ - first_unit_;
     batch_units_ = std::max<std::int64_t>(1, kBatchRows / unit_rows_);
     for (int w = 0; w < team.size(); ++w) workers_.emplace_back(engine, levels);
     for (std::int64_t row = own_.begin; row < own_.end; ++row) {
-      if (alive_.has(row) && !is_settled(row)) news_.set_unseen(row / unit_rows_);
+      if (alive_.has(row) && !is_settled(row)) dirty_.set_unseen(row / unit_rows_);
     }
-    if (fast_paths().recent_levels && op.is_minimum() && !engine.posts().is_cut())
-      recent_.emplace(engine, team);
-    if (engine.share() != nullptr) halo_.emplace(levels, engine, hull, news_, unit_rows_, equal.mirror);
+    if (fast_paths().level_delta && op.is_minimum() && !engine.posts().is_cut()) delta_.emplace(engine, team);
+    if (engine.share() != nullptr) ghosts_.emplace(levels, engine, hull, dirty_, unit_rows_, equal.symmetry);
   }
 
   /// @returns rows visited
   std::int64_t sweep(std::int64_t number) {
     const bool backwards = number % 2 == 1;
-    if (halo_) halo_->begin_sweep(number, backwards);
+    if (ghosts_) ghosts_->begin_sweep(number, backwards);
     WaveStep step{.sweep = number, .rows_left = alive_.count(), .rows = alive_.count(), .layer = layer_};
     lowest_ = kTop;
-    if (recent_) recent_->begin_sweep();
-    equal_.begin_sweep();
+    if (delta_) delta_->begin_sweep();
+    memo_.begin_sweep();
     std::vector<std::int64_t> batch;
     for (std::int64_t k = 0; k < units_; ++k) {
       const std::int64_t unit = first_unit_ + (backwards ? units_ - 1 - k : k);
       step.rows_left -= alive_.of_unit(unit);
-      if (halo_) halo_->before(unit, [this](std::int64_t row) { hear_of(row); });
-      if (alive_.of_unit(unit) > 0 && news_.is_pending(unit)) batch.push_back(unit);
+      if (ghosts_) ghosts_->before(unit, [this](std::int64_t row) { hear_of(row); });
+      if (alive_.of_unit(unit) > 0 && dirty_.is_pending(unit)) batch.push_back(unit);
       if (static_cast<std::int64_t>(batch.size()) < batch_units_ && (!batch.empty() && k + 1 < units_))
         continue;
       if (!batch.empty()) {
         step.visited += run(batch);
         batch.clear();
-        tell(step, !halo_);
-        if (halo_) halo_->listen();
+        tell(step, !ghosts_);
+        if (ghosts_) ghosts_->listen();
       }
-      if (halo_) halo_->after(unit);
+      if (ghosts_) ghosts_->after(unit);
     }
-    if (halo_) halo_->end_sweep([this](std::int64_t row) { hear_of(row); });
+    if (ghosts_) ghosts_->end_sweep([this](std::int64_t row) { hear_of(row); });
     // Levels below the lowest to which a cell has sunk in a whole sweep are final: the sets they make have
     // not changed while each cell was found to stay in them. Of one process: others may have more on its way.
     if (lowest_ != kTop && engine_.share() == nullptr)
@@ -93,10 +92,10 @@ class WaveRunner {
 
   /// @returns whether there may be more to find; each of several processes knows a sweep late, and waits not.
   bool goes_on(std::int64_t sweep, std::int64_t visited) {
-    if (!halo_) return visited > 0;
+    if (!ghosts_) return visited > 0;
     Ranks& ranks = engine_.share()->ranks();
     if (sweep > 1 && ranks.finish_sum() == 0) {
-      halo_->end();
+      ghosts_->end();
       return false;
     }
     ranks.begin_sum(std::exchange(changed_rows_, 0));
@@ -105,7 +104,7 @@ class WaveRunner {
 
   [[nodiscard]] std::int64_t alive_rows() const { return alive_.count(); }
   [[nodiscard]] std::int64_t copied_rows() const { return copied_; }
-  [[nodiscard]] std::int64_t mirrored_rows() const { return mirrored_; }
+  [[nodiscard]] std::int64_t permuted_rows() const { return permuted_count_; }
 
  private:
   static constexpr Level kTop = LevelRows<Level>::kTop;
@@ -136,7 +135,7 @@ class WaveRunner {
     std::vector<Level> result;
     std::vector<Level> storage;
     std::vector<Change> changes;
-    WaveNews::Scratch news;
+    DirtyRows::Scratch dirty;
     std::int64_t visited = 0;
     Level lowest = kTop;      ///< to which a cell has sunk
     std::uint32_t batch = 0;  ///< and unit: what the reader has entered
@@ -148,7 +147,7 @@ class WaveRunner {
   }
 
   std::int64_t run(const std::vector<std::int64_t>& batch) {
-    batch_ = news_.begin_batch();
+    batch_ = dirty_.begin_batch();
     for (Worker& worker : workers_) {
       worker.changes.clear();
       worker.storage.clear();
@@ -159,7 +158,7 @@ class WaveRunner {
     team_.for_each(static_cast<std::int64_t>(pieces_.size()), 1, [&](ThreadTeam::Range range, int w) {
       for (std::int64_t i = range.begin; i < range.end; ++i) visit(pieces_[static_cast<std::size_t>(i)], w);
     });
-    for (const std::int64_t unit : batch) news_.mark_seen(unit);
+    for (const std::int64_t unit : batch) dirty_.mark_seen(unit);
     commit_all();
     copy_all();
     std::int64_t visited = 0;
@@ -168,18 +167,18 @@ class WaveRunner {
       lowest_ = std::min(lowest_, worker.lowest);
       changed_rows_ += static_cast<std::int64_t>(worker.changes.size());
       for (const Change& change : worker.changes) {
-        news_.mark_unit_of(change.row);
-        images_.for_each(change.row, [this](std::int64_t image) {
-          news_.mark_unit_of(image);
-          ++mirrored_;
+        dirty_.mark_unit_of(change.row);
+        permuted_.for_each(change.row, [this](std::int64_t permuted) {
+          dirty_.mark_unit_of(permuted);
+          ++permuted_count_;
         });
       }
     }
-    if (equal_.is_on() && equal_.rows() > 1) {
+    if (memo_.is_on() && memo_.rows() > 1) {
       for (const std::int64_t unit : batch) {
-        equal_.update(unit);
-        images_.for_each(unit * unit_rows_,
-                         [this](std::int64_t image) { equal_.update(image / unit_rows_); });
+        memo_.update(unit);
+        permuted_.for_each(unit * unit_rows_,
+                           [this](std::int64_t permuted) { memo_.update(permuted / unit_rows_); });
       }
     }
     return visited;
@@ -187,20 +186,20 @@ class WaveRunner {
 
   /// A row has got other levels.
   void mark_changed(std::int64_t row) {
-    news_.mark_row(row);
-    news_.mark_unit_of(row);
-    if (recent_) recent_->change(row, levels_.row(row));
+    dirty_.mark_row(row);
+    dirty_.mark_unit_of(row);
+    if (delta_) delta_->change(row, levels_.row(row));
   }
 
-  /// A row of the halo has changed.
+  /// A ghost row has changed.
   void hear_of(std::int64_t row) {
     const auto mark = [this](std::int64_t changed) {
       mark_changed(changed);
-      if (equal_.is_on() && equal_.rows() > 1) equal_.update(changed / unit_rows_);
+      if (memo_.is_on() && memo_.rows() > 1) memo_.update(changed / unit_rows_);
     };
     mark(row);
-    images_.for_each(row, [&](std::int64_t image) {
-      if (levels_.copy_row(row, image)) mark(image);
+    permuted_.for_each(row, [&](std::int64_t permuted) {
+      if (levels_.copy_row(row, permuted)) mark(permuted);
     });
   }
 
@@ -209,12 +208,12 @@ class WaveRunner {
     copies_.clear();
     for (const std::int64_t unit : batch) {
       const std::int64_t end = std::min((unit + 1) * unit_rows_, own_.end);
-      if (equal_.is_on() && equal_.rows() == 1) {
+      if (memo_.is_on() && memo_.rows() == 1) {
         choose_rows(unit, end);
         continue;
       }
-      if (equal_.is_on()) {
-        const std::int64_t other = equal_.find(RowPlace(engine_.grid(), unit * unit_rows_));
+      if (memo_.is_on()) {
+        const std::int64_t other = memo_.find(RowPlace(engine_.grid(), unit * unit_rows_));
         if (other != unit) copies_.push_back({other, unit});
         if (other != unit) continue;
       }
@@ -226,11 +225,11 @@ class WaveRunner {
 
   /// Of the rows that are to be looked at those that are equal to no other.
   void choose_rows(std::int64_t unit, std::int64_t end) {
-    news_.enter(unit, scratch_);
+    dirty_.enter(unit, scratch_);
     RowPlace place(engine_.grid(), unit * unit_rows_);
     for (; place.row < end; place.advance(engine_.grid())) {
       if (!is_to_be_looked_at(place, unit, scratch_)) continue;
-      const std::int64_t other = equal_.find(place);
+      const std::int64_t other = memo_.find(place);
       if (other == place.row) {
         pieces_.push_back({unit, place.row, place.row + 1, true});
       } else {
@@ -240,24 +239,24 @@ class WaveRunner {
   }
 
   [[nodiscard]] bool is_to_be_looked_at(const RowPlace& place, std::int64_t unit,
-                                        WaveNews::Scratch& scratch) const {
+                                        DirtyRows::Scratch& scratch) const {
     if (!alive_.has(place.row)) return false;
-    const bool is_new = news_.is_unseen(unit) && !is_settled(place.row);
-    return is_new || news_.meets_change(place, unit, scratch);
+    const bool is_new = dirty_.is_unseen(unit) && !is_settled(place.row);
+    return is_new || dirty_.meets_change(place, unit, scratch);
   }
 
   void visit(const Piece& piece, int w) {
     Worker& worker = workers_[static_cast<std::size_t>(w)];
     if (worker.batch != batch_ || worker.unit != piece.unit) {
-      worker.posts.enter(recent_ && !news_.is_unseen(piece.unit) ? recent_->levels() : levels_);
+      worker.posts.enter(delta_ && !dirty_.is_unseen(piece.unit) ? delta_->levels() : levels_);
       worker.batch = batch_;
       worker.unit = piece.unit;
     }
-    if (!piece.is_wanted && (!news_.is_unseen(piece.unit) || !settled_.empty()))
-      news_.enter(piece.unit, worker.news);
+    if (!piece.is_wanted && (!dirty_.is_unseen(piece.unit) || !settled_.empty()))
+      dirty_.enter(piece.unit, worker.dirty);
     RowPlace place(engine_.grid(), piece.begin);
     for (; place.row < piece.end; place.advance(engine_.grid())) {
-      if (piece.is_wanted || is_to_be_looked_at(place, piece.unit, worker.news)) visit_row(place, worker, w);
+      if (piece.is_wanted || is_to_be_looked_at(place, piece.unit, worker.dirty)) visit_row(place, worker, w);
     }
   }
 
@@ -306,15 +305,15 @@ class WaveRunner {
     for (const Change& change : worker.changes) {
       const Level* const lanes = worker.storage.data() + change.position;
       const auto recall = [&](std::int64_t row) {
-        if (recent_) recent_->change(row, levels_.row(row), lanes + levels_.margins().before);
+        if (delta_) delta_->change(row, levels_.row(row), lanes + levels_.margins().before);
       };
       recall(change.row);
       levels_.put_ready(change.row, lanes, change.ready);
-      news_.mark_row(change.row);
-      images_.for_each(change.row, [&](std::int64_t image) {
-        recall(image);
-        static_cast<void>(levels_.copy_row(change.row, image));
-        news_.mark_row(image);
+      dirty_.mark_row(change.row);
+      permuted_.for_each(change.row, [&](std::int64_t permuted) {
+        recall(permuted);
+        static_cast<void>(levels_.copy_row(change.row, permuted));
+        dirty_.mark_row(permuted);
       });
     }
   }
@@ -325,14 +324,14 @@ class WaveRunner {
       ++changed_rows_;
     };
     for (const Copy& copy : copies_) {
-      equal_.copy(copy.from, copy.to, [&](std::int64_t row) {
+      memo_.copy(copy.from, copy.to, [&](std::int64_t row) {
         mark(row);
-        images_.for_each(row, [&](std::int64_t image) {
-          if (levels_.copy_row(row, image)) mark(image);
-          ++mirrored_;
+        permuted_.for_each(row, [&](std::int64_t permuted) {
+          if (levels_.copy_row(row, permuted)) mark(permuted);
+          ++permuted_count_;
         });
       });
-      copied_ += equal_.rows() == 1 ? 1 : alive_.of_unit(copy.to);
+      copied_ += memo_.rows() == 1 ? 1 : alive_.of_unit(copy.to);
     }
   }
 
@@ -345,14 +344,14 @@ class WaveRunner {
   const WaveWatch& watch_;
   ThreadTeam& team_;
   std::int64_t unit_rows_;
-  WaveNews news_;
-  EqualTiles<Level> equal_;
-  std::optional<HaloNews<Level>> halo_;        ///< of several processes
-  std::optional<RecentLevels<Level>> recent_;  ///< where less is read so
-  HeldImages images_;
+  DirtyRows dirty_;
+  TileMemo<Level> memo_;
+  std::optional<GhostExchange<Level>> ghosts_;  ///< of several processes
+  std::optional<LevelDelta<Level>> delta_;      ///< where less is read so
+  HeldPermutations permuted_;
   AliveRows alive_;
-  std::int64_t copied_ = 0;    ///< rows that would have been worked out
-  std::int64_t mirrored_ = 0;  ///< rows that would not, as they are images
+  std::int64_t copied_ = 0;          ///< rows that would have been worked out
+  std::int64_t permuted_count_ = 0;  ///< rows that are none of them, as they are not canonical
   std::int64_t first_unit_ = 0;
   std::int64_t units_ = 0;
   std::int64_t batch_units_ = 1;
@@ -363,7 +362,7 @@ class WaveRunner {
   std::deque<Worker> workers_;
   std::vector<Piece> pieces_;
   std::vector<Copy> copies_;
-  WaveNews::Scratch scratch_;
+  DirtyRows::Scratch scratch_;
 };
 
 }  // namespace
@@ -381,7 +380,7 @@ WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const Row
     counts.rows_copied = runner.copied_rows();
     if (!runner.goes_on(counts.sweeps, visited)) break;
   }
-  counts.rows_copied += runner.mirrored_rows();
+  counts.rows_copied += runner.permuted_rows();
   for (std::int64_t* rows : {&counts.rows_visited, &counts.rows_copied, &counts.rows_skipped})
     *rows = sum_of_all(engine.share(), *rows);
   return counts;

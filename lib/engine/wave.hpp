@@ -43,9 +43,9 @@ class RowOperator {
 /// come below the k-th set of levels of the synchronous iteration from kTop, they come below the next one,
 /// too.
 ///
-/// Of several processes (RowEngine::share()) each sweeps the rows that it owns, with what it knows of its
-/// halo (HaloNews). What it knows may be too high, never too low, so that the solution is the same; it is
-/// there when nothing has changed anywhere in a whole sweep.
+/// Of several processes (RowEngine::share()) each sweeps the rows that it owns. Levels of its ghost rows
+/// (GhostExchange) may be too high, never too low, so that the solution is the same; it is found when no row
+/// has changed on any rank in a whole sweep.
 ///
 /// Where the operator says that levels rise, the other way round: the least solution of
 /// level(x) = max(given(x), op(level)(x) - 1). A cell has level kTop - i if it is i steps from a goal, 1 if
@@ -58,8 +58,8 @@ class RowOperator {
 /// @param watch its `resumed` is not looked at
 /// @param equal what the operator says depends on the tiles' numbers, and on the levels, alone. Where rows of
 ///   levels are shared, work that would be equal to some done in the same sweep is not done again. Of rows
-///   that are images of each other only the first is worked out, by the process that owns it. @pre unchecked:
-///   then levels are the same in all images, and whoever holds a row holds the first of its images
+///   that are permuted only the canonical one is worked out, by the process that owns it. @pre unchecked:
+///   then levels are the same in permuted rows, and whoever holds a row holds its canonical row
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
                     const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,

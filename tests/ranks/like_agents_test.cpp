@@ -45,7 +45,7 @@ Expected alone(const Model& model) {
   return {ground.safe, std::move(found.collision_time)};
 }
 
-/// What the rows of a rank hold after work that was broken off, and that knew nothing of images: some rows of
+/// What the rows of a rank hold after work that was broken off, and that knew no symmetry: some rows of
 /// it are done, and some are not.
 LevelMap begun(const Ground& ground, const Expected& expected, const std::vector<int>& is_done,
                ThreadTeam& team) {
@@ -66,16 +66,16 @@ bool check_rank(const Model& model, const Expected& expected, const std::vector<
   Answers answers(model, &ranks);
   run_stages(ground_stages(model.spec()), answers, {.team = team});
   const Ground& ground = answers.ground;
-  const std::optional<RowMirror> mirror = ground.mirror(single_classes(ground.abstraction->inputs));
+  const std::optional<RowSymmetry> symmetry = ground.symmetry(single_classes(ground.abstraction->inputs));
   const auto find = [&](const WaveWatch& watch) {
     return find_invariance(*ground.engine, *ground.hull, ground.safe, model.spec().controller.synthesis,
                            watch, team,
-                           {.tiles = ground.equal_work(), .mirror = mirror ? &*mirror : nullptr});
+                           {.tiles = ground.equal_work(), .symmetry = symmetry ? &*symmetry : nullptr});
   };
   const Invariance found = find({});
   LevelMap start = begun(ground, expected, is_done, team);
   const Invariance again = find({.resumed = &start});
-  // In the halo, too.
+  // In ghost rows, too.
   for (const RowShare::Range run : ground.share->held()) {
     const std::int64_t length = ground.safe.row_length();
     for (std::int64_t x = run.begin * length; x < run.end * length; ++x) {
@@ -85,7 +85,7 @@ bool check_rank(const Model& model, const Expected& expected, const std::vector<
       wrong += again.collision_time.at(x) != expected.collision_time.at(x) ? 1 : 0;
     }
   }
-  return mirror.has_value();
+  return symmetry.has_value();
 }
 
 TEST(LikeAgentsOfManyRanks, AreLookedAtOnceByWhoeverHasTheFirst) {
@@ -100,13 +100,13 @@ TEST(LikeAgentsOfManyRanks, AreLookedAtOnceByWhoeverHasTheFirst) {
     const auto is_done = *rc::gen::container<std::vector<int>>(23, rc::gen::inRange(0, 2));
     bool is_once = false;
     for (const int count : kRanks) {
-      std::atomic<int> wrong = 0, mirrors = 0;
+      std::atomic<int> wrong = 0, symmetries = 0;
       ThreadRanks::run(count, [&](Ranks& ranks) {
-        mirrors += check_rank(model, expected, is_done, ranks, wrong) ? 1 : 0;
+        symmetries += check_rank(model, expected, is_done, ranks, wrong) ? 1 : 0;
       });
       RC_ASSERT(wrong == 0);
-      RC_ASSERT(mirrors == 0 || (mirrors == count && count <= kMostThatExchange));
-      is_once = is_once || (count > 1 && mirrors > 0);
+      RC_ASSERT(symmetries == 0 || (symmetries == count && count <= kMostThatExchange));
+      is_once = is_once || (count > 1 && symmetries > 0);
     }
     RC_CLASSIFY(is_once, "rows found once");
   }));
@@ -138,12 +138,12 @@ std::vector<OwnRows> rows_of_two(const std::string& inputs_of_second) {
     ThreadTeam team(1);
     Answers answers(model, &ranks);
     run_stages(ground_stages(spec), answers, {.team = team});
-    const std::optional<RowMirror> mirror =
-        answers.ground.mirror(single_classes(answers.ground.abstraction->inputs));
+    const std::optional<RowSymmetry> symmetry =
+        answers.ground.symmetry(single_classes(answers.ground.abstraction->inputs));
     OwnRows& mine = rows[static_cast<std::size_t>(ranks.rank())];
     const RowShare::Range own = answers.ground.share->own();
     for (std::int64_t row = own.begin; row < own.end; ++row)
-      mine.firsts += !mirror || mirror->is_first(row) ? 1 : 0;
+      mine.firsts += !symmetry || symmetry->is_canonical(row) ? 1 : 0;
     mine.all = own.end - own.begin;
   });
   return rows;

@@ -190,9 +190,9 @@ TEST(ManyRanks, ExchangeAgentsThatAreAlike) {
   }));
 }
 
-/// A row that another rank works out can be the image of any own one: news of it must not wait for rows that
+/// A row that another rank works out can be permuted from any own one: its change must not wait for rows that
 /// posts meet there.
-TEST(ManyRanks, HearOfImagesBeforeTheyLookAtRows) {
+TEST(ManyRanks, HearOfPermutedRowsBeforeTheyLookAtRows) {
   const Folder folder;
   expect_same(folder, read_spec(R"json({"coordreq": 1, "name": "ends",
     "states": [{"name": "p0", "lower": 0, "upper": 5, "step": 1, "outside": "saturate"},

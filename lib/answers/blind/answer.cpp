@@ -247,7 +247,7 @@ MemoryNeed blind_memory(const EngineSizes& sizes, int threads) {
     need.work =
         std::max(need.work, sizes.groups(classes) + projection_bytes(sizes, classes) + masks + tables);
   }
-  need.work += sizes.wave(threads) + sizes.recent_levels() + sizes.set();
+  need.work += sizes.wave(threads) + sizes.level_delta() + sizes.set();
   return need;
 }
 

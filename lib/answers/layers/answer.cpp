@@ -129,10 +129,10 @@ PartitionActions::PartitionActions(const Answers& answers, std::size_t p, Thread
                input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
                              answers.ground.spec.coordination.partitions[p]),
                team),
-      mirror(answers.ground.mirror(input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
-                                                 answers.ground.spec.coordination.partitions[p]))),
+      symmetry(answers.ground.symmetry(input_classes(answers.ground.spec, answers.ground.abstraction->inputs,
+                                                     answers.ground.spec.coordination.partitions[p]))),
       projections(answers.get<GoingOn>().controller, grouping, *answers.ground.hull, team,
-                  answers.ground.equal(mirror ? &*mirror : nullptr)) {}
+                  answers.ground.equal(symmetry ? &*symmetry : nullptr)) {}
 
 std::vector<Stage> layers_stages(const ProblemSpec& spec) {
   const std::vector<PartitionSpec>& partitions = spec.coordination.partitions;
@@ -209,7 +209,7 @@ MemoryNeed layers_memory(const EngineSizes& sizes, int threads) {
     for (const InputClass& own : classes)
       need.array = std::max(need.array, sizes.packed_pairs(own.actions()));
   }
-  need.work += sizes.wave(threads) + sizes.recent_levels();
+  need.work += sizes.wave(threads) + sizes.level_delta();
   if (has_safe_side(spec)) need.work += sizes.levels() + 2 * sizes.set();
   if (spec.output.actions) need.written += actions + sizes.readers(threads);
   // Processes sort equal parts of the cells, of which each is told its layer.

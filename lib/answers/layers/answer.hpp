@@ -28,8 +28,8 @@ struct PartitionActions {
   PartitionActions& operator=(const PartitionActions&) = delete;
 
   ActionGrouping grouping;
-  std::optional<RowMirror> mirror;
-  Projections projections;  ///< of the first rows alone, if there is a mirror
+  std::optional<RowSymmetry> symmetry;
+  Projections projections;  ///< of canonical rows alone, if there is a symmetry
 };
 
 /// Adds PartitionLayers: "layers PARTITION" for each partition, coarser ones before finer ones.

@@ -365,7 +365,7 @@ void Projections::number_rows_of(const CellSet& invariant, const EqualWork& equa
 
 /// Of which anything will be asked.
 bool Projections::has_cells(const CellSet& invariant, std::int64_t row) const {
-  if (equal_.mirror != nullptr && !equal_.mirror->is_first(row)) return false;
+  if (equal_.symmetry != nullptr && !equal_.symmetry->is_canonical(row)) return false;
   return any_set(invariant.row(row));
 }
 

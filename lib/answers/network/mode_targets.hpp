@@ -23,7 +23,7 @@ class ModeTargets {
   [[nodiscard]] const CellSet& set(std::size_t mode) const { return sets_[mode]; }
   [[nodiscard]] std::vector<CellSet> take_sets() { return std::move(sets_); }
 
-  /// Brings the rows of the halo up to date: those of other processes that have changed since this was called
+  /// Brings ghost rows up to date: rows of other processes that have changed since this was called
   /// last. Together. @returns whether rows of any have
   bool exchange();
 

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/index.hpp"
-#include "base/merger.hpp"
+#include "base/union_find.hpp"
 #include "engine/tube_sets.hpp"
 #include "model/odometer.hpp"
 #include "spec/problem_spec.hpp"
@@ -37,10 +37,10 @@ AdmissibleInputs::AdmissibleInputs(const ProblemSpec& spec, CellPosts& posts, Se
 void AdmissibleInputs::find_components() {
   const std::size_t inputs = posts_->inputs().size();
   const std::size_t states = posts_->grid().size();
-  Merger merger(inputs);
+  UnionFind sets(inputs);
   for (std::size_t s = 0; s < states; ++s) {
     const std::vector<std::int32_t>& used = posts_->inputs_of(s);
-    for (const std::int32_t j : used) merger.merge(at(used.front()), at(j));
+    for (const std::int32_t j : used) sets.merge(at(used.front()), at(j));
   }
   std::size_t first_of_allow = inputs;
   if (allow_) {
@@ -49,20 +49,20 @@ void AdmissibleInputs::find_components() {
       const std::size_t i = slot - spec_->input_slot(0);
       if (i >= inputs) continue;  // a state's cell
       if (first_of_allow == inputs) first_of_allow = i;
-      merger.merge(first_of_allow, i);
+      sets.merge(first_of_allow, i);
     }
   }
   allow_has_inputs_ = first_of_allow < inputs;
   for (std::size_t i = 0; i < inputs; ++i) {
-    if (merger.root(i) != i) continue;
+    if (sets.root(i) != i) continue;
     Component& component = components_.emplace_back();
     for (std::size_t j = 0; j < inputs; ++j) {
-      if (merger.root(j) == i) component.inputs.push_back(j);
+      if (sets.root(j) == i) component.inputs.push_back(j);
     }
-    component.has_allow = allow_has_inputs_ && merger.root(first_of_allow) == i;
+    component.has_allow = allow_has_inputs_ && sets.root(first_of_allow) == i;
     for (std::size_t s = 0; s < states; ++s) {
       const std::vector<std::int32_t>& used = posts_->inputs_of(s);
-      if (!used.empty() && merger.root(at(used.front())) == i) component.states.push_back(s);
+      if (!used.empty() && sets.root(at(used.front())) == i) component.states.push_back(s);
     }
   }
   Component& autonomous = components_.emplace_back();

@@ -103,17 +103,17 @@ bool EscapeRun::step_of_owner() {
   Ranks& ranks = share->ranks();
   const int owner = share->owner(path_.cells.back() / posts_.grid().row_length());
   if (owner != ranks.rank()) {
-    const EscapeNews news = read_escape_message(ranks.receive(owner), path_);
-    way_ = static_cast<Way>(news.way);
-    reached_ = news.reached;
-    has_more_ = news.has_more;
-    return news.goes_on;
+    const EscapeProgress progress = read_escape_message(ranks.receive(owner), path_);
+    way_ = static_cast<Way>(progress.way);
+    reached_ = progress.reached;
+    has_more_ = progress.has_more;
+    return progress.goes_on;
   }
   const std::size_t cells = path_.cells.size(), inputs = path_.joint_inputs.size();
   const bool goes_on = step_and_look();
-  const EscapeNews news{
+  const EscapeProgress progress{
       .goes_on = goes_on, .has_more = has_more_, .way = static_cast<std::int64_t>(way_), .reached = reached_};
-  const Bytes message = escape_message(news, path_, inputs, cells);
+  const Bytes message = escape_message(progress, path_, inputs, cells);
   for (int other = 0; other < ranks.count(); ++other) {
     if (other != owner) ranks.send(other, message);
   }

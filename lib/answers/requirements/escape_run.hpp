@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "answers/one_cell/cell_posts.hpp"
-#include "answers/requirements/escape_news.hpp"
+#include "answers/requirements/escape_message.hpp"
 #include "answers/requirements/escape_path.hpp"
 #include "answers/requirements/escape_search.hpp"
 #include "answers/requirements/real_run.hpp"

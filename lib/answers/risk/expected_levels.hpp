@@ -12,7 +12,7 @@ namespace coordreq {
 /// E_q V of all cells, as levels that a PostReader reads: for each different E_q in 32 bits, or for one of
 /// them at a time in 64.
 ///
-/// Of several processes each works out the rows that it owns, and is told of those of its halo.
+/// Of several processes each works out the rows that it owns, and takes in its ghost rows.
 template <class Level>
 class ExpectedLevels {
  public:

@@ -178,7 +178,7 @@ MemoryNeed silence_memory(const EngineSizes& sizes, int threads) {
     need.work = std::max(
         need.work, sizes.groups(classes) + projection_bytes(sizes, classes) + silent_bytes(sizes, classes));
   }
-  need.work += sizes.wave(threads) + sizes.recent_levels();
+  need.work += sizes.wave(threads) + sizes.level_delta();
   return need;
 }
 

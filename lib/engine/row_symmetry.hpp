@@ -13,15 +13,19 @@
 
 namespace coordreq {
 
-/// Rows that differ in nothing but the order of agents that are alike: *images* of each other. What is equal
-/// in them is worked out for the *first* of them, where the agents come in the order of where they are.
-class RowMirror {
+/// The symmetry group that exchanges agents that are alike, acting on rows: rows that differ in nothing but
+/// the order of these agents are *permuted* rows of each other. The *canonical* row among them, in which the
+/// agents are in ascending order of where they are, stands for all (symmetry reduction; Emerson and Sistla,
+/// "Symmetry and Model Checking", 1996).
+///
+/// Immutable once built, so safe to share between threads.
+class RowSymmetry {
  public:
   static constexpr std::size_t kMostAgents = 8;
 
   /// @param blocks the dimensions of each of two to kMostAgents agents, matching one by one, all of them
   ///   across rows
-  RowMirror(const UniformGrid& grid, const std::vector<std::vector<std::size_t>>& blocks) {
+  RowSymmetry(const UniformGrid& grid, const std::vector<std::vector<std::size_t>>& blocks) {
     for (const std::vector<std::size_t>& dimensions : blocks) {
       Block& block = blocks_.emplace_back();
       block.offsets.assign(1, 0);
@@ -32,37 +36,37 @@ class RowMirror {
     }
   }
 
-  [[nodiscard]] bool is_first(std::int64_t row) const {
+  [[nodiscard]] bool is_canonical(std::int64_t row) const {
     const Keys keys = keys_of(row);
     return std::is_sorted(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(blocks_.size()));
   }
 
-  /// The first of its images, or the row itself.
-  [[nodiscard]] std::int64_t first_of(std::int64_t row) const {
+  /// The canonical one of its permuted rows; the row itself if it is canonical.
+  [[nodiscard]] std::int64_t canonical_of(std::int64_t row) const {
     Keys keys = keys_of(row);
     const std::int64_t rest = row - offset_of(keys);
     std::sort(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(blocks_.size()));
     return rest + offset_of(keys);
   }
 
-  /// Whether a set holds in these rows what it holds in the first of their images.
-  [[nodiscard]] bool is_same(const CellSet& set, RowShare::Range rows) const {
+  /// Whether a set has the same cells in these rows as in their canonical rows.
+  [[nodiscard]] bool keeps(const CellSet& set, RowShare::Range rows) const {
     for (std::int64_t row = rows.begin; row < rows.end; ++row) {
-      if (!std::ranges::equal(set.row(row), set.row(first_of(row)))) return false;
+      if (!std::ranges::equal(set.row(row), set.row(canonical_of(row)))) return false;
     }
     return true;
   }
 
-  /// Calls `visit(row)` for all images but the row itself.
+  /// Calls `visit(row)` for all its permuted rows but the row itself.
   template <class Visit>
-  void for_each_image(std::int64_t row, const Visit& visit) const {
+  void for_each_permuted(std::int64_t row, const Visit& visit) const {
     Keys keys = keys_of(row);
     const std::int64_t rest = row - offset_of(keys);
     const auto end = keys.begin() + static_cast<std::ptrdiff_t>(blocks_.size());
     std::sort(keys.begin(), end);
     do {
-      const std::int64_t image = rest + offset_of(keys);
-      if (image != row) visit(image);
+      const std::int64_t permuted = rest + offset_of(keys);
+      if (permuted != row) visit(permuted);
     } while (std::next_permutation(keys.begin(), end));
   }
 
@@ -108,23 +112,23 @@ class RowMirror {
   std::vector<Block> blocks_;
 };
 
-/// The images of rows that a process knows: all, or those that it holds.
-class HeldImages {
+/// The permuted rows that a process has: all, or those that it holds.
+class HeldPermutations {
  public:
-  /// @param mirror null: there are none @param share null: there is one process
-  HeldImages(const RowMirror* mirror, const RowShare* share) : mirror_(mirror), share_(share) {}
+  /// @param symmetry null: there is none @param share null: there is one process
+  HeldPermutations(const RowSymmetry* symmetry, const RowShare* share) : symmetry_(symmetry), share_(share) {}
 
-  /// RowMirror::for_each_image() for those.
+  /// RowSymmetry::for_each_permuted() for these rows.
   template <class Visit>
   void for_each(std::int64_t row, const Visit& visit) const {
-    if (mirror_ == nullptr) return;
-    mirror_->for_each_image(row, [&](std::int64_t image) {
-      if (share_ == nullptr || share_->holds(image)) visit(image);
+    if (symmetry_ == nullptr) return;
+    symmetry_->for_each_permuted(row, [&](std::int64_t permuted) {
+      if (share_ == nullptr || share_->holds(permuted)) visit(permuted);
     });
   }
 
  private:
-  const RowMirror* mirror_;
+  const RowSymmetry* symmetry_;
   const RowShare* share_;
 };
 

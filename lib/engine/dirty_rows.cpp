@@ -1,11 +1,11 @@
-#include "engine/wave_news.hpp"
+#include "engine/dirty_rows.hpp"
 
 #include <algorithm>
 #include <span>
 
 namespace coordreq {
 
-WaveNews::WaveNews(const RowEngine& engine, const RowHull& hull, std::int64_t unit_rows)
+DirtyRows::DirtyRows(const RowEngine& engine, const RowHull& hull, std::int64_t unit_rows)
     : engine_(engine),
       hull_(hull),
       unit_rows_(unit_rows),
@@ -23,7 +23,7 @@ WaveNews::WaveNews(const RowEngine& engine, const RowHull& hull, std::int64_t un
   leading_changed_.assign(static_cast<std::size_t>(engine.rows() / leading_rows_), 0);
 }
 
-bool WaveNews::is_pending(std::int64_t unit) {
+bool DirtyRows::is_pending(std::int64_t unit) {
   if (is_unseen(unit)) return true;
   const std::uint32_t seen = seen_[static_cast<std::size_t>(unit)];
   if (last_change_ < seen) return false;
@@ -42,7 +42,7 @@ bool WaveNews::is_pending(std::int64_t unit) {
   return any_since(engine_.outer(), unit_changed_, unit_strides_);
 }
 
-void WaveNews::go_to(std::int64_t unit) {
+void DirtyRows::go_to(std::int64_t unit) {
   const std::int64_t row = unit * unit_rows_;
   const std::int64_t steps = (row - place_.row) / unit_rows_;
   constexpr std::int64_t kFewSteps = 4;
@@ -51,12 +51,12 @@ void WaveNews::go_to(std::int64_t unit) {
 }
 
 /// It is the same for all rows of the unit. In other dimensions the first one has no box if it is not held.
-void WaveNews::enclose_unit(const RowPlace& place, Scratch& scratch) const {
+void DirtyRows::enclose_unit(const RowPlace& place, Scratch& scratch) const {
   scratch.box.ranges.clear();
   for (std::size_t i = 0; i < engine_.outer(); ++i) scratch.box.ranges.push_back(hull_.range(place, i));
 }
 
-void WaveNews::enter(std::int64_t unit, Scratch& scratch) const {
+void DirtyRows::enter(std::int64_t unit, Scratch& scratch) const {
   if (engine_.outer() == 0) return;
   enclose_unit(RowPlace(engine_.grid(), unit * unit_rows_), scratch);
   scratch.merged.assign(static_cast<std::size_t>(unit_rows_), 0);
@@ -67,7 +67,7 @@ void WaveNews::enter(std::int64_t unit, Scratch& scratch) const {
   });
 }
 
-bool WaveNews::meets_change(const RowPlace& place, std::int64_t unit, Scratch& scratch) const {
+bool DirtyRows::meets_change(const RowPlace& place, std::int64_t unit, Scratch& scratch) const {
   const std::uint32_t seen = std::max(seen_[static_cast<std::size_t>(unit)], kBeforeAll);
   hull_.box(place, scratch.box);
   const std::size_t outer = engine_.outer();

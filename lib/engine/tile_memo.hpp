@@ -13,10 +13,10 @@ namespace coordreq {
 /// A tile is worked out at most once a sweep, so that the rows of one that has been are its result until the
 /// sweep is over: what is to be copied stands there.
 template <class Level>
-class EqualTiles {
+class TileMemo {
  public:
   /// @pre unchecked: all outlive this object.
-  EqualTiles(const EqualWork& equal, LevelRows<Level>& levels)
+  TileMemo(const EqualWork& equal, LevelRows<Level>& levels)
       : equal_(equal), levels_(levels), is_on_(equal.tiles != nullptr && levels.is_interned()) {}
 
   /// False where too little has been found: looking up costs more than it saves.

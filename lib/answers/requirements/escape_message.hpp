@@ -16,7 +16,7 @@ struct Reached {
 };
 
 /// What a step adds to an escape, as the process that owns its cell tells the others.
-struct EscapeNews {
+struct EscapeProgress {
   bool goes_on = false;
   bool has_more = false;  ///< equal steps that the system itself can follow
   std::int64_t way = 0;
@@ -24,9 +24,9 @@ struct EscapeNews {
 };
 
 /// @param inputs, cells how many of them the path had before the step
-[[nodiscard]] Bytes escape_message(const EscapeNews& news, const EscapePath& path, std::size_t inputs,
+[[nodiscard]] Bytes escape_message(const EscapeProgress& progress, const EscapePath& path, std::size_t inputs,
                                    std::size_t cells);
 /// Adds it to the path of another process.
-[[nodiscard]] EscapeNews read_escape_message(const Bytes& message, EscapePath& path);
+[[nodiscard]] EscapeProgress read_escape_message(const Bytes& message, EscapePath& path);
 
 }  // namespace coordreq

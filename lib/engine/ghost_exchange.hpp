@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "engine/dirty_rows.hpp"
 #include "engine/level_messages.hpp"
-#include "engine/row_mirror.hpp"
-#include "engine/wave_news.hpp"
+#include "engine/row_symmetry.hpp"
 
 namespace coordreq {
 
@@ -17,30 +17,31 @@ namespace coordreq {
 [[nodiscard]] std::vector<RowShare::Range> units_that_meet_peers(const RowEngine& engine, const RowHull& hull,
                                                                  std::int64_t unit_rows);
 
-/// Tells other ranks, in the course of a wave, of the rows of their halos that have changed, and hears of
-/// those of its own.
+/// The ghost exchange of a wave: sends dirty rows to the ranks that hold them as ghosts, and takes in its own
+/// ghost rows that are dirty.
 ///
 /// In each sweep a rank sends one message to every rank that holds rows of it, as soon as it is through with
-/// these. It takes in that of the sweep before from every rank of which it holds rows, when it comes to the
-/// first unit that can meet these. So messages are on their way while other rows are worked out; and what a
-/// unit sees does not depend on how long they take.
+/// these rows. It takes in the message of the sweep before from every rank of which it holds rows, when it
+/// comes to the first unit that can meet them. So messages are on their way while other rows are worked out;
+/// and the levels that a unit sees do not depend on how long messages take.
 template <class Level>
-class HaloNews {
+class GhostExchange {
  public:
-  /// @param mirror where not null only the first of images is told of: the others follow from it, and any
-  ///   row of this rank can be one of them
+  /// @param symmetry where not null only canonical rows are sent: permuted rows follow from them, and any row
+  /// of
+  ///   this rank can be one of these
   /// @pre unchecked: there are several ranks, and all outlive this object.
-  HaloNews(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, WaveNews& news,
-           std::int64_t unit_rows, const RowMirror* mirror)
+  GhostExchange(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, DirtyRows& dirty,
+                std::int64_t unit_rows, const RowSymmetry* symmetry)
       : levels_(levels),
         ranks_(levels.share()->ranks()),
         messages_(levels),
-        news_(news),
-        mirror_(mirror),
+        dirty_(dirty),
+        symmetry_(symmetry),
         peers_(levels.share()->peers().size()) {
     const std::vector<RowShare::Peer>& all = levels.share()->peers();
     std::vector<RowShare::Range> meeting;
-    if (mirror == nullptr) {
+    if (symmetry == nullptr) {
       meeting = units_that_meet_peers(engine, hull, unit_rows);
     } else {
       const RowShare::Range own = levels.share()->own();
@@ -125,9 +126,10 @@ class HaloNews {
     Peer& peer = *to_send_.back();
     to_send_.pop_back();
     ranks_.send(peer.share->rank, messages_.message(*peer.share, [&](std::int64_t row) {
-      return news_.has_changed_after(peer.told, row) && (mirror_ == nullptr || mirror_->is_first(row));
+      return dirty_.has_changed_after(peer.told, row) &&
+             (symmetry_ == nullptr || symmetry_->is_canonical(row));
     }));
-    peer.told = news_.batch();
+    peer.told = dirty_.batch();
   }
 
   template <class Visit>
@@ -136,7 +138,7 @@ class HaloNews {
     to_take_.pop_back();
     const Bytes message =
         peer.arrived ? *std::exchange(peer.arrived, std::nullopt) : ranks_.receive(peer.share->rank);
-    news_.begin_batch();
+    dirty_.begin_batch();
     messages_.take(message, [&](std::int64_t row, const Level* cells) {
       levels_.put(row, cells);
       visit(row);
@@ -146,8 +148,8 @@ class HaloNews {
   LevelRows<Level>& levels_;
   Ranks& ranks_;
   LevelMessages<Level> messages_;
-  WaveNews& news_;
-  const RowMirror* mirror_;
+  DirtyRows& dirty_;
+  const RowSymmetry* symmetry_;
   bool backwards_ = false;
   std::vector<Peer> peers_;
   std::vector<Peer*> to_take_;  ///< in this sweep, the next one last

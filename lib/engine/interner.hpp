@@ -8,11 +8,11 @@ namespace coordreq {
 
 /// Which places of a store hold what, where equal rows stand in one place (*slot*) together: a hash and a
 /// number for each content, and how many rows have it. What the contents are the owner knows.
-class SlotBook {
+class Interner {
  public:
   static constexpr std::uint32_t kNone = UINT32_MAX;
 
-  SlotBook() : table_(64, kNone) {}
+  Interner() : table_(64, kNone) {}
 
   /// The slot in use with this content, or kNone. @param is_equal whether a slot holds it
   template <class IsEqual>

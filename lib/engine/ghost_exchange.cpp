@@ -1,4 +1,4 @@
-#include "engine/halo_news.hpp"
+#include "engine/ghost_exchange.hpp"
 
 namespace coordreq {
 namespace {

@@ -16,9 +16,9 @@ namespace coordreq {
 /// that had changed until then. A minimum over posts can become lower only by what has changed since, and
 /// that is in here: the rest need not be read again. What is in here without need does no harm.
 template <class Level>
-class RecentLevels {
+class LevelDelta {
  public:
-  RecentLevels(const RowEngine& engine, ThreadTeam& team)
+  LevelDelta(const RowEngine& engine, ThreadTeam& team)
       : levels_(engine.make_levels<Level>(engine.posts())),
         now_(engine.rows(), engine.row_length()),
         age_(static_cast<std::size_t>(engine.rows()), Age::old) {

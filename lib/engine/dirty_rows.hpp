@@ -13,7 +13,7 @@ namespace coordreq {
 ///
 /// Rows come in units of neighbouring numbers. Threads may mark different rows as changed, and ask, each with
 /// a scratch of its own, while nobody marks.
-class WaveNews {
+class DirtyRows {
  public:
   struct Scratch {
     RowBox box;
@@ -22,7 +22,7 @@ class WaveNews {
   };
 
   /// @pre unchecked: both outlive this object.
-  WaveNews(const RowEngine& engine, const RowHull& hull, std::int64_t unit_rows);
+  DirtyRows(const RowEngine& engine, const RowHull& hull, std::int64_t unit_rows);
 
   /// The unit has to be looked at whatever has changed.
   void set_unseen(std::int64_t unit) { seen_[static_cast<std::size_t>(unit)] = kNever; }
@@ -60,8 +60,7 @@ class WaveNews {
   /// place_ = that of the unit.
   void go_to(std::int64_t unit);
 
-  /// As what a unit has been looked at in: in no batch, or in one whose changes, and all after, are news to
-  /// it.
+  /// In place of the batch that looked at a unit: no batch has; or one has before all that are numbered.
   static constexpr std::uint32_t kNever = 0;
   static constexpr std::uint32_t kBeforeAll = 1;
 
