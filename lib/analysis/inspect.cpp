@@ -91,7 +91,7 @@ FullestRank inspect_ranks(const Model& model, int ranks, int threads, const Rank
                           ThreadTeam& team) {
   const ProblemSpec& spec = model.spec();
   const double before = memory_of_program() + kMpiBytes;
-  const auto need = [&](const RowPart& part) {
+  const auto need = [&](const RowFractions& part) {
     return estimate_memory_of_rank(model, threads, before, part);
   };
   const auto check = [&](double needed, std::optional<std::uint64_t> limit, const std::string& by_whom) {

@@ -17,11 +17,11 @@ namespace coordreq {
 namespace {
 
 /// Of like agents the most that change places within the classes, or with whole classes; ascending.
-std::vector<std::size_t> alike_in_classes(const std::vector<AgentPart>& agents,
+std::vector<std::size_t> alike_in_classes(const std::vector<AbstractAgent>& agents,
                                           const std::vector<InputClass>& classes) {
   std::set<std::vector<std::int32_t>> all;
   for (const InputClass& own : classes) all.insert(own.inputs());
-  const auto are_alike = [&](const AgentPart& a, const AgentPart& b) {
+  const auto are_alike = [&](const AbstractAgent& a, const AbstractAgent& b) {
     return std::ranges::all_of(all, [&](std::vector<std::int32_t> inputs) {
       for (std::int32_t& input : inputs) input = exchanged(a.inputs, b.inputs, input);
       std::ranges::sort(inputs);
@@ -40,11 +40,11 @@ std::vector<std::size_t> alike_in_classes(const std::vector<AgentPart>& agents,
 }
 
 /// Of agents that all change places; nothing if there are none.
-std::optional<RowSymmetry> symmetry_of(const UniformGrid& grid, const std::vector<AgentPart>& agents) {
+std::optional<RowSymmetry> symmetry_of(const UniformGrid& grid, const std::vector<AbstractAgent>& agents) {
   if (agents.empty()) return std::nullopt;
-  std::vector<std::vector<std::size_t>> blocks;
-  for (const AgentPart& agent : agents) blocks.push_back(agent.dimensions);
-  return RowSymmetry(grid, blocks);
+  std::vector<std::vector<std::size_t>> dimensions;
+  for (const AbstractAgent& agent : agents) dimensions.push_back(agent.dimensions);
+  return RowSymmetry(grid, dimensions);
 }
 
 /// What S is, in two ways of asking, and what of it counts as T, in rows held.
@@ -56,12 +56,12 @@ std::vector<const CellSet*> safe_sets(const Ground& ground) {
 }
 
 /// Agents that can change places in each of the sets.
-std::vector<AgentPart> agents_alike_in(const Ground& ground, std::span<const CellSet* const> sets) {
+std::vector<AbstractAgent> agents_alike_in(const Ground& ground, std::span<const CellSet* const> sets) {
   std::vector<std::vector<std::int32_t>> inputs;
   for (const InputClass& own : agent_classes(ground.spec, ground.abstraction->inputs))
     inputs.push_back(own.inputs());
-  const std::vector<AgentPart> parts = parts_of_agents(*ground.abstraction, inputs);
-  return find_like_agents(*ground.abstraction, parts, sets);
+  const std::vector<AbstractAgent> all = abstract_agents(*ground.abstraction, inputs);
+  return find_like_agents(*ground.abstraction, all, sets);
 }
 
 /// More processes do not exchange agents: while the rows that each works out become fewer, it would have to
@@ -70,12 +70,12 @@ constexpr int kMostThatExchange = 8;
 
 /// Of several processes rows are cut before S is known, for agents of which only S can forbid that all change
 /// places, in whatever partition.
-std::vector<AgentPart> agents_alike_but_for_safe_set(const Ground& ground, int ranks) {
+std::vector<AbstractAgent> agents_alike_but_for_safe_set(const Ground& ground, int ranks) {
   const ProblemSpec& spec = ground.spec;
   if (ranks > kMostThatExchange || is_cut_before_tables(ground.model) || ground.listed ||
       spec.controller.allow)
     return {};
-  std::vector<AgentPart> agents = agents_alike_in(ground, {});
+  std::vector<AbstractAgent> agents = agents_alike_in(ground, {});
   for (const PartitionSpec& partition : spec.coordination.partitions) {
     const auto classes = input_classes(spec, ground.abstraction->inputs, partition);
     if (alike_in_classes(agents, classes).size() < agents.size()) return {};
@@ -98,7 +98,7 @@ std::vector<std::uint8_t> rows_needed(const RowHull& hull, const CellSet* safe, 
 
 /// Cuts the rows, if that is still to be done, and finds S in those held. Together.
 /// @param agents that change places, or none
-void share_rows(Ground& ground, bool is_cut, const std::vector<AgentPart>& agents,
+void share_rows(Ground& ground, bool is_cut, const std::vector<AbstractAgent>& agents,
                 const std::function<void(const std::vector<RowShare::Range>&)>& find_safe) {
   const std::optional<RowSymmetry> symmetry = symmetry_of(ground.abstraction->grid, agents);
   if (!is_cut)
@@ -125,7 +125,7 @@ void add_over(const std::vector<RowShare::Range>& runs, ThreadTeam& team, Ground
 
 /// Takes the agents as alike if that makes no difference in S, for any process, nor for what tiles are.
 /// Together. @returns whether it has
-bool take_like_agents(Ground& ground, const std::vector<AgentPart>& agents) {
+bool take_like_agents(Ground& ground, const std::vector<AbstractAgent>& agents) {
   ground.like_agents = agents;
   const std::optional<RowSymmetry> symmetry = ground.symmetry(single_classes(ground.abstraction->inputs));
   const bool can = symmetry && std::ranges::all_of(safe_sets(ground), [&](const CellSet* set) {
@@ -150,18 +150,19 @@ std::int64_t Ground::count(const CellSet& set) const {
 }
 
 std::optional<RowSymmetry> Ground::symmetry(const std::vector<InputClass>& classes) const {
-  std::vector<std::vector<std::size_t>> blocks;
+  std::vector<std::vector<std::size_t>> dimensions;
   for (const std::size_t a : alike_in_classes(like_agents, classes))
-    blocks.push_back(like_agents[a].dimensions);
+    dimensions.push_back(like_agents[a].dimensions);
   // Each of several processes holds the canonical rows of all its rows, if there is a symmetry.
-  if (blocks.size() < 2 || (ranks != nullptr && blocks.size() < like_agents.size())) return std::nullopt;
+  if (dimensions.size() < 2 || (ranks != nullptr && dimensions.size() < like_agents.size()))
+    return std::nullopt;
   // Tiles of many rows are worked out as a whole.
   const auto is_in_tile = [&](std::size_t d) { return d >= tiles->leading(); };
   const bool is_any_in_tile =
       tiles && tiles->rows() > 1 &&
-      std::ranges::any_of(blocks, [&](const auto& block) { return std::ranges::any_of(block, is_in_tile); });
+      std::ranges::any_of(dimensions, [&](const auto& own) { return std::ranges::any_of(own, is_in_tile); });
   if (is_any_in_tile) return std::nullopt;
-  return RowSymmetry(abstraction->grid, blocks);
+  return RowSymmetry(abstraction->grid, dimensions);
 }
 
 void lay_ground(Ground& ground, ThreadTeam& team) {
@@ -188,9 +189,9 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
                          std::vector<std::int64_t>(1 + static_cast<std::size_t>(ground.ranks->count()), 0));
   ground.engine.emplace(abstraction, nullptr, ground.tubes(), ground.shared_rows());
   ground.hull.emplace(*ground.engine);
-  const std::vector<AgentPart> agents = ground.ranks == nullptr
-                                            ? std::vector<AgentPart>()
-                                            : agents_alike_but_for_safe_set(ground, ground.ranks->count());
+  const std::vector<AbstractAgent> agents =
+      ground.ranks == nullptr ? std::vector<AbstractAgent>()
+                              : agents_alike_but_for_safe_set(ground, ground.ranks->count());
   if (ground.ranks != nullptr) share_rows(ground, is_cut, agents, find_safe);
   ground.pairs = pair_rules(ground.spec, abstraction, team, ground.listed ? &ground.listed->pairs : nullptr,
                             ground.shared_rows());

@@ -58,7 +58,7 @@ struct Ground {
   std::optional<RowHull> hull;
   std::optional<Tiles> tiles;      ///< where equal work is looked for, if there seems to be much of it
   Tiles::Numbers tiles_with_over;  ///< [tile] equal numbers where the same cells count as T, too; if any do
-  std::vector<AgentPart> like_agents;  ///< that can change places, in S too; two or more, or none
+  std::vector<AbstractAgent> like_agents;  ///< that can change places, in S too; two or more, or none
   std::optional<CellOrder> order;
 
   /// What tubes must stay in, if there are any. @pre S is there
@@ -87,7 +87,7 @@ void lay_ground(Ground& ground, ThreadTeam& team);
 struct RankRows {
   std::int64_t own = 0;
   std::int64_t ghosts = 0;
-  std::vector<double> slices = {};  ///< RowPart::slices
+  std::vector<double> slices = {};  ///< RowFractions::slices
 };
 /// Of so many processes, on an abstraction that is there. Ghost rows are those of all cells, in S or not.
 [[nodiscard]] std::vector<RankRows> rows_of_ranks(const Ground& ground, int ranks);

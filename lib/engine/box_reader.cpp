@@ -61,8 +61,8 @@ template <class Level>
 const Level* BoxReader<Level>::minimum(std::span<const std::uint32_t> ids) {
   bool blocked = false;
   bool gone = false;
-  if (!fits_one_piece(ids, blocked, gone)) {
-    read_in_pieces(ids);
+  if (!is_one_segment(ids, blocked, gone)) {
+    read_by_segments(ids);
   } else if (blocked) {
     std::fill(result_.begin(), result_.end(), Level{0});
   } else {
@@ -82,7 +82,7 @@ const Level* BoxReader<Level>::minimum(const RowBox& box, std::int64_t begin, st
 
 /// The common case: every slice is one segment. Sets the box of rows.
 template <class Level>
-bool BoxReader<Level>::fits_one_piece(std::span<const std::uint32_t> ids, bool& blocked, bool& gone) {
+bool BoxReader<Level>::is_one_segment(std::span<const std::uint32_t> ids, bool& blocked, bool& gone) {
   const std::size_t across = engine_.across();
   ranges_.resize(across);
   for (std::size_t t = 0; t < ids.size(); ++t) {
@@ -101,7 +101,7 @@ template <class Level>
 void BoxReader<Level>::read_row(std::span<const std::uint32_t> ids, bool gone) {
   if (engine_.along() == 1) {
     const std::size_t last = ids.size() - 1;
-    read_piece(family_.slices[last].slices[ids[last]][0], gone, 0, levels_->row_length(), result_.data());
+    read_segment(family_.slices[last].slices[ids[last]][0], gone, 0, levels_->row_length(), result_.data());
     return;
   }
   windows_.clear();
@@ -111,7 +111,7 @@ void BoxReader<Level>::read_row(std::span<const std::uint32_t> ids, bool gone) {
 }
 
 template <class Level>
-void BoxReader<Level>::read_in_pieces(std::span<const std::uint32_t> ids) {
+void BoxReader<Level>::read_by_segments(std::span<const std::uint32_t> ids) {
   const std::size_t last = ids.size() - 1;
   ranges_.resize(last);
   slices_.clear();
@@ -132,7 +132,7 @@ void BoxReader<Level>::read_in_pieces(std::span<const std::uint32_t> ids) {
     if (blocked) {
       std::fill(result_.begin() + begin, result_.begin() + end, Level{0});
     } else {
-      read_piece((*slices_[last])[positions_[last]], gone, begin, end, wide_.data());
+      read_segment((*slices_[last])[positions_[last]], gone, begin, end, wide_.data());
       std::copy(wide_.begin(), wide_.begin() + (end - begin), result_.begin() + begin);
     }
     begin = end;
@@ -141,8 +141,8 @@ void BoxReader<Level>::read_in_pieces(std::span<const std::uint32_t> ids) {
 
 /// Lanes [begin, end), the first of them to out[0].
 template <class Level>
-void BoxReader<Level>::read_piece(const RowSegment& last, bool gone, std::int64_t begin, std::int64_t end,
-                                  Level* out) {
+void BoxReader<Level>::read_segment(const RowSegment& last, bool gone, std::int64_t begin, std::int64_t end,
+                                    Level* out) {
   if (last.kind == Kind::gone) {
     std::fill_n(out, end - begin, kTop);
   } else if (last.kind == Kind::shifted) {

@@ -41,13 +41,13 @@ class BoxReader final : public RowReader<Level> {
     std::uint64_t epoch = 0;
   };
 
-  [[nodiscard]] bool fits_one_piece(std::span<const std::uint32_t> ids, bool& blocked, bool& gone);
-  void read_piece(const RowSegment& last, bool gone, std::int64_t begin, std::int64_t end, Level* out);
+  [[nodiscard]] bool is_one_segment(std::span<const std::uint32_t> ids, bool& blocked, bool& gone);
+  void read_segment(const RowSegment& last, bool gone, std::int64_t begin, std::int64_t end, Level* out);
   void read_windows(bool gone, std::int64_t begin, std::int64_t end, Level* out);
   void take_window(std::size_t k, std::size_t lanes, Level* out);
   void read_row(std::span<const std::uint32_t> ids, bool gone);
   void read_fixed(IndexRange range, bool gone, std::int64_t begin, std::int64_t end, Level* out);
-  void read_in_pieces(std::span<const std::uint32_t> ids);
+  void read_by_segments(std::span<const std::uint32_t> ids);
   void collect_rows(bool gone);
   [[nodiscard]] Shared& shared();
   [[nodiscard]] const Level* shared_row(Shared& shared, std::int64_t inner);

@@ -34,7 +34,7 @@ class DifferentRows {
       if (!levels_.is_interned()) {
         visit(levels_.row(own_.begin + k), std::int64_t{1});
       } else if (const std::uint32_t count = rows_of_slot_[static_cast<std::size_t>(k)]; count > 0) {
-        visit(levels_.first_place() + k * levels_.stride(), std::int64_t{count});
+        visit(levels_.first_slot() + k * levels_.stride(), std::int64_t{count});
       }
     }
   }

@@ -12,15 +12,15 @@ DirtyRows::DirtyRows(const RowEngine& engine, const RowHull& hull, std::int64_t 
       changed_(static_cast<std::size_t>(engine.rows())),
       unit_changed_(static_cast<std::size_t>((engine.rows() + unit_rows - 1) / unit_rows), 0),
       seen_(unit_changed_.size(), kBeforeAll),
-      leading_(engine.outer() / 2),
-      leading_rows_(leading_ == 0 ? 1 : engine.grid().row_stride(leading_ - 1)),
+      coarse_dimensions_(engine.outer() / 2),
+      coarse_rows_(coarse_dimensions_ == 0 ? 1 : engine.grid().row_stride(coarse_dimensions_ - 1)),
       place_(engine.grid(), 0) {
   for (std::size_t i = 0; i < engine.outer(); ++i)
     unit_strides_.push_back(engine.grid().row_stride(i) / unit_rows_);
-  if (leading_ == 0) return;
-  for (std::size_t i = 0; i < leading_; ++i)
-    leading_strides_.push_back(engine.grid().row_stride(i) / leading_rows_);
-  leading_changed_.assign(static_cast<std::size_t>(engine.rows() / leading_rows_), 0);
+  if (coarse_dimensions_ == 0) return;
+  for (std::size_t i = 0; i < coarse_dimensions_; ++i)
+    coarse_strides_.push_back(engine.grid().row_stride(i) / coarse_rows_);
+  coarse_changed_.assign(static_cast<std::size_t>(engine.rows() / coarse_rows_), 0);
 }
 
 bool DirtyRows::is_pending(std::int64_t unit) {
@@ -36,9 +36,10 @@ bool DirtyRows::is_pending(std::int64_t unit) {
     return any_in_box(
         ranges, [&](std::size_t i) { return std::int64_t{engine_.grid()[i].count}; },
         [&](std::size_t i) { return strides[i]; }, scratch_.counter,
-        [&](std::int64_t block) { return changed[static_cast<std::size_t>(block)] >= seen; });
+        [&](std::int64_t number) { return changed[static_cast<std::size_t>(number)] >= seen; });
   };
-  if (leading_ > 0 && !any_since(leading_, leading_changed_, leading_strides_)) return false;
+  if (coarse_dimensions_ > 0 && !any_since(coarse_dimensions_, coarse_changed_, coarse_strides_))
+    return false;
   return any_since(engine_.outer(), unit_changed_, unit_strides_);
 }
 

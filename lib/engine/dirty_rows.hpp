@@ -40,7 +40,7 @@ class DirtyRows {
   void mark_row(std::int64_t row) { changed_[static_cast<std::size_t>(row)] = batch_; }
   void mark_unit_of(std::int64_t row) {
     unit_changed_[static_cast<std::size_t>(row / unit_rows_)] = batch_;
-    if (leading_ > 0) leading_changed_[static_cast<std::size_t>(row / leading_rows_)] = batch_;
+    if (coarse_dimensions_ > 0) coarse_changed_[static_cast<std::size_t>(row / coarse_rows_)] = batch_;
     last_change_ = batch_;
   }
 
@@ -72,14 +72,14 @@ class DirtyRows {
   ZeroedArray<std::uint32_t> changed_;       ///< [row] the batch that changed it last
   std::vector<std::uint32_t> unit_changed_;  ///< [unit] likewise
   std::vector<std::uint32_t> seen_;          ///< [unit] the batch that looked at it last
-  /// Of the dimensions that units share, so many together tell blocks of units apart, of which few are to be
-  /// looked at before it is known that none has changed; 0: none.
-  std::size_t leading_ = 0;
-  std::int64_t leading_rows_ = 1;               ///< of a block
-  std::vector<std::int64_t> unit_strides_;      ///< [shared dimension] in units
-  std::vector<std::int64_t> leading_strides_;   ///< [leading dimension] in blocks
-  std::vector<std::uint32_t> leading_changed_;  ///< [block] the batch that changed it last
-  RowPlace place_;                              ///< of the unit asked about last
+  /// Of the dimensions that units share, so many tell *coarse units* apart; few of these are looked at before
+  /// it is known that no unit in them has changed. 0: there are none.
+  std::size_t coarse_dimensions_ = 0;
+  std::int64_t coarse_rows_ = 1;               ///< of a coarse unit
+  std::vector<std::int64_t> unit_strides_;     ///< [shared dimension] in units
+  std::vector<std::int64_t> coarse_strides_;   ///< [coarse dimension] in coarse units
+  std::vector<std::uint32_t> coarse_changed_;  ///< [coarse unit] the batch that changed it last
+  RowPlace place_;                             ///< of the unit asked about last
   Scratch scratch_;
 };
 

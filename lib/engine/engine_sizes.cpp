@@ -45,22 +45,23 @@ std::vector<double> bytes_of_slices(const RowEngine& engine) {
   return result;
 }
 
-EngineSizes::EngineSizes(const Model& model, RowPart part)
+EngineSizes::EngineSizes(const Model& model, RowFractions fractions)
     : model_(&model),
-      part_(std::move(part)),
+      fractions_(std::move(fractions)),
       offsets_(usual_offsets(model.spec())),
       widths_(usual_widths(model.spec())),
       grid_(join_rows(model, offsets_)) {
-  part_.held = std::max(part_.held, 1 / in_double(grid_.rows()));
-  part_.own = std::max(part_.own, 1 / in_double(grid_.rows()));
+  fractions_.held = std::max(fractions_.held, 1 / in_double(grid_.rows()));
+  fractions_.own = std::max(fractions_.own, 1 / in_double(grid_.rows()));
   for (std::size_t i = grid_.across(); i < grid_.size(); ++i) {
     const GridDimension& dimension = grid_[i];
     const RowMargins margins = window_margins({&offsets_[grid_.state(i)], 1}, dimension);
     shape_.dimensions.push_back(
         {dimension.count, grid_.stride(i), margins, {dimension.below, dimension.above}});
   }
-  part_.slices.reserve(grid_.size());
-  for (std::size_t t = part_.slices.size(); t < grid_.size(); ++t) part_.slices.push_back(usual_bytes(t));
+  fractions_.slices.reserve(grid_.size());
+  for (std::size_t t = fractions_.slices.size(); t < grid_.size(); ++t)
+    fractions_.slices.push_back(usual_bytes(t));
 }
 
 double EngineSizes::set() const {
@@ -94,15 +95,15 @@ double EngineSizes::usual_bytes(std::size_t t) const {
         usual_slices(model_->spec(), state, model_->shapes()[state], grid_.state(grid_.size() - 1));
     bytes += std::min(usual.different, choices) * (usual.segments * sizeof(RowSegment) + kBytesOfSlice);
   }
-  return part_of_table(t) * bytes;
+  return fraction_of_table(t) * bytes;
 }
 
-double EngineSizes::part_of_table(std::size_t t) const {
-  return model_->arranged_shapes()[t].is_by_cells(grid_.size()) ? part_.own : 1;
+double EngineSizes::fraction_of_table(std::size_t t) const {
+  return model_->arranged_shapes()[t].is_by_cells(grid_.size()) ? fractions_.own : 1;
 }
 
 double EngineSizes::untold_entries() const {
-  if (part_.own == 1) return 0;
+  if (fractions_.own == 1) return 0;
   // One flow serves several states, one map one.
   const bool are_together = model_->spec().dynamics.time == Time::continuous;
   double bytes = 0;
@@ -110,7 +111,7 @@ double EngineSizes::untold_entries() const {
     if (shape.sum) continue;
     bytes = are_together ? bytes + shape.bytes : std::max(bytes, shape.bytes);
   }
-  return part_.own * bytes;
+  return fractions_.own * bytes;
 }
 
 double EngineSizes::hull() const {
@@ -135,11 +136,11 @@ double EngineSizes::condition_of_held(const Program& condition) const {
   const UniformGrid& grid = model_->grid();
   const std::vector<std::uint32_t> slots = condition.variables();
   const bool is_cut = grid.size() > 1 && std::ranges::find(slots, grid.state(0)) != slots.end();
-  return this->condition(condition) * (is_cut ? std::max(part_.held, 1 / in_double(grid[0].count)) : 1);
+  return this->condition(condition) * (is_cut ? std::max(fractions_.held, 1 / in_double(grid[0].count)) : 1);
 }
 
 double EngineSizes::packed_pairs(std::int64_t actions) const {
-  return part_.held * cells() * in_double(PackedPairs::bytes_for(actions));
+  return fractions_.held * cells() * in_double(PackedPairs::bytes_for(actions));
 }
 
 double EngineSizes::pair_table() const {
@@ -189,8 +190,9 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
   if (choices > in_double(most_shared_choices(inputs.actions()))) return offsets;
   // A process finds those of its own rows, or of their first indices (ActionGrouping::held_choices).
   if (grid_.across() > 0 && use[0] != none) {
-    const double held =
-        choices < in_double(grid_.rows()) ? std::max(part_.own, 1 / in_double(grid_[0].count)) : part_.own;
+    const double held = choices < in_double(grid_.rows())
+                            ? std::max(fractions_.own, 1 / in_double(grid_[0].count))
+                            : fractions_.own;
     choices *= held;
     distinct = use[0] == in_full ? distinct * held : std::min(distinct, choices);
   }
@@ -210,12 +212,12 @@ double EngineSizes::readers(int threads, double level_bytes) const {
   return threads * (one + level_bytes * sum_reader());
 }
 
-/// SumReader: blocks for the ranges of the leading dimensions that a unit goes to, with what lies beyond.
+/// SumReader: patches for the ranges of the leading dimensions that a unit goes to, with what lies beyond.
 double EngineSizes::sum_reader() const {
   constexpr double kUsualSizes = 2;  // of a box, in each dimension
   constexpr double kUsualJoined = 8;
   constexpr double kBytesOfMargin = 12;
-  double block = 1, inside = 1, sizes = 1, led = 1;
+  double patch = 1, inside = 1, sizes = 1, led = 1;
   for (std::size_t i = 0; i < grid_.size(); ++i) {
     const TableShape& shape = model_->arranged_shapes()[i];
     if (!shape.sum) {
@@ -224,12 +226,12 @@ double EngineSizes::sum_reader() const {
     }
     const double reach = widths_[grid_.state(i)] + most_wider(static_cast<std::int32_t>(grid_[i].count));
     inside *= in_double(grid_[i].count);
-    block *= in_double(grid_[i].count) + 2 * (reach + 1);
+    patch *= in_double(grid_[i].count) + 2 * (reach + 1);
     sizes *= kUsualSizes;
   }
-  const double fitting = std::max(2.0, static_cast<double>(kBlockBytes) / (sizes * block));
+  const double fitting = std::max(2.0, static_cast<double>(kPatchBytes) / (sizes * patch));
   const double slots = std::min(led, fitting);
-  return (slots * sizes + kUsualJoined) * block + kBytesOfMargin * (block - inside);
+  return (slots * sizes + kUsualJoined) * patch + kBytesOfMargin * (patch - inside);
 }
 
 double EngineSizes::wave(int threads) const {

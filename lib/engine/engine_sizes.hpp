@@ -13,7 +13,7 @@
 namespace coordreq {
 
 /// The parts of all rows that one of several processes holds, ghost rows among them, and that it owns.
-struct RowPart {
+struct RowFractions {
   double held = 1;
   double own = 1;
   std::vector<double> slices = {};  ///< [table] bytes of EngineSizes::slices(), once they are known
@@ -27,23 +27,23 @@ struct RowPart {
 /// tables are (join_rows()). Where it depends on what is found, on the high side of what is usual.
 class EngineSizes {
  public:
-  /// @param part of a process, of several that share the work; all: there is one. At least a row counts
+  /// @param fractions of a process, of several that share the work; all: there is one. At least a row counts
   /// @pre unchecked: `model` outlives this object.
-  explicit EngineSizes(const Model& model, RowPart part = {});
+  explicit EngineSizes(const Model& model, RowFractions fractions = {});
 
   [[nodiscard]] const Model& model() const { return *model_; }
   [[nodiscard]] double cells() const { return static_cast<double>(grid_.points()); }
   /// Of the rows that are held, with the gaps in them.
-  [[nodiscard]] double lanes() const { return part_.held * static_cast<double>(grid_.cells()); }
-  [[nodiscard]] double rows() const { return part_.held * static_cast<double>(grid_.rows()); }
+  [[nodiscard]] double lanes() const { return fractions_.held * static_cast<double>(grid_.cells()); }
+  [[nodiscard]] double rows() const { return fractions_.held * static_cast<double>(grid_.rows()); }
   [[nodiscard]] const UniformGrid& grid() const { return grid_; }
 
   [[nodiscard]] double set() const;     ///< CellSet
   [[nodiscard]] double levels() const;  ///< LevelRows of 8 bits
   /// RowSlices of the table of dimension t; and that table itself.
-  [[nodiscard]] double slices(std::size_t t) const { return part_.slices[t]; }
+  [[nodiscard]] double slices(std::size_t t) const { return fractions_.slices[t]; }
   [[nodiscard]] double table(std::size_t t) const {
-    return part_of_table(t) * model_->arranged_shapes()[t].bytes;
+    return fraction_of_table(t) * model_->arranged_shapes()[t].bytes;
   }
   /// What a process of several keeps of tables in full before all of them are told of it.
   [[nodiscard]] double untold_entries() const;
@@ -71,10 +71,10 @@ class EngineSizes {
   [[nodiscard]] double groups_of_class(const InputClass& inputs) const;
   [[nodiscard]] RowMargins reach_of(std::size_t i) const;
   /// That the process has: of tables by cells the entries of its own rows.
-  [[nodiscard]] double part_of_table(std::size_t t) const;
+  [[nodiscard]] double fraction_of_table(std::size_t t) const;
 
   const Model* model_;
-  RowPart part_;
+  RowFractions fractions_;
   std::vector<IndexRange> offsets_;   ///< by state, usual_offsets()
   std::vector<std::int32_t> widths_;  ///< by state, usual_widths()
   UniformGrid grid_;

@@ -32,16 +32,17 @@ void count_rows(const RowShape& shape, const DifferentRows<Level>& rows, ThreadT
 /// each other.
 void count_rows(const RowShape& shape, const DifferentRows<std::uint8_t>& rows, ThreadTeam::Range range,
                 std::vector<std::int64_t>& counts) {
-  std::array<std::array<std::int64_t, 256>, 4> part{};
+  std::array<std::array<std::int64_t, 256>, 4> counters{};
   rows.for_each(range, [&](const std::uint8_t* row, std::int64_t times) {
     shape.for_each_run([&](std::int64_t lane, std::int64_t count) {
       const std::uint8_t* cells = row + lane;
-      for (std::int64_t c = 0; c < count; ++c) part[static_cast<std::size_t>(c % 4)][cells[c]] += times;
+      for (std::int64_t c = 0; c < count; ++c) counters[static_cast<std::size_t>(c % 4)][cells[c]] += times;
     });
   });
   counts.resize(256, 0);
   for (std::size_t level = 0; level < 256; ++level) {
-    counts[(level + 1) % 256] += part[0][level] + part[1][level] + part[2][level] + part[3][level];
+    counts[(level + 1) % 256] +=
+        counters[0][level] + counters[1][level] + counters[2][level] + counters[3][level];
   }
 }
 

@@ -52,7 +52,7 @@ class LevelRows {
         margins_(shape_.margins()) {
     constexpr std::int64_t kAlign = 16 / static_cast<std::int64_t>(sizeof(Level));
     stride_ = (margins_.before + length_ + margins_.after + kAlign - 1) / kAlign * kAlign;
-    // A row that is put takes a place before the one that stood there leaves its own.
+    // A row that is put takes a slot before the one that stood there leaves its own.
     const auto size = static_cast<std::size_t>((rows + 1) * stride_) + kLevelBlock / sizeof(Level);
     levels_ = ZeroedArray<Level>(size);
     if (!interned || rows == 0) return;
@@ -88,8 +88,8 @@ class LevelRows {
   [[nodiscard]] bool is_interned() const { return !slots_.empty(); }
   /// First cell of a row; margins().before levels stand before it, margins().after after its last.
   [[nodiscard]] const Level* row(std::int64_t r) const { return at(slot(r)); }
-  /// The row in the first place, and [row] in which place a row stands; empty: each in its own.
-  [[nodiscard]] const Level* first_place() const { return at(0); }
+  /// The row in the first slot, and [row] in which slot a row stands; empty: each in its own.
+  [[nodiscard]] const Level* first_slot() const { return at(0); }
   [[nodiscard]] const std::vector<std::uint32_t>& slots() const { return slots_; }
 
   /// Calls `change(cells)`, which may write to the cells of a row, and gives margins to what it leaves. By
@@ -124,15 +124,15 @@ class LevelRows {
     }
     const Level* const own = lanes + margins_.before;
     const auto cells_bytes = static_cast<std::size_t>(length_) * sizeof(Level);
-    std::uint32_t place = interner_.find(
+    std::uint32_t target = interner_.find(
         hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), own, cells_bytes) == 0; });
-    if (place != Interner::kNone) {
-      interner_.hold(place);
+    if (target != Interner::kNone) {
+      interner_.hold(target);
     } else {
-      place = interner_.add(hash);
-      std::copy_n(lanes, stride_, levels_.data() + place * stride_);
+      target = interner_.add(hash);
+      std::copy_n(lanes, stride_, levels_.data() + target * stride_);
     }
-    move_to(r, place);
+    move_to(r, target);
   }
   /// Makes a row equal to another one. @returns whether it was not. By one thread at a time if rows are
   /// interned.
@@ -144,10 +144,10 @@ class LevelRows {
       std::copy_n(source, stride_, target);
       return true;
     }
-    const std::uint32_t place = slots_[static_cast<std::size_t>(from)];
-    if (slots_[static_cast<std::size_t>(to)] == place) return false;
-    interner_.hold(place);
-    move_to(to, place);
+    const std::uint32_t target = slots_[static_cast<std::size_t>(from)];
+    if (slots_[static_cast<std::size_t>(to)] == target) return false;
+    interner_.hold(target);
+    move_to(to, target);
     return true;
   }
   /// Equal numbers mean equal rows, and different ones different rows; as long as renumber() is not called.
@@ -171,7 +171,7 @@ class LevelRows {
   }
 
   /// Brings the margins and gaps of a row of this layout that stands elsewhere up to date with its cells.
-  void close_row(Level* cells) const { close_part(cells, 0); }
+  void close_row(Level* cells) const { close_from(cells, 0); }
 
   /// Sets the gaps of a row, or of a copy of it, to 0.
   void clear_gaps(Level* cells) const {
@@ -186,16 +186,16 @@ class LevelRows {
 
  private:
   /// The part of a row along the dimensions from k on that begins at `cells`.
-  void close_part(Level* cells, std::size_t k) const {
+  void close_from(Level* cells, std::size_t k) const {
     const RowDimension& dimension = shape_.dimensions[k];
     if (k + 1 == shape_.dimensions.size()) return close_run(cells, dimension);
-    for (std::int64_t i = 0; i < dimension.count; ++i) close_part(cells + i * dimension.stride, k + 1);
-    for (std::int64_t i = -dimension.margins.before; i < 0; ++i) continue_part(cells, k, i);
-    for (std::int64_t i = 0; i < dimension.margins.after; ++i) continue_part(cells, k, dimension.count + i);
+    for (std::int64_t i = 0; i < dimension.count; ++i) close_from(cells + i * dimension.stride, k + 1);
+    for (std::int64_t i = -dimension.margins.before; i < 0; ++i) continue_at(cells, k, i);
+    for (std::int64_t i = 0; i < dimension.margins.after; ++i) continue_at(cells, k, dimension.count + i);
   }
 
   /// Fills in what stands at an index beyond the ends, over all lanes of the dimensions after k.
-  void continue_part(Level* cells, std::size_t k, std::int64_t index) const {
+  void continue_at(Level* cells, std::size_t k, std::int64_t index) const {
     const RowDimension& dimension = shape_.dimensions[k];
     std::int64_t before = 0;
     std::int64_t after = 1;
@@ -204,18 +204,18 @@ class LevelRows {
       before += other.margins.before * other.stride;
       after += (other.count - 1 + other.margins.after) * other.stride;
     }
-    Level* const part = cells + index * dimension.stride;
+    Level* const target = cells + index * dimension.stride;
     const OutsideTraits& rule = traits(index < 0 ? dimension.ends.below : dimension.ends.above);
     if (rule.is_open()) {
-      std::fill(part - before, part + after, rule.arrives ? kTop : Level{0});
+      std::fill(target - before, target + after, rule.arrives ? kTop : Level{0});
       // What leaves safely here may leave through an unsafe side there.
-      if (rule.arrives) close_part(part, k + 1);
+      if (rule.arrives) close_from(target, k + 1);
       return;
     }
     const std::int64_t n = dimension.count;
     const std::int64_t source = rule.wraps ? (index % n + n) % n : (index < 0 ? 0 : n - 1);
     const Level* const other = cells + source * dimension.stride;
-    std::copy(other - before, other + after, part - before);
+    std::copy(other - before, other + after, target - before);
   }
 
   static void close_run(Level* cells, const RowDimension& run) {
@@ -240,10 +240,10 @@ class LevelRows {
   [[nodiscard]] const Level* at(std::int64_t slot) const {
     return levels_.data() + slot * stride_ + margins_.before;
   }
-  void move_to(std::int64_t r, std::uint32_t place) {
+  void move_to(std::int64_t r, std::uint32_t target) {
     std::uint32_t& own = slots_[static_cast<std::size_t>(r)];
     interner_.drop(own);
-    own = place;
+    own = target;
   }
   [[nodiscard]] std::uint64_t hash_of(const Level* cells) const {
     const auto bytes = static_cast<std::size_t>(length_) * sizeof(Level);

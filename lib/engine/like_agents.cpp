@@ -24,7 +24,7 @@ UnionFind find_components(const Abstraction& abstraction) {
 
 /// Table `a` says of an agent what table `b` says of the other one.
 bool are_alike(const Abstraction& abstraction, const TransitionTable& a, const TransitionTable& b,
-               const AgentPart& one, const AgentPart& other) {
+               const AbstractAgent& one, const AbstractAgent& other) {
   if (a.is_sum() || b.is_sum() || a.shift != b.shift || a.before != 0 || b.before != 0) return false;
   if (a.entries.size() != b.entries.size()) return false;
   std::vector<std::int64_t> counts, strides, other_strides;
@@ -62,7 +62,7 @@ bool are_alike(const GridDimension& a, const GridDimension& b) {
 }
 
 /// With their dimensions, and inputs, in this order.
-bool are_alike(const Abstraction& abstraction, const AgentPart& a, const AgentPart& b) {
+bool are_alike(const Abstraction& abstraction, const AbstractAgent& a, const AbstractAgent& b) {
   for (std::size_t i = 0; i < a.inputs.size(); ++i) {
     const auto points = [&](std::int32_t input) { return abstraction.inputs[at(input)].count(); };
     if (points(a.inputs[i]) != points(b.inputs[i])) return false;
@@ -84,28 +84,28 @@ constexpr std::size_t kMostDimensions = 6;
 
 }  // namespace
 
-std::optional<AgentPart> part_like(const Abstraction& abstraction, const AgentPart& one,
-                                   const AgentPart& other) {
+std::optional<AbstractAgent> agent_like(const Abstraction& abstraction, const AbstractAgent& one,
+                                        const AbstractAgent& other) {
   if (one.dimensions.empty() || one.dimensions.size() > kMostDimensions ||
       one.dimensions.size() != other.dimensions.size() || one.inputs.size() != other.inputs.size())
     return std::nullopt;
-  AgentPart part = other;
-  std::ranges::sort(part.dimensions);
+  AbstractAgent agent = other;
+  std::ranges::sort(agent.dimensions);
   do {
-    if (are_alike(abstraction, one, part)) return part;
-  } while (std::ranges::next_permutation(part.dimensions).found);
+    if (are_alike(abstraction, one, agent)) return agent;
+  } while (std::ranges::next_permutation(agent.dimensions).found);
   return std::nullopt;
 }
 
-std::vector<AgentPart> parts_of_agents(const Abstraction& abstraction,
-                                       const std::vector<std::vector<std::int32_t>>& inputs) {
+std::vector<AbstractAgent> abstract_agents(const Abstraction& abstraction,
+                                           const std::vector<std::vector<std::int32_t>>& inputs) {
   const UnionFind components = find_components(abstraction);
   const std::size_t dimensions = abstraction.tables.size();
   const auto uses = [&](std::size_t d, const auto& test) {
     return std::ranges::any_of(abstraction.tables[d].inputs, test) ||
            (!abstraction.tubes.empty() && std::ranges::any_of(abstraction.tubes[d].inputs, test));
   };
-  std::vector<AgentPart> parts;
+  std::vector<AbstractAgent> agents;
   for (const std::vector<std::int32_t>& own : inputs) {
     const auto is_own = [&own](std::int32_t input) { return contains(own, input); };
     const auto is_of_others = [&own](std::int32_t input) { return !contains(own, input); };
@@ -114,41 +114,43 @@ std::vector<AgentPart> parts_of_agents(const Abstraction& abstraction,
       if (uses(d, is_own)) is_moved[components.root(d)] = 1;
       if (uses(d, is_of_others)) is_shared[components.root(d)] = 1;
     }
-    AgentPart& part = parts.emplace_back(AgentPart{own, {}});
+    AbstractAgent& agent = agents.emplace_back(AbstractAgent{own, {}});
     bool is_apart = true;
     for (std::size_t d = 0; d < dimensions; ++d) {
       if (is_moved[components.root(d)] == 0) continue;
       is_apart = is_apart && is_shared[components.root(d)] == 0;
-      part.dimensions.push_back(d);
+      agent.dimensions.push_back(d);
     }
-    if (!is_apart) part.dimensions.clear();
+    if (!is_apart) agent.dimensions.clear();
   }
-  return parts;
+  return agents;
 }
 
-std::vector<AgentPart> find_like_agents(const Abstraction& abstraction, std::span<const AgentPart> parts,
-                                        std::span<const CellSet* const> sets) {
-  const auto is_across = [&](const AgentPart& part) {
-    return !part.dimensions.empty() &&
-           std::ranges::all_of(part.dimensions, [&](std::size_t d) { return d < abstraction.grid.across(); });
+std::vector<AbstractAgent> find_like_agents(const Abstraction& abstraction,
+                                            std::span<const AbstractAgent> agents,
+                                            std::span<const CellSet* const> sets) {
+  const auto is_across = [&](const AbstractAgent& agent) {
+    return !agent.dimensions.empty() && std::ranges::all_of(agent.dimensions, [&](std::size_t d) {
+      return d < abstraction.grid.across();
+    });
   };
-  std::vector<AgentPart> most;
+  std::vector<AbstractAgent> most;
   if (!fast_paths().like_agents) return most;
-  std::vector<std::uint8_t> is_known(parts.size(), 0);
+  std::vector<std::uint8_t> is_known(agents.size(), 0);
   // Being alike is transitive, so that each agent is in one set of such.
-  for (std::size_t a = 0; a < parts.size(); ++a) {
-    if (is_known[a] != 0 || !is_across(parts[a])) continue;
-    std::vector<AgentPart> like{parts[a]};
-    for (std::size_t b = a + 1; b < parts.size() && like.size() < RowSymmetry::kMostAgents; ++b) {
-      if (is_known[b] != 0 || !is_across(parts[b])) continue;
-      std::optional<AgentPart> part = part_like(abstraction, parts[a], parts[b]);
-      if (!part) continue;
-      const RowSymmetry symmetry(abstraction.grid, {parts[a].dimensions, part->dimensions});
+  for (std::size_t a = 0; a < agents.size(); ++a) {
+    if (is_known[a] != 0 || !is_across(agents[a])) continue;
+    std::vector<AbstractAgent> like{agents[a]};
+    for (std::size_t b = a + 1; b < agents.size() && like.size() < RowSymmetry::kMostAgents; ++b) {
+      if (is_known[b] != 0 || !is_across(agents[b])) continue;
+      std::optional<AbstractAgent> agent = agent_like(abstraction, agents[a], agents[b]);
+      if (!agent) continue;
+      const RowSymmetry symmetry(abstraction.grid, {agents[a].dimensions, agent->dimensions});
       if (!std::ranges::all_of(sets, [&](const CellSet* set) {
             return symmetry.keeps(*set, {0, set->rows()});
           }))
         continue;
-      like.push_back(*std::move(part));
+      like.push_back(*std::move(agent));
       is_known[b] = 1;
     }
     if (like.size() > std::max<std::size_t>(1, most.size())) most = std::move(like);

@@ -25,14 +25,14 @@ inline constexpr std::int64_t kGroupsFoundAtOnce = 256;
 /// All minima that one thread shares between the rows of a unit: so that they stay in the second-level cache.
 inline constexpr std::int64_t kSharedBytes = std::int64_t{1} << 20;
 
-/// All eroded blocks of one thread together; a unit of the aircraft needs 41 of 0.1 MiB.
-inline constexpr std::size_t kBlockBytes = std::size_t{1} << 24;
+/// All eroded patches of one thread together; a unit of the aircraft needs 41 of 0.1 MiB.
+inline constexpr std::size_t kPatchBytes = std::size_t{1} << 24;
 
-/// Blocks of one thread that are eroded by a single size, for bounds of several choices.
-inline constexpr std::size_t kJoinedBlocks = 128;
+/// Patches of one thread that are eroded by a single size, for bounds of several choices.
+inline constexpr std::size_t kJoinedPatches = 128;
 
-/// By how many indices such a block's size may be wider than the widest box of one choice, on a side of so
-/// many: blocks have room for it beyond the domain, which must not cost more than it saves.
+/// By how many indices such a patch's size may be wider than the widest box of one choice, on a side of so
+/// many: patches have room for it beyond the domain, which must not cost more than it saves.
 [[nodiscard]] constexpr std::int32_t most_wider(std::int32_t count) {
   return count < 32 ? count / 8 : 4;
 }

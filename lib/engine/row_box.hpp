@@ -31,8 +31,8 @@ struct RowPlace {
     }
   }
 
-  /// To the row that begins the next or the last `dimensions`-dimensional block of rows, as advance() does.
-  /// @pre this row begins one. @pre unchecked: there is such a block
+  /// To the first row of the next, or the last, choice of the first `dimensions` indices.
+  /// @pre this is the first row of one. @pre unchecked: there is such a choice
   void step(const UniformGrid& grid, std::size_t dimensions, bool backwards) {
     REQUIRES(
         std::ranges::none_of(std::span(index).subspan(dimensions), [](std::int64_t i) { return i != 0; }));

@@ -14,17 +14,17 @@ using Kind = RowSegment::Kind;
 
 /// More levels than this to a unit, with all sizes of boxes, and eroding them would take longer than it
 /// saves.
-constexpr double kMostBlockLevels = 1 << 22;
+constexpr double kMostPatchLevels = 1 << 22;
 
 /// Rough figures of a table, from a sample of its entries: how many slices there are to choose from in a
 /// row, and how many cells wide their ranges are.
-struct TableProfile {
+struct TableFigures {
   double choices = 1;
   double width = 1;
 };
 
 /// Together: several processes look at what each has, and find the same.
-TableProfile profile(const RowSlices& slices, const RowShare* share) {
+TableFigures figures_of(const RowSlices& slices, const RowShare* share) {
   constexpr std::size_t kSamples = 32;
   const auto combinations = static_cast<std::size_t>(slices.input_combinations);
   const std::size_t bases = slices.ids.size() / combinations;
@@ -102,7 +102,7 @@ std::vector<RowSlices> RowEngine::summed_slices() const {
     variants *= static_cast<double>(grid()[t].count) + 2 * sums->widths().last + 2;
     result.push_back(keep_as_sums(*abstraction_, tables[t], *std::move(sums)));
   }
-  return variants <= kMostBlockLevels ? std::move(result) : std::vector<RowSlices>{};
+  return variants <= kMostPatchLevels ? std::move(result) : std::vector<RowSlices>{};
 }
 
 void RowEngine::add_family(const std::vector<TransitionTable>& tables,
@@ -178,20 +178,20 @@ void RowEngine::choose_outer() {
     return;
   }
   const std::size_t last = fast_paths().shared_minima ? across() : 0;
-  std::vector<TableProfile> profiles;
-  for (const RowSlices& slices : posts().slices) profiles.push_back(profile(slices, share_));
+  std::vector<TableFigures> figures;
+  for (const RowSlices& slices : posts().slices) figures.push_back(figures_of(slices, share_));
   const auto cost = [&](std::size_t outer) {
     double shared = outer == 0 ? 0 : 1;
     double choices = 1;
     double inner = 1;
     for (std::size_t t = 0; t < tables(); ++t) {
       // Of all choices about two are tried: the rest is dominated, or joined with others.
-      const double tried = std::min(profiles[t].choices, 2.0);
+      const double tried = std::min(figures[t].choices, 2.0);
       choices *= tried;
       if (t < outer) {
-        shared *= tried * profiles[t].width;
+        shared *= tried * figures[t].width;
       } else {
-        inner *= profiles[t].width;
+        inner *= figures[t].width;
       }
     }
     return shared + choices * inner;

@@ -20,9 +20,9 @@ class BoxCount {
   [[nodiscard]] std::vector<std::uint32_t>& spread() {
     for (std::size_t i = 0; i < grid_.across(); ++i) {
       const auto stride = static_cast<std::size_t>(grid_.row_stride(i));
-      const std::size_t block = stride * static_cast<std::size_t>(grid_[i].count);
-      for (std::size_t begin = 0; begin < counts_.size(); begin += block) {
-        for (std::size_t row = begin + stride; row < begin + block; ++row)
+      const std::size_t length = stride * static_cast<std::size_t>(grid_[i].count);
+      for (std::size_t begin = 0; begin < counts_.size(); begin += length) {
+        for (std::size_t row = begin + stride; row < begin + length; ++row)
           counts_[row] += counts_[row - stride];
       }
     }

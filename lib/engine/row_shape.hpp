@@ -79,9 +79,9 @@ inline void mark_leaving(const RowShape& shape, std::size_t k, IndexRange window
   const std::int64_t n = dimension.count;
   const auto mark = [&](std::int64_t first, std::int64_t last) {
     if (first >= last) return;
-    // Blocks of n indices follow one another at the distance that the next slower dimension has.
-    const std::int64_t block = k == 0 ? shape.length() : shape.dimensions[k - 1].stride;
-    for (std::int64_t lane = 0; lane < shape.length(); lane += block)
+    // The n indices come again at the distance that the next slower dimension has.
+    const std::int64_t distance = k == 0 ? shape.length() : shape.dimensions[k - 1].stride;
+    for (std::int64_t lane = 0; lane < shape.length(); lane += distance)
       set_bits(bits, lane + first * dimension.stride, lane + last * dimension.stride);
   };
   if (traits(dimension.ends.below).blocks)

@@ -169,9 +169,9 @@ class SliceNumbers {
     std::size_t operator()(std::uint32_t i) const {
       std::uint64_t sum = 0;
       for (const RowSegment& s : (*slices)[i]) {
-        for (const std::int64_t part : {std::int64_t{s.begin} << 8U | static_cast<std::int64_t>(s.kind),
-                                        std::int64_t{s.range.first}, std::int64_t{s.range.last}}) {
-          sum = (sum ^ static_cast<std::uint64_t>(part)) * 0x9E3779B97F4A7C15U;
+        for (const std::int64_t number : {std::int64_t{s.begin} << 8U | static_cast<std::int64_t>(s.kind),
+                                          std::int64_t{s.range.first}, std::int64_t{s.range.last}}) {
+          sum = (sum ^ static_cast<std::uint64_t>(number)) * 0x9E3779B97F4A7C15U;
           sum ^= sum >> 29U;
         }
       }

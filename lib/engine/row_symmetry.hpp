@@ -23,29 +23,29 @@ class RowSymmetry {
  public:
   static constexpr std::size_t kMostAgents = 8;
 
-  /// @param blocks the dimensions of each of two to kMostAgents agents, matching one by one, all of them
+  /// @param agents the dimensions of each of two to kMostAgents agents, matching one by one, all of them
   ///   across rows
-  RowSymmetry(const UniformGrid& grid, const std::vector<std::vector<std::size_t>>& blocks) {
-    for (const std::vector<std::size_t>& dimensions : blocks) {
-      Block& block = blocks_.emplace_back();
-      block.offsets.assign(1, 0);
+  RowSymmetry(const UniformGrid& grid, const std::vector<std::vector<std::size_t>>& agents) {
+    for (const std::vector<std::size_t>& dimensions : agents) {
+      Agent& agent = agents_.emplace_back();
+      agent.offsets.assign(1, 0);
       for (const std::size_t d : dimensions) {
-        block.dimensions.push_back({grid.row_stride(d), grid[d].count});
-        add_dimension(block);
+        agent.dimensions.push_back({grid.row_stride(d), grid[d].count});
+        add_dimension(agent);
       }
     }
   }
 
   [[nodiscard]] bool is_canonical(std::int64_t row) const {
     const Keys keys = keys_of(row);
-    return std::is_sorted(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(blocks_.size()));
+    return std::is_sorted(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(agents_.size()));
   }
 
   /// The canonical one of its permuted rows; the row itself if it is canonical.
   [[nodiscard]] std::int64_t canonical_of(std::int64_t row) const {
     Keys keys = keys_of(row);
     const std::int64_t rest = row - offset_of(keys);
-    std::sort(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(blocks_.size()));
+    std::sort(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(agents_.size()));
     return rest + offset_of(keys);
   }
 
@@ -62,7 +62,7 @@ class RowSymmetry {
   void for_each_permuted(std::int64_t row, const Visit& visit) const {
     Keys keys = keys_of(row);
     const std::int64_t rest = row - offset_of(keys);
-    const auto end = keys.begin() + static_cast<std::ptrdiff_t>(blocks_.size());
+    const auto end = keys.begin() + static_cast<std::ptrdiff_t>(agents_.size());
     std::sort(keys.begin(), end);
     do {
       const std::int64_t permuted = rest + offset_of(keys);
@@ -77,39 +77,39 @@ class RowSymmetry {
     std::int64_t stride;  ///< in rows
     std::int64_t count;
   };
-  struct Block {
+  struct Agent {
     std::vector<Dimension> dimensions;
     std::vector<std::int64_t> offsets;  ///< [key] in rows
   };
 
-  static void add_dimension(Block& block) {
+  static void add_dimension(Agent& agent) {
     std::vector<std::int64_t> offsets;
-    for (const std::int64_t before : block.offsets) {
-      for (std::int64_t i = 0; i < block.dimensions.back().count; ++i)
-        offsets.push_back(before + i * block.dimensions.back().stride);
+    for (const std::int64_t before : agent.offsets) {
+      for (std::int64_t i = 0; i < agent.dimensions.back().count; ++i)
+        offsets.push_back(before + i * agent.dimensions.back().stride);
     }
-    block.offsets = std::move(offsets);
+    agent.offsets = std::move(offsets);
   }
 
   /// What the agents' dimensions are of the number of a row.
   [[nodiscard]] std::int64_t offset_of(const Keys& keys) const {
     std::int64_t offset = 0;
-    for (std::size_t b = 0; b < blocks_.size(); ++b) offset += blocks_[b].offsets[keys[b]];
+    for (std::size_t b = 0; b < agents_.size(); ++b) offset += agents_[b].offsets[keys[b]];
     return offset;
   }
 
   [[nodiscard]] Keys keys_of(std::int64_t row) const {
     Keys keys{};
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    for (std::size_t b = 0; b < agents_.size(); ++b) {
       std::int64_t key = 0;
-      for (const Dimension& dimension : blocks_[b].dimensions)
+      for (const Dimension& dimension : agents_[b].dimensions)
         key = key * dimension.count + row / dimension.stride % dimension.count;
       keys[b] = static_cast<std::uint32_t>(key);
     }
     return keys;
   }
 
-  std::vector<Block> blocks_;
+  std::vector<Agent> agents_;
 };
 
 /// The permuted rows that a process has: all, or those that it holds.

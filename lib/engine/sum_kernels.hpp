@@ -17,12 +17,12 @@ struct SplitRow {
   [[nodiscard]] SplitRow from(std::size_t place) const { return {whole + place, fraction + place}; }
 };
 
-/// One dimension of the boxes of a row of cells: first = (lower + lower_run[c]) >> 32, last = (upper +
-/// upper_run[c])
+/// One dimension of the boxes of a row of cells: first = (lower + lower_profile[c]) >> 32, last = (upper +
+/// upper_profile[c])
 /// >> 32. Nothing overflows.
 struct BoxSides {
-  SplitRow lower_run;
-  SplitRow upper_run;
+  SplitRow lower_profile;
+  SplitRow upper_profile;
   std::int64_t lower = 0;
   std::int64_t upper = 0;
   std::int32_t count = 0;         ///< of indices in the domain: 0, ..., count - 1
@@ -33,11 +33,11 @@ struct BoxSides {
 /// Operations on rows of boxes. As with LevelKernels rows are read and written in whole blocks of kLevelBlock
 /// bytes.
 struct SumKernels {
-  /// place[c] = origin + sum over the sides of at(first, last) * stride + (last - first) * width_stride,
+  /// offset[c] = origin + sum over the sides of at(first, last) * stride + (last - first) * width_stride,
   /// where at = first, but at least first - last - 1 and at most count: a box beyond the domain is moved to
   /// where it just touches it, and meets the same there. @pre size >= 1
-  void (*find_places)(const BoxSides* sides, std::size_t size, std::int32_t origin, std::int32_t* place,
-                      std::size_t n);
+  void (*find_offsets)(const BoxSides* sides, std::size_t size, std::int32_t origin, std::int32_t* offset,
+                       std::size_t n);
 };
 
 [[nodiscard]] const SumKernels& sum_kernels(InstructionSet set);

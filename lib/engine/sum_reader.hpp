@@ -16,8 +16,8 @@ namespace coordreq {
 /// cell.
 ///
 /// For each choice of boxes in the leading dimensions, in which all cells of a unit move alike, the unit's
-/// levels are one *block* of the inner dimensions, continued beyond the domain by what a post meets there.
-/// Boxes in it are of few sizes; the block is eroded by each size once, and then one fetch a cell gives the
+/// levels are one *patch* of the inner dimensions, continued beyond the domain by what a post meets there.
+/// Boxes in it are of few sizes; the patch is eroded by each size once, and then one fetch a cell gives the
 /// minimum of its box.
 template <class Level>
 class SumReader final : public RowReader<Level> {
@@ -44,18 +44,18 @@ class SumReader final : public RowReader<Level> {
   [[nodiscard]] const Level* bound(std::size_t begin, std::size_t end, LaneRange lanes);
 
  private:
-  /// A cell of a block outside the domain, and what it holds: the level of another cell, or a constant.
+  /// A cell of a patch outside the domain, and what it holds: the level of another cell, or a constant.
   struct Margin {
     std::int32_t cell;
     std::int32_t source;  ///< -1: the constant
     Level constant;
   };
-  /// The block for one choice in the leading dimensions, eroded by boxes of every size, or of one.
+  /// The patch for one choice in the leading dimensions, eroded by boxes of every size, or of one.
   struct Slot {
     std::vector<IndexRange> ranges;
     std::vector<std::int32_t> widths;  ///< last - first of the one size; empty: there are all
     std::uint64_t epoch = 0;
-    std::vector<Level> levels;  ///< [size][cell of the block]
+    std::vector<Level> levels;  ///< [size][cell of the patch]
   };
   using Slots = std::vector<Slot>;
   /// What the slices of some choices say: [choice], and of the leading dimensions one choice after the other.
@@ -65,7 +65,7 @@ class SumReader final : public RowReader<Level> {
     std::vector<SumRows::Rows> rows;      ///< [inner dimension]
   };
 
-  void lay_out_block();
+  void lay_out_patch();
   void find_margins();
   [[nodiscard]] RowSegment::Kind lead(std::span<const std::uint32_t> ids, IndexRange* ranges) const;
   [[nodiscard]] const Level* minimum(RowSegment::Kind kind, LaneRange lanes, Level rest);
@@ -75,9 +75,9 @@ class SumReader final : public RowReader<Level> {
   void fill_rest(LaneRange lanes, Level rest);
   [[nodiscard]] Slot& slot(Slots& slots, const std::vector<std::int32_t>& widths, bool gone);
   void fill(Slot& slot, bool gone);
-  void fill_block(Slot& slot, bool gone);
+  void fill_patch(Slot& slot, bool gone);
   void erode(Slot& slot, std::size_t size);
-  void erode_block(Slot& slot, const std::vector<std::int32_t>& widths);
+  void erode_patch(Slot& slot, const std::vector<std::int32_t>& widths);
 
   const RowEngine& engine_;
   RowFamily family_;
@@ -90,19 +90,19 @@ class SumReader final : public RowReader<Level> {
   std::vector<std::size_t> size_stride_;  ///< likewise: into the sizes
   std::vector<std::int32_t> narrowest_;   ///< likewise: least last - first
   std::vector<std::int32_t> reach_;       ///< likewise: greatest last - first of joined boxes
-  std::int64_t block_cells_ = 0;
+  std::int64_t patch_cells_ = 0;
   std::size_t variants_ = 1;
-  std::int32_t origin_ = 0;       ///< place of the cell with index 0 everywhere
-  std::int32_t first_place_ = 0;  ///< the same in the block of boxes of width 0, if there were one
+  std::int32_t origin_ = 0;        ///< place of the cell with index 0 everywhere
+  std::int32_t first_offset_ = 0;  ///< the same in the patch of boxes of width 0, if there were one
   std::vector<Margin> margins_;
-  std::vector<std::int64_t> places_of_rows_;  ///< [row of a unit] its first cell
-  std::vector<IndexRange> ranges_;            ///< of the leading dimensions, of the box in question
-  std::vector<SumRows::Row> rows_;            ///< of the inner dimensions, likewise
-  std::vector<std::int32_t> widths_;          ///< greatest last - first of a cell in that
+  std::vector<std::int64_t> row_offsets_;  ///< [row of a unit] its first cell
+  std::vector<IndexRange> ranges_;         ///< of the leading dimensions, of the box in question
+  std::vector<SumRows::Row> rows_;         ///< of the inner dimensions, likewise
+  std::vector<std::int32_t> widths_;       ///< greatest last - first of a cell in that
   Choices taken_;
   std::vector<std::int64_t> counter_;
   std::vector<const Level*> sources_;
-  std::vector<std::int32_t> place_;
+  std::vector<std::int32_t> offsets_;
   std::vector<Level> result_;
   Slots slots_;
   Slots joined_slots_;

@@ -17,7 +17,7 @@ namespace coordreq {
 /// coupled (a turn moves x by a multiple of y) there would be a slice for every row and every joint input.
 /// The sums themselves are small tables.
 ///
-/// A row is one *run* (what varies along it) plus parts that are the same for all its cells. Rows are
+/// A row is one *profile* (what varies along it) plus terms that are the same for all of its cells. Rows are
 /// numbered as in RowSlices: row-major over the states in use without the last, then the inputs in use.
 class SumRows {
  public:
@@ -25,26 +25,27 @@ class SumRows {
   [[nodiscard]] static std::optional<SumRows> make(const Abstraction& abstraction,
                                                    const TransitionTable& table, std::size_t state);
 
-  /// Ends of the ranges of a row: cell c goes to [(lower + run_lower[c]) >> kFractionBits, likewise upper].
+  /// Ends of the ranges of a row: cell c goes to [(lower + profile_lower[c]) >> kFractionBits, likewise
+  /// upper].
   struct Row {
     std::int64_t lower = 0;
     std::int64_t upper = 0;
-    std::size_t run = 0;  ///< number of the run
+    std::size_t profile = 0;  ///< number of the profile
   };
-  [[nodiscard]] SplitRow run_lower(std::size_t run) const {
-    return lower_.row(run * static_cast<std::size_t>(run_stride_));
+  [[nodiscard]] SplitRow profile_lower(std::size_t profile) const {
+    return lower_.row(profile * static_cast<std::size_t>(profile_stride_));
   }
-  [[nodiscard]] SplitRow run_upper(std::size_t run) const {
-    return upper_.row(run * static_cast<std::size_t>(run_stride_));
+  [[nodiscard]] SplitRow profile_upper(std::size_t profile) const {
+    return upper_.row(profile * static_cast<std::size_t>(profile_stride_));
   }
 
   /// Several of them.
   struct Rows {
     std::vector<std::int64_t> lower;
     std::vector<std::int64_t> upper;
-    std::vector<std::size_t> run;
-    bool has_one_run = true;
-    [[nodiscard]] Row operator[](std::size_t k) const { return {lower[k], upper[k], run[k]}; }
+    std::vector<std::size_t> profile;
+    bool has_one_profile = true;
+    [[nodiscard]] Row operator[](std::size_t k) const { return {lower[k], upper[k], profile[k]}; }
   };
 
   /// Adds up rows. One object a thread.
@@ -62,8 +63,8 @@ class SumRows {
     const SumRows* rows_;
     std::int64_t first_ =
         UINT32_MAX + std::int64_t{1};  ///< row of the choice of states that the bases below belong to
-    std::vector<std::int64_t> base_;   ///< by part
-    std::int64_t run_base_ = 0;
+    std::vector<std::int64_t> base_;   ///< by term
+    std::int64_t profile_base_ = 0;
     std::int64_t own_ = 0;  ///< the state's own index, for a shift
   };
 
@@ -76,18 +77,18 @@ class SumRows {
   /// A range that holds those of all cells of a row: of indices, or of offsets from the cell's own index.
   [[nodiscard]] IndexRange hull(const Row& row) const;
   [[nodiscard]] IndexRange offset_hull(const Row& row) const;
-  /// Greatest run_upper[c] - run_lower[c].
-  [[nodiscard]] std::int64_t widest(std::size_t run) const { return bounds_[run].widest; }
-  /// Whether rows under different values of an input have different runs.
-  [[nodiscard]] bool tells_runs_apart(std::int32_t input) const {
-    return std::find(run_inputs_.begin(), run_inputs_.end(), input) != run_inputs_.end();
+  /// Greatest profile_upper[c] - profile_lower[c].
+  [[nodiscard]] std::int64_t widest(std::size_t profile) const { return bounds_[profile].widest; }
+  /// Whether rows under different values of an input have different profiles.
+  [[nodiscard]] bool tells_profiles_apart(std::int32_t input) const {
+    return std::find(profile_inputs_.begin(), profile_inputs_.end(), input) != profile_inputs_.end();
   }
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
-  /// Numbers of 64 bits in halves, as SumKernels take them; each run with room for whole blocks, and one
+  /// Numbers of 64 bits in halves, as SumKernels take them; each profile with room for whole blocks, and one
   /// block after the last.
-  struct SplitRuns {
+  struct SplitProfiles {
     std::vector<std::int32_t> whole;
     std::vector<std::uint32_t> fraction;
     void add(std::int64_t number);
@@ -100,12 +101,12 @@ class SumRows {
     std::vector<std::int64_t> state;  ///< by state in use but the last one
     std::vector<std::int64_t> input;  ///< by joint input in use: the offset
   };
-  struct Part {
+  struct Term {
     const std::int64_t* lower;
     const std::int64_t* upper;
     Strides strides;
   };
-  /// Least and greatest of what a run adds.
+  /// Least and greatest of what a profile adds.
   struct Bounds {
     std::int64_t least, greatest;                ///< of lower, of upper
     std::int64_t least_offset, greatest_offset;  ///< the same less the cell's own index
@@ -118,12 +119,12 @@ class SumRows {
   void find_widths(const TransitionTable& table);
 
   std::int64_t length_ = 0;
-  std::int64_t run_stride_ = 0;  ///< length_ rounded up to whole blocks
-  SplitRuns lower_, upper_;
-  Strides run_strides_;
-  std::vector<std::int32_t> run_inputs_;
-  std::vector<Bounds> bounds_;        ///< by run
-  std::vector<Part> parts_;           ///< views of the table
+  std::int64_t profile_stride_ = 0;  ///< length_ rounded up to whole blocks
+  SplitProfiles lower_, upper_;
+  Strides profile_strides_;
+  std::vector<std::int32_t> profile_inputs_;
+  std::vector<Bounds> bounds_;        ///< by profile
+  std::vector<Term> terms_;           ///< views of the table
   std::vector<std::int64_t> counts_;  ///< of the states in use but the last one
   std::size_t own_ = SIZE_MAX;        ///< which of them is the state's own, of a shift
   std::int64_t combinations_ = 1;

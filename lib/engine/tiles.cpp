@@ -25,9 +25,9 @@ void add_segment(const RowSegment& segment, std::int64_t origin, const GridDimen
   std::int64_t first = std::int64_t{segment.range.first} - (is_moved ? origin : 0);
   if (is_moved && target.periodic()) first = (first % target.count + target.count) % target.count;
   const std::int64_t width = std::int64_t{segment.range.last} - segment.range.first;
-  for (const std::int64_t part : {std::int64_t{segment.begin}, std::int64_t{segment.end},
-                                  static_cast<std::int64_t>(segment.kind), first, width})
-    list.push_back(static_cast<std::uint32_t>(part));
+  for (const std::int64_t number : {std::int64_t{segment.begin}, std::int64_t{segment.end},
+                                    static_cast<std::int64_t>(segment.kind), first, width})
+    list.push_back(static_cast<std::uint32_t>(number));
 }
 
 /// [choice] numbers of equal lists of ids.
@@ -164,7 +164,7 @@ Numbers Tiles::refined(const Numbers& before, const Numbers& content) const {
 
 /// Of a sample, drawn with equal distances that have no factor in common with a dimension: else all of it
 /// would be at the same place along that.
-double Tiles::part_different(const Numbers& content) const {
+double Tiles::fraction_different(const Numbers& content) const {
   const Numbers own = contents_of_tiles(content);
   const auto has_common_factor = [this](std::int64_t step) {
     const std::vector<GridDimension>& dimensions = engine_->grid().dimensions();
@@ -207,9 +207,9 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
     Tiles tiles(engine, hull, leading);
     if (tiles.own().end - tiles.own().begin < kFewRows) continue;
     if (own.begin % tiles.rows() != 0 || own.end % tiles.rows() != 0) continue;
-    const double part = tiles.part_different(content);
-    if (part >= least) continue;
-    least = part;
+    const double fraction = tiles.fraction_different(content);
+    if (fraction >= least) continue;
+    least = fraction;
     best = std::move(tiles);
   }
   if (best) best->number_tables();

@@ -20,9 +20,9 @@ namespace {
 /// intersection of the paper 31 instead of 3,000 rows take a tenth of the visits), enough for some threads.
 constexpr std::int64_t kBatchRows = 32;
 /// Rows to a unit of work where the engine's units are too large to be one.
-constexpr std::int64_t kBlockRows = 32;
+constexpr std::int64_t kUnitRows = 32;
 /// Rows that one thread takes at a time.
-constexpr std::int64_t kPieceRows = 8;
+constexpr std::int64_t kTaskRows = 8;
 /// Below this many levels, handing out the copying costs more than doing it.
 constexpr std::size_t kFewLevels = std::size_t{1} << 18;
 
@@ -40,7 +40,7 @@ class WaveRunner {
         op_(op),
         watch_(watch),
         team_(team),
-        unit_rows_(std::min(engine.unit_rows(), engine.outer() == 0 ? kBlockRows : engine.unit_rows())),
+        unit_rows_(std::min(engine.unit_rows(), engine.outer() == 0 ? kUnitRows : engine.unit_rows())),
         dirty_(engine, hull, unit_rows_),
         memo_(equal, levels),
         permuted_(equal.symmetry, engine.share()),
@@ -115,7 +115,7 @@ class WaveRunner {
     std::uint64_t ready;   ///< LevelRows::make_ready()
   };
   /// Rows of one unit that one thread looks at.
-  struct Piece {
+  struct Task {
     std::int64_t unit;
     std::int64_t begin;
     std::int64_t end;
@@ -154,9 +154,9 @@ class WaveRunner {
       worker.visited = 0;
       worker.lowest = kTop;
     }
-    cut_into_pieces(batch);
-    team_.for_each(static_cast<std::int64_t>(pieces_.size()), 1, [&](ThreadTeam::Range range, int w) {
-      for (std::int64_t i = range.begin; i < range.end; ++i) visit(pieces_[static_cast<std::size_t>(i)], w);
+    cut_into_tasks(batch);
+    team_.for_each(static_cast<std::int64_t>(tasks_.size()), 1, [&](ThreadTeam::Range range, int w) {
+      for (std::int64_t i = range.begin; i < range.end; ++i) visit(tasks_[static_cast<std::size_t>(i)], w);
     });
     for (const std::int64_t unit : batch) dirty_.mark_seen(unit);
     commit_all();
@@ -203,8 +203,8 @@ class WaveRunner {
     });
   }
 
-  void cut_into_pieces(const std::vector<std::int64_t>& batch) {
-    pieces_.clear();
+  void cut_into_tasks(const std::vector<std::int64_t>& batch) {
+    tasks_.clear();
     copies_.clear();
     for (const std::int64_t unit : batch) {
       const std::int64_t end = std::min((unit + 1) * unit_rows_, own_.end);
@@ -217,8 +217,8 @@ class WaveRunner {
         if (other != unit) copies_.push_back({other, unit});
         if (other != unit) continue;
       }
-      for (std::int64_t begin = std::max(unit * unit_rows_, own_.begin); begin < end; begin += kPieceRows) {
-        pieces_.push_back({unit, begin, std::min(begin + kPieceRows, end)});
+      for (std::int64_t begin = std::max(unit * unit_rows_, own_.begin); begin < end; begin += kTaskRows) {
+        tasks_.push_back({unit, begin, std::min(begin + kTaskRows, end)});
       }
     }
   }
@@ -231,7 +231,7 @@ class WaveRunner {
       if (!is_to_be_looked_at(place, unit, scratch_)) continue;
       const std::int64_t other = memo_.find(place);
       if (other == place.row) {
-        pieces_.push_back({unit, place.row, place.row + 1, true});
+        tasks_.push_back({unit, place.row, place.row + 1, true});
       } else {
         copies_.push_back({other, place.row});
       }
@@ -245,18 +245,18 @@ class WaveRunner {
     return is_new || dirty_.meets_change(place, unit, scratch);
   }
 
-  void visit(const Piece& piece, int w) {
+  void visit(const Task& task, int w) {
     Worker& worker = workers_[static_cast<std::size_t>(w)];
-    if (worker.batch != batch_ || worker.unit != piece.unit) {
-      worker.posts.enter(delta_ && !dirty_.is_unseen(piece.unit) ? delta_->levels() : levels_);
+    if (worker.batch != batch_ || worker.unit != task.unit) {
+      worker.posts.enter(delta_ && !dirty_.is_unseen(task.unit) ? delta_->levels() : levels_);
       worker.batch = batch_;
-      worker.unit = piece.unit;
+      worker.unit = task.unit;
     }
-    if (!piece.is_wanted && (!dirty_.is_unseen(piece.unit) || !settled_.empty()))
-      dirty_.enter(piece.unit, worker.dirty);
-    RowPlace place(engine_.grid(), piece.begin);
-    for (; place.row < piece.end; place.advance(engine_.grid())) {
-      if (piece.is_wanted || is_to_be_looked_at(place, piece.unit, worker.dirty)) visit_row(place, worker, w);
+    if (!task.is_wanted && (!dirty_.is_unseen(task.unit) || !settled_.empty()))
+      dirty_.enter(task.unit, worker.dirty);
+    RowPlace place(engine_.grid(), task.begin);
+    for (; place.row < task.end; place.advance(engine_.grid())) {
+      if (task.is_wanted || is_to_be_looked_at(place, task.unit, worker.dirty)) visit_row(place, worker, w);
     }
   }
 
@@ -360,7 +360,7 @@ class WaveRunner {
   Level lowest_ = kTop;            ///< to which a cell has sunk in this sweep
   std::uint32_t batch_ = 0;        ///< number of the last batch
   std::deque<Worker> workers_;
-  std::vector<Piece> pieces_;
+  std::vector<Task> tasks_;
   std::vector<Copy> copies_;
   DirtyRows::Scratch scratch_;
 };

@@ -16,7 +16,7 @@ std::size_t choose_fastest(const ActionGrouping& grouping) {
   const auto is_steady = [&](const InputClass& inputs) {
     return std::ranges::none_of(grouping.engine().posts().slices, [&](const RowSlices& slices) {
       return slices.sums && std::ranges::any_of(inputs.inputs(), [&](std::int32_t input) {
-               return slices.sums->tells_runs_apart(input);
+               return slices.sums->tells_profiles_apart(input);
              });
     });
   };

@@ -16,7 +16,7 @@ namespace {
 using Level = std::uint8_t;
 
 /// Rows that one thread takes at a time.
-constexpr std::int64_t kPieceRows = 16;
+constexpr std::int64_t kTaskRows = 16;
 
 /// One operator a partition, with all that it refers to.
 class Operators {
@@ -142,7 +142,7 @@ class Iteration {
     std::int64_t alive = 0;
     const std::vector<std::int64_t> rows = targets_.take_pending(mode, alive, team_);
     const auto count = static_cast<std::int64_t>(rows.size());
-    team_.for_each(count, kPieceRows, [&](ThreadTeam::Range range, int w) {
+    team_.for_each(count, kTaskRows, [&](ThreadTeam::Range range, int w) {
       Worker& worker = workers_[static_cast<std::size_t>(w)];
       std::int64_t unit = -1;
       for (std::int64_t i = range.begin; i < range.end; ++i) {

@@ -15,7 +15,7 @@ namespace coordreq {
 namespace {
 
 /// Rows that one thread takes at a time.
-constexpr std::int64_t kPieceRows = 16;
+constexpr std::int64_t kTaskRows = 16;
 
 /// The rows in which there is something to be done.
 using RowNumbers = std::vector<std::int64_t>;
@@ -24,7 +24,7 @@ using RowNumbers = std::vector<std::int64_t>;
 template <class Enter, class Body>
 void for_each_in_units(const RowEngine& engine, const RowNumbers& rows, ThreadTeam& team, const Enter& enter,
                        const Body& body) {
-  team.for_each(std::ssize(rows), kPieceRows, [&](ThreadTeam::Range range, int worker) {
+  team.for_each(std::ssize(rows), kTaskRows, [&](ThreadTeam::Range range, int worker) {
     std::int64_t unit = -1;
     for (std::int64_t i = range.begin; i < range.end; ++i) {
       const std::int64_t row = rows[static_cast<std::size_t>(i)];
