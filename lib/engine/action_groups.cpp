@@ -131,7 +131,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
   groups.within.assign(size * size, 1);
   for (const View& view : data.views) {
     const std::uint32_t* ids = view_ids(view, place);
-    // Not easily told where columns or rows of `allow` are numbered.
+    // Numbers of columns, or of rows of `allow`, do not tell which is inside which.
     const RowSlices* slices = view.partial.empty() ? sources_[view.table].slices : nullptr;
     const GridDimension& target = engine_->target(slices == nullptr ? 0 : view.table);
     const auto number = [&](std::size_t g) {
@@ -165,7 +165,7 @@ void ActionGrouping::compare_groups(const ClassData& data, const RowPlace& place
   }
 }
 
-/// The choices that own rows have, which are neighbours: those of all states, or of some leading indices.
+/// The choices of states in own rows, from the first to the last.
 RowShare::Range ActionGrouping::held_choices(const ClassData& data, std::int64_t choices) const {
   const RowShare* const share = engine_->share();
   const RowShare::Range own = own_rows(share, engine_->rows());

@@ -16,14 +16,14 @@ namespace coordreq {
 class AliveRows {
  public:
   /// @param own the rows to choose from
-  /// @param unit_rows rows of a unit, for each of which the rows are counted
+  /// @param unit_rows rows of a unit: alive rows are counted by unit
   /// @param symmetry may be null
   template <class Level>
   AliveRows(const LevelRows<Level>& levels, RowShare::Range own, std::int64_t unit_rows, bool rises,
             const RowSymmetry* symmetry)
       : is_alive_(static_cast<std::size_t>(levels.rows())),
         of_unit_(static_cast<std::size_t>((own.end + unit_rows - 1) / unit_rows), 0) {
-    const Level* before = nullptr;  // rows that are shared are often the same ones one after the other
+    const Level* before = nullptr;  // rows that are held once often follow one another
     bool can = false;
     for (std::int64_t r = own.begin; r < own.end; ++r) {
       const Level* const row = levels.row(r);

@@ -12,6 +12,9 @@
 namespace coordreq {
 
 /// Reads rows that are cut into segments: the minimum over a box of rows, and over windows along them.
+///
+/// The minimum over the leading dimensions, which is the same for all rows of a unit, is taken once and kept
+/// (the switch is FastPaths::shared_minima).
 template <class Level>
 class BoxReader final : public RowReader<Level> {
  public:
@@ -59,9 +62,9 @@ class BoxReader final : public RowReader<Level> {
   const LevelKernels<Level>* kernels_;
   std::size_t lanes_;
   RowShape shape_;
-  std::vector<IndexRange> ranges_;   ///< box of rows in question
-  std::vector<IndexRange> windows_;  ///< and windows along them
-  std::vector<const Level*> rows_;   ///< the rows in it, the shared dimensions taken
+  std::vector<IndexRange> ranges_;   ///< of the box being read, in the dimensions across rows
+  std::vector<IndexRange> windows_;  ///< of that box, along rows
+  std::vector<const Level*> rows_;   ///< its rows, or shared minima that stand for them
   std::vector<const Level*> sources_;
   std::vector<std::int64_t> counter_;
   std::vector<std::int64_t> shared_counter_;

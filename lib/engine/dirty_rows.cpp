@@ -51,7 +51,8 @@ void DirtyRows::go_to(std::int64_t unit) {
   while (place_.row != row) place_.step(engine_.grid(), engine_.outer(), row < place_.row);
 }
 
-/// It is the same for all rows of the unit. In other dimensions the first one has no box if it is not held.
+/// The box is the same for all rows of the unit in the shared dimensions; in others the first row may have
+/// none, as it need not be held.
 void DirtyRows::enclose_unit(const RowPlace& place, Scratch& scratch) const {
   scratch.box.ranges.clear();
   for (std::size_t i = 0; i < engine_.outer(); ++i) scratch.box.ranges.push_back(hull_.range(place, i));

@@ -23,7 +23,7 @@ double row_of_words(std::int64_t cells) {
   return sizeof(CellSet::Word) * in_double((cells + CellSet::kWordBits - 1) / CellSet::kWordBits);
 }
 
-/// Of ActionGroups, with what tells equal ones while they are looked for.
+/// Bytes of an ActionGroups, with the memory that finds equal ones.
 double one_grouping(double actions, double groups) {
   constexpr double kBytesOfAction = 8, kBytesOfGroup = 40, kBytesOfPair = 2.5;
   const double pairs = groups <= kMostComparedGroups ? groups * groups : 0;
@@ -37,7 +37,7 @@ bool has_common(const std::vector<std::int32_t>& list, const InputClass& inputs)
 }  // namespace
 
 std::vector<double> bytes_of_slices(const RowEngine& engine) {
-  constexpr double kBytesBesideSlice = 64;  // where it stands among others, and what the allocator adds
+  constexpr double kBytesBesideSlice = 64;  // its entry in the hash set, and the overhead of the allocator
   std::vector<double> result;
   for (const RowSlices& slices : engine.posts().slices)
     result.push_back(static_cast<double>(slices.bytes()) +
@@ -76,7 +76,7 @@ double EngineSizes::levels() const {
 }
 
 double EngineSizes::usual_bytes(std::size_t t) const {
-  constexpr double kBytesOfSlice = 240;  // its list, and where it stands while equal ones are looked for
+  constexpr double kBytesOfSlice = 240;  // its list, and its entry in the hash set of slices
   const TableShape& shape = model_->arranged_shapes()[t];
   if (model_->keeps_sums() && shape.sum) return shape.bytes;  // the same numbers laid out for reading
   double choices = 1;
@@ -104,7 +104,7 @@ double EngineSizes::fraction_of_table(std::size_t t) const {
 
 double EngineSizes::untold_entries() const {
   if (fractions_.own == 1) return 0;
-  // One flow serves several states, one map one.
+  // A flow encloses several states at once, a map one.
   const bool are_together = model_->spec().dynamics.time == Time::continuous;
   double bytes = 0;
   for (const TableShape& shape : model_->shapes()) {
@@ -155,13 +155,14 @@ double EngineSizes::groups(const std::vector<InputClass>& classes) const {
   return sum;
 }
 
-/// Farther than that posts do not go in dimension i.
+/// How far posts go in dimension i, in indices, either way.
 RowMargins EngineSizes::reach_of(std::size_t i) const {
   const IndexRange offsets = offsets_[grid_.state(i)];
   return {std::max<std::int64_t>(0, -std::int64_t{offsets.first}), std::max<std::int64_t>(0, offsets.last)};
 }
 
-/// Once for each choice of the states that the class depends on, or for each row anew.
+/// Bytes of the groups of a class: one ActionGroups for each different choice of the states that it depends
+/// on, or none where they are found anew for each row.
 double EngineSizes::groups_of_class(const InputClass& inputs) const {
   enum Use : std::uint8_t { none, by_offset, in_full };
   const ControllerSpec& controller = model_->spec().controller;
@@ -182,7 +183,7 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
     if (use[i] == none) continue;
     const double count = in_double(grid_[i].count);
     choices *= count;
-    // Groups are others where some of them leave the domain.
+    // Near the ends of the domain, where posts leave, groups differ from those inside.
     const double near_ends = in_double(reach_of(i).before + reach_of(i).after + 1);
     distinct *= use[i] == by_offset ? std::min(count, near_ends) : count;
   }
@@ -202,7 +203,7 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
 }
 
 double EngineSizes::readers(int threads, double level_bytes) const {
-  constexpr double kRows = 8;  // that a reader and its operator work on
+  constexpr double kRows = 8;  // in the buffers of a reader and its operator
   const double all = level_bytes * levels();
   const double one = kRows * all / rows();
   if (!model_->keeps_sums()) {
@@ -212,7 +213,7 @@ double EngineSizes::readers(int threads, double level_bytes) const {
   return threads * (one + level_bytes * sum_reader());
 }
 
-/// SumReader: patches for the ranges of the leading dimensions that a unit goes to, with what lies beyond.
+/// SumReader: patches, margins included, for the ranges of the leading dimensions that a unit goes to.
 double EngineSizes::sum_reader() const {
   constexpr double kUsualSizes = 2;  // of a box, in each dimension
   constexpr double kUsualJoined = 8;
@@ -235,7 +236,7 @@ double EngineSizes::sum_reader() const {
 }
 
 double EngineSizes::wave(int threads) const {
-  return readers(threads) + levels() / in_double(grid_[0].count);  // what has changed in a unit
+  return readers(threads) + levels() / in_double(grid_[0].count);  // rows of a unit before they are written
 }
 
 }  // namespace coordreq

@@ -11,21 +11,21 @@
 namespace coordreq {
 namespace {
 
-/// A level in fewer or more bits: what does not fit is kTop, which is not too low.
+/// A level in fewer or more bits: a level that does not fit becomes kTop, which is not too low.
 template <class Level, class Other>
 Level converted(Other level) {
   if (level == LevelRows<Other>::kTop || level >= LevelRows<Level>::kTop) return LevelRows<Level>::kTop;
   return static_cast<Level>(level);
 }
 
-/// The same for levels that rise: as far from kTop as it was. 0 and 1 say nothing of a goal.
+/// A level of nearness in more bits: as far from kTop as it was. 0 and 1 stay, which are not distances.
 template <class Wide, class Narrow>
 Wide raised(Narrow level) {
   if (level <= 1) return level;
   return static_cast<Wide>(LevelRows<Wide>::kTop - (LevelRows<Narrow>::kTop - level));
 }
 
-/// Calls `change(row, cells)` for every row held, and puts the cells that it leaves in `levels`.
+/// Calls `change(row, cells)` for every row held, with a copy of its cells, and puts them back into `levels`.
 template <class Level, class Change>
 void change_rows(LevelRows<Level>& levels, ThreadTeam& team, const Change& change) {
   // Rows that are interned are put one after the other.
@@ -78,7 +78,7 @@ bool copy_canonical_rows(const RowSymmetry& symmetry, LevelRows<Level>& levels) 
   return has_changed;
 }
 
-/// Some cell of any process has this level. Gaps have that of no cell that counts.
+/// Whether some cell of any process has this level. Levels in gaps do not count.
 template <class Level>
 bool has_level(const LevelRows<Level>& levels, Level level) {
   bool found = false;
@@ -91,7 +91,8 @@ bool has_level(const LevelRows<Level>& levels, Level level) {
   return sum_of_all(levels.share(), found ? 1 : 0) > 0;
 }
 
-/// False if a cell has the last level of the width: the ones before it may need more.
+/// False if a cell has the last finite level of the width: then cells at kTop may have finite levels beyond
+/// it.
 template <class Level>
 bool is_enough(const LevelRows<Level>& levels, bool rises, std::int64_t limit) {
   constexpr Level kTop = LevelRows<Level>::kTop;
@@ -99,15 +100,15 @@ bool is_enough(const LevelRows<Level>& levels, bool rises, std::int64_t limit) {
   return (limit >= 0 && limit < kTop - 1) || !has_level(levels, static_cast<Level>(kTop - 1));
 }
 
-/// Above the limit of the width in use levels count as kTop, which is not too low: the wave can go on from
-/// there with more bits.
+/// The limit in a width. Levels above it count as kTop, which is not too low, so that the wave can go on from
+/// them with more bits.
 template <class Level>
 Level clipped(std::int64_t limit) {
   constexpr std::int64_t kMost = std::int64_t{LevelRows<Level>::kTop} - 1;
   return static_cast<Level>(limit < 0 ? kMost : std::min(limit, kMost));
 }
 
-/// One problem, with as many bits a cell as it takes.
+/// Finds the levels of one problem, with as many bits a cell as they need.
 class LevelFinder {
  public:
   LevelFinder(const RowEngine& engine, const RowHull& hull, const LevelProblem& problem,
@@ -117,7 +118,8 @@ class LevelFinder {
   LevelMap from_start() {
     return fast_paths().narrow_levels ? from_start_of<std::uint8_t>() : from_start_of<std::uint32_t>();
   }
-  /// What is settled at the bounds may not be so at levels that have sunk below them.
+  /// @param settled of these levels: rows settled at the bounds need not be at levels that have sunk below
+  /// them
   template <class Level>
   LevelMap from(LevelRows<Level> levels, const std::vector<std::uint8_t>& settled = {}) {
     const auto op = make_operator<Level>();

@@ -13,7 +13,7 @@
 
 namespace coordreq {
 
-/// For each peer the units of a rank from the first to the last whose posts can perhaps meet rows of it.
+/// [peer] The units of this rank, from the first to the last, whose posts can perhaps meet rows of the peer.
 [[nodiscard]] std::vector<RowShare::Range> units_that_meet_peers(const RowEngine& engine, const RowHull& hull,
                                                                  std::int64_t unit_rows);
 
@@ -71,16 +71,18 @@ class GhostExchange {
     std::sort(to_send_.begin(), to_send_.end(), later_first(sending_time()));
   }
 
-  /// Before a unit is looked at. Calls `visit(row)` for the rows that have changed.
+  /// To be called before a unit is looked at. Takes in the messages that it needs, and calls `visit(row)` for
+  /// the ghost rows in them.
   template <class Visit>
   void before(std::int64_t unit, const Visit& visit) {
     while (!to_take_.empty() && taking_time()(*to_take_.back()) <= time(unit)) take(visit);
   }
-  /// The units up to this one are done, in the order of the sweep.
+  /// To be called when the units up to this one, in the order of the sweep, are done. Sends the messages that
+  /// are complete.
   void after(std::int64_t unit) {
     while (!to_send_.empty() && sending_time()(*to_send_.back()) <= time(unit)) send();
   }
-  /// Lets messages come in beside the work.
+  /// Receives messages that have arrived, without taking them in.
   void listen() {
     for (auto peer = to_take_.rbegin(); peer != to_take_.rend(); ++peer) {
       if ((*peer)->arrived) continue;
@@ -88,13 +90,14 @@ class GhostExchange {
       (*peer)->arrived = ranks_.receive((*peer)->share->rank);
     }
   }
+  /// Takes in and sends the rest of the messages of the sweep.
   template <class Visit>
   void end_sweep(const Visit& visit) {
     while (!to_take_.empty()) take(visit);
     while (!to_send_.empty()) send();
   }
 
-  /// After the last sweep: the messages that nobody has looked at. They say nothing.
+  /// After the last sweep: receives its messages, which hold no rows.
   void end() {
     for (Peer& peer : peers_) {
       if (!peer.share->received.empty()) static_cast<void>(ranks_.receive(peer.share->rank));
@@ -104,13 +107,13 @@ class GhostExchange {
  private:
   struct Peer {
     const RowShare::Peer* share = nullptr;
-    RowShare::Range meeting;  ///< units from the first to the last that can meet rows of it
-    RowShare::Range sent;     ///< likewise with rows that it holds
-    std::uint32_t told = 0;   ///< the last batch that it knows of
-    std::optional<Bytes> arrived;
+    RowShare::Range meeting;       ///< units from the first to the last that can meet rows of it
+    RowShare::Range sent;          ///< units from the first to the last with rows that it holds
+    std::uint32_t told = 0;        ///< the last batch whose changes it was sent
+    std::optional<Bytes> arrived;  ///< a message that was received and not taken in
   };
 
-  /// When a sweep comes to a unit.
+  /// Ascends in the order of the sweep.
   [[nodiscard]] std::int64_t time(std::int64_t unit) const { return backwards_ ? -unit : unit; }
   [[nodiscard]] auto taking_time() const {
     return [this](const Peer& peer) {

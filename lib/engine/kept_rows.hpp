@@ -4,7 +4,7 @@
 #include "engine/cell_set.hpp"
 #include "engine/level_rows.hpp"
 
-// Levels and sets as an archive takes them.
+// Views of levels and sets for an archive.
 namespace coordreq {
 
 /// The cells of levels, without their margins.

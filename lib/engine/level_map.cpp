@@ -13,7 +13,7 @@ std::int64_t decoded(Level level) {
   return level == LevelRows<Level>::kTop ? LevelMap::kTop : static_cast<std::int64_t>(level);
 }
 
-/// Adds the cells of some rows to the counts of their levels.
+/// counts[1 + level] += cells of some rows with that level, counts[0] += cells of the greatest level.
 template <class Level>
 void count_rows(const RowShape& shape, const DifferentRows<Level>& rows, ThreadTeam::Range range,
                 std::vector<std::int64_t>& counts) {
@@ -28,7 +28,7 @@ void count_rows(const RowShape& shape, const DifferentRows<Level>& rows, ThreadT
   });
 }
 
-/// 8-bit levels need no look at the size; four counters a level, so that equal neighbours do not wait for
+/// For 8 bits counters have a fixed size; there are four a level, so that equal neighbours do not wait for
 /// each other.
 void count_rows(const RowShape& shape, const DifferentRows<std::uint8_t>& rows, ThreadTeam::Range range,
                 std::vector<std::int64_t>& counts) {
@@ -46,7 +46,7 @@ void count_rows(const RowShape& shape, const DifferentRows<std::uint8_t>& rows, 
   }
 }
 
-/// [1 + level] cells of that level, [0] those never lost.
+/// [1 + level] cells of that level, [0] cells never lost.
 template <class Level>
 std::vector<std::int64_t> count_levels(const LevelRows<Level>& levels, ThreadTeam& team) {
   constexpr std::int64_t kGrain = 1024;
@@ -69,7 +69,7 @@ std::vector<std::int64_t> count_levels(const LevelRows<Level>& levels, ThreadTea
   return total;
 }
 
-/// The lanes of a row that are cells, if there are gaps: these hold what lies beyond the ends of runs.
+/// The lanes of a row that are cells; nothing if all are, as the row has no gaps.
 std::optional<CellSet> cells_of_row(const RowShape& shape, std::int64_t row_length) {
   if (shape.dimensions.size() == 1) return std::nullopt;
   CellSet cells(1, row_length);

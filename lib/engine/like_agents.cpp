@@ -11,7 +11,7 @@
 namespace coordreq {
 namespace {
 
-/// Sets of dimensions of which none moves, or is moved by, one of another set.
+/// Dimensions are in one set if one of them depends on the other, directly or by way of others.
 UnionFind find_components(const Abstraction& abstraction) {
   UnionFind components(abstraction.tables.size());
   for (const auto* tables : {&abstraction.tables, &abstraction.tubes}) {
@@ -22,7 +22,7 @@ UnionFind find_components(const Abstraction& abstraction) {
   return components;
 }
 
-/// Table `a` says of an agent what table `b` says of the other one.
+/// Whether table `a` is table `b` with the two agents exchanged.
 bool are_alike(const Abstraction& abstraction, const TransitionTable& a, const TransitionTable& b,
                const AbstractAgent& one, const AbstractAgent& other) {
   if (a.is_sum() || b.is_sum() || a.shift != b.shift || a.before != 0 || b.before != 0) return false;
@@ -61,7 +61,7 @@ bool are_alike(const GridDimension& a, const GridDimension& b) {
   return a.count == b.count && a.below == b.below && a.above == b.above;
 }
 
-/// With their dimensions, and inputs, in this order.
+/// Whether the agents match, their dimensions and inputs being taken in this order.
 bool are_alike(const Abstraction& abstraction, const AbstractAgent& a, const AbstractAgent& b) {
   for (std::size_t i = 0; i < a.inputs.size(); ++i) {
     const auto points = [&](std::int32_t input) { return abstraction.inputs[at(input)].count(); };
@@ -79,7 +79,7 @@ bool are_alike(const Abstraction& abstraction, const AbstractAgent& a, const Abs
   return true;
 }
 
-/// More dimensions of one agent are not tried in all orders.
+/// Agents with more dimensions are not compared: there are too many orders.
 constexpr std::size_t kMostDimensions = 6;
 
 }  // namespace
@@ -137,7 +137,7 @@ std::vector<AbstractAgent> find_like_agents(const Abstraction& abstraction,
   std::vector<AbstractAgent> most;
   if (!fast_paths().like_agents) return most;
   std::vector<std::uint8_t> is_known(agents.size(), 0);
-  // Being alike is transitive, so that each agent is in one set of such.
+  // Being alike is transitive, so that each agent is in one set of like agents.
   for (std::size_t a = 0; a < agents.size(); ++a) {
     if (is_known[a] != 0 || !is_across(agents[a])) continue;
     std::vector<AbstractAgent> like{agents[a]};

@@ -8,14 +8,14 @@
 
 namespace coordreq {
 
-/// One number mixed into a hash.
+/// A hash with one more number mixed in.
 [[nodiscard]] inline std::uint64_t mixed_hash(std::uint64_t hash, std::uint64_t number) {
   hash = (hash ^ number) * 0x9E3779B97F4A7C15U;
   return hash ^ hash >> 32U;
 }
 
-/// Different lists of numbers, each held once and numbered 0, 1, ... in the order in which they first came.
-/// Lists are compared, not only their hashes.
+/// Interns lists of numbers: each different list is held once; lists are numbered 0, 1, ... in the order in
+/// which they first came. Lists are compared, not their hashes alone.
 template <class Number>
 class ListNumbers {
  public:

@@ -22,8 +22,8 @@ Word transposed(Word bits) {
   return bits ^ swap ^ (swap << 28U);
 }
 
-/// The sets of the cells of one row turned into a row of cells for each joint input; `out` has room for a
-/// multiple of 8 of them.
+/// Turns the sets of joint inputs of the cells of one row into a row of cells for each joint input.
+/// @param out [joint input, up to a multiple of 8][word]
 void turn_row(const std::uint8_t* cells, std::int64_t row_length, std::int64_t bytes, std::size_t words,
               std::vector<Word>& out) {
   out.assign(static_cast<std::size_t>(bytes) * 8 * words, 0);
@@ -66,7 +66,7 @@ PairTable::PairTable(const UniformGrid& grid, const InputSpace& inputs, const Pa
 
   const std::size_t words = words_for(grid);
   const std::int64_t bytes = listed.bytes_per_cell();
-  std::vector<std::vector<Word>> turned(64);  // so many rows at a time: turning is work for all threads
+  std::vector<std::vector<Word>> turned(64);  // rows are turned in batches, by all threads
   const auto batch = static_cast<std::int64_t>(turned.size());
   for (std::int64_t first = rows.begin; first < rows.end; first += batch) {
     const std::int64_t count = std::min(batch, rows.end - first);

@@ -8,15 +8,15 @@
 namespace coordreq {
 namespace {
 
-/// Counts for each row the boxes of rows that hold it. A box costs its corners and not its rows: a sum along
-/// each dimension in turn spreads what was added at the corners.
+/// Counts for each row the boxes of rows that hold it. A box costs its corners and not its rows: changes are
+/// added at the corners, and a sum along each dimension in turn spreads them (summed-area table).
 class BoxCount {
  public:
   explicit BoxCount(const UniformGrid& grid) : grid_(grid), counts_(static_cast<std::size_t>(grid.rows())) {}
 
   void add(std::span<const IndexRange> ranges) { add_from(0, 0, 1, ranges); }
 
-  /// [row]. Of fewer than 2^32 boxes; only once.
+  /// [row] The counts. @pre unchecked: fewer than 2^32 boxes; called once
   [[nodiscard]] std::vector<std::uint32_t>& spread() {
     for (std::size_t i = 0; i < grid_.across(); ++i) {
       const auto stride = static_cast<std::size_t>(grid_.row_stride(i));
@@ -30,7 +30,7 @@ class BoxCount {
   }
 
  private:
-  /// From dimension i on; `change` wraps around, as the counts do.
+  /// Adds a box from dimension i on. `change` wraps around, like the counts.
   void add_from(std::size_t i, std::int64_t row, std::uint32_t change, std::span<const IndexRange> ranges) {
     if (i == ranges.size()) {
       counts_[static_cast<std::size_t>(row)] += change;
@@ -40,7 +40,7 @@ class BoxCount {
     const auto [first, last] = ranges[i];
     if (first > last) return;
     add_from(i + 1, row + first * stride, change, ranges);
-    // On a ring what is beyond the last index begins anew.
+    // On a ring indices beyond the last begin anew.
     if (last >= count) add_from(i + 1, row, change, ranges);
     const std::int64_t end = last + 1 - (last >= count ? count : 0);
     if (end < count) add_from(i + 1, row + end * stride, 0U - change, ranges);
@@ -50,7 +50,7 @@ class BoxCount {
   std::vector<std::uint32_t> counts_;
 };
 
-/// Where the tubes of rows lie in one dimension across rows.
+/// The ranges of the tubes of rows in one dimension across rows.
 struct TubeHull {
   const RowSlices* slices;
   std::vector<SliceHull> hulls;

@@ -8,19 +8,19 @@
 #include "engine/row_operations.hpp"
 #include "model/outside.hpp"
 
-// How a row of cells is laid out in memory, and what stands beyond its ends.
+// How a row of cells is laid out in memory, and which levels stand beyond its ends.
 namespace coordreq {
 
-/// How a row goes on beyond its ends: what a post that leaves there meets.
+/// How a row goes on beyond its ends, where posts leave it.
 struct RowEnds {
-  /// unsafe: nothing of any set; safe: a member of every set; saturate and stop: the first cell goes on;
-  /// periodic (both ends): the row itself.
+  /// unsafe: by cells of no set; safe: by cells of every set; saturate and stop: by its first cell again;
+  /// periodic (both ends): by the row itself.
   Outside below = Outside::unsafe;
   Outside above = Outside::unsafe;  ///< likewise, with the last cell
 };
 
-/// The offsets [first, last] along a row of n cells, as short as they can be with the same meaning: beyond
-/// its ends a row looks the same for ever, and on a ring it comes again.
+/// The shortest offsets [first, last] along a row of n cells that have the same meaning: beyond its ends a
+/// row goes on unchanged, and on a ring it comes again.
 [[nodiscard]] inline IndexRange fit_window(IndexRange window, std::int64_t n, RowEnds ends) {
   if (traits(ends.below).wraps) {
     std::int64_t first = (window.first % n + n) % n;
@@ -32,7 +32,7 @@ struct RowEnds {
           static_cast<std::int32_t>(std::clamp<std::int64_t>(window.last, -n, n))};
 }
 
-/// How many cells of the lattice beyond each end of a row can be asked for.
+/// How many cells beyond each end of a row posts can meet.
 struct RowMargins {
   std::int64_t before = 0;
   std::int64_t after = 0;

@@ -1,7 +1,7 @@
 // The kernels on rows of boxes, built as level_kernels_impl.hpp is, and with the same rules.
 //
-// Shape: two additions and shifts a side in 64 bits, then all else in 32: there are two to four cells of work
-// for each level that is then fetched by its place, so these few operations cost as much as the fetching.
+// Two additions a side are of 64 bits, by halves; the rest is of 32 bits. There are two to four sides for
+// each level that is then fetched by its offset, so that these few operations cost as much as the fetch.
 
 #include <stddef.h>
 #include <stdint.h>

@@ -14,7 +14,7 @@ using Kind = RowSegment::Kind;
 
 constexpr std::size_t kMostSlots = 1024;
 
-/// A range that holds two, on a ring from an index of the domain on.
+/// A range that holds both; on a ring with its first index in the domain.
 IndexRange around_both(IndexRange one, IndexRange other, const GridDimension& dimension) {
   const auto n = static_cast<std::int32_t>(dimension.count);
   if (dimension.periodic() && other.first - one.first > n / 2) other = {other.first - n, other.last - n};
@@ -47,7 +47,8 @@ SumReader<Level>::SumReader(const RowEngine& engine, const LevelRows<Level>& lev
   joined_slots_.resize(kJoinedPatches);
 }
 
-/// Room beyond the domain for the largest box on either side, sizes row-major over the dimensions.
+/// Lays out a patch, with room beyond the domain for the largest box on either side; sizes are row-major over
+/// the dimensions.
 template <class Level>
 void SumReader<Level>::lay_out_patch() {
   const std::size_t outer = engine_.outer();
@@ -117,7 +118,7 @@ void SumReader<Level>::find_margins() {
       safe = safe || rule.arrives;
     }
     if (row_start) row_offsets_.push_back(cell);
-    // What leaves through an unsafe side is blocked, wherever else it leaves; else it may have left for good.
+    // A cell beyond an unsafe side is blocked, wherever else it lies; else a cell beyond a safe side is gone.
     if (outside) margins_.push_back({cell, unsafe || safe ? -1 : nearest, unsafe ? Level{0} : kTop});
     std::size_t i = inner;
     while (i-- > 0) {
@@ -156,7 +157,7 @@ const Level* SumReader<Level>::minimum_of(std::size_t choice, LaneRange lanes, L
   return minimum(taken_.kinds[choice], lanes, rest);
 }
 
-/// What the slices of the leading dimensions say together; `fixed`: there are cells, in these ranges.
+/// The kind of the slices of the leading dimensions together; if it is `fixed` their ranges.
 template <class Level>
 RowSegment::Kind SumReader<Level>::lead(std::span<const std::uint32_t> ids, IndexRange* ranges) const {
   Kind kind = Kind::fixed;
@@ -169,7 +170,7 @@ RowSegment::Kind SumReader<Level>::lead(std::span<const std::uint32_t> ids, Inde
   return kind;
 }
 
-/// Of the box in question.
+/// The minimum of the box in ranges_ and rows_.
 template <class Level>
 const Level* SumReader<Level>::minimum(Kind kind, LaneRange lanes, Level rest) {
   if (kind == Kind::blocked) {
@@ -177,7 +178,7 @@ const Level* SumReader<Level>::minimum(Kind kind, LaneRange lanes, Level rest) {
     fill_rest(lanes, rest);
     return result_.data();
   }
-  // All that has left for good is alike, but for what else leaves through an unsafe side.
+  // Posts that have left for good share a patch: only inner dimensions, by an unsafe side, make a difference.
   if (kind == Kind::gone) ranges_.assign(ranges_.size(), {0, -1});
   fetch(slot(slots_, {}, kind == Kind::gone), lanes, rest);
   return result_.data();
@@ -190,8 +191,8 @@ const Level* SumReader<Level>::bound(std::size_t begin, std::size_t end, LaneRan
   return result_.data();
 }
 
-/// Makes the box in question one around those of some choices: the least lower and greatest upper ends.
-/// @returns false if there is none, or it would not be small
+/// ranges_, rows_ and widths_ = a box around those of some choices: the least lower and greatest upper ends.
+/// @returns false if there is no such box, or it is not small
 template <class Level>
 bool SumReader<Level>::join(std::size_t begin, std::size_t end) {
   for (std::size_t i = 0; i < sides_.size(); ++i) {
@@ -217,7 +218,8 @@ bool SumReader<Level>::join(std::size_t begin, std::size_t end) {
   return true;
 }
 
-/// Of a cell's last - first in an inner dimension: floor(a + d) - floor(a) is floor(d) or one more.
+/// The greatest last - first of a cell in an inner dimension: floor(a + d) - floor(a) is floor(d) or one
+/// more.
 template <class Level>
 std::int32_t SumReader<Level>::greatest_width(std::size_t i, const SumRows::Row& row) const {
   const SumRows& sums = *family_.slices[engine_.outer() + i].sums;
@@ -225,7 +227,7 @@ std::int32_t SumReader<Level>::greatest_width(std::size_t i, const SumRows::Row&
   return static_cast<std::int32_t>((difference >> TransitionTable::kFractionBits) + 1);
 }
 
-/// The levels of the boxes in question, in some lanes of a row.
+/// result_ = the levels of the boxes in rows_, in some lanes of a row.
 template <class Level>
 void SumReader<Level>::fetch(const Slot& slot, LaneRange lanes, Level rest) {
   const bool has_all_sizes = slot.widths.empty();
@@ -242,7 +244,7 @@ void SumReader<Level>::fetch(const Slot& slot, LaneRange lanes, Level rest) {
   const std::size_t n = lanes.size();
   sums_->find_offsets(sides_.data(), sides_.size(), has_all_sizes ? first_offset_ : origin_, offsets_.data(),
                       n);
-  // Pointers of their own: bytes that are written might be those of a vector's.
+  // By local pointers: else compilers allow for bytes written to be those of the vectors themselves.
   const Level* const levels = slot.levels.data();
   const std::int32_t* const offset = offsets_.data();
   Level* const result = result_.data();
@@ -255,7 +257,7 @@ void SumReader<Level>::fill_rest(LaneRange lanes, Level rest) {
   std::fill_n(result_.begin() + static_cast<std::ptrdiff_t>(lanes.size()), kLevelBlock / sizeof(Level), rest);
 }
 
-/// The patch for the leading ranges_, eroded by boxes of one size, or of all.
+/// The patch for the leading ranges_, eroded by boxes of one size, or of all sizes.
 template <class Level>
 typename SumReader<Level>::Slot& SumReader<Level>::slot(Slots& slots, const std::vector<std::int32_t>& widths,
                                                         bool gone) {
@@ -265,7 +267,7 @@ typename SumReader<Level>::Slot& SumReader<Level>::slot(Slots& slots, const std:
     hash = mixed_hash(hash, static_cast<std::uint32_t>(range.last));
   }
   for (const std::int32_t width : widths) hash = mixed_hash(hash, static_cast<std::uint32_t>(width));
-  // A few places to look; where all are taken the last gives way.
+  // A few slots are looked at; where all are taken the last one is used again.
   constexpr std::size_t kProbes = 4;
   std::size_t at = (hash >> 32) % slots.size();
   for (std::size_t probe = 0; probe < kProbes; ++probe, at = (at + 1) % slots.size()) {
@@ -285,7 +287,7 @@ typename SumReader<Level>::Slot& SumReader<Level>::slot(Slots& slots, const std:
 template <class Level>
 void SumReader<Level>::fill(Slot& slot, bool gone) {
   const std::size_t sizes = slot.widths.empty() ? variants_ : 1;
-  // What erosion reads beyond a patch is in the one after it, and makes no difference.
+  // Erosion reads beyond a patch, from the one after it; those levels make no difference.
   std::int64_t beyond = 0;
   for (std::size_t i = 0; i < sides_.size(); ++i) beyond += std::int64_t{reach_[i] + 1} * sides_[i].stride;
   slot.levels.resize(sizes * static_cast<std::size_t>(patch_cells_) + static_cast<std::size_t>(beyond) +
@@ -295,7 +297,7 @@ void SumReader<Level>::fill(Slot& slot, bool gone) {
   for (std::size_t size = 1; size < sizes; ++size) erode(slot, size);
 }
 
-/// The minima over the leading dimensions, with margins.
+/// Fills a patch with the minima over the leading dimensions, and its margins.
 template <class Level>
 void SumReader<Level>::fill_patch(Slot& slot, bool gone) {
   const auto n = static_cast<std::size_t>(levels_->row_length());
@@ -315,7 +317,7 @@ void SumReader<Level>::fill_patch(Slot& slot, bool gone) {
   }
 }
 
-/// Each cell of the first patch becomes the minimum of the box that begins there, a dimension at a time, by
+/// Each cell of the first patch becomes the minimum of the box that begins there: one dimension at a time, by
 /// doubling.
 template <class Level>
 void SumReader<Level>::erode_patch(Slot& slot, const std::vector<std::int32_t>& widths) {
@@ -330,8 +332,8 @@ void SumReader<Level>::erode_patch(Slot& slot, const std::vector<std::int32_t>& 
   }
 }
 
-/// A box is the union of two that are one index shorter in some dimension; sizes come after all that are
-/// smaller.
+/// Makes the patch of a size from that of a smaller one: a box is the union of two that are one index shorter
+/// in some dimension.
 template <class Level>
 void SumReader<Level>::erode(Slot& slot, std::size_t size) {
   std::size_t i = 0;

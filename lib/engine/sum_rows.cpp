@@ -24,7 +24,7 @@ constexpr std::int64_t kProfileBlock = kLevelBlock / sizeof(std::int32_t);
 
 constexpr int kFractionBits = TransitionTable::kFractionBits;
 
-/// More numbers than this in the profiles are no small table any more.
+/// With more numbers than this in its profiles a table is not small any more.
 constexpr std::int64_t kMostProfileNumbers = std::int64_t{1} << 22;
 
 std::vector<SumSource> sources(const TransitionTable& table) {
@@ -39,7 +39,7 @@ std::vector<SumSource> sources(const TransitionTable& table) {
 
 }  // namespace
 
-/// Takes a table apart into what varies along rows and what does not.
+/// Divides a table into terms that vary along rows and terms that do not.
 class SumRows::Builder {
  public:
   Builder(const Abstraction& abstraction, const TransitionTable& table, std::size_t state)
@@ -119,7 +119,7 @@ class SumRows::Builder {
 
   void add_up_profiles() {
     do {
-      // Beyond the row its last cell again: blocks are read as a whole.
+      // Blocks are read as a whole: beyond the row its last cell comes again.
       for (std::int64_t c = 0; c < rows_.profile_stride_; ++c) add_up_cell(std::min(c, rows_.length_ - 1));
     } while (profiles_.advance());
   }
@@ -142,7 +142,7 @@ class SumRows::Builder {
     rows_.upper_.add(upper);
   }
 
-  /// What the variables that number the rows add to an entry, given its strides by state and by input.
+  /// The strides of an entry in the variables that number the rows, given its strides by state and by input.
   [[nodiscard]] Strides strides(const std::vector<std::int64_t>& of_state,
                                 const std::vector<std::int64_t>& of_input) const {
     Strides result;
@@ -203,7 +203,7 @@ void SumRows::find_bounds() {
   }
 }
 
-/// floor(a + d) - floor(a) is floor(d) or one more, whatever a is; d is a sum of one difference a term.
+/// floor(a + d) - floor(a) is floor(d) or one more for all a; d is a sum of one difference a term.
 void SumRows::find_widths(const TransitionTable& table) {
   std::int64_t least = 0;
   std::int64_t greatest = 0;
@@ -237,9 +237,9 @@ std::uint64_t SumRows::bytes() const {
 
 SumRows::Reader::Reader(const SumRows& rows) : rows_(&rows), base_(rows.terms_.size()) {}
 
-/// To the choice of states that a row belongs to.
+/// Goes to the choice of states that a row belongs to.
 void SumRows::Reader::go_to(std::uint32_t number) {
-  // Rows are asked for choice by choice: a division for each would take longer than the rest.
+  // Rows are read choice by choice: a division for each would take longer than the rest.
   if (number >= first_ && number < first_ + rows_->combinations_) return;
   const std::int64_t choice = number / rows_->combinations_;
   first_ = choice * rows_->combinations_;

@@ -13,11 +13,11 @@ namespace {
 using Numbers = Tiles::Numbers;
 using Kind = RowSegment::Kind;
 
-/// Tiles that are looked at to see whether enough of them are equal.
+/// Tiles in the sample that shows whether enough of them are equal.
 constexpr std::int64_t kSample = 4096;
-/// Below this part of different tiles the looking up pays.
+/// If fewer tiles than this fraction are different, looking up pays.
 constexpr double kMostDifferent = 0.5;
-/// Fewer rows are done before anything has been looked up.
+/// Fewer rows are worked out sooner than compared.
 constexpr std::int64_t kFewRows = 4;
 
 void add_segment(const RowSegment& segment, std::int64_t origin, const GridDimension& target, Numbers& list) {
@@ -30,7 +30,7 @@ void add_segment(const RowSegment& segment, std::int64_t origin, const GridDimen
     list.push_back(static_cast<std::uint32_t>(number));
 }
 
-/// [choice] numbers of equal lists of ids.
+/// [choice] Numbers of its list of ids, equal for equal lists.
 Numbers number_lists(const std::vector<std::uint32_t>& ids, std::int64_t combinations) {
   const auto width = static_cast<std::size_t>(combinations);
   ListNumbers<std::uint32_t> lists;
@@ -57,7 +57,7 @@ Tiles::Tiles(const RowEngine& engine, const RowHull& hull, std::size_t leading)
     const RowSlices& slices = engine.slices()[t];
     add_source(slices.state_stride, slices.before, slices.input_combinations, number_choices(t));
   }
-  // What a file lists may be equal where `allow` forbids something else.
+  // Rows may be equal in the pairs that a file lists, and different in those that `allow` forbids.
   if (engine.allow() != nullptr) add_pairs(*engine.allow());
   if (engine.permitted() != nullptr && engine.permitted() != engine.allow()) add_pairs(*engine.permitted());
 }
@@ -75,12 +75,13 @@ void Tiles::add_source(const std::vector<std::int64_t>& state_stride, std::int64
                        state_stride.begin() + static_cast<std::ptrdiff_t>(end),
                        [](std::int64_t stride) { return stride != 0; });
   };
-  if (!is_used(0, leading_)) return;  // it says the same of all tiles
+  if (!is_used(0, leading_)) return;  // the same for all tiles
   sources_.push_back(
       {&state_stride, before, combinations, is_used(leading_, engine_->across()), std::move(numbers)});
 }
 
-/// In the dimensions that tell tiles apart, ranges count from where the box of all posts begins.
+/// [choice of the states of table t] equal numbers for equal slices under all inputs. In the dimensions that
+/// tell tiles apart, ranges are counted from the beginning of the box of all posts.
 Numbers Tiles::number_choices(std::size_t t) const {
   const RowSlices& slices = engine_->slices()[t];
   if (t >= leading_) return number_lists(slices.ids, slices.input_combinations);
@@ -162,8 +163,8 @@ Numbers Tiles::refined(const Numbers& before, const Numbers& content) const {
   return result;
 }
 
-/// Of a sample, drawn with equal distances that have no factor in common with a dimension: else all of it
-/// would be at the same place along that.
+/// How many tiles of a sample are different. It is drawn with equal distances that have no factor in common
+/// with a dimension: else all of it could have one index there.
 double Tiles::fraction_different(const Numbers& content) const {
   const Numbers own = contents_of_tiles(content);
   const auto has_common_factor = [this](std::int64_t step) {
@@ -201,7 +202,7 @@ std::optional<Tiles> Tiles::find(const RowEngine& engine, const RowHull& hull, c
   const Numbers content = number_rows(set, engine.share());
   std::optional<Tiles> best;
   double least = kMostDifferent;
-  // Units first: with equal success they save more looking up.
+  // Units first: if as many are equal, fewer are looked up.
   for (const std::size_t leading : {engine.outer(), engine.across()}) {
     if (leading == 0 || (best && leading == engine.outer())) continue;
     Tiles tiles(engine, hull, leading);

@@ -28,7 +28,7 @@ void TupleWalk::begin(const ActionGrouping& grouping, const RowPlace& place, con
   add_up(0);
 }
 
-/// From a place in the order on.
+/// Adds up sum_ from a position in order_ on.
 void TupleWalk::add_up(std::size_t from) {
   for (std::size_t k = from; k < order_.size(); ++k) {
     const std::int64_t* offset = offset_[order_[k]].data() + position_[order_[k]] * sources_;

@@ -16,10 +16,11 @@
 namespace coordreq {
 namespace {
 
-/// Rows of a batch, if units are not larger: so few that most rows see what was found just before (on the
-/// intersection of the paper 31 instead of 3,000 rows take a tenth of the visits), enough for some threads.
+/// Rows of a batch, if units are not larger: few, so that most rows see the levels found just before (batches
+/// of 31 instead of 3,000 rows: a tenth of the visits on the intersection of the paper), but enough for
+/// threads.
 constexpr std::int64_t kBatchRows = 32;
-/// Rows to a unit of work where the engine's units are too large to be one.
+/// Rows of a unit of the wave where the engine shares no minima, so that its unit is the grid.
 constexpr std::int64_t kUnitRows = 32;
 /// Rows that one thread takes at a time.
 constexpr std::int64_t kTaskRows = 8;
@@ -81,8 +82,8 @@ class WaveRunner {
       if (ghosts_) ghosts_->after(unit);
     }
     if (ghosts_) ghosts_->end_sweep([this](std::int64_t row) { hear_of(row); });
-    // Levels below the lowest to which a cell has sunk in a whole sweep are final: the sets they make have
-    // not changed while each cell was found to stay in them. Of one process: others may have more on its way.
+    // Levels below the lowest to which a cell has sunk in a whole sweep are final: the sets up to it did not
+    // change while each cell was found to stay in them. Not so with several processes: changes may be coming.
     if (lowest_ != kTop && engine_.share() == nullptr)
       layer_ = std::max<std::int64_t>(layer_, std::int64_t{lowest_} - 1);
     step.layer = layer_;
@@ -90,7 +91,7 @@ class WaveRunner {
     return step.visited;
   }
 
-  /// @returns whether there may be more to find; each of several processes knows a sweep late, and waits not.
+  /// @returns whether levels may still change. Several processes know a sweep late, so that none waits.
   bool goes_on(std::int64_t sweep, std::int64_t visited) {
     if (!ghosts_) return visited > 0;
     Ranks& ranks = engine_.share()->ranks();
@@ -114,12 +115,12 @@ class WaveRunner {
     std::size_t position;  ///< in the worker's storage
     std::uint64_t ready;   ///< LevelRows::make_ready()
   };
-  /// Rows of one unit that one thread looks at.
+  /// Rows of one unit for one thread.
   struct Task {
     std::int64_t unit;
     std::int64_t begin;
     std::int64_t end;
-    bool is_wanted = false;  ///< whatever has changed
+    bool is_wanted = false;  ///< its rows are known to be pending
   };
   /// A tile that will be equal to another one.
   struct Copy {
@@ -138,8 +139,8 @@ class WaveRunner {
     DirtyRows::Scratch dirty;
     std::int64_t visited = 0;
     Level lowest = kTop;      ///< to which a cell has sunk
-    std::uint32_t batch = 0;  ///< and unit: what the reader has entered
-    std::int64_t unit = -1;
+    std::uint32_t batch = 0;  ///< in which the reader was entered
+    std::int64_t unit = -1;   ///< that the reader was entered for
   };
 
   [[nodiscard]] bool is_settled(std::int64_t row) const {
@@ -184,7 +185,7 @@ class WaveRunner {
     return visited;
   }
 
-  /// A row has got other levels.
+  /// The levels of a row have changed.
   void mark_changed(std::int64_t row) {
     dirty_.mark_row(row);
     dirty_.mark_unit_of(row);
@@ -223,7 +224,7 @@ class WaveRunner {
     }
   }
 
-  /// Of the rows that are to be looked at those that are equal to no other.
+  /// Tasks for the pending rows of a unit, or copies of rows on which the work was equal.
   void choose_rows(std::int64_t unit, std::int64_t end) {
     dirty_.enter(unit, scratch_);
     RowPlace place(engine_.grid(), unit * unit_rows_);
@@ -281,7 +282,7 @@ class WaveRunner {
     worker.changes.push_back({place.row, position, levels_.make_ready(lanes)});
   }
 
-  /// @param is_together whether all processes do so now
+  /// @param is_together whether all processes are at this point now
   void tell(WaveStep& step, bool is_together) const {
     if (!watch_.step) return;
     const NumberRows state = rows_of(levels_);
