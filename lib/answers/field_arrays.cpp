@@ -32,7 +32,7 @@ FillArray fill_collision(const LevelMap& map, const CellOrder& order) {
   };
 }
 
-/// Delays less `connection_delay`, as trigger_of() has it; delays themselves if that is negative.
+/// Triggers, by trigger_of(); delays if `connection_delay` is negative.
 template <class Integer>
 FillArray fill_delays(const DelayLayers& layers, const LevelMap& collision_time,
                       std::int64_t connection_delay, const CellOrder& order) {
@@ -106,7 +106,7 @@ ResultArray cells_of(ElementType type, const DelayLayers& layers, const CellOrde
           .lists = lists};
 }
 
-/// A stretch of one set.
+/// Fills a stretch of one set.
 void fill_members(const CellSet& set, const CellOrder& order, std::uint64_t begin, std::uint64_t count,
                   std::uint8_t* out) {
   order.for_each_run(

@@ -16,7 +16,8 @@
 namespace coordreq {
 namespace {
 
-/// Of like agents the most that change places within the classes, or with whole classes; ascending.
+/// The largest set of like agents that can be exchanged within classes, or by exchanging whole classes;
+/// ascending.
 std::vector<std::size_t> alike_in_classes(const std::vector<AbstractAgent>& agents,
                                           const std::vector<InputClass>& classes) {
   std::set<std::vector<std::int32_t>> all;
@@ -39,7 +40,7 @@ std::vector<std::size_t> alike_in_classes(const std::vector<AbstractAgent>& agen
   return most;
 }
 
-/// Of agents that all change places; nothing if there are none.
+/// The symmetry that exchanges agents; nothing if there are none.
 std::optional<RowSymmetry> symmetry_of(const UniformGrid& grid, const std::vector<AbstractAgent>& agents) {
   if (agents.empty()) return std::nullopt;
   std::vector<std::vector<std::size_t>> dimensions;
@@ -47,7 +48,8 @@ std::optional<RowSymmetry> symmetry_of(const UniformGrid& grid, const std::vecto
   return RowSymmetry(grid, dimensions);
 }
 
-/// What S is, in two ways of asking, and what of it counts as T, in rows held.
+/// The sets that a symmetry must keep: S, the cells of it that count as T, and S for tubes beyond limits, in
+/// rows held.
 std::vector<const CellSet*> safe_sets(const Ground& ground) {
   std::vector<const CellSet*> sets{&ground.safe};
   if (ground.over) sets.push_back(&*ground.over);
@@ -55,7 +57,7 @@ std::vector<const CellSet*> safe_sets(const Ground& ground) {
   return sets;
 }
 
-/// Agents that can change places in each of the sets.
+/// Agents that can be exchanged in each of the sets.
 std::vector<AbstractAgent> agents_alike_in(const Ground& ground, std::span<const CellSet* const> sets) {
   std::vector<std::vector<std::int32_t>> inputs;
   for (const InputClass& own : agent_classes(ground.spec, ground.abstraction->inputs))
@@ -68,8 +70,8 @@ std::vector<AbstractAgent> agents_alike_in(const Ground& ground, std::span<const
 /// hold ever more permuted rows of its own and of others.
 constexpr int kMostThatExchange = 8;
 
-/// Of several processes rows are cut before S is known, for agents of which only S can forbid that all change
-/// places, in whatever partition.
+/// Agents that can be exchanged in every partition unless S forbids it: with several processes rows are cut
+/// for these before S is known.
 std::vector<AbstractAgent> agents_alike_but_for_safe_set(const Ground& ground, int ranks) {
   const ProblemSpec& spec = ground.spec;
   if (ranks > kMostThatExchange || is_cut_before_tables(ground.model) || ground.listed ||
@@ -84,7 +86,7 @@ std::vector<AbstractAgent> agents_alike_but_for_safe_set(const Ground& ground, i
 }
 
 /// [row] not 0 for the rows that a process has to hold beside its own.
-/// @param safe S in its own rows, or null: all that posts can meet
+/// @param safe S in its own rows; null: all cells count as safe
 std::vector<std::uint8_t> rows_needed(const RowHull& hull, const CellSet* safe, RowShare::Range own,
                                       const std::optional<RowSymmetry>& symmetry) {
   std::vector<std::uint8_t> is_needed = hull.rows_met(safe, own);
@@ -96,8 +98,8 @@ std::vector<std::uint8_t> rows_needed(const RowHull& hull, const CellSet* safe, 
   return is_needed;
 }
 
-/// Cuts the rows, if that is still to be done, and finds S in those held. Together.
-/// @param agents that change places, or none
+/// Cuts the rows, unless they are cut, and finds S in the rows held. Together.
+/// @param agents that are exchanged, or none
 void share_rows(Ground& ground, bool is_cut, const std::vector<AbstractAgent>& agents,
                 const std::function<void(const std::vector<RowShare::Range>&)>& find_safe) {
   const std::optional<RowSymmetry> symmetry = symmetry_of(ground.abstraction->grid, agents);
@@ -110,7 +112,7 @@ void share_rows(Ground& ground, bool is_cut, const std::vector<AbstractAgent>& a
   ground.engine->take_tube_sets();
 }
 
-/// Adds G, of a goal that ends the task, in some rows where S is known.
+/// Adds the cells of G, of a goal that ends the task, in some rows where S is known.
 void add_over(const std::vector<RowShare::Range>& runs, ThreadTeam& team, Ground& ground) {
   const Abstraction& abstraction = *ground.abstraction;
   CellSet& over = *ground.over;
@@ -123,8 +125,8 @@ void add_over(const std::vector<RowShare::Range>& runs, ThreadTeam& team, Ground
   }
 }
 
-/// Takes the agents as alike if that makes no difference in S, for any process, nor for what tiles are.
-/// Together. @returns whether it has
+/// Takes the agents as alike if S is the same when they are exchanged, for every process, and no tile is
+/// divided. Together. @returns whether they are taken as alike
 bool take_like_agents(Ground& ground, const std::vector<AbstractAgent>& agents) {
   ground.like_agents = agents;
   const std::optional<RowSymmetry> symmetry = ground.symmetry(single_classes(ground.abstraction->inputs));
@@ -182,7 +184,7 @@ void lay_ground(Ground& ground, ThreadTeam& team) {
     if (ground.over) add_over(runs, team, ground);
   };
   if (ground.ranks == nullptr) find_safe({{0, rows}});
-  // How it is cut may depend on the engine, which only has to know that it is.
+  // The engine has to know now that rows are shared; how they are cut may depend on the engine.
   const bool is_cut = ground.share.has_value();
   if (ground.ranks != nullptr && !is_cut)
     ground.share.emplace(*ground.ranks,

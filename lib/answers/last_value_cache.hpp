@@ -11,8 +11,8 @@ namespace coordreq {
 /// The value of the key that was asked for last: while the key stays the same the value is made once, and
 /// there is never more than one. Safe to ask from several threads at once; they wait for each other.
 ///
-/// Why: what is written in stretches (lists of layers, tables written out) is made as a whole, and is large.
-/// The switch is FastPaths::last_values.
+/// Why: arrays are written in stretches, but lists of layers and tables written out are made as a whole, and
+/// are large. The switch is FastPaths::last_values.
 template <class Key, class Value>
 class LastValueCache {
  public:

@@ -28,8 +28,7 @@ template <class Level>
 class GhostExchange {
  public:
   /// @param symmetry where not null only canonical rows are sent: permuted rows follow from them, and any row
-  /// of
-  ///   this rank can be one of these
+  ///   of this rank can be one of these
   /// @pre unchecked: there are several ranks, and all outlive this object.
   GhostExchange(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, DirtyRows& dirty,
                 std::int64_t unit_rows, const RowSymmetry* symmetry)

@@ -73,8 +73,8 @@ class RowOperator {
 ///   before a row that its posts can meet has changed. Empty: no row is known to be so
 /// @param watch its `resumed` is not looked at
 /// @param equal tiles whose numbers, with the levels, are all that the operator's result depends on. Where
-/// rows of
-///   levels are interned, work that is equal to work done in the same sweep is not done again. Of rows
+/// rows
+///   of levels are interned, work that is equal to work done in the same sweep is not done again. Of rows
 ///   that are permuted only the canonical one is worked out, by the process that owns it. @pre unchecked:
 ///   then levels are the same in permuted rows, and whoever holds a row holds its canonical row
 template <class Level>

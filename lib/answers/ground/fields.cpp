@@ -40,7 +40,7 @@ Field input_axis(const InputSpec& input) {
               [values = input.values](std::uint64_t k) { return nearest_double(values[k]); });
 }
 
-/// The finite abstraction, of what each state depends on.
+/// Fields of the finite abstraction: each table is over the states and inputs that its state depends on.
 void add_abstraction(Fields& fields, const ProblemSpec& spec) {
   const std::vector<TableShape> shapes = table_shapes(spec);
   for (std::size_t i = 0; i < spec.states.size(); ++i) {
@@ -65,8 +65,8 @@ void add_abstraction(Fields& fields, const ProblemSpec& spec) {
 
 using TableCache = LastValueCache<std::size_t, TransitionTable>;
 
-/// One end of all ranges of the table of a state, which is written out when it is asked for, unless it is in
-/// full: then the states have the order of the spec, and several processes are asked each for its own cells.
+/// One end of all ranges of the table of a state. The table is written out when it is asked for, unless it is
+/// full: full tables have the order of the spec, and each process is asked for its own cells.
 ResultArray ends_array(const Answers& answers, std::size_t state, std::int32_t IndexRange::*end,
                        const std::shared_ptr<TableCache>& tables) {
   return {ElementType::int32,

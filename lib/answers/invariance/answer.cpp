@@ -15,7 +15,7 @@ void find_invariance_set(Answers& answers, const StageWork& work) {
   const Ground& ground = answers.ground;
   const Synthesis synthesis = ground.spec.controller.synthesis;
   Invariance& result = answers.add(Invariance{});
-  // No cell is lost later than all others one after the other.
+  // No level is greater than if cells were lost one by one.
   const LevelBounds bounds{&ground.safe, ground.engine->grid().points() + 1};
   const std::optional<RowSymmetry> symmetry = ground.symmetry(single_classes(ground.abstraction->inputs));
   find_or_take_levels(work, *ground.engine, bounds, result.collision_time, [&](const WaveWatch& watch) {

@@ -19,7 +19,7 @@
 namespace coordreq {
 namespace {
 
-/// The most layers that there can be: each but the last loses something.
+/// The most layers that are possible: each but the last loses a cell.
 std::uint64_t most_layers(const ProblemSpec& spec, std::uint64_t losses) {
   const std::optional<std::int64_t>& most = spec.coordination.max_delay;
   return 1 + (most ? std::min(losses, static_cast<std::uint64_t>(*most)) : losses);
@@ -115,7 +115,7 @@ ResultArray action_array(const Answers& answers, std::size_t p, std::size_t c,
   return {ElementType::uint8, [&answers, p, c, cache](std::uint64_t begin, std::uint64_t count, void* out) {
             const Ground& ground = answers.ground;
             const auto grouping = cache->get(p, [&] {
-              ThreadTeam alone(1);  // the others wait for it, in a loop of theirs
+              ThreadTeam alone(1);  // the other threads wait for it, in a loop of their own
               const PartitionSpec& partition = ground.spec.coordination.partitions[p];
               return ActionGrouping(*ground.engine,
                                     input_classes(ground.spec, ground.abstraction->inputs, partition), alone);
@@ -172,7 +172,7 @@ void add_sizes(Fields& fields, const std::string& prefix, char layer, std::uint6
 ElementType delay_type(const std::vector<DelayLayers>& partitions) {
   std::int64_t greatest = 0;
   for (const DelayLayers& layers : partitions) {
-    // In Z_F and not in Z_{F+1} is nobody: the greatest finite delay is F - 1, or what stopped the iteration.
+    // Z_F = Z_{F+1}: the greatest finite delay is F - 1, or the `max_delay` that stopped the iteration.
     const std::int64_t last = static_cast<std::int64_t>(layers.sizes.size()) - 1;
     greatest = std::max(greatest, layers.truncated ? last : last - 1);
   }
@@ -218,8 +218,8 @@ Fields layer_fields(const ProblemSpec& spec) {
   return fields;
 }
 
-/// What is large of a partition is there only while it is written: with many of them, all together would take
-/// more memory than all else.
+/// Large data of a partition are made only while they are written: for many partitions together they would
+/// take more memory than everything else.
 void fill_layer_fields(const Answers& answers, ThreadTeam& /*team*/, FieldValues& values) {
   const std::vector<DelayLayers>& partitions = answers.get<PartitionLayers>().partitions;
   fill_steps(answers, partitions, values);

@@ -8,25 +8,26 @@
 
 namespace coordreq {
 
-/// Where the system itself is after a step of an escape; beyond `safe` sides it is in all sets.
+/// The place of the system itself after a step of an escape; beyond a `safe` side it is in all sets.
 struct Reached {
   RealRun::Place place;
-  bool is_inside = false;  ///< in K, or of silence in K'
+  bool is_inside = false;  ///< in K, or for silence in K'
   bool is_safe = false;
 };
 
-/// What a step adds to an escape, as the process that owns its cell tells the others.
+/// The progress of an escape in one step, as the process that owns its cell sends it to the others.
 struct EscapeProgress {
   bool goes_on = false;
-  bool has_more = false;  ///< equal steps that the system itself can follow
+  bool has_more = false;  ///< there are equal steps that the system itself can follow
   std::int64_t way = 0;
   Reached reached;
 };
 
-/// @param inputs, cells how many of them the path had before the step
+/// A message with the step. @param inputs, cells numbers of joint inputs and cells of the path before the
+/// step
 [[nodiscard]] Bytes escape_message(const EscapeProgress& progress, const EscapePath& path, std::size_t inputs,
                                    std::size_t cells);
-/// Adds it to the path of another process.
+/// Reads a message, and adds the step to the path.
 [[nodiscard]] EscapeProgress read_escape_message(const Bytes& message, EscapePath& path);
 
 }  // namespace coordreq

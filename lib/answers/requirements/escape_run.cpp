@@ -68,13 +68,13 @@ bool EscapeRun::step_alone(std::int64_t number) {
   return goes_on_ = step_of_owner();
 }
 
-/// In K, or of silence in K'.
+/// Whether the cell is in K, or for silence in K'.
 bool EscapeRun::is_inside(std::int64_t cell) const {
   return sets_.silence_of == nullptr ? sets_.invariance->invariant.test(cell)
                                      : EscapeSteps::level_of(*sets_.silence_of, cell) > 0;
 }
 
-/// A step of the way, and where that leads the system itself.
+/// Takes a step of the way, and finds where it leads the system itself. @returns whether the way goes on
 bool EscapeRun::step_and_look() {
   const std::int64_t cell = path_.cells.back();
   const std::size_t steps = path_.joint_inputs.size();
@@ -87,7 +87,7 @@ bool EscapeRun::step_and_look() {
   posts_.move_to(cell);
   const CellPost post = posts_.post(path_.joint_inputs.back(), tubes_);
   if (is_cell && !EscapeSteps::holds(posts_.grid(), post, reached_.place.cell)) {
-    reached_ = {};  // nothing may be known of that cell
+    reached_ = {};  // the levels of its cell may not be known
     return goes_on;
   }
   const bool has_left = reached_.place.kind == Location::Kind::left_safely;
@@ -96,7 +96,7 @@ bool EscapeRun::step_and_look() {
   return goes_on;
 }
 
-/// The step from the last cell, which the process that owns the cell finds for all.
+/// Takes the step from the last cell, which the owner of the cell finds for all processes.
 bool EscapeRun::step_of_owner() {
   const RowShare* const share = ground_.shared_rows();
   if (share == nullptr) return step_and_look();
