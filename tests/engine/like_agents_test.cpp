@@ -1,4 +1,5 @@
-// Agents that are alike: what makes two of them so, and that one difference of any kind is enough.
+// Two agents are alike if all of their tables are; a single difference of any kind is enough that they are
+// not.
 
 #include "engine/like_agents.hpp"
 
@@ -55,7 +56,7 @@ bool are_alike(const Abstraction& abstraction) {
 TEST(LikeAgents, DoTheSameInStatesOfTheirOwn) {
   EXPECT_TRUE(are_alike(two_agents()));
   EXPECT_TRUE(are_alike(two_agents([](Parts&) {}, true)));
-  // All edges alike, whatever they are.
+  // All edges alike, for every rule.
   for (const Outside side : {Outside::unsafe, Outside::safe, Outside::saturate, Outside::stop}) {
     EXPECT_TRUE(are_alike(two_agents(
         [side](Parts& agents) { agents.dimensions[0].below = agents.dimensions[1].below = side; })));
@@ -95,7 +96,8 @@ TEST(LikeAgents, HaveTheSameRangesEverywhere) {
   }
 }
 
-/// Whose tables read the input of another, or whose state moves another's, has no dimensions of its own.
+/// An agent whose tables read the input of another, or whose state moves another's, has no dimensions of its
+/// own.
 TEST(LikeAgents, MoveNobodyElse) {
   Abstraction driven = two_agents();
   driven.tables[0] = table_of(0, {0, 1}, driven);

@@ -1,4 +1,4 @@
-// Work that is not done because it seems to be equal to some that has been: where it is not.
+// Problems in which work seems equal and is not.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ void expect_plain_times_and_delays(const ProblemSpec& spec, const FastAnalysis& 
     EXPECT_TRUE(fast.delays(p) == plain.partitions[p].delay) << p;
 }
 
-/// Rows of which the ranges begin at the same places, and only the width of some tells them apart.
+/// Rows whose ranges begin at the same cells, and differ in the width of some alone.
 TEST(EqualWork, IsNotWhereTheWidthOfARangeDiffers) {
   ThreadTeam team(2);
   const ProblemSpec spec = read_spec(R"json({"coordreq": 1, "name": "widths",
