@@ -38,7 +38,7 @@ struct ActionGroups {
 /// The groups of all classes in one row.
 struct RowGroups {
   std::vector<const ActionGroups*> classes;
-  std::vector<ActionGroups> own;  ///< [class] storage for groups that are not shared between rows
+  std::vector<ActionGroups> unshared;  ///< [class] storage for groups that are not shared between rows
 };
 
 /// Finds the groups of a row.

@@ -174,8 +174,8 @@ double EngineSizes::groups_of_class(const InputClass& inputs) const {
     if (!has_common(shape.inputs, inputs)) continue;
     groups *= shape.shift ? in_double(reach_of(t).before + reach_of(t).after + 1) : actions;
     for (const std::int32_t j : shape.states) {
-      Use& own = use[at(j)];
-      own = std::max(own, shape.shift ? by_offset : in_full);
+      Use& state_use = use[at(j)];
+      state_use = std::max(state_use, shape.shift ? by_offset : in_full);
     }
   }
   double choices = 1, distinct = 1;

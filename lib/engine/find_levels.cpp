@@ -58,7 +58,7 @@ void lower_to(const LevelMap& bound, LevelRows<Level>& levels, ThreadTeam& team)
   bound.visit([&]<class Other>(const LevelRows<Other>& other) {
     change_rows(levels, team, [&](std::int64_t r, Level* cells) {
       std::transform(cells, cells + levels.row_length(), other.row(r), cells,
-                     [](Level own, Other least) { return std::min(own, converted<Level>(least)); });
+                     [](Level level, Other least) { return std::min(level, converted<Level>(least)); });
     });
   });
 }

@@ -50,9 +50,9 @@ UniformGrid joined(const UniformGrid& grid, const std::vector<Table>& tables, co
   std::vector<std::int64_t> gaps;  // of all dimensions taken so far, the slowest included
   std::int64_t lanes = 1;
   for (std::size_t i = grid.size() - 1; i > 0 && gaps.size() < most; --i) {
-    const auto own = is_shift(tables[i]) ? margins(offsets(i), grid[i]) : std::nullopt;
-    if (!own || !are_alone_from(i, tables) || lanes * grid[i].count > kMostJoinedLanes) break;
-    gaps.insert(gaps.begin(), own->before + own->after);
+    const auto reach = is_shift(tables[i]) ? margins(offsets(i), grid[i]) : std::nullopt;
+    if (!reach || !are_alone_from(i, tables) || lanes * grid[i].count > kMostJoinedLanes) break;
+    gaps.insert(gaps.begin(), reach->before + reach->after);
     lanes *= grid[i].count + gaps.front();
   }
   if (gaps.size() < 2) return grid;

@@ -48,10 +48,10 @@ class LevelDelta {
   /// The levels of a row change. @param before, after its cells
   void change(std::int64_t row, const Level* before, const Level* after) {
     const auto words = now_.row(row);
-    levels_.change_row(row, [&](Level* own) {
+    levels_.change_row(row, [&](Level* cells) {
       for (std::int64_t c = 0; c < levels_.row_length(); ++c) {
         if (before[c] == after[c]) continue;
-        own[c] = after[c];
+        cells[c] = after[c];
         words[static_cast<std::size_t>(c / CellSet::kWordBits)] |= bit(c);
       }
     });
@@ -73,10 +73,10 @@ class LevelDelta {
   /// Makes the cells of a row kTop that have not changed in this sweep, and begins anew to note changes.
   void forget(std::int64_t row) {
     const auto words = now_.row(row);
-    levels_.change_row(row, [&](Level* own) {
+    levels_.change_row(row, [&](Level* cells) {
       for (std::int64_t c = 0; c < levels_.row_length(); ++c) {
         if ((words[static_cast<std::size_t>(c / CellSet::kWordBits)] & bit(c)) == 0)
-          own[c] = LevelRows<Level>::kTop;
+          cells[c] = LevelRows<Level>::kTop;
       }
     });
     std::ranges::fill(words, CellSet::Word{0});

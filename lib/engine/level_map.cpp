@@ -56,9 +56,9 @@ std::vector<std::int64_t> count_levels(const LevelRows<Level>& levels, ThreadTea
     count_rows(levels.shape(), rows, range, counts[static_cast<std::size_t>(worker)]);
   });
   std::vector<std::int64_t> total(1, 0);
-  for (const std::vector<std::int64_t>& own : counts) {
-    if (own.size() > total.size()) total.resize(own.size(), 0);
-    for (std::size_t k = 0; k < own.size(); ++k) total[k] += own[k];
+  for (const std::vector<std::int64_t>& one : counts) {
+    if (one.size() > total.size()) total.resize(one.size(), 0);
+    for (std::size_t k = 0; k < one.size(); ++k) total[k] += one[k];
   }
   if (levels.share() != nullptr) {
     Ranks& ranks = levels.share()->ranks();

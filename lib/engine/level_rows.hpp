@@ -116,7 +116,7 @@ class LevelRows {
   /// Gives a row these cells, and closes it.
   /// @param cells whole blocks may be read; levels in gaps do not matter
   void put(std::int64_t r, const Level* cells) {
-    change_row(r, [&](Level* own) { std::copy_n(cells, length_, own); });
+    change_row(r, [&](Level* target) { std::copy_n(cells, length_, target); });
   }
   /// put() in two steps, the first: closes a row that stands outside this object.
   /// @param lanes stride() of them, margins().before before the first cell
@@ -131,10 +131,10 @@ class LevelRows {
       std::copy_n(lanes, stride_, levels_.data() + r * stride_);
       return;
     }
-    const Level* const own = lanes + margins_.before;
+    const Level* const cells = lanes + margins_.before;
     const auto cells_bytes = static_cast<std::size_t>(length_) * sizeof(Level);
     std::uint32_t target = interner_.find(
-        hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), own, cells_bytes) == 0; });
+        hash, [&](std::uint32_t slot) { return std::memcmp(at(slot), cells, cells_bytes) == 0; });
     if (target != Interner::kNone) {
       interner_.hold(target);
     } else {
@@ -248,9 +248,9 @@ class LevelRows {
     return levels_.data() + slot * stride_ + margins_.before;
   }
   void move_to(std::int64_t r, std::uint32_t target) {
-    std::uint32_t& own = slots_[static_cast<std::size_t>(r)];
-    interner_.drop(own);
-    own = target;
+    std::uint32_t& slot = slots_[static_cast<std::size_t>(r)];
+    interner_.drop(slot);
+    slot = target;
   }
   [[nodiscard]] std::uint64_t hash_of(const Level* cells) const {
     const auto bytes = static_cast<std::size_t>(length_) * sizeof(Level);

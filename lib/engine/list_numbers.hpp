@@ -31,13 +31,13 @@ class ListNumbers {
       const std::uint32_t known = slots_[slot];
       if (hashes_[known] == hash && std::ranges::equal((*this)[known], list)) return known;
     }
-    const std::uint32_t own = size();
-    slots_[slot] = own;
+    const std::uint32_t added = size();
+    slots_[slot] = added;
     hashes_.push_back(hash);
     numbers_.insert(numbers_.end(), list.begin(), list.end());
     ends_.push_back(numbers_.size());
     if (2 * std::size_t{size()} > slots_.size()) grow();
-    return own;
+    return added;
   }
   [[nodiscard]] List operator[](std::uint32_t number) const {
     const std::size_t begin = number == 0 ? 0 : ends_[number - 1];

@@ -72,19 +72,19 @@ PairTable::PairTable(const UniformGrid& grid, const InputSpace& inputs, const Pa
     const std::int64_t count = std::min(batch, rows.end - first);
     team.for_each(count, 4, [&](ThreadTeam::Range range, int) {
       for (std::int64_t r = range.begin; r < range.end; ++r) {
-        std::vector<Word>& own = turned[static_cast<std::size_t>(r)];
+        std::vector<Word>& bits = turned[static_cast<std::size_t>(r)];
         turn_row(listed.bytes.data() + (first + r) * grid.row_length() * bytes, grid.row_length(), bytes,
-                 words, own);
+                 words, bits);
         for (std::int64_t u = 0; permitted != nullptr && u < inputs.count(); ++u) {
           const ConstRow cells = permitted->row(first + r, u);
-          for (std::size_t w = 0; w < words; ++w) own[static_cast<std::size_t>(u) * words + w] &= cells[w];
+          for (std::size_t w = 0; w < words; ++w) bits[static_cast<std::size_t>(u) * words + w] &= cells[w];
         }
       }
     });
     for (std::int64_t r = 0; r < count; ++r) {
-      const Word* own = turned[static_cast<std::size_t>(r)].data();
-      for (std::int64_t u = 0; u < inputs.count(); ++u, own += words)
-        ids_.push_back(rows_.number({own, words}));
+      const Word* bits = turned[static_cast<std::size_t>(r)].data();
+      for (std::int64_t u = 0; u < inputs.count(); ++u, bits += words)
+        ids_.push_back(rows_.number({bits, words}));
     }
   }
 }

@@ -51,8 +51,8 @@ class PostReader {
   /// Least levels of the posts given by the numbers of their slices, one for each of engine.slices(). Whole
   /// blocks may be read, as LevelKernels ask.
   [[nodiscard]] const Level* minimum(std::span<const std::uint32_t> ids) {
-    const auto own = ids.first(engine_.tables());
-    const Level* levels = posts_->minimum(own);
+    const auto of_posts = ids.first(engine_.tables());
+    const Level* levels = posts_->minimum(of_posts);
     return tubes_.empty() ? levels : with_tubes(ids, levels);
   }
   /// minimum() in some lanes of the row alone; the first of these lanes comes first.

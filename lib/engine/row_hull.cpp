@@ -95,9 +95,9 @@ void RowHull::box(const RowPlace& place, RowBox& box) const {
   box.resize(engine_->grid());
   box.covers = is_bound_;
   for (std::size_t i = 0; i < engine_->tables(); ++i) {
-    const SliceHull& own = hull(place, i);
-    box[i] = own.range;
-    box.covers = box.covers && own.covers;
+    const SliceHull& slice = hull(place, i);
+    box[i] = slice.range;
+    box.covers = box.covers && slice.covers;
   }
 }
 
@@ -105,16 +105,16 @@ std::vector<std::uint8_t> RowHull::rows_met(const CellSet* set, RowShare::Range 
   if (rows.end - rows.begin > UINT32_MAX / (1 + std::ssize(engine_->demands())))
     return std::vector<std::uint8_t>(static_cast<std::size_t>(engine_->rows()), 1);
   BoxCount boxes(engine_->grid());
-  RowBox own;
+  RowBox reached;
   const std::vector<TubeHulls> tubes = hulls_of_tubes(*engine_);
   RowPlace place(engine_->grid(), rows.begin);
   for (; place.row < rows.end; place.advance(engine_->grid())) {
     if (set != nullptr && !any_set(set->row(place.row))) continue;
-    box(place, own);
-    boxes.add(own.ranges);
+    box(place, reached);
+    boxes.add(reached.ranges);
     for (const TubeHulls& hulls : tubes) {
-      for (std::size_t i = 0; i < hulls.size(); ++i) own.ranges[i] = hulls[i].range(place);
-      boxes.add(own.ranges);
+      for (std::size_t i = 0; i < hulls.size(); ++i) reached.ranges[i] = hulls[i].range(place);
+      boxes.add(reached.ranges);
     }
   }
   std::vector<std::uint8_t> met(static_cast<std::size_t>(engine_->rows()));

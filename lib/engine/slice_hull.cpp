@@ -79,11 +79,11 @@ SliceHull hull_of_sums(const RowSlices& slices, std::int64_t base, SumRows::Read
 bool RowSlices::is_within(std::uint32_t a, std::uint32_t b, const GridDimension& target) const {
   if (a == b) return true;
   if (!is_cut()) return false;
-  const std::vector<RowSegment>& own = slices[a];
+  const std::vector<RowSegment>& one = slices[a];
   const std::vector<RowSegment>& other = slices[b];
-  if (own.size() != 1 || other.size() != 1) return own == other;
-  if (own[0].kind == Kind::gone || other[0].kind == Kind::blocked) return true;
-  return own[0].kind == other[0].kind && range_within(own[0].range, other[0].range, target);
+  if (one.size() != 1 || other.size() != 1) return one == other;
+  if (one[0].kind == Kind::gone || other[0].kind == Kind::blocked) return true;
+  return one[0].kind == other[0].kind && range_within(one[0].range, other[0].range, target);
 }
 
 std::vector<SliceHull> slice_hulls(const RowSlices& slices, const GridDimension& target,

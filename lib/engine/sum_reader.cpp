@@ -196,12 +196,12 @@ const Level* SumReader<Level>::bound(std::size_t begin, std::size_t end, LaneRan
 template <class Level>
 bool SumReader<Level>::join(std::size_t begin, std::size_t end) {
   for (std::size_t i = 0; i < sides_.size(); ++i) {
-    const SumRows::Rows& own = taken_.rows[i];
-    if (!own.has_one_profile) return false;
-    SumRows::Row both = own[begin];
+    const SumRows::Rows& rows = taken_.rows[i];
+    if (!rows.has_one_profile) return false;
+    SumRows::Row both = rows[begin];
     for (std::size_t k = begin + 1; k < end; ++k) {
-      both.lower = std::min(both.lower, own.lower[k]);
-      both.upper = std::max(both.upper, own.upper[k]);
+      both.lower = std::min(both.lower, rows.lower[k]);
+      both.upper = std::max(both.upper, rows.upper[k]);
     }
     rows_[i] = both;
     widths_[i] = greatest_width(i, both);

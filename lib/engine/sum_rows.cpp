@@ -81,7 +81,7 @@ class SumRows::Builder {
     rows_.size_ = rows_.combinations_;
     for (const std::int32_t j : table_.states) {
       if (at(j) == last()) continue;
-      if (table_.shift && at(j) == state_) rows_.own_ = rows_.counts_.size();
+      if (table_.shift && at(j) == state_) rows_.shifted_state_ = rows_.counts_.size();
       rows_.counts_.push_back(grid_[at(j)].count);
       rows_.size_ *= grid_[at(j)].count;
     }
@@ -125,9 +125,9 @@ class SumRows::Builder {
   }
 
   void add_up_cell(std::int64_t cell) {
-    const std::int64_t own = table_.shift && state_ == last() ? cell << kFractionBits : 0;
-    std::int64_t lower = own;
-    std::int64_t upper = own;
+    const std::int64_t shift = table_.shift && state_ == last() ? cell << kFractionBits : 0;
+    std::int64_t lower = shift;
+    std::int64_t upper = shift;
     for (const SumSource& source : along_) {
       std::int64_t entry = cell * (*source.state_stride)[last()];
       std::size_t v = 0;
@@ -245,21 +245,21 @@ void SumRows::Reader::go_to(std::uint32_t number) {
   first_ = choice * rows_->combinations_;
   std::fill(base_.begin(), base_.end(), 0);
   profile_base_ = 0;
-  own_ = 0;
+  shift_ = 0;
   std::int64_t rest = choice;
   for (std::size_t v = rows_->counts_.size(); v-- > 0;) {
     const std::int64_t index = rest % rows_->counts_[v];
     rest /= rows_->counts_[v];
     for (std::size_t p = 0; p < base_.size(); ++p) base_[p] += index * rows_->terms_[p].strides.state[v];
     profile_base_ += index * rows_->profile_strides_.state[v];
-    if (v == rows_->own_) own_ = index << kFractionBits;
+    if (v == rows_->shifted_state_) shift_ = index << kFractionBits;
   }
 }
 
 SumRows::Row SumRows::Reader::row(std::uint32_t number) {
   go_to(number);
   const auto combination = static_cast<std::size_t>(number - first_);
-  Row row{.lower = own_, .upper = own_};
+  Row row{.lower = shift_, .upper = shift_};
   for (std::size_t p = 0; p < base_.size(); ++p) {
     const Term& term = rows_->terms_[p];
     const std::int64_t entry = base_[p] + term.strides.input[combination];
@@ -273,8 +273,8 @@ SumRows::Row SumRows::Reader::row(std::uint32_t number) {
 void SumRows::Reader::read(std::span<const std::uint32_t> numbers, std::size_t step, Rows& rows) {
   const std::size_t count = (numbers.size() + step - 1) / step;
   go_to(numbers[0]);
-  rows.lower.assign(count, own_);
-  rows.upper.assign(count, own_);
+  rows.lower.assign(count, shift_);
+  rows.upper.assign(count, shift_);
   rows.profile.resize(count);
   for (std::size_t p = 0; p < base_.size(); ++p) {
     const Term& term = rows_->terms_[p];

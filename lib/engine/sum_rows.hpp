@@ -69,7 +69,7 @@ class SumRows {
         UINT32_MAX + std::int64_t{1};  ///< row of the choice of states that the bases below belong to
     std::vector<std::int64_t> base_;   ///< by term
     std::int64_t profile_base_ = 0;
-    std::int64_t own_ = 0;  ///< the state's own index, for a shift
+    std::int64_t shift_ = 0;  ///< the index of the table's state, if the table is a shift
   };
 
   /// Number of all rows, a multiple of combinations().
@@ -127,10 +127,10 @@ class SumRows {
   SplitProfiles lower_, upper_;
   Strides profile_strides_;
   std::vector<std::int32_t> profile_inputs_;
-  std::vector<Bounds> bounds_;        ///< by profile
-  std::vector<Term> terms_;           ///< views of the table
-  std::vector<std::int64_t> counts_;  ///< of the states in use but the last one
-  std::size_t own_ = SIZE_MAX;        ///< which of them is the state's own, of a shift
+  std::vector<Bounds> bounds_;            ///< by profile
+  std::vector<Term> terms_;               ///< views of the table
+  std::vector<std::int64_t> counts_;      ///< of the states in use but the last one
+  std::size_t shifted_state_ = SIZE_MAX;  ///< index of the table's state in counts_, if the table is a shift
   std::int64_t combinations_ = 1;
   std::int64_t size_ = 1;
   IndexRange widths_;

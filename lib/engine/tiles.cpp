@@ -148,7 +148,7 @@ Numbers Tiles::contents_of_tiles(const Numbers& content) const {
 }
 
 Numbers Tiles::refined(const Numbers& before, const Numbers& content) const {
-  const Numbers own = contents_of_tiles(content);
+  const Numbers of_tiles = contents_of_tiles(content);
   ListNumbers<std::uint32_t> lists;
   Scratch scratch;
   Numbers result(static_cast<std::size_t>(size_), 0), list;
@@ -156,7 +156,7 @@ Numbers Tiles::refined(const Numbers& before, const Numbers& content) const {
     const auto tile = static_cast<std::size_t>(place.row / rows_);
     list.assign(1, before[tile]);
     add_contents(
-        place, [&](std::int64_t other) { return own[static_cast<std::size_t>(other)]; }, scratch, list);
+        place, [&](std::int64_t other) { return of_tiles[static_cast<std::size_t>(other)]; }, scratch, list);
     result[tile] = lists.number(list);
     place = RowPlace(engine_->grid(), place.row + rows_);
   }
@@ -166,7 +166,7 @@ Numbers Tiles::refined(const Numbers& before, const Numbers& content) const {
 /// How many tiles of a sample are different. It is drawn with equal distances that have no factor in common
 /// with a dimension: else all of it could have one index there.
 double Tiles::fraction_different(const Numbers& content) const {
-  const Numbers own = contents_of_tiles(content);
+  const Numbers of_tiles = contents_of_tiles(content);
   const auto has_common_factor = [this](std::int64_t step) {
     const std::vector<GridDimension>& dimensions = engine_->grid().dimensions();
     return std::any_of(dimensions.begin(), dimensions.begin() + static_cast<std::ptrdiff_t>(leading_),
@@ -183,7 +183,7 @@ double Tiles::fraction_different(const Numbers& content) const {
     add_tables(tile, list);
     const RowPlace place(engine_->grid(), tile * rows_);
     add_contents(
-        place, [&](std::int64_t other) { return own[static_cast<std::size_t>(other)]; }, scratch, list);
+        place, [&](std::int64_t other) { return of_tiles[static_cast<std::size_t>(other)]; }, scratch, list);
     static_cast<void>(lists.number(list));
   }
   return static_cast<double>(lists.size()) / static_cast<double>(drawn);

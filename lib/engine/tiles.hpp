@@ -121,10 +121,10 @@ void for_each_with_first(const Tiles* tiles, const Tiles::Numbers& classes, RowS
       continue;
     }
     const std::int64_t tile = r / tiles->rows();
-    const std::uint32_t own = classes[static_cast<std::size_t>(tile)];
-    if (own >= first.size()) first.resize(own + 1, -1);
-    if (first[own] < 0) first[own] = tile;
-    visit(r, first[own] * tiles->rows() + r % tiles->rows());
+    const std::uint32_t number = classes[static_cast<std::size_t>(tile)];
+    if (number >= first.size()) first.resize(number + 1, -1);
+    if (first[number] < 0) first[number] = tile;
+    visit(r, first[number] * tiles->rows() + r % tiles->rows());
   }
 }
 
