@@ -33,15 +33,12 @@ namespace coordreq {
 /// rows are written by one thread at a time. make_ready() is for any number of threads at any time.
 ///
 /// 1. A row that was written is *closed*: its margins and gaps follow from its cells. Interned rows are
-/// closed from
-///    the start.
+///    closed from the start.
 /// 2. Interned rows are equal exactly if they stand in the same slot.
-/// 3. A slot in which rows stand is not written: a row that changes moves to another one. So row(r) is valid
-/// until
-///    row r is written.
-/// 4. The stride is a multiple of 16 bytes, and from any lane of a row a whole block (kLevelBlock bytes) may
-/// be
-///    read.
+/// 3. A slot in which rows stand is not written: a row that changes moves to another one. So row(r) is
+///    valid until row r is written.
+/// 4. The stride is a multiple of 16 bytes, and from any lane of a row a whole block (kLevelBlock bytes)
+///    may be read.
 template <class Level>
 class LevelRows {
  public:

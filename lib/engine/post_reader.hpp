@@ -17,13 +17,11 @@ namespace coordreq {
 ///
 /// Threads: one object a thread; the objects of many threads may read the same levels.
 ///
-/// 1. From one enter() to the next the levels do not change, and all rows asked about are of one unit: minima
-/// that
-///    its rows share are kept until then.
+/// 1. From one enter() to the next the levels do not change, and all rows asked about are of one unit:
+///    minima that its rows share are kept until then.
 /// 2. A row that is returned is valid until the next call.
-/// 3. minimum() of the box around all posts of a row, and bound(), are nowhere above minimum() of any choice
-/// that
-///    they stand for.
+/// 3. minimum() of the box around all posts of a row, and bound(), are nowhere above minimum() of any
+///    choice that they stand for.
 template <class Level>
 class PostReader {
  public:

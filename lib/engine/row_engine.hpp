@@ -38,14 +38,12 @@ struct RowFamily {
 /// Threads: any number may read. set_pairs() and take_tube_sets() are called before any other thread has the
 /// engine.
 ///
-/// 1. slices() holds tables() tables of posts, one a state; then as many for each of demands(). target(t) is
-/// the
-///    dimension that table t was cut for.
+/// 1. slices() holds tables() tables of posts, one a state; then as many for each of demands(). target(t)
+///    is the dimension that table t was cut for.
 /// 2. Unit k is the rows from k * unit_rows() on, unit_rows() of them. If outer() is 0 there is one unit.
 /// 3. No table of the first outer() dimensions depends on another dimension.
-/// 4. If posts are added up, outer() > 0 and along() is 1; the tables from outer() on are sums, those before
-/// it
-///    are cut.
+/// 4. If posts are added up, outer() > 0 and along() is 1; the tables from outer() on are sums, those
+///    before it are cut.
 /// 5. The margins of a family hold every window of its slices.
 /// 6. All processes choose the same outer(). Rows have the numbers of the whole grid in each of them.
 class RowEngine {

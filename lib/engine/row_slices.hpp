@@ -36,8 +36,7 @@ struct RowSegment {
 /// 3. Where rows run along several dimensions, each of their tables is cut along its own, into one `shifted`
 ///    segment a slice.
 /// 4. If `sums` is there rows are not cut but added up when they are read: each row is a slice of its own,
-/// whose
-///    number is its position, and `ids` and `slices` are empty.
+///    whose number is its position, and `ids` and `slices` are empty.
 /// 5. Positions are counted from the first row held (HeldCells).
 struct RowSlices {
   std::vector<std::uint32_t> ids;  ///< row-major over states (those across rows), then inputs

@@ -49,12 +49,10 @@ class RowOperator {
 ///    result, and every count, is the same for any number of threads.
 /// 2. A unit is looked at in at most one batch of a sweep.
 /// 3. Of the rows that can still change those are visited whose unit has not been looked at yet (but for
-/// settled
-///    rows), or whose posts can meet a row that has changed in or after the batch that looked at their unit
-///    last. So a row that is passed over would keep its levels.
+///    settled rows), or whose posts can meet a row that has changed in or after the batch that looked at
+///    their unit last. So a row that is passed over would keep its levels.
 /// 4. Levels are never below the solution (above it where they rise), so that work that was broken off can
-/// begin
-///    anew at any step.
+///    begin anew at any step.
 /// 5. Between batches permuted rows are equal to their canonical row, if there is a symmetry.
 /// @pre unchecked: the given levels are nowhere below the solution. Where 1 + op(levels) is nowhere above
 /// them they only ever sink. Else some may rise before they sink, yet the end is the same: if all levels have
@@ -73,10 +71,9 @@ class RowOperator {
 ///   before a row that its posts can meet has changed. Empty: no row is known to be so
 /// @param watch its `resumed` is not looked at
 /// @param equal tiles whose numbers, with the levels, are all that the operator's result depends on. Where
-/// rows
-///   of levels are interned, work that is equal to work done in the same sweep is not done again. Of rows
-///   that are permuted only the canonical one is worked out, by the process that owns it. @pre unchecked:
-///   then levels are the same in permuted rows, and whoever holds a row holds its canonical row
+///   rows of levels are interned, work that is equal to work done in the same sweep is not done again. Of
+///   rows that are permuted only the canonical one is worked out, by the process that owns it. @pre
+///   unchecked: then levels are the same in permuted rows, and whoever holds a row holds its canonical row
 template <class Level>
 WaveCounts run_wave(LevelRows<Level>& levels, const RowEngine& engine, const RowHull& hull, Level limit,
                     const std::vector<std::uint8_t>& settled, RowOperator<Level>& op, const WaveWatch& watch,

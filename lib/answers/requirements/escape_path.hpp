@@ -71,13 +71,11 @@ struct EscapeSets {
 ///   delay is one less, then one to a y that is not nearer; from the goal on as from x in K above, from x in
 ///   K outside W as for `max_arrival`.
 /// - `min_blind_delay`, from x in K of blind delay k: as from x in K above, but to a countdown of k - 1,
-/// which
-///   falls by one with each step; where it is 0 a class has no action for all cells that it may be in, and
-///   the path ends (or it leads out of K, if a step does).
-/// - `min_silence`, from x in K' of silence k: as from x in K above, but by u in A(x), out of K'; where A(x)
-/// is
-///   empty the path ends. With `then` u is in C'(x) from there on: the lowest-numbered that leaves S soonest,
-///   and there the lowest-numbered such cell.
+///   which falls by one with each step; where it is 0 a class has no action for all cells that it may be
+///   in, and the path ends (or it leads out of K, if a step does).
+/// - `min_silence`, from x in K' of silence k: as from x in K above, but by u in A(x), out of K'; where
+///   A(x) is empty the path ends. With `then` u is in C'(x) from there on: the lowest-numbered that leaves
+///   S soonest, and there the lowest-numbered such cell.
 /// @pre unchecked: the delay of x is bounded, and known.
 /// Cost: a look at every joint input in every step, and at every cell of each different post.
 /// Of several processes together: each step is found by the one that owns the cell.
